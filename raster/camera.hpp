@@ -1,0 +1,46 @@
+// Cameras. A camera sits at the origin of its own space, looks along -z, with +x to the right and +y up (glTF).
+#pragma once
+
+#include "sh/mat4.hpp"
+#include "sh/vec3.hpp"
+
+#include <string>
+
+namespace halflit::raster {
+
+struct Camera {
+    std::string name;
+    Mat4 world_from_camera;        ///< rigid: rotation and translation
+    bool orthographic = false;
+    float fov_y_rad = 0.785398163f;  ///< perspective: full vertical angle, in (0, pi)
+    float aspect = 0.0f;           ///< perspective: width / height the view is made for; 0: that of the picture
+    float half_height = 1.0f;      ///< orthographic: half the height of the view; half_width likewise, 0: from the picture's aspect
+    float half_width = 0.0f;
+    float near_z = 0.1f;           ///< > 0 for perspective
+    float far_z = 0.0f;            ///< > near_z; 0: no far limit (perspective only)
+};
+
+struct Bounds {
+    Vec3f min{0, 0, 0}, max{0, 0, 0};
+    bool empty = true;
+    void add(Vec3f p);
+    [[nodiscard]] Vec3f center() const;
+    [[nodiscard]] float radius() const;   ///< half the diagonal
+};
+
+/// How a view is framed when no camera is given. Angles in degrees.
+struct ViewSettings {
+    float azimuth_deg = 35.0f;     ///< around +y; 0 looks from +z, positive from the right
+    float elevation_deg = 20.0f;   ///< above the horizon
+    float zoom = 1.0f;             ///< 2 makes things twice as large
+    float fov_y_deg = 35.0f;
+};
+
+/// A perspective camera that sees the whole of `bounds` at the given aspect ratio, from a three-quarter view by default.
+[[nodiscard]] Camera frame_bounds(const Bounds& bounds, float aspect, const ViewSettings& view);
+
+/// clip_from_world with reversed depth: z/w is 1 at the near plane and 0 at the far plane (or at infinity), so that float depth keeps
+/// its precision at any range. x and y in [-w, w], y up. `aspect` is the picture's width / height.
+[[nodiscard]] Mat4 clip_from_world(const Camera& camera, float aspect);
+
+}  // namespace halflit::raster

@@ -1,0 +1,34 @@
+// All that a picture is made of. Plain data that the caller owns; nothing in it refers to a file.
+#pragma once
+
+#include "raster/camera.hpp"
+#include "raster/mesh.hpp"
+#include "shading/light.hpp"
+#include "shading/material.hpp"
+#include "shading/texture.hpp"
+
+#include <vector>
+
+namespace halflit::raster {
+
+struct Scene {
+    std::vector<Mesh> meshes;
+    std::vector<Instance> instances;               ///< drawn in this order
+    std::vector<shading::Material> materials;
+    std::vector<shading::Texture> textures;        ///< shared by materials
+    std::vector<shading::Light> lights;            ///< summed in this order; empty: see default_lights
+    shading::Ambient ambient;
+    std::vector<Camera> cameras;                   ///< empty: see frame_bounds
+};
+
+/// World-space bounds of everything drawn. Vertices that are not finite are left out.
+[[nodiscard]] Bounds scene_bounds(const Scene& scene);
+
+/// A pleasant light for a scene that brings none: a key light over the viewer's left shoulder and a sky and ground ambient.
+void add_default_lights(Scene& scene, const Camera& camera);
+
+/// The scene that is drawn when no file is named: a row of spheres with wrap 0 to 1 on a ground, under several lights.
+/// Made by code alone; it brings its own camera.
+[[nodiscard]] Scene demo_scene();
+
+}  // namespace halflit::raster

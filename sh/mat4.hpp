@@ -1,0 +1,74 @@
+// 4x4 matrices for node and camera transforms, column major: m.c[j] is the image of basis vector j, and
+// a point p maps to ((c0 x + c1 y) + c2 z) + c3. Only + - * / are used: the same bits on every machine.
+#pragma once
+
+#include "sh/vec3.hpp"
+
+namespace halflit {
+
+struct Mat4 {
+    Vec4f c[4]{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+    friend constexpr bool operator==(const Mat4&, const Mat4&) = default;
+};
+
+HALFLIT_INLINE Vec4f operator*(const Mat4& m, Vec4f v) { return ((m.c[0] * v.x + m.c[1] * v.y) + m.c[2] * v.z) + m.c[3] * v.w; }
+
+HALFLIT_INLINE Mat4 operator*(const Mat4& a, const Mat4& b) { return {{a * b.c[0], a * b.c[1], a * b.c[2], a * b.c[3]}}; }
+
+HALFLIT_INLINE Vec3f transform_point(const Mat4& m, Vec3f p) {
+    const Vec4f r = ((m.c[0] * p.x + m.c[1] * p.y) + m.c[2] * p.z) + m.c[3];
+    return {r.x, r.y, r.z};
+}
+
+HALFLIT_INLINE Vec3f transform_vector(const Mat4& m, Vec3f v) {
+    const Vec4f r = (m.c[0] * v.x + m.c[1] * v.y) + m.c[2] * v.z;
+    return {r.x, r.y, r.z};
+}
+
+/// Determinant of the upper left 3x3; negative for a mirroring transform.
+HALFLIT_INLINE double determinant3(const Mat4& m) {
+    const Vec3d a{m.c[0].x, m.c[0].y, m.c[0].z}, b{m.c[1].x, m.c[1].y, m.c[1].z}, c{m.c[2].x, m.c[2].y, m.c[2].z};
+    return dot(a, cross(b, c));
+}
+
+/// Columns of the matrix that carries normals: the cofactors of the upper left 3x3, i.e. det * inverse transpose.
+/// Its result is not unit length, and for a mirroring transform it points inwards unless multiplied by the sign of det.
+struct NormalMatrix {
+    Vec3f c[3]{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+};
+
+/// The cofactor matrix, times the sign of the determinant, scaled so that its largest entry is 1 (direction is kept).
+HALFLIT_INLINE NormalMatrix normal_matrix(const Mat4& m) {
+    const Vec3d a{m.c[0].x, m.c[0].y, m.c[0].z}, b{m.c[1].x, m.c[1].y, m.c[1].z}, c{m.c[2].x, m.c[2].y, m.c[2].z};
+    const Vec3d cof[3] = {cross(b, c), cross(c, a), cross(a, b)};
+    double largest = 0;
+    for (const Vec3d& v : cof)
+        for (const double e : {v.x, v.y, v.z}) largest = (e < 0 ? -e : e) > largest ? (e < 0 ? -e : e) : largest;
+    if (!(largest > 0.0) || !(largest < 1e300)) return {};
+    const double scale = (dot(a, cof[0]) < 0 ? -1.0 : 1.0) / largest;
+    NormalMatrix n;
+    for (int j = 0; j < 3; ++j)
+        n.c[j] = {static_cast<float>(cof[j].x * scale), static_cast<float>(cof[j].y * scale), static_cast<float>(cof[j].z * scale)};
+    return n;
+}
+
+HALFLIT_INLINE Mat4 translation(Vec3f t) { return {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {t.x, t.y, t.z, 1}}}; }
+HALFLIT_INLINE Mat4 scaling(Vec3f s) { return {{{s.x, 0, 0, 0}, {0, s.y, 0, 0}, {0, 0, s.z, 0}, {0, 0, 0, 1}}}; }
+
+/// Rotation by the unit quaternion (x, y, z, w), as glTF stores it.
+HALFLIT_INLINE Mat4 rotation(Vec4f q) {
+    const float x2 = q.x + q.x, y2 = q.y + q.y, z2 = q.z + q.z;
+    const float xx = q.x * x2, yy = q.y * y2, zz = q.z * z2;
+    const float xy = q.x * y2, xz = q.x * z2, yz = q.y * z2;
+    const float wx = q.w * x2, wy = q.w * y2, wz = q.w * z2;
+    return {{{1 - (yy + zz), xy + wz, xz - wy, 0}, {xy - wz, 1 - (xx + zz), yz + wx, 0}, {xz + wy, yz - wx, 1 - (xx + yy), 0}, {0, 0, 0, 1}}};
+}
+
+/// Inverse of a rigid transform (rotation and translation, no scale).
+HALFLIT_INLINE Mat4 rigid_inverse(const Mat4& m) {
+    const Vec3f t{m.c[3].x, m.c[3].y, m.c[3].z};
+    const Vec3f x{m.c[0].x, m.c[0].y, m.c[0].z}, y{m.c[1].x, m.c[1].y, m.c[1].z}, z{m.c[2].x, m.c[2].y, m.c[2].z};
+    return {{{x.x, y.x, z.x, 0}, {x.y, y.y, z.y, 0}, {x.z, y.z, z.z, 0}, {-dot(x, t), -dot(y, t), -dot(z, t), 1}}};
+}
+
+}  // namespace halflit

@@ -1,0 +1,30 @@
+// The instruction sets that kernels are built for, which of them this CPU can run, and the one in use.
+#pragma once
+
+#include "shading/result.hpp"
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace halflit::shading {
+
+enum class Isa : std::uint8_t { scalar, sse2, sse41, avx2, avx512, neon64 };
+
+/// "scalar", "sse2", "sse4.1", "avx2", "avx512", "neon64".
+[[nodiscard]] std::string_view isa_name(Isa isa);
+
+/// Built into this binary, narrowest first.
+[[nodiscard]] std::span<const Isa> built_isas();
+
+/// Whether this CPU and its operating system run it (checked with the compiler's CPU detection, which asks XGETBV too).
+[[nodiscard]] bool isa_available(Isa isa);
+
+/// The widest available one; the environment variable HALFLIT_KERNEL, if set, names another and fails when unknown or
+/// not available.
+[[nodiscard]] Result<Isa> default_isa();
+
+/// "auto" gives default_isa(); an unknown or unavailable name is an error that lists what there is.
+[[nodiscard]] Result<Isa> isa_by_name(std::string_view name);
+
+}  // namespace halflit::shading

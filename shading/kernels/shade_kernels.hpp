@@ -1,0 +1,29 @@
+// The table of shading kernels: one set of function pointers per instruction set, all with the same results bit for bit.
+#pragma once
+
+#include "shading/fragment_block.hpp"
+#include "shading/kernels/isa.hpp"
+#include "shading/plan.hpp"
+
+#include <cstdint>
+
+namespace halflit::shading {
+
+struct ShadeKernels {
+    /// Runs the stages of `material` over lanes [0, count) of the block, and writes red, green, blue, alpha there.
+    /// count in [1, kBlockSize]; lanes from count up to the next multiple of the SIMD width are read (they must hold
+    /// finite copies of a real lane) and written. Needs rows of the plan's quads, kFacing when double sided, gradients.
+    void (*shade)(const FramePlan& frame, const MaterialPlan& material, FragmentBlock& block, int count);
+
+    /// Only the alpha channel that MASK compares and BLEND uses: base colour alpha * texture alpha * vertex alpha.
+    void (*alpha)(const MaterialPlan& material, FragmentBlock& block, int count);
+
+    /// count linear colours, times `exposure`, clamped to [0, 1], to sRGB 8-bit codes, packed R | G << 8 | B << 16 | A << 24 with
+    /// A = alpha linear in 8 bits; both rounded to nearest. NaN gives 0. All arrays padded to a multiple of 16 lanes.
+    void (*encode_srgb8)(const float* red, const float* green, const float* blue, const float* alpha, float exposure, std::uint32_t* rgba8,
+                         int count);
+};
+
+[[nodiscard]] const ShadeKernels& shade_kernels(Isa isa);
+
+}  // namespace halflit::shading

@@ -1,0 +1,25 @@
+// The wrap family: f(x; w, n) = scale * max(0, (x + w) / (1 + w))^n with x = N.L, and zero for x <= -w.
+// Sources: [Green04], [Valve06], [SNY11] eq. 3, [McA13]; keys resolve in sh/README.md.
+#pragma once
+
+namespace halflit::shading {
+
+/// One member of the wrap family. The named constructors are the models of the literature.
+struct Lobe {
+    float wrap = 0.0f;       ///< w in [0, 1]: light reaches surfaces with N.L > -w
+    float power = 1.0f;      ///< n >= 0
+    bool normalize = false;  ///< scale by (n+1) / (2 (1+w)), so that the mean over light directions is Lambert's
+
+    static constexpr Lobe lambert() { return {0.0f, 1.0f, false}; }
+    static constexpr Lobe green(float w) { return {w, 1.0f, false}; }
+    static constexpr Lobe half_lambert() { return {1.0f, 1.0f, false}; }
+    static constexpr Lobe valve() { return {1.0f, 2.0f, false}; }
+    /// The generalised lobe of [SNY11] eq. 3: w = a, n = 1 + a; a = 0 is Lambert, a = 1 is Valve.
+    static constexpr Lobe sloan(float a) { return {a, 1.0f + a, false}; }
+    static constexpr Lobe mcauley(float w, float n) { return {w, n, true}; }
+
+    [[nodiscard]] constexpr float scale() const { return normalize ? (power + 1.0f) / (2.0f * (1.0f + wrap)) : 1.0f; }
+    friend constexpr bool operator==(const Lobe&, const Lobe&) = default;
+};
+
+}  // namespace halflit::shading

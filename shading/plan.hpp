@@ -1,0 +1,102 @@
+// What a material requires, as plain data that the kernels read: attributes, textures, lobe path, lights. What the scene does
+// not need is not in the plan, and what is not in the plan is not computed.
+#pragma once
+
+#include "shading/fragment_block.hpp"
+#include "shading/light.hpp"
+#include "shading/material.hpp"
+#include "shading/texture.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace halflit::shading {
+
+/// A texture as a kernel sees it. Texel (x, y) of level l: data + 4 * (offset[l] + y * width[l] + x).
+struct TexturePlan {
+    const std::uint16_t* data = nullptr;  ///< null: not used
+    std::int32_t level_count = 0;
+    std::int32_t width[kMaxTextureLevels], height[kMaxTextureLevels], offset[kMaxTextureLevels];
+    float row_u[3], row_v[3];             ///< texture transform
+    std::int32_t uv_set = 0;
+    bool transform = false;               ///< row_u, row_v are not the identity
+    Wrap wrap_u, wrap_v;
+    Filter mag, min;
+    MipFilter mip;
+};
+
+/// How t^n is computed, t = max(0, (x + w) / (1 + w)); the cheapest form that is exact for this n.
+enum class LobePath : std::uint8_t { step, linear, square, sqrt_product, integer, general };
+
+struct LobePlan {
+    LobePath path = LobePath::linear;
+    float wrap = 0, inv_one_plus_wrap = 1, power = 1, scale = 1;
+    std::int32_t integer_power = 1;
+};
+
+/// Stages, one bit each; a block runs only those that its material's plan names.
+enum Stage : std::uint32_t {
+    kStageBaseColorTexture = 1u << 0,
+    kStageVertexColor = 1u << 1,
+    kStageNormalMap = 1u << 2,
+    kStageMetallicRoughnessTexture = 1u << 3,
+    kStageOcclusionTexture = 1u << 4,
+    kStageEmissiveTexture = 1u << 5,
+    kStageLights = 1u << 6,
+    kStageSpecular = 1u << 7,
+    kStageAmbient = 1u << 8,
+    kStageUnlit = 1u << 9,
+    kStageGradients = 1u << 10,  ///< some texture has mips: raster fills the kDu.. rows
+    kStageCount = 11
+};
+
+struct MaterialPlan {
+    std::uint32_t stages = 0;
+    QuadMask quads = 0;        ///< vertex quads that raster interpolates
+    float base_color[4] = {1, 1, 1, 1};
+    float metallic = 0, roughness = 1;
+    float emissive[3] = {0, 0, 0};
+    float normal_scale = 1, occlusion_strength = 1;
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    float alpha_cutoff = 0.5f;
+    bool double_sided = false;
+    LobePlan lobe;
+    TexturePlan base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;
+};
+
+/// A light as a kernel sees it.
+struct LightPlan {
+    LightType type;
+    float color[3];
+    float position[3];
+    float to_light[3];          ///< directional: unit vector towards the light; spot: minus the axis
+    float inv_range_pow4;       ///< 1 / range^4; 0: no limit
+    float min_distance_squared; ///< source radius squared
+    float cone_scale, cone_offset;  ///< spot: clamp(s * cone_scale + cone_offset)^2, see the kernel
+};
+
+/// Everything about the frame that shading needs, the same for all fragments.
+struct FramePlan {
+    std::vector<MaterialPlan> materials;   ///< index = index of Scene material; one more at the end for "no material"
+    std::vector<LightPlan> lights;         ///< in list order: sums keep it
+    Ambient ambient;
+    Vec3f eye_ws{0, 0, 0};                 ///< perspective: camera position
+    Vec3f view_direction_ws{0, 0, -1};     ///< orthographic: the way the camera looks, unit
+    bool orthographic = false;
+};
+
+/// Settings that change what a plan contains.
+struct PlanOptions {
+    bool override_lobe = false;   ///< use `lobe` for all materials that do not bring their own
+    Lobe lobe;
+    bool specular = true;
+};
+
+/// Materials without vertex data that they ask for (texture coordinates, colours, tangents) must be planned without it:
+/// `available_quads[i]` is the union of what the primitives of material i bring.
+[[nodiscard]] FramePlan make_frame_plan(std::span<const Material> materials, std::span<const Texture> textures,
+                                        std::span<const QuadMask> available_quads, std::span<const Light> lights, const Ambient& ambient,
+                                        const PlanOptions& options);
+
+}  // namespace halflit::shading

@@ -1,0 +1,25 @@
+// What a call that can fail because of its input returns. No exception leaves a module.
+#pragma once
+
+#include <tl/expected.hpp>
+
+#include <string>
+
+namespace halflit {
+
+/// Why a call failed; the command line's exit codes are these numbers.
+enum class ErrorCode { negative_result = 1, usage = 2, bad_input = 3, io = 4, limit = 5, internal = 6 };
+
+struct Error {
+    ErrorCode code = ErrorCode::bad_input;
+    std::string message;  ///< "FILE: place: what was found, what was expected"; one line, no trailing full stop
+};
+
+template <class T>
+using Result = tl::expected<T, Error>;
+
+[[nodiscard]] inline tl::unexpected<Error> fail(ErrorCode code, std::string message) {
+    return tl::unexpected<Error>(Error{code, std::move(message)});
+}
+
+}  // namespace halflit
