@@ -7,7 +7,8 @@
 //
 // Every operation here gives the same bits on every set: one correctly rounded operation, or integer arithmetic, or
 // a fixed sequence of those. What is missing on purpose: fused multiply-add, reciprocal and square root estimates,
-// min/max with another rule for NaN and -0, float to int conversion out of range, and the C library.
+// min/max with another rule for NaN and -0, float to int conversion out of range, and the C library. Do not use `!=` on
+// floats: for NaN xsimd answers false on AVX and true elsewhere; say is_nan(x) or !(a == b).
 //
 // All code sits in a namespace named after the instruction set, and xsimd is renamed per set, so that no inline function
 // is shared between objects built with different flags (the linker would keep one of them, for all CPUs).
@@ -124,8 +125,8 @@ HALFLIT_INLINE I shr(I i) {
 #if defined(__x86_64__)
 
 HALFLIT_INLINE F vdiv(F a, F b) { return a / b; }
-HALFLIT_INLINE F vsqrt(F a) { return xsimd::sqrt(a); }
 #if defined(__AVX512F__)
+HALFLIT_INLINE F vsqrt(F a) { return _mm512_sqrt_ps(a); }
 HALFLIT_INLINE F vmin(F a, F b) { return _mm512_min_ps(a, b); }
 HALFLIT_INLINE F vmax(F a, F b) { return _mm512_max_ps(a, b); }
 HALFLIT_INLINE std::uint32_t mask_bits(M m) { return static_cast<std::uint32_t>(static_cast<__mmask16>(m.data)); }
@@ -135,6 +136,7 @@ HALFLIT_INLINE I gather(const std::int32_t* base, I index) { return _mm512_i32ga
 HALFLIT_INLINE M less(I a, I b) { return M(_mm512_cmplt_epi32_mask(a, b)); }
 HALFLIT_INLINE M equal(I a, I b) { return M(_mm512_cmpeq_epi32_mask(a, b)); }
 #elif defined(__AVX2__)
+HALFLIT_INLINE F vsqrt(F a) { return _mm256_sqrt_ps(a); }
 HALFLIT_INLINE F vmin(F a, F b) { return _mm256_min_ps(a, b); }
 HALFLIT_INLINE F vmax(F a, F b) { return _mm256_max_ps(a, b); }
 HALFLIT_INLINE std::uint32_t mask_bits(M m) { return static_cast<std::uint32_t>(_mm256_movemask_ps(m)); }
@@ -144,6 +146,7 @@ HALFLIT_INLINE I gather(const std::int32_t* base, I index) { return _mm256_i32ga
 HALFLIT_INLINE M less(I a, I b) { return M(_mm256_castsi256_ps(_mm256_cmpgt_epi32(b, a))); }
 HALFLIT_INLINE M equal(I a, I b) { return M(_mm256_castsi256_ps(_mm256_cmpeq_epi32(a, b))); }
 #else
+HALFLIT_INLINE F vsqrt(F a) { return _mm_sqrt_ps(a); }
 HALFLIT_INLINE F vmin(F a, F b) { return _mm_min_ps(a, b); }
 HALFLIT_INLINE F vmax(F a, F b) { return _mm_max_ps(a, b); }
 HALFLIT_INLINE std::uint32_t mask_bits(M m) { return static_cast<std::uint32_t>(_mm_movemask_ps(m)); }
@@ -197,6 +200,7 @@ HALFLIT_INLINE F iota_f() { return to_float(iota_i()); }
 
 #endif  // HALFLIT_ARCH
 
+HALFLIT_INLINE M is_nan(F x) { return !(x == x); }
 HALFLIT_INLINE bool any(M m) { return mask_bits(m) != 0; }
 HALFLIT_INLINE bool all(M m) { return mask_bits(m) == (kWidth == 32 ? ~0u : (1u << kWidth) - 1u); }
 
