@@ -4,6 +4,8 @@
 
 #include "sh/vec3.hpp"
 
+#include <initializer_list>
+
 namespace halflit {
 
 struct Mat4 {
