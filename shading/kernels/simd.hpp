@@ -70,6 +70,8 @@ template <int N>
 HALFLIT_INLINE std::int32_t shr(std::int32_t i) {
     return i >> N;
 }
+/// Nearest integer, ties to even, for |x| < 2^31; the caller keeps other values and NaN out.
+HALFLIT_INLINE std::int32_t round_even(float x) { return static_cast<std::int32_t>(__builtin_lrintf(x)); }
 /// Bit l is lane l.
 HALFLIT_INLINE std::uint32_t mask_bits(bool m) { return m ? 1u : 0u; }
 /// Bit l is the sign bit of lane l.
@@ -127,6 +129,7 @@ HALFLIT_INLINE I shr(I i) {
 HALFLIT_INLINE F vdiv(F a, F b) { return a / b; }
 #if defined(__AVX512F__)
 HALFLIT_INLINE F vsqrt(F a) { return _mm512_sqrt_ps(a); }
+HALFLIT_INLINE I round_even(F x) { return _mm512_cvtps_epi32(x); }
 HALFLIT_INLINE F vmin(F a, F b) { return _mm512_min_ps(a, b); }
 HALFLIT_INLINE F vmax(F a, F b) { return _mm512_max_ps(a, b); }
 HALFLIT_INLINE std::uint32_t mask_bits(M m) { return static_cast<std::uint32_t>(static_cast<__mmask16>(m.data)); }
@@ -137,6 +140,7 @@ HALFLIT_INLINE M less(I a, I b) { return M(_mm512_cmplt_epi32_mask(a, b)); }
 HALFLIT_INLINE M equal(I a, I b) { return M(_mm512_cmpeq_epi32_mask(a, b)); }
 #elif defined(__AVX2__)
 HALFLIT_INLINE F vsqrt(F a) { return _mm256_sqrt_ps(a); }
+HALFLIT_INLINE I round_even(F x) { return _mm256_cvtps_epi32(x); }
 HALFLIT_INLINE F vmin(F a, F b) { return _mm256_min_ps(a, b); }
 HALFLIT_INLINE F vmax(F a, F b) { return _mm256_max_ps(a, b); }
 HALFLIT_INLINE std::uint32_t mask_bits(M m) { return static_cast<std::uint32_t>(_mm256_movemask_ps(m)); }
@@ -147,6 +151,7 @@ HALFLIT_INLINE M less(I a, I b) { return M(_mm256_castsi256_ps(_mm256_cmpgt_epi3
 HALFLIT_INLINE M equal(I a, I b) { return M(_mm256_castsi256_ps(_mm256_cmpeq_epi32(a, b))); }
 #else
 HALFLIT_INLINE F vsqrt(F a) { return _mm_sqrt_ps(a); }
+HALFLIT_INLINE I round_even(F x) { return _mm_cvtps_epi32(x); }
 HALFLIT_INLINE F vmin(F a, F b) { return _mm_min_ps(a, b); }
 HALFLIT_INLINE F vmax(F a, F b) { return _mm_max_ps(a, b); }
 HALFLIT_INLINE std::uint32_t mask_bits(M m) { return static_cast<std::uint32_t>(_mm_movemask_ps(m)); }
@@ -170,6 +175,7 @@ HALFLIT_INLINE M equal(I a, I b) { return M(_mm_castsi128_ps(_mm_cmpeq_epi32(a, 
 // xsimd's own / and sqrt are estimates with Newton steps here; its min and max order -0 and propagate NaN.
 HALFLIT_INLINE F vdiv(F a, F b) { return vdivq_f32(a, b); }
 HALFLIT_INLINE F vsqrt(F a) { return vsqrtq_f32(a); }
+HALFLIT_INLINE I round_even(F x) { return vcvtnq_s32_f32(x); }
 HALFLIT_INLINE F vmin(F a, F b) { return vbslq_f32(vcltq_f32(a, b), a, b); }
 HALFLIT_INLINE F vmax(F a, F b) { return vbslq_f32(vcgtq_f32(a, b), a, b); }
 HALFLIT_INLINE std::uint32_t sign_bits(I i) {
@@ -286,6 +292,40 @@ HALFLIT_INLINE void q_transpose(Q& a, Q& b, Q& c, Q& d) {
 
 /// a * b + c with two roundings.
 HALFLIT_INLINE Q q_mad(Q a, Q b, Q c) { return q_add(q_mul(a, b), c); }
+
+/// kWidth records of four floats: lane l of a, b, c, d goes to p[4 l .. 4 l + 3].
+HALFLIT_INLINE void store4(float* p, F a, F b, F c, F d) {
+#if !defined(HALFLIT_ARCH)
+    q_store(p, {{a, b, c, d}});
+#elif defined(__AVX512F__)
+    const __m512 ab_lo = _mm512_unpacklo_ps(a, b), ab_hi = _mm512_unpackhi_ps(a, b);
+    const __m512 cd_lo = _mm512_unpacklo_ps(c, d), cd_hi = _mm512_unpackhi_ps(c, d);
+    const __m512 rows[4] = {_mm512_shuffle_ps(ab_lo, cd_lo, 0x44), _mm512_shuffle_ps(ab_lo, cd_lo, 0xee),
+                            _mm512_shuffle_ps(ab_hi, cd_hi, 0x44), _mm512_shuffle_ps(ab_hi, cd_hi, 0xee)};
+    for (int l = 0; l < 4; ++l) {
+        _mm_storeu_ps(p + 4 * l, _mm512_castps512_ps128(rows[l]));
+        _mm_storeu_ps(p + 4 * (l + 4), _mm512_extractf32x4_ps(rows[l], 1));
+        _mm_storeu_ps(p + 4 * (l + 8), _mm512_extractf32x4_ps(rows[l], 2));
+        _mm_storeu_ps(p + 4 * (l + 12), _mm512_extractf32x4_ps(rows[l], 3));
+    }
+#elif defined(__AVX2__)
+    const __m256 ab_lo = _mm256_unpacklo_ps(a, b), ab_hi = _mm256_unpackhi_ps(a, b);
+    const __m256 cd_lo = _mm256_unpacklo_ps(c, d), cd_hi = _mm256_unpackhi_ps(c, d);
+    const __m256 rows[4] = {_mm256_shuffle_ps(ab_lo, cd_lo, 0x44), _mm256_shuffle_ps(ab_lo, cd_lo, 0xee),
+                            _mm256_shuffle_ps(ab_hi, cd_hi, 0x44), _mm256_shuffle_ps(ab_hi, cd_hi, 0xee)};
+    for (int l = 0; l < 4; ++l) {
+        _mm_storeu_ps(p + 4 * l, _mm256_castps256_ps128(rows[l]));
+        _mm_storeu_ps(p + 4 * (l + 4), _mm256_extractf128_ps(rows[l], 1));
+    }
+#else
+    Q r0 = a, r1 = b, r2 = c, r3 = d;
+    q_transpose(r0, r1, r2, r3);
+    q_store(p, r0);
+    q_store(p + 4, r1);
+    q_store(p + 8, r2);
+    q_store(p + 12, r3);
+#endif
+}
 
 }  // namespace HALFLIT_ISA_NAMESPACE
 }  // namespace halflit
