@@ -21,8 +21,7 @@ struct Image {
     std::vector<float> rgba_linear;
 };
 
-/// 64-bit hash of the bytes: the picture's identity in reports and golden tables (XXH64-like, defined in framebuffer.cpp, the same
-/// on every machine).
+/// 64-bit hash of the bytes: the picture's identity in reports and golden tables. XXH64 with seed 0, the same on every machine.
 [[nodiscard]] std::uint64_t pixel_hash(std::span<const std::uint8_t> bytes);
 
 }  // namespace halflit::raster
