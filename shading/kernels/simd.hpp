@@ -293,6 +293,18 @@ HALFLIT_INLINE void q_transpose(Q& a, Q& b, Q& c, Q& d) {
 /// a * b + c with two roundings.
 HALFLIT_INLINE Q q_mad(Q a, Q b, Q c) { return q_add(q_mul(a, b), c); }
 
+/// (a0, a1, b0, b1) and (a2, a3, b2, b3).
+#if !defined(HALFLIT_ARCH)
+HALFLIT_INLINE Q q_low_pair(Q a, Q b) { return {{a.v[0], a.v[1], b.v[0], b.v[1]}}; }
+HALFLIT_INLINE Q q_high_pair(Q a, Q b) { return {{a.v[2], a.v[3], b.v[2], b.v[3]}}; }
+#elif defined(__x86_64__)
+HALFLIT_INLINE Q q_low_pair(Q a, Q b) { return _mm_movelh_ps(a, b); }
+HALFLIT_INLINE Q q_high_pair(Q a, Q b) { return _mm_movehl_ps(b, a); }
+#elif defined(__aarch64__)
+HALFLIT_INLINE Q q_low_pair(Q a, Q b) { return vcombine_f32(vget_low_f32(a), vget_low_f32(b)); }
+HALFLIT_INLINE Q q_high_pair(Q a, Q b) { return vcombine_f32(vget_high_f32(a), vget_high_f32(b)); }
+#endif
+
 /// kWidth records of four floats: lane l of a, b, c, d goes to p[4 l .. 4 l + 3].
 HALFLIT_INLINE void store4(float* p, F a, F b, F c, F d) {
 #if !defined(HALFLIT_ARCH)

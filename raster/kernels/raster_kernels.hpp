@@ -1,0 +1,145 @@
+// The rasterizer's inner loops as a table of function pointers, one set for each instruction set, and the plain data they read
+// and write. Everything is in window coordinates of the whole picture: x to the right, y down, pixel (0, 0) on top.
+//
+// Fixed point: 24.8, with pixel centres on whole numbers: window position p (in pixels) is stored as (p - 0.5) * 256, so the
+// centre of pixel (i, j) is (256 i, 256 j).
+#pragma once
+
+#include "shading/fragment_block.hpp"
+#include "shading/kernels/isa.hpp"
+
+#include <cstdint>
+
+namespace halflit::raster {
+
+/// A vertex after projection and snapping. x and y are valid when its outcode says neither kNear, kGuard nor kNotFinite.
+struct alignas(16) ScreenVertex {
+    std::int32_t x, y;  ///< 24.8 fixed point, see above
+    float z;            ///< depth: 1 at the near plane, 0 at the far plane or infinity
+    float rhw;          ///< 1 / clip w
+};
+
+/// Why a triangle with this vertex may need more than plain set-up.
+enum Outcode : std::uint8_t {
+    kLeft = 1, kRight = 2, kTop = 4, kBottom = 8, kBeyondFar = 16,  // outside that plane: all three outside, nothing to draw
+    kNear = 32,       // in front of the near plane: clip
+    kGuard = 64,      // outside the guard band: clip
+    kNotFinite = 128  // a coordinate is NaN or infinite: drop
+};
+inline constexpr std::uint8_t kRejectWhenAll = kLeft | kRight | kTop | kBottom | kBeyondFar | kNear;
+
+/// Window mapping: window = ndc * half + half (y negated), in pixels.
+struct Viewport {
+    float half_width = 0, half_height = 0;
+    float guard_x = 0, guard_y = 0;  ///< |clip x| <= guard_x * w stays inside the guard band
+};
+
+/// Half the width of the guard band around the middle of the picture, in pixels. Edge coefficients of triangles inside it
+/// are below 2^23, so an edge function inside a tile of 64 plus a vector's overhang stays below 2^31:
+/// (63 + 15 + 63) * 2^23 = 1.18e9.
+inline constexpr int kGuardBandPx = 16384;
+
+struct TransformArgs {
+    const float* positions;    ///< x y z of each vertex, packed
+    std::int64_t begin, end;   ///< vertices
+    float clip_from_object[16];  ///< column major
+    Viewport viewport;
+    ScreenVertex* screen;
+    std::uint8_t* outcodes;
+};
+
+/// Vertex records for shading: per vertex the quads named by `quads`, four floats each, in quad order.
+struct VertexRecordArgs {
+    const float *positions, *normals, *tangents, *uv0, *uv1, *colors;  ///< packed; null: a default is written
+    std::int64_t begin, end;
+    shading::QuadMask quads;
+    float world_from_object[16];
+    float normal_from_object[12];  ///< three columns of four, the fourth entry unused
+    float tangent_sign;            ///< -1 when the transform mirrors
+    float* records;                ///< of vertex 0
+    int stride;                    ///< floats a record: 4 * number of quads
+};
+
+/// One triangle in a tile's list, counter-clockwise in y-down fixed point (positive area).
+struct TriangleRecord {
+    std::uint32_t vertex[3];      ///< index into the frame's screen vertices; kClipVertex + index into the chunk's own
+    std::uint32_t draw_and_back;  ///< draw * 2 + (1 for a back face)
+};
+inline constexpr std::uint32_t kClipVertex = 0x80000000u;
+inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
+
+inline constexpr int kMaxSamples = 8;
+inline constexpr int kMaxTileSize = 64;
+inline constexpr int kTilePadding = 16;  ///< columns to the right that a vector may spill into
+inline constexpr int kTileStride = kMaxTileSize + kTilePadding;
+inline constexpr int kTilePixels = kTileStride * kMaxTileSize;
+
+/// Sample positions relative to the pixel centre, in 1/256 pixel.
+struct SamplePattern {
+    int count = 1;
+    std::int16_t x[kMaxSamples] = {}, y[kMaxSamples] = {};
+};
+
+/// Depth and visible triangle of every sample of a tile; pixel (x, y) of the tile is at y * kTileStride + x.
+struct TileBuffers {
+    alignas(64) float depth[kMaxSamples][kTilePixels];
+    alignas(64) std::uint32_t triangle[kMaxSamples][kTilePixels];
+    /// Bit s: sample s passed in the last call of `cover`. All zero between calls, except where `cover` just wrote.
+    alignas(64) std::uint8_t coverage[kTilePixels];
+};
+
+/// Where a tile lies in the picture, pixels.
+struct TileRect {
+    int x, y, width, height;
+};
+
+/// A chunk's triangles as the tile loop reads them.
+struct TriangleSource {
+    const TriangleRecord* records;
+    const ScreenVertex* vertices;       ///< of the frame
+    const ScreenVertex* clip_vertices;  ///< of the chunk
+    std::uint32_t id_base;              ///< triangle id = id_base + index of the record
+};
+
+/// The box of pixels that `cover` wrote, relative to the tile; empty when x1 < x0.
+struct CoverBox {
+    int x0, y0, x1, y1;
+};
+
+/// All chunks of a frame; a triangle id is chunk << local_bits | record.
+struct TriangleTable {
+    const TriangleSource* chunks;
+    int local_bits;
+};
+
+/// Where a draw's vertex records are: that of vertex v starts at base + v * stride.
+struct DrawRecords {
+    const float* base;
+};
+
+struct InterpolateArgs {
+    TriangleTable triangles;
+    const DrawRecords* draws;
+    const float* const* clip_records;  ///< per chunk; records of clip vertices, kVertexFloats floats apart, quads packed as in `base`
+    shading::QuadMask quads;
+    int stride;
+    bool gradients;   ///< fill the kDu.. rows
+    bool facing;      ///< fill kFacing
+    int count;        ///< fragments; ids and positions are padded to a multiple of 16 with copies of the last one
+    const std::uint32_t* ids;
+    const std::int32_t *x_px, *y_px;
+};
+
+struct RasterKernels {
+    void (*transform)(const TransformArgs&);
+    void (*vertex_records)(const VertexRecordArgs&);
+    /// Draws `count` triangles (indices of records) into depth and triangle, nearest wins, ties go to the first.
+    void (*rasterize)(const TileRect&, const SamplePattern&, TileBuffers&, const TriangleSource&, const std::uint32_t* list, int count);
+    /// One triangle: the samples that it covers and that are nearer than the tile's depth go to `coverage`.
+    CoverBox (*cover)(const TileRect&, const SamplePattern&, TileBuffers&, const TriangleSource&, std::uint32_t record);
+    void (*interpolate)(const InterpolateArgs&, shading::FragmentBlock&);
+};
+
+[[nodiscard]] const RasterKernels& raster_kernels(shading::Isa isa);
+
+}  // namespace halflit::raster
