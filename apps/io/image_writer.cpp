@@ -1,0 +1,120 @@
+#include "apps/io/image_writer.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <exception>
+#include <new>
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#pragma GCC diagnostic ignored "-Wunused-function"
+#define STB_IMAGE_WRITE_STATIC
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#include <stb/stb_image_write.h>
+#pragma GCC diagnostic pop
+
+namespace halflit::io {
+namespace {
+
+constexpr int kJpegQuality = 95;
+constexpr float kLargestRgbe = 1.69e38f;  // 255/256 * 2^127
+
+/// What the encoder's C callback fills. An exception may not pass through C code, so it is kept here.
+struct Sink {
+    std::vector<std::uint8_t> bytes;
+    std::exception_ptr failure;
+
+    static void append(void* context, void* data, int size) {
+        auto& sink = *static_cast<Sink*>(context);
+        if (sink.failure) return;
+        try {
+            const auto* first = static_cast<const std::uint8_t*>(data);
+            sink.bytes.insert(sink.bytes.end(), first, first + size);
+        } catch (...) {
+            sink.failure = std::current_exception();
+        }
+    }
+};
+
+std::vector<std::uint8_t> rgb8_over_black(const raster::Image& image) {
+    std::vector<std::uint8_t> rgb;
+    rgb.reserve(image.rgba8.size() / 4 * 3);
+    for (std::size_t i = 0; i < image.rgba8.size(); i += 4)
+        for (std::size_t c = 0; c < 3; ++c) rgb.push_back(static_cast<std::uint8_t>((image.rgba8[i + c] * image.rgba8[i + 3] + 127) / 255));
+    return rgb;
+}
+
+std::vector<float> rgb_linear_over_black(const raster::Image& image) {
+    std::vector<float> rgb;
+    rgb.reserve(image.rgba_linear.size() / 4 * 3);
+    for (std::size_t i = 0; i < image.rgba_linear.size(); i += 4)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const float value = image.rgba_linear[i + c] * image.rgba_linear[i + 3];
+            rgb.push_back(value > 0.0f ? std::min(value, kLargestRgbe) : 0.0f);  // NaN is not above 0
+        }
+    return rgb;
+}
+
+std::vector<std::uint8_t> encode(const raster::Image& image, ImageFormat format) {
+    const int w = image.width, h = image.height;
+    Sink sink;
+    int done = 0;
+    switch (format) {
+        case ImageFormat::png:
+            done = stbi_write_png_to_func(&Sink::append, &sink, w, h, 4, image.rgba8.data(), 4 * w);
+            break;
+        case ImageFormat::bmp:
+            done = stbi_write_bmp_to_func(&Sink::append, &sink, w, h, 4, image.rgba8.data());
+            break;
+        case ImageFormat::tga:
+            done = stbi_write_tga_to_func(&Sink::append, &sink, w, h, 4, image.rgba8.data());
+            break;
+        case ImageFormat::jpg:
+            done = stbi_write_jpg_to_func(&Sink::append, &sink, w, h, 3, rgb8_over_black(image).data(), kJpegQuality);
+            break;
+        case ImageFormat::hdr:
+            done = stbi_write_hdr_to_func(&Sink::append, &sink, w, h, 3, rgb_linear_over_black(image).data());
+            break;
+    }
+    if (sink.failure) std::rethrow_exception(sink.failure);
+    if (done == 0) throw std::bad_alloc();  // the encoders fail for want of memory only
+    return sink.bytes;
+}
+
+}  // namespace
+
+Result<ImageFormat> image_format_of(std::string_view path) {
+    if (path == "-") return ImageFormat::png;
+    const std::size_t slash = path.rfind('/');
+    const std::string_view name = slash == std::string_view::npos ? path : path.substr(slash + 1);
+    const std::size_t dot = name.rfind('.');
+    std::string extension(dot == std::string_view::npos ? std::string_view() : name.substr(dot + 1));
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (extension == "png") return ImageFormat::png;
+    if (extension == "bmp") return ImageFormat::bmp;
+    if (extension == "tga") return ImageFormat::tga;
+    if (extension == "jpg" || extension == "jpeg") return ImageFormat::jpg;
+    if (extension == "hdr") return ImageFormat::hdr;
+    return fail(ErrorCode::usage, std::string(path) + ": the extension names no known format; known are .png .bmp .tga .jpg .hdr");
+}
+
+Result<std::vector<std::uint8_t>> encode_image(const raster::Image& image, ImageFormat format) {
+    const int w = image.width, h = image.height;
+    if (w < 1 || h < 1) return fail(ErrorCode::usage, "a picture needs at least one pixel");
+    const std::int64_t pixels = std::int64_t{w} * h;
+    if (pixels > kMaxImagePixels) return fail(ErrorCode::limit, "a picture of more than 2^28 pixels cannot be encoded");
+    const std::size_t values = is_linear(format) ? image.rgba_linear.size() : image.rgba8.size();
+    if (values != static_cast<std::size_t>(pixels) * 4) return fail(ErrorCode::internal, "the picture's pixels do not match its size");
+    if (format == ImageFormat::jpg && (w > 65535 || h > 65535)) return fail(ErrorCode::limit, "JPG holds at most 65535 pixels a side");
+    if (format == ImageFormat::tga && (w > 65535 || h > 65535)) return fail(ErrorCode::limit, "TGA holds at most 65535 pixels a side");
+
+    try {
+        return encode(image, format);
+    } catch (const std::bad_alloc&) {
+        return fail(ErrorCode::limit, "out of memory while encoding the picture");
+    }
+}
+
+}  // namespace halflit::io
