@@ -1,0 +1,22 @@
+// The coverage rules once more, by brute force and without clipping: what explains a difference between two rasterizers.
+#pragma once
+
+#include "sh/vec3.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace halflit::peer {
+
+/// How window = ndc * half + half is rounded: after each operation, or once (as processors with fused multiply-add do it in Mesa).
+enum class Viewport { unfused, fused };
+
+/// Painter's order over triangles in clip coordinates, w > 0. 1 + triangle number, 0 where nothing is drawn. Integer edge functions
+/// over 24.8 fixed-point corners of any size; top-left rule; no clipping at all, so no rounding by it.
+[[nodiscard]] std::vector<std::uint32_t> rule_ids(int width, int height, std::span<const Vec4f> clip_positions, Viewport viewport);
+
+/// True when some corner of the triangle lies outside |x| <= limit_x * w, |y| <= limit_y * w: a clipper there would cut it.
+[[nodiscard]] bool reaches_beyond(std::span<const Vec4f, 3> corners, float limit_x, float limit_y);
+
+}  // namespace halflit::peer
