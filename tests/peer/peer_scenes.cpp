@@ -136,7 +136,7 @@ std::vector<PeerScene> peer_scenes() {
     scenes.push_back(random_scene("perspective", false, true, 3000, 2, 150, 1.0, 6));
     scenes.push_back(random_scene("large across the border", true, false, 300, 100, 1500, 1.0, 7));
     scenes.push_back(random_scene("small across the border", true, false, 40000, 1, 12, 1.0, 8));
-    scenes.push_back(random_scene("far outside the guard band", true, false, 100, 20000, 60000, 0.001, 9));
+    scenes.push_back(random_scene("far outside the guard band", true, false, 60, 17000, 30000, 0.002, 9));
     scenes.push_back(random_scene("perspective across the border", true, true, 2000, 2, 800, 1.0, 10));
     return scenes;
 }
