@@ -21,18 +21,23 @@ struct TexturePlan {
     float row_u[3], row_v[3];             ///< texture transform
     std::int32_t uv_set = 0;
     bool transform = false;               ///< row_u, row_v are not the identity
+    bool needs_lod = false;               ///< the kDu.. rows decide which level or which filter
     Wrap wrap_u, wrap_v;
     Filter mag, min;
     MipFilter mip;
 };
 
-/// How t^n is computed, t = max(0, (x + w) / (1 + w)); the cheapest form that is exact for this n.
+/// How t^n is computed, t = max(0, (x + w) / (1 + w)); the cheapest form that is within 2 ulp for this n.
 enum class LobePath : std::uint8_t { step, linear, square, sqrt_product, integer, general };
 
 struct LobePlan {
     LobePath path = LobePath::linear;
-    float wrap = 0, inv_one_plus_wrap = 1, power = 1, scale = 1;
-    std::int32_t integer_power = 1;
+    float wrap = 0;
+    float inv_one_plus_wrap = 1;     ///< 1 / (1 + w), rounded so that (1 + w) times it is not below 1: t(1) = 1 after the clamp
+    float scale = 1;
+    std::int32_t integer_power = 1;  ///< path integer: n, 3 to 5
+    float power_minus_one = 0;       ///< path general: n - 1, and the same in two parts of 18 and 6 bits (pow.hpp)
+    float power_minus_one_high = 0, power_minus_one_low = 0;
 };
 
 /// Stages, one bit each; a block runs only those that its material's plan names.
@@ -62,6 +67,7 @@ struct MaterialPlan {
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
     LobePlan lobe;
+    bool occlusion_is_metallic_roughness = false;  ///< both read the same texels the same way: one fetch serves both
     TexturePlan base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;
 };
 
@@ -71,15 +77,16 @@ struct LightPlan {
     float color[3];
     float position[3];
     float to_light[3];          ///< directional: unit vector towards the light; spot: minus the axis
-    float inv_range_pow4;       ///< 1 / range^4; 0: no limit
+    float inv_range_squared;    ///< 1 / range^2; 0: no limit
     float min_distance_squared; ///< source radius squared
-    float cone_scale, cone_offset;  ///< spot: clamp(s * cone_scale + cone_offset)^2, see the kernel
+    float cone_cutoff;          ///< spot: 1 - cos(outer angle)
+    float cone_scale;           ///< spot: 1 / (cos(inner) - cos(outer)); see kernels/light_kernel.hpp
 };
 
 /// Everything about the frame that shading needs, the same for all fragments.
 struct FramePlan {
     std::vector<MaterialPlan> materials;   ///< index = index of Scene material; one more at the end for "no material"
-    std::vector<LightPlan> lights;         ///< in list order: sums keep it
+    std::vector<LightPlan> lights;         ///< in list order: sums keep it; black lights and those not finite are left out
     Ambient ambient;
     Vec3f eye_ws{0, 0, 0};                 ///< perspective: camera position
     Vec3f view_direction_ws{0, 0, -1};     ///< orthographic: the way the camera looks, unit

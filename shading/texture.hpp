@@ -46,6 +46,9 @@ public:
     [[nodiscard]] std::span<const std::uint16_t> data() const { return data_; }
 
 private:
+    template <class ReadTexel>
+    static Result<Texture> make(int width, int height, ReadTexel read_texel);
+
     std::vector<TextureLevel> levels_;
     std::vector<std::uint16_t> data_;
 };

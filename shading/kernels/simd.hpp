@@ -292,52 +292,38 @@ HALFLIT_INLINE void q_transpose(Q& a, Q& b, Q& c, Q& d) {
 
 /// a * b + c with two roundings.
 HALFLIT_INLINE Q q_mad(Q a, Q b, Q c) { return q_add(q_mul(a, b), c); }
+/// a + weight * (b - a): exactly a for weight 0.
+HALFLIT_INLINE Q q_lerp(Q a, Q b, Q weight) { return q_mad(weight, q_sub(b, a), a); }
 
-/// (a0, a1, b0, b1) and (a2, a3, b2, b3).
-#if !defined(HALFLIT_ARCH)
-HALFLIT_INLINE Q q_low_pair(Q a, Q b) { return {{a.v[0], a.v[1], b.v[0], b.v[1]}}; }
-HALFLIT_INLINE Q q_high_pair(Q a, Q b) { return {{a.v[2], a.v[3], b.v[2], b.v[3]}}; }
-#elif defined(__x86_64__)
-HALFLIT_INLINE Q q_low_pair(Q a, Q b) { return _mm_movelh_ps(a, b); }
-HALFLIT_INLINE Q q_high_pair(Q a, Q b) { return _mm_movehl_ps(b, a); }
-#elif defined(__aarch64__)
-HALFLIT_INLINE Q q_low_pair(Q a, Q b) { return vcombine_f32(vget_low_f32(a), vget_low_f32(b)); }
-HALFLIT_INLINE Q q_high_pair(Q a, Q b) { return vcombine_f32(vget_high_f32(a), vget_high_f32(b)); }
-#endif
+// ---- QQ: two records side by side, in one register where there is one of 256 bits --------------------------------
 
-/// kWidth records of four floats: lane l of a, b, c, d goes to p[4 l .. 4 l + 3].
-HALFLIT_INLINE void store4(float* p, F a, F b, F c, F d) {
-#if !defined(HALFLIT_ARCH)
-    q_store(p, {{a, b, c, d}});
-#elif defined(__AVX512F__)
-    const __m512 ab_lo = _mm512_unpacklo_ps(a, b), ab_hi = _mm512_unpackhi_ps(a, b);
-    const __m512 cd_lo = _mm512_unpacklo_ps(c, d), cd_hi = _mm512_unpackhi_ps(c, d);
-    const __m512 rows[4] = {_mm512_shuffle_ps(ab_lo, cd_lo, 0x44), _mm512_shuffle_ps(ab_lo, cd_lo, 0xee),
-                            _mm512_shuffle_ps(ab_hi, cd_hi, 0x44), _mm512_shuffle_ps(ab_hi, cd_hi, 0xee)};
-    for (int l = 0; l < 4; ++l) {
-        _mm_storeu_ps(p + 4 * l, _mm512_castps512_ps128(rows[l]));
-        _mm_storeu_ps(p + 4 * (l + 4), _mm512_extractf32x4_ps(rows[l], 1));
-        _mm_storeu_ps(p + 4 * (l + 8), _mm512_extractf32x4_ps(rows[l], 2));
-        _mm_storeu_ps(p + 4 * (l + 12), _mm512_extractf32x4_ps(rows[l], 3));
-    }
-#elif defined(__AVX2__)
-    const __m256 ab_lo = _mm256_unpacklo_ps(a, b), ab_hi = _mm256_unpackhi_ps(a, b);
-    const __m256 cd_lo = _mm256_unpacklo_ps(c, d), cd_hi = _mm256_unpackhi_ps(c, d);
-    const __m256 rows[4] = {_mm256_shuffle_ps(ab_lo, cd_lo, 0x44), _mm256_shuffle_ps(ab_lo, cd_lo, 0xee),
-                            _mm256_shuffle_ps(ab_hi, cd_hi, 0x44), _mm256_shuffle_ps(ab_hi, cd_hi, 0xee)};
-    for (int l = 0; l < 4; ++l) {
-        _mm_storeu_ps(p + 4 * l, _mm256_castps256_ps128(rows[l]));
-        _mm_storeu_ps(p + 4 * (l + 4), _mm256_extractf128_ps(rows[l], 1));
-    }
-#else
-    Q r0 = a, r1 = b, r2 = c, r3 = d;
-    q_transpose(r0, r1, r2, r3);
-    q_store(p, r0);
-    q_store(p + 4, r1);
-    q_store(p + 8, r2);
-    q_store(p + 12, r3);
-#endif
+#if defined(__AVX2__)
+
+using QQ = __m256;
+HALFLIT_INLINE QQ qq_load_u16(const std::uint16_t* low, const std::uint16_t* high) {
+    const __m128 first = _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(low)));
+    const __m128 both = _mm_loadh_pi(first, reinterpret_cast<const __m64*>(high));
+    return _mm256_cvtepi32_ps(_mm256_cvtepu16_epi32(_mm_castps_si128(both)));
 }
+HALFLIT_INLINE QQ qq_lerp(QQ a, QQ b, float weight) {
+    return _mm256_add_ps(_mm256_mul_ps(_mm256_set1_ps(weight), _mm256_sub_ps(b, a)), a);
+}
+HALFLIT_INLINE Q qq_low(QQ a) { return _mm256_castps256_ps128(a); }
+HALFLIT_INLINE Q qq_high(QQ a) { return _mm256_extractf128_ps(a, 1); }
+
+#else
+
+struct QQ {
+    Q low, high;
+};
+HALFLIT_INLINE QQ qq_load_u16(const std::uint16_t* low, const std::uint16_t* high) { return {q_load_u16(low), q_load_u16(high)}; }
+HALFLIT_INLINE QQ qq_lerp(QQ a, QQ b, float weight) {
+    return {q_lerp(a.low, b.low, q_set(weight)), q_lerp(a.high, b.high, q_set(weight))};
+}
+HALFLIT_INLINE Q qq_low(QQ a) { return a.low; }
+HALFLIT_INLINE Q qq_high(QQ a) { return a.high; }
+
+#endif
 
 }  // namespace HALFLIT_ISA_NAMESPACE
 }  // namespace halflit

@@ -1,0 +1,33 @@
+// Linear light to 8-bit codes.
+#pragma once
+
+#include "shading/kernels/pow.hpp"
+
+namespace halflit {
+inline namespace HALFLIT_ISA_NAMESPACE {
+
+/// x in [0, 1] to its nearest integer code in [0, 255] (ties to even); NaN gives 0.
+HALFLIT_INLINE I unorm8(F x) { return round_to_int(clamp(x, F(0.0f), F(1.0f)) * F(255.0f)); }
+
+/// The sRGB curve of IEC 61966-2-1: 1.055 x^(1/2.4) - 0.055, 12.92 x below 0.0031308. x in [0, 1]. With these two polynomials the
+/// code that it rounds to is at most 0.501 from the exact value.
+HALFLIT_INLINE F srgb_curve(F x) {
+    const Log2 log = log2_parts(kLog2Degree5, x);
+    const F root = exp2_floored(kExp2Degree4, (log.exponent + log.fraction) * F(1.0f / 2.4f));
+    return sel(x > F(0.0031308f), mad(F(1.055f), root, F(-0.055f)), F(12.92f) * x);
+}
+
+HALFLIT_INLINE I srgb8(F linear) { return unorm8(srgb_curve(clamp(linear, F(0.0f), F(1.0f)))); }
+
+HALFLIT_INLINE void encode_srgb8(const float* red, const float* green, const float* blue, const float* alpha, float exposure,
+                                 std::uint32_t* rgba8, int count) {
+    const F factor(exposure);
+    for (int i = 0; i < count; i += kWidth) {
+        const I r = srgb8(load(red + i) * factor), g = srgb8(load(green + i) * factor), b = srgb8(load(blue + i) * factor);
+        const I a = unorm8(load(alpha + i));
+        store(reinterpret_cast<std::int32_t*>(rgba8 + i), (r | shl<8>(g)) | (shl<16>(b) | shl<24>(a)));
+    }
+}
+
+}  // namespace HALFLIT_ISA_NAMESPACE
+}  // namespace halflit

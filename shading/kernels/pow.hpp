@@ -1,0 +1,84 @@
+// Powers from + - * and integer operations: log2 and exp2 as polynomials around exact exponent arithmetic. The coefficients are
+// minimax in relative error, rounded to float32; each table states what it approximates and how well.
+#pragma once
+
+#include "shading/kernels/simd.hpp"
+
+namespace halflit {
+inline namespace HALFLIT_ISA_NAMESPACE {
+
+/// log2(1 + u) / u on [sqrt(1/2) - 1, sqrt(2) - 1], relative error 7.4e-6, 2.1e-7 and 3.8e-8. Leading term 1/ln 2.
+inline constexpr float kLog2Degree5[] = {1.44270158f, -0.721206367f, 0.479812503f, -0.366493285f, 0.318202913f, -0.206192777f};
+inline constexpr float kLog2Degree7[] = {1.44269502f,  -0.721352816f, 0.480922282f, -0.360238284f,
+                                         0.287097692f, -0.248874456f, 0.234040871f, -0.145810664f};
+inline constexpr float kLog2Degree8[] = {1.44269502f,   -0.721347392f, 0.48091045f,   -0.360702813f, 0.287915081f,
+                                         -0.238943219f, 0.21571368f,   -0.207268372f, 0.125835732f};
+
+/// 2^r on [-1/2, 1/2] with constant term exactly 1, relative error 2.8e-6, 9.5e-8 and 5.0e-9. Second term ln 2.
+inline constexpr float kExp2Degree4[] = {1.0f, 0.693124175f, 0.240240976f, 0.0559065267f, 0.00958282873f};
+inline constexpr float kExp2Degree5[] = {1.0f, 0.693147004f, 0.240222439f, 0.0555071943f, 0.00967147853f, 0.00132646016f};
+inline constexpr float kExp2Degree6[] = {1.0f,           0.693147182f,   0.240226462f,  0.0555034466f,
+                                         0.00961854495f, 0.00133990345f, 0.000153534857f};
+
+/// ((c[N-1] x + c[N-2]) x + ...) x + c[0]
+template <int N>
+HALFLIT_INLINE F horner(const float (&c)[N], F x) {
+    F sum(c[N - 1]);
+#pragma GCC unroll 16
+    for (int i = N - 2; i >= 0; --i) sum = mad(sum, x, F(c[i]));
+    return sum;
+}
+
+/// log2(t) = exponent + fraction: an integer, and |fraction| <= 1/2 with the polynomial's relative error, so that the sum is accurate
+/// just below t = 1 too. t >= 0, not NaN; 0 gives -127, denormals some value below -125.
+struct Log2 {
+    F exponent, fraction;
+};
+template <int N>
+HALFLIT_INLINE Log2 log2_parts(const float (&polynomial)[N], F t) {
+    const I i = bits(t);
+    const I e = shr<23>(i - I(0x3f3504f3));  // sqrt(1/2)
+    const F u = from_bits(i - shl<23>(e)) - F(1.0f);
+    return {to_float(e), u * horner(polynomial, u)};
+}
+
+/// x * 2^k for integers k in [-126, 127].
+HALFLIT_INLINE F scale_by_power_of_two(F x, F k) { return x * from_bits(shl<23>(round_to_int(k) + I(127))); }
+
+/// Results below this power of two are 0, far above the denormals that some processors are slow with.
+inline constexpr float kLowestExponent = -100.0f;
+
+/// 2^y for y <= 127; 0 below kLowestExponent. NaN gives 0.
+template <int N>
+HALFLIT_INLINE F exp2_floored(const float (&polynomial)[N], F y) {
+    const F held = vmax(y, F(kLowestExponent));
+    const F k = round_near(held);
+    return sel(y >= F(kLowestExponent), scale_by_power_of_two(horner(polynomial, held - k), k), F(0.0f));
+}
+
+/// t^n = t * 2^((n-1) log2 t) for t in [0, 1], n > 0. n - 1 = high + low, high in 18 bits: its product with log2's exponent is exact, and
+/// so is the subtraction of the nearest integer. Error up to 2.3 ulp for n in [1, 2] (tests/shading/elementary_test.cpp); it grows
+/// with n as the condition of t^n does. 1 gives exactly 1, 0 gives 0.
+HALFLIT_INLINE F power_of_unit(F t, float power_minus_one, float high, float low) {
+    const Log2 log = log2_parts(kLog2Degree8, t);
+    const F coarse = F(high) * log.exponent;
+    const F fine = mad(F(low), log.exponent, F(power_minus_one) * log.fraction);
+    const F y = coarse + fine;
+    const F k = round_near(vmax(y, F(kLowestExponent)));
+    const F factor = scale_by_power_of_two(horner(kExp2Degree6, (coarse - k) + fine), k);
+    return sel(y >= F(kLowestExponent), t * factor, F(0.0f));
+}
+
+/// (1 - q)^half_exponent for q in [0, 1]: the power of a cosine by its squared sine. Near q = 0 log2(1 - q) is taken from q itself, as
+/// log1p would, because 1 - q has lost the digits that a large exponent makes visible.
+HALFLIT_INLINE F power_from_squared_sine(F q, F half_exponent) {
+    const F m = vmax(F(1.0f) - q, F(1e-30f));
+    const I i = bits(m);
+    const I e = shr<23>(i - I(0x3f3504f3));
+    const F exponent = to_float(e);
+    const F u = sel(exponent == F(0.0f), F(0.0f) - q, from_bits(i - shl<23>(e)) - F(1.0f));
+    return exp2_floored(kExp2Degree5, half_exponent * mad(u, horner(kLog2Degree7, u), exponent));
+}
+
+}  // namespace HALFLIT_ISA_NAMESPACE
+}  // namespace halflit

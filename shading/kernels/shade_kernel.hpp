@@ -1,0 +1,123 @@
+// The shading kernel: one source, compiled by shade_<isa>.cpp for each instruction set.
+#pragma once
+
+#include "shading/kernels/color_kernel.hpp"
+#include "shading/kernels/light_kernel.hpp"
+#include "shading/kernels/shade_kernels.hpp"
+#include "shading/kernels/surface_kernel.hpp"
+
+namespace halflit {
+inline namespace HALFLIT_ISA_NAMESPACE {
+
+/// Reflectance of a dielectric seen straight on: index of refraction 1.5, as glTF fixes it.
+inline constexpr float kDielectricReflectance = 0.04f;
+/// Highlights do not get sharper than this: exponent 8.3e4, the widest cone that float32 normals still resolve.
+inline constexpr float kMinRoughness = 0.07f;
+
+HALFLIT_INLINE V3 lerp(V3 a, V3 b, F weight) { return a + (b - a) * weight; }
+
+/// Sky and ground light that reaches a surface facing `up`, the y component of its direction.
+HALFLIT_INLINE V3 hemisphere(const shading::Ambient& ambient, F up) {
+    const V3 ground = broadcast(ambient.ground_linear);
+    return lerp(ground, broadcast(ambient.sky_linear), F(0.5f) * (F(1.0f) + up));
+}
+
+/// Share of the mirrored surroundings: F0 head on, rising at grazing angles towards 1 - roughness (Schlick's fifth power).
+HALFLIT_INLINE F environment_reflectance(F f0, F roughness, F grazing) {
+    return mad(vmax(F(1.0f) - roughness, f0) - f0, grazing, f0);
+}
+
+template <bool kSpecular>
+HALFLIT_INLINE V3 lit_color(const shading::FramePlan& frame, const shading::MaterialPlan& material, const shading::FragmentBlock& block,
+                            int lane, V3 base) {
+    const V3 position = row3(block, shading::kPosX, lane);
+    const V3 normal = shading_normal(material, block, lane);
+    const Reflectance surface = reflectance(material, block, lane);
+    V3 albedo = base, f0{F(0.0f), F(0.0f), F(0.0f)}, to_eye = f0;
+    F roughness(1.0f), half_exponent(0.0f);
+    if constexpr (kSpecular) {
+        const F dielectric(kDielectricReflectance);
+        f0 = lerp(V3{dielectric, dielectric, dielectric}, base, surface.metallic);
+        albedo = base * ((F(1.0f) - surface.metallic) * F(1.0f - kDielectricReflectance));
+        to_eye = view_vector(frame, position);
+        roughness = vmax(surface.roughness, F(kMinRoughness));
+        const F alpha = roughness * roughness;
+        half_exponent = vdiv(F(1.0f), alpha * alpha) - F(1.0f);  // s = 2 / alpha^2 - 2
+    }
+    V3 color{F(0.0f), F(0.0f), F(0.0f)};
+    if (has(material, shading::kStageLights)) {
+        const LightSums sums = sum_lights<kSpecular>(frame.lights.data(), static_cast<int>(frame.lights.size()), material.lobe, position,
+                                                     normal, to_eye, half_exponent);
+        color = albedo * (sums.diffuse * F(material.lobe.scale));
+        if constexpr (kSpecular) color = color + f0 * (sums.specular * mad(F(0.25f), half_exponent, F(1.0f)));  // (s + 8) / 8
+    }
+    if (has(material, shading::kStageAmbient)) {
+        V3 ambient = albedo * hemisphere(frame.ambient, normal.y);
+        if constexpr (kSpecular) {
+            const F n_dot_v = dot(normal, to_eye);
+            const F mirrored_y = mad(n_dot_v + n_dot_v, normal.y, F(0.0f) - to_eye.y);
+            const F away = F(1.0f) - clamp(n_dot_v, F(0.0f), F(1.0f));
+            const F away2 = away * away;
+            const F grazing = (away2 * away2) * away;
+            const V3 share{environment_reflectance(f0.x, roughness, grazing), environment_reflectance(f0.y, roughness, grazing),
+                           environment_reflectance(f0.z, roughness, grazing)};
+            ambient = ambient + share * hemisphere(frame.ambient, mirrored_y);
+        }
+        color = color + ambient * surface.occlusion;
+    }
+    return color;
+}
+
+HALFLIT_INLINE V3 emitted(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane) {
+    V3 emissive = broadcast(material.emissive);
+    if (has(material, shading::kStageEmissiveTexture)) {
+        const Sample texture = sample_texture(material.emissive_texture, block, lane);
+        emissive = emissive * V3{texture.r, texture.g, texture.b};
+    }
+    return emissive;
+}
+
+template <bool kSpecular>
+HALFLIT_INLINE void shade_block(const shading::FramePlan& frame, const shading::MaterialPlan& material, shading::FragmentBlock& block,
+                                int count) {
+    for (int lane = 0; lane < count; lane += kWidth) {
+        const Sample base = base_color(material, block, lane);
+        V3 color{base.r, base.g, base.b};
+        if (!has(material, shading::kStageUnlit)) {
+            if ((material.stages & (shading::kStageLights | shading::kStageAmbient)) != 0)
+                color = lit_color<kSpecular>(frame, material, block, lane, color);
+            else
+                color = {F(0.0f), F(0.0f), F(0.0f)};
+            color = color + emitted(material, block, lane);
+        }
+        store(block.red + lane, color.x);
+        store(block.green + lane, color.y);
+        store(block.blue + lane, color.z);
+        const bool blended = material.alpha_mode == shading::AlphaMode::blend;
+        store(block.alpha + lane, blended ? clamp(base.a, F(0.0f), F(1.0f)) : F(1.0f));
+    }
+}
+
+static void shade(const shading::FramePlan& frame, const shading::MaterialPlan& material, shading::FragmentBlock& block, int count) {
+    if (has(material, shading::kStageSpecular)) shade_block<true>(frame, material, block, count);
+    else shade_block<false>(frame, material, block, count);
+}
+
+static void shade_alpha(const shading::MaterialPlan& material, shading::FragmentBlock& block, int count) {
+    for (int lane = 0; lane < count; lane += kWidth)
+        store(block.alpha + lane, clamp(base_color(material, block, lane).a, F(0.0f), F(1.0f)));
+}
+
+static void encode(const float* red, const float* green, const float* blue, const float* alpha, float exposure, std::uint32_t* rgba8,
+                   int count) {
+    encode_srgb8(red, green, blue, alpha, exposure, rgba8, count);
+}
+
+}  // namespace HALFLIT_ISA_NAMESPACE
+
+namespace shading {
+#define HALFLIT_SHADE_KERNELS HALFLIT_CONCAT(shade_kernels_, HALFLIT_ISA)
+extern const ShadeKernels HALFLIT_SHADE_KERNELS;
+const ShadeKernels HALFLIT_SHADE_KERNELS = {shade, shade_alpha, encode};
+}  // namespace shading
+}  // namespace halflit

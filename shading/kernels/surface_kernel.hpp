@@ -1,0 +1,69 @@
+// What the surface is at each lane: colour and alpha, shading normal, metallic and roughness.
+#pragma once
+
+#include "shading/kernels/texture_kernel.hpp"
+#include "shading/kernels/vector.hpp"
+
+namespace halflit {
+inline namespace HALFLIT_ISA_NAMESPACE {
+
+HALFLIT_INLINE bool has(const shading::MaterialPlan& material, shading::Stage stage) { return (material.stages & stage) != 0; }
+
+/// Base colour factor * texture * vertex colour, with alpha; `a` is what MASK compares and BLEND uses.
+HALFLIT_INLINE Sample base_color(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane) {
+    Sample color{F(material.base_color[0]), F(material.base_color[1]), F(material.base_color[2]), F(material.base_color[3])};
+    if (has(material, shading::kStageBaseColorTexture)) {
+        const Sample texture = sample_texture(material.base_color_texture, block, lane);
+        color = {color.r * texture.r, color.g * texture.g, color.b * texture.b, color.a * texture.a};
+    }
+    if (has(material, shading::kStageVertexColor)) {
+        color = {color.r * row(block, shading::kColorR, lane), color.g * row(block, shading::kColorG, lane),
+                 color.b * row(block, shading::kColorB, lane), color.a * row(block, shading::kColorA, lane)};
+    }
+    return color;
+}
+
+/// The unit normal: interpolated, bent by the normal map, turned to the side that is seen.
+HALFLIT_INLINE V3 shading_normal(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane) {
+    V3 normal = normalize_any(row3(block, shading::kNormalX, lane));
+    if (has(material, shading::kStageNormalMap)) {
+        const Sample texture = sample_texture(material.normal_texture, block, lane);
+        const V3 tangent = normalize_any(row3(block, shading::kTangentX, lane));
+        const V3 bitangent = cross(normal, tangent) * row(block, shading::kTangentW, lane);
+        const F x = mad(F(2.0f), texture.r, F(-1.0f)) * F(material.normal_scale);
+        const F y = mad(F(2.0f), texture.g, F(-1.0f)) * F(material.normal_scale);
+        const F z = mad(F(2.0f), texture.b, F(-1.0f));
+        normal = normalize((tangent * x + bitangent * y) + normal * z);
+    }
+    if (material.double_sided) normal = normal * row(block, shading::kFacing, lane);
+    return normal;
+}
+
+/// Metallic-roughness parameters and the occlusion of ambient light.
+struct Reflectance {
+    F metallic, roughness, occlusion;
+};
+HALFLIT_INLINE Reflectance reflectance(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane) {
+    Reflectance result{F(material.metallic), F(material.roughness), F(1.0f)};
+    F occlusion_texture(1.0f);
+    if (has(material, shading::kStageMetallicRoughnessTexture)) {
+        const Sample texture = sample_texture(material.metallic_roughness_texture, block, lane);
+        result.roughness = result.roughness * texture.g;
+        result.metallic = result.metallic * texture.b;
+        occlusion_texture = texture.r;
+    }
+    if (has(material, shading::kStageOcclusionTexture)) {
+        if (!material.occlusion_is_metallic_roughness) occlusion_texture = sample_texture(material.occlusion_texture, block, lane).r;
+        result.occlusion = mad(F(material.occlusion_strength), occlusion_texture - F(1.0f), F(1.0f));
+    }
+    return result;
+}
+
+/// Unit vector from the surface to the viewer.
+HALFLIT_INLINE V3 view_vector(const shading::FramePlan& frame, V3 position) {
+    if (frame.orthographic) return V3{F(0.0f), F(0.0f), F(0.0f)} - broadcast(frame.view_direction_ws);
+    return normalize_any(broadcast(frame.eye_ws) - position);
+}
+
+}  // namespace HALFLIT_ISA_NAMESPACE
+}  // namespace halflit

@@ -1,0 +1,208 @@
+#include "shading/plan.hpp"
+
+#include "sh/trig.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace halflit::shading {
+namespace {
+
+constexpr QuadMask quad(int index) { return 1u << index; }
+constexpr QuadMask kNormalAndUv0Quads = quad(0) | quad(1), kTangentQuad = quad(2), kColorQuad = quad(3);
+
+bool finite(float x) { return x - x == 0.0f; }
+bool finite(Vec3f v) { return finite(v.x) && finite(v.y) && finite(v.z); }
+bool zero(Vec3f v) { return v == Vec3f{0, 0, 0}; }
+
+/// max(lo, min(x, hi)); NaN gives lo.
+float clamp_or_low(float x, float lo, float hi) { return x > lo ? (x < hi ? x : hi) : lo; }
+
+// ---- textures ------------------------------------------------------------------------------------------------------
+
+TexturePlan plan_texture(const TextureUse& use, std::span<const Texture> textures, QuadMask available) {
+    TexturePlan plan{};
+    if (use.texture < 0 || static_cast<std::size_t>(use.texture) >= textures.size()) return plan;
+    const Texture& texture = textures[static_cast<std::size_t>(use.texture)];
+    if (texture.levels().empty()) return plan;
+    plan.data = texture.data().data();
+    plan.level_count = static_cast<std::int32_t>(texture.levels().size());
+    for (std::size_t l = 0; l < texture.levels().size(); ++l) {
+        plan.width[l] = texture.levels()[l].width;
+        plan.height[l] = texture.levels()[l].height;
+        plan.offset[l] = texture.levels()[l].offset;
+    }
+    plan.uv_set = use.uv_set == 1 ? 1 : 0;
+    Vec3f row_u = use.row_u, row_v = use.row_v;
+    if (plan.uv_set == 1 && (available & quad(4)) == 0) {
+        // No primitive brings this set: it reads as (0, 0), which the transform moves.
+        plan.uv_set = 0;
+        row_u = {0, 0, row_u.z};
+        row_v = {0, 0, row_v.z};
+    }
+    plan.transform = !(row_u == Vec3f{1, 0, 0} && row_v == Vec3f{0, 1, 0});
+    plan.row_u[0] = row_u.x, plan.row_u[1] = row_u.y, plan.row_u[2] = row_u.z;
+    plan.row_v[0] = row_v.x, plan.row_v[1] = row_v.y, plan.row_v[2] = row_v.z;
+    plan.wrap_u = use.sampler.wrap_u;
+    plan.wrap_v = use.sampler.wrap_v;
+    plan.mag = use.sampler.mag;
+    plan.min = use.sampler.min;
+    plan.mip = use.sampler.mip;
+    plan.needs_lod = (plan.mip != MipFilter::none && plan.level_count > 1) || plan.mag != plan.min;
+    return plan;
+}
+
+bool same_fetch(const TexturePlan& a, const TexturePlan& b) {
+    return a.data == b.data && a.uv_set == b.uv_set && a.wrap_u == b.wrap_u && a.wrap_v == b.wrap_v && a.mag == b.mag && a.min == b.min &&
+           a.mip == b.mip && std::equal(a.row_u, a.row_u + 3, b.row_u) && std::equal(a.row_v, a.row_v + 3, b.row_v);
+}
+
+// ---- lobe ----------------------------------------------------------------------------------------------------------
+
+/// Wrap is held to [0, 1] (beyond 1 the norm is another one) and power to [0, 1e5].
+LobePlan plan_lobe(const Lobe& asked) {
+    const Lobe lobe{clamp_or_low(asked.wrap, 0.0f, 1.0f), clamp_or_low(asked.power, 0.0f, 1e5f), asked.normalize};
+    LobePlan plan;
+    plan.wrap = lobe.wrap;
+    plan.scale = lobe.scale();
+    plan.inv_one_plus_wrap = 1.0f / (1.0f + lobe.wrap);
+    if ((1.0f + lobe.wrap) * plan.inv_one_plus_wrap < 1.0f)
+        plan.inv_one_plus_wrap = std::bit_cast<float>(std::bit_cast<std::int32_t>(plan.inv_one_plus_wrap) + 1);
+    plan.power_minus_one = lobe.power - 1.0f;
+    plan.power_minus_one_high = std::bit_cast<float>(std::bit_cast<std::uint32_t>(plan.power_minus_one) & 0xffffffc0u);
+    plan.power_minus_one_low = plan.power_minus_one - plan.power_minus_one_high;
+    if (lobe.power == 0.0f) {
+        plan.path = LobePath::step;
+    } else if (lobe.power == 1.0f) {
+        plan.path = LobePath::linear;
+    } else if (lobe.power == 1.5f) {
+        plan.path = LobePath::sqrt_product;
+    } else if (lobe.power == 2.0f) {
+        plan.path = LobePath::square;
+    } else if (lobe.power == 3.0f || lobe.power == 4.0f || lobe.power == 5.0f) {
+        // n - 1 roundings of half an ulp: from 6 on the general path is closer.
+        plan.path = LobePath::integer;
+        plan.integer_power = static_cast<std::int32_t>(lobe.power);
+    } else {
+        plan.path = LobePath::general;
+    }
+    return plan;
+}
+
+// ---- lights --------------------------------------------------------------------------------------------------------
+
+/// 1 - cos(angle) without cancellation.
+double versine(float angle_rad) {
+    const double s = sin_cos(0.5 * static_cast<double>(angle_rad)).sin;
+    return 2.0 * s * s;
+}
+
+bool contributes(const Light& light) {
+    if (zero(light.color_linear) || !finite(light.color_linear)) return false;
+    if (light.type != LightType::point && (!finite(light.direction_ws) || zero(light.direction_ws))) return false;
+    return light.type == LightType::directional || finite(light.position_ws);
+}
+
+LightPlan plan_light(const Light& light) {
+    LightPlan plan{};
+    plan.type = light.type;
+    plan.color[0] = light.color_linear.x, plan.color[1] = light.color_linear.y, plan.color[2] = light.color_linear.z;
+    plan.position[0] = light.position_ws.x, plan.position[1] = light.position_ws.y, plan.position[2] = light.position_ws.z;
+    const Vec3f travel = normalize_or(light.direction_ws, {0, -1, 0});
+    plan.to_light[0] = 0.0f - travel.x, plan.to_light[1] = 0.0f - travel.y, plan.to_light[2] = 0.0f - travel.z;
+    const double range = light.range > 0.0f && finite(light.range) ? static_cast<double>(light.range) : 0.0;
+    plan.inv_range_squared = range > 0.0 ? static_cast<float>(std::min(1.0 / (range * range), 1e38)) : 0.0f;
+    const float radius = clamp_or_low(light.source_radius, 1e-4f, 1e18f);
+    plan.min_distance_squared = radius * radius;
+    const float outer = clamp_or_low(light.outer_cone_rad, 0.0f, static_cast<float>(kPi));
+    const float inner = clamp_or_low(light.inner_cone_rad, 0.0f, outer);
+    const double cutoff = versine(outer), width = cutoff - versine(inner);
+    plan.cone_cutoff = static_cast<float>(cutoff);
+    plan.cone_scale = static_cast<float>(1.0 / std::max(width, 1e-30));  // inner = outer: a step
+    return plan;
+}
+
+// ---- materials -----------------------------------------------------------------------------------------------------
+
+struct FrameFacts {
+    bool lights, ambient, specular;
+};
+
+QuadMask quads_of(const MaterialPlan& plan, bool lit) {
+    QuadMask quads = lit ? kNormalAndUv0Quads : 0u;
+    if ((plan.stages & kStageNormalMap) != 0) quads |= kTangentQuad;
+    if ((plan.stages & kStageVertexColor) != 0) quads |= kColorQuad;
+    const auto add = [&](Stage stage, const TexturePlan& texture) {
+        if ((plan.stages & stage) != 0) quads |= texture.uv_set == 1 ? quad(4) : quad(1);
+    };
+    add(kStageBaseColorTexture, plan.base_color_texture);
+    add(kStageMetallicRoughnessTexture, plan.metallic_roughness_texture);
+    add(kStageNormalMap, plan.normal_texture);
+    add(kStageOcclusionTexture, plan.occlusion_texture);
+    add(kStageEmissiveTexture, plan.emissive_texture);
+    return quads;
+}
+
+MaterialPlan plan_material(const Material& material, std::span<const Texture> textures, QuadMask available, const FrameFacts& frame,
+                           const PlanOptions& options) {
+    MaterialPlan plan;
+    plan.base_color[0] = material.base_color.x, plan.base_color[1] = material.base_color.y;
+    plan.base_color[2] = material.base_color.z, plan.base_color[3] = material.base_color.w;
+    plan.metallic = clamp_or_low(material.metallic, 0.0f, 1.0f);
+    plan.roughness = clamp_or_low(material.roughness, 0.0f, 1.0f);
+    plan.emissive[0] = material.emissive.x, plan.emissive[1] = material.emissive.y, plan.emissive[2] = material.emissive.z;
+    plan.normal_scale = material.normal_scale;
+    plan.occlusion_strength = clamp_or_low(material.occlusion_strength, 0.0f, 1.0f);
+    plan.alpha_mode = material.alpha_mode;
+    plan.alpha_cutoff = material.alpha_cutoff;
+    plan.lobe = plan_lobe(options.override_lobe && !material.has_own_lobe ? options.lobe : material.lobe);
+
+    const bool lit = !material.unlit && (frame.lights || frame.ambient);
+    plan.double_sided = material.double_sided && lit;
+    if (material.unlit) plan.stages |= kStageUnlit;
+    if (lit && frame.lights) plan.stages |= kStageLights;
+    if (lit && frame.ambient) plan.stages |= kStageAmbient;
+    if (lit && frame.specular) plan.stages |= kStageSpecular;
+
+    bool gradients = false;
+    const auto use_texture = [&](bool wanted, Stage stage, const TextureUse& use, TexturePlan& target) {
+        if (!wanted) return;
+        target = plan_texture(use, textures, available);
+        if (target.data == nullptr) return;
+        plan.stages |= stage;
+        gradients = gradients || target.needs_lod;
+    };
+    const bool base_color_seen = lit || material.unlit || material.alpha_mode != AlphaMode::opaque;
+    use_texture(base_color_seen, kStageBaseColorTexture, material.base_color_texture, plan.base_color_texture);
+    use_texture(lit && frame.specular, kStageMetallicRoughnessTexture, material.metallic_roughness_texture, plan.metallic_roughness_texture);
+    use_texture(lit && (available & kTangentQuad) != 0, kStageNormalMap, material.normal_texture, plan.normal_texture);
+    use_texture(lit && frame.ambient && plan.occlusion_strength > 0.0f, kStageOcclusionTexture, material.occlusion_texture,
+                plan.occlusion_texture);
+    use_texture(!material.unlit && !zero(material.emissive), kStageEmissiveTexture, material.emissive_texture, plan.emissive_texture);
+    if (gradients) plan.stages |= kStageGradients;
+    if (base_color_seen && (available & kColorQuad) != 0) plan.stages |= kStageVertexColor;
+    plan.occlusion_is_metallic_roughness = (plan.stages & kStageOcclusionTexture) != 0 &&
+                                           (plan.stages & kStageMetallicRoughnessTexture) != 0 &&
+                                           same_fetch(plan.occlusion_texture, plan.metallic_roughness_texture);
+    plan.quads = quads_of(plan, lit);
+    return plan;
+}
+
+}  // namespace
+
+FramePlan make_frame_plan(std::span<const Material> materials, std::span<const Texture> textures, std::span<const QuadMask> available_quads,
+                          std::span<const Light> lights, const Ambient& ambient, const PlanOptions& options) {
+    HALFLIT_ASSERT(available_quads.size() == materials.size() + 1);
+    FramePlan plan;
+    for (const Light& light : lights)
+        if (contributes(light)) plan.lights.push_back(plan_light(light));
+    plan.ambient = ambient;
+    const FrameFacts facts{!plan.lights.empty(), !zero(ambient.sky_linear) || !zero(ambient.ground_linear), options.specular};
+    plan.materials.reserve(materials.size() + 1);
+    for (std::size_t i = 0; i <= materials.size(); ++i)
+        plan.materials.push_back(
+            plan_material(i < materials.size() ? materials[i] : Material{}, textures, available_quads[i], facts, options));
+    return plan;
+}
+
+}  // namespace halflit::shading

@@ -1,0 +1,126 @@
+#include "shading/texture.hpp"
+
+#include <algorithm>
+#include <array>
+#include <new>
+#include <string>
+
+namespace halflit::shading {
+namespace {
+
+/// x^2.4 for x in (0, 1]: the twelfth power of the fifth root, which Newton's iteration finds with + - * / alone. The C library's pow
+/// may differ in the last bit between CPUs; this does not, and the compiler runs it.
+constexpr double power_2_4(double x) {
+    double root = 1.0;
+    for (int i = 0; i < 64; ++i) root = (4.0 * root + x / (root * root * root * root)) / 5.0;
+    const double cube = root * root * root;
+    const double sixth = cube * cube;
+    return sixth * sixth;
+}
+
+/// IEC 61966-2-1: 8-bit sRGB code to linear light in 16 bits, rounded to nearest (no code lies near a tie: texture_test).
+constexpr std::array<std::uint16_t, 256> make_decode_table() {
+    std::array<std::uint16_t, 256> table{};
+    for (int code = 0; code < 256; ++code) {
+        const double c = code / 255.0;
+        const double linear = c <= 0.04045 ? c / 12.92 : power_2_4((c + 0.055) / 1.055);
+        table[static_cast<std::size_t>(code)] = static_cast<std::uint16_t>(linear * 65535.0 + 0.5);
+    }
+    return table;
+}
+constexpr std::array<std::uint16_t, 256> kLinear16FromSrgb8 = make_decode_table();
+
+/// The box that one texel of the next smaller level covers along one axis. Its weights are exact fractions of `total`:
+/// an even size halves (1, 1); an odd size 2n+1 becomes n, and the box is 2 + 1/n texels long, so three texels share it.
+struct Box {
+    std::int64_t first, count;
+    std::uint64_t weight[3], total;
+};
+
+constexpr Box box_of(int i, int size) {
+    if (size == 1) return {0, 1, {1, 0, 0}, 1};
+    const std::int64_t first = 2 * std::int64_t{i};
+    if (size % 2 == 0) return {first, 2, {1, 1, 0}, 2};
+    const auto n = static_cast<std::uint64_t>(size / 2), at = static_cast<std::uint64_t>(i);
+    return {first, 3, {n - at, n, at + 1}, 2 * n + 1};
+}
+
+/// One level from the one above it. Integer sums (at most 2^16 * 2^28), so the order of summing cannot matter.
+void reduce(const std::uint16_t* from, const TextureLevel& large, std::uint16_t* to, const TextureLevel& small) {
+    for (int y = 0; y < small.height; ++y) {
+        const Box rows = box_of(y, large.height);
+        for (int x = 0; x < small.width; ++x) {
+            const Box columns = box_of(x, large.width);
+            std::uint64_t sum[4] = {0, 0, 0, 0};
+            for (std::int64_t j = 0; j < rows.count; ++j) {
+                for (std::int64_t i = 0; i < columns.count; ++i) {
+                    const std::uint64_t weight = rows.weight[j] * columns.weight[i];
+                    const std::uint16_t* texel = from + 4 * ((rows.first + j) * large.width + columns.first + i);
+                    for (int c = 0; c < 4; ++c) sum[c] += weight * texel[c];
+                }
+            }
+            const std::uint64_t total = rows.total * columns.total;
+            for (int c = 0; c < 4; ++c) *to++ = static_cast<std::uint16_t>((sum[c] + total / 2) / total);
+        }
+    }
+}
+
+std::vector<TextureLevel> level_layout(int width, int height) {
+    std::vector<TextureLevel> levels{{width, height, 0}};
+    while (levels.back().width > 1 || levels.back().height > 1) {
+        const TextureLevel& last = levels.back();
+        levels.push_back({std::max(1, last.width / 2), std::max(1, last.height / 2), last.offset + last.width * last.height});
+    }
+    return levels;
+}
+
+Result<void> check_size(int width, int height, std::size_t channel_values) {
+    if (width < 1 || height < 1 || width > kMaxTextureSide || height > kMaxTextureSide)
+        return fail(ErrorCode::limit, "texture: " + std::to_string(width) + " x " + std::to_string(height) + " texels, expected 1 to " +
+                                          std::to_string(kMaxTextureSide) + " a side");
+    const std::size_t expected = std::size_t{4} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    if (channel_values != expected)
+        return fail(ErrorCode::bad_input, "texture: " + std::to_string(channel_values) + " channel values, expected " +
+                                              std::to_string(expected) + " for " + std::to_string(width) + " x " + std::to_string(height));
+    return {};
+}
+
+}  // namespace
+
+template <class ReadTexel>
+Result<Texture> Texture::make(int width, int height, ReadTexel read_texel) {
+    try {
+        Texture texture;
+        texture.levels_ = level_layout(width, height);
+        const TextureLevel& last = texture.levels_.back();
+        texture.data_.resize(std::size_t{4} * static_cast<std::size_t>(last.offset + last.width * last.height));
+        const std::size_t texels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+        for (std::size_t i = 0; i < texels; ++i) read_texel(i, &texture.data_[4 * i]);
+        for (std::size_t l = 1; l < texture.levels_.size(); ++l) {
+            const TextureLevel &large = texture.levels_[l - 1], &small = texture.levels_[l];
+            reduce(texture.data_.data() + std::size_t{4} * static_cast<std::size_t>(large.offset), large,
+                   texture.data_.data() + std::size_t{4} * static_cast<std::size_t>(small.offset), small);
+        }
+        return texture;
+    } catch (const std::bad_alloc&) {
+        return fail(ErrorCode::limit, "texture: out of memory for " + std::to_string(width) + " x " + std::to_string(height) + " texels");
+    }
+}
+
+Result<Texture> Texture::from_rgba8(std::span<const std::uint8_t> rgba8, int width, int height, ColorSpace space) {
+    if (auto size = check_size(width, height, rgba8.size()); !size) return tl::unexpected(size.error());
+    return make(width, height, [&](std::size_t i, std::uint16_t* texel) {
+        for (std::size_t c = 0; c < 4; ++c) {
+            const std::uint8_t code = rgba8[4 * i + c];
+            // 257 = 65535 / 255 exactly.
+            texel[c] = space == ColorSpace::srgb && c < 3 ? kLinear16FromSrgb8[code] : static_cast<std::uint16_t>(code * 257);
+        }
+    });
+}
+
+Result<Texture> Texture::from_rgba16(std::span<const std::uint16_t> rgba16, int width, int height) {
+    if (auto size = check_size(width, height, rgba16.size()); !size) return tl::unexpected(size.error());
+    return make(width, height, [&](std::size_t i, std::uint16_t* texel) { std::copy_n(&rgba16[4 * i], 4, texel); });
+}
+
+}  // namespace halflit::shading
