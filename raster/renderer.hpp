@@ -27,7 +27,7 @@ using ParallelFor = std::function<void(int count, const std::function<void(int)>
 struct Settings {
     Region region;
     int samples = 1;                       ///< a pixel: 1, 4 or 8
-    int tile_size = 64;                    ///< 16, 32, 64 or 128; changes speed, never a pixel
+    int tile_size = 64;                    ///< 16, 32 or 64; changes speed, never a pixel
     int threads = 0;                       ///< 0: one a core; changes speed, never a pixel
     Result<shading::Isa> isa = shading::default_isa();  ///< changes speed, never a pixel
     Vec4f background_linear{0, 0, 0, 0};   ///< linear colour, not premultiplied; w = 0 is transparent

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "raster/kernels/raster_kernels.hpp"
-#include "shading/kernels/simd.hpp"
+#include "shading/kernels/simd_records.hpp"
 
 namespace halflit::raster {
 inline namespace HALFLIT_ISA_NAMESPACE {

@@ -22,5 +22,5 @@ HALFLIT_INLINE const ScreenVertex& vertex_of(const TriangleSource& source, std::
 #define HALFLIT_DEFINE_RASTER_KERNELS(name)                                                         \
     namespace halflit::raster {                                                                     \
     extern const RasterKernels name;                                                                \
-    const RasterKernels name = {transform, vertex_records, rasterize, cover, interpolate};          \
+    const RasterKernels name = {transform, vertex_records, rasterize, cover, draw_covered, interpolate}; \
     }

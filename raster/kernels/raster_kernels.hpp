@@ -84,7 +84,7 @@ struct SamplePattern {
 struct TileBuffers {
     alignas(64) float depth[kMaxSamples][kTilePixels];
     alignas(64) std::uint32_t triangle[kMaxSamples][kTilePixels];
-    /// Bit s: sample s passed in the last call of `cover`. All zero between calls, except where `cover` just wrote.
+    /// Bit s: sample s passed in `cover`, which only sets bits; the caller clears them again.
     alignas(64) std::uint8_t coverage[kTilePixels];
 };
 
@@ -101,7 +101,7 @@ struct TriangleSource {
     std::uint32_t id_base;              ///< triangle id = id_base + index of the record
 };
 
-/// The box of pixels that `cover` wrote, relative to the tile; empty when x1 < x0.
+/// The box of pixels that `cover` looked at, relative to the tile; empty when x1 < x0.
 struct CoverBox {
     int x0, y0, x1, y1;
 };
@@ -137,6 +137,8 @@ struct RasterKernels {
     void (*rasterize)(const TileRect&, const SamplePattern&, TileBuffers&, const TriangleSource&, const std::uint32_t* list, int count);
     /// One triangle: the samples that it covers and that are nearer than the tile's depth go to `coverage`.
     CoverBox (*cover)(const TileRect&, const SamplePattern&, TileBuffers&, const TriangleSource&, std::uint32_t record);
+    /// One triangle, into depth and triangle, only where `coverage` is set: what remained after an alpha test.
+    void (*draw_covered)(const TileRect&, const SamplePattern&, TileBuffers&, const TriangleSource&, std::uint32_t record);
     void (*interpolate)(const InterpolateArgs&, shading::FragmentBlock&);
 };
 

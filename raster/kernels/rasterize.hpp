@@ -98,6 +98,19 @@ struct WriteVisible {
     }
 };
 
+/// Draws into depth and triangle where the coverage plane has this sample's bit.
+struct WriteCovered {
+    WriteVisible visible;
+    const std::uint8_t* coverage;
+    std::uint8_t bit;
+
+    HALFLIT_INLINE void pixels(int at, I outside, F z) const {
+        alignas(64) std::int32_t not_covered[kWidth];
+        for (int l = 0; l < kWidth; ++l) not_covered[l] = (coverage[at + l] & bit) ? 0 : -1;
+        visible.pixels(at, outside | load(not_covered), z);
+    }
+};
+
 /// Marks what passes the depth test in the coverage plane.
 struct MarkCoverage {
     const float* depth;
@@ -232,6 +245,13 @@ inline void rasterize(const TileRect& tile, const SamplePattern& pattern, TileBu
                           return WriteVisible{buffers.depth[s], buffers.triangle[s], source.id_base + r};
                       });
     }
+}
+
+inline void draw_covered(const TileRect& tile, const SamplePattern& pattern, TileBuffers& buffers, const TriangleSource& source, std::uint32_t record) {
+    draw_triangle(tile, pattern, source, source.records[record],
+                  [&](int s) __attribute__((always_inline)) {
+                      return WriteCovered{{buffers.depth[s], buffers.triangle[s], source.id_base + record}, buffers.coverage, static_cast<std::uint8_t>(1u << s)};
+                  });
 }
 
 inline CoverBox cover(const TileRect& tile, const SamplePattern& pattern, TileBuffers& buffers, const TriangleSource& source, std::uint32_t record) {

@@ -1,0 +1,106 @@
+#include "raster/renderer.hpp"
+
+#include "raster/detail/binning.hpp"
+#include "raster/detail/executor.hpp"
+#include "raster/detail/fp_environment.hpp"
+#include "raster/detail/geometry.hpp"
+#include "raster/detail/tile_renderer.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <new>
+
+namespace halflit::raster {
+namespace {
+
+class Stopwatch {
+public:
+    /// Milliseconds since the last call.
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
+        last_ = now;
+        return ms;
+    }
+
+private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+struct Renderer::Impl {
+    Frame frame;
+    Executor executor;
+    Pool<TileScratch> scratch;
+
+    Result<RenderReport> render(const Scene& scene, const Camera& camera, const Settings& settings, const FramebufferView& target) {
+        const FpEnvironment environment;
+        Stopwatch total, watch;
+        RenderReport report;
+        if (auto ok = prepare_frame(frame, scene, camera, settings, target); !ok) return tl::unexpected<Error>(ok.error());
+        executor.configure(settings.threads, settings.parallel_for);
+        report.ms.plan = watch.lap();
+        transform_vertices(frame, executor);
+        report.ms.transform = watch.lap();
+        bin_triangles(frame, executor);
+        report.ms.bin = watch.lap();
+        make_vertex_records(frame, executor);
+        report.ms.transform += watch.lap();
+
+        std::atomic<std::uint64_t> visible{0}, shaded{0}, nan_pixels{0};
+        std::atomic<bool> stopped{false};
+        executor.run(frame.tiles_x * frame.tiles_y, [&](int tile) {
+            if (stopped.load(std::memory_order_relaxed)) return;
+            if (settings.cancelled && (*settings.cancelled)()) {
+                stopped = true;
+                return;
+            }
+            typename Pool<TileScratch>::Loan loan(scratch);
+            const TileCounts counts = TileRenderer(frame, tile, *loan).render();
+            visible.fetch_add(counts.pixels_visible, std::memory_order_relaxed);
+            shaded.fetch_add(counts.fragments_shaded, std::memory_order_relaxed);
+            nan_pixels.fetch_add(counts.nan_pixels, std::memory_order_relaxed);
+        });
+        if (stopped) return fail(ErrorCode::negative_result, "stopped on request");
+        report.ms.tiles = watch.lap();
+
+        report.threads = executor.threads();
+        report.isa = *settings.isa;
+        report.triangles_submitted = static_cast<std::uint64_t>(frame.triangle_count);
+        for (std::size_t i = 0; i < frame.chunk_count; ++i) {
+            report.triangles_drawn += frame.chunks[i]->records.size();
+            report.triangles_not_finite += frame.chunks[i]->not_finite;
+        }
+        report.pixels_visible = visible;
+        report.fragments_shaded = shaded;
+        report.nan_pixels = nan_pixels;
+        if (report.triangles_not_finite > 0)
+            report.warnings.push_back(std::to_string(report.triangles_not_finite) + " triangles dropped: a vertex is NaN or infinite");
+        if (report.nan_pixels > 0) report.warnings.push_back(std::to_string(report.nan_pixels) + " fragments came out as NaN and were written as 0");
+        if (report.triangles_submitted == 0) report.warnings.emplace_back("nothing to draw");
+        report.total_ms = total.lap();
+        return report;
+    }
+};
+
+Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+Result<RenderReport> Renderer::render(const Scene& scene, const Camera& camera, const Settings& settings, const FramebufferView& target) {
+    try {
+        return impl_->render(scene, camera, settings, target);
+    } catch (const std::bad_alloc&) {
+        return fail(ErrorCode::limit, "out of memory while rendering");
+    } catch (const std::exception& e) {
+        return fail(ErrorCode::internal, e.what());
+    }
+}
+
+Result<RenderReport> render(const Scene& scene, const Camera& camera, const Settings& settings, const FramebufferView& target) {
+    return Renderer().render(scene, camera, settings, target);
+}
+
+}  // namespace halflit::raster
