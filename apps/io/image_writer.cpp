@@ -57,24 +57,24 @@ std::vector<float> rgb_linear_over_black(const raster::Image& image) {
     return rgb;
 }
 
-std::vector<std::uint8_t> encode(const raster::Image& image, ImageFormat format) {
+std::vector<std::uint8_t> encode(const raster::Image& image, OutputFormat format) {
     const int w = image.width, h = image.height;
     Sink sink;
     int done = 0;
     switch (format) {
-        case ImageFormat::png:
+        case OutputFormat::png:
             done = stbi_write_png_to_func(&Sink::append, &sink, w, h, 4, image.rgba8.data(), 4 * w);
             break;
-        case ImageFormat::bmp:
+        case OutputFormat::bmp:
             done = stbi_write_bmp_to_func(&Sink::append, &sink, w, h, 4, image.rgba8.data());
             break;
-        case ImageFormat::tga:
+        case OutputFormat::tga:
             done = stbi_write_tga_to_func(&Sink::append, &sink, w, h, 4, image.rgba8.data());
             break;
-        case ImageFormat::jpg:
+        case OutputFormat::jpg:
             done = stbi_write_jpg_to_func(&Sink::append, &sink, w, h, 3, rgb8_over_black(image).data(), kJpegQuality);
             break;
-        case ImageFormat::hdr:
+        case OutputFormat::hdr:
             done = stbi_write_hdr_to_func(&Sink::append, &sink, w, h, 3, rgb_linear_over_black(image).data());
             break;
     }
@@ -85,30 +85,30 @@ std::vector<std::uint8_t> encode(const raster::Image& image, ImageFormat format)
 
 }  // namespace
 
-Result<ImageFormat> image_format_of(std::string_view path) {
-    if (path == "-") return ImageFormat::png;
+Result<OutputFormat> output_format_of(std::string_view path) {
+    if (path == "-") return OutputFormat::png;
     const std::size_t slash = path.rfind('/');
     const std::string_view name = slash == std::string_view::npos ? path : path.substr(slash + 1);
     const std::size_t dot = name.rfind('.');
     std::string extension(dot == std::string_view::npos ? std::string_view() : name.substr(dot + 1));
     for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    if (extension == "png") return ImageFormat::png;
-    if (extension == "bmp") return ImageFormat::bmp;
-    if (extension == "tga") return ImageFormat::tga;
-    if (extension == "jpg" || extension == "jpeg") return ImageFormat::jpg;
-    if (extension == "hdr") return ImageFormat::hdr;
+    if (extension == "png") return OutputFormat::png;
+    if (extension == "bmp") return OutputFormat::bmp;
+    if (extension == "tga") return OutputFormat::tga;
+    if (extension == "jpg" || extension == "jpeg") return OutputFormat::jpg;
+    if (extension == "hdr") return OutputFormat::hdr;
     return fail(ErrorCode::usage, std::string(path) + ": the extension names no known format; known are .png .bmp .tga .jpg .hdr");
 }
 
-Result<std::vector<std::uint8_t>> encode_image(const raster::Image& image, ImageFormat format) {
+Result<std::vector<std::uint8_t>> encode_image(const raster::Image& image, OutputFormat format) {
     const int w = image.width, h = image.height;
     if (w < 1 || h < 1) return fail(ErrorCode::usage, "a picture needs at least one pixel");
     const std::int64_t pixels = std::int64_t{w} * h;
     if (pixels > kMaxImagePixels) return fail(ErrorCode::limit, "a picture of more than 2^28 pixels cannot be encoded");
     const std::size_t values = is_linear(format) ? image.rgba_linear.size() : image.rgba8.size();
     if (values != static_cast<std::size_t>(pixels) * 4) return fail(ErrorCode::internal, "the picture's pixels do not match its size");
-    if (format == ImageFormat::jpg && (w > 65535 || h > 65535)) return fail(ErrorCode::limit, "JPG holds at most 65535 pixels a side");
-    if (format == ImageFormat::tga && (w > 65535 || h > 65535)) return fail(ErrorCode::limit, "TGA holds at most 65535 pixels a side");
+    if (format == OutputFormat::jpg && (w > 65535 || h > 65535)) return fail(ErrorCode::limit, "JPG holds at most 65535 pixels a side");
+    if (format == OutputFormat::tga && (w > 65535 || h > 65535)) return fail(ErrorCode::limit, "TGA holds at most 65535 pixels a side");
 
     try {
         return encode(image, format);

@@ -11,18 +11,18 @@
 
 namespace halflit::io {
 
-enum class ImageFormat : std::uint8_t { png, bmp, tga, jpg, hdr };
+enum class OutputFormat : std::uint8_t { png, bmp, tga, jpg, hdr };
 
 inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 28;
 
 /// From the extension, in any case; "-" (standard output) is PNG. Anything else is a usage error that lists what there is.
-[[nodiscard]] Result<ImageFormat> image_format_of(std::string_view path);
+[[nodiscard]] Result<OutputFormat> output_format_of(std::string_view path);
 
 /// Whether the format stores linear floats (Image::rgba_linear) instead of sRGB codes (Image::rgba8).
-[[nodiscard]] constexpr bool is_linear(ImageFormat format) { return format == ImageFormat::hdr; }
+[[nodiscard]] constexpr bool is_linear(OutputFormat format) { return format == OutputFormat::hdr; }
 
 /// The whole file in memory. PNG, BMP and TGA keep alpha; JPG (quality 95) and HDR have none and show the picture over black.
 /// HDR holds what RGBE can: [0, 1.7e38], with NaN as 0. The picture may have up to kMaxImagePixels.
-[[nodiscard]] Result<std::vector<std::uint8_t>> encode_image(const raster::Image& image, ImageFormat format);
+[[nodiscard]] Result<std::vector<std::uint8_t>> encode_image(const raster::Image& image, OutputFormat format);
 
 }  // namespace halflit::io

@@ -1,0 +1,108 @@
+// halflit bench: how long a frame takes, from a scene in memory to codes in memory.
+#include "apps/halflit/cli_support.hpp"
+#include "apps/halflit/commands.hpp"
+#include "apps/halflit/frame.hpp"
+#include "apps/halflit/messages.hpp"
+#include "apps/halflit/run_report.hpp"
+#include "apps/halflit/stopwatch.hpp"
+#include "apps/io/atomic_file.hpp"
+#include "apps/io/image_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+namespace halflit::cli {
+namespace {
+
+constexpr PictureSize kUsualSize{1920, 1080};
+
+struct BenchOptions : RenderOptions {
+    int frames = 10;
+    bool json = false;
+};
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const std::size_t middle = values.size() / 2;
+    return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+}
+
+struct Measured {
+    std::vector<double> ms;
+    raster::RenderReport fastest;  ///< its stages are what is reported
+};
+
+/// One Renderer for all frames: what it keeps between them is part of what is measured. The first frame is counted like the others.
+Result<Measured> measure(const Frame& frame, int frames, raster::Image& image) {
+    Measured measured;
+    raster::Renderer renderer;
+    for (int i = 0; i < frames; ++i) {
+        const Stopwatch watch;
+        const auto rendered = renderer.render(frame.source.scene, frame.camera, frame.settings, view_of(image));
+        const double ms = watch.ms();
+        if (!rendered) return tl::unexpected(rendered.error());
+        if (measured.ms.empty() || ms < *std::min_element(measured.ms.begin(), measured.ms.end())) measured.fastest = *rendered;
+        measured.ms.push_back(ms);
+    }
+    return measured;
+}
+
+std::string table(const Json& report) {
+    std::string text = fmt::format("{} frames of {}x{}, {}, {} threads\n", report["frames"].get<int>(), report["size"][0].get<int>(),
+                                   report["size"][1].get<int>(), report["isa"].get<std::string>(), report["threads"].get<int>());
+    text +=
+        fmt::format("  min     {:10.3f} ms\n  median  {:10.3f} ms\n", report["min_ms"].get<double>(), report["median_ms"].get<double>());
+    for (const auto& [stage, ms] : report["stages"].items()) text += fmt::format("    {:<10}{:6.3f} ms\n", stage, ms.get<double>());
+    text += fmt::format("  load    {:10.3f} ms\n  encode  {:10.3f} ms (PNG)\n", report["load_ms"].get<double>(),
+                        report["encode_ms"].get<double>());
+    return text;
+}
+
+Result<int> run_bench(const BenchOptions& options) {
+    const auto frame = make_frame(options, kUsualSize);
+    if (!frame) return tl::unexpected(frame.error());
+    raster::Image image = make_image(*frame, false);
+    const auto measured = measure(*frame, options.frames, image);
+    if (!measured) return tl::unexpected(measured.error());
+    for (const std::string& warning : frame->warnings) print_warning(warning);
+
+    const raster::Image picture = cropped(std::move(image), frame->settings.region);
+    const Stopwatch encoding;
+    const auto bytes = io::encode_image(picture, io::OutputFormat::png);
+    if (!bytes) return tl::unexpected(bytes.error());
+    const double encode_ms = encoding.ms();
+
+    Json report = report_head();
+    report["scene"] = options.scene;
+    report["frames"] = options.frames;
+    report["min_ms"] = *std::min_element(measured->ms.begin(), measured->ms.end());
+    report["median_ms"] = median(measured->ms);
+    add_frame(report, *frame, measured->fastest, picture);
+    report["encode_ms"] = encode_ms;
+    const std::string text = options.json ? to_text(report) : table(report);
+    if (const auto written = io::write_file("-", {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}); !written)
+        return tl::unexpected(written.error());
+    return 0;
+}
+
+}  // namespace
+
+Command add_bench_command(CLI::App& root) {
+    CLI::App* app = root.add_subcommand("bench", "Time the drawing of a scene, from memory to memory");
+    const auto options = std::make_shared<BenchOptions>();
+    add_render_options(*app, *options, true);
+    constexpr const char* kGroup = "Measurement";
+    add_value(*app, "--frames", "N", "How often to draw (default 10)", [options](const std::string& text) -> Result<void> {
+        const auto frames = parse_int(text, 1, 1000000);
+        if (!frames) return tl::unexpected(frames.error());
+        options->frames = static_cast<int>(*frames);
+        return {};
+    })->group(kGroup);
+    app->add_flag("--json", options->json, "As one JSON object")->group(kGroup);
+    return {app, [options] { return run_bench(*options); }};
+}
+
+}  // namespace halflit::cli

@@ -1,0 +1,58 @@
+#include "apps/halflit/built_in_scenes.hpp"
+
+#include "apps/halflit/values.hpp"
+#include "raster/shapes.hpp"
+#include "sh/trig.hpp"
+
+#include <string>
+
+namespace halflit::cli {
+namespace {
+
+constexpr std::string_view kSpherePrefix = "sphere:";
+
+raster::Camera touching_camera(double radius) {
+    constexpr double kFovDeg = 35.0;
+    // The outline is where the ray of half the angle touches: sin(fov / 2) = radius / distance.
+    const double distance = radius / sin_cos(kFovDeg / 2 * (kPi / 180.0)).sin;
+    raster::Camera camera;
+    camera.name = "front";
+    camera.world_from_camera = translation({0, 0, static_cast<float>(distance)});
+    camera.fov_y_rad = static_cast<float>(kFovDeg * (kPi / 180.0));
+    camera.near_z = static_cast<float>((distance - radius) / 2);
+    return camera;
+}
+
+raster::Scene sphere_scene(std::int64_t triangles) {
+    raster::Scene scene;
+    scene.meshes.push_back(raster::make_sphere_of(1.0f, triangles));
+    scene.meshes[0].material = 0;
+    scene.instances.push_back({0, {}});
+    shading::Material clay;
+    clay.name = "clay";
+    clay.base_color = {0.8f, 0.75f, 0.7f, 1.0f};
+    clay.metallic = 0.0f;
+    clay.roughness = 0.6f;
+    clay.lobe = shading::Lobe::sloan(0.5f);
+    scene.materials.push_back(clay);
+    shading::Light key, rim;
+    key.direction_ws = normalize_or({-1, -1, -1}, {0, -1, 0});
+    key.color_linear = {0.9f, 0.9f, 0.9f};
+    rim.direction_ws = normalize_or({2, 0, -1}, {0, -1, 0});
+    rim.color_linear = {0.1f, 0.15f, 0.25f};
+    scene.lights = {key, rim};
+    scene.cameras.push_back(touching_camera(1.0));
+    return scene;
+}
+
+}  // namespace
+
+Result<std::optional<raster::Scene>> built_in_scene(std::string_view name) {
+    if (name == "demo") return raster::demo_scene();
+    if (!name.starts_with(kSpherePrefix)) return std::nullopt;
+    const auto triangles = parse_int(name.substr(kSpherePrefix.size()), 12, std::int64_t{1} << 26);
+    if (!triangles) return fail(ErrorCode::usage, std::string(name) + ": " + triangles.error().message);
+    return sphere_scene(*triangles);
+}
+
+}  // namespace halflit::cli

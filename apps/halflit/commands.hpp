@@ -1,0 +1,24 @@
+// The sub-commands. Each adds itself to the command line and says what to run when it is chosen.
+#pragma once
+
+#include "shading/result.hpp"
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace halflit::cli {
+
+struct Command {
+    CLI::App* app = nullptr;
+    std::function<Result<int>()> run;  ///< the exit code: 0, or 1 for a negative result
+};
+
+[[nodiscard]] Command add_render_command(CLI::App& root);
+[[nodiscard]] Command add_bench_command(CLI::App& root);
+[[nodiscard]] Command add_info_command(CLI::App& root);
+[[nodiscard]] Command add_diff_command(CLI::App& root);
+
+}  // namespace halflit::cli

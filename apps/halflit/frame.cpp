@@ -1,0 +1,148 @@
+#include "apps/halflit/frame.hpp"
+
+#include "apps/halflit/stopwatch.hpp"
+#include "apps/io/image_writer.hpp"
+#include "raster/exposure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace halflit::cli {
+namespace {
+
+Result<void> check_size(PictureSize size, const raster::Region& region) {
+    if (std::int64_t{size.width} * size.height > io::kMaxImagePixels)
+        return fail(ErrorCode::limit, fmt::format("--size: {}x{} is more than 2^28 pixels", size.width, size.height));
+    if (std::int64_t{region.x} + region.width > size.width || std::int64_t{region.y} + region.height > size.height)
+        return fail(ErrorCode::usage, fmt::format("--region: expected a part of the {}x{} picture, found {},{},{},{}", size.width,
+                                                  size.height, region.x, region.y, region.width, region.height));
+    return {};
+}
+
+/// The largest picture of the camera's shape that fits into the usual one.
+PictureSize shaped(PictureSize usual, const raster::Camera& camera) {
+    double aspect = static_cast<double>(camera.aspect);
+    if (camera.orthographic) aspect = camera.half_width > 0.0f ? static_cast<double>(camera.half_width / camera.half_height) : 0.0;
+    if (!(aspect > 1e-3 && aspect < 1e3)) return usual;
+    const double fitted = std::min(static_cast<double>(usual.width), static_cast<double>(usual.height) * aspect);
+    const auto side = [](double pixels) { return std::max(1, static_cast<int>(pixels + 0.5)); };
+    return {side(fitted), side(fitted / aspect)};
+}
+
+Result<const raster::Camera*> find_camera(const std::vector<raster::Camera>& cameras, const std::string& wanted) {
+    for (const raster::Camera& camera : cameras)
+        if (camera.name == wanted) return &camera;
+    const auto index = parse_int(wanted, 0, std::int64_t{1} << 31);
+    if (index && *index < static_cast<std::int64_t>(cameras.size())) return &cameras[static_cast<std::size_t>(*index)];
+    if (cameras.empty()) return fail(ErrorCode::usage, fmt::format("--camera: found no camera in the scene, expected '{}'", wanted));
+    return fail(ErrorCode::usage,
+                fmt::format("--camera: expected an index below {} or a camera's name, found '{}'", cameras.size(), wanted));
+}
+
+/// The camera and, unless the flags did, the size. In a file's camera nothing is changed.
+Result<void> choose_view(Frame& frame, const RenderOptions& options, PictureSize usual, const raster::Bounds& bounds) {
+    const std::vector<raster::Camera>& cameras = frame.source.scene.cameras;
+    const raster::Camera* chosen = cameras.empty() || options.own_view ? nullptr : &cameras.front();
+    if (options.camera) {
+        const auto found = find_camera(cameras, *options.camera);
+        if (!found) return tl::unexpected(found.error());
+        chosen = *found;
+    }
+    const PictureSize size = options.size ? *options.size : chosen != nullptr ? shaped(usual, *chosen) : usual;
+    frame.width = size.width;
+    frame.height = size.height;
+    const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
+    frame.camera = chosen != nullptr ? *chosen : raster::frame_bounds(bounds, aspect, options.view);
+    return check_size(size, options.region);
+}
+
+/// A file's own lights come in any unit: what they lack in ambient is added, and the exposure is chosen to fit. Lights that flags or
+/// the built-in scenes bring are made for exposure 1.
+void choose_light(Frame& frame, const RenderOptions& options, const raster::Bounds& bounds) {
+    raster::Scene& scene = frame.source.scene;
+    if (!options.scene_lights) {
+        scene.lights.clear();
+        scene.ambient = {};
+    }
+    const bool foreign = frame.source.file && !scene.lights.empty();
+    scene.lights.insert(scene.lights.end(), options.lights.begin(), options.lights.end());
+    const bool ambient_alone = !options.scene_lights && options.ambient_linear;
+    if (scene.lights.empty() && !ambient_alone) raster::add_default_lights(scene, frame.camera);
+    if (options.ambient_linear)
+        scene.ambient = {*options.ambient_linear, *options.ambient_linear};
+    else if (foreign && scene.ambient.sky_linear == Vec3f{} && scene.ambient.ground_linear == Vec3f{})
+        scene.ambient = raster::soft_ambient(scene, bounds);
+    const float automatic = foreign ? raster::auto_exposure(scene, bounds) : 1.0f;
+    frame.settings.exposure = options.exposure.value_or(automatic);
+}
+
+Result<void> choose_settings(raster::Settings& settings, const RenderOptions& options) {
+    const auto lobe = chosen_lobe(options);
+    if (!lobe) return tl::unexpected(lobe.error());
+    settings.samples = options.samples;
+    settings.tile_size = options.tile_size;
+    settings.threads = options.threads;
+    if (options.isa) settings.isa = *options.isa;
+    if (!settings.isa) return fail(ErrorCode::usage, settings.isa.error().message);
+    settings.background_linear = options.background_linear;
+    settings.shading.override_lobe = lobe->has_value();
+    settings.shading.lobe = lobe->value_or(shading::Lobe{});
+    settings.shading.specular = options.specular;
+    return {};
+}
+
+}  // namespace
+
+Result<Frame> make_frame(const RenderOptions& options, PictureSize usual) {
+    if (options.camera && options.own_view)
+        return fail(ErrorCode::usage, "--camera: --azimuth, --elevation, --zoom and --fov frame the scene without a camera of its own");
+    if (options.size)
+        if (const auto checked = check_size(*options.size, options.region); !checked) return tl::unexpected(checked.error());
+    Frame frame;
+    if (const auto chosen = choose_settings(frame.settings, options); !chosen) return tl::unexpected(chosen.error());
+
+    const Stopwatch loading;
+    auto source = load_scene(options);
+    if (!source) return tl::unexpected(source.error());
+    frame.load_ms = loading.ms();
+    frame.source = std::move(*source);
+    frame.warnings = frame.source.warnings;
+
+    const raster::Bounds bounds = raster::scene_bounds(frame.source.scene);
+    if (bounds.empty) frame.warnings.push_back("nothing to draw: the scene has no triangles");
+    if (const auto viewed = choose_view(frame, options, usual, bounds); !viewed) return tl::unexpected(viewed.error());
+    choose_light(frame, options, bounds);
+    frame.settings.region = options.region.width > 0 ? options.region : raster::Region{0, 0, frame.width, frame.height};
+    return frame;
+}
+
+raster::Image make_image(const Frame& frame, bool linear) {
+    raster::Image image{frame.width, frame.height, {}, {}};
+    const std::size_t values = static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height) * 4;
+    image.rgba8.resize(values);
+    if (linear) image.rgba_linear.resize(values);
+    return image;
+}
+
+raster::FramebufferView view_of(raster::Image& image) {
+    return {image.width, image.height, image.rgba8.data(), image.rgba_linear.empty() ? nullptr : image.rgba_linear.data()};
+}
+
+raster::Image cropped(raster::Image image, const raster::Region& region) {
+    if (region.width == image.width && region.height == image.height) return image;
+    raster::Image part{region.width, region.height, {}, {}};
+    const auto copy_rows = [&](const auto& from, auto& to) {
+        if (from.empty()) return;
+        const std::ptrdiff_t stride = std::ptrdiff_t{4} * image.width, length = std::ptrdiff_t{4} * region.width;
+        for (int y = 0; y < region.height; ++y) {
+            const auto row = from.begin() + (region.y + y) * stride + std::ptrdiff_t{4} * region.x;
+            to.insert(to.end(), row, row + length);
+        }
+    };
+    copy_rows(image.rgba8, part.rgba8);
+    copy_rows(image.rgba_linear, part.rgba_linear);
+    return part;
+}
+
+}  // namespace halflit::cli

@@ -1,0 +1,29 @@
+// The distance between two pictures of the same size, in 8-bit codes over red, green, blue and alpha.
+#pragma once
+
+#include "raster/framebuffer.hpp"
+
+#include <cstdint>
+#include <optional>
+
+namespace halflit::cli {
+
+struct PictureDiff {
+    int max = 0;               ///< largest difference of any channel
+    std::uint64_t count = 0;   ///< pixels in which any channel differs
+    std::uint64_t pixels = 0;  ///< of each picture
+    std::uint64_t sum = 0;     ///< of absolute differences over all channels
+    std::uint64_t sum_squares = 0;
+
+    /// Over all channels of all pixels.
+    [[nodiscard]] double mean() const;
+    /// 10 log10(255^2 / mean square); nothing when the pictures are equal.
+    [[nodiscard]] std::optional<double> psnr() const;
+};
+
+[[nodiscard]] PictureDiff compare_pictures(const raster::Image& a, const raster::Image& b);
+
+/// Absolute differences of colour, with that of alpha added to each channel, stretched so that the largest is 255; opaque.
+[[nodiscard]] raster::Image difference_image(const raster::Image& a, const raster::Image& b);
+
+}  // namespace halflit::cli

@@ -1,0 +1,128 @@
+// halflit render: a scene to a picture.
+#include "apps/halflit/cli_support.hpp"
+#include "apps/halflit/commands.hpp"
+#include "apps/halflit/frame.hpp"
+#include "apps/halflit/interrupt.hpp"
+#include "apps/halflit/messages.hpp"
+#include "apps/halflit/run_report.hpp"
+#include "apps/halflit/stopwatch.hpp"
+#include "apps/io/atomic_file.hpp"
+#include "apps/io/image_writer.hpp"
+
+#include <sys/stat.h>
+
+#include <memory>
+#include <new>
+
+namespace halflit::cli {
+namespace {
+
+constexpr PictureSize kUsualSize{1280, 720};
+
+struct RenderCommandOptions : RenderOptions {
+    std::string output;  ///< empty: named after the scene
+    std::string report;  ///< empty: none
+};
+
+/// The scene's name without folder and extension, as a PNG in the current folder.
+std::string default_output(const std::string& scene) {
+    const std::string name = scene.substr(scene.rfind('/') + 1);  // npos + 1 is 0
+    const std::string stem = name.substr(0, name.rfind('.'));
+    const bool file = !scene.empty() && scene != "-" && !stem.empty();
+    return (file ? stem.substr(0, stem.find(':')) : "halflit") + ".png";
+}
+
+bool same_file(const std::string& a, const std::string& b) {
+    struct stat first {
+    }, second{};
+    return ::stat(a.c_str(), &first) == 0 && ::stat(b.c_str(), &second) == 0 && first.st_dev == second.st_dev &&
+           first.st_ino == second.st_ino;
+}
+
+/// Nothing that is read, and nothing that is written besides, may be overwritten by accident.
+Result<void> check_paths(const RenderCommandOptions& options) {
+    if (!options.report.empty() && options.report == options.output)
+        return fail(ErrorCode::usage, "--report: expected another place than the picture's, found '" + options.report + "'");
+    for (const std::string& path : {options.output, options.report})
+        if (path != "-" && !path.empty() && !options.scene.empty() && same_file(path, options.scene))
+            return fail(ErrorCode::io, path + ": is the scene itself, and is not overwritten");
+    return {};
+}
+
+Result<void> render_and_write(const RenderCommandOptions& options, Json& report) {
+    const auto format = io::output_format_of(options.output);
+    if (!format) return tl::unexpected(format.error());
+    if (const auto checked = check_paths(options); !checked) return checked;
+    auto frame = make_frame(options, kUsualSize);
+    if (!frame) return tl::unexpected(frame.error());
+    raster::Image image = make_image(*frame, io::is_linear(*format));
+    const auto rendered = raster::render(frame->source.scene, frame->camera, frame->settings, view_of(image));
+    if (!rendered) return tl::unexpected(rendered.error());
+    for (const auto& warnings : {frame->warnings, rendered->warnings})
+        for (const std::string& warning : warnings) print_warning(warning);
+
+    const raster::Image picture = cropped(std::move(image), frame->settings.region);
+    const Stopwatch encoding;
+    const auto bytes = io::encode_image(picture, *format);
+    if (!bytes) return tl::unexpected(bytes.error());
+    const double encode_ms = encoding.ms();
+    if (const auto written = io::write_file(options.output, *bytes); !written) return written;
+    if (options.output != "-") print_note("wrote " + options.output);
+    add_frame(report, *frame, *rendered, picture);
+    report["encode_ms"] = encode_ms;
+    return {};
+}
+
+Result<void> render_within_memory(const RenderCommandOptions& options, Json& report) {
+    try {
+        return render_and_write(options, report);
+    } catch (const std::bad_alloc&) {
+        return fail(ErrorCode::limit, "out of memory");
+    }
+}
+
+Result<int> run_render(RenderCommandOptions options) {
+    if (options.output.empty()) options.output = default_output(options.scene);
+    if (!options.report.empty())
+        set_last_words([path = options.report](int signal) {
+            (void)write_json(path, error_report(128 + signal, "interrupted by signal " + std::to_string(signal)));
+        });
+    Json report = report_head();
+    report["output"] = options.output;
+    const Result<void> done = render_within_memory(options, report);
+    if (!done) report = error_report(static_cast<int>(done.error().code), done.error().message);
+    // A report that would hit the scene or the picture was refused above, and is not written either.
+    if (!options.report.empty() && check_paths(options)) {
+        const Result<void> written = write_json(options.report, report);
+        if (!written && done) return tl::unexpected(written.error());
+    }
+    if (!done) return tl::unexpected(done.error());
+    return 0;
+}
+
+}  // namespace
+
+Command add_render_command(CLI::App& root) {
+    CLI::App* app = root.add_subcommand("render", "Draw a scene into a picture; without one, the demo scene");
+    const auto options = std::make_shared<RenderCommandOptions>();
+    add_render_options(*app, *options, false);
+    constexpr const char* kGroup = "Output";
+    add_value(*app, "-o,--output", "FILE",
+              "A .png, .jpg, .bmp, .tga or .hdr file, or - for PNG on standard output (default: SCENE's name.png)",
+              [options](const std::string& text) -> Result<void> {
+                  if (text.empty()) return fail(ErrorCode::usage, "expected a file name or -, found nothing");
+                  options->output = text;
+                  return {};
+              })
+        ->group(kGroup);
+    add_value(*app, "--report", "FILE.json|-", "Write what was done, in numbers; also when it fails",
+              [options](const std::string& text) -> Result<void> {
+                  if (text.empty()) return fail(ErrorCode::usage, "expected a file name or -, found nothing");
+                  options->report = text;
+                  return {};
+              })
+        ->group(kGroup);
+    return {app, [options] { return run_render(*options); }};
+}
+
+}  // namespace halflit::cli

@@ -1,0 +1,194 @@
+#include "apps/halflit/render_options.hpp"
+
+#include "apps/halflit/cli_support.hpp"
+#include "raster/exposure.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+namespace halflit::cli {
+namespace {
+
+constexpr float kMax = std::numeric_limits<float>::max();
+
+/// One of a few whole numbers.
+ReadValue choice(int& target, std::initializer_list<int> allowed) {
+    return [&target, choices = std::vector<int>(allowed)](const std::string& text) -> Result<void> {
+        const auto value = parse_int(text, 1, std::numeric_limits<int>::max());
+        for (const int one : choices)
+            if (value && *value == one) {
+                target = one;
+                return {};
+            }
+        return fail(ErrorCode::usage, fmt::format("expected one of {}, found '{}'", fmt::join(choices, ", "), text));
+    };
+}
+
+void add_picture_flags(CLI::App& app, RenderOptions& o) {
+    constexpr const char* kGroup = "Picture";
+    add_value(app, "--size", "WxH", "Size in pixels (default 1280x720, or the shape of the file's camera)", [&o](const std::string& text) {
+        return assign(o.size, parse_size(text));
+    })->group(kGroup);
+    add_value(app, "--region", "X,Y,W,H", "Draw and write only this part of the picture", [&o](const std::string& text) {
+        return assign(o.region, parse_region(text));
+    })->group(kGroup);
+    add_value(app, "--samples", "1|4|8", "Samples a pixel against jagged edges (default 4)", choice(o.samples, {1, 4, 8}))->group(kGroup);
+    add_value(app, "--background", "COLOR", "transparent, #rgb, #rrggbb, #rrggbbaa or a name (default #3a3f47)",
+              [&o](const std::string& text) { return assign(o.background_linear, parse_color(text)); })
+        ->group(kGroup);
+    add_value(
+        app, "--exposure", "EV|auto", "Light times 2^EV; auto: chosen from the file's lights (default)",
+        [&o](const std::string& text) {
+            o.exposure.reset();
+            if (text == "auto") return Result<void>();
+            const auto ev = parse_float(text, -64.0f, 64.0f);
+            if (!ev) return Result<void>(fail(ErrorCode::usage, fmt::format("expected auto or a number from -64 to 64, found '{}'", text)));
+            o.exposure = raster::exposure_factor(*ev);
+            return Result<void>();
+        })
+        ->group(kGroup);
+}
+
+void add_camera_flags(CLI::App& app, RenderOptions& o) {
+    constexpr const char* kGroup = "Camera (without one in the file, the whole scene is framed)";
+    add_value(app, "--camera", "INDEX|NAME", "Which of the file's cameras (default: the first)", [&o](const std::string& text) {
+        o.camera = text;
+        return Result<void>();
+    })->group(kGroup);
+    const auto view_flag = [&](const char* name, const char* form, const char* help, float& target, float min, float max) {
+        const auto read = [&o, &target, min, max](const std::string& text) {
+            o.own_view = true;
+            return assign(target, parse_float(text, min, max));
+        };
+        add_value(app, name, form, help, read)->group(kGroup);
+    };
+    view_flag("--azimuth", "DEG", "Frame the scene from this side: 0 is from +z, 90 from +x (default 35)", o.view.azimuth_deg, -3600, 3600);
+    view_flag("--elevation", "DEG", "... and from this height, -90 to 90 (default 20)", o.view.elevation_deg, -90, 90);
+    view_flag("--zoom", "N", "... that much larger (default 1)", o.view.zoom, 1e-3f, 1e3f);
+    view_flag("--fov", "DEG", "... with this vertical angle of view, 1 to 170 (default 35)", o.view.fov_y_deg, 1, 170);
+}
+
+void add_light_flags(CLI::App& app, RenderOptions& o) {
+    constexpr const char* kGroup = "Light";
+    add_values(app, "--light", "TYPE:KEY=VALUE:...",
+               "Add a light, as directional:dir=-1,-2,-1:color=#fff:intensity=1; also point (pos, range, "
+               "radius) and spot (pos, dir, cone=IN,OUT)",
+               [&o](const std::string& text) -> Result<void> {
+                   const auto light = parse_light(text);
+                   if (!light) return tl::unexpected(light.error());
+                   o.lights.push_back(*light);
+                   return {};
+               })
+        ->group(kGroup);
+    app.add_flag_callback(
+           "--no-scene-lights", [&o] { o.scene_lights = false; }, "Leave out the lights and the ambient of the scene")
+        ->group(kGroup);
+    add_value(app, "--ambient", "R,G,B", "Light from all around, linear", [&o](const std::string& text) -> Result<void> {
+        const auto rgb = parse_floats(text, 3);
+        if (!rgb) return tl::unexpected(rgb.error());
+        if ((*rgb)[0] < 0 || (*rgb)[1] < 0 || (*rgb)[2] < 0) return fail(ErrorCode::usage, "expected numbers from 0, found '" + text + "'");
+        o.ambient_linear = Vec3f{(*rgb)[0], (*rgb)[1], (*rgb)[2]};
+        return {};
+    })->group(kGroup);
+}
+
+void add_surface_flags(CLI::App& app, RenderOptions& o) {
+    constexpr const char* kGroup = "Surface";
+    add_value(app, "--lobe", "NAME", "Diffuse lobe: lambert, green, half-lambert, valve, sloan or mcauley (default lambert)",
+              [&o](const std::string& text) {
+                  o.lobe_name = text;
+                  return Result<void>();
+              })
+        ->group(kGroup);
+    add_value(app, "--wrap", "W", "How far the light reaches round, 0 to 1", [&o](const std::string& text) {
+        return assign(o.lobe.wrap, parse_float(text, 0.0f, 1.0f));
+    })->group(kGroup);
+    add_value(app, "--power", "N", "Exponent of the lobe", [&o](const std::string& text) {
+        return assign(o.lobe.power, parse_float(text, 0.0f, 1e4f));
+    })->group(kGroup);
+    app.add_flag_callback(
+           "--normalize", [&o] { o.lobe.normalize = true; }, "Scale the lobe to reflect as much light as Lambert's")
+        ->group(kGroup);
+    add_value(app, "--specular", "none|blinn", "Highlights (default blinn)", [&o](const std::string& text) -> Result<void> {
+        if (text != "none" && text != "blinn") return fail(ErrorCode::usage, "expected none or blinn, found '" + text + "'");
+        o.specular = text == "blinn";
+        return {};
+    })->group(kGroup);
+}
+
+void add_machine_flags(CLI::App& app, RenderOptions& o) {
+    constexpr const char* kGroup = "Speed (never changes a pixel)";
+    add_value(app, "--isa", "NAME", "Instruction set: auto, scalar, sse2, sse4.1, avx2, avx512 or neon64", [&o](const std::string& text) {
+        return assign(o.isa, shading::isa_by_name(text));
+    })->group(kGroup);
+    add_value(app, "--threads", "N", "Threads, 0 for one a core (default)", [&o](const std::string& text) -> Result<void> {
+        const auto threads = parse_int(text, 0, 1024);
+        if (!threads) return tl::unexpected(threads.error());
+        o.threads = static_cast<int>(*threads);
+        return {};
+    })->group(kGroup);
+    add_value(app, "--tile", "N", "Side of a tile in pixels: 16, 32 or 64 (default 64)", choice(o.tile_size, {16, 32, 64}))->group(kGroup);
+}
+
+void add_file_flags(CLI::App& app, RenderOptions& o) {
+    constexpr const char* kGroup = "Untrusted files";
+    app.add_flag("--lenient", o.load.lenient, "Draw what can be drawn of a damaged file, with warnings")->group(kGroup);
+    add_values(app, "--allow-external", "DIR", "Let the file refer to files in this folder too", [&o](const std::string& text) {
+        o.load.allow_external.push_back(text);
+        return Result<void>();
+    })->group(kGroup);
+    const auto limit = [&]<class T>(const char* name, T& target, const char* what, std::int64_t max) {
+        const std::string help = fmt::format("Refuse {} (default {})", what, target);
+        const auto read = [&target, max](const std::string& text) -> Result<void> {
+            const auto value = parse_int(text, 1, max);
+            if (!value) return tl::unexpected(value.error());
+            target = static_cast<T>(*value);
+            return {};
+        };
+        add_value(app, name, "N", help, read)->group(kGroup);
+    };
+    constexpr std::int64_t kAny = std::numeric_limits<std::int64_t>::max();
+    io::LoadLimits& limits = o.load.limits;
+    limit("--max-file-bytes", limits.max_file_bytes, "a larger model, buffer or picture file", kAny);
+    limit("--max-total-bytes", limits.max_total_bytes, "more bytes in all buffers together", kAny);
+    limit("--max-json-depth", limits.max_json_depth, "JSON nested deeper", 1000);
+    limit("--max-json-tokens", limits.max_json_tokens, "JSON of more tokens", kAny);
+    limit("--max-texture-side", limits.max_texture_side, "textures with longer sides", shading::kMaxTextureSide);
+    limit("--max-texture-pixels", limits.max_texture_pixels, "textures of more pixels", std::int64_t{1} << 28);
+    limit("--max-texture-bytes", limits.max_texture_bytes, "more memory for all textures", kAny);
+    limit("--max-jpeg-scans", limits.max_jpeg_scans, "JPEG files of more scans", 1 << 20);
+    limit("--max-geometry-bytes", limits.max_geometry_bytes, "more memory for vertices and triangles", kAny);
+    limit("--max-lights", limits.max_lights, "more lights", 1 << 20);
+}
+
+}  // namespace
+
+Result<std::optional<shading::Lobe>> chosen_lobe(const RenderOptions& o) {
+    if (o.lobe_name) {
+        auto lobe = io::lobe_from_name(*o.lobe_name, o.lobe);
+        if (!lobe) return fail(ErrorCode::usage, "--lobe: " + lobe.error().message);
+        return *lobe;
+    }
+    if (o.lobe.wrap || o.lobe.power)
+        return shading::Lobe{o.lobe.wrap.value_or(0.0f), o.lobe.power.value_or(1.0f), o.lobe.normalize.has_value()};
+    if (o.lobe.normalize) return fail(ErrorCode::usage, "--normalize: expected --lobe, --wrap or --power with it");
+    return std::nullopt;
+}
+
+void add_render_options(CLI::App& app, RenderOptions& o, bool scene_required) {
+    o.samples = 4;
+    o.background_linear = *parse_color("#3a3f47");
+    CLI::Option* scene =
+        app.add_option("SCENE", o.scene, "A .glb or .gltf file, - for standard input, or a built-in scene: demo, sphere:N (N triangles)");
+    scene->type_name("");
+    if (scene_required) scene->required();
+    add_picture_flags(app, o);
+    add_camera_flags(app, o);
+    add_light_flags(app, o);
+    add_surface_flags(app, o);
+    add_machine_flags(app, o);
+    add_file_flags(app, o);
+}
+
+}  // namespace halflit::cli

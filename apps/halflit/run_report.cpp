@@ -1,0 +1,66 @@
+#include "apps/halflit/run_report.hpp"
+
+#include "apps/io/atomic_file.hpp"
+#include "raster/pixel_epoch.hpp"
+
+#include <fmt/format.h>
+
+#include <sys/resource.h>
+
+namespace halflit::cli {
+namespace {
+
+/// Bytes of physical memory that the process held at most.
+std::int64_t peak_memory() {
+    struct rusage usage {};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return std::int64_t{usage.ru_maxrss} * 1024;
+}
+
+}  // namespace
+
+Json report_head() { return {{"status", "ok"}, {"halflit", HALFLIT_VERSION}, {"pixel_epoch", raster::kPixelEpoch}}; }
+
+Json error_report(int code, const std::string& message) {
+    Json report = report_head();
+    report["status"] = "error";
+    report["error"] = {{"code", code}, {"message", message}};
+    return report;
+}
+
+void add_frame(Json& report, const Frame& frame, const raster::RenderReport& rendered, const raster::Image& picture) {
+    report["size"] = {frame.width, frame.height};
+    const raster::Region& region = frame.settings.region;
+    report["region"] = {region.x, region.y, region.width, region.height};
+    report["pixel_hash"] = fmt::format("{:016x}", raster::pixel_hash(picture.rgba8));
+    report["isa"] = shading::isa_name(rendered.isa);
+    report["threads"] = rendered.threads;
+    report["samples"] = frame.settings.samples;
+    report["exposure"] = frame.settings.exposure;
+    report["load_ms"] = frame.load_ms;
+    report["render_ms"] = rendered.total_ms;
+    report["stages"] = stages_ms(rendered);
+    report["triangles_submitted"] = rendered.triangles_submitted;
+    report["triangles_drawn"] = rendered.triangles_drawn;
+    report["triangles_not_finite"] = rendered.triangles_not_finite;
+    report["pixels_visible"] = rendered.pixels_visible;
+    report["fragments_shaded"] = rendered.fragments_shaded;
+    report["nan_pixels"] = rendered.nan_pixels;
+    report["warnings"] = frame.warnings;
+    for (const std::string& warning : rendered.warnings) report["warnings"].push_back(warning);
+    report["peak_memory_bytes"] = peak_memory();
+}
+
+Json stages_ms(const raster::RenderReport& rendered) {
+    const auto& ms = rendered.ms;
+    return {{"plan", ms.plan}, {"transform", ms.transform}, {"bin", ms.bin}, {"tiles", ms.tiles}};
+}
+
+std::string to_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+Result<void> write_json(const std::string& path, const Json& json) {
+    const std::string text = to_text(json);
+    return io::write_file(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+}  // namespace halflit::cli

@@ -1,0 +1,31 @@
+// The report: one JSON object about one run, for scripts. It is written when a run fails, too.
+#pragma once
+
+#include "apps/halflit/frame.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace halflit::cli {
+
+using Json = nlohmann::ordered_json;
+
+/// {"status": "ok", "halflit": version, "pixel_epoch": N}
+[[nodiscard]] Json report_head();
+/// {"status": "error", ..., "error": {"code": N, "message": "..."}}
+[[nodiscard]] Json error_report(int code, const std::string& message);
+
+/// Adds what was drawn and what it took: size, hash, instruction set, threads, times, counts, warnings, peak memory.
+void add_frame(Json& report, const Frame& frame, const raster::RenderReport& rendered, const raster::Image& picture);
+
+/// {"plan": ms, ...}: the renderer's stages.
+[[nodiscard]] Json stages_ms(const raster::RenderReport& rendered);
+
+/// As text with a newline at the end; strings that are not UTF-8 have the offending bytes replaced.
+[[nodiscard]] std::string to_text(const Json& json);
+
+/// To a file (replaced in one step) or "-".
+Result<void> write_json(const std::string& path, const Json& json);
+
+}  // namespace halflit::cli

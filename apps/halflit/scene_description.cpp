@@ -1,0 +1,224 @@
+#include "apps/halflit/scene_description.hpp"
+
+#include "apps/halflit/messages.hpp"
+#include "shading/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <string_view>
+#include <utility>
+
+namespace halflit::cli {
+namespace {
+
+struct NamedStage {
+    shading::Stage stage;
+    std::string_view name;
+};
+constexpr NamedStage kStages[] = {{shading::kStageBaseColorTexture, "base colour texture"},
+                                  {shading::kStageVertexColor, "vertex colour"},
+                                  {shading::kStageNormalMap, "normal map"},
+                                  {shading::kStageMetallicRoughnessTexture, "metallic roughness texture"},
+                                  {shading::kStageOcclusionTexture, "occlusion texture"},
+                                  {shading::kStageEmissiveTexture, "emissive texture"},
+                                  {shading::kStageLights, "lights"},
+                                  {shading::kStageSpecular, "specular"},
+                                  {shading::kStageAmbient, "ambient"},
+                                  {shading::kStageUnlit, "unlit"},
+                                  {shading::kStageGradients, "texture gradients"}};
+static_assert(std::size(kStages) == shading::kStageCount);
+
+/// The float as people would write it: the double that prints as shortly, 0.8 and not 0.800000011920929.
+Json number(float value) {
+    const std::string text = fmt::format("{}", value);
+    double shortest = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), shortest);
+    return error == std::errc() ? shortest : static_cast<double>(value);
+}
+
+Json vector_json(Vec3f v) { return {number(v.x), number(v.y), number(v.z)}; }
+
+std::string_view name_of(shading::LightType type) {
+    switch (type) {
+        case shading::LightType::directional:
+            return "directional";
+        case shading::LightType::point:
+            return "point";
+        case shading::LightType::spot:
+            return "spot";
+    }
+    return "";
+}
+
+std::string_view name_of(shading::AlphaMode mode) {
+    switch (mode) {
+        case shading::AlphaMode::opaque:
+            return "opaque";
+        case shading::AlphaMode::mask:
+            return "mask";
+        case shading::AlphaMode::blend:
+            return "blend";
+    }
+    return "";
+}
+
+std::string_view name_of(shading::LobePath path) {
+    switch (path) {
+        case shading::LobePath::step:
+            return "step";
+        case shading::LobePath::linear:
+            return "t";
+        case shading::LobePath::square:
+            return "t*t";
+        case shading::LobePath::sqrt_product:
+            return "t*sqrt(t)";
+        case shading::LobePath::integer:
+            return "t^n, n whole";
+        case shading::LobePath::general:
+            return "t^n";
+    }
+    return "";
+}
+
+Json file_json(const io::SceneInfo& file) {
+    return {{"version", file.version},
+            {"generator", file.generator},
+            {"scenes", file.scenes},
+            {"nodes", file.nodes},
+            {"meshes", file.meshes},
+            {"primitives", file.primitives},
+            {"materials", file.materials},
+            {"textures", file.textures},
+            {"images", file.images},
+            {"cameras", file.cameras},
+            {"lights", file.lights},
+            {"animations", file.animations},
+            {"skins", file.skins},
+            {"morph_targets", file.morph_targets},
+            {"point_and_line_primitives", file.point_and_line_primitives},
+            {"extensions_used", file.extensions_used},
+            {"extensions_required", file.extensions_required}};
+}
+
+Json counts_json(const raster::Scene& scene) {
+    std::uint64_t vertices = 0, stored = 0, drawn = 0;
+    for (const raster::Mesh& mesh : scene.meshes) {
+        vertices += mesh.positions.size();
+        stored += mesh.indices.size() / 3;
+    }
+    for (const raster::Instance& instance : scene.instances)
+        drawn += scene.meshes[static_cast<std::size_t>(instance.mesh)].indices.size() / 3;
+    return {{"meshes", scene.meshes.size()},
+            {"instances", scene.instances.size()},
+            {"materials", scene.materials.size()},
+            {"textures", scene.textures.size()},
+            {"cameras", scene.cameras.size()},
+            {"lights", scene.lights.size()},
+            {"vertices", vertices},
+            {"triangles_stored", stored},
+            {"triangles_drawn", drawn}};
+}
+
+Json lights_json(const raster::Scene& scene) {
+    Json lights = Json::array();
+    for (const shading::Light& light : scene.lights) {
+        Json one{{"type", name_of(light.type)}, {"color", vector_json(light.color_linear)}};
+        if (light.type != shading::LightType::directional) one["position"] = vector_json(light.position_ws);
+        if (light.type != shading::LightType::point) one["direction"] = vector_json(light.direction_ws);
+        if (light.range > 0) one["range"] = number(light.range);
+        lights.push_back(std::move(one));
+    }
+    return lights;
+}
+
+/// Per material, one more for meshes without: which vertex data its meshes bring.
+std::vector<shading::QuadMask> available_quads(const raster::Scene& scene) {
+    std::vector<shading::QuadMask> quads(scene.materials.size() + 1, 1u | 2u);
+    for (const raster::Mesh& mesh : scene.meshes) {
+        shading::QuadMask& available = quads[mesh.material >= 0 ? static_cast<std::size_t>(mesh.material) : scene.materials.size()];
+        available |= (mesh.tangents.empty() ? 0u : 4u) | (mesh.colors.empty() ? 0u : 8u) | (mesh.uv1.empty() ? 0u : 16u);
+    }
+    return quads;
+}
+
+Json material_json(const shading::Material& source, const shading::MaterialPlan& plan, const shading::PlanOptions& options) {
+    Json needed = Json::array(), not_needed = Json::array();
+    for (const NamedStage& stage : kStages) (plan.stages & stage.stage ? needed : not_needed).push_back(stage.name);
+    Json material{{"name", source.name}, {"alpha", name_of(plan.alpha_mode)}, {"double_sided", plan.double_sided}};
+    if (plan.stages & shading::kStageLights) {
+        const shading::Lobe lobe = options.override_lobe && !source.has_own_lobe ? options.lobe : source.lobe;
+        material["lobe"] = {{"wrap", number(lobe.wrap)},
+                            {"power", number(lobe.power)},
+                            {"normalize", lobe.normalize},
+                            {"computed_as", name_of(plan.lobe.path)}};
+    }
+    material["requires"] = std::move(needed);
+    material["does_without"] = std::move(not_needed);
+    return material;
+}
+
+Json materials_json(const Frame& frame) {
+    const raster::Scene& scene = frame.source.scene;
+    const shading::FramePlan plan = shading::make_frame_plan(scene.materials, scene.textures, available_quads(scene), scene.lights,
+                                                             scene.ambient, frame.settings.shading);
+    std::vector<bool> used(scene.materials.size() + 1, false);
+    for (const raster::Instance& instance : scene.instances) {
+        const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
+        used[material >= 0 ? static_cast<std::size_t>(material) : scene.materials.size()] = true;
+    }
+    Json materials = Json::array();
+    shading::Material without;
+    without.name = "(none)";
+    for (std::size_t i = 0; i < used.size(); ++i)
+        if (used[i]) {
+            const shading::Material& material = i < scene.materials.size() ? scene.materials[i] : without;
+            materials.push_back(material_json(material, plan.materials[i], frame.settings.shading));
+        }
+    return materials;
+}
+
+/// One line a value, nested values indented; lists of plain values on one line.
+void append_lines(std::string& text, const std::string& label, const Json& value, std::size_t depth) {
+    const std::string indent(2 * depth, ' ');
+    const bool plain_list = value.is_array() && (value.empty() || value[0].is_primitive());
+    if (plain_list) {
+        std::string list;
+        for (const Json& item : value) list += (list.empty() ? "" : ", ") + (item.is_string() ? item.get<std::string>() : item.dump());
+        text += fmt::format("{}{}: {}\n", indent, label, list.empty() ? "none" : printable(list));
+    } else if (value.is_structured()) {
+        text += fmt::format("{}{}:\n", indent, label);
+        for (const auto& [key, item] : value.items()) append_lines(text, key, item, depth + 1);
+    } else {
+        text += fmt::format("{}{}: {}\n", indent, label, value.is_string() ? printable(value.get<std::string>()) : value.dump());
+    }
+}
+
+}  // namespace
+
+Json describe_scene(const Frame& frame) {
+    const raster::Scene& scene = frame.source.scene;
+    Json description{{"scene", frame.source.name}};
+    if (frame.source.file) description["file"] = file_json(*frame.source.file);
+    description["drawn"] = counts_json(scene);
+    const raster::Bounds bounds = raster::scene_bounds(scene);
+    description["bounds"] = bounds.empty ? Json(nullptr) : Json{{"min", vector_json(bounds.min)}, {"max", vector_json(bounds.max)}};
+    Json cameras = Json::array();
+    for (const raster::Camera& camera : scene.cameras) cameras.push_back(camera.name);
+    description["cameras"] = std::move(cameras);
+    description["size"] = {frame.width, frame.height};
+    description["exposure"] = number(frame.settings.exposure);
+    description["lights"] = lights_json(scene);
+    description["ambient"] = {{"sky", vector_json(scene.ambient.sky_linear)}, {"ground", vector_json(scene.ambient.ground_linear)}};
+    description["materials"] = materials_json(frame);
+    description["warnings"] = frame.warnings;
+    return description;
+}
+
+std::string description_text(const Json& description) {
+    std::string text;
+    for (const auto& [key, value] : description.items()) append_lines(text, key, value, 0);
+    return text;
+}
+
+}  // namespace halflit::cli

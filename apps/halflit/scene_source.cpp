@@ -1,0 +1,54 @@
+#include "apps/halflit/scene_source.hpp"
+
+#include "apps/halflit/built_in_scenes.hpp"
+
+#include <fmt/format.h>
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+namespace halflit::cli {
+namespace {
+
+constexpr const char* kStandardInput = "standard input";
+
+/// All of standard input, up to a limit that an endless one would pass.
+Result<std::vector<std::byte>> read_standard_input(std::size_t max_bytes) {
+    if (::isatty(STDIN_FILENO) == 1) return fail(ErrorCode::usage, "standard input: expected a model, found a terminal");
+    constexpr std::size_t kChunk = std::size_t{1} << 20;
+    std::vector<std::byte> bytes;
+    for (;;) {
+        const std::size_t size = bytes.size();
+        if (size > max_bytes)
+            return fail(ErrorCode::limit, fmt::format("{}: more than {} bytes (--max-file-bytes)", kStandardInput, max_bytes));
+        bytes.resize(size + kChunk);
+        const ssize_t got = ::read(STDIN_FILENO, bytes.data() + size, kChunk);
+        const int error = errno;
+        bytes.resize(size + (got > 0 ? static_cast<std::size_t>(got) : 0));
+        if (got == 0) return bytes;
+        if (got < 0 && error != EINTR) return fail(ErrorCode::io, fmt::format("{}: {}", kStandardInput, std::strerror(error)));
+    }
+}
+
+Result<io::LoadedScene> load_model(const RenderOptions& options) {
+    if (options.scene != "-") return io::load_gltf(options.scene, options.load);
+    const auto bytes = read_standard_input(options.load.limits.max_file_bytes);
+    if (!bytes) return tl::unexpected(bytes.error());
+    return io::load_gltf_bytes(*bytes, kStandardInput, "", options.load);
+}
+
+}  // namespace
+
+Result<SceneSource> load_scene(const RenderOptions& options) {
+    const std::string name = options.scene.empty() ? "demo" : options.scene;
+    auto built_in = built_in_scene(name);
+    if (!built_in) return tl::unexpected(built_in.error());
+    if (*built_in) return SceneSource{name, std::move(**built_in), std::nullopt, {}};
+    auto loaded = load_model(options);
+    if (!loaded) return tl::unexpected(loaded.error());
+    return SceneSource{name == "-" ? kStandardInput : name, std::move(loaded->scene), std::move(loaded->info), std::move(loaded->warnings)};
+}
+
+}  // namespace halflit::cli

@@ -1,0 +1,25 @@
+// Where a scene comes from: a file, standard input, or code.
+#pragma once
+
+#include "apps/halflit/render_options.hpp"
+#include "apps/io/gltf_loader.hpp"
+#include "raster/scene.hpp"
+#include "shading/result.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace halflit::cli {
+
+struct SceneSource {
+    std::string name;  ///< for people: the path, "standard input", or the built-in name
+    raster::Scene scene;
+    std::optional<io::SceneInfo> file;  ///< of a file or standard input, whose lights are in their author's unit
+    std::vector<std::string> warnings;
+};
+
+/// No name is the demo scene; built-in names come before files (a file called "demo" is "./demo").
+[[nodiscard]] Result<SceneSource> load_scene(const RenderOptions& options);
+
+}  // namespace halflit::cli

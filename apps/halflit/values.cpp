@@ -1,0 +1,216 @@
+#include "apps/halflit/values.hpp"
+
+#include "sh/trig.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+
+namespace halflit::cli {
+namespace {
+
+tl::unexpected<Error> expected(std::string_view what, std::string_view found) {
+    return fail(ErrorCode::usage, fmt::format("expected {}, found '{}'", what, found));
+}
+
+template <class T>
+std::optional<T> number(std::string_view text) {
+    if (text.starts_with('+')) text.remove_prefix(1);
+    T value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || text.empty()) return std::nullopt;
+    return value;
+}
+
+std::vector<std::string_view> split(std::string_view text, std::string_view separators) {
+    std::vector<std::string_view> parts;
+    for (;;) {
+        const std::size_t at = text.find_first_of(separators);
+        parts.push_back(text.substr(0, at));
+        if (at == std::string_view::npos) return parts;
+        text.remove_prefix(at + 1);
+    }
+}
+
+/// x^(1/5), x in [0.05, 1], by Newton from above, where every step comes closer; from 1 it takes at most 9.
+double fifth_root(double x) {
+    double y = 1.0;
+    for (int i = 0; i < 12; ++i) {
+        const double y4 = (y * y) * (y * y);
+        y = y - (y4 * y - x) / (5.0 * y4);
+    }
+    return y;
+}
+
+/// The sRGB transfer function of IEC 61966-2-1, x^2.4 written as x^2 (x^(1/5))^2 because the C library's pow is not the same everywhere.
+float linear_from_srgb8(int code) {
+    const double c = static_cast<double>(code) / 255.0;
+    if (c <= 0.04045) return static_cast<float>(c / 12.92);
+    const double x = (c + 0.055) / 1.055, root = fifth_root(x);
+    return static_cast<float>((x * x) * (root * root));
+}
+
+struct NamedColor {
+    std::string_view name;
+    int rgb;
+};
+// The CSS colours of these names.
+constexpr NamedColor kNamedColors[] = {{"black", 0x000000}, {"white", 0xffffff},   {"gray", 0x808080},   {"grey", 0x808080},
+                                       {"red", 0xff0000},   {"green", 0x008000},   {"blue", 0x0000ff},   {"yellow", 0xffff00},
+                                       {"cyan", 0x00ffff},  {"magenta", 0xff00ff}, {"orange", 0xffa500}, {"navy", 0x000080}};
+constexpr std::string_view kColorForms = "a colour (#rgb, #rrggbb, #rrggbbaa, transparent, black, white, gray, red, green, blue, ...)";
+
+Vec4f color_from_codes(int red, int green, int blue, int alpha) {
+    return {linear_from_srgb8(red), linear_from_srgb8(green), linear_from_srgb8(blue), static_cast<float>(alpha) / 255.0f};
+}
+
+Result<Vec3f> parse_vec3(std::string_view text) {
+    const auto values = parse_floats(text, 3);
+    if (!values) return tl::unexpected(values.error());
+    return Vec3f{(*values)[0], (*values)[1], (*values)[2]};
+}
+
+constexpr float kMax = std::numeric_limits<float>::max();
+
+/// Half angles in degrees to the light's radians.
+Result<void> set_cone(shading::Light& light, std::string_view text) {
+    const auto parts = split(text, ",");
+    const auto outer = parse_float(parts.back(), 0.01f, 90.0f);
+    const auto inner = parts.size() == 2 ? parse_float(parts[0], 0.0f, 90.0f) : Result<float>(0.0f);
+    if (parts.size() > 2 || !outer || !inner || *inner > *outer) return expected("cone=OUT or cone=IN,OUT with 0 <= IN <= OUT <= 90", text);
+    light.inner_cone_rad = static_cast<float>(*inner * (kPi / 180.0));
+    light.outer_cone_rad = static_cast<float>(*outer * (kPi / 180.0));
+    return {};
+}
+
+template <class T>
+Result<void> store(T& target, const Result<T>& value) {
+    if (!value) return tl::unexpected(value.error());
+    target = *value;
+    return {};
+}
+
+/// `intensity` is kept apart: it multiplies the colour whichever comes first.
+Result<void> set_light_key(shading::Light& light, float& intensity, std::string_view key, std::string_view value) {
+    using shading::LightType;
+    const bool placed = light.type != LightType::directional;
+    if (key == "dir" && light.type != LightType::point) {
+        const auto direction = parse_vec3(value);
+        if (!direction) return tl::unexpected(direction.error());
+        if (*direction == Vec3f{0, 0, 0}) return expected("a direction of some length", value);
+        light.direction_ws = normalize_or(*direction, {0, -1, 0});
+        return {};
+    }
+    if (key == "pos" && placed) return store(light.position_ws, parse_vec3(value));
+    if (key == "range" && placed) return store(light.range, parse_float(value, 0.0f, kMax));
+    if (key == "radius" && placed) return store(light.source_radius, parse_float(value, 0.0f, kMax));
+    if (key == "cone" && light.type == LightType::spot) return set_cone(light, value);
+    if (key == "intensity") return store(intensity, parse_float(value, 0.0f, 1e9f));
+    if (key == "color") {
+        const auto color = parse_color(value);
+        if (!color) return tl::unexpected(color.error());
+        light.color_linear = {color->x, color->y, color->z};
+        return {};
+    }
+    const std::string_view keys = light.type == LightType::directional ? "dir, color, intensity"
+                                  : light.type == LightType::point     ? "pos, color, intensity, range, radius"
+                                                                       : "pos, dir, cone, color, intensity, range, radius";
+    return expected(fmt::format("one of {}", keys), key);
+}
+
+}  // namespace
+
+Result<std::int64_t> parse_int(std::string_view text, std::int64_t min, std::int64_t max) {
+    const auto value = number<std::int64_t>(text);
+    if (!value || *value < min || *value > max) return expected(fmt::format("a whole number from {} to {}", min, max), text);
+    return *value;
+}
+
+Result<float> parse_float(std::string_view text, float min, float max) {
+    const auto value = number<float>(text);
+    if (value && std::isfinite(*value) && *value >= min && *value <= max) return *value;
+    if (min == -kMax && max == kMax) return expected("a finite number", text);
+    if (max == kMax) return expected(fmt::format("a number from {}", min), text);
+    return expected(fmt::format("a number from {} to {}", min, max), text);
+}
+
+Result<std::vector<float>> parse_floats(std::string_view text, std::size_t count) {
+    std::vector<float> values;
+    for (const std::string_view part : split(text, ",")) {
+        const auto value = parse_float(part, -kMax, kMax);
+        if (!value) return expected(fmt::format("{} numbers with commas between", count), text);
+        values.push_back(*value);
+    }
+    if (values.size() != count) return expected(fmt::format("{} numbers with commas between", count), text);
+    return values;
+}
+
+Result<PictureSize> parse_size(std::string_view text) {
+    const auto parts = split(text, "x");
+    const auto side = [](std::string_view part) { return parse_int(part, 1, std::numeric_limits<int>::max()); };
+    const auto width = side(parts.front()), height = side(parts.back());
+    if (parts.size() != 2 || !width || !height) return expected("WIDTHxHEIGHT in pixels, both from 1, as in 1280x720", text);
+    return PictureSize{static_cast<int>(*width), static_cast<int>(*height)};
+}
+
+Result<raster::Region> parse_region(std::string_view text) {
+    const auto parts = split(text, ",");
+    int values[4] = {};
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const auto value = parse_int(parts[i], i < 2 ? 0 : 1, std::numeric_limits<int>::max());
+        if (parts.size() != 4 || !value) return expected("X,Y,WIDTH,HEIGHT in pixels from the upper left corner, as in 0,0,64,64", text);
+        values[i] = static_cast<int>(*value);
+    }
+    return raster::Region{values[0], values[1], values[2], values[3]};
+}
+
+Result<Vec4f> parse_color(std::string_view text) {
+    if (text == "transparent") return Vec4f{0, 0, 0, 0};
+    for (const NamedColor& named : kNamedColors)
+        if (text == named.name) return color_from_codes(named.rgb >> 16, (named.rgb >> 8) & 255, named.rgb & 255, 255);
+    if (!text.starts_with('#')) return expected(kColorForms, text);
+    const std::string_view digits = text.substr(1);
+    std::uint32_t bits = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), bits, 16);
+    if (error != std::errc() || end != digits.data() + digits.size()) return expected(kColorForms, text);
+    const auto nibble = [&](int shift) { return static_cast<int>((bits >> shift) & 15) * 17; };
+    const auto byte = [&](int shift) { return static_cast<int>((bits >> shift) & 255); };
+    switch (digits.size()) {
+        case 3:
+            return color_from_codes(nibble(8), nibble(4), nibble(0), 255);
+        case 6:
+            return color_from_codes(byte(16), byte(8), byte(0), 255);
+        case 8:
+            return color_from_codes(byte(24), byte(16), byte(8), byte(0));
+        default:
+            return expected(kColorForms, text);
+    }
+}
+
+Result<shading::Light> parse_light(std::string_view text) {
+    const auto parts = split(text, ":;");
+    shading::Light light;
+    if (parts[0] == "directional")
+        light.type = shading::LightType::directional;
+    else if (parts[0] == "point")
+        light.type = shading::LightType::point;
+    else if (parts[0] == "spot")
+        light.type = shading::LightType::spot;
+    else
+        return expected("directional, point or spot, as in directional:dir=-1,-2,-1:color=#fff:intensity=1", parts[0]);
+    float intensity = 1.0f;
+    for (std::size_t i = 1; i < parts.size(); ++i) {
+        const std::size_t equals = parts[i].find('=');
+        if (equals == std::string_view::npos) return expected("key=value", parts[i]);
+        const auto set = set_light_key(light, intensity, parts[i].substr(0, equals), parts[i].substr(equals + 1));
+        if (!set) return tl::unexpected(set.error());
+    }
+    light.color_linear = light.color_linear * intensity;
+    return light;
+}
+
+}  // namespace halflit::cli

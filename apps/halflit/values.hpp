@@ -1,0 +1,45 @@
+// Values of flags: text to numbers, sizes, colours, lights. Independent of the locale; the whole text must be used. Errors are
+// usage errors that say what was expected.
+#pragma once
+
+#include "raster/renderer.hpp"
+#include "shading/light.hpp"
+#include "shading/result.hpp"
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace halflit::cli {
+
+[[nodiscard]] Result<std::int64_t> parse_int(std::string_view text, std::int64_t min, std::int64_t max);
+
+/// Finite, in [min, max].
+[[nodiscard]] Result<float> parse_float(std::string_view text, float min, float max);
+
+/// "X,Y,Z": `count` finite numbers.
+[[nodiscard]] Result<std::vector<float>> parse_floats(std::string_view text, std::size_t count);
+
+struct PictureSize {
+    int width = 0, height = 0;
+};
+/// "1280x720". Sides from 1 to 2^31 - 1; whether it is too large a picture is not asked here.
+[[nodiscard]] Result<PictureSize> parse_size(std::string_view text);
+
+/// "X,Y,W,H" with W and H from 1.
+[[nodiscard]] Result<raster::Region> parse_region(std::string_view text);
+
+/// "#rgb", "#rrggbb", "#rrggbbaa" or a name, to linear light with linear alpha.
+[[nodiscard]] Result<Vec4f> parse_color(std::string_view text);
+
+/// "TYPE:key=value:key=value..." where TYPE is directional, point or spot; ';' separates as well as ':'.
+///     dir=X,Y,Z      directional, spot: the way the light travels (default 0,-1,0)
+///     pos=X,Y,Z      point, spot: where it is (default 0,0,0)
+///     color=COLOR    as parse_color (default white)
+///     intensity=N    factor; 1 makes a white surface that faces the light white: anywhere (directional), at distance 1 (point, spot)
+///     range=N        point, spot: nothing beyond (default: no limit)
+///     radius=N       point, spot: size of the source, within which it grows no brighter
+///     cone=OUT or cone=IN,OUT   spot: half angles in degrees, full light within IN (default 0), none from OUT (default 45)
+[[nodiscard]] Result<shading::Light> parse_light(std::string_view text);
+
+}  // namespace halflit::cli
