@@ -174,7 +174,8 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
     };
     const bool base_color_seen = lit || material.unlit || material.alpha_mode != AlphaMode::opaque;
     use_texture(base_color_seen, kStageBaseColorTexture, material.base_color_texture, plan.base_color_texture);
-    use_texture(lit && frame.specular, kStageMetallicRoughnessTexture, material.metallic_roughness_texture, plan.metallic_roughness_texture);
+    use_texture(lit && frame.specular, kStageMetallicRoughnessTexture, material.metallic_roughness_texture,
+                plan.metallic_roughness_texture);
     use_texture(lit && (available & kTangentQuad) != 0, kStageNormalMap, material.normal_texture, plan.normal_texture);
     use_texture(lit && frame.ambient && plan.occlusion_strength > 0.0f, kStageOcclusionTexture, material.occlusion_texture,
                 plan.occlusion_texture);

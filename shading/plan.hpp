@@ -18,10 +18,10 @@ struct TexturePlan {
     const std::uint16_t* data = nullptr;  ///< null: not used
     std::int32_t level_count = 0;
     std::int32_t width[kMaxTextureLevels], height[kMaxTextureLevels], offset[kMaxTextureLevels];
-    float row_u[3], row_v[3];             ///< texture transform
+    float row_u[3], row_v[3];  ///< texture transform
     std::int32_t uv_set = 0;
-    bool transform = false;               ///< row_u, row_v are not the identity
-    bool needs_lod = false;               ///< the kDu.. rows decide which level or which filter
+    bool transform = false;  ///< row_u, row_v are not the identity
+    bool needs_lod = false;  ///< the kDu.. rows decide which level or which filter
     Wrap wrap_u, wrap_v;
     Filter mag, min;
     MipFilter mip;
@@ -33,7 +33,7 @@ enum class LobePath : std::uint8_t { step, linear, square, sqrt_product, integer
 struct LobePlan {
     LobePath path = LobePath::linear;
     float wrap = 0;
-    float inv_one_plus_wrap = 1;     ///< 1 / (1 + w), rounded so that (1 + w) times it is not below 1: t(1) = 1 after the clamp
+    float inv_one_plus_wrap = 1;  ///< 1 / (1 + w), rounded so that (1 + w) times it is not below 1: t(1) = 1 after the clamp
     float scale = 1;
     std::int32_t integer_power = 1;  ///< path integer: n, 3 to 5
     float power_minus_one = 0;       ///< path general: n - 1, and the same in two parts of 18 and 6 bits (pow.hpp)
@@ -58,7 +58,7 @@ enum Stage : std::uint32_t {
 
 struct MaterialPlan {
     std::uint32_t stages = 0;
-    QuadMask quads = 0;        ///< vertex quads that raster interpolates
+    QuadMask quads = 0;  ///< vertex quads that raster interpolates
     float base_color[4] = {1, 1, 1, 1};
     float metallic = 0, roughness = 1;
     float emissive[3] = {0, 0, 0};
@@ -76,26 +76,26 @@ struct LightPlan {
     LightType type;
     float color[3];
     float position[3];
-    float to_light[3];          ///< directional: unit vector towards the light; spot: minus the axis
-    float inv_range_squared;    ///< 1 / range^2; 0: no limit
-    float min_distance_squared; ///< source radius squared
-    float cone_cutoff;          ///< spot: 1 - cos(outer angle)
-    float cone_scale;           ///< spot: 1 / (cos(inner) - cos(outer)); see kernels/light_kernel.hpp
+    float to_light[3];           ///< directional: unit vector towards the light; spot: minus the axis
+    float inv_range_squared;     ///< 1 / range^2; 0: no limit
+    float min_distance_squared;  ///< source radius squared
+    float cone_cutoff;           ///< spot: 1 - cos(outer angle)
+    float cone_scale;            ///< spot: 1 / (cos(inner) - cos(outer)); see kernels/light_kernel.hpp
 };
 
 /// Everything about the frame that shading needs, the same for all fragments.
 struct FramePlan {
-    std::vector<MaterialPlan> materials;   ///< index = index of Scene material; one more at the end for "no material"
-    std::vector<LightPlan> lights;         ///< in list order: sums keep it; black lights and those not finite are left out
+    std::vector<MaterialPlan> materials;  ///< index = index of Scene material; one more at the end for "no material"
+    std::vector<LightPlan> lights;        ///< in list order: sums keep it; black lights and those not finite are left out
     Ambient ambient;
-    Vec3f eye_ws{0, 0, 0};                 ///< perspective: camera position
-    Vec3f view_direction_ws{0, 0, -1};     ///< orthographic: the way the camera looks, unit
+    Vec3f eye_ws{0, 0, 0};              ///< perspective: camera position
+    Vec3f view_direction_ws{0, 0, -1};  ///< orthographic: the way the camera looks, unit
     bool orthographic = false;
 };
 
 /// Settings that change what a plan contains.
 struct PlanOptions {
-    bool override_lobe = false;   ///< use `lobe` for all materials that do not bring their own
+    bool override_lobe = false;  ///< use `lobe` for all materials that do not bring their own
     Lobe lobe;
     bool specular = true;
 };

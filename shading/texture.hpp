@@ -25,8 +25,8 @@ struct Sampler {
 };
 
 struct TextureLevel {
-    std::int32_t width = 0, height = 0;   ///< texels, >= 1
-    std::int32_t offset = 0;              ///< of texel (0, 0), in texels from the start of the data
+    std::int32_t width = 0, height = 0;  ///< texels, >= 1
+    std::int32_t offset = 0;             ///< of texel (0, 0), in texels from the start of the data
 };
 
 inline constexpr int kMaxTextureLevels = 16;
@@ -55,8 +55,8 @@ private:
 
 /// How a material uses a texture: which one, through which sampler, at which coordinates.
 struct TextureUse {
-    int texture = -1;   ///< index into Scene::textures; -1: not used
-    int uv_set = 0;     ///< 0 or 1
+    int texture = -1;  ///< index into Scene::textures; -1: not used
+    int uv_set = 0;    ///< 0 or 1
     Sampler sampler;
     /// uv' = (row_u.x u + row_u.y v + row_u.z, row_v.x u + row_v.y v + row_v.z): KHR_texture_transform as a matrix.
     Vec3f row_u{1, 0, 0}, row_v{0, 1, 0};

@@ -13,17 +13,22 @@ HALFLIT_INLINE F lobe_value(const shading::LobePlan& lobe, F x) {
     using shading::LobePath;
     const F t = clamp((x + F(lobe.wrap)) * F(lobe.inv_one_plus_wrap), F(0.0f), F(1.0f));
     switch (lobe.path) {
-        case LobePath::linear: return t;
-        case LobePath::square: return t * t;
-        case LobePath::sqrt_product: return t * vsqrt(t);
-        case LobePath::step: return sel(t > F(0.0f), F(1.0f), F(0.0f));
+        case LobePath::linear:
+            return t;
+        case LobePath::square:
+            return t * t;
+        case LobePath::sqrt_product:
+            return t * vsqrt(t);
+        case LobePath::step:
+            return sel(t > F(0.0f), F(1.0f), F(0.0f));
         case LobePath::integer: {
             const F t2 = t * t;
             if (lobe.integer_power == 3) return t2 * t;
             const F t4 = t2 * t2;
             return lobe.integer_power == 4 ? t4 : t4 * t;
         }
-        case LobePath::general: return power_of_unit(t, lobe.power_minus_one, lobe.power_minus_one_high, lobe.power_minus_one_low);
+        case LobePath::general:
+            return power_of_unit(t, lobe.power_minus_one, lobe.power_minus_one_high, lobe.power_minus_one_low);
     }
     return t;
 }

@@ -17,8 +17,7 @@ inline constexpr float kLog2Degree8[] = {1.44269502f,   -0.721347392f, 0.4809104
 /// 2^r on [-1/2, 1/2] with constant term exactly 1, relative error 2.8e-6, 9.5e-8 and 5.0e-9. Second term ln 2.
 inline constexpr float kExp2Degree4[] = {1.0f, 0.693124175f, 0.240240976f, 0.0559065267f, 0.00958282873f};
 inline constexpr float kExp2Degree5[] = {1.0f, 0.693147004f, 0.240222439f, 0.0555071943f, 0.00967147853f, 0.00132646016f};
-inline constexpr float kExp2Degree6[] = {1.0f,           0.693147182f,   0.240226462f,  0.0555034466f,
-                                         0.00961854495f, 0.00133990345f, 0.000153534857f};
+inline constexpr float kExp2Degree6[] = {1.0f, 0.693147182f, 0.240226462f, 0.0555034466f, 0.00961854495f, 0.00133990345f, 0.000153534857f};
 
 /// ((c[N-1] x + c[N-2]) x + ...) x + c[0]
 template <int N>

@@ -43,20 +43,26 @@ Result<Isa> named_isa(std::string_view name, const std::string& source) {
     std::string known;
     for (const Isa isa : kBuiltIsas)
         if (isa_available(isa)) known += (known.empty() ? "" : ", ") + std::string(isa_name(isa));
-    return fail(ErrorCode::usage, source + ": '" + std::string(name) + "' is not an instruction set that this program can run here, expected auto, " +
-                                      known);
+    return fail(ErrorCode::usage,
+                source + ": '" + std::string(name) + "' is not an instruction set that this program can run here, expected auto, " + known);
 }
 
 }  // namespace
 
 std::string_view isa_name(Isa isa) {
     switch (isa) {
-        case Isa::scalar: return "scalar";
-        case Isa::sse2: return "sse2";
-        case Isa::sse41: return "sse4.1";
-        case Isa::avx2: return "avx2";
-        case Isa::avx512: return "avx512";
-        case Isa::neon64: return "neon64";
+        case Isa::scalar:
+            return "scalar";
+        case Isa::sse2:
+            return "sse2";
+        case Isa::sse41:
+            return "sse4.1";
+        case Isa::avx2:
+            return "avx2";
+        case Isa::avx512:
+            return "avx512";
+        case Isa::neon64:
+            return "neon64";
     }
     return "unknown";
 }
@@ -68,10 +74,14 @@ bool isa_available(Isa isa) {
 #if defined(__x86_64__)
     __builtin_cpu_init();
     switch (isa) {
-        case Isa::sse41: return __builtin_cpu_supports("sse4.1") != 0;
-        case Isa::avx2: return __builtin_cpu_supports("avx2") != 0;
-        case Isa::avx512: return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx2") != 0;
-        default: return true;
+        case Isa::sse41:
+            return __builtin_cpu_supports("sse4.1") != 0;
+        case Isa::avx2:
+            return __builtin_cpu_supports("avx2") != 0;
+        case Isa::avx512:
+            return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx2") != 0;
+        default:
+            return true;
     }
 #else
     return true;
@@ -97,21 +107,27 @@ const ShadeKernels& shade_kernels(Isa isa) {
     HALFLIT_ASSERT(isa_available(isa));
     switch (isa) {
 #ifdef HALFLIT_HAVE_SSE2
-        case Isa::sse2: return shade_kernels_sse2;
+        case Isa::sse2:
+            return shade_kernels_sse2;
 #endif
 #ifdef HALFLIT_HAVE_SSE41
-        case Isa::sse41: return shade_kernels_sse41;
+        case Isa::sse41:
+            return shade_kernels_sse41;
 #endif
 #ifdef HALFLIT_HAVE_AVX2
-        case Isa::avx2: return shade_kernels_avx2;
+        case Isa::avx2:
+            return shade_kernels_avx2;
 #endif
 #ifdef HALFLIT_HAVE_AVX512
-        case Isa::avx512: return shade_kernels_avx512;
+        case Isa::avx512:
+            return shade_kernels_avx512;
 #endif
 #ifdef HALFLIT_HAVE_NEON64
-        case Isa::neon64: return shade_kernels_neon64;
+        case Isa::neon64:
+            return shade_kernels_neon64;
 #endif
-        default: return shade_kernels_scalar;
+        default:
+            return shade_kernels_scalar;
     }
 }
 

@@ -23,9 +23,7 @@ HALFLIT_INLINE V3 hemisphere(const shading::Ambient& ambient, F up) {
 }
 
 /// Share of the mirrored surroundings: F0 head on, rising at grazing angles towards 1 - roughness (Schlick's fifth power).
-HALFLIT_INLINE F environment_reflectance(F f0, F roughness, F grazing) {
-    return mad(vmax(F(1.0f) - roughness, f0) - f0, grazing, f0);
-}
+HALFLIT_INLINE F environment_reflectance(F f0, F roughness, F grazing) { return mad(vmax(F(1.0f) - roughness, f0) - f0, grazing, f0); }
 
 template <bool kSpecular>
 HALFLIT_INLINE V3 lit_color(const shading::FramePlan& frame, const shading::MaterialPlan& material, const shading::FragmentBlock& block,
@@ -99,8 +97,10 @@ HALFLIT_INLINE void shade_block(const shading::FramePlan& frame, const shading::
 }
 
 static void shade(const shading::FramePlan& frame, const shading::MaterialPlan& material, shading::FragmentBlock& block, int count) {
-    if (has(material, shading::kStageSpecular)) shade_block<true>(frame, material, block, count);
-    else shade_block<false>(frame, material, block, count);
+    if (has(material, shading::kStageSpecular))
+        shade_block<true>(frame, material, block, count);
+    else
+        shade_block<false>(frame, material, block, count);
 }
 
 static void shade_alpha(const shading::MaterialPlan& material, shading::FragmentBlock& block, int count) {

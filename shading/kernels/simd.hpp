@@ -305,9 +305,7 @@ HALFLIT_INLINE QQ qq_load_u16(const std::uint16_t* low, const std::uint16_t* hig
     const __m128 both = _mm_loadh_pi(first, reinterpret_cast<const __m64*>(high));
     return _mm256_cvtepi32_ps(_mm256_cvtepu16_epi32(_mm_castps_si128(both)));
 }
-HALFLIT_INLINE QQ qq_lerp(QQ a, QQ b, float weight) {
-    return _mm256_add_ps(_mm256_mul_ps(_mm256_set1_ps(weight), _mm256_sub_ps(b, a)), a);
-}
+HALFLIT_INLINE QQ qq_lerp(QQ a, QQ b, float weight) { return _mm256_add_ps(_mm256_mul_ps(_mm256_set1_ps(weight), _mm256_sub_ps(b, a)), a); }
 HALFLIT_INLINE Q qq_low(QQ a) { return _mm256_castps256_ps128(a); }
 HALFLIT_INLINE Q qq_high(QQ a) { return _mm256_extractf128_ps(a, 1); }
 
@@ -317,9 +315,7 @@ struct QQ {
     Q low, high;
 };
 HALFLIT_INLINE QQ qq_load_u16(const std::uint16_t* low, const std::uint16_t* high) { return {q_load_u16(low), q_load_u16(high)}; }
-HALFLIT_INLINE QQ qq_lerp(QQ a, QQ b, float weight) {
-    return {q_lerp(a.low, b.low, q_set(weight)), q_lerp(a.high, b.high, q_set(weight))};
-}
+HALFLIT_INLINE QQ qq_lerp(QQ a, QQ b, float weight) { return {q_lerp(a.low, b.low, q_set(weight)), q_lerp(a.high, b.high, q_set(weight))}; }
 HALFLIT_INLINE Q qq_low(QQ a) { return a.low; }
 HALFLIT_INLINE Q qq_high(QQ a) { return a.high; }
 

@@ -33,12 +33,14 @@ enum class TapMode { linear, nearest, mixed };
 HALFLIT_INLINE F wrap_unit(F u, shading::Wrap mode) {
     const F held = clamp(u, F(-kCoordinateLimit), F(kCoordinateLimit));
     switch (mode) {
-        case shading::Wrap::repeat: return held - vfloor(held);
+        case shading::Wrap::repeat:
+            return held - vfloor(held);
         case shading::Wrap::mirror: {
             const F period = held - F(2.0f) * vfloor(held * F(0.5f));
             return vmin(period, F(2.0f) - period);
         }
-        case shading::Wrap::clamp: break;
+        case shading::Wrap::clamp:
+            break;
     }
     return clamp(held, F(0.0f), F(1.0f));
 }
@@ -72,8 +74,8 @@ HALFLIT_INLINE AxisTaps axis_taps(F unit, I size, shading::Wrap mode, TapMode ta
     return {wrap_index(first, size, mode), wrap_index(first + I(1), size, mode), weight};
 }
 
-HALFLIT_INLINE void level_taps(const shading::TexturePlan& texture, F unit_u, F unit_v, I width, I height, I offset, TapMode taps, M nearest,
-                               LevelTaps& out) {
+HALFLIT_INLINE void level_taps(const shading::TexturePlan& texture, F unit_u, F unit_v, I width, I height, I offset, TapMode taps,
+                               M nearest, LevelTaps& out) {
     const AxisTaps x = axis_taps(unit_u, width, texture.wrap_u, taps, nearest);
     const AxisTaps y = axis_taps(unit_v, height, texture.wrap_v, taps, nearest);
     const I upper = offset + y.first * width;
@@ -87,7 +89,9 @@ HALFLIT_INLINE void level_taps(const shading::TexturePlan& texture, F unit_u, F 
     store(out.down, y.weight);
 }
 
-HALFLIT_INLINE const std::uint16_t* texel(const std::uint16_t* data, std::int32_t index) { return data + 4 * static_cast<std::int64_t>(index); }
+HALFLIT_INLINE const std::uint16_t* texel(const std::uint16_t* data, std::int32_t index) {
+    return data + 4 * static_cast<std::int64_t>(index);
+}
 
 template <bool kLinear>
 HALFLIT_INLINE Q fetch(const std::uint16_t* data, const LevelTaps& taps, int lane) {
@@ -105,8 +109,10 @@ HALFLIT_INLINE Q fetch(const std::uint16_t* data, const LevelTaps& taps, int lan
 template <bool kLinear, bool kTwoLevels>
 HALFLIT_INLINE Q fetch_levels(const std::uint16_t* data, const LevelTaps& near, const LevelTaps& far, const float* blend, int lane) {
     const Q a = fetch<kLinear>(data, near, lane);
-    if constexpr (!kTwoLevels) return a;
-    else return q_lerp(a, fetch<kLinear>(data, far, lane), q_set(blend[lane]));
+    if constexpr (!kTwoLevels)
+        return a;
+    else
+        return q_lerp(a, fetch<kLinear>(data, far, lane), q_set(blend[lane]));
 }
 
 template <bool kLinear, bool kTwoLevels>
@@ -177,14 +183,15 @@ HALFLIT_INLINE Sample sample_levels(const shading::TexturePlan& texture, F unit_
     if (all(weight == F(0.0f))) return gather_sample<kLinear, false>(texture.data, near, near, nullptr);
     const I next = level + sel(less(level, I(last)), I(1), I(0));
     LevelTaps far;
-    level_taps(texture, unit_u, unit_v, gather(texture.width, next), gather(texture.height, next), gather(texture.offset, next), taps, nearest,
-               far);
+    level_taps(texture, unit_u, unit_v, gather(texture.width, next), gather(texture.height, next), gather(texture.offset, next), taps,
+               nearest, far);
     alignas(64) float blend[kWidth];
     store(blend, weight);
     return gather_sample<kLinear, true>(texture.data, near, far, blend);
 }
 
-HALFLIT_INLINE Sample sample_texture(const shading::TexturePlan& texture, const shading::FragmentBlock& block, int lane) {
+/// Not inlined: five textures times the paths below would not fit the instruction cache, and a call per vector of lanes is cheap.
+[[gnu::noinline]] static Sample sample_texture(const shading::TexturePlan& texture, const shading::FragmentBlock& block, int lane) {
     using shading::Filter;
     F u = load(&block.lane[texture.uv_set == 1 ? shading::kU1 : shading::kU0][lane]);
     F v = load(&block.lane[texture.uv_set == 1 ? shading::kV1 : shading::kV0][lane]);
