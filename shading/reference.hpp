@@ -1,0 +1,45 @@
+// The meaning of the shading kernels: the same model in float64, written the plain way, from what the user gave rather than from the
+// plan, with the C library's functions. Slow, and not the same bits everywhere: for tests and for measuring error.
+#pragma once
+
+#include "shading/fragment_block.hpp"
+#include "shading/light.hpp"
+#include "shading/material.hpp"
+#include "shading/plan.hpp"
+#include "shading/texture.hpp"
+
+#include <span>
+
+namespace halflit::shading::reference {
+
+struct Rgba {
+    double r = 0, g = 0, b = 0, a = 0;
+};
+
+/// All that a frame's fragments share.
+struct Frame {
+    std::span<const Texture> textures;
+    std::span<const Light> lights;
+    Ambient ambient;
+    PlanOptions options;
+    Vec3f eye_ws{0, 0, 0};
+    Vec3f view_direction_ws{0, 0, -1};  ///< used when orthographic
+    bool orthographic = false;
+};
+
+/// f(x; w, n) with its scale, by std::pow.
+[[nodiscard]] double lobe_value(const Lobe& lobe, double x);
+
+/// The texture's value at (u, v), before any transform, with a footprint of 2^lod texels of level 0.
+[[nodiscard]] Rgba sample(const Texture& texture, const Sampler& sampler, double u, double v, double lod);
+
+/// log2 of the longer side of the footprint that the kDu.. rows of `uv_set` describe, in texels of level 0.
+[[nodiscard]] double level_of_detail(const Texture& texture, const TextureUse& use, const FragmentBlock& block, int lane);
+
+/// The colour and alpha of one lane. `available` as in make_frame_plan.
+[[nodiscard]] Rgba shade(const Frame& frame, const Material& material, QuadMask available, const FragmentBlock& block, int lane);
+
+/// The sRGB curve times 255, not rounded; x is clamped to [0, 1].
+[[nodiscard]] double srgb_code(double linear);
+
+}  // namespace halflit::shading::reference
