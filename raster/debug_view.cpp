@@ -13,7 +13,8 @@ Result<VisibilityView> visibility(const Scene& scene, const Camera& camera, cons
     Frame frame;
     Executor executor;
     frame.keep_submitted = true;
-    if (auto ok = prepare_frame(frame, scene, camera, settings, {width, height, nullptr, nullptr}); !ok) return tl::unexpected<Error>(ok.error());
+    if (auto ok = prepare_frame(frame, scene, camera, settings, {width, height, nullptr, nullptr}); !ok)
+        return tl::unexpected<Error>(ok.error());
     executor.configure(settings.threads, settings.parallel_for);
     transform_vertices(frame, executor);
     bin_triangles(frame, executor);
@@ -32,7 +33,8 @@ Result<VisibilityView> visibility(const Scene& scene, const Camera& camera, cons
             for (int x = 0; x < rect.width; ++x) {
                 const std::uint32_t id = loan->buffers.triangle[0][y * kTileStride + x];
                 if (id == kNoTriangle) continue;
-                const std::size_t at = static_cast<std::size_t>(rect.y + y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(rect.x + x);
+                const std::size_t at =
+                    static_cast<std::size_t>(rect.y + y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(rect.x + x);
                 const Chunk& chunk = *frame.chunks[id >> frame.local_bits];
                 view.triangle[at] = static_cast<std::uint32_t>(chunk.submitted[id & ((1u << frame.local_bits) - 1u)] + 1);
                 view.depth[at] = loan->buffers.depth[0][y * kTileStride + x];

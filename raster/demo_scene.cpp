@@ -78,21 +78,25 @@ void add_plinth(Scene& scene) {
     material.normal_texture.texture = normal;
     material.metallic_roughness_texture.texture = roughness_metal;
     add_object(scene, detail::make_plinth_side(kPlinthRadius, kPlinthSide, 7, 128), tiles, translation(kPlinthFoot));
-
-    const int stone = add_material(scene, "stone", {0.62f, 0.58f, 0.52f}, 0.0f, 0.6f);
-    add_object(scene, detail::make_plinth_lid(kPlinthRadius, kPlinthLip, 128), stone, translation(kPlinthFoot + Vec3f{0, kPlinthSide, 0}));
 }
 
+/// The trefoil, and the lid that it stands on.
 void add_trefoil(Scene& scene) {
     const int lacquer = add_material(scene, "lacquer", {0.58f, 0.10f, 0.045f}, 0.0f, 0.28f);
     scene.materials[static_cast<std::size_t>(lacquer)].lobe = Lobe::sloan(0.5f);
     scene.materials[static_cast<std::size_t>(lacquer)].has_own_lobe = true;
-    Mesh trefoil = detail::make_trefoil(0.66f, 0.33f, 0.175f, 320, 40);
-    Bounds bounds;
-    for (const Vec3f p : trefoil.positions) bounds.add(p);
-    // It stands on the lid, a hair's breadth in it so that no light shows below.
-    const float lift = kPlinthSide + 2 * kPlinthLip - bounds.min.y - 0.01f;
+    constexpr float kTube = 0.175f;
+    Mesh trefoil = detail::make_trefoil(0.66f, 0.33f, kTube, 320, 40);
+    Vec3f lowest{0, 1e9f, 0};
+    for (const Vec3f p : trefoil.positions)
+        if (p.y < lowest.y) lowest = p;
+    // A hair's breadth in the lid, so that no light shows below.
+    const float lift = kPlinthSide + 2 * kPlinthLip - lowest.y - 0.01f;
     add_object(scene, std::move(trefoil), lacquer, translation(kPlinthFoot + Vec3f{0, lift, 0}));
+
+    const int stone = add_material(scene, "stone", {0.62f, 0.58f, 0.52f}, 0.0f, 0.6f);
+    add_object(scene, detail::make_plinth_lid(kPlinthRadius, kPlinthLip, 128, {{lowest.x, 2 * kPlinthLip, lowest.z}, kTube}), stone,
+               translation(kPlinthFoot + Vec3f{0, kPlinthSide, 0}));
 }
 
 /// A small bright bulb that also lights what is near it.

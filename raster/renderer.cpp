@@ -77,7 +77,8 @@ struct Renderer::Impl {
         report.nan_pixels = nan_pixels;
         if (report.triangles_not_finite > 0)
             report.warnings.push_back(std::to_string(report.triangles_not_finite) + " triangles dropped: a vertex is NaN or infinite");
-        if (report.nan_pixels > 0) report.warnings.push_back(std::to_string(report.nan_pixels) + " fragments came out as NaN and were written as 0");
+        if (report.nan_pixels > 0)
+            report.warnings.push_back(std::to_string(report.nan_pixels) + " fragments came out as NaN and were written as 0");
         if (report.triangles_submitted == 0) report.warnings.emplace_back("nothing to draw");
         report.total_ms = total.lap();
         return report;

@@ -18,11 +18,14 @@ struct Scene {
     std::vector<shading::Texture> textures;        ///< shared by materials
     std::vector<shading::Light> lights;            ///< summed in this order; empty: see default_lights
     shading::Ambient ambient;
-    std::vector<Camera> cameras;                   ///< empty: see frame_bounds
+    std::vector<Camera> cameras;                   ///< empty: see frame_scene
 };
 
 /// World-space bounds of everything drawn. Vertices that are not finite are left out.
 [[nodiscard]] Bounds scene_bounds(const Scene& scene);
+
+/// The camera of frame_bounds, but fitted to the vertices themselves: tight and centred for any shape.
+[[nodiscard]] Camera frame_scene(const Scene& scene, float aspect, const ViewSettings& view);
 
 /// A pleasant light for a scene that brings none: a key light over the viewer's left shoulder and a sky and ground ambient.
 void add_default_lights(Scene& scene, const Camera& camera);

@@ -53,7 +53,7 @@ Result<void> choose_view(Frame& frame, const RenderOptions& options, PictureSize
     frame.width = size.width;
     frame.height = size.height;
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
-    frame.camera = chosen != nullptr ? *chosen : raster::frame_bounds(bounds, aspect, options.view);
+    frame.camera = chosen != nullptr ? *chosen : raster::frame_scene(frame.source.scene, aspect, options.view);
     return check_size(size, options.region);
 }
 

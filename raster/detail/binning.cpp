@@ -67,7 +67,8 @@ private:
         }
     }
 
-    void add_clipped(const std::uint32_t (&v)[3], const std::uint32_t* index, unsigned codes, const Draw& draw, std::uint32_t draw_index, std::int64_t t) {
+    void add_clipped(const std::uint32_t (&v)[3], const std::uint32_t* index, unsigned codes, const Draw& draw, std::uint32_t draw_index,
+                     std::int64_t t) {
         float clip[3][4];
         for (int k = 0; k < 3; ++k) {
             const Vec3f p = draw.mesh->positions[index[k]];
@@ -103,13 +104,14 @@ private:
     }
 
     /// Culls, records and bins one triangle; `parents` are the vertices whose records its shading will read.
-    void add(const std::uint32_t (&v)[3], const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, const Draw& draw, std::uint32_t draw_index,
-             const std::uint32_t (&parents)[3], std::int64_t submitted) {
+    void add(const std::uint32_t (&v)[3], const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, const Draw& draw,
+             std::uint32_t draw_index, const std::uint32_t (&parents)[3], std::int64_t submitted) {
         const int least_x = std::min({a.x, b.x, c.x}), most_x = std::max({a.x, b.x, c.x});
         const int least_y = std::min({a.y, b.y, c.y}), most_y = std::max({a.y, b.y, c.y});
         const Region& r = frame_.region;
         const int x0 = std::max((least_x - sample_max_x_ + 255) >> 8, r.x), x1 = std::min((most_x - sample_min_x_) >> 8, r.x + r.width - 1);
-        const int y0 = std::max((least_y - sample_max_y_ + 255) >> 8, r.y), y1 = std::min((most_y - sample_min_y_) >> 8, r.y + r.height - 1);
+        const int y0 = std::max((least_y - sample_max_y_ + 255) >> 8, r.y),
+                  y1 = std::min((most_y - sample_min_y_) >> 8, r.y + r.height - 1);
         if (x0 > x1 || y0 > y1) return;
 
         const std::int64_t area = static_cast<std::int64_t>(b.x - a.x) * (c.y - a.y) - static_cast<std::int64_t>(c.x - a.x) * (b.y - a.y);
@@ -126,7 +128,8 @@ private:
         for (const std::uint32_t p : parents)
             std::atomic_ref(frame_.group_used.data()[p / kVertexGroup]).store(1, std::memory_order_relaxed);
 
-        const int tx0 = (x0 - r.x) >> tile_shift_, tx1 = (x1 - r.x) >> tile_shift_, ty0 = (y0 - r.y) >> tile_shift_, ty1 = (y1 - r.y) >> tile_shift_;
+        const int tx0 = (x0 - r.x) >> tile_shift_, tx1 = (x1 - r.x) >> tile_shift_, ty0 = (y0 - r.y) >> tile_shift_,
+                  ty1 = (y1 - r.y) >> tile_shift_;
         if (tx0 == tx1 || ty0 == ty1) {
             for (int ty = ty0; ty <= ty1; ++ty)
                 for (int tx = tx0; tx <= tx1; ++tx) push(ty * frame_.tiles_x + tx, record);
@@ -146,7 +149,8 @@ private:
     }
 
     /// Tiles of a block that no edge has wholly outside.
-    void push_touched_tiles(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, int tx0, int ty0, int tx1, int ty1, std::uint32_t record) {
+    void push_touched_tiles(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, int tx0, int ty0, int tx1, int ty1,
+                            std::uint32_t record) {
         const ScreenVertex* corner[4] = {&a, &b, &c, &a};
         const std::int64_t span = 256 * frame_.tile_size;
         for (int ty = ty0; ty <= ty1; ++ty) {
@@ -203,7 +207,8 @@ void bin_triangles(Frame& frame, Executor& executor) {
     frame.sources.clear();
     for (std::size_t i = 0; i < frame.chunk_count; ++i) {
         const Chunk& chunk = *frame.chunks[i];
-        frame.sources.push_back({chunk.records.data(), frame.screen.data(), chunk.clip_screen.data(), static_cast<std::uint32_t>(i << frame.local_bits)});
+        frame.sources.push_back(
+            {chunk.records.data(), frame.screen.data(), chunk.clip_screen.data(), static_cast<std::uint32_t>(i << frame.local_bits)});
     }
 }
 

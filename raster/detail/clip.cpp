@@ -6,11 +6,16 @@ namespace {
 /// Signed distance to a plane, >= 0 inside.
 double distance(int plane, const double (&c)[4], const Viewport& v) {
     switch (plane) {
-        case 0: return c[3] - c[2];
-        case 1: return static_cast<double>(v.guard_x) * c[3] - c[0];
-        case 2: return static_cast<double>(v.guard_x) * c[3] + c[0];
-        case 3: return static_cast<double>(v.guard_y) * c[3] - c[1];
-        default: return static_cast<double>(v.guard_y) * c[3] + c[1];
+        case 0:
+            return c[3] - c[2];
+        case 1:
+            return static_cast<double>(v.guard_x) * c[3] - c[0];
+        case 2:
+            return static_cast<double>(v.guard_x) * c[3] + c[0];
+        case 3:
+            return static_cast<double>(v.guard_y) * c[3] - c[1];
+        default:
+            return static_cast<double>(v.guard_y) * c[3] + c[1];
     }
 }
 

@@ -8,8 +8,8 @@ namespace halflit::raster {
 /// A corner of a clipped polygon.
 struct PolygonVertex {
     double clip[4];
-    double weight[3];      ///< of the triangle's three vertices
-    int corner;            ///< 0..2: untouched vertex of the triangle; -1: made by clipping
+    double weight[3];  ///< of the triangle's three vertices
+    int corner;        ///< 0..2: untouched vertex of the triangle; -1: made by clipping
 };
 
 inline constexpr int kMaxPolygon = 3 + 5;

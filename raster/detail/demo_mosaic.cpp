@@ -21,7 +21,7 @@ constexpr Glaze kGlazes[] = {
     {22, 48, 84, 64, 0, 6},      // night blue
     {150, 196, 186, 80, 0, 4},   // celadon
     {226, 214, 188, 90, 0, 3},   // ivory
-    {212, 158, 74, 84, 255, 3},  // gilt
+    {222, 160, 66, 84, 140, 3},  // gilt: half metal, as there is nothing to mirror here
 };
 
 /// A number from the tile's place that looks random: a round of integer mixing (Murmur3's finaliser).

@@ -120,14 +120,14 @@ Mesh make_plinth_side(float radius, float height, int repeats, int slices) {
     return mesh;
 }
 
-Mesh make_plinth_lid(float radius, float lip, int slices) {
+Mesh make_plinth_lid(float radius, float lip, int slices, const Occluder& contact) {
     // The outline from the middle of the top outwards, down around the rim and back under it to the side.
-    constexpr int kRim = 12;
+    constexpr int kRim = 12, kTop = 24;
     struct Station {
         double r, y, out, up;  // place, and normal
     };
     std::vector<Station> outline;
-    outline.push_back({0, 2.0 * lip, 0, 1});
+    for (int i = 0; i < kTop; ++i) outline.push_back({radius * static_cast<double>(i) / kTop, 2.0 * lip, 0, 1});
     for (int i = 0; i <= kRim; ++i) {
         const SinCos a = sin_cos(kPi * i / kRim);
         outline.push_back({radius + lip * a.sin, lip + lip * a.cos, a.sin, a.cos});
@@ -138,8 +138,12 @@ Mesh make_plinth_lid(float radius, float lip, int slices) {
     for (const Station& s : outline)
         for (int i = 0; i <= slices; ++i) {
             const SinCos a = sin_cos(2.0 * kPi * (i % slices) / slices);
-            mesh.positions.push_back(to_float({s.r * a.sin, s.y, s.r * a.cos}));
+            const Vec3d place{s.r * a.sin, s.y, s.r * a.cos};
+            const double hidden = hidden_share(contact, length(place - Vec3d{contact.foot.x, contact.foot.y, contact.foot.z}));
+            const auto open = static_cast<float>(s.up > 0.0 ? 1.0 - hidden : 1.0);
+            mesh.positions.push_back(to_float(place));
             mesh.normals.push_back(to_float({s.out * a.sin, s.up, s.out * a.cos}));
+            mesh.colors.push_back({open, open, open, 1});
         }
     add_quads(mesh, slices, static_cast<int>(outline.size()) - 1);
     return mesh;

@@ -28,8 +28,9 @@ struct Occluder {
 /// The side of a plinth on y = 0, with tangents. u goes `repeats` times round, v once from top to bottom.
 [[nodiscard]] Mesh make_plinth_side(float radius, float height, int repeats, int slices);
 
-/// Its lid, from y = 0 up: overhangs by `lip`, with a rounded rim of radius `lip`.
-[[nodiscard]] Mesh make_plinth_lid(float radius, float lip, int slices);
+/// Its lid, from y = 0 to 2 * lip: overhangs by `lip`, with a rounded rim of that radius. Vertex colours are white, darkened around
+/// `contact`, where something round stands on it.
+[[nodiscard]] Mesh make_plinth_lid(float radius, float lip, int slices, const Occluder& contact);
 
 /// Glazed tiles that repeat in both directions, 64 texels each. RGBA, 8 bits.
 struct Mosaic {

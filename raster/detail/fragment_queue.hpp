@@ -14,10 +14,10 @@ namespace halflit::raster {
 struct FragmentList {
     int material = 0;
     int count = 0;
-    alignas(64) std::uint32_t id[shading::kBlockSize];          ///< triangle
+    alignas(64) std::uint32_t id[shading::kBlockSize];  ///< triangle
     alignas(64) std::int32_t x_px[shading::kBlockSize], y_px[shading::kBlockSize];
-    std::uint16_t at[shading::kBlockSize];                      ///< y * kTileStride + x in the tile
-    std::uint8_t samples[shading::kBlockSize];                  ///< bit s: sample s shows this fragment
+    std::uint16_t at[shading::kBlockSize];      ///< y * kTileStride + x in the tile
+    std::uint8_t samples[shading::kBlockSize];  ///< bit s: sample s shows this fragment
 
     void push(std::uint32_t triangle, int x, int y, int index, unsigned sample_bits) {
         id[count] = triangle;

@@ -18,11 +18,11 @@ namespace halflit::raster {
 /// One instance of one mesh.
 struct Draw {
     const Mesh* mesh = nullptr;
-    int material = 0;                 ///< index into FramePlan::materials
-    std::int64_t vertex_base = 0;     ///< first vertex in the frame's arrays
-    std::int64_t triangle_base = 0;   ///< first triangle in submission order
-    std::int64_t record_base = 0;     ///< first float in the frame's vertex records
-    int stride = 0;                   ///< floats a record
+    int material = 0;                ///< index into FramePlan::materials
+    std::int64_t vertex_base = 0;    ///< first vertex in the frame's arrays
+    std::int64_t triangle_base = 0;  ///< first triangle in submission order
+    std::int64_t record_base = 0;    ///< first float in the frame's vertex records
+    int stride = 0;                  ///< floats a record
     bool mirrored = false, cull_back = true;
     bool mask = false, blend = false;
     Mat4 clip_from_object, world_from_object;
@@ -39,12 +39,12 @@ struct ClipVertex {
 struct Chunk {
     std::int64_t first = 0, end = 0;
     std::vector<TriangleRecord> records;
-    std::vector<std::int64_t> submitted;       ///< submission index of each record; only when asked for
+    std::vector<std::int64_t> submitted;  ///< submission index of each record; only when asked for
     std::vector<ScreenVertex> clip_screen;
     std::vector<ClipVertex> clip_vertices;
-    std::vector<float> clip_records;           ///< kVertexFloats floats each
-    std::vector<std::uint64_t> pairs;          ///< tile << 32 | record, in submission order; scratch
-    std::vector<std::uint32_t> tile_begin;     ///< per tile: first entry of tile_list; one more at the end
+    std::vector<float> clip_records;        ///< kVertexFloats floats each
+    std::vector<std::uint64_t> pairs;       ///< tile << 32 | record, in submission order; scratch
+    std::vector<std::uint32_t> tile_begin;  ///< per tile: first entry of tile_list; one more at the end
     std::vector<std::uint32_t> tile_list;
     std::uint64_t not_finite = 0;
 };
@@ -76,13 +76,13 @@ struct Frame {
     const Scene* scene = nullptr;
     const Settings* settings = nullptr;
     FramebufferView target;
-    Region region;                  ///< resolved: inside the picture, never empty
+    Region region;  ///< resolved: inside the picture, never empty
     int tile_size = 64, tiles_x = 0, tiles_y = 0;
     SamplePattern pattern;
     Viewport viewport;
     const RasterKernels* raster = nullptr;
     const shading::ShadeKernels* shade = nullptr;
-    bool keep_submitted = false;    ///< fill Chunk::submitted
+    bool keep_submitted = false;  ///< fill Chunk::submitted
 
     shading::FramePlan plan;
     std::vector<Draw> draws;
@@ -93,10 +93,10 @@ struct Frame {
     RawBuffer<ScreenVertex> screen;
     RawBuffer<std::uint8_t> outcodes;
     RawBuffer<float> records;
-    RawBuffer<std::uint8_t> group_used;   ///< per kVertexGroup vertices
+    RawBuffer<std::uint8_t> group_used;  ///< per kVertexGroup vertices
 
     std::vector<std::unique_ptr<Chunk>> chunks;
-    std::size_t chunk_count = 0;          ///< in use
+    std::size_t chunk_count = 0;  ///< in use
     int local_bits = 0;
     std::vector<TriangleSource> sources;
     std::vector<const float*> clip_records;

@@ -20,8 +20,8 @@ Mat4 multiply_in_double(const Mat4& a, const Mat4& b) {
             return static_cast<float>(((static_cast<double>(x0) * v.x + static_cast<double>(x1) * v.y) + static_cast<double>(x2) * v.z) +
                                       static_cast<double>(x3) * v.w);
         };
-        out.c[j] = {row(ac[0].x, ac[1].x, ac[2].x, ac[3].x), row(ac[0].y, ac[1].y, ac[2].y, ac[3].y), row(ac[0].z, ac[1].z, ac[2].z, ac[3].z),
-                    row(ac[0].w, ac[1].w, ac[2].w, ac[3].w)};
+        out.c[j] = {row(ac[0].x, ac[1].x, ac[2].x, ac[3].x), row(ac[0].y, ac[1].y, ac[2].y, ac[3].y),
+                    row(ac[0].z, ac[1].z, ac[2].z, ac[3].z), row(ac[0].w, ac[1].w, ac[2].w, ac[3].w)};
     }
     return out;
 }
@@ -46,7 +46,8 @@ Result<void> check_mesh(const Mesh& mesh, std::size_t index, std::size_t materia
     const std::size_t n = mesh.positions.size();
     if (mesh.indices.size() % 3 != 0) return bad("the number of indices is not a multiple of three");
     const auto fits = [n](std::size_t size) { return size == 0 || size == n; };
-    if (!fits(mesh.normals.size()) || !fits(mesh.tangents.size()) || !fits(mesh.uv0.size()) || !fits(mesh.uv1.size()) || !fits(mesh.colors.size()))
+    if (!fits(mesh.normals.size()) || !fits(mesh.tangents.size()) || !fits(mesh.uv0.size()) || !fits(mesh.uv1.size()) ||
+        !fits(mesh.colors.size()))
         return bad("an attribute array is not as long as the positions");
     if (mesh.material >= 0 && static_cast<std::size_t>(mesh.material) >= material_count) return bad("the material index is out of range");
     std::uint32_t largest = 0;
@@ -71,15 +72,16 @@ SamplePattern sample_pattern(int samples) {
 Result<void> check_target(const Settings& settings, const FramebufferView& target) {
     if (target.width < 1 || target.height < 1) return fail(ErrorCode::usage, "the picture has no pixels");
     if (target.width > 2 * kGuardBandPx || target.height > 2 * kGuardBandPx)
-        return fail(ErrorCode::limit, "a picture of " + std::to_string(target.width) + " x " + std::to_string(target.height) + " pixels, at most " +
-                                          std::to_string(2 * kGuardBandPx) + " on a side are supported");
+        return fail(ErrorCode::limit, "a picture of " + std::to_string(target.width) + " x " + std::to_string(target.height) +
+                                          " pixels, at most " + std::to_string(2 * kGuardBandPx) + " on a side are supported");
     if (settings.samples != 1 && settings.samples != 4 && settings.samples != 8)
         return fail(ErrorCode::usage, "samples: " + std::to_string(settings.samples) + ", expected 1, 4 or 8");
     if (settings.tile_size != 16 && settings.tile_size != 32 && settings.tile_size != 64)
         return fail(ErrorCode::usage, "tile size: " + std::to_string(settings.tile_size) + ", expected 16, 32 or 64");
     if (!(settings.exposure > 0.0f && settings.exposure < 3e38f)) return fail(ErrorCode::usage, "the exposure is not a positive number");
     const Region& r = settings.region;
-    if (r.width != 0 && (r.x < 0 || r.y < 0 || r.width < 1 || r.height < 1 || r.width > target.width - r.x || r.height > target.height - r.y))
+    if (r.width != 0 &&
+        (r.x < 0 || r.y < 0 || r.width < 1 || r.height < 1 || r.width > target.width - r.x || r.height > target.height - r.y))
         return fail(ErrorCode::usage, "the region is not inside the picture");
     return {};
 }
@@ -123,7 +125,8 @@ void for_vertex_runs(const Frame& frame, Executor& executor, const Function& f) 
     };
     std::vector<Run> runs;
     for (const Draw& draw : frame.draws)
-        for (std::int64_t v = 0; v < static_cast<std::int64_t>(draw.mesh->positions.size()); v += kVerticesPerTask) runs.push_back({&draw, v});
+        for (std::int64_t v = 0; v < static_cast<std::int64_t>(draw.mesh->positions.size()); v += kVerticesPerTask)
+            runs.push_back({&draw, v});
     executor.run(static_cast<int>(runs.size()), [&](int i) {
         const Run& run = runs[static_cast<std::size_t>(i)];
         f(*run.draw, run.begin, std::min(run.begin + kVerticesPerTask, static_cast<std::int64_t>(run.draw->mesh->positions.size())));
@@ -160,14 +163,16 @@ VertexRecordArgs record_args(const Frame& frame, const Draw& draw, float* record
 
 }  // namespace
 
-Result<void> prepare_frame(Frame& frame, const Scene& scene, const Camera& camera, const Settings& settings, const FramebufferView& target) {
+Result<void> prepare_frame(Frame& frame, const Scene& scene, const Camera& camera, const Settings& settings,
+                           const FramebufferView& target) {
     if (auto ok = check_target(settings, target); !ok) return ok;
     if (!settings.isa) return tl::unexpected<Error>(settings.isa.error());
     for (std::size_t i = 0; i < scene.meshes.size(); ++i)
         if (auto ok = check_mesh(scene.meshes[i], i, scene.materials.size()); !ok) return ok;
     for (const Instance& instance : scene.instances)
         if (instance.mesh < 0 || static_cast<std::size_t>(instance.mesh) >= scene.meshes.size())
-            return fail(ErrorCode::bad_input, "an instance names mesh " + std::to_string(instance.mesh) + " of " + std::to_string(scene.meshes.size()));
+            return fail(ErrorCode::bad_input,
+                        "an instance names mesh " + std::to_string(instance.mesh) + " of " + std::to_string(scene.meshes.size()));
 
     frame.scene = &scene;
     frame.settings = &settings;
@@ -185,7 +190,8 @@ Result<void> prepare_frame(Frame& frame, const Scene& scene, const Camera& camer
     frame.shade = &shading::shade_kernels(*settings.isa);
 
     std::vector<shading::QuadMask> quads(scene.materials.size() + 1, 1u | 2u);
-    for (const Mesh& mesh : scene.meshes) quads[mesh.material >= 0 ? static_cast<std::size_t>(mesh.material) : scene.materials.size()] |= quads_of(mesh);
+    for (const Mesh& mesh : scene.meshes)
+        quads[mesh.material >= 0 ? static_cast<std::size_t>(mesh.material) : scene.materials.size()] |= quads_of(mesh);
     frame.plan = shading::make_frame_plan(scene.materials, scene.textures, quads, scene.lights, scene.ambient, settings.shading);
     const Vec4f back = camera.world_from_camera.c[2], eye = camera.world_from_camera.c[3];
     frame.plan.eye_ws = {eye.x, eye.y, eye.z};

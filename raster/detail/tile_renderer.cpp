@@ -90,7 +90,8 @@ void TileRenderer::shade(FragmentList& list) {
     for (int l = 0; l < list.count; ++l) {
         const float sum = (block.red[l] + block.green[l]) + (block.blue[l] + block.alpha[l]);
         // A sum of infinities may be NaN without a NaN term; look closer only then.
-        if (sum != sum && (block.red[l] != block.red[l] || block.green[l] != block.green[l] || block.blue[l] != block.blue[l] || block.alpha[l] != block.alpha[l]))
+        if (sum != sum && (block.red[l] != block.red[l] || block.green[l] != block.green[l] || block.blue[l] != block.blue[l] ||
+                           block.alpha[l] != block.alpha[l]))
             ++counts_.nan_pixels;
     }
 }
@@ -103,12 +104,14 @@ void TileRenderer::write_direct(const FragmentList& list) {
         alignas(64) std::uint32_t code[shading::kBlockSize];
         frame_.shade->encode_srgb8(block.red, block.green, block.blue, block.alpha, exposure, code, list.count);
         for (int l = 0; l < list.count; ++l)
-            std::memcpy(target.rgba8 + 4 * (static_cast<std::size_t>(list.y_px[l]) * static_cast<std::size_t>(target.width) + static_cast<std::size_t>(list.x_px[l])),
+            std::memcpy(target.rgba8 + 4 * (static_cast<std::size_t>(list.y_px[l]) * static_cast<std::size_t>(target.width) +
+                                            static_cast<std::size_t>(list.x_px[l])),
                         &code[l], 4);
     }
     if (target.rgba_linear) {
         for (int l = 0; l < list.count; ++l) {
-            float* p = target.rgba_linear + 4 * (static_cast<std::size_t>(list.y_px[l]) * static_cast<std::size_t>(target.width) + static_cast<std::size_t>(list.x_px[l]));
+            float* p = target.rgba_linear + 4 * (static_cast<std::size_t>(list.y_px[l]) * static_cast<std::size_t>(target.width) +
+                                                 static_cast<std::size_t>(list.x_px[l]));
             p[0] = number_or_zero(block.red[l] * exposure);
             p[1] = number_or_zero(block.green[l] * exposure);
             p[2] = number_or_zero(block.blue[l] * exposure);
@@ -147,14 +150,17 @@ void TileRenderer::fill_background() {
         frame_.shade->encode_srgb8(red, green, blue, alpha, 1.0f, code, 1);
         for (int y = 0; y < rect_.height; ++y)
             for (int x = 0; x < rect_.width; ++x)
-                std::memcpy(target.rgba8 + 4 * (static_cast<std::size_t>(rect_.y + y) * static_cast<std::size_t>(target.width) + static_cast<std::size_t>(rect_.x + x)), &code[0], 4);
+                std::memcpy(target.rgba8 + 4 * (static_cast<std::size_t>(rect_.y + y) * static_cast<std::size_t>(target.width) +
+                                                static_cast<std::size_t>(rect_.x + x)),
+                            &code[0], 4);
     }
     if (target.rgba_linear) {
         const float back[4] = {b.x, b.y, b.z, b.w};
         for (int y = 0; y < rect_.height; ++y)
             for (int x = 0; x < rect_.width; ++x)
-                std::memcpy(target.rgba_linear + 4 * (static_cast<std::size_t>(rect_.y + y) * static_cast<std::size_t>(target.width) + static_cast<std::size_t>(rect_.x + x)), back,
-                            sizeof back);
+                std::memcpy(target.rgba_linear + 4 * (static_cast<std::size_t>(rect_.y + y) * static_cast<std::size_t>(target.width) +
+                                                      static_cast<std::size_t>(rect_.x + x)),
+                            back, sizeof back);
     }
 }
 
@@ -172,14 +178,16 @@ void TileRenderer::resolve() {
             for (int i = 0; i < 3; ++i) row[i][x] = alpha > 0.0f ? sum[i] * weight / alpha : 0.0f;
             row[3][x] = alpha;
         }
-        const std::size_t first = static_cast<std::size_t>(rect_.y + y) * static_cast<std::size_t>(target.width) + static_cast<std::size_t>(rect_.x);
+        const std::size_t first =
+            static_cast<std::size_t>(rect_.y + y) * static_cast<std::size_t>(target.width) + static_cast<std::size_t>(rect_.x);
         if (target.rgba8) {
             frame_.shade->encode_srgb8(row[0], row[1], row[2], row[3], 1.0f, code, rect_.width);
             std::memcpy(target.rgba8 + 4 * first, code, 4 * static_cast<std::size_t>(rect_.width));
         }
         if (target.rgba_linear)
             for (int x = 0; x < rect_.width; ++x)
-                for (int i = 0; i < 4; ++i) target.rgba_linear[4 * (first + static_cast<std::size_t>(x)) + static_cast<std::size_t>(i)] = row[i][x];
+                for (int i = 0; i < 4; ++i)
+                    target.rgba_linear[4 * (first + static_cast<std::size_t>(x)) + static_cast<std::size_t>(i)] = row[i][x];
     }
 }
 

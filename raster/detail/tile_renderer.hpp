@@ -16,7 +16,7 @@ struct TileCounts {
 struct TileScratch {
     TileBuffers buffers{};
     FragmentQueue queue;
-    FragmentList list;                 ///< of the triangle at hand: alpha test, blending
+    FragmentList list;  ///< of the triangle at hand: alpha test, blending
     shading::FragmentBlock block;
     /// Linear light times alpha, and alpha, of every sample; used only where samples or layers are combined.
     RawBuffer<float> color;
@@ -54,7 +54,7 @@ private:
     TileScratch& scratch_;
     TileBuffers& buffers_;
     TileCounts counts_;
-    bool direct_ = true;   ///< one opaque sample a pixel: shaded colours go straight to the framebuffer
+    bool direct_ = true;  ///< one opaque sample a pixel: shaded colours go straight to the framebuffer
 };
 
 }  // namespace halflit::raster

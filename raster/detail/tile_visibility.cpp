@@ -23,11 +23,13 @@ void TileRenderer::draw_visibility() {
     for (std::size_t c = 0; c < frame_.chunk_count; ++c) {
         const Chunk& chunk = *frame_.chunks[c];
         const std::uint32_t* list = chunk.tile_list.data();
-        const std::uint32_t begin = chunk.tile_begin[static_cast<std::size_t>(tile_)], end = chunk.tile_begin[static_cast<std::size_t>(tile_) + 1];
+        const std::uint32_t begin = chunk.tile_begin[static_cast<std::size_t>(tile_)],
+                            end = chunk.tile_begin[static_cast<std::size_t>(tile_) + 1];
         const TriangleSource& source = frame_.sources[c];
         counts_.triangles += end - begin;
         if (all_plain) {
-            if (begin != end) frame_.raster->rasterize(rect_, frame_.pattern, buffers_, source, list + begin, static_cast<int>(end - begin));
+            if (begin != end)
+                frame_.raster->rasterize(rect_, frame_.pattern, buffers_, source, list + begin, static_cast<int>(end - begin));
             continue;
         }
         // Runs of plain triangles go to the kernel as one list; masked ones are tested one by one, blended ones come later.
@@ -74,13 +76,15 @@ void TileRenderer::draw_masked(const TriangleSource& source, std::uint32_t recor
         }
     });
     if (any) frame_.raster->draw_covered(rect_, frame_.pattern, buffers_, source, record);
-    for (int y = box.y0; y <= box.y1; ++y) std::memset(buffers_.coverage + y * kTileStride + box.x0, 0, static_cast<std::size_t>(box.x1 - box.x0 + 1));
+    for (int y = box.y0; y <= box.y1; ++y)
+        std::memset(buffers_.coverage + y * kTileStride + box.x0, 0, static_cast<std::size_t>(box.x1 - box.x0 + 1));
 }
 
 void TileRenderer::blend_layers() {
     for (std::size_t c = 0; c < frame_.chunk_count; ++c) {
         const Chunk& chunk = *frame_.chunks[c];
-        for (std::uint32_t i = chunk.tile_begin[static_cast<std::size_t>(tile_)]; i < chunk.tile_begin[static_cast<std::size_t>(tile_) + 1]; ++i)
+        for (std::uint32_t i = chunk.tile_begin[static_cast<std::size_t>(tile_)]; i < chunk.tile_begin[static_cast<std::size_t>(tile_) + 1];
+             ++i)
             if (draw_of(chunk.records[chunk.tile_list[i]]).blend) blend_triangle(frame_.sources[c], chunk.tile_list[i]);
     }
 }
@@ -91,7 +95,8 @@ void TileRenderer::blend_triangle(const TriangleSource& source, std::uint32_t re
         shade(list);
         write_samples(list, true);
     });
-    for (int y = box.y0; y <= box.y1; ++y) std::memset(buffers_.coverage + y * kTileStride + box.x0, 0, static_cast<std::size_t>(box.x1 - box.x0 + 1));
+    for (int y = box.y0; y <= box.y1; ++y)
+        std::memset(buffers_.coverage + y * kTileStride + box.x0, 0, static_cast<std::size_t>(box.x1 - box.x0 + 1));
 }
 
 }  // namespace halflit::raster

@@ -70,12 +70,12 @@ HALFLIT_INLINE VertexRecords vertex_records_of(const InterpolateArgs& args, std:
     VertexRecords out;
     for (int k = 0; k < 3; ++k) {
         const std::uint32_t v = record.vertex[k];
-        out.v[k] = (v & kClipVertex) ? args.clip_records[id >> args.triangles.local_bits] + static_cast<std::int64_t>(v & ~kClipVertex) * shading::kVertexFloats
+        out.v[k] = (v & kClipVertex) ? args.clip_records[id >> args.triangles.local_bits] +
+                                           static_cast<std::int64_t>(v & ~kClipVertex) * shading::kVertexFloats
                                      : base + static_cast<std::int64_t>(v) * args.stride;
     }
     return out;
 }
-
 
 /// kWidth lanes of one triangle.
 HALFLIT_INLINE void interpolate_one(const InterpolateArgs& args, shading::FragmentBlock& block, int at) {

@@ -19,8 +19,8 @@ HALFLIT_INLINE const ScreenVertex& vertex_of(const TriangleSource& source, std::
 #include "raster/kernels/rasterize.hpp"
 #include "raster/kernels/transform.hpp"
 
-#define HALFLIT_DEFINE_RASTER_KERNELS(name)                                                         \
-    namespace halflit::raster {                                                                     \
-    extern const RasterKernels name;                                                                \
+#define HALFLIT_DEFINE_RASTER_KERNELS(name)                                                              \
+    namespace halflit::raster {                                                                          \
+    extern const RasterKernels name;                                                                     \
     const RasterKernels name = {transform, vertex_records, rasterize, cover, draw_covered, interpolate}; \
     }

@@ -21,7 +21,11 @@ struct alignas(16) ScreenVertex {
 
 /// Why a triangle with this vertex may need more than plain set-up.
 enum Outcode : std::uint8_t {
-    kLeft = 1, kRight = 2, kTop = 4, kBottom = 8, kBeyondFar = 16,  // outside that plane: all three outside, nothing to draw
+    kLeft = 1,
+    kRight = 2,
+    kTop = 4,
+    kBottom = 8,
+    kBeyondFar = 16,  // outside that plane: all three outside, nothing to draw
     kNear = 32,       // in front of the near plane: clip
     kGuard = 64,      // outside the guard band: clip
     kNotFinite = 128  // a coordinate is NaN or infinite: drop
@@ -40,8 +44,8 @@ struct Viewport {
 inline constexpr int kGuardBandPx = 16384;
 
 struct TransformArgs {
-    const float* positions;    ///< x y z of each vertex, packed
-    std::int64_t begin, end;   ///< vertices
+    const float* positions;      ///< x y z of each vertex, packed
+    std::int64_t begin, end;     ///< vertices
     float clip_from_object[16];  ///< column major
     Viewport viewport;
     ScreenVertex* screen;
@@ -123,9 +127,9 @@ struct InterpolateArgs {
     const float* const* clip_records;  ///< per chunk; records of clip vertices, kVertexFloats floats apart, quads packed as in `base`
     shading::QuadMask quads;
     int stride;
-    bool gradients;   ///< fill the kDu.. rows
-    bool facing;      ///< fill kFacing
-    int count;        ///< fragments; ids and positions are padded to a multiple of 16 with copies of the last one
+    bool gradients;  ///< fill the kDu.. rows
+    bool facing;     ///< fill kFacing
+    int count;       ///< fragments; ids and positions are padded to a multiple of 16 with copies of the last one
     const std::uint32_t* ids;
     const std::int32_t *x_px, *y_px;
 };

@@ -34,7 +34,8 @@ struct DepthPlane {
     std::int32_t anchor_x, anchor_y;
 };
 
-HALFLIT_INLINE DepthPlane make_depth_plane(const ScreenVertex& v0, const ScreenVertex& v1, const ScreenVertex& v2, int sample_x, int sample_y) {
+HALFLIT_INLINE DepthPlane make_depth_plane(const ScreenVertex& v0, const ScreenVertex& v1, const ScreenVertex& v2, int sample_x,
+                                           int sample_y) {
     const double x1 = v1.x - v0.x, y1 = v1.y - v0.y, x2 = v2.x - v0.x, y2 = v2.y - v0.y;
     const double z0 = v0.z, z1 = static_cast<double>(v1.z) - z0, z2 = static_cast<double>(v2.z) - z0;
     const double inv_area = 1.0 / (x1 * y2 - x2 * y1);
@@ -136,9 +137,7 @@ HALFLIT_INLINE void walk(const BoxEdge* edges, const DepthPlane& plane, int x0, 
     I ramp[3] = {I(0), I(0), I(0)};
     std::int32_t row_e[3] = {0, 0, 0};
     for (int k = 0; k < N; ++k) {
-        alignas(64) std::int32_t steps[kWidth];
-        for (int l = 0; l < kWidth; ++l) steps[l] = edges[k].a * l;
-        ramp[k] = load(steps);
+        ramp[k] = I(edges[k].a) * lane;
         row_e[k] = edges[k].e0;
     }
     for (int j = 0; j < h; ++j, at += kTileStride) {
@@ -158,17 +157,25 @@ HALFLIT_INLINE void walk(const BoxEdge* edges, const DepthPlane& plane, int x0, 
 template <class Sink>
 HALFLIT_INLINE void walk_box(int n, const BoxEdge* edges, const DepthPlane& plane, int x0, int y0, int w, int h, int at, const Sink& sink) {
     switch (n) {
-        case 0: walk<0>(edges, plane, x0, y0, w, h, at, sink); break;
-        case 1: walk<1>(edges, plane, x0, y0, w, h, at, sink); break;
-        case 2: walk<2>(edges, plane, x0, y0, w, h, at, sink); break;
-        default: walk<3>(edges, plane, x0, y0, w, h, at, sink); break;
+        case 0:
+            walk<0>(edges, plane, x0, y0, w, h, at, sink);
+            break;
+        case 1:
+            walk<1>(edges, plane, x0, y0, w, h, at, sink);
+            break;
+        case 2:
+            walk<2>(edges, plane, x0, y0, w, h, at, sink);
+            break;
+        default:
+            walk<3>(edges, plane, x0, y0, w, h, at, sink);
+            break;
     }
 }
 
 /// One sample plane of one triangle. (bx0, by0)..(bx1, by1): pixels of the picture, inside the tile.
 template <class Sink>
-HALFLIT_INLINE void draw_sample(const TileRect& tile, const Edge* edges, const std::int64_t* c, const DepthPlane& plane, int bx0, int by0, int bx1,
-                                int by1, const Sink& sink) {
+HALFLIT_INLINE void draw_sample(const TileRect& tile, const Edge* edges, const std::int64_t* c, const DepthPlane& plane, int bx0, int by0,
+                                int bx1, int by1, const Sink& sink) {
     const int w = bx1 - bx0 + 1, h = by1 - by0 + 1;
     BoxEdge crossing[3];
     const Edge* source[3];
@@ -205,17 +212,37 @@ HALFLIT_INLINE void draw_sample(const TileRect& tile, const Edge* edges, const s
     }
 }
 
+HALFLIT_INLINE void grow(CoverBox& box, int x0, int y0, int x1, int y1) {
+    box.x0 = x0 < box.x0 ? x0 : box.x0;
+    box.y0 = y0 < box.y0 ? y0 : box.y0;
+    box.x1 = x1 > box.x1 ? x1 : box.x1;
+    box.y1 = y1 > box.y1 ? y1 : box.y1;
+}
+
+/// Triangles below this size (fixed point) are walked without edge tests, and all their arithmetic fits 32 bits:
+/// two products of 2^14 * 2^14.
+inline constexpr int kSmallTriangle = 64 * 256;
+
+/// Edge functions at pixel (x0, y0) of a small triangle.
+HALFLIT_INLINE void small_edges(const Edge* edges, const ScreenVertex* const* from, std::int32_t x, std::int32_t y, BoxEdge* out) {
+    for (int k = 0; k < 3; ++k) {
+        const bool top_left = edges[k].a > 0 || (edges[k].a == 0 && edges[k].b > 0);
+        out[k] = {(edges[k].a * (x - from[k]->x) + edges[k].b * (y - from[k]->y) - (top_left ? 0 : 1)) >> 8, edges[k].a, edges[k].b};
+    }
+}
 
 /// All samples of one triangle; `make_sink(s)` gives the sink of sample s. Returns the box walked.
 template <class MakeSink>
-HALFLIT_INLINE CoverBox draw_triangle(const TileRect& tile, const SamplePattern& pattern, const TriangleSource& source, const TriangleRecord& record,
-                                      const MakeSink& make_sink) {
+HALFLIT_INLINE CoverBox draw_triangle(const TileRect& tile, const SamplePattern& pattern, const TriangleSource& source,
+                                      const TriangleRecord& record, const MakeSink& make_sink) {
     const ScreenVertex& v0 = vertex_of(source, record.vertex[0]);
     const ScreenVertex& v1 = vertex_of(source, record.vertex[1]);
     const ScreenVertex& v2 = vertex_of(source, record.vertex[2]);
     const Edge edges[3] = {make_edge(v0, v1), make_edge(v1, v2), make_edge(v2, v0)};
     const int least_x = min3(v0.x, v1.x, v2.x), most_x = max3(v0.x, v1.x, v2.x);
     const int least_y = min3(v0.y, v1.y, v2.y), most_y = max3(v0.y, v1.y, v2.y);
+    const ScreenVertex* const from[3] = {&v0, &v1, &v2};
+    const bool small = most_x - least_x < kSmallTriangle && most_y - least_y < kSmallTriangle;
     CoverBox all{kMaxTileSize, kMaxTileSize, -1, -1};
     for (int s = 0; s < pattern.count; ++s) {
         const int sx = pattern.x[s], sy = pattern.y[s];
@@ -225,40 +252,49 @@ HALFLIT_INLINE CoverBox draw_triangle(const TileRect& tile, const SamplePattern&
         bx1 = bx1 >= tile.x + tile.width ? tile.x + tile.width - 1 : bx1;
         by1 = by1 >= tile.y + tile.height ? tile.y + tile.height - 1 : by1;
         if (bx0 > bx1 || by0 > by1) continue;
+        if (small) {
+            BoxEdge at_corner[3];
+            small_edges(edges, from, bx0 * 256 + sx, by0 * 256 + sy, at_corner);
+            walk<3>(at_corner, make_depth_plane(v0, v1, v2, sx, sy), bx0, by0, bx1 - bx0 + 1, by1 - by0 + 1,
+                    (by0 - tile.y) * kTileStride + (bx0 - tile.x), make_sink(s));
+            grow(all, bx0 - tile.x, by0 - tile.y, bx1 - tile.x, by1 - tile.y);
+            continue;
+        }
         std::int64_t c[3];
-        for (int k = 0; k < 3; ++k) c[k] = edges[k].c + static_cast<std::int64_t>(edges[k].a) * sx + static_cast<std::int64_t>(edges[k].b) * sy;
+        for (int k = 0; k < 3; ++k)
+            c[k] = edges[k].c + static_cast<std::int64_t>(edges[k].a) * sx + static_cast<std::int64_t>(edges[k].b) * sy;
         draw_sample(tile, edges, c, make_depth_plane(v0, v1, v2, sx, sy), bx0, by0, bx1, by1, make_sink(s));
-        all.x0 = bx0 - tile.x < all.x0 ? bx0 - tile.x : all.x0;
-        all.y0 = by0 - tile.y < all.y0 ? by0 - tile.y : all.y0;
-        all.x1 = bx1 - tile.x > all.x1 ? bx1 - tile.x : all.x1;
-        all.y1 = by1 - tile.y > all.y1 ? by1 - tile.y : all.y1;
+        grow(all, bx0 - tile.x, by0 - tile.y, bx1 - tile.x, by1 - tile.y);
     }
     return all;
 }
 
-inline void rasterize(const TileRect& tile, const SamplePattern& pattern, TileBuffers& buffers, const TriangleSource& source, const std::uint32_t* list,
-                      int count) {
+inline void rasterize(const TileRect& tile, const SamplePattern& pattern, TileBuffers& buffers, const TriangleSource& source,
+                      const std::uint32_t* list, int count) {
     for (int i = 0; i < count; ++i) {
         const std::uint32_t r = list[i];
-        draw_triangle(tile, pattern, source, source.records[r],
-                      [&](int s) __attribute__((always_inline)) {
-                          return WriteVisible{buffers.depth[s], buffers.triangle[s], source.id_base + r};
-                      });
+        draw_triangle(
+            tile, pattern, source, source.records[r], [&](int s) __attribute__((always_inline)) {
+                return WriteVisible{buffers.depth[s], buffers.triangle[s], source.id_base + r};
+            });
     }
 }
 
-inline void draw_covered(const TileRect& tile, const SamplePattern& pattern, TileBuffers& buffers, const TriangleSource& source, std::uint32_t record) {
-    draw_triangle(tile, pattern, source, source.records[record],
-                  [&](int s) __attribute__((always_inline)) {
-                      return WriteCovered{{buffers.depth[s], buffers.triangle[s], source.id_base + record}, buffers.coverage, static_cast<std::uint8_t>(1u << s)};
-                  });
+inline void draw_covered(const TileRect& tile, const SamplePattern& pattern, TileBuffers& buffers, const TriangleSource& source,
+                         std::uint32_t record) {
+    draw_triangle(
+        tile, pattern, source, source.records[record], [&](int s) __attribute__((always_inline)) {
+            return WriteCovered{
+                {buffers.depth[s], buffers.triangle[s], source.id_base + record}, buffers.coverage, static_cast<std::uint8_t>(1u << s)};
+        });
 }
 
-inline CoverBox cover(const TileRect& tile, const SamplePattern& pattern, TileBuffers& buffers, const TriangleSource& source, std::uint32_t record) {
-    return draw_triangle(tile, pattern, source, source.records[record],
-                         [&](int s) __attribute__((always_inline)) {
-                             return MarkCoverage{buffers.depth[s], buffers.coverage, static_cast<std::uint8_t>(1u << s)};
-                         });
+inline CoverBox cover(const TileRect& tile, const SamplePattern& pattern, TileBuffers& buffers, const TriangleSource& source,
+                      std::uint32_t record) {
+    return draw_triangle(
+        tile, pattern, source, source.records[record], [&](int s) __attribute__((always_inline)) {
+            return MarkCoverage{buffers.depth[s], buffers.coverage, static_cast<std::uint8_t>(1u << s)};
+        });
 }
 
 }  // namespace HALFLIT_ISA_NAMESPACE

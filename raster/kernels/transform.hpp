@@ -28,7 +28,8 @@ HALFLIT_INLINE void transform_vector(const TransformArgs& args, const float* p, 
     const M finite = (vabs(cx) < huge) & (vabs(cy) < huge) & (vabs(cz) < huge) & (vabs(cw) < huge);
     const M in_guard = (vabs(cx) <= F(args.viewport.guard_x) * cw) & (vabs(cy) <= F(args.viewport.guard_y) * cw);
     const M behind = cz > cw;
-    I code = outcode_bit(cx < vneg(cw), kLeft) | outcode_bit(cx > cw, kRight) | outcode_bit(cy > cw, kTop) | outcode_bit(cy < vneg(cw), kBottom);
+    I code =
+        outcode_bit(cx < vneg(cw), kLeft) | outcode_bit(cx > cw, kRight) | outcode_bit(cy > cw, kTop) | outcode_bit(cy < vneg(cw), kBottom);
     code = code | outcode_bit(cz < F(0.0f), kBeyondFar) | outcode_bit(behind, kNear);
     code = code | sel(in_guard, I(0), I(kGuard));
     code = sel(finite, code, I(kNotFinite));
