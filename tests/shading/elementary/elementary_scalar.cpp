@@ -1,0 +1,2 @@
+#define HALFLIT_ISA scalar
+#include "elementary_kernel.hpp"
