@@ -1,4 +1,6 @@
 #include "raster/camera.hpp"
+#include "raster/scene.hpp"
+#include "raster/shapes.hpp"
 #include "sh/trig.hpp"
 
 #include <catch2/catch.hpp>
@@ -204,6 +206,31 @@ TEST_CASE("framing: every corner is in the picture, with a margin, and one side 
                     ++framed;
                 }
     CHECK(framed == 5 * 13 * 7 * 3);
+}
+
+TEST_CASE("framing: a scene is fitted to its vertices, tightly for any shape", "[raster][camera]") {
+    Scene scene;
+    scene.meshes = {make_torus(2.0f, 0.3f, 48, 16), make_sphere(0.5f, 24, 16)};
+    scene.instances = {{0, rotation({0.5f, 0.5f, 0.5f, 0.5f})}, {1, translation({3, 1, -2})}};
+    for (const float aspect : {0.5f, 1.0f, 1.7777778f})
+        for (float azimuth = 0; azimuth < 360; azimuth += 45)
+            for (const float elevation : {-60.0f, 0.0f, 20.0f, 90.0f}) {
+                const Mat4 clip = clip_from_world(frame_scene(scene, aspect, {azimuth, elevation, 1.0f, 35.0f}), aspect);
+                double left = 0, right = 0, top = 0, bottom = 0;
+                for (const Instance& instance : scene.instances)
+                    for (const Vec3f& p : scene.meshes[static_cast<std::size_t>(instance.mesh)].positions) {
+                        const Vec3f at = transform_point(instance.world_from_object, p);
+                        const Ndc c = project(clip, {at.x, at.y, at.z});
+                        REQUIRE(c.w > 0);
+                        REQUIRE(c.z < 1.0);
+                        left = std::max(left, -c.x), right = std::max(right, c.x), bottom = std::max(bottom, -c.y),
+                        top = std::max(top, c.y);
+                    }
+                INFO("aspect " << aspect << " azimuth " << azimuth << " elevation " << elevation);
+                CHECK(std::max({left, right, top, bottom}) == Approx(0.92).margin(1e-4));
+                // The tight direction touches both margins.
+                CHECK(std::max(std::min(left, right), std::min(top, bottom)) == Approx(0.92).margin(1e-4));
+            }
 }
 
 TEST_CASE("framing: azimuth goes round to the right, elevation goes up", "[raster][camera]") {
