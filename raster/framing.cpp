@@ -107,9 +107,13 @@ Camera frame_scene(const Scene& scene, float aspect, const ViewSettings& view) {
     ViewFit fit(box.center, aspect, view);
     for (const Instance& instance : scene.instances) {
         if (instance.mesh < 0 || static_cast<std::size_t>(instance.mesh) >= scene.meshes.size()) continue;
-        for (const Vec3f& position : scene.meshes[static_cast<std::size_t>(instance.mesh)].positions) {
-            const Vec3f p = transform_point(instance.world_from_object, position);
-            if (finite(p.x) && finite(p.y) && finite(p.z)) fit.add(Vec3d{p.x, p.y, p.z} - box.center);
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        std::vector<bool> used(mesh.positions.size());
+        for (const std::uint32_t index : mesh.indices)
+            if (index < used.size()) used[index] = true;
+        for (std::size_t v = 0; v < used.size(); ++v) {
+            const Vec3f p = transform_point(instance.world_from_object, mesh.positions[v]);
+            if (used[v] && finite(p.x) && finite(p.y) && finite(p.z)) fit.add(Vec3d{p.x, p.y, p.z} - box.center);
         }
     }
     return fit.camera(length(box.half));

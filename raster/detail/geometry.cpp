@@ -98,7 +98,7 @@ void add_draws(Frame& frame, const Scene& scene, const Mat4& clip_from_world_mat
         draw.clip_from_object = multiply_in_double(clip_from_world_matrix, instance.world_from_object);
         draw.mirrored = determinant3(instance.world_from_object) < 0.0;
         const shading::MaterialPlan& plan = frame.plan.materials[static_cast<std::size_t>(draw.material)];
-        draw.cull_back = !plan.double_sided;
+        draw.cull_back = mesh.material < 0 || !scene.materials[static_cast<std::size_t>(mesh.material)].double_sided;
         draw.mask = plan.alpha_mode == shading::AlphaMode::mask;
         draw.blend = plan.alpha_mode == shading::AlphaMode::blend;
         draw.stride = 4 * std::popcount(plan.quads);
