@@ -41,7 +41,7 @@ Result<const raster::Camera*> find_camera(const std::vector<raster::Camera>& cam
 }
 
 /// The camera and, unless the flags did, the size. In a file's camera nothing is changed.
-Result<void> choose_view(Frame& frame, const RenderOptions& options, PictureSize usual, const raster::Bounds& bounds) {
+Result<void> choose_view(Frame& frame, const RenderOptions& options, PictureSize usual) {
     const std::vector<raster::Camera>& cameras = frame.source.scene.cameras;
     const raster::Camera* chosen = cameras.empty() || options.own_view ? nullptr : &cameras.front();
     if (options.camera) {
@@ -96,7 +96,8 @@ Result<void> choose_settings(raster::Settings& settings, const RenderOptions& op
 
 Result<Frame> make_frame(const RenderOptions& options, PictureSize usual) {
     if (options.camera && options.own_view)
-        return fail(ErrorCode::usage, "--camera: --azimuth, --elevation, --zoom and --fov frame the scene without a camera of its own");
+        return fail(ErrorCode::usage,
+                    "--camera: expected without --azimuth, --elevation, --zoom and --fov, which make a camera of their own");
     if (options.size)
         if (const auto checked = check_size(*options.size, options.region); !checked) return tl::unexpected(checked.error());
     Frame frame;
@@ -111,7 +112,7 @@ Result<Frame> make_frame(const RenderOptions& options, PictureSize usual) {
 
     const raster::Bounds bounds = raster::scene_bounds(frame.source.scene);
     if (bounds.empty) frame.warnings.push_back("nothing to draw: the scene has no triangles");
-    if (const auto viewed = choose_view(frame, options, usual, bounds); !viewed) return tl::unexpected(viewed.error());
+    if (const auto viewed = choose_view(frame, options, usual); !viewed) return tl::unexpected(viewed.error());
     choose_light(frame, options, bounds);
     frame.settings.region = options.region.width > 0 ? options.region : raster::Region{0, 0, frame.width, frame.height};
     return frame;

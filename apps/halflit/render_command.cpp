@@ -11,6 +11,8 @@
 
 #include <sys/stat.h>
 
+#include <cerrno>
+#include <cstring>
 #include <memory>
 #include <new>
 
@@ -39,6 +41,11 @@ bool same_file(const std::string& a, const std::string& b) {
            first.st_ino == second.st_ino;
 }
 
+bool is_directory(const std::string& path) {
+    struct stat status {};
+    return ::stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode);
+}
+
 /// Nothing that is read, and nothing that is written besides, may be overwritten by accident.
 Result<void> check_paths(const RenderCommandOptions& options) {
     if (!options.report.empty() && options.report == options.output)
@@ -50,6 +57,7 @@ Result<void> check_paths(const RenderCommandOptions& options) {
 }
 
 Result<void> render_and_write(const RenderCommandOptions& options, Json& report) {
+    if (is_directory(options.output)) return fail(ErrorCode::io, options.output + ": " + std::strerror(EISDIR));
     const auto format = io::output_format_of(options.output);
     if (!format) return tl::unexpected(format.error());
     if (const auto checked = check_paths(options); !checked) return checked;

@@ -119,9 +119,17 @@ void add_surface_flags(CLI::App& app, RenderOptions& o) {
 
 void add_machine_flags(CLI::App& app, RenderOptions& o) {
     constexpr const char* kGroup = "Speed (never changes a pixel)";
-    add_value(app, "--isa", "NAME", "Instruction set: auto, scalar, sse2, sse4.1, avx2, avx512 or neon64", [&o](const std::string& text) {
-        return assign(o.isa, shading::isa_by_name(text));
-    })->group(kGroup);
+    add_value(app, "--isa", "NAME", "Instruction set: auto, scalar, sse2, sse4.1, avx2, avx512 or neon64",
+              [&o](const std::string& text) -> Result<void> {
+                  const auto isa = shading::isa_by_name(text);
+                  if (isa) o.isa = *isa;
+                  constexpr std::string_view kPlace = "isa: ";  // said by the flag's own name
+                  if (!isa)
+                      return fail(ErrorCode::usage,
+                                  isa.error().message.substr(isa.error().message.starts_with(kPlace) ? kPlace.size() : 0));
+                  return Result<void>();
+              })
+        ->group(kGroup);
     add_value(app, "--threads", "N", "Threads, 0 for one a core (default)", [&o](const std::string& text) -> Result<void> {
         const auto threads = parse_int(text, 0, 1024);
         if (!threads) return tl::unexpected(threads.error());
@@ -167,7 +175,7 @@ void add_file_flags(CLI::App& app, RenderOptions& o) {
 Result<std::optional<shading::Lobe>> chosen_lobe(const RenderOptions& o) {
     if (o.lobe_name) {
         auto lobe = io::lobe_from_name(*o.lobe_name, o.lobe);
-        if (!lobe) return fail(ErrorCode::usage, "--lobe: " + lobe.error().message);
+        if (!lobe) return fail(ErrorCode::usage, "--" + lobe.error().message);  // begins with the parameter, called like its flag
         return *lobe;
     }
     if (o.lobe.wrap || o.lobe.power)

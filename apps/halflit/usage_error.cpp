@@ -53,12 +53,13 @@ std::string usage_message(const CLI::App& root, const CLI::ParseError& error) {
     const std::string help = chosen.empty() ? "halflit --help" : "halflit " + app.get_name() + " --help";
     std::string message = error.what();
     const std::vector<std::string> rest = root.remaining(true);
-    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError) && !rest.empty()) {
+    const bool no_command = chosen.empty() && error.get_exit_code() == static_cast<int>(CLI::ExitCodes::RequiredError);
+    if (!rest.empty() && (no_command || error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError))) {
         const bool flag = rest[0].starts_with("-");
         const std::string kind = flag ? "unknown flag " : chosen.empty() ? "unknown command " : "unexpected argument ";
         const std::string meant = nearest(rest[0].substr(0, rest[0].find('=')), names_of(app));
         message = kind + rest[0] + (meant.empty() ? "" : " (did you mean " + meant + "?)");
-    } else if (chosen.empty() && error.get_exit_code() == static_cast<int>(CLI::ExitCodes::RequiredError)) {
+    } else if (no_command) {
         message = "no command: expected render, bench, info or diff";
     }
     std::replace(message.begin(), message.end(), '\n', ' ');

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
+#include <thread>
 #include <vector>
 
 namespace halflit::io {
@@ -30,7 +31,7 @@ public:
     /// Opens a new file; -1 with errno.
     int create(const std::string& path, mode_t mode) {
         const std::lock_guard lock(mutex_);
-        if (abandoned_) return errno = EINTR, -1;
+        if (closed_to_this_thread()) return errno = EINTR, -1;
         constexpr int kFlags = O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW;
         int fd = ::open(path.c_str(), kFlags, mode);
         if (fd < 0 && errno == EEXIST) {
@@ -45,7 +46,7 @@ public:
     /// 0 or errno; the temporary file is gone either way.
     int publish(const std::string& path, const std::string& target) {
         const std::lock_guard lock(mutex_);
-        if (abandoned_) return EINTR;
+        if (closed_to_this_thread()) return EINTR;
         const int error = std::rename(path.c_str(), target.c_str()) == 0 ? 0 : errno;
         if (error != 0) ::unlink(path.c_str());
         std::erase(paths_, path);
@@ -60,15 +61,19 @@ public:
 
     void abandon() {
         const std::lock_guard lock(mutex_);
-        abandoned_ = true;
+        abandoned_by_ = std::this_thread::get_id();
         for (const std::string& path : paths_) ::unlink(path.c_str());
         paths_.clear();
     }
 
 private:
+    [[nodiscard]] bool closed_to_this_thread() const {
+        return abandoned_by_ != std::thread::id() && abandoned_by_ != std::this_thread::get_id();
+    }
+
     std::mutex mutex_;
     std::vector<std::string> paths_;
-    bool abandoned_ = false;
+    std::thread::id abandoned_by_;  ///< no thread while files may be written by all
 };
 
 /// 0 or errno.

@@ -15,8 +15,8 @@ namespace halflit::io {
 /// has closed is ErrorCode::io with an empty message: there is nobody to tell.
 Result<void> write_file(const std::string& path, std::span<const std::uint8_t> bytes);
 
-/// For a process that is about to end on a signal: removes the temporary files of all threads and lets no new one be made, nor any
-/// take its target's name. Not for use inside a signal handler (it locks).
+/// For a process that is about to end on a signal: removes the temporary files of all threads, and from then on only the calling thread
+/// may write files. Not for use inside a signal handler (it locks).
 void abandon_files();
 
 }  // namespace halflit::io
