@@ -42,10 +42,11 @@ HALFLIT_INLINE LocalLight local_light(const shading::LightPlan& light, V3 positi
 /// squared sine |N x H|^2 / |H|^2 keeps its digits where the cosine is nearly 1.
 HALFLIT_INLINE F blinn_value(V3 normal, V3 to_eye, V3 to_light, F n_dot_l, F half_exponent) {
     const V3 half = to_light + to_eye;
-    const V3 sine = cross(normal, half);
-    const F q = vdiv(dot(sine, sine), vmax(dot(half, half), F(1e-30f)));
-    const F lit = vmin(n_dot_l, dot(normal, half));
-    return sel(lit > F(0.0f), n_dot_l * power_from_squared_sine(q, half_exponent), F(0.0f));
+    const F n_dot_h = dot(normal, half);
+    const V3 n_cross_h = cross(normal, half);
+    const F inv_squared = vdiv(F(1.0f), vmax(dot(half, half), F(1e-30f)));
+    const F power = power_of_cosine((n_dot_h * n_dot_h) * inv_squared, dot(n_cross_h, n_cross_h) * inv_squared, half_exponent);
+    return sel(vmin(n_dot_l, n_dot_h) > F(0.0f), n_dot_l * power, F(0.0f));
 }
 
 template <bool kSpecular>

@@ -28,17 +28,25 @@ HALFLIT_INLINE F horner(const float (&c)[N], F x) {
     return sum;
 }
 
+/// t = 2^exponent (1 + u) with 1 + u in [sqrt(1/2), sqrt(2)), exactly. t >= 0, not NaN; 0 gives exponent -127 and u = 0.
+struct Log2Argument {
+    F exponent, u;
+};
+HALFLIT_INLINE Log2Argument log2_argument(F t) {
+    const I i = bits(t);
+    const I e = shr<23>(i - I(0x3f3504f3));  // sqrt(1/2)
+    return {to_float(e), from_bits(i - shl<23>(e)) - F(1.0f)};
+}
+
 /// log2(t) = exponent + fraction: an integer, and |fraction| <= 1/2 with the polynomial's relative error, so that the sum is accurate
-/// just below t = 1 too. t >= 0, not NaN; 0 gives -127, denormals some value below -125.
+/// just below t = 1 too. 0 gives -127, denormals some value below -125.
 struct Log2 {
     F exponent, fraction;
 };
 template <int N>
 HALFLIT_INLINE Log2 log2_parts(const float (&polynomial)[N], F t) {
-    const I i = bits(t);
-    const I e = shr<23>(i - I(0x3f3504f3));  // sqrt(1/2)
-    const F u = from_bits(i - shl<23>(e)) - F(1.0f);
-    return {to_float(e), u * horner(polynomial, u)};
+    const Log2Argument argument = log2_argument(t);
+    return {argument.exponent, argument.u * horner(polynomial, argument.u)};
 }
 
 /// x * 2^k for integers k in [-126, 127].
@@ -68,14 +76,13 @@ HALFLIT_INLINE F power_of_unit(F t, float power_minus_one, float high, float low
     return sel(y >= F(kLowestExponent), t * factor, F(0.0f));
 }
 
-/// (1 - q)^half_exponent for q in [0, 1]: the power of a cosine by its squared sine. Near q = 0 log2(1 - q) is taken from q itself, as
-/// log1p would, because 1 - q has lost the digits that a large exponent makes visible.
-HALFLIT_INLINE F power_from_squared_sine(F q, F half_exponent) {
-    const F m = vmax(F(1.0f) - q, F(1e-30f));
-    const I i = bits(m);
-    const I e = shr<23>(i - I(0x3f3504f3));
-    const F exponent = to_float(e);
-    const F u = sel(exponent == F(0.0f), F(0.0f) - q, from_bits(i - shl<23>(e)) - F(1.0f));
+/// (cos^2)^half_exponent, the power of a cosine, from both squares. Near 1 log2 is taken of 1 - sin^2 as log1p would, because the
+/// cosine has lost the digits there that a large exponent makes visible; elsewhere the sine has lost them, for angles near 90 degrees.
+HALFLIT_INLINE F power_of_cosine(F cosine_squared, F sine_squared, F half_exponent) {
+    const Log2Argument wide = log2_argument(vmax(cosine_squared, F(1e-30f)));
+    const M near_one = sine_squared < F(0.25f);
+    const F exponent = sel(near_one, F(0.0f), wide.exponent);
+    const F u = sel(near_one, F(0.0f) - sine_squared, wide.u);
     return exp2_floored(kExp2Degree5, half_exponent * mad(u, horner(kLog2Degree7, u), exponent));
 }
 

@@ -27,8 +27,8 @@ struct Elementary {
     int ternary_count;
     /// t^n as the general lobe path computes it.
     void (*power)(const float* t, float n, float* out, int count);
-    /// (1 - q)^half_exponent.
-    void (*squared_sine_power)(const float* q, const float* half_exponent, float* out, int count);
+    /// (cos^2)^half_exponent from the squares of cosine and sine.
+    void (*power_of_cosine)(const float* cosine_squared, const float* sine_squared, const float* half_exponent, float* out, int count);
     void (*normalize)(const float* x, const float* y, const float* z, float* out_x, float* out_y, float* out_z, int count);
     std::uint32_t (*mask_of_less)(const float* a, const float* b);  ///< one vector; bit l is lane l
     int width;

@@ -56,8 +56,9 @@ static void power(const float* t, float n, float* out, int count) {
     const float a = n - 1.0f, high = from_bits(bits(a) & static_cast<std::int32_t>(0xffffffc0u));
     for (int i = 0; i < count; i += kWidth) store(out + i, power_of_unit(load(t + i), a, high, a - high));
 }
-static void squared_sine_power(const float* q, const float* half_exponent, float* out, int count) {
-    for (int i = 0; i < count; i += kWidth) store(out + i, power_from_squared_sine(load(q + i), load(half_exponent + i)));
+static void cosine_power(const float* cosine_squared, const float* sine_squared, const float* half_exponent, float* out, int count) {
+    for (int i = 0; i < count; i += kWidth)
+        store(out + i, power_of_cosine(load(cosine_squared + i), load(sine_squared + i), load(half_exponent + i)));
 }
 static void normalize_rows(const float* x, const float* y, const float* z, float* out_x, float* out_y, float* out_z, int count) {
     for (int i = 0; i < count; i += kWidth) {
@@ -90,6 +91,6 @@ static const testing::NamedTernary kTernary[] = {
 namespace testing {
 #define HALFLIT_ELEMENTARY HALFLIT_CONCAT(elementary_, HALFLIT_ISA)
 extern const Elementary HALFLIT_ELEMENTARY;
-const Elementary HALFLIT_ELEMENTARY = {kUnary, 14, kTernary, 8, power, squared_sine_power, normalize_rows, mask_of_less, kWidth};
+const Elementary HALFLIT_ELEMENTARY = {kUnary, 14, kTernary, 8, power, cosine_power, normalize_rows, mask_of_less, kWidth};
 }  // namespace testing
 }  // namespace halflit

@@ -1,0 +1,128 @@
+// Promise: every instruction set gives the scalar kernel's result bit for bit, for any input.
+#include "random_case.hpp"
+#include "shading/kernels/shade_kernels.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cstring>
+
+using namespace halflit;
+using namespace halflit::shading;
+using namespace halflit::testing;
+
+namespace {
+
+/// Number of lanes whose colours differ; tells of the first.
+int differing_lanes(const FragmentBlock& want, const FragmentBlock& got, int count) {
+    int different = 0;
+    for (int lane = 0; lane < count; ++lane) {
+        if (same_bits(want.red[lane], got.red[lane]) && same_bits(want.green[lane], got.green[lane]) &&
+            same_bits(want.blue[lane], got.blue[lane]) && same_bits(want.alpha[lane], got.alpha[lane]))
+            continue;
+        if (different++ == 0)
+            UNSCOPED_INFO("lane " << lane << ": want " << want.red[lane] << " " << want.green[lane] << " " << want.blue[lane] << " "
+                                  << want.alpha[lane] << ", got " << got.red[lane] << " " << got.green[lane] << " " << got.blue[lane] << " "
+                                  << got.alpha[lane]);
+    }
+    return different;
+}
+
+}  // namespace
+
+TEST_CASE("kernels: shade and alpha give scalar's bits on every set, for all stages and any input", "[shading][kernels]") {
+    FloatMaker make(20240607);
+    const ShadeKernels& scalar = shade_kernels(Isa::scalar);
+    const std::vector<Isa> isas = other_isas();
+    std::uint32_t stages_seen = 0;
+    std::int64_t lanes_compared = 0;
+    for (int round = 0; round < 1500; ++round) {
+        const Case c = make_case(make, false);
+        const MaterialPlan& material = c.plan.materials[round % 16 == 15 ? 1 : 0];
+        FragmentBlock want{};
+        fill_block(make, want, round % 3 != 0);
+        FragmentBlock input;
+        std::memcpy(&input, &want, sizeof(input));
+        const int count = round % 2 == 0 ? kBlockSize : 1 + static_cast<int>(make.below(kBlockSize));
+        scalar.shade(c.plan, material, want, count);
+        FragmentBlock want_alpha = input;
+        scalar.alpha(material, want_alpha, count);
+        stages_seen |= material.stages;
+        for (const Isa isa : isas) {
+            FragmentBlock got = input;
+            shade_kernels(isa).shade(c.plan, material, got, count);
+            INFO(isa_name(isa) << ", round " << round << ", stages " << material.stages << ", lobe path "
+                               << static_cast<int>(material.lobe.path) << ", lights " << c.plan.lights.size());
+            const int different = differing_lanes(want, got, count);
+            if (different != 0) CHECK(different == 0);
+            got = input;
+            shade_kernels(isa).alpha(material, got, count);
+            for (int lane = 0; lane < count; ++lane)
+                if (!same_bits(want_alpha.alpha[lane], got.alpha[lane])) CHECK(got.alpha[lane] == want_alpha.alpha[lane]);
+            lanes_compared += count;
+        }
+    }
+    CHECK(stages_seen == (1u << kStageCount) - 1u);
+    if (!isas.empty()) CHECK(lanes_compared > 60000);
+}
+
+TEST_CASE("kernels: a lane's value does not depend on its place or its neighbours", "[shading][kernels]") {
+    FloatMaker make(99);
+    for (int round = 0; round < 60; ++round) {
+        const Case c = make_case(make, false);
+        FragmentBlock block{};
+        fill_block(make, block, true);
+        for (const Isa isa : built_isas()) {
+            if (!isa_available(isa)) continue;
+            FragmentBlock straight = block, turned = block;
+            for (int row = 0; row < kInputRows; ++row)
+                for (int lane = 0; lane < kBlockSize; ++lane) turned.lane[row][lane] = block.lane[row][(lane * 37 + 11) % kBlockSize];
+            shade_kernels(isa).shade(c.plan, c.plan.materials[0], straight, kBlockSize);
+            shade_kernels(isa).shade(c.plan, c.plan.materials[0], turned, kBlockSize);
+            int different = 0;
+            for (int lane = 0; lane < kBlockSize; ++lane) {
+                const int from = (lane * 37 + 11) % kBlockSize;
+                different += !same_bits(turned.red[lane], straight.red[from]) || !same_bits(turned.green[lane], straight.green[from]) ||
+                             !same_bits(turned.blue[lane], straight.blue[from]);
+            }
+            INFO(isa_name(isa) << ", round " << round);
+            CHECK(different == 0);
+        }
+    }
+}
+
+TEST_CASE("kernels: shade's alpha of a blended material is the alpha kernel's", "[shading][kernels]") {
+    FloatMaker make(4);
+    int blended = 0;
+    for (int round = 0; round < 200; ++round) {
+        const Case c = make_case(make, false);
+        if (c.materials[0].alpha_mode != AlphaMode::blend) continue;
+        ++blended;
+        FragmentBlock shaded{}, alpha{};
+        fill_block(make, shaded, true);
+        alpha = shaded;
+        shade_kernels(Isa::scalar).shade(c.plan, c.plan.materials[0], shaded, kBlockSize);
+        shade_kernels(Isa::scalar).alpha(c.plan.materials[0], alpha, kBlockSize);
+        for (int lane = 0; lane < kBlockSize; ++lane)
+            if (!same_bits(shaded.alpha[lane], alpha.alpha[lane])) FAIL("lane " << lane << ", round " << round);
+    }
+    CHECK(blended > 30);
+}
+
+TEST_CASE("kernels: sRGB encoding gives scalar's codes on every set", "[shading][kernels]") {
+    FloatMaker make(12);
+    constexpr int kCount = 1 << 16;
+    std::vector<float> channel[4];
+    for (auto& values : channel)
+        for (int i = 0; i < kCount; ++i) values.push_back(make.wild(-0.1f, 1.2f));
+    for (const float exposure : {1.0f, 0.3f, 1e20f, kInf, kNan}) {
+        std::vector<std::uint32_t> want(kCount), got(kCount);
+        shade_kernels(Isa::scalar)
+            .encode_srgb8(channel[0].data(), channel[1].data(), channel[2].data(), channel[3].data(), exposure, want.data(), kCount);
+        for (const Isa isa : other_isas()) {
+            shade_kernels(isa).encode_srgb8(channel[0].data(), channel[1].data(), channel[2].data(), channel[3].data(), exposure,
+                                            got.data(), kCount);
+            INFO(isa_name(isa) << ", exposure " << exposure);
+            CHECK(got == want);
+        }
+    }
+}

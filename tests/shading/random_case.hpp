@@ -1,0 +1,174 @@
+// Random materials, textures, lights and fragment blocks: one draw of everything that a shading kernel can be given.
+#pragma once
+
+#include "floats.hpp"
+#include "shading/plan.hpp"
+#include "shading/reference.hpp"
+
+#include <vector>
+
+namespace halflit::testing {
+
+/// Textures of odd, even, tiny and larger sizes. `smooth` ones change little between neighbours, so that a coordinate's last bit matters
+/// little to the value.
+inline std::vector<shading::Texture> make_textures(FloatMaker& make, bool smooth) {
+    std::vector<shading::Texture> textures;
+    for (const auto& [width, height] : {std::pair{1, 1}, {2, 3}, {8, 8}, {13, 7}, {64, 32}, {1, 9}}) {
+        std::vector<std::uint16_t> texels;
+        for (int i = 0; i < width * height * 4; ++i)
+            texels.push_back(static_cast<std::uint16_t>(smooth ? 30000 + make.below(2000) : make.below(65536)));
+        textures.push_back(shading::Texture::from_rgba16(texels, width, height).value());
+    }
+    return textures;
+}
+
+inline shading::TextureUse make_use(FloatMaker& make) {
+    using namespace shading;
+    TextureUse use;
+    use.texture = static_cast<int>(make.below(9)) - 2;  // -2, -1: not used; 6: no such texture
+    use.uv_set = static_cast<int>(make.below(2));
+    use.sampler.wrap_u = static_cast<Wrap>(make.below(3));
+    use.sampler.wrap_v = static_cast<Wrap>(make.below(3));
+    use.sampler.mag = static_cast<Filter>(make.below(2));
+    use.sampler.min = static_cast<Filter>(make.below(2));
+    use.sampler.mip = static_cast<MipFilter>(make.below(3));
+    if (make.below(3) == 0) {
+        use.row_u = {make.ordinary(-2, 2), make.ordinary(-2, 2), make.ordinary(-1, 1)};
+        use.row_v = {make.ordinary(-2, 2), make.ordinary(-2, 2), make.ordinary(-1, 1)};
+    }
+    return use;
+}
+
+inline shading::Lobe make_lobe(FloatMaker& make) {
+    using shading::Lobe;
+    Lobe lobe;
+    switch (make.below(8)) {
+        case 0:
+            lobe = Lobe::lambert();
+            break;
+        case 1:
+            lobe = Lobe::green(make.ordinary(0, 1));
+            break;
+        case 2:
+            lobe = Lobe::valve();
+            break;
+        case 3:
+            lobe = Lobe::sloan(0.5f);
+            break;
+        case 4:
+            lobe = Lobe::sloan(make.ordinary(0, 1));
+            break;
+        case 5:
+            lobe = {make.ordinary(0, 1), 0.0f, false};
+            break;
+        case 6:
+            lobe = {make.ordinary(0, 1), static_cast<float>(3 + make.below(5)), false};
+            break;
+        default:
+            lobe = Lobe::mcauley(make.ordinary(0, 1), make.ordinary(0.2f, 9.0f));
+            break;
+    }
+    lobe.normalize = lobe.normalize || make.below(4) == 0;
+    return lobe;
+}
+
+inline shading::Material make_material(FloatMaker& make) {
+    using namespace shading;
+    Material material;
+    material.base_color = {make.ordinary(0, 1), make.ordinary(0, 1), make.ordinary(0, 1), make.ordinary(0, 1)};
+    material.metallic = make.below(2) == 0 ? 0.0f : make.ordinary(0, 1);
+    material.roughness = make.ordinary(0, 1);
+    if (make.below(2) == 0) material.emissive = {make.ordinary(0, 1), make.ordinary(0, 2), 0.0f};
+    material.normal_scale = make.ordinary(0, 2);
+    material.occlusion_strength = make.ordinary(0, 1);
+    material.alpha_mode = static_cast<AlphaMode>(make.below(3));
+    material.double_sided = make.below(2) == 0;
+    material.unlit = make.below(8) == 0;
+    material.lobe = make_lobe(make);
+    material.has_own_lobe = make.below(2) == 0;
+    for (TextureUse* use : {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
+                            &material.occlusion_texture, &material.emissive_texture})
+        if (make.below(2) == 0) *use = make_use(make);
+    if (make.below(3) == 0) material.occlusion_texture = material.metallic_roughness_texture;
+    return material;
+}
+
+inline shading::Light make_light(FloatMaker& make) {
+    using namespace shading;
+    Light light;
+    light.type = static_cast<LightType>(make.below(3));
+    light.color_linear = {make.ordinary(0, 3), make.ordinary(0, 3), make.ordinary(0, 3)};
+    light.position_ws = {make.ordinary(-3, 3), make.ordinary(-3, 3), make.ordinary(-3, 3)};
+    light.direction_ws = {make.ordinary(-1, 1), make.ordinary(-1, 1), make.ordinary(-1, 1)};
+    light.range = make.below(2) == 0 ? 0.0f : make.ordinary(1, 6);
+    light.source_radius = make.below(2) == 0 ? 0.0f : make.ordinary(0, 1);
+    light.outer_cone_rad = make.ordinary(0.3f, 1.5f);
+    light.inner_cone_rad = light.outer_cone_rad * make.ordinary(0, 0.9f);
+    return light;
+}
+
+/// Attribute rows for all lanes. `wild`: mixed with infinities, NaNs, denormals and random bits.
+inline void fill_block(FloatMaker& make, shading::FragmentBlock& block, bool wild) {
+    using namespace shading;
+    const bool around = make.below(2) == 0;  // gradients around one texel a pixel, or any size
+    for (int row = 0; row < kInputRows; ++row) {
+        for (float& value : block.lane[row]) {
+            float low = -1, high = 1;
+            if (row <= kPosZ) low = -2, high = 2;
+            if (row >= kColorR && row <= kColorA) low = 0;
+            if (row >= kDu0Dx && row <= kDv1Dy) low = around ? -0.1f : -0.01f, high = around ? 0.1f : 0.01f;
+            if (row == kTangentW || row == kFacing) {
+                value = make.below(2) == 0 ? 1.0f : -1.0f;
+                if (wild && make.below(16) == 0) value = make.wild(low, high);
+            } else {
+                value = wild ? make.wild(low, high) : make.ordinary(low, high);
+            }
+        }
+    }
+    if (!wild) return;
+    // Whole zero vectors, and coordinates far out.
+    for (int lane = 0; lane < kBlockSize; lane += 5) {
+        const int row = make.below(2) == 0 ? kNormalX : kTangentX;
+        for (int i = 0; i < 3; ++i) block.lane[row + i][lane] = 0.0f;
+        block.lane[kU0][lane] = make.ordinary(-1e7f, 1e7f);
+        block.lane[kV1][lane] = make.ordinary(-300, 300);
+    }
+}
+
+/// Everything that a frame shares.
+struct Case {
+    std::vector<shading::Texture> textures;
+    std::vector<shading::Material> materials;
+    std::vector<shading::Light> lights;
+    std::vector<shading::QuadMask> available;
+    shading::Ambient ambient;
+    shading::PlanOptions options;
+    shading::FramePlan plan;
+};
+
+inline Case make_case(FloatMaker& make, bool smooth_textures) {
+    using namespace shading;
+    Case c;
+    c.textures = make_textures(make, smooth_textures);
+    c.materials.push_back(make_material(make));
+    const std::uint32_t light_count = make.below(5);
+    for (std::uint32_t i = 0; i < light_count; ++i) c.lights.push_back(make_light(make));
+    if (make.below(2) == 0)
+        c.ambient = {{make.ordinary(0, 1), make.ordinary(0, 1), make.ordinary(0, 1)}, {0.2f, make.ordinary(0, 1), 0.0f}};
+    c.options.specular = make.below(3) != 0;
+    c.options.override_lobe = make.below(4) == 0;
+    c.options.lobe = make_lobe(make);
+    c.available = {3u | (make.below(8) << 2), 3u};
+    c.plan = make_frame_plan(c.materials, c.textures, c.available, c.lights, c.ambient, c.options);
+    c.plan.eye_ws = {make.ordinary(-4, 4), make.ordinary(-4, 4), 5.0f};
+    c.plan.view_direction_ws = {0.6f, 0.0f, -0.8f};
+    c.plan.orthographic = make.below(3) == 0;
+    return c;
+}
+
+/// The reference's view of a case; valid while the case stays where it is.
+inline shading::reference::Frame reference_frame(const Case& c) {
+    return {c.textures, c.lights, c.ambient, c.options, c.plan.eye_ws, c.plan.view_direction_ws, c.plan.orthographic};
+}
+
+}  // namespace halflit::testing
