@@ -1,0 +1,25 @@
+// The GLB container: a 12-byte header, a JSON chunk, and at most one BIN chunk.
+#pragma once
+
+#include "shading/result.hpp"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace halflit::io::detail {
+
+struct GlbParts {
+    std::span<const std::byte> json;
+    std::span<const std::byte> bin;  ///< its padding included
+    bool has_bin = false;
+    std::vector<std::string> warnings;
+};
+
+[[nodiscard]] bool is_glb(std::span<const std::byte> file);
+
+/// Checks every length before use. Chunks of unknown types are skipped. The message has no file prefix.
+Result<GlbParts> split_glb(std::span<const std::byte> file);
+
+}  // namespace halflit::io::detail

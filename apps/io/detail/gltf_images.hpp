@@ -1,0 +1,31 @@
+// The pictures that materials use: fetched, decoded under limits, made into textures. One texture for each picture and colour space.
+#pragma once
+
+#include "apps/io/detail/gltf_document.hpp"
+#include "shading/texture.hpp"
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace halflit::io::detail {
+
+class ImageStore {
+public:
+    ImageStore(Document& document, std::vector<shading::Texture>& textures);
+
+    /// Index into the scene's textures for an entry of "images". Throws LoadFailure, or, when lenient, warns and gives a magenta
+    /// checkerboard.
+    int texture_for(int image, shading::ColorSpace space);
+
+private:
+    [[nodiscard]] shading::Texture make(int image, shading::ColorSpace space);
+
+    Document& document_;
+    std::vector<shading::Texture>& textures_;
+    Budget texture_memory_;
+    std::map<std::pair<std::string, shading::ColorSpace>, int> made_;  // by what the picture is read from
+};
+
+}  // namespace halflit::io::detail

@@ -1,0 +1,16 @@
+// Materials: glTF's parameters, the extensions that change them, and this project's own extras.halflit.
+#pragma once
+
+#include "apps/io/detail/gltf_document.hpp"
+#include "apps/io/detail/gltf_images.hpp"
+#include "shading/material.hpp"
+
+#include <vector>
+
+namespace halflit::io::detail {
+
+/// All materials of the file, in its order, so that indices stay. Textures of materials that no drawn primitive uses
+/// (`used` false) are not read. Throws LoadFailure.
+std::vector<shading::Material> make_materials(Document& document, ImageStore& images, const std::vector<bool>& used);
+
+}  // namespace halflit::io::detail

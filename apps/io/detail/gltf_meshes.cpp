@@ -1,0 +1,125 @@
+#include "apps/io/detail/gltf_meshes.hpp"
+
+#include "apps/io/detail/gltf_skin.hpp"
+#include "raster/mesh_normals.hpp"
+#include "raster/tangent_space.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <tuple>
+
+namespace halflit::io::detail {
+
+namespace {
+
+class MeshPlacer {
+public:
+    MeshPlacer(Document& document, const std::vector<Accessor>& accessors, const NodeTree& tree, raster::Scene& scene)
+        : document_(document), accessors_(accessors), tree_(tree), scene_(scene), reader_(document, accessors) {}
+
+    void run() {
+        for (const int node : tree_.drawn)
+            if (document_.model.nodes[static_cast<std::size_t>(node)].mesh >= 0) place(static_cast<std::size_t>(node));
+        if (document_.info.point_and_line_primitives > 0)
+            document_.warn(fmt::format("{} primitives are points or lines, which are not drawn", document_.info.point_and_line_primitives));
+    }
+
+private:
+    struct Made {
+        std::vector<int> meshes;  // of the scene
+        bool in_world = false;    // skinned
+    };
+    using Key = std::tuple<int, int, std::vector<double>>;  // mesh, skin, morph weights
+
+    void place(std::size_t index) {
+        const tinygltf::Node& node = document_.model.nodes[index];
+        const tinygltf::Mesh& mesh = document_.model.meshes[static_cast<std::size_t>(node.mesh)];
+        std::vector<double> weights = node.weights.empty() ? mesh.weights : node.weights;
+        while (!weights.empty() && weights.back() == 0.0) weights.pop_back();
+        const auto [entry, is_new] = made_.try_emplace(Key{node.mesh, node.skin, std::move(weights)});
+        if (is_new) entry->second = make(static_cast<std::size_t>(node.mesh), node.skin, std::get<2>(entry->first));
+
+        const Made& made = entry->second;
+        const Affine& world = tree_.world_from_node[index];
+        if (!made.in_world && !is_finite(world)) {
+            document_.warn(fmt::format("nodes[{}]: its transform is not finite, not drawn", index));
+            return;
+        }
+        document_.geometry.take(made.meshes.size() * sizeof(raster::Instance));
+        for (const int m : made.meshes) {
+            scene_.instances.push_back({m, made.in_world ? Mat4{} : to_mat4(world)});
+            document_.info.triangles_drawn += scene_.meshes[static_cast<std::size_t>(m)].indices.size() / 3;
+        }
+    }
+
+    Made make(std::size_t mesh, int skin, const std::vector<double>& weights) {
+        Made made;
+        const auto& primitives = document_.model.meshes[mesh].primitives;
+        for (std::size_t p = 0; p < primitives.size(); ++p) {
+            std::optional<ReadMesh> read = reader_.read(mesh, p, weights);
+            if (!read) continue;
+            if (skin >= 0) {
+                if (apply_skin(document_, accessors_, reader_, tree_, skin, primitives[p], *read))
+                    made.in_world = true;
+                else
+                    document_.warn(fmt::format("{}: has a skin, but no JOINTS_0 and WEIGHTS_0; drawn as a plain mesh", read->where));
+            }
+            complete(*read);
+            document_.info.vertices += read->mesh.positions.size();
+            document_.info.triangles_stored += read->mesh.indices.size() / 3;
+            made.meshes.push_back(static_cast<int>(scene_.meshes.size()));
+            scene_.meshes.push_back(std::move(read->mesh));
+        }
+        return made;
+    }
+
+    /// Flat normals where there are none, and tangents where the material needs them.
+    void complete(ReadMesh& read) {
+        raster::Mesh& mesh = read.mesh;
+        const std::uint64_t corners = mesh.indices.size();
+        if (mesh.normals.empty()) {
+            document_.geometry.take(corners *
+                                    (24 + (mesh.uv0.empty() ? 0 : 8) + (mesh.uv1.empty() ? 0 : 8) + (mesh.colors.empty() ? 0 : 16)));
+            raster::generate_flat_normals(mesh);
+        }
+        if (mesh.material < 0 || !mesh.tangents.empty()) return;
+        const shading::TextureUse& normal_map = scene_.materials[static_cast<std::size_t>(mesh.material)].normal_texture;
+        if (!normal_map.used()) return;
+        if ((normal_map.uv_set == 1 ? mesh.uv1 : mesh.uv0).empty()) {
+            document_.warn(
+                fmt::format("{}: the material has a normal texture, but the mesh no TEXCOORD_{}", read.where, normal_map.uv_set));
+            return;
+        }
+        document_.geometry.take(corners * 16);
+        raster::generate_tangents(mesh, normal_map.uv_set);
+    }
+
+    Document& document_;
+    const std::vector<Accessor>& accessors_;
+    const NodeTree& tree_;
+    raster::Scene& scene_;
+    PrimitiveReader reader_;
+    std::map<Key, Made> made_;
+};
+
+}  // namespace
+
+std::vector<bool> find_used_materials(const Document& document, const NodeTree& tree) {
+    std::vector<bool> used(document.model.materials.size(), false), seen(document.model.meshes.size(), false);
+    for (const int node : tree.drawn) {
+        const int mesh = document.model.nodes[static_cast<std::size_t>(node)].mesh;
+        if (mesh < 0 || seen[static_cast<std::size_t>(mesh)]) continue;
+        seen[static_cast<std::size_t>(mesh)] = true;
+        for (const tinygltf::Primitive& primitive : document.model.meshes[static_cast<std::size_t>(mesh)].primitives)
+            if (primitive.material >= 0 && primitive.mode >= TINYGLTF_MODE_TRIANGLES)
+                used[static_cast<std::size_t>(primitive.material)] = true;
+    }
+    return used;
+}
+
+void place_meshes(Document& document, const std::vector<Accessor>& accessors, const NodeTree& tree, raster::Scene& scene) {
+    MeshPlacer(document, accessors, tree, scene).run();
+}
+
+}  // namespace halflit::io::detail

@@ -1,0 +1,18 @@
+// Meshes and their instances: each mesh of the drawn nodes is made once, completed for its material, and placed by its nodes.
+#pragma once
+
+#include "apps/io/detail/gltf_nodes.hpp"
+#include "apps/io/detail/gltf_primitive.hpp"
+#include "raster/scene.hpp"
+
+#include <vector>
+
+namespace halflit::io::detail {
+
+/// For each material of the file, whether a drawn primitive has it.
+std::vector<bool> find_used_materials(const Document& document, const NodeTree& tree);
+
+/// Fills scene.meshes and scene.instances; scene.materials must be there. Throws LoadFailure.
+void place_meshes(Document& document, const std::vector<Accessor>& accessors, const NodeTree& tree, raster::Scene& scene);
+
+}  // namespace halflit::io::detail

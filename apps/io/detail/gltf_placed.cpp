@@ -1,0 +1,118 @@
+#include "apps/io/detail/gltf_placed.hpp"
+
+#include "apps/io/detail/text.hpp"
+#include "sh/trig.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace halflit::io::detail {
+
+namespace {
+
+Vec3d unit_or(Vec3d v, Vec3d otherwise) {
+    const double len = length(v);
+    return len > 1e-200 && len < 1e200 ? v * (1.0 / len) : otherwise;
+}
+
+/// The node's place and its view direction (-z), with scale, shear and mirroring taken out: z is kept, y is made orthogonal to it.
+Mat4 rigid_part(const Affine& world) {
+    const Vec3d z = unit_or(world.c[2], {0, 0, 1});
+    const Vec3d side = z.y > 0.9 || z.y < -0.9 ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0};  // for a node whose y lies along z, or is zero
+    const Vec3d y_in_plane = world.c[1] - z * dot(z, world.c[1]);
+    const bool usable = length(y_in_plane) > 1e-9 * length(world.c[1]);
+    const Vec3d y = unit_or(usable ? y_in_plane : side - z * dot(z, side), {0, 1, 0});
+    return to_mat4({{cross(y, z), y, z, world.c[3]}});
+}
+
+bool set_projection(const tinygltf::Camera& source, raster::Camera& camera) {
+    const auto in = [](double value, double low, double high) { return value > low && value < high; };
+    if (source.type == "orthographic") {
+        const tinygltf::OrthographicCamera& o = source.orthographic;
+        const double width = o.xmag < 0 ? -o.xmag : o.xmag, height = o.ymag < 0 ? -o.ymag : o.ymag;
+        if (!in(width, 0, 1e30) || !in(height, 0, 1e30) || !(o.znear >= 0 && o.znear < 1e30) || !in(o.zfar, o.znear, 1e30)) return false;
+        camera.orthographic = true;
+        camera.half_width = static_cast<float>(width);
+        camera.half_height = static_cast<float>(height);
+        camera.near_z = static_cast<float>(o.znear);
+        camera.far_z = static_cast<float>(o.zfar);
+        return true;
+    }
+    const tinygltf::PerspectiveCamera& p = source.perspective;
+    if (!in(p.yfov, 0, 3.1415926) || !in(p.znear, 0, 1e30)) return false;
+    if (p.zfar != 0 && !in(p.zfar, p.znear, 1e38)) return false;
+    if (p.aspectRatio != 0 && !in(p.aspectRatio, 0, 1e6)) return false;
+    camera.fov_y_rad = static_cast<float>(p.yfov);
+    camera.aspect = static_cast<float>(p.aspectRatio);
+    camera.near_z = static_cast<float>(p.znear);
+    camera.far_z = static_cast<float>(p.zfar);
+    return true;
+}
+
+/// KHR_lights_punctual gives lux (directional) and candela (point, spot); colours here are those over pi.
+std::optional<shading::Light> light_of(const tinygltf::Light& source) {
+    shading::Light light;
+    if (source.type == "point")
+        light.type = shading::LightType::point;
+    else if (source.type == "spot")
+        light.type = shading::LightType::spot;
+    else if (source.type != "directional")
+        return std::nullopt;
+    const auto channel = [&](std::size_t c) {
+        const double color = source.color.size() == 3 ? source.color[c] : 1.0;
+        return static_cast<float>(std::clamp(color, 0.0, 1e15) * std::clamp(source.intensity, 0.0, 1e15) / kPi);
+    };
+    light.color_linear = {channel(0), channel(1), channel(2)};
+    if (light.type != shading::LightType::directional) light.range = static_cast<float>(std::clamp(source.range, 0.0, 1e18));
+    if (light.type == shading::LightType::spot) {
+        light.outer_cone_rad = static_cast<float>(std::clamp(source.spot.outerConeAngle, 0.0, kPi / 2));
+        light.inner_cone_rad = std::min(static_cast<float>(std::clamp(source.spot.innerConeAngle, 0.0, kPi / 2)), light.outer_cone_rad);
+    }
+    return light;
+}
+
+}  // namespace
+
+void place_cameras(Document& document, const NodeTree& tree, raster::Scene& scene) {
+    for (const int n : tree.drawn) {
+        const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(n)];
+        if (node.camera < 0) continue;
+        const tinygltf::Camera& source = document.model.cameras[static_cast<std::size_t>(node.camera)];
+        raster::Camera camera;
+        const Affine& world = tree.world_from_node[static_cast<std::size_t>(n)];
+        if (!is_finite(world) || !set_projection(source, camera)) {
+            document.warn(fmt::format("cameras[{}]: its numbers make no view, left out", node.camera));
+            continue;
+        }
+        camera.name = source.name.empty() ? node.name : source.name;
+        camera.world_from_camera = rigid_part(world);
+        document.geometry.take(sizeof(raster::Camera) + camera.name.size());
+        scene.cameras.push_back(std::move(camera));
+    }
+}
+
+void place_lights(Document& document, const NodeTree& tree, raster::Scene& scene) {
+    for (const int n : tree.drawn) {
+        const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(n)];
+        const auto extension = node.extensions.find("KHR_lights_punctual");
+        if (extension == node.extensions.end() || !extension->second.Has("light")) continue;
+        const int index = extension->second.Get("light").GetNumberAsInt();
+        const tinygltf::Light& source = document.model.lights[static_cast<std::size_t>(index)];
+        std::optional<shading::Light> light = light_of(source);
+        const Affine& world = tree.world_from_node[static_cast<std::size_t>(n)];
+        if (!light || !is_finite(world)) {
+            document.warn(!light ? fmt::format("lights[{}]: the type \"{}\" is unknown, left out", index, printable(source.type, 40))
+                                 : fmt::format("nodes[{}]: its transform is not finite, its light left out", n));
+            continue;
+        }
+        light->position_ws = to_float(world.c[3]);
+        light->direction_ws = to_float(unit_or(world.c[2] * -1.0, {0, 0, -1}));
+        if (scene.lights.size() >= document.options.limits.max_lights)
+            refuse("nodes", fmt::format("more than {} lights, which is the limit", document.options.limits.max_lights), ErrorCode::limit);
+        scene.lights.push_back(*light);
+    }
+}
+
+}  // namespace halflit::io::detail

@@ -1,0 +1,247 @@
+#include "apps/io/detail/gltf_primitive.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace halflit::io::detail {
+
+namespace {
+
+using enum Component;
+constexpr Component kFloat[] = {f32}, kUnsigned[] = {u8, u16}, kSigned[] = {i8, i16}, kSmall[] = {u8, i8, u16, i16};
+constexpr AttributeRule kPosition{"POSITION", 3, 3, kFloat, {}, kSmall, kSmall};
+constexpr AttributeRule kNormal{"NORMAL", 3, 3, kFloat, {}, {}, kSigned};
+constexpr AttributeRule kTangent{"TANGENT", 4, 4, kFloat, {}, {}, kSigned};
+constexpr AttributeRule kUv0{"TEXCOORD_0", 2, 2, kFloat, kUnsigned, kSmall, kSigned};
+constexpr AttributeRule kUv1{"TEXCOORD_1", 2, 2, kFloat, kUnsigned, kSmall, kSigned};
+constexpr AttributeRule kColor{"COLOR_0", 3, 4, kFloat, kUnsigned, {}, {}};
+constexpr AttributeRule kPositionDelta{"POSITION", 3, 3, kFloat, {}, kSigned, kSigned};
+constexpr AttributeRule kNormalDelta{"NORMAL", 3, 3, kFloat, {}, kSigned, kSigned};
+constexpr AttributeRule kTangentDelta{"TANGENT", 3, 3, kFloat, {}, kSigned, kSigned};
+
+constexpr std::size_t kMaxIndices = std::numeric_limits<std::int32_t>::max();
+
+bool contains(std::span<const Component> list, Component component) { return std::find(list.begin(), list.end(), component) != list.end(); }
+
+std::vector<Vec3f> read_vec3(const Accessor& accessor, std::span<const std::uint32_t> vertices) {
+    std::vector<Vec3f> out(vertices.size());
+    float value[4];
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        accessor.read_floats(vertices[i], value);
+        out[i] = {value[0], value[1], value[2]};
+    }
+    return out;
+}
+
+std::vector<Vec2f> read_vec2(const Accessor& accessor, std::span<const std::uint32_t> vertices) {
+    std::vector<Vec2f> out(vertices.size());
+    float value[4];
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        accessor.read_floats(vertices[i], value);
+        out[i] = {value[0], value[1]};
+    }
+    return out;
+}
+
+/// `w` is what three-component values get as their fourth.
+std::vector<Vec4f> read_vec4(const Accessor& accessor, std::span<const std::uint32_t> vertices, float w) {
+    std::vector<Vec4f> out(vertices.size());
+    float value[4] = {0, 0, 0, w};
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        accessor.read_floats(vertices[i], value);
+        out[i] = {value[0], value[1], value[2], value[3]};
+    }
+    return out;
+}
+
+/// Strips and fans as triangles, the winding of the first kept throughout (glTF 2.0, 3.7.2.1).
+std::vector<std::uint32_t> as_triangles(int mode, std::vector<std::uint32_t> run) {
+    if (mode == TINYGLTF_MODE_TRIANGLES) return run;
+    std::vector<std::uint32_t> out;
+    if (run.size() < 3) return out;
+    out.reserve(3 * (run.size() - 2));
+    for (std::size_t i = 0; i + 2 < run.size(); ++i) {
+        if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
+            out.insert(out.end(), {run[i + 1], run[i + 2], run[0]});
+        else
+            out.insert(out.end(), {run[i], run[i + 1 + i % 2], run[i + 2 - i % 2]});
+    }
+    return out;
+}
+
+}  // namespace
+
+PrimitiveReader::PrimitiveReader(Document& document, const std::vector<Accessor>& accessors)
+    : document_(document), accessors_(accessors), quantized_(document.json.uses("KHR_mesh_quantization")) {}
+
+const Accessor* PrimitiveReader::attribute(const std::string& where, const std::map<std::string, int>& attributes,
+                                           const AttributeRule& rule, std::optional<std::size_t> count) const {
+    const auto found = attributes.find(rule.name);
+    if (found == attributes.end()) return nullptr;
+    const Accessor& accessor = accessors_[static_cast<std::size_t>(found->second)];
+    if (accessor.components() < rule.min_components || accessor.components() > rule.max_components)
+        refuse(where, fmt::format("{} ({}): expected {} components, found {}", rule.name, accessor.name(), rule.max_components,
+                                  accessor.components()));
+    const Component type = accessor.component();
+    const bool base = contains(accessor.normalized() && type != f32 ? rule.normalized : rule.plain, type);
+    const bool more = contains(accessor.normalized() ? rule.more_normalized : rule.more_plain, type);
+    if (!base && !(more && quantized_))
+        refuse(where, fmt::format("{} ({}): found {}component type {}, which glTF does not allow here{}", rule.name, accessor.name(),
+                                  accessor.normalized() ? "normalized " : "", static_cast<int>(type),
+                                  more ? " without KHR_mesh_quantization" : ""));
+    if (count && accessor.count() != *count)
+        refuse(where,
+               fmt::format("{} ({}): expected {} elements as in POSITION, found {}", rule.name, accessor.name(), *count, accessor.count()));
+    return &accessor;
+}
+
+std::vector<std::uint32_t> PrimitiveReader::triangle_indices(const tinygltf::Primitive& primitive, const std::string& where,
+                                                             std::size_t vertex_count) {
+    const Accessor* accessor = primitive.indices < 0 ? nullptr : &accessors_[static_cast<std::size_t>(primitive.indices)];
+    std::size_t count = vertex_count;
+    if (accessor != nullptr) {
+        const Component type = accessor->component();
+        if (accessor->components() != 1 || accessor->normalized() || !(type == u8 || type == u16 || type == u32))
+            refuse(where + ".indices", fmt::format("{}: expected unsigned integers of one component, found {} of component type {}",
+                                                   accessor->name(), accessor->components(), static_cast<int>(type)));
+        count = accessor->count();
+    }
+    const std::size_t most = primitive.mode == TINYGLTF_MODE_TRIANGLES ? kMaxIndices : kMaxIndices / 3;
+    if (count > most) refuse(where, fmt::format("{} indices, the limit is {}", count, most), ErrorCode::limit);
+    document_.geometry.take(std::uint64_t{count} * (primitive.mode == TINYGLTF_MODE_TRIANGLES ? 4 : 12));
+
+    std::vector<std::uint32_t> run(count);
+    if (accessor == nullptr) {
+        for (std::size_t i = 0; i < count; ++i) run[i] = static_cast<std::uint32_t>(i);
+    } else {
+        // glTF reserves the largest value of the type, which other systems take as "restart".
+        const std::uint32_t restart = accessor->component() == u8 ? 0xFFu : accessor->component() == u16 ? 0xFFFFu : 0xFFFFFFFFu;
+        for (std::size_t i = 0; i < count; ++i) {
+            accessor->read_unsigned(i, &run[i]);
+            if (run[i] < vertex_count && run[i] != restart) continue;
+            if (!document_.options.lenient)
+                refuse(where + ".indices",
+                       fmt::format("{}: entry {} is {}, but there are {} vertices", accessor->name(), i, run[i], vertex_count));
+            run[i] = 0xFFFFFFFFu;
+        }
+    }
+    if (primitive.mode == TINYGLTF_MODE_TRIANGLES && count % 3 != 0) {
+        if (!document_.options.lenient) refuse(where, fmt::format("{} indices, expected a multiple of 3", count));
+        document_.warn(fmt::format("{}: {} indices are not a multiple of 3, the last ones left out", where, count));
+        run.resize(count - count % 3);
+    }
+    std::vector<std::uint32_t> triangles = as_triangles(primitive.mode, std::move(run));
+    if (document_.options.lenient) {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < triangles.size(); i += 3) {
+            const bool good = triangles[i] < vertex_count && triangles[i + 1] < vertex_count && triangles[i + 2] < vertex_count;
+            for (std::size_t c = 0; good && c < 3; ++c) triangles[kept++] = triangles[i + c];
+        }
+        if (kept != triangles.size())
+            document_.warn(fmt::format("{}: {} triangles with indices out of range left out", where, (triangles.size() - kept) / 3));
+        triangles.resize(kept);
+    }
+    return triangles;
+}
+
+/// The file's vertices that the mesh needs. All of them, in order, unless there are more vertices than indices: then only those in use
+/// (many primitives may share one long list of vertices), and the indices are changed.
+std::vector<std::uint32_t> PrimitiveReader::gather_vertices(std::vector<std::uint32_t>& indices, std::size_t vertex_count) {
+    std::vector<std::uint32_t> vertices;
+    if (vertex_count <= indices.size()) {
+        vertices.resize(vertex_count);
+        for (std::size_t i = 0; i < vertex_count; ++i) vertices[i] = static_cast<std::uint32_t>(i);
+        return vertices;
+    }
+    if (stamp_of_.size() < vertex_count) {
+        const std::size_t highest = std::size_t{*std::max_element(indices.begin(), indices.end())} + 1;
+        if (stamp_of_.size() < highest) {
+            document_.geometry.take(8 * std::uint64_t{highest - stamp_of_.size()});
+            stamp_of_.resize(highest, 0);
+            new_number_.resize(highest, 0);
+        }
+    }
+    ++stamp_;
+    for (std::uint32_t& index : indices) {
+        if (stamp_of_[index] != stamp_) {
+            stamp_of_[index] = stamp_;
+            new_number_[index] = static_cast<std::uint32_t>(vertices.size());
+            vertices.push_back(index);
+        }
+        index = new_number_[index];
+    }
+    return vertices;
+}
+
+void PrimitiveReader::morph(const tinygltf::Primitive& primitive, const std::string& where, std::size_t vertex_count,
+                            std::span<const double> weights, ReadMesh& out) const {
+    for (std::size_t t = 0; t < std::min(primitive.targets.size(), weights.size()); ++t) {
+        const auto weight = static_cast<float>(weights[t]);
+        if (weight == 0.0f) continue;
+        const std::string target = fmt::format("{}.targets[{}]", where, t);
+        const auto add = [&](const AttributeRule& rule, auto& values) {
+            const Accessor* deltas = attribute(target, primitive.targets[t], rule, vertex_count);
+            if (deltas == nullptr) return;
+            float delta[4];
+            for (std::size_t i = 0; i < values.size(); ++i) {
+                deltas->read_floats(out.source_vertices[i], delta);
+                values[i].x += weight * delta[0];
+                values[i].y += weight * delta[1];
+                values[i].z += weight * delta[2];
+            }
+        };
+        add(kPositionDelta, out.mesh.positions);
+        add(kNormalDelta, out.mesh.normals);
+        add(kTangentDelta, out.mesh.tangents);
+    }
+}
+
+std::optional<ReadMesh> PrimitiveReader::read(std::size_t mesh_index, std::size_t primitive_index, std::span<const double> morph_weights) {
+    const tinygltf::Primitive& primitive = document_.model.meshes[mesh_index].primitives[primitive_index];
+    ReadMesh out;
+    out.where = fmt::format("meshes[{}].primitives[{}]", mesh_index, primitive_index);
+    if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
+        refuse(out.where + ".mode", fmt::format("expected 0 to 6, found {}", primitive.mode));
+    if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
+        ++document_.info.point_and_line_primitives;
+        return std::nullopt;
+    }
+    const Accessor* position = attribute(out.where, primitive.attributes, kPosition, std::nullopt);
+    if (position == nullptr) {
+        document_.warn(fmt::format("{}: has no POSITION, not drawn", out.where));
+        return std::nullopt;
+    }
+    const std::size_t count = position->count();
+    if (count > kMaxIndices) refuse(out.where, fmt::format("{} vertices, the limit is {}", count, kMaxIndices), ErrorCode::limit);
+    const Accessor* normal = attribute(out.where, primitive.attributes, kNormal, count);
+    const Accessor* tangent = normal == nullptr ? nullptr : attribute(out.where, primitive.attributes, kTangent, count);
+    const Accessor* uv0 = attribute(out.where, primitive.attributes, kUv0, count);
+    const Accessor* uv1 = attribute(out.where, primitive.attributes, kUv1, count);
+    const Accessor* color = attribute(out.where, primitive.attributes, kColor, count);
+
+    raster::Mesh& mesh = out.mesh;
+    mesh.name = document_.model.meshes[mesh_index].name;
+    mesh.material = primitive.material;
+    mesh.indices = triangle_indices(primitive, out.where, count);
+    if (mesh.indices.empty()) {
+        document_.warn(fmt::format("{}: has no triangles", out.where));
+        return std::nullopt;
+    }
+    out.source_vertices = gather_vertices(mesh.indices, count);
+    const std::span<const std::uint32_t> vertices = out.source_vertices;
+    document_.geometry.take(std::uint64_t{vertices.size()} *
+                            (16 + (normal ? 12 : 0) + (tangent ? 16 : 0) + (uv0 ? 8 : 0) + (uv1 ? 8 : 0) + (color ? 16 : 0)));
+    mesh.positions = read_vec3(*position, vertices);
+    if (normal != nullptr) mesh.normals = read_vec3(*normal, vertices);
+    if (tangent != nullptr) mesh.tangents = read_vec4(*tangent, vertices, 1.0f);
+    if (uv0 != nullptr) mesh.uv0 = read_vec2(*uv0, vertices);
+    if (uv1 != nullptr) mesh.uv1 = read_vec2(*uv1, vertices);
+    if (color != nullptr) mesh.colors = read_vec4(*color, vertices, 1.0f);
+    morph(primitive, out.where, count, morph_weights, out);
+    for (Vec4f& t : mesh.tangents) t.w = t.w < 0.0f ? -1.0f : 1.0f;
+    return out;
+}
+
+}  // namespace halflit::io::detail

@@ -1,0 +1,53 @@
+// One glTF primitive as a mesh: indices of any kind become triangles, attributes of any type become floats.
+#pragma once
+
+#include "apps/io/detail/gltf_accessor.hpp"
+#include "raster/mesh.hpp"
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace halflit::io::detail {
+
+/// Which types an attribute may have.
+struct AttributeRule {
+    const char* name;
+    int min_components, max_components;
+    std::span<const Component> plain, normalized;            ///< component types that glTF 2.0 allows
+    std::span<const Component> more_plain, more_normalized;  ///< and those that KHR_mesh_quantization adds
+};
+
+struct ReadMesh {
+    raster::Mesh mesh;                           ///< without material-dependent parts: normals may be missing
+    std::vector<std::uint32_t> source_vertices;  ///< the file's vertex number of each vertex
+    std::string where;                           ///< "meshes[0].primitives[1]", for messages
+};
+
+class PrimitiveReader {
+public:
+    PrimitiveReader(Document& document, const std::vector<Accessor>& accessors);
+
+    /// No value where there is nothing to draw (points, lines, no positions, no triangles). `morph_weights` may be empty.
+    std::optional<ReadMesh> read(std::size_t mesh, std::size_t primitive, std::span<const double> morph_weights);
+
+    /// Null where there is no such attribute. Throws where its type or its count does not fit.
+    [[nodiscard]] const Accessor* attribute(const std::string& where, const std::map<std::string, int>& attributes,
+                                            const AttributeRule& rule, std::optional<std::size_t> count) const;
+
+private:
+    std::vector<std::uint32_t> triangle_indices(const tinygltf::Primitive& primitive, const std::string& where, std::size_t vertex_count);
+    std::vector<std::uint32_t> gather_vertices(std::vector<std::uint32_t>& indices, std::size_t vertex_count);
+    void morph(const tinygltf::Primitive& primitive, const std::string& where, std::size_t vertex_count, std::span<const double> weights,
+               ReadMesh& out) const;
+
+    Document& document_;
+    const std::vector<Accessor>& accessors_;
+    bool quantized_ = false;
+    std::vector<std::uint32_t> new_number_, stamp_of_;  // of the file's vertices; a number counts where its stamp is the current one
+    std::uint32_t stamp_ = 0;
+};
+
+}  // namespace halflit::io::detail

@@ -1,0 +1,101 @@
+#include "apps/io/detail/gltf_skin.hpp"
+
+#include <fmt/format.h>
+
+namespace halflit::io::detail {
+
+namespace {
+
+using enum Component;
+constexpr Component kFloat[] = {f32}, kUnsigned[] = {u8, u16};
+
+std::vector<Affine> joint_matrices(Document& document, const std::vector<Accessor>& accessors, const NodeTree& tree, int index) {
+    const tinygltf::Skin& skin = document.model.skins[static_cast<std::size_t>(index)];
+    const std::string where = fmt::format("skins[{}]", index);
+    const Accessor* inverse_bind = skin.inverseBindMatrices < 0 ? nullptr : &accessors[static_cast<std::size_t>(skin.inverseBindMatrices)];
+    if (inverse_bind != nullptr && (inverse_bind->components() != 16 || inverse_bind->component() != f32))
+        refuse(where, fmt::format("inverseBindMatrices ({}): expected MAT4 of float", inverse_bind->name()));
+    if (inverse_bind != nullptr && inverse_bind->count() < skin.joints.size())
+        refuse(where, fmt::format("inverseBindMatrices ({}): expected {} matrices, one a joint, found {}", inverse_bind->name(),
+                                  skin.joints.size(), inverse_bind->count()));
+    document.geometry.take(skin.joints.size() * sizeof(Affine));
+    std::vector<Affine> matrices;
+    matrices.reserve(skin.joints.size());
+    for (std::size_t j = 0; j < skin.joints.size(); ++j) {
+        Affine bind;
+        float m[16];
+        if (inverse_bind != nullptr) {
+            inverse_bind->read_floats(j, m);
+            for (std::size_t c = 0; c < 4; ++c) bind.c[c] = {m[4 * c], m[4 * c + 1], m[4 * c + 2]};
+        }
+        matrices.push_back(tree.world_from_node[static_cast<std::size_t>(skin.joints[j])] * bind);
+    }
+    return matrices;
+}
+
+struct Influences {
+    const Accessor* joints;
+    const Accessor* weights;
+};
+
+}  // namespace
+
+bool apply_skin(Document& document, const std::vector<Accessor>& accessors, const PrimitiveReader& reader, const NodeTree& tree, int skin,
+                const tinygltf::Primitive& primitive, ReadMesh& read) {
+    std::vector<Influences> sets;
+    for (int set = 0;; ++set) {
+        const std::string joints = fmt::format("JOINTS_{}", set), weights = fmt::format("WEIGHTS_{}", set);
+        const Accessor* joint_accessor =
+            reader.attribute(read.where, primitive.attributes, {joints.c_str(), 4, 4, kUnsigned, {}, {}, {}}, std::nullopt);
+        const Accessor* weight_accessor =
+            reader.attribute(read.where, primitive.attributes, {weights.c_str(), 4, 4, kFloat, kUnsigned, {}, {}}, std::nullopt);
+        if (joint_accessor == nullptr || weight_accessor == nullptr) break;
+        const std::size_t count = accessors[static_cast<std::size_t>(primitive.attributes.at("POSITION"))].count();
+        if (joint_accessor->count() != count || weight_accessor->count() != count)
+            refuse(read.where, fmt::format("{} and {}: expected {} elements as in POSITION, found {} and {}", joints, weights, count,
+                                           joint_accessor->count(), weight_accessor->count()));
+        sets.push_back({joint_accessor, weight_accessor});
+    }
+    if (sets.empty()) return false;
+
+    const std::vector<Affine> matrices = joint_matrices(document, accessors, tree, skin);
+    raster::Mesh& mesh = read.mesh;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        Affine blend{{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}};
+        double sum = 0.0;
+        for (const Influences& set : sets) {
+            std::uint32_t joint[4];
+            float weight[4];
+            set.joints->read_unsigned(read.source_vertices[v], joint);
+            set.weights->read_floats(read.source_vertices[v], weight);
+            for (std::size_t k = 0; k < 4; ++k) {
+                if (!(weight[k] > 0.0f)) continue;
+                if (joint[k] >= matrices.size())
+                    refuse(read.where, fmt::format("{}: a vertex names joint {}, but skin {} has {}", set.joints->name(), joint[k], skin,
+                                                   matrices.size()));
+                for (std::size_t c = 0; c < 4; ++c) blend.c[c] = blend.c[c] + matrices[joint[k]].c[c] * double{weight[k]};
+                sum += double{weight[k]};
+            }
+        }
+        if (!(sum > 0.0))
+            blend = matrices.empty() ? Affine{} : matrices[0];
+        else
+            for (Vec3d& c : blend.c) c = c * (1.0 / sum);
+        const Vec3f p = mesh.positions[v];
+        mesh.positions[v] = to_float(transform_direction(blend, {p.x, p.y, p.z}) + blend.c[3]);
+        const Mat4 m = to_mat4(blend);
+        if (!mesh.normals.empty()) {
+            const NormalMatrix n = normal_matrix(m);
+            const Vec3f from = mesh.normals[v];
+            mesh.normals[v] = normalize_or((n.c[0] * from.x + n.c[1] * from.y) + n.c[2] * from.z, from);
+        }
+        if (!mesh.tangents.empty()) {
+            const Vec4f from = mesh.tangents[v];
+            const Vec3f t = normalize_or(transform_vector(m, {from.x, from.y, from.z}), {from.x, from.y, from.z});
+            mesh.tangents[v] = {t.x, t.y, t.z, from.w};
+        }
+    }
+    return true;
+}
+
+}  // namespace halflit::io::detail

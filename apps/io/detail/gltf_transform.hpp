@@ -1,0 +1,41 @@
+// Affine transforms in double, for chains of nodes: rounded to float once, at the end.
+#pragma once
+
+#include "sh/mat4.hpp"
+
+#include <cstddef>
+
+namespace halflit::io::detail {
+
+/// Columns: the images of x, y and z, then the origin's.
+struct Affine {
+    Vec3d c[4]{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
+};
+
+inline Vec3d transform_direction(const Affine& m, Vec3d v) { return (m.c[0] * v.x + m.c[1] * v.y) + m.c[2] * v.z; }
+
+/// a after b.
+inline Affine operator*(const Affine& a, const Affine& b) {
+    return {{transform_direction(a, b.c[0]), transform_direction(a, b.c[1]), transform_direction(a, b.c[2]),
+             transform_direction(a, b.c[3]) + a.c[3]}};
+}
+
+inline bool is_finite(const Affine& m) {
+    for (const Vec3d& c : m.c)
+        for (const double e : {c.x, c.y, c.z})
+            if (!(e > -3e38 && e < 3e38)) return false;  // within float's range
+    return true;
+}
+
+inline Vec3f to_float(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+
+inline Mat4 to_mat4(const Affine& m) {
+    Mat4 out;
+    for (std::size_t j = 0; j < 4; ++j) {
+        const Vec3f c = to_float(m.c[j]);
+        out.c[j] = {c.x, c.y, c.z, j == 3 ? 1.0f : 0.0f};
+    }
+    return out;
+}
+
+}  // namespace halflit::io::detail

@@ -1,0 +1,16 @@
+// The decoders behind image_reader, one a format.
+#pragma once
+
+#include "apps/io/image_reader.hpp"
+
+namespace halflit::io::detail {
+
+Result<ImageHeader> read_png_header(std::span<const std::byte> file, const ImageLimits& limits);
+Result<DecodedImage> decode_png(std::span<const std::byte> file, const ImageLimits& limits, bool keep_16_bits);
+Result<ImageHeader> read_jpeg_header(std::span<const std::byte> file, const ImageLimits& limits);
+Result<DecodedImage> decode_jpeg(std::span<const std::byte> file, const ImageLimits& limits);
+
+/// An error where width and height are not within the limits.
+Result<void> check_image_size(std::uint64_t width, std::uint64_t height, const ImageLimits& limits);
+
+}  // namespace halflit::io::detail

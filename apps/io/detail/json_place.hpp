@@ -1,0 +1,21 @@
+// Where in a JSON text an offset lies, for messages: line and column, and the path of keys.
+#pragma once
+
+#include "apps/io/detail/json_scan.hpp"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace halflit::io::detail {
+
+/// Line and column (both from 1, column in bytes) of an offset.
+struct TextPlace {
+    std::size_t line = 1, column = 1;
+};
+[[nodiscard]] TextPlace place_of(std::string_view text, std::size_t offset);
+
+/// "accessors[3].byteOffset" for the value (or key) at or before `offset`; empty for the root. Scans again: for messages only.
+[[nodiscard]] std::string json_path_at(std::string_view text, std::size_t offset, const JsonScanLimits& limits);
+
+}  // namespace halflit::io::detail

@@ -1,0 +1,51 @@
+// A strict, iterative pass over JSON text (RFC 8259) that runs before any tree is built. It stops at the first fault with its offset:
+// nesting and token limits, UTF-8, duplicate keys, literals such as NaN, numbers outside double. Uses no recursion.
+#pragma once
+
+#include "shading/result.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace halflit::io::detail {
+
+/// Thrown inside this folder only; gltf_precheck turns it into an Error with line, column and path.
+struct JsonFault {
+    ErrorCode code = ErrorCode::bad_input;
+    std::size_t offset = 0;  ///< bytes from the start of the text
+    std::string what;
+};
+
+enum class JsonType : std::uint8_t { object, array, string, integer, number, boolean, null };
+
+[[nodiscard]] const char* name_of(JsonType type);
+
+struct JsonValue {
+    JsonType type = JsonType::null;
+    std::size_t offset = 0;  ///< of the first byte; a string begins at its quote
+    double number = 0;       ///< integer and number
+    std::string_view text;   ///< string: decoded, valid during the call, and as long as the scanned text where `in_place`
+    bool in_place = false;
+};
+
+/// What the scan reports, in document order. Any call may throw JsonFault.
+class JsonVisitor {
+public:
+    virtual ~JsonVisitor() = default;
+    virtual void on_key(std::string_view key, std::size_t offset) = 0;
+    virtual void on_begin(JsonType object_or_array, std::size_t offset) = 0;
+    virtual void on_end(std::size_t end_offset) = 0;  ///< one past the closing bracket
+    virtual void on_value(const JsonValue& value, std::size_t end_offset) = 0;
+};
+
+struct JsonScanLimits {
+    int max_depth = 64;
+    std::size_t max_tokens = 50'000'000;  ///< keys and values
+};
+
+/// Throws JsonFault.
+void scan_json(std::string_view text, const JsonScanLimits& limits, JsonVisitor& visitor);
+
+}  // namespace halflit::io::detail

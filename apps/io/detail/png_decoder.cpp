@@ -1,0 +1,93 @@
+// PNG by libspng. Gamma and colour profile chunks are ignored, as glTF demands.
+#include "apps/io/detail/image_decoders.hpp"
+
+#include <spng.h>
+
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace halflit::io::detail {
+
+namespace {
+
+struct ContextDeleter {
+    void operator()(spng_ctx* context) const { spng_ctx_free(context); }
+};
+using Context = std::unique_ptr<spng_ctx, ContextDeleter>;
+
+constexpr std::size_t kMaxChunkBytes = std::size_t{16} << 20;  // of the chunks that libspng stores (text, profiles)
+constexpr std::uint64_t kMaxDeflateRatio = 1032;               // deflate cannot expand more: 258 bytes from 2 bits
+
+tl::unexpected<Error> png_error(int code) { return fail(ErrorCode::bad_input, fmt::format("PNG: {}", spng_strerror(code))); }
+
+struct Opened {
+    Context context;
+    spng_ihdr header{};
+};
+
+Result<Opened> open_png(std::span<const std::byte> file, const ImageLimits& limits) {
+    Opened png{Context(spng_ctx_new(0)), {}};
+    if (png.context == nullptr) return fail(ErrorCode::limit, "PNG: out of memory");
+    if (const int e = spng_set_png_buffer(png.context.get(), file.data(), file.size()); e != 0) return png_error(e);
+    if (const int e = spng_set_chunk_limits(png.context.get(), kMaxChunkBytes, kMaxChunkBytes); e != 0) return png_error(e);
+    if (const int e = spng_get_ihdr(png.context.get(), &png.header); e != 0) return png_error(e);
+    const auto size = check_image_size(png.header.width, png.header.height, limits);
+    if (!size) return tl::unexpected(size.error());
+    return png;
+}
+
+unsigned channels_of(const spng_ihdr& header) {
+    switch (header.color_type) {
+        case SPNG_COLOR_TYPE_TRUECOLOR:
+            return 3;
+        case SPNG_COLOR_TYPE_GRAYSCALE_ALPHA:
+            return 2;
+        case SPNG_COLOR_TYPE_TRUECOLOR_ALPHA:
+            return 4;
+        default:
+            return 1;
+    }
+}
+
+}  // namespace
+
+Result<ImageHeader> read_png_header(std::span<const std::byte> file, const ImageLimits& limits) {
+    const auto png = open_png(file, limits);
+    if (!png) return tl::unexpected(png.error());
+    return ImageHeader{ImageFormat::png, static_cast<int>(png->header.width), static_cast<int>(png->header.height),
+                       png->header.bit_depth == 16 ? 16 : 8};
+}
+
+Result<DecodedImage> decode_png(std::span<const std::byte> file, const ImageLimits& limits, bool keep_16_bits) {
+    auto png = open_png(file, limits);
+    if (!png) return tl::unexpected(png.error());
+    const spng_ihdr& header = png->header;
+    const std::uint64_t pixels = std::uint64_t{header.width} * header.height;
+    // A file too short for its own picture is refused before memory for the picture is taken.
+    if (pixels * channels_of(header) * header.bit_depth / 8 / kMaxDeflateRatio > file.size())
+        return fail(ErrorCode::bad_input, fmt::format("PNG: {} bytes cannot hold {}x{} pixels", file.size(), header.width, header.height));
+
+    DecodedImage image{static_cast<int>(header.width), static_cast<int>(header.height), {}, {}};
+    const bool deep = header.bit_depth == 16;
+    if (!deep) {
+        image.rgba8.resize(pixels * 4);
+        if (const int e = spng_decode_image(png->context.get(), image.rgba8.data(), image.rgba8.size(), SPNG_FMT_RGBA8, SPNG_DECODE_TRNS);
+            e != 0)
+            return png_error(e);
+        return image;
+    }
+    image.rgba16.resize(pixels * 4);
+    if (const int e =
+            spng_decode_image(png->context.get(), image.rgba16.data(), image.rgba16.size() * 2, SPNG_FMT_RGBA16, SPNG_DECODE_TRNS);
+        e != 0)
+        return png_error(e);
+    if (keep_16_bits) return image;
+    image.rgba8.resize(pixels * 4);
+    for (std::size_t i = 0; i < image.rgba8.size(); ++i)
+        image.rgba8[i] = static_cast<std::uint8_t>((image.rgba16[i] * 255u + 32767u) / 65535u);  // to nearest
+    image.rgba16 = {};
+    return image;
+}
+
+}  // namespace halflit::io::detail

@@ -1,0 +1,19 @@
+// Text from files that goes into messages: escaped, so that a name cannot move the cursor or forge a second line, and cut to length.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace halflit::io::detail {
+
+/// Control characters, DEL, the C1 controls and bytes that are not UTF-8 become \xNN; at most `max_bytes` of the source are shown.
+[[nodiscard]] std::string printable(std::string_view text, std::size_t max_bytes = 200);
+
+/// Number of bytes of the UTF-8 sequence at text[at], or 0 where there is none (overlong forms and surrogates included).
+[[nodiscard]] int utf8_sequence(std::string_view text, std::size_t at);
+
+/// Offset of the first byte that is not UTF-8, or npos.
+[[nodiscard]] std::size_t find_invalid_utf8(std::string_view text);
+
+}  // namespace halflit::io::detail

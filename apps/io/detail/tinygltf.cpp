@@ -1,0 +1,5 @@
+// The one place where tinygltf's functions are compiled.
+#include <fstream>  // tinygltf's writer needs it, and does not include it without its own file access
+
+#define TINYGLTF_IMPLEMENTATION
+#include "apps/io/detail/tinygltf.hpp"

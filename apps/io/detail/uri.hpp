@@ -1,0 +1,22 @@
+// References inside a glTF file: relative names, percent-encoded or plain, and data: URIs with base64.
+#pragma once
+
+#include "shading/result.hpp"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace halflit::io::detail {
+
+[[nodiscard]] bool is_data_uri(std::string_view uri);
+
+/// The bytes of a data: URI, base64 or percent-encoded. Strict: every character counts, padding may be left out.
+Result<std::vector<std::byte>> decode_data_uri(std::string_view uri, std::size_t max_bytes);
+
+/// The file name that a relative reference means: percent sequences decoded once, other characters (also spaces) as they are.
+/// Refused: schemes ("http:", "file:"), a broken percent sequence, a zero byte.
+Result<std::string> decode_file_uri(std::string_view uri);
+
+}  // namespace halflit::io::detail

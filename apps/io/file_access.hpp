@@ -1,0 +1,40 @@
+// Reading files: whole, into memory, with a limit. A model's own references are confined to the model's folder.
+#pragma once
+
+#include "shading/result.hpp"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace halflit::io {
+
+inline constexpr std::size_t kDefaultMaxFileBytes = std::size_t{512} << 20;
+
+/// The bytes of a regular file that the user named. Errors: io where it cannot be opened or read, limit above `max_bytes`,
+/// bad_input where it changed its size while it was read. Never maps the file: one that shrinks cannot raise SIGBUS.
+Result<std::vector<std::byte>> read_file(const std::string& path, std::size_t max_bytes = kDefaultMaxFileBytes);
+
+/// Opens files by the names that a model gives, below the model's folder only: no "..", no absolute name, no symbolic link that
+/// leads out, and regular files alone (a FIFO or a device is refused without waiting for it).
+class ModelFolder {
+public:
+    /// `base_dir` is the model's folder; empty means that there is none and every read is refused. `also_allowed` are
+    /// folders in which a name is looked up when the model's folder does not have it.
+    explicit ModelFolder(std::string base_dir = "", std::vector<std::string> also_allowed = {});
+    ~ModelFolder();
+    ModelFolder(const ModelFolder&) = delete;
+    ModelFolder& operator=(const ModelFolder&) = delete;
+
+    /// `relative` uses '/' and has been percent-decoded. All errors are bad_input, except limit above `max_bytes`; the message has no
+    /// file prefix.
+    [[nodiscard]] Result<std::vector<std::byte>> read(std::string_view relative, std::size_t max_bytes) const;
+
+private:
+    std::string base_dir_;
+    std::vector<int> folders_;  ///< open descriptors, the model's folder first; -1 where opening failed
+};
+
+}  // namespace halflit::io

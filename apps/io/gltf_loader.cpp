@@ -1,0 +1,75 @@
+#include "apps/io/gltf_loader.hpp"
+
+#include "apps/io/detail/gltf_accessor.hpp"
+#include "apps/io/detail/gltf_document.hpp"
+#include "apps/io/detail/gltf_images.hpp"
+#include "apps/io/detail/gltf_materials.hpp"
+#include "apps/io/detail/gltf_meshes.hpp"
+#include "apps/io/detail/gltf_nodes.hpp"
+#include "apps/io/detail/gltf_placed.hpp"
+#include "apps/io/detail/text.hpp"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <new>
+
+namespace halflit::io {
+
+namespace {
+
+using namespace detail;
+
+LoadedScene build(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
+    const std::unique_ptr<Document> document = open_document(bytes, base_dir, options);
+    const std::vector<Accessor> accessors = check_accessors(*document);
+    const NodeTree tree = place_nodes(*document);
+    LoadedScene loaded;
+    ImageStore images(*document, loaded.scene.textures);
+    loaded.scene.materials = make_materials(*document, images, find_used_materials(*document, tree));
+    place_meshes(*document, accessors, tree, loaded.scene);
+    place_cameras(*document, tree, loaded.scene);
+    place_lights(*document, tree, loaded.scene);
+    if (loaded.scene.instances.empty()) document->warn("the model has nothing to draw");
+    if (document->warnings_left_out > 0) document->warnings.push_back(fmt::format("and {} further warnings", document->warnings_left_out));
+    loaded.warnings = std::move(document->warnings);
+    loaded.info = std::move(document->info);
+    return loaded;
+}
+
+/// The folder of a path, "." for a bare name.
+std::string folder_of(const std::string& path) {
+    const std::size_t slash = path.rfind('/');
+    if (slash == std::string::npos) return ".";
+    return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+}  // namespace
+
+Result<LoadedScene> load_gltf_bytes(std::span<const std::byte> bytes, const std::string& name, const std::string& base_dir,
+                                    const LoadOptions& options) {
+    const auto failed = [&](ErrorCode code, const std::string& message) {
+        return fail(code, fmt::format("{}: {}", printable(name), message));
+    };
+    try {
+        return build(bytes, base_dir, options);
+    } catch (const LoadFailure& failure) {
+        return failed(failure.error.code, failure.error.message);
+    } catch (const std::bad_alloc&) {
+        return failed(ErrorCode::limit, "out of memory");
+    } catch (const std::exception& error) {  // tinygltf and its JSON parser
+        return failed(ErrorCode::bad_input, printable(error.what()));
+    }
+}
+
+Result<LoadedScene> load_gltf(const std::string& path, const LoadOptions& options) {
+    try {
+        const auto bytes = read_file(path, options.limits.max_file_bytes);
+        if (!bytes) return tl::unexpected(bytes.error());
+        return load_gltf_bytes(*bytes, path, folder_of(path), options);
+    } catch (const std::bad_alloc&) {
+        return fail(ErrorCode::limit, fmt::format("{}: out of memory", printable(path)));
+    }
+}
+
+}  // namespace halflit::io

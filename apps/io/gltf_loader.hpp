@@ -1,0 +1,65 @@
+// glTF 2.0 in: .gltf and .glb files become a raster::Scene. The file is not trusted: every length, index and reference is checked
+// before it is used, other files are read only below the model's folder, and limits bound memory and time.
+#pragma once
+
+#include "apps/io/file_access.hpp"
+#include "raster/scene.hpp"
+#include "shading/result.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace halflit::io {
+
+/// Above a limit, loading ends with ErrorCode::limit.
+struct LoadLimits {
+    std::size_t max_file_bytes = kDefaultMaxFileBytes;   ///< each file: the model, a buffer, a picture
+    std::size_t max_total_bytes = std::size_t{2} << 30;  ///< all buffers together
+    int max_json_depth = 64;
+    std::size_t max_json_tokens = 50'000'000;
+    std::size_t max_texture_bytes = std::size_t{1} << 30;  ///< all textures together, as the renderer keeps them (10.7 bytes a pixel)
+    int max_texture_side = 16384;
+    std::size_t max_texture_pixels = std::size_t{64} << 20;  ///< one texture
+    int max_jpeg_scans = 64;
+    /// All vertices, indices and instances together. A small file gets less: 64 MB and 96 bytes for each of its own, which no
+    /// honest model needs and which keeps a crafted one from multiplying its size; the same holds for the JSON objects.
+    std::uint64_t max_geometry_bytes = std::uint64_t{16} << 30;
+    std::size_t max_lights = 1024;
+};
+
+struct LoadOptions {
+    bool lenient = false;                     ///< draw what can be drawn: magenta for broken textures, triangles with bad indices left out
+    std::vector<std::string> allow_external;  ///< folders, besides the model's own, in which referenced files may lie
+    LoadLimits limits;
+};
+
+/// What the file holds, drawn or not.
+struct SceneInfo {
+    std::string version, generator;
+    std::size_t meshes = 0, primitives = 0, nodes = 0, materials = 0, textures = 0, images = 0, animations = 0, skins = 0, cameras = 0,
+                lights = 0;
+    std::size_t scenes = 0, morph_targets = 0;
+    std::size_t point_and_line_primitives = 0;  ///< of the drawn nodes; not drawn
+    std::uint64_t triangles_stored = 0;         ///< of the meshes that are drawn, each once
+    std::uint64_t triangles_drawn = 0;          ///< over all instances
+    std::uint64_t vertices = 0;                 ///< after splitting for flat normals and tangents
+    std::vector<std::string> extensions_used, extensions_required;
+};
+
+struct LoadedScene {
+    raster::Scene scene;
+    std::vector<std::string> warnings;  ///< one line each, no file prefix
+    SceneInfo info;
+};
+
+/// The model at `path`; what it refers to is read from its folder. Error messages begin with `path`.
+Result<LoadedScene> load_gltf(const std::string& path, const LoadOptions& options = {});
+
+/// A model in memory, e.g. from standard input. `name` is for messages; an empty `base_dir` means that no other file is read.
+Result<LoadedScene> load_gltf_bytes(std::span<const std::byte> bytes, const std::string& name, const std::string& base_dir,
+                                    const LoadOptions& options = {});
+
+}  // namespace halflit::io

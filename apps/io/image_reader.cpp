@@ -1,0 +1,62 @@
+#include "apps/io/image_reader.hpp"
+
+#include "apps/io/detail/image_decoders.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+namespace halflit::io {
+
+namespace {
+
+bool starts_with(std::span<const std::byte> file, std::span<const std::uint8_t> prefix) {
+    return file.size() >= prefix.size() && std::equal(prefix.begin(), prefix.end(), file.begin(),
+                                                      [](std::uint8_t a, std::byte b) { return a == static_cast<std::uint8_t>(b); });
+}
+
+Result<ImageFormat> format_of(std::span<const std::byte> file) {
+    static constexpr std::uint8_t kPng[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'}, kJpeg[] = {0xFF, 0xD8, 0xFF};
+    static constexpr std::uint8_t kRiff[] = {'R', 'I', 'F', 'F'}, kKtx2[] = {0xAB, 'K', 'T', 'X', ' ', '2', '0'},
+                                  kGif[] = {'G', 'I', 'F', '8'};
+    if (starts_with(file, kPng)) return ImageFormat::png;
+    if (starts_with(file, kJpeg)) return ImageFormat::jpeg;
+    const char* other = starts_with(file, kRiff) ? "WebP" : starts_with(file, kKtx2) ? "KTX2" : starts_with(file, kGif) ? "GIF" : nullptr;
+    if (other != nullptr) return fail(ErrorCode::bad_input, fmt::format("expected a PNG or JPEG picture, found {}", other));
+    if (file.empty()) return fail(ErrorCode::bad_input, "expected a PNG or JPEG picture, found nothing");
+    std::string bytes;
+    for (const std::byte b : file.first(std::min<std::size_t>(file.size(), 4))) bytes += fmt::format(" {:02x}", static_cast<unsigned>(b));
+    return fail(ErrorCode::bad_input, fmt::format("expected a PNG or JPEG picture, found bytes{}", bytes));
+}
+
+}  // namespace
+
+namespace detail {
+
+Result<void> check_image_size(std::uint64_t width, std::uint64_t height, const ImageLimits& limits) {
+    if (width == 0 || height == 0) return fail(ErrorCode::bad_input, fmt::format("the picture is {}x{} pixels", width, height));
+    const std::uint64_t side = static_cast<std::uint64_t>(limits.max_side);
+    if (width > side || height > side)
+        return fail(ErrorCode::limit, fmt::format("the picture is {}x{} pixels, the limit is {} a side", width, height, limits.max_side));
+    if (width * height > limits.max_pixels)
+        return fail(ErrorCode::limit, fmt::format("the picture has {} pixels, the limit is {}", width * height, limits.max_pixels));
+    return {};
+}
+
+}  // namespace detail
+
+Result<ImageHeader> read_image_header(std::span<const std::byte> file, const ImageLimits& limits) {
+    const auto format = format_of(file);
+    if (!format) return tl::unexpected(format.error());
+    return *format == ImageFormat::png ? detail::read_png_header(file, limits) : detail::read_jpeg_header(file, limits);
+}
+
+Result<DecodedImage> decode_image(std::span<const std::byte> file, const ImageLimits& limits, bool keep_16_bits) {
+    const auto format = format_of(file);
+    if (!format) return tl::unexpected(format.error());
+    return *format == ImageFormat::png ? detail::decode_png(file, limits, keep_16_bits) : detail::decode_jpeg(file, limits);
+}
+
+}  // namespace halflit::io

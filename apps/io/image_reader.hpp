@@ -1,0 +1,40 @@
+// Pictures in: PNG and JPEG, from memory, under limits that are checked on the header, before anything is decoded.
+#pragma once
+
+#include "shading/result.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace halflit::io {
+
+struct ImageLimits {
+    int max_side = 16384;  ///< pixels
+    std::size_t max_pixels = std::size_t{64} << 20;
+    int max_jpeg_scans = 64;  ///< each scan of a progressive JPEG costs a pass over the picture
+};
+
+enum class ImageFormat : std::uint8_t { png, jpeg };
+
+struct ImageHeader {
+    ImageFormat format = ImageFormat::png;
+    int width = 0, height = 0;
+    int bits = 8;  ///< a channel: 16 for a PNG of 16 bits, else 8
+};
+
+struct DecodedImage {
+    int width = 0, height = 0;
+    std::vector<std::uint8_t> rgba8;    ///< width * height * 4, row 0 on top, alpha not premultiplied, as stored (no gamma applied)
+    std::vector<std::uint16_t> rgba16;  ///< the same at 16 bits, instead of rgba8, where the file has them and they were asked for
+};
+
+/// Errors: bad_input for other formats and broken headers, limit above `limits`. Messages have no file prefix.
+Result<ImageHeader> read_image_header(std::span<const std::byte> file, const ImageLimits& limits = {});
+
+/// Grey, palette and pictures without alpha become RGBA; a cut-off or damaged picture is an error, never half a picture.
+/// 16-bit channels are rounded to 8 unless `keep_16_bits`.
+Result<DecodedImage> decode_image(std::span<const std::byte> file, const ImageLimits& limits = {}, bool keep_16_bits = false);
+
+}  // namespace halflit::io
