@@ -1,0 +1,76 @@
+// Raster kernels without a frame around them: a few triangles, one tile.
+#pragma once
+
+#include "raster/kernels/raster_kernels.hpp"
+#include "raster/reference.hpp"
+#include "tests/support/random.hpp"
+
+#include <cstring>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace halflit::raster::test {
+
+using halflit::test::Random;
+
+/// The standard positions of 4 and 8 samples, in 1/256 pixel from the centre.
+inline SamplePattern standard_samples(int count) {
+    static constexpr int k4[4][2] = {{-2, -6}, {6, -2}, {-6, 2}, {2, 6}};
+    static constexpr int k8[8][2] = {{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}};
+    SamplePattern p;
+    p.count = count;
+    for (int s = 0; s < count && count > 1; ++s) {
+        p.x[s] = static_cast<std::int16_t>(16 * (count == 4 ? k4[s][0] : k8[s][0]));
+        p.y[s] = static_cast<std::int16_t>(16 * (count == 4 ? k4[s][1] : k8[s][1]));
+    }
+    return p;
+}
+
+inline std::int64_t doubled_area(const reference::FixedTriangle& t) {
+    const auto& c = t.corner;
+    return (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[2].x - c[0].x) * (c[1].y - c[0].y);
+}
+
+/// Triangles as the kernels take them: positive area, one record each, ids from `id_base` on.
+class TriangleList {
+public:
+    explicit TriangleList(std::uint32_t id_base = 0) : id_base_(id_base) {}
+
+    void clear() {
+        records_.clear();
+        vertices_.clear();
+    }
+    /// The triangle must have area; z and rhw belong to its corners in their order.
+    void add(const reference::FixedTriangle& t, const float (&z)[3], const float (&rhw)[3] = {1, 1, 1}) {
+        const auto first = static_cast<std::uint32_t>(vertices_.size());
+        for (int k = 0; k < 3; ++k)
+            vertices_.push_back({static_cast<std::int32_t>(t.corner[k].x), static_cast<std::int32_t>(t.corner[k].y), z[k], rhw[k]});
+        TriangleRecord r{{first, first + 1, first + 2}, 0};
+        if (doubled_area(t) < 0) std::swap(r.vertex[1], r.vertex[2]);
+        records_.push_back(r);
+        list_.resize(records_.size());
+        for (std::size_t i = 0; i < list_.size(); ++i) list_[i] = static_cast<std::uint32_t>(i);
+    }
+    [[nodiscard]] TriangleSource source() const { return {records_.data(), vertices_.data(), nullptr, id_base_}; }
+    [[nodiscard]] const std::uint32_t* list() const { return list_.data(); }
+    [[nodiscard]] int count() const { return static_cast<int>(records_.size()); }
+    [[nodiscard]] const TriangleRecord& record(int i) const { return records_[static_cast<std::size_t>(i)]; }
+    [[nodiscard]] const ScreenVertex& vertex(std::uint32_t v) const { return vertices_[v]; }
+
+private:
+    std::uint32_t id_base_;
+    std::vector<TriangleRecord> records_;
+    std::vector<ScreenVertex> vertices_;
+    std::vector<std::uint32_t> list_;
+};
+
+/// Nothing drawn yet in the first `rows` rows.
+inline void clear_tile(TileBuffers& buffers, const SamplePattern& pattern, int rows) {
+    for (int s = 0; s < pattern.count; ++s) {
+        std::memset(buffers.depth[s], 0, static_cast<std::size_t>(rows) * kTileStride * sizeof(float));
+        std::memset(buffers.triangle[s], 0xff, static_cast<std::size_t>(rows) * kTileStride * sizeof(std::uint32_t));
+    }
+}
+
+}  // namespace halflit::raster::test
