@@ -1,0 +1,92 @@
+// Listing, choosing and forcing instruction sets.
+#include "shading/kernels/isa.hpp"
+
+#include "tests/support/skip.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cstdlib>
+
+using namespace halflit;
+using namespace halflit::shading;
+
+namespace {
+
+/// Sets HALFLIT_KERNEL for a scope.
+class KernelVariable {
+public:
+    explicit KernelVariable(const char* value) {
+        if (const char* old = std::getenv("HALFLIT_KERNEL")) old_ = old, had_ = true;
+        if (value != nullptr)
+            setenv("HALFLIT_KERNEL", value, 1);
+        else
+            unsetenv("HALFLIT_KERNEL");
+    }
+    ~KernelVariable() {
+        if (had_)
+            setenv("HALFLIT_KERNEL", old_.c_str(), 1);
+        else
+            unsetenv("HALFLIT_KERNEL");
+    }
+    KernelVariable(const KernelVariable&) = delete;
+    KernelVariable& operator=(const KernelVariable&) = delete;
+
+private:
+    std::string old_;
+    bool had_ = false;
+};
+
+}  // namespace
+
+TEST_CASE("isa: scalar is built, comes first and is always available", "[shading][isa]") {
+    REQUIRE(!built_isas().empty());
+    CHECK(built_isas()[0] == Isa::scalar);
+    CHECK(isa_available(Isa::scalar));
+}
+
+TEST_CASE("isa: every available set is found by its name", "[shading][isa]") {
+    for (const Isa isa : built_isas())
+        if (isa_available(isa)) CHECK(isa_by_name(isa_name(isa)).value() == isa);
+}
+
+TEST_CASE("isa: unknown and unavailable names are usage errors that list what there is", "[shading][isa]") {
+    const auto result = isa_by_name("altivec");
+    REQUIRE(!result);
+    CHECK(result.error().code == ErrorCode::usage);
+    CHECK(result.error().message.find("altivec") != std::string::npos);
+    CHECK(result.error().message.find("scalar") != std::string::npos);
+#if defined(__x86_64__)
+    CHECK(!isa_by_name("neon64"));
+    CHECK(!isa_available(Isa::neon64));
+#else
+    CHECK(!isa_by_name("avx2"));
+#endif
+}
+
+TEST_CASE("isa: the default is the widest available, unless HALFLIT_KERNEL names another", "[shading][isa]") {
+    Isa widest = Isa::scalar;
+    for (const Isa isa : built_isas())
+        if (isa_available(isa)) widest = isa;
+    {
+        const KernelVariable none(nullptr);
+        CHECK(default_isa().value() == widest);
+        CHECK(isa_by_name("auto").value() == widest);
+    }
+    {
+        const KernelVariable forced("scalar");
+        CHECK(default_isa().value() == Isa::scalar);
+        CHECK(isa_by_name("auto").value() == Isa::scalar);
+    }
+    const KernelVariable wrong("sse9");
+    REQUIRE(!default_isa());
+    CHECK(default_isa().error().code == ErrorCode::usage);
+    CHECK(default_isa().error().message.find("HALFLIT_KERNEL") != std::string::npos);
+}
+
+TEST_CASE("isa: this processor runs every set that is built", "[shading][isa]") {
+    std::string missing;
+    for (const Isa isa : built_isas())
+        if (!isa_available(isa)) missing.append(" ").append(isa_name(isa));
+    if (!missing.empty()) HALFLIT_SKIP("not run here, so not compared with scalar:" + missing);
+    CHECK(missing.empty());
+}

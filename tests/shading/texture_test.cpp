@@ -1,0 +1,138 @@
+// Textures as they are made: decoding, levels, limits.
+#include "shading/texture.hpp"
+
+#include "floats.hpp"
+#include "shading/kernels/shade_kernels.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace halflit;
+using namespace halflit::shading;
+
+namespace {
+
+std::vector<std::uint8_t> constant_picture(int width, int height, std::uint8_t code) {
+    return std::vector<std::uint8_t>(static_cast<std::size_t>(width * height * 4), code);
+}
+
+double texel_value(const Texture& texture, std::size_t level, int x, int y, int channel) {
+    const TextureLevel& l = texture.levels()[level];
+    return texture.data()[static_cast<std::size_t>(4 * (l.offset + y * l.width + x) + channel)];
+}
+
+}  // namespace
+
+TEST_CASE("texture: sRGB codes decode to the nearest 16-bit value, alpha stays linear", "[shading][texture]") {
+    std::vector<std::uint8_t> ramp;
+    for (int code = 0; code < 256; ++code) ramp.insert(ramp.end(), 4, static_cast<std::uint8_t>(code));
+    const Texture texture = Texture::from_rgba8(ramp, 256, 1, ColorSpace::srgb).value();
+    for (int code = 0; code < 256; ++code) {
+        const long double c = static_cast<long double>(code) / 255.0L;
+        const long double linear = 65535.0L * (c <= 0.04045L ? c / 12.92L : std::pow((c + 0.055L) / 1.055L, 2.4L));
+        INFO("code " << code);
+        CHECK(static_cast<long double>(texel_value(texture, 0, code, 0, 0)) == std::floor(linear + 0.5L));
+        // No tie, so the rounding does not hang on the last bit of anyone's arithmetic.
+        CHECK(std::fabs(static_cast<double>(linear - std::floor(linear)) - 0.5) > 1e-6);
+        CHECK(texel_value(texture, 0, code, 0, 3) == code * 257);
+    }
+}
+
+TEST_CASE("texture: all 256 sRGB codes survive decoding and encoding", "[shading][texture][color]") {
+    std::vector<std::uint8_t> ramp;
+    for (int code = 0; code < 256; ++code) ramp.insert(ramp.end(), 4, static_cast<std::uint8_t>(code));
+    const Texture texture = Texture::from_rgba8(ramp, 256, 1, ColorSpace::srgb).value();
+    std::vector<float> color(256), alpha(256);
+    for (int code = 0; code < 256; ++code) {
+        color[static_cast<std::size_t>(code)] = static_cast<float>(texel_value(texture, 0, code, 0, 0) / 65535.0);
+        alpha[static_cast<std::size_t>(code)] = static_cast<float>(texel_value(texture, 0, code, 0, 3) / 65535.0);
+    }
+    for (const Isa isa : built_isas()) {
+        if (!isa_available(isa)) continue;
+        std::vector<std::uint32_t> out(256);
+        shade_kernels(isa).encode_srgb8(color.data(), color.data(), color.data(), alpha.data(), 1.0f, out.data(), 256);
+        for (std::uint32_t code = 0; code < 256; ++code) {
+            INFO(isa_name(isa) << ", code " << code);
+            CHECK(out[code] == code * 0x01010101u);
+        }
+    }
+}
+
+TEST_CASE("texture: a level is half the one above, rounded down, to 1 x 1", "[shading][texture]") {
+    const Texture texture = Texture::from_rgba8(constant_picture(13, 6, 9), 13, 6, ColorSpace::linear).value();
+    const int widths[] = {13, 6, 3, 1}, heights[] = {6, 3, 1, 1};
+    REQUIRE(texture.levels().size() == 4);
+    int offset = 0;
+    for (std::size_t l = 0; l < 4; ++l) {
+        CHECK(texture.levels()[l].width == widths[l]);
+        CHECK(texture.levels()[l].height == heights[l]);
+        CHECK(texture.levels()[l].offset == offset);
+        offset += widths[l] * heights[l];
+    }
+    CHECK(texture.data().size() == static_cast<std::size_t>(4 * offset));
+}
+
+TEST_CASE("texture: a constant picture is constant on every level, at any size", "[shading][texture]") {
+    for (const auto& [width, height] : {std::pair{1, 1}, {2, 2}, {7, 5}, {31, 1}, {1, 33}, {64, 17}, {127, 129}}) {
+        const Texture texture = Texture::from_rgba8(constant_picture(width, height, 201), width, height, ColorSpace::linear).value();
+        for (const std::uint16_t value : texture.data())
+            if (value != 201 * 257) FAIL(width << " x " << height << ": " << value);
+    }
+    SUCCEED();
+}
+
+TEST_CASE("texture: every level has the picture's mean, at odd sizes too", "[shading][texture]") {
+    testing::FloatMaker make(1);
+    for (const auto& [width, height] : {std::pair{8, 8}, {7, 5}, {13, 1}, {3, 64}, {101, 57}}) {
+        std::vector<std::uint16_t> texels;
+        for (int i = 0; i < width * height * 4; ++i) texels.push_back(static_cast<std::uint16_t>(make.below(65536)));
+        const Texture texture = Texture::from_rgba16(texels, width, height).value();
+        for (int channel = 0; channel < 4; ++channel) {
+            double mean = 0;
+            for (int i = 0; i < width * height; ++i) mean += texels[static_cast<std::size_t>(4 * i + channel)];
+            mean /= width * height;
+            for (std::size_t l = 1; l < texture.levels().size(); ++l) {
+                const TextureLevel& level = texture.levels()[l];
+                double level_mean = 0;
+                for (int y = 0; y < level.height; ++y)
+                    for (int x = 0; x < level.width; ++x) level_mean += texel_value(texture, l, x, y, channel);
+                INFO(width << " x " << height << ", level " << l);
+                // Each level's rounding moves the mean by at most half a unit.
+                CHECK(level_mean / (level.width * level.height) == Approx(mean).margin(0.5 * static_cast<double>(l)));
+            }
+        }
+    }
+}
+
+TEST_CASE("texture: an odd size shrinks by boxes of equal width", "[shading][texture]") {
+    // 5 texels to 2: each covers 2.5, so the weights are (2, 2, 1) / 5 and (1, 2, 2) / 5.
+    std::vector<std::uint16_t> texels;
+    for (const int v : {1000, 2000, 10000, 40000, 60000}) texels.insert(texels.end(), 4, static_cast<std::uint16_t>(v));
+    const Texture texture = Texture::from_rgba16(texels, 5, 1).value();
+    CHECK(texel_value(texture, 1, 0, 0, 0) == (2 * 1000 + 2 * 2000 + 10000) / 5);
+    CHECK(texel_value(texture, 1, 1, 0, 0) == (10000 + 2 * 40000 + 2 * 60000) / 5);
+}
+
+TEST_CASE("texture: a checkerboard is averaged in linear light", "[shading][texture]") {
+    std::vector<std::uint8_t> checker;
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 4; ++x) checker.insert(checker.end(), 4, static_cast<std::uint8_t>((x + y) % 2 == 0 ? 255 : 0));
+    const Texture texture = Texture::from_rgba8(checker, 4, 4, ColorSpace::srgb).value();
+    CHECK(texel_value(texture, 1, 0, 0, 0) == 32768);  // (0 + 65535) / 2, halves up; code 188, not 128
+    CHECK(texel_value(texture, 2, 0, 0, 0) == 32768);
+}
+
+TEST_CASE("texture: sizes out of range and data of the wrong length are errors", "[shading][texture]") {
+    const std::vector<std::uint8_t> data = constant_picture(4, 4, 0);
+    CHECK(Texture::from_rgba8(data, 0, 4, ColorSpace::srgb).error().code == ErrorCode::limit);
+    CHECK(Texture::from_rgba8(data, 4, -1, ColorSpace::srgb).error().code == ErrorCode::limit);
+    CHECK(Texture::from_rgba8(data, kMaxTextureSide + 1, 1, ColorSpace::srgb).error().code == ErrorCode::limit);
+    CHECK(Texture::from_rgba8(data, 4, 3, ColorSpace::srgb).error().code == ErrorCode::bad_input);
+    CHECK(Texture::from_rgba16({}, 1, 1).error().code == ErrorCode::bad_input);
+    CHECK(Texture::from_rgba8(data, 4, 4, ColorSpace::srgb).has_value());
+}
+
+TEST_CASE("texture: the longest side has fifteen levels", "[shading][texture]") {
+    const Texture texture = Texture::from_rgba8(constant_picture(kMaxTextureSide, 1, 1), kMaxTextureSide, 1, ColorSpace::linear).value();
+    CHECK(texture.levels().size() == 15);
+    CHECK(texture.levels().size() <= kMaxTextureLevels);
+}
