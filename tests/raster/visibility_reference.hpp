@@ -1,0 +1,103 @@
+// What a picture should show, by asking each pixel about every triangle in float64, without clipping; and a comparison with what the
+// renderer shows that forgives only what fixed point must be forgiven.
+#pragma once
+
+#include "raster/debug_view.hpp"
+#include "raster/reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace halflit::raster::test {
+
+/// Corners are snapped to 1/256 pixel: each moves by at most sqrt(2)/512, and by the rounding of window coordinates up to 16384 pixels
+/// before that (3 half ulps, 0.003). A pixel centre nearer than this to an edge may fall on either side of it.
+inline constexpr double kEdgeTolerancePx = 1.0 / 128;
+
+/// A triangle as the reference sees it. Corners in clip coordinates are those that the renderer computes in float, so that the comparison
+/// is about clipping and rasterization, not about the last digits of a matrix product.
+struct ReferenceTriangle {
+    reference::HomogeneousTriangle shape;
+    bool drawn;             ///< not culled
+    double depth_rounding;  ///< allowed error of depth by float arithmetic
+};
+
+inline std::vector<ReferenceTriangle> reference_triangles(const Scene& scene, const Camera& camera, int width, int height) {
+    const Mat4 clip_from_world_matrix = clip_from_world(camera, static_cast<float>(width) / static_cast<float>(height));
+    std::vector<ReferenceTriangle> out;
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        const bool double_sided = mesh.material >= 0 && scene.materials[static_cast<std::size_t>(mesh.material)].double_sided;
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+            double clip[3][4];
+            for (std::size_t k = 0; k < 3; ++k) {
+                // The scenes of these tests are in world space.
+                const Vec3f p = mesh.positions[mesh.indices[i + k]];
+                const Vec4f c = clip_from_world_matrix * Vec4f{p.x, p.y, p.z, 1.0f};
+                clip[k][0] = c.x, clip[k][1] = c.y, clip[k][2] = c.z, clip[k][3] = c.w;
+            }
+            const reference::HomogeneousTriangle shape(clip, width, height);
+            // Depth is a float plane over the window: its terms are as large as the slope times the way to the corner it starts from, at
+            // most across the guard band; the result is held between the corners' depths.
+            const double reach = (std::abs(shape.depth_dx()) + std::abs(shape.depth_dy())) * 2 * 16384;
+            out.push_back(
+                {shape, !shape.degenerate() && (double_sided || shape.front_facing()), 8 * 0x1p-24 * std::min(1.0, reach) + 1e-7});
+        }
+    }
+    return out;
+}
+
+struct Comparison {
+    int pixels = 0;     ///< compared
+    int covered = 0;    ///< of these, those that show a triangle
+    int undecided = 0;  ///< not compared: an edge within kEdgeTolerancePx, or two triangles at one depth
+    int wrong = 0;      ///< another triangle than the reference's
+    int wrong_depth = 0;
+    double undecided_share() const { return static_cast<double>(undecided) / (pixels + undecided); }
+};
+
+inline Comparison compare_visibility(const VisibilityView& view, const Region& region, const std::vector<ReferenceTriangle>& triangles) {
+    Comparison result;
+    for (int y = region.y; y < region.y + region.height; ++y) {
+        for (int x = region.x; x < region.x + region.width; ++x) {
+            std::uint32_t nearest = 0;
+            double depth = 0.0, allowed = 0.0, doubtful_depth = -1.0, second = -1.0;
+            for (std::size_t t = 0; t < triangles.size(); ++t) {
+                const ReferenceTriangle& r = triangles[t];
+                if (!r.drawn) continue;
+                const auto p = r.shape.at(x + 0.5, y + 0.5);
+                const double inside = std::min({p.edge_px[0], p.edge_px[1], p.edge_px[2], p.near_px, p.far_px});
+                if (!(inside > -kEdgeTolerancePx)) continue;
+                // The snapped triangle leans a little differently.
+                const double z_allowed =
+                    r.depth_rounding + (std::abs(r.shape.depth_dx()) + std::abs(r.shape.depth_dy())) * 2 * kEdgeTolerancePx;
+                if (inside < kEdgeTolerancePx) {
+                    doubtful_depth = std::max(doubtful_depth, p.depth + z_allowed);
+                    continue;
+                }
+                if (p.depth > depth) {
+                    second = std::max(second, depth + allowed);
+                    depth = p.depth, allowed = z_allowed, nearest = static_cast<std::uint32_t>(t + 1);
+                } else {
+                    second = std::max(second, p.depth + z_allowed);
+                }
+            }
+            if (doubtful_depth >= depth - allowed || (nearest != 0 && second >= depth - allowed)) {
+                ++result.undecided;
+                continue;
+            }
+            ++result.pixels;
+            result.covered += nearest != 0;
+            const auto at = static_cast<std::size_t>(y * view.width + x);
+            if (view.triangle[at] != nearest)
+                ++result.wrong;
+            else
+                result.wrong_depth += !(std::abs(static_cast<double>(view.depth[at]) - depth) <= allowed);
+        }
+    }
+    return result;
+}
+
+}  // namespace halflit::raster::test
