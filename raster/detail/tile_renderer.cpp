@@ -64,7 +64,17 @@ void TileRenderer::shade_visible() {
                 push(id, x, y, at, 1u);
                 continue;
             }
-            unsigned left = (1u << frame_.pattern.count) - 1u;
+            const unsigned all = (1u << frame_.pattern.count) - 1u;
+            const std::uint32_t first = buffers_.triangle[0][at];
+            std::uint32_t mixed = 0;
+            for (int s = 1; s < frame_.pattern.count; ++s) mixed |= buffers_.triangle[s][at] ^ first;
+            if (mixed == 0) {
+                if (first == kNoTriangle) continue;
+                ++counts_.pixels_visible;
+                push(first, x, y, at, all);
+                continue;
+            }
+            unsigned left = all;
             bool visible = false;
             while (left != 0) {
                 const std::uint32_t id = buffers_.triangle[__builtin_ctz(left)][at];

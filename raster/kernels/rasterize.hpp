@@ -34,19 +34,27 @@ struct DepthPlane {
     std::int32_t anchor_x, anchor_y;
 };
 
-HALFLIT_INLINE DepthPlane make_depth_plane(const ScreenVertex& v0, const ScreenVertex& v1, const ScreenVertex& v2, int sample_x,
-                                           int sample_y) {
+/// The plane through three vertices, in double and per fixed-point unit: the same for all samples.
+struct DepthSlope {
+    double zx, zy;
+};
+
+HALFLIT_INLINE DepthSlope make_depth_slope(const ScreenVertex& v0, const ScreenVertex& v1, const ScreenVertex& v2) {
     const double x1 = v1.x - v0.x, y1 = v1.y - v0.y, x2 = v2.x - v0.x, y2 = v2.y - v0.y;
-    const double z0 = v0.z, z1 = static_cast<double>(v1.z) - z0, z2 = static_cast<double>(v2.z) - z0;
+    const double z1 = static_cast<double>(v1.z) - v0.z, z2 = static_cast<double>(v2.z) - v0.z;
     const double inv_area = 1.0 / (x1 * y2 - x2 * y1);
-    const double zx = (z1 * y2 - z2 * y1) * inv_area, zy = (z2 * x1 - z1 * x2) * inv_area;
+    return {(z1 * y2 - z2 * y1) * inv_area, (z2 * x1 - z1 * x2) * inv_area};
+}
+
+HALFLIT_INLINE DepthPlane make_depth_plane(const DepthSlope& slope, const ScreenVertex& v0, const ScreenVertex& v1, const ScreenVertex& v2,
+                                           int sample_x, int sample_y) {
     DepthPlane p;
     p.anchor_x = v0.x >> 8;
     p.anchor_y = v0.y >> 8;
     const double dx = (p.anchor_x << 8) + sample_x - v0.x, dy = (p.anchor_y << 8) + sample_y - v0.y;
-    p.za = static_cast<float>((z0 + zx * dx) + zy * dy);
-    p.zx = static_cast<float>(zx * 256.0);
-    p.zy = static_cast<float>(zy * 256.0);
+    p.za = static_cast<float>((static_cast<double>(v0.z) + slope.zx * dx) + slope.zy * dy);
+    p.zx = static_cast<float>(slope.zx * 256.0);
+    p.zy = static_cast<float>(slope.zy * 256.0);
     p.lo = vmin(vmin(v0.z, v1.z), v2.z);
     p.hi = vmax(vmax(v0.z, v1.z), v2.z);
     return p;
@@ -243,6 +251,7 @@ HALFLIT_INLINE CoverBox draw_triangle(const TileRect& tile, const SamplePattern&
     const int least_y = min3(v0.y, v1.y, v2.y), most_y = max3(v0.y, v1.y, v2.y);
     const ScreenVertex* const from[3] = {&v0, &v1, &v2};
     const bool small = most_x - least_x < kSmallTriangle && most_y - least_y < kSmallTriangle;
+    const DepthSlope slope = make_depth_slope(v0, v1, v2);
     CoverBox all{kMaxTileSize, kMaxTileSize, -1, -1};
     for (int s = 0; s < pattern.count; ++s) {
         const int sx = pattern.x[s], sy = pattern.y[s];
@@ -255,7 +264,7 @@ HALFLIT_INLINE CoverBox draw_triangle(const TileRect& tile, const SamplePattern&
         if (small) {
             BoxEdge at_corner[3];
             small_edges(edges, from, bx0 * 256 + sx, by0 * 256 + sy, at_corner);
-            walk<3>(at_corner, make_depth_plane(v0, v1, v2, sx, sy), bx0, by0, bx1 - bx0 + 1, by1 - by0 + 1,
+            walk<3>(at_corner, make_depth_plane(slope, v0, v1, v2, sx, sy), bx0, by0, bx1 - bx0 + 1, by1 - by0 + 1,
                     (by0 - tile.y) * kTileStride + (bx0 - tile.x), make_sink(s));
             grow(all, bx0 - tile.x, by0 - tile.y, bx1 - tile.x, by1 - tile.y);
             continue;
@@ -263,7 +272,7 @@ HALFLIT_INLINE CoverBox draw_triangle(const TileRect& tile, const SamplePattern&
         std::int64_t c[3];
         for (int k = 0; k < 3; ++k)
             c[k] = edges[k].c + static_cast<std::int64_t>(edges[k].a) * sx + static_cast<std::int64_t>(edges[k].b) * sy;
-        draw_sample(tile, edges, c, make_depth_plane(v0, v1, v2, sx, sy), bx0, by0, bx1, by1, make_sink(s));
+        draw_sample(tile, edges, c, make_depth_plane(slope, v0, v1, v2, sx, sy), bx0, by0, bx1, by1, make_sink(s));
         grow(all, bx0 - tile.x, by0 - tile.y, bx1 - tile.x, by1 - tile.y);
     }
     return all;
