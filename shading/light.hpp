@@ -1,5 +1,5 @@
 // Light sources. Colours are linear and premultiplied by 1/pi: a directional light of colour 1 makes a white Lambert
-// surface that faces it exactly 1 (FORMULAS: "unit directional light = pi * delta").
+// surface that faces it exactly 1 (a unit directional light stands for pi times a delta).
 #pragma once
 
 #include "sh/vec3.hpp"

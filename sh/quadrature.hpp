@@ -1,0 +1,31 @@
+// Gauss quadrature on an interval and on the sphere, exact for polynomials: what rotation, products and the projection of a function
+// rest on. Nodes come from + - * / and sqrt alone.
+#pragma once
+
+#include "sh/basis.hpp"
+
+#include <vector>
+
+namespace halflit::sh {
+
+struct GaussNode {
+    double x = 0.0;       ///< in (-1, 1)
+    double weight = 0.0;  ///< all weights sum to 2
+};
+
+/// Gauss-Legendre rule with `count` nodes in ascending order: exact for polynomials of degree 2 count - 1. count in [1, 256].
+[[nodiscard]] std::vector<GaussNode> gauss_legendre(int count);
+
+struct SphereNode {
+    Vec3d direction;
+    double weight = 0.0;  ///< all weights sum to 4 pi
+};
+
+/// Exact for polynomials in x, y, z of this degree, so for products of harmonics whose bands sum to it. degree in [0, 510].
+[[nodiscard]] std::vector<SphereNode> sphere_quadrature(int degree);
+
+/// Expansion of fn(direction) -> Vec3d, bands in [1, 10], by a rule of this degree. Exact when fn is a polynomial of degree - bands + 1.
+template <class Fn>
+[[nodiscard]] Expansion<double> project_function(int bands, int degree, Fn&& fn);
+
+}  // namespace halflit::sh

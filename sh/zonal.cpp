@@ -1,0 +1,87 @@
+#include "sh/zonal.hpp"
+
+#include <limits>
+#include <span>
+
+namespace halflit::sh {
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// f_0 and g_l, as in the header. For w = 1 and an integer n the lobe is a polynomial of degree n: the bands past it are exactly 0.
+void relative_bands(const WrapLobe& lobe, std::span<double> g) {
+    const double w = lobe.wrap, n = lobe.power;
+    const bool polynomial = w == 1.0 && n < 1e6 && n == static_cast<double>(static_cast<long long>(n));
+    double before = 1.0, here = 1.0;
+    for (std::size_t i = 0; i < g.size(); ++i) {
+        const double l = static_cast<double>(i), size = here < 0 ? -here : here;
+        g[i] = size < 8 * kEpsilon || (polynomial && l > n) ? 0.0 : here;
+        const double next = ((n + 1.0 - l) * before - (2.0 * l + 1.0) * w * here) / (l + n + 2.0);
+        before = here;
+        here = next;
+    }
+}
+
+double band_zero(const WrapLobe& lobe) { return lobe.scale * 2.0 * (1.0 + lobe.wrap) / (lobe.power + 1.0); }
+
+/// 2^x for x <= 1, to about 1e-15, without the C library.
+double exp2_below_1(double x) {
+    if (!(x > -1000.0)) return 0.0;
+    double power = 1.0;
+    while (x < -0.5) {
+        x += 1.0;
+        power *= 0.5;
+    }
+    const double y = x * 0.69314718055994530942;  // ln 2
+    double sum = 1.0;
+    for (int k = 24; k >= 1; --k) sum = 1.0 + sum * y / k;
+    return power * sum;
+}
+
+/// The sum over all octaves past one whose sum is `octave`, when each is `ratio` times the one before; a quarter to spare, because
+/// bands oscillate within their octave.
+double octaves_after(double octave, double ratio) {
+    if (octave == 0.0) return 0.0;
+    return ratio < 1.0 ? 1.25 * octave * ratio / (1.0 - ratio) : kInfinity;
+}
+
+}  // namespace
+
+BandFactors zonal_bands(const WrapLobe& lobe) {
+    BandFactors f{};
+    relative_bands(lobe, f);
+    for (double& band : f) band *= band_zero(lobe);
+    return f;
+}
+
+LobeSpectrum lobe_spectrum(const WrapLobe& lobe) {
+    constexpr int kLast = 4 * kSpectrumBands, kOctave = 2 * kSpectrumBands;  // the recurrence holds its accuracy this far
+    std::array<double, kLast> g{};
+    relative_bands(lobe, g);
+    const double f0 = band_zero(lobe), size0 = f0 < 0 ? -f0 : f0;
+    LobeSpectrum out;
+    double squares = 0, sum = 0, octave_squares = 0, octave_sum = 0;
+    for (std::size_t l = 0; l < g.size(); ++l) {
+        if (l < out.f.size()) {
+            out.f[l] = f0 * g[l];
+            continue;
+        }
+        const double weight = static_cast<double>(2 * l + 1) / (4.0 * kPi), size = g[l] < 0 ? -g[l] : g[l];
+        squares += weight * size * size;
+        sum += weight * size;
+        if (l >= kOctave) {
+            octave_squares += weight * size * size;
+            octave_sum += weight * size;
+        }
+    }
+    squares += octaves_after(octave_squares, exp2_below_1(-1.0 - 2.0 * lobe.power));
+    sum += octaves_after(octave_sum, exp2_below_1(0.5 - lobe.power));
+    out.tail_norm = size0 * __builtin_sqrt(squares);
+    out.tail_sum = size0 * sum;
+    const double scale = lobe.scale < 0 ? -lobe.scale : lobe.scale;
+    out.slope = lobe.power >= 1.0 ? scale * lobe.power / (1.0 + lobe.wrap) : kInfinity;  // t^(n-1) and sin theta are at most 1
+    return out;
+}
+
+}  // namespace halflit::sh

@@ -1,0 +1,36 @@
+// Shadow maps as the shading kernels read them, and how a shadow meets wrapped light.
+#pragma once
+
+#include "sh/vec3.hpp"
+
+#include <cstdint>
+
+namespace halflit::shading {
+
+/// What a shadow does to a light whose lobe f reaches round the terminator. V is visibility by the shadow map, x = N.L.
+enum class ShadowMode : std::uint8_t {
+    off,        ///< f
+    hard,       ///< V f: a step of f(0) where the surface turns away from the light
+    soft_split  ///< V core + W excess, core = min(f, max(0, x)), excess = f - core, W = max(V, T(d / d0)) per tap
+};
+
+/// Texels between a cube face's edge and the edge of its map, so that filtering never leaves the face.
+inline constexpr int kShadowBorder = 3;
+
+/// Distances from a light to the nearest surface. Texel (i, j) is at j * size + i; its centre is at (i + 0.5, j + 0.5).
+struct ShadowMapPlan {
+    enum class Kind : std::uint8_t { orthographic, perspective, cube };
+
+    const float* distance = nullptr;  ///< world units along the map's axis, kNoBlocker where nothing is; a cube has six maps in a row
+    std::int32_t size = 0;            ///< texels on a side
+    Kind kind = Kind::orthographic;
+    /// Rows applied to (x, y, z, 1) in world space. Orthographic: u, v in texels, and distance. Perspective: u and v times
+    /// distance, and distance. Cube: unused.
+    float rows[3][4] = {};
+    float origin[3] = {};             ///< cube: the light
+    float texel_size = 0;             ///< world units; perspective and cube: at distance 1
+};
+
+inline constexpr float kNoBlocker = 3e38f;
+
+}  // namespace halflit::shading
