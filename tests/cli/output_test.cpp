@@ -1,0 +1,139 @@
+#include "tests/cli/program.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+
+using namespace halflit::test;
+
+namespace {
+
+const std::string kOld = "the old file";
+
+std::vector<std::string> small(const std::string& output) { return {"render", "sphere:500", "--size", "40x30", "-o", output}; }
+
+}  // namespace
+
+TEST_CASE("output: - is PNG on standard output, and nothing else is", "[cli]") {
+    const Outcome outcome = run(small("-"));
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.empty());
+    const Picture picture = read_picture(outcome.out);
+    CHECK(picture.width == 40);
+    CHECK(picture.height == 30);
+}
+
+TEST_CASE("output: the file named like the scene is written here, and is the same as standard output", "[cli]") {
+    const TemporaryFolder folder;
+    const Outcome outcome = run({"render", "sphere:500", "--size", "40x30"}, {.folder = folder.path()});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.err == "halflit: wrote sphere.png\n");
+    CHECK(folder.names() == std::vector<std::string>{"sphere.png"});
+    CHECK(contents(folder.file("sphere.png")) == run(small("-")).out);
+}
+
+TEST_CASE("output: each format begins with its own mark", "[cli]") {
+    const TemporaryFolder folder;
+    for (const auto& [name, mark] : std::vector<std::pair<std::string, std::string>>{
+             {"a.png", "\x89PNG"}, {"a.JPG", "\xff\xd8\xff"}, {"a.jpeg", "\xff\xd8\xff"}, {"a.bmp", "BM"}, {"a.hdr", "#?RADIANCE"}}) {
+        INFO(name);
+        CHECK(run(small(folder.file(name))).code == 0);
+        CHECK(contents(folder.file(name)).starts_with(mark));
+    }
+    CHECK(run(small(folder.file("a.tga"))).code == 0);
+    const std::string tga = contents(folder.file("a.tga"));
+    REQUIRE(tga.size() > 18);  // no mark: 40 x 30 in the header's fixed places
+    CHECK(static_cast<int>(tga[12]) == 40);
+    CHECK(static_cast<int>(tga[14]) == 30);
+}
+
+TEST_CASE("output: a folder that is not there, a folder as file, no right to write end with 4 and the reason", "[cli]") {
+    const TemporaryFolder folder;
+    CHECK(run(small(folder.file("no/where.png"))).err.find("No such file or directory") != std::string::npos);
+    CHECK(run(small(folder.file("no/where.png"))).code == 4);
+    std::filesystem::create_directory(folder.file("folder.png"));
+    const Outcome is_folder = run(small(folder.file("folder.png")));
+    CHECK(is_folder.code == 4);
+    CHECK(is_folder.err.find("Is a directory") != std::string::npos);
+    CHECK(folder.names() == std::vector<std::string>{"folder.png"});
+    CHECK(run(small(folder.path())).code == 4);
+}
+
+TEST_CASE("output: a file that outgrows the disk leaves the old one and no temporary", "[cli]") {
+    const TemporaryFolder folder;
+    write_contents(folder.file("old.png"), kOld);
+    const Outcome outcome = run(small(folder.file("old.png")), {.largest_file = 300});
+    CHECK(outcome.code == 4);
+    CHECK(outcome.err.find("File too large") != std::string::npos);
+    CHECK(contents(folder.file("old.png")) == kOld);
+    CHECK(folder.names() == std::vector<std::string>{"old.png"});
+}
+
+TEST_CASE("output: a failed run leaves the old file", "[cli]") {
+    const TemporaryFolder folder;
+    write_contents(folder.file("old.png"), kOld);
+    CHECK(run({"render", "missing.glb", "-o", folder.file("old.png")}).code == 4);
+    CHECK(contents(folder.file("old.png")) == kOld);
+    CHECK(run(small(folder.file("old.png"))).code == 0);
+    CHECK(read_picture(contents(folder.file("old.png"))).width == 40);
+}
+
+TEST_CASE("output: a symbolic link is followed, a device written in place", "[cli]") {
+    const TemporaryFolder folder;
+    write_contents(folder.file("real.png"), kOld);
+    std::filesystem::create_symlink("real.png", folder.file("link.png"));
+    CHECK(run(small(folder.file("link.png"))).code == 0);
+    CHECK(std::filesystem::is_symlink(folder.file("link.png")));
+    CHECK(read_picture(contents(folder.file("real.png"))).width == 40);
+    std::filesystem::create_symlink("/dev/full", folder.file("full.png"));
+    const Outcome full = run(small(folder.file("full.png")));
+    CHECK(full.code == 4);
+    CHECK(full.err.find("No space left on device") != std::string::npos);
+}
+
+TEST_CASE("output: the scene itself is never overwritten", "[cli]") {
+    const TemporaryFolder folder;
+    write_contents(folder.file("scene.png"), kOld);  // whatever it holds: it is asked about before it is read
+    CHECK(run({"render", folder.file("scene.png"), "-o", folder.file("scene.png")}).code == 4);
+    CHECK(run({"render", folder.file("scene.png"), "-o", "-", "--report", folder.file("scene.png")}).code == 4);
+    CHECK(contents(folder.file("scene.png")) == kOld);
+}
+
+TEST_CASE("output: a closed standard output is an error, a closed standard error is not", "[cli]") {
+    const TemporaryFolder folder;
+    CHECK(run(small("-"), {.closed = 1}).code == 4);
+    CHECK(run(small(folder.file("a.png")), {.closed = 2}).code == 0);
+    CHECK(read_picture(contents(folder.file("a.png"))).width == 40);
+}
+
+TEST_CASE("output: a run that waits for its input ends by SIGINT and SIGTERM, with its report", "[cli]") {
+    for (const int signal : {SIGINT, SIGTERM}) {
+        const TemporaryFolder folder;
+        int asked = 0;
+        // 200 rounds of half a millisecond: by then it reads.
+        const auto later = [&]() { return ++asked == 200 ? std::optional(signal) : std::nullopt; };
+        const Outcome outcome =
+            run({"render", "-", "-o", folder.file("a.png"), "--report", folder.file("r.json")}, {.signal = later, .hold_input_open = true});
+        INFO("signal " << signal << ": " << outcome.err);
+        CHECK(outcome.code == 128 + signal);
+        CHECK(folder.names() == std::vector<std::string>{"r.json"});
+        CHECK(contents(folder.file("r.json")).find("\"status\": \"error\"") != std::string::npos);
+    }
+}
+
+TEST_CASE("output: interrupted while it writes, a run leaves the old file or the new one, and nothing else", "[cli]") {
+    const TemporaryFolder folder;
+    write_contents(folder.file("a.png"), kOld);
+    const auto when_writing = [&]() { return folder.names().size() > 1 ? std::optional(SIGINT) : std::nullopt; };
+    const Outcome outcome =
+        run({"render", "sphere:500", "--size", "1500x1500", "--samples", "1", "-o", folder.file("a.png")}, {.signal = when_writing});
+    CHECK(folder.names() == std::vector<std::string>{"a.png"});
+    if (outcome.code == 0 || contents(folder.file("a.png")) != kOld)
+        CHECK(read_picture(contents(folder.file("a.png"))).width == 1500);
+    else
+        CHECK(outcome.code == 128 + SIGINT);
+}

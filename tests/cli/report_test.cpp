@@ -1,0 +1,107 @@
+#include "raster/framebuffer.hpp"
+#include "tests/cli/program.hpp"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+
+using namespace halflit::test;
+
+namespace {
+
+nlohmann::json json_of(const std::string& text) {
+    const auto json = nlohmann::json::parse(text, nullptr, false);
+    REQUIRE(!json.is_discarded());
+    return json;
+}
+
+std::string hash_text(const Picture& picture) {
+    char text[17];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(halflit::raster::pixel_hash(picture.rgba8)));
+    return text;
+}
+
+}  // namespace
+
+TEST_CASE("report: it counts what was drawn and names the pixels by their hash", "[cli]") {
+    const TemporaryFolder folder;
+    const Outcome outcome =
+        run({"render", "sphere:500", "--size", "64x48", "-o", "-", "--report", folder.file("r.json"), "--isa", "scalar", "--threads", "1"});
+    REQUIRE(outcome.code == 0);
+    const auto report = json_of(contents(folder.file("r.json")));
+    CHECK(report["status"] == "ok");
+    CHECK(report["size"] == nlohmann::json{64, 48});
+    CHECK(report["isa"] == "scalar");
+    CHECK(report["threads"] == 1);
+    CHECK(report["pixel_hash"] == hash_text(read_picture(outcome.out)));
+    CHECK(report["triangles_submitted"].get<int>() > 450);
+    CHECK(report["triangles_drawn"].get<int>() <= report["triangles_submitted"].get<int>());
+    // The sphere touches the upper and lower edge: a disc of half the height.
+    CHECK(report["pixels_visible"].get<double>() == Approx(3.14159 * 24 * 24).epsilon(0.06));
+    CHECK(report["warnings"].empty());
+    CHECK(report["peak_memory_bytes"].get<double>() > 1e6);
+    for (const char* time : {"load_ms", "render_ms", "encode_ms"}) CHECK(report[time].get<double>() >= 0.0);
+    for (const char* stage : {"plan", "transform", "bin", "tiles"}) CHECK(report["stages"][stage].get<double>() >= 0.0);
+}
+
+TEST_CASE("report: - is standard output, the picture goes to its file", "[cli]") {
+    const TemporaryFolder folder;
+    const Outcome outcome = run({"render", "sphere:500", "--size", "20x20", "-o", folder.file("a.png"), "--report", "-"});
+    CHECK(outcome.code == 0);
+    CHECK(json_of(outcome.out)["pixel_hash"] == hash_text(read_picture(contents(folder.file("a.png")))));
+}
+
+TEST_CASE("report: a failed run has one too", "[cli]") {
+    const TemporaryFolder folder;
+    const std::vector<std::pair<std::vector<std::string>, int>> cases = {
+        {{"render", "missing.glb"}, 4},
+        {{"render", "--size", "99999x99999"}, 5},
+        {{"render", "--camera", "7"}, 2},
+        {{"render", "-o", folder.file("no/where.png"), "--size", "8x8"}, 4}};
+    for (auto [arguments, code] : cases) {
+        arguments.insert(arguments.end(), {"--report", folder.file("r.json")});
+        const Outcome outcome = run(arguments, {.folder = folder.path()});
+        INFO(outcome.err);
+        CHECK(outcome.code == code);
+        const auto report = json_of(contents(folder.file("r.json")));
+        CHECK(report["status"] == "error");
+        CHECK(report["error"]["code"] == code);
+        CHECK("halflit: error: " + report["error"]["message"].get<std::string>() + "\n" == outcome.err);
+        CHECK(folder.names() == std::vector<std::string>{"r.json"});
+    }
+}
+
+TEST_CASE("report: one that cannot be written ends the run with 4", "[cli]") {
+    const TemporaryFolder folder;
+    CHECK(run({"render", "sphere:500", "--size", "20x20", "-o", "-", "--report", folder.file("no/r.json")}).code == 4);
+}
+
+TEST_CASE("bench: the least time is not above the median, and the pixels are those of render", "[cli]") {
+    const Outcome bench = run({"bench", "sphere:500", "--frames", "4", "--json", "--size", "60x40"});
+    REQUIRE(bench.code == 0);
+    const auto report = json_of(bench.out);
+    CHECK(report["frames"] == 4);
+    CHECK(report["min_ms"].get<double>() > 0.0);
+    CHECK(report["min_ms"].get<double>() <= report["median_ms"].get<double>());
+    CHECK(report["stages"].size() == 4);
+    CHECK(report["load_ms"].get<double>() >= 0.0);
+    CHECK(report["encode_ms"].get<double>() > 0.0);
+    CHECK(report["pixel_hash"] == hash_text(read_picture(run({"render", "sphere:500", "--size", "60x40", "-o", "-"}).out)));
+}
+
+TEST_CASE("info: it counts the built-in sphere and plans its one material", "[cli]") {
+    const auto info = json_of(run({"info", "sphere:1000000", "--json"}).out);
+    CHECK(info["drawn"]["triangles_drawn"] == 1000000);
+    CHECK(info["drawn"]["lights"] == 2);
+    CHECK(info["bounds"]["max"][1] == 1.0);
+    CHECK(info["bounds"]["max"][0].get<double>() == Approx(1.0).epsilon(1e-5));  // no ring of vertices lies on the equator
+    REQUIRE(info["materials"].size() == 1);
+    const auto& material = info["materials"][0];
+    CHECK(material["lobe"]["computed_as"] == "t*sqrt(t)");  // sloan 0.5: n = 1.5
+    CHECK(material["requires"].dump().find("lights") != std::string::npos);
+    CHECK(material["does_without"].dump().find("normal map") != std::string::npos);
+    CHECK(material["requires"].size() + material["does_without"].size() == 11);
+    const auto flat = json_of(run({"info", "sphere:1000", "--json", "--specular", "none"}).out);
+    CHECK(flat["materials"][0]["does_without"].dump().find("specular") != std::string::npos);
+}

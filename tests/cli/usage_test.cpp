@@ -1,0 +1,113 @@
+#include "tests/cli/program.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace halflit::test;
+
+namespace {
+
+/// One line, from us, with nothing on standard output.
+void check_error(const Outcome& outcome, int code, const std::string& part) {
+    INFO(outcome.err);
+    CHECK(outcome.code == code);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.err.starts_with("halflit: error: "));
+    CHECK(outcome.err.find('\n') == outcome.err.size() - 1);
+    CHECK(outcome.err.find(part) != std::string::npos);
+}
+
+}  // namespace
+
+TEST_CASE("usage: what cannot be meant ends with 2 and says what was expected", "[cli]") {
+    const TemporaryFolder folder;
+    const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+        {{}, "no command"},
+        {{"rendr"}, "did you mean render?"},
+        {{"render", "--siez", "8x8"}, "did you mean --size?"},
+        {{"render", "--zzzzzzzz"}, "unknown flag --zzzzzzzz"},
+        {{"render", "demo", "extra"}, "unexpected argument extra"},
+        {{"render", "--size"}, "--size"},
+        {{"render", "--size", "0x0"}, "'0x0'"},
+        {{"render", "--size", "-1"}, "'-1'"},
+        {{"render", "--size", "8x8", "--size", "9x9"}, "--size"},
+        {{"render", "--size", "8"}, "WIDTHxHEIGHT"},
+        {{"render", "--size", "8x8x8"}, "WIDTHxHEIGHT"},
+        {{"render", "--samples", "3"}, "1, 4, 8"},
+        {{"render", "--size", "8x8", "--region", "0,0,9,8"}, "8x8"},
+        {{"render", "--region", "0,0,0,0"}, "X,Y,WIDTH,HEIGHT"},
+        {{"render", "--background", "#12345"}, "#rrggbb"},
+        {{"render", "--exposure", "bright"}, "auto"},
+        {{"render", "--exposure", "nan"}, "auto"},
+        {{"render", "--camera", "9"}, "below 1"},
+        {{"render", "--camera", "0", "--zoom", "2"}, "--zoom"},
+        {{"render", "--lobe", "phong"}, "lambert"},
+        {{"render", "--wrap", "1.5"}, "from 0 to 1"},
+        {{"render", "--normalize"}, "--lobe"},
+        {{"render", "--specular", "phong"}, "none or blinn"},
+        {{"render", "--ambient", "1,1"}, "3 numbers"},
+        {{"render", "--ambient", "1,1,-1"}, "from 0"},
+        {{"render", "--light", "sun"}, "directional"},
+        {{"render", "--light", "point:dir=0,0,1"}, "pos"},
+        {{"render", "--light", "directional:dir=0,0,0"}, "direction"},
+        {{"render", "--isa", "mmx"}, "scalar"},
+        {{"render", "--threads", "-1"}, "from 0"},
+        {{"render", "--tile", "48"}, "16, 32, 64"},
+        {{"render", "-o", "picture.gif"}, ".png"},
+        {{"render", "-o", ""}, "-o"},
+        {{"render", "-o", "-", "--report", "-"}, "--report"},
+        {{"render", "sphere:3"}, "from 12"},
+        {{"bench"}, "SCENE"},
+        {{"bench", "demo", "--frames", "0"}, "from 1"},
+        {{"diff", "a.png"}, "B"},
+        {{"diff", "a.png", "b.png", "--max", "256"}, "from 0 to 255"},
+    };
+    for (const auto& [arguments, part] : cases) {
+        std::string line;
+        for (const std::string& argument : arguments) line += " " + argument;
+        INFO("halflit" << line);
+        check_error(run(arguments, {.folder = folder.path()}), 2, part);
+        CHECK(folder.names().empty());
+    }
+}
+
+TEST_CASE("usage: a picture beyond 2^28 pixels ends with 5 before anything is loaded", "[cli]") {
+    check_error(run({"render", "missing.glb", "--size", "100000x100000"}), 5, "2^28");
+}
+
+TEST_CASE("usage: a missing scene ends with 4 and the system's reason", "[cli]") {
+    check_error(run({"render", "missing.glb", "-o", "-"}), 4, "missing.glb: cannot be opened: No such file or directory");
+    check_error(run({"info", "missing.glb"}), 4, "No such file or directory");
+}
+
+TEST_CASE("usage: bytes that are no model end with 3", "[cli]") {
+    const TemporaryFolder folder;
+    write_contents(folder.file("noise.glb"), "this is not a model");
+    check_error(run({"render", folder.file("noise.glb"), "-o", "-"}), 3, "noise.glb");
+    check_error(run({"render", "-", "-o", "-"}, {.input = "nor is this"}), 3, "standard input");
+    check_error(run({"render", "-", "-o", "-"}), 3, "standard input");
+}
+
+TEST_CASE("usage: an endless standard input ends with 5", "[cli]") {
+    check_error(run({"render", "-", "-o", "-", "--max-file-bytes", "1000"}, {.input = std::string(5000, ' ')}), 5, "--max-file-bytes");
+}
+
+TEST_CASE("usage: control characters of a name are shown, not sent to the terminal", "[cli]") {
+    const Outcome outcome = run({"render", "a\x1b[31m\nb.glb", "-o", "-"});
+    CHECK(outcome.code == 4);
+    CHECK(outcome.err.find('\x1b') == std::string::npos);
+    CHECK(outcome.err.find("a\\x1b[31m\\x0ab.glb") != std::string::npos);
+}
+
+TEST_CASE("usage: help and version go to standard output and end with 0", "[cli]") {
+    const Outcome version = run({"--version"});
+    CHECK(version.code == 0);
+    CHECK(version.out.starts_with("halflit "));
+    CHECK(version.out.find("pixel_epoch") != std::string::npos);
+    for (const std::string command : {"render", "bench", "info", "diff"}) {
+        const Outcome help = run({command, "--help"});
+        INFO(command);
+        CHECK(help.code == 0);
+        CHECK(help.err.empty());
+        CHECK(help.out.find("Usage: halflit " + command) != std::string::npos);
+    }
+}
