@@ -24,8 +24,4 @@ struct SphereNode {
 /// Exact for polynomials in x, y, z of this degree, so for products of harmonics whose bands sum to it. degree in [0, 510].
 [[nodiscard]] std::vector<SphereNode> sphere_quadrature(int degree);
 
-/// Expansion of fn(direction) -> Vec3d, bands in [1, 10], by a rule of this degree. Exact when fn is a polynomial of degree - bands + 1.
-template <class Fn>
-[[nodiscard]] Expansion<double> project_function(int bands, int degree, Fn&& fn);
-
 }  // namespace halflit::sh

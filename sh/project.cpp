@@ -1,0 +1,184 @@
+#include "sh/project.hpp"
+
+#include "sh/detail/legendre.hpp"
+#include "sh/rotate.hpp"
+
+#include <limits>
+
+namespace halflit::sh {
+namespace {
+
+constexpr int kBands = kSpectrumBands;
+using Harmonics = std::array<Vec3d, kBands>;
+
+/// The image's frame: x along -z, y along +x, z along +y of the world, so that z = cos theta and atan2(y, x) = phi. A reflection.
+constexpr Rotation kImageToWorld{{{0, 0, -1}, {1, 0, 0}, {0, 1, 0}}};
+
+/// Integrals of one row against cos(m phi) and sin(m phi), m = 0..63.
+///
+/// With mirrored columns added and subtracted first, each harmonic needs a half (odd width: all) of the columns, and with a width divisible
+/// by 4, where the columns mirror at a quarter turn as well, a quarter: even and odd m then see different sums.
+class RowTransform {
+public:
+    explicit RowTransform(int width) : width_(width), fold_(width % 4 == 0 ? 4 : width % 2 == 0 ? 2 : 1), columns_(width / fold_) {
+        table_.resize(static_cast<std::size_t>(columns_) * 2 * kBands);
+        for (int k = 0; k < columns_; ++k) {
+            const SinCos step = sin_cos(angle(k));
+            double c = 1.0, s = 0.0;
+            for (int m = 0; m < kBands; ++m) {
+                cos_of(k)[m] = c;
+                sin_of(k)[m] = s;
+                // A fresh pair every 8 steps keeps the recurrence's error at a few ulp.
+                if (m % 8 == 7) {
+                    const SinCos fresh = sin_cos(angle(k) * (m + 1));
+                    c = fresh.cos, s = fresh.sin;
+                } else {
+                    const double turned = c * step.cos - s * step.sin;
+                    s = s * step.cos + c * step.sin;
+                    c = turned;
+                }
+            }
+        }
+        const double half = kPi / width;  // half a pixel
+        for (int m = 0; m < kBands; ++m) pixel_[static_cast<std::size_t>(m)] = m == 0 ? 2.0 * half : 2.0 * sin_cos(m * half).sin / m;
+    }
+
+    void run(const EquirectView& image, int row, Harmonics& cosines, Harmonics& sines) const {
+        cosines.fill({});
+        sines.fill({});
+        for (int k = 0; k < columns_; ++k) {
+            // even/odd: the parts that even and odd m see, for the cosine and for the sine.
+            Vec3d cos_even, cos_odd, sin_even, sin_odd;
+            if (fold_ == 1) {
+                cos_even = cos_odd = sin_even = sin_odd = image.at(k, row);
+            } else {
+                const int right = width_ / 2 + k, left = width_ / 2 - 1 - k;
+                const Vec3d near_sum = image.at(right, row) + image.at(left, row),
+                            near_difference = image.at(right, row) - image.at(left, row);
+                cos_even = cos_odd = near_sum;
+                sin_even = sin_odd = near_difference;
+                if (fold_ == 4) {
+                    const int far_right = width_ - 1 - k, far_left = k;
+                    const Vec3d far_sum = image.at(far_right, row) + image.at(far_left, row);
+                    const Vec3d far_difference = image.at(far_right, row) - image.at(far_left, row);
+                    cos_even = near_sum + far_sum;
+                    cos_odd = near_sum - far_sum;
+                    sin_even = near_difference - far_difference;
+                    sin_odd = near_difference + far_difference;
+                }
+            }
+            const double* const c = cos_of(k);
+            const double* const s = sin_of(k);
+            for (std::size_t m = 0; m < kBands; m += 2) {
+                cosines[m] = cosines[m] + cos_even * c[m];
+                cosines[m + 1] = cosines[m + 1] + cos_odd * c[m + 1];
+                sines[m] = sines[m] + sin_even * s[m];
+                sines[m + 1] = sines[m + 1] + sin_odd * s[m + 1];
+            }
+        }
+        for (std::size_t m = 0; m < kBands; ++m) {
+            cosines[m] = cosines[m] * pixel_[m];
+            sines[m] = sines[m] * pixel_[m];
+        }
+    }
+
+private:
+    /// phi at the middle of column k of those that are left after folding, which start at phi = 0.
+    [[nodiscard]] double angle(int k) const {
+        const double turn = (k + 0.5) / width_;
+        return 2.0 * kPi * (fold_ == 1 ? turn - 0.5 : turn);
+    }
+    [[nodiscard]] double* cos_of(int k) { return &table_[static_cast<std::size_t>(k) * 2 * kBands]; }
+    [[nodiscard]] double* sin_of(int k) { return cos_of(k) + kBands; }
+    [[nodiscard]] const double* cos_of(int k) const { return &table_[static_cast<std::size_t>(k) * 2 * kBands]; }
+    [[nodiscard]] const double* sin_of(int k) const { return cos_of(k) + kBands; }
+
+    int width_, fold_, columns_;
+    std::vector<double> table_;
+    std::array<double, kBands> pixel_{};  ///< integral of cos(m phi) over a pixel centred on 0
+};
+
+/// Integrals of p_lm(cos theta) sin theta over one row. Eight nodes for every radian that the highest band turns: error below 1e-15.
+void integrate_row(int height, int row, const std::vector<GaussNode>& rule, std::array<detail::LegendreRow, kBands>& integrals) {
+    for (auto& r : integrals) r.p.fill(0.0);
+    const int panels = 1 + static_cast<int>(kBands * kPi / height);
+    const double half = 0.5 * kPi / height / panels;
+    std::array<detail::LegendreRow, kBands> values;
+    for (int panel = 0; panel < panels; ++panel)
+        for (const GaussNode& node : rule) {
+            const SinCos theta = sin_cos(half * (2.0 * (row * panels + panel) + 1.0 + node.x));
+            const double weight = half * node.weight * theta.sin;
+            detail::legendre(theta.cos, theta.sin, values);
+            for (std::size_t m = 0; m < kBands; ++m)
+                for (std::size_t i = 0; i < kBands - m; ++i) integrals[m].p[i] += weight * values[m].p[i];
+        }
+}
+
+double positive_sqrt(double x) { return x > 0.0 ? __builtin_sqrt(x) : 0.0; }
+Vec3d positive_sqrt(Vec3d v) { return {positive_sqrt(v.x), positive_sqrt(v.y), positive_sqrt(v.z)}; }
+double absolute(double x) { return x < 0 ? -x : x; }
+
+}  // namespace
+
+Projection::Projection(const EquirectView& image) { add_rows(image, 0, image.height, 1.0); }
+
+void Projection::add_rows(const EquirectView& image, int first_row, int end_row, double factor) {
+    const RowTransform transform(image.width);
+    const std::vector<GaussNode> rule = gauss_legendre(8);
+    Harmonics cosines, sines;
+    std::array<detail::LegendreRow, kBands> integrals;
+    for (int row = first_row; row < end_row; ++row) {
+        transform.run(image, row, cosines, sines);
+        integrate_row(image.height, row, rule, integrals);
+        for (std::size_t m = 0; m < kBands; ++m)
+            for (std::size_t l = m; l < kBands; ++l) {
+                const double p = factor * integrals[m].p[l - m];
+                Vec3d& plus = c_[l * l + l + m];
+                plus = plus + cosines[m] * p;
+                Vec3d& minus = c_[l * l + l - m];
+                if (m > 0) minus = minus + sines[m] * p;
+            }
+        Vec3d squares{}, absolutes{};
+        for (int x = 0; x < image.width; ++x) {
+            const Vec3d value = image.at(x, row);
+            squares = squares + value * value;
+            absolutes = absolutes + Vec3d{absolute(value.x), absolute(value.y), absolute(value.z)};
+        }
+        const double weight = factor * pixel_solid_angle(image.width, image.height, row);
+        squares_ = squares_ + squares * weight;
+        absolute_ = absolute_ + absolutes * weight;
+    }
+}
+
+RadianceSh Projection::radiance(int bands) const {
+    RadianceSh own{bands, {}};
+    for (std::size_t i = 0; i < static_cast<std::size_t>(coefficient_count(bands)); ++i) own.c[i] = c_[i];
+    return rotated(own, kImageToWorld);
+}
+
+Spectrum Projection::spectrum() const {
+    Spectrum out;
+    Vec3d known{};
+    for (int l = 0; l < kBands; ++l) {
+        Vec3d sum{};
+        for (int i = l * l; i < (l + 1) * (l + 1); ++i) sum = sum + c_[static_cast<std::size_t>(i)] * c_[static_cast<std::size_t>(i)];
+        known = known + sum;
+        out.norm[static_cast<std::size_t>(l)] = positive_sqrt(sum);
+    }
+    // The difference cancels when the bands hold nearly everything; what rounding may have taken is given back.
+    constexpr double kRounding = 256 * std::numeric_limits<double>::epsilon();
+    const Vec3d rest = squares_ - known;
+    out.tail_norm = positive_sqrt(Vec3d{rest.x > 0 ? rest.x : 0, rest.y > 0 ? rest.y : 0, rest.z > 0 ? rest.z : 0} + squares_ * kRounding);
+    out.absolute = absolute_;
+    return out;
+}
+
+Vec3d Projection::mean() const { return c_[0] * detail::kBasisTable.diagonal[0]; }
+
+std::array<Vec3d, kSpectrumBands> Projection::bands_at(Vec3d direction) const {
+    std::array<Vec3d, kSpectrumBands> values;
+    detail::band_values(c_.data(), inverse(kImageToWorld) * direction, values);
+    return values;
+}
+
+}  // namespace halflit::sh

@@ -1,0 +1,62 @@
+// Projection of environments. An equirectangular image is taken as what it is, patches of constant radiance, and integrated exactly: around
+// by the closed form of the sine over a pixel's width, from pole to pole by Gauss quadrature within each row. Besides the coefficients
+// that shading uses, the norms of 64 bands are kept, because they bound the error of every lobe at every order (sh/order.hpp).
+#pragma once
+
+#include "sh/coefficients.hpp"
+#include "sh/equirect.hpp"
+#include "sh/quadrature.hpp"
+#include "sh/zonal.hpp"
+
+#include <vector>
+
+namespace halflit::sh {
+
+/// How much of an environment each band holds, channel by channel.
+struct Spectrum {
+    std::array<Vec3d, kSpectrumBands> norm{};  ///< |L_l| = sqrt of the sum over m of L_lm^2
+    Vec3d tail_norm;                           ///< the same over all bands from kSpectrumBands on
+    Vec3d absolute;                            ///< the integral of |L| over the sphere
+};
+
+class Projection {
+public:
+    /// Of a whole image; without one, of darkness.
+    Projection() = default;
+    explicit Projection(const EquirectView& image);
+
+    /// Adds `factor` times the given rows of an image as large as the others, factor 1 or -1. With -1 and then 1, rows are replaced.
+    void add_rows(const EquirectView& image, int first_row, int end_row, double factor);
+
+    /// The first `bands` bands, 1..10.
+    [[nodiscard]] RadianceSh radiance(int bands = kMaxBands) const;
+    [[nodiscard]] Spectrum spectrum() const;
+    /// Mean radiance over the sphere.
+    [[nodiscard]] Vec3d mean() const;
+    /// The integral of L^2 over the sphere.
+    [[nodiscard]] Vec3d squares() const { return squares_; }
+    /// What each band is worth in a direction.
+    [[nodiscard]] std::array<Vec3d, kSpectrumBands> bands_at(Vec3d direction) const;
+
+private:
+    // The image's own frame: polar axis y. Rotated into the world's only for the bands that are asked for; norms do not care.
+    std::vector<Vec3d> c_ = std::vector<Vec3d>(static_cast<std::size_t>(kSpectrumBands * kSpectrumBands));
+    Vec3d squares_, absolute_;
+};
+
+/// Expansion of fn(direction) -> Vec3d, bands in 1..10, by a quadrature of this degree: exact when fn is a polynomial of degree up to
+/// degree - bands + 1, and close when it is smooth.
+template <class Fn>
+[[nodiscard]] RadianceSh project_function(int bands, int degree, Fn&& fn) {
+    RadianceSh out{bands, {}};
+    for (const SphereNode& node : sphere_quadrature(degree)) {
+        double y[kMaxCoefficients];
+        evaluate_basis<kMaxBands>(node.direction, y);
+        const Vec3d value = fn(node.direction) * node.weight;
+        for (int i = 0; i < coefficient_count(bands); ++i)
+            out.c[static_cast<std::size_t>(i)] = out.c[static_cast<std::size_t>(i)] + value * y[i];
+    }
+    return out;
+}
+
+}  // namespace halflit::sh

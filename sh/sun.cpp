@@ -1,0 +1,208 @@
+#include "sh/sun.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+
+namespace halflit::sh {
+namespace {
+
+constexpr int kJudgedOrder = 5;
+constexpr int kMaxCandidates = 8;
+
+struct Pixel {
+    int x = 0, y = 0;
+    double luminance = 0;
+};
+
+/// An image that changes, and the bound on the error of its projection plus that of the suns taken out so far.
+struct State {
+    int width, height;
+    std::vector<float> rgb;
+    Projection projection;
+    std::vector<Sun> suns;
+    double bound = 0;
+
+    [[nodiscard]] EquirectView view() const { return {width, height, rgb}; }
+    [[nodiscard]] float* pixel(int x, int y) {
+        return &rgb[(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * 3];
+    }
+};
+
+struct Judge {
+    LobeSpectrum lobe = lobe_spectrum({0.0, 1.0, 1.0});
+
+    [[nodiscard]] double bound(const Spectrum& spectrum, const std::vector<Sun>& suns) const {
+        return largest(order_bounds(spectrum, lobe).by_order[kJudgedOrder - 1] + sun_bound(suns, lobe));
+    }
+};
+
+Vec3d center(const State& state, const Pixel& p) { return equirect_direction((p.x + 0.5) / state.width, (p.y + 0.5) / state.height); }
+
+/// Root mean square distance of a pixel's points from its middle.
+double pixel_radius(const State& state, int y) {
+    const double tall = kPi / state.height, wide = 2.0 * kPi / state.width * sin_cos(kPi * (y + 0.5) / state.height).sin;
+    return __builtin_sqrt((tall * tall + wide * wide) / 12.0);
+}
+
+std::optional<Pixel> brightest(const State& state, const std::vector<std::uint8_t>& seen) {
+    std::optional<Pixel> best;
+    for (int y = 0; y < state.height; ++y)
+        for (int x = 0; x < state.width; ++x) {
+            if (seen[static_cast<std::size_t>(y) * static_cast<std::size_t>(state.width) + static_cast<std::size_t>(x)] != 0) continue;
+            const double value = luminance(state.view().at(x, y));
+            if (!best || value > best->luminance) best = Pixel{x, y, value};
+        }
+    return best;
+}
+
+/// The connected pixels around a peak that are brighter than `floor` and near enough. Marks them as seen, whatever becomes of them.
+std::vector<Pixel> region(const State& state, const Pixel& peak, double floor, double max_radius, std::vector<std::uint8_t>& seen) {
+    const Vec3d axis = center(state, peak);
+    const double max_chord2 = 4.0 * sin_cos(0.5 * max_radius).sin * sin_cos(0.5 * max_radius).sin;
+    const auto flag = [&](int x, int y) -> std::uint8_t& {
+        return seen[static_cast<std::size_t>(y) * static_cast<std::size_t>(state.width) + static_cast<std::size_t>(x)];
+    };
+    std::vector<Pixel> found{peak};
+    flag(peak.x, peak.y) = 1;
+    for (std::size_t next = 0; next < found.size(); ++next) {
+        const Pixel p = found[next];
+        const int neighbours[4][2] = {
+            {p.x > 0 ? p.x - 1 : state.width - 1, p.y}, {p.x + 1 < state.width ? p.x + 1 : 0, p.y}, {p.x, p.y - 1}, {p.x, p.y + 1}};
+        for (const auto& [x, y] : neighbours) {
+            if (y < 0 || y >= state.height || flag(x, y) != 0) continue;
+            const Pixel q{x, y, luminance(state.view().at(x, y))};
+            const Vec3d apart = center(state, q) - axis;
+            if (!(q.luminance > floor) || dot(apart, apart) > max_chord2) continue;
+            flag(x, y) = 1;
+            found.push_back(q);
+        }
+    }
+    return found;
+}
+
+/// What is left of a pixel when its luminance is brought down to `level`; the colour stays.
+void dim(const State& state, const Pixel& p, double level, float (&left)[3]) {
+    const Vec3d rgb = state.view().at(p.x, p.y) * (level / p.luminance);
+    left[0] = static_cast<float>(rgb.x), left[1] = static_cast<float>(rgb.y), left[2] = static_cast<float>(rgb.z);
+}
+
+struct Candidate {
+    Sun sun;
+    Vec3d squares_removed;  ///< integral of L^2 before minus after
+};
+
+/// The light above `level` as one direction.
+Candidate gather(const State& state, const std::vector<Pixel>& pixels, double level) {
+    Candidate out;
+    Vec3d centroid{};
+    double flux = 0;
+    for (const Pixel& p : pixels) {
+        if (!(p.luminance > level)) continue;
+        float left[3];
+        dim(state, p, level, left);
+        const double solid_angle = pixel_solid_angle(state.width, state.height, p.y);
+        const Vec3d before = state.view().at(p.x, p.y), after{left[0], left[1], left[2]}, taken = before - after;
+        out.sun.irradiance = out.sun.irradiance + taken * solid_angle;
+        out.sun.solid_angle += solid_angle;
+        out.squares_removed = out.squares_removed + (before * before - after * after) * solid_angle;
+        centroid = centroid + center(state, p) * (luminance(taken) * solid_angle);
+        flux += luminance(taken) * solid_angle;
+    }
+    if (!(flux > 0)) return out;
+    out.sun.direction = centroid * (1.0 / length(centroid));
+    double spread = 0;
+    for (const Pixel& p : pixels) {
+        if (!(p.luminance > level)) continue;
+        const Vec3d apart = center(state, p) - out.sun.direction;
+        const double chord = length(apart), angle = chord + chord * chord * chord / 16.0;  // at least 2 asin(chord/2), for chords below 1
+        spread += (p.luminance - level) * pixel_solid_angle(state.width, state.height, p.y) * (angle + pixel_radius(state, p.y));
+    }
+    out.sun.spread_rad = spread / flux;
+    return out;
+}
+
+/// The spectrum after a candidate has gone, as if all its light came from one direction: cheap, and good enough to choose a level.
+Spectrum without(const State& state, const Candidate& candidate) {
+    Spectrum out = state.projection.spectrum();
+    const auto at = state.projection.bands_at(candidate.sun.direction);
+    const Vec3d e = candidate.sun.irradiance;
+    Vec3d known{};
+    const auto root = [](double x) { return x > 0 ? __builtin_sqrt(x) : 0.0; };
+    for (std::size_t l = 0; l < out.norm.size(); ++l) {
+        const Vec3d square = out.norm[l] * out.norm[l] - (e * at[l]) * 2.0 + (e * e) * (static_cast<double>(2 * l + 1) / (4.0 * kPi));
+        out.norm[l] = {root(square.x), root(square.y), root(square.z)};
+        known = known + out.norm[l] * out.norm[l];
+    }
+    const Vec3d rest = state.projection.squares() - candidate.squares_removed - known;
+    out.tail_norm = {root(rest.x), root(rest.y), root(rest.z)};
+    out.absolute = out.absolute - e;
+    return out;
+}
+
+/// Takes what is above `level` out of the image and brings the projection up to date, unless that gains too little.
+void take(State& state, const Judge& judge, const std::vector<Pixel>& pixels, double level, const Sun& sun, double target) {
+    int first = state.height, end = 0;
+    for (const Pixel& p : pixels) first = std::min(first, p.y), end = std::max(end, p.y + 1);
+    Projection projection = state.projection;
+    projection.add_rows(state.view(), first, end, -1.0);
+    std::vector<Vec3f> before;
+    for (const Pixel& p : pixels) {
+        float* const rgb = state.pixel(p.x, p.y);
+        before.push_back({rgb[0], rgb[1], rgb[2]});
+        float left[3];
+        dim(state, p, level, left);
+        if (p.luminance > level) rgb[0] = left[0], rgb[1] = left[1], rgb[2] = left[2];
+    }
+    projection.add_rows(state.view(), first, end, 1.0);
+    std::vector<Sun> suns = state.suns;
+    suns.push_back(sun);
+    const double bound = judge.bound(projection.spectrum(), suns);
+    if (bound <= target) {
+        state.projection = std::move(projection);
+        state.suns = std::move(suns);
+        state.bound = bound;
+        return;
+    }
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        float* const rgb = state.pixel(pixels[i].x, pixels[i].y);
+        rgb[0] = before[i].x, rgb[1] = before[i].y, rgb[2] = before[i].z;
+    }
+}
+
+}  // namespace
+
+SunExtraction extract_suns(const EquirectView& image, const Projection& full, const SunOptions& options) {
+    const Judge judge;
+    State state{image.width, image.height, {image.rgb.begin(), image.rgb.end()}, full, {}, 0.0};
+    state.bound = judge.bound(full.spectrum(), {});
+    std::vector<std::uint8_t> seen(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+    for (int tried = 0; tried < kMaxCandidates && static_cast<int>(state.suns.size()) < options.max_suns; ++tried) {
+        const double mean = luminance(state.projection.mean());
+        const std::optional<Pixel> peak = brightest(state, seen);
+        if (!peak || !(peak->luminance > options.min_contrast * mean)) break;
+        const std::vector<Pixel> pixels = region(state, *peak, mean, options.max_radius_rad, seen);
+        const double target = (1.0 - options.min_gain) * state.bound;
+        double best_level = 0, best_bound = target;
+        Sun best;
+        for (double level = 0.5 * peak->luminance; level > mean; level *= 0.5) {
+            const Candidate candidate = gather(state, pixels, level);
+            std::vector<Sun> suns = state.suns;
+            suns.push_back(candidate.sun);
+            const double bound = judge.bound(without(state, candidate), suns);
+            if (bound < best_bound) best_level = level, best_bound = bound, best = candidate.sun;
+        }
+        if (best_level > 0) take(state, judge, pixels, best_level, best, target);
+    }
+    SunExtraction out{std::move(state.suns), {}, std::move(state.projection)};
+    if (!out.suns.empty()) out.residual_rgb = std::move(state.rgb);
+    return out;
+}
+
+Vec3d sun_bound(const std::vector<Sun>& suns, const LobeSpectrum& lobe) {
+    Vec3d sum{};
+    for (const Sun& sun : suns) sum = sum + sun.irradiance * (sun.spread_rad * lobe.slope / kPi);
+    return sum;
+}
+
+}  // namespace halflit::sh
