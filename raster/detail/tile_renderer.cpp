@@ -8,20 +8,30 @@ namespace {
 /// NaN to 0; everything else as it is.
 float number_or_zero(float x) { return x == x ? x : 0.0f; }
 
+Vec4f number_or_zero(Vec4f v) { return {number_or_zero(v.x), number_or_zero(v.y), number_or_zero(v.z), number_or_zero(v.w)}; }
+
+/// What a pixel shows: the mean of its samples, `sum` of light times alpha and of alpha, no longer multiplied by alpha. Samples may hold
+/// infinities, whose sums and quotients may be NaN.
+Vec4f resolved(const float (&sum)[4], float weight) {
+    const float alpha = sum[3] * weight;
+    if (!(alpha > 0.0f)) return {0, 0, 0, number_or_zero(alpha)};
+    return number_or_zero(Vec4f{sum[0] * weight / alpha, sum[1] * weight / alpha, sum[2] * weight / alpha, alpha});
+}
+
 }  // namespace
 
 TileCounts TileRenderer::render() {
+    direct_ = frame_.pattern.count == 1 && !frame_.has_blend;
     if (!has_triangles()) {
         fill_background();
         return counts_;
     }
-    direct_ = frame_.pattern.count == 1 && !frame_.has_blend;
     draw_visibility();
     if (direct_) {
         fill_background();
     } else {
         float* color = scratch_.color.reserve(static_cast<std::size_t>(frame_.pattern.count) * 4 * kTilePixels);
-        const Vec4f b = frame_.settings->background_linear;
+        const Vec4f b = number_or_zero(frame_.settings->background_linear);
         const float back[4] = {b.x * b.w, b.y * b.w, b.z * b.w, b.w};
         for (int i = 0; i < frame_.pattern.count * kTilePixels; ++i) std::memcpy(color + 4 * i, back, sizeof back);
     }
@@ -146,7 +156,15 @@ void TileRenderer::write_samples(const FragmentList& list, bool blend) {
 }
 
 void TileRenderer::fill_background() {
-    const Vec4f b = frame_.settings->background_linear;
+    Vec4f b = number_or_zero(frame_.settings->background_linear);
+    if (!direct_) {
+        // A tile that nothing touches must round as an empty pixel beside a triangle does, or pixels would depend on the tile size.
+        float sum[4] = {0, 0, 0, 0};
+        const float back[4] = {b.x * b.w, b.y * b.w, b.z * b.w, b.w};
+        for (int s = 0; s < frame_.pattern.count; ++s)
+            for (int i = 0; i < 4; ++i) sum[i] += back[i];
+        b = resolved(sum, 1.0f / static_cast<float>(frame_.pattern.count));
+    }
     const FramebufferView& target = frame_.target;
     if (target.rgba8) {
         alignas(64) float red[16], green[16], blue[16], alpha[16];
@@ -184,9 +202,11 @@ void TileRenderer::resolve() {
             float sum[4] = {0, 0, 0, 0};
             for (int s = 0; s < frame_.pattern.count; ++s)
                 for (int i = 0; i < 4; ++i) sum[i] += sample_color(s)[4 * (y * kTileStride + x) + i];
-            const float alpha = sum[3] * weight;
-            for (int i = 0; i < 3; ++i) row[i][x] = alpha > 0.0f ? sum[i] * weight / alpha : 0.0f;
-            row[3][x] = alpha;
+            const Vec4f pixel = resolved(sum, weight);
+            row[0][x] = pixel.x;
+            row[1][x] = pixel.y;
+            row[2][x] = pixel.z;
+            row[3][x] = pixel.w;
         }
         const std::size_t first =
             static_cast<std::size_t>(rect_.y + y) * static_cast<std::size_t>(target.width) + static_cast<std::size_t>(rect_.x);
