@@ -1,0 +1,238 @@
+#include "tests/raster/test_scenes.hpp"
+
+#include "raster/shapes.hpp"
+#include "raster/tangent_space.hpp"
+#include "tests/support/cameras.hpp"
+#include "tests/support/random.hpp"
+
+#include <limits>
+
+namespace halflit::raster::test {
+namespace {
+
+using halflit::test::camera_at;
+using halflit::test::Random;
+using shading::AlphaMode;
+using shading::Light;
+using shading::LightType;
+using shading::Material;
+using shading::Texture;
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInf = std::numeric_limits<float>::infinity();
+
+int add_texture(Scene& scene, int width, int height, shading::ColorSpace space, std::uint64_t seed, bool normal_map) {
+    Random random(seed);
+    std::vector<std::uint8_t> rgba(static_cast<std::size_t>(4 * width * height));
+    for (std::size_t i = 0; i < rgba.size(); i += 4) {
+        const bool dark = ((i / 4 % static_cast<std::size_t>(width)) / 4 + (i / 4 / static_cast<std::size_t>(width)) / 4) % 2 == 0;
+        for (std::size_t c = 0; c < 4; ++c) rgba[i + c] = static_cast<std::uint8_t>((dark ? 20 : 150) + random.integer(0, 100));
+        if (normal_map) {
+            rgba[i] = static_cast<std::uint8_t>(random.integer(90, 165));
+            rgba[i + 1] = static_cast<std::uint8_t>(random.integer(90, 165));
+            rgba[i + 2] = 235;
+        }
+    }
+    scene.textures.push_back(Texture::from_rgba8(rgba, width, height, space).value());
+    return static_cast<int>(scene.textures.size()) - 1;
+}
+
+int add_material(Scene& scene, Material material) {
+    scene.materials.push_back(std::move(material));
+    return static_cast<int>(scene.materials.size()) - 1;
+}
+
+void add(Scene& scene, Mesh mesh, int material, const Mat4& place) {
+    mesh.material = material;
+    scene.meshes.push_back(std::move(mesh));
+    scene.instances.push_back({static_cast<int>(scene.meshes.size()) - 1, place});
+}
+
+Mat4 turned(float x, float y, float z, float w) {
+    const float inv = 1.0f / __builtin_sqrtf(x * x + y * y + z * z + w * w);
+    return rotation({x * inv, y * inv, z * inv, w * inv});
+}
+
+void add_lights(Scene& scene) {
+    Light sun;
+    sun.direction_ws = {-0.3f, -1, -0.4f};
+    sun.color_linear = {0.7f, 0.65f, 0.6f};
+    Light lamp;
+    lamp.type = LightType::point;
+    lamp.position_ws = {1.5f, 1.2f, 1.0f};
+    lamp.color_linear = {1.0f, 0.4f, 0.2f};
+    lamp.range = 6;
+    Light spot;
+    spot.type = LightType::spot;
+    spot.position_ws = {-2, 3, 2};
+    spot.direction_ws = {0.5f, -0.8f, -0.4f};
+    spot.color_linear = {2, 4, 6};
+    spot.inner_cone_rad = 0.2f;
+    spot.outer_cone_rad = 0.5f;
+    scene.lights = {sun, lamp, spot};
+    scene.ambient = {{0.12f, 0.14f, 0.18f}, {0.08f, 0.06f, 0.05f}};
+}
+
+}  // namespace
+
+NamedScene materials_scene() {
+    NamedScene out{"materials", {}, camera_at({2.6f, 1.9f, 3.4f}, {0, 0.2f, 0}, 0.8f, 0.05f)};
+    Scene& s = out.scene;
+    add_lights(s);
+    const int color = add_texture(s, 64, 32, shading::ColorSpace::srgb, 1, false),
+              bumps = add_texture(s, 48, 48, shading::ColorSpace::linear, 2, true);
+    const int rough = add_texture(s, 16, 64, shading::ColorSpace::linear, 3, false),
+              odd = add_texture(s, 7, 5, shading::ColorSpace::srgb, 4, false);
+
+    Material tiles;
+    tiles.base_color_texture.texture = color;
+    tiles.base_color_texture.row_u = {6, 0.5f, 0.1f};
+    tiles.base_color_texture.row_v = {-0.5f, 6, 0.3f};
+    tiles.base_color_texture.sampler.wrap_u = shading::Wrap::mirror;
+    tiles.metallic = 0;
+    tiles.roughness = 0.4f;
+    tiles.lobe = shading::Lobe::sloan(0.5f);
+    add(s, make_plane(6, 3), add_material(s, tiles), translation({0, -0.6f, 0}));
+
+    Material metal;
+    metal.base_color = {0.9f, 0.7f, 0.4f, 1};
+    metal.roughness = 0.9f;
+    metal.metallic_roughness_texture.texture = metal.occlusion_texture.texture = rough;
+    metal.normal_texture.texture = bumps;
+    metal.normal_scale = 0.7f;
+    metal.emissive = {0.1f, 0.1f, 0.2f};
+    metal.emissive_texture = {
+        odd,
+        0,
+        {shading::Wrap::clamp, shading::Wrap::repeat, shading::Filter::nearest, shading::Filter::nearest, shading::MipFilter::none},
+        {4, 0, 0},
+        {0, 4, 0}};
+    Mesh ball = make_sphere(0.6f, 24, 14);
+    generate_tangents(ball, 0);
+    const int metal_index = add_material(s, metal);
+    add(s, ball, metal_index, translation({-0.9f, 0, 0.2f}));
+    // Mirrored, uneven and turned: winding, normals and tangent frames turn over.
+    add(s, ball, metal_index, translation({0.8f, 0.1f, -0.6f}) * turned(0.2f, 0.5f, 0.1f, 0.8f) * scaling({-1.2f, 0.6f, 0.9f}));
+
+    Material clay;
+    clay.metallic = 0;
+    clay.roughness = 0.2f;
+    clay.lobe = {0.4f, 3.3f, true};
+    clay.base_color_texture = {
+        color,
+        1,
+        {shading::Wrap::clamp, shading::Wrap::mirror, shading::Filter::nearest, shading::Filter::linear, shading::MipFilter::nearest},
+        {3, 0, 0},
+        {0, 3, 0}};
+    Mesh torus = make_torus(0.5f, 0.2f, 20, 12);
+    torus.uv1 = torus.uv0;
+    for (std::size_t i = 0; i < torus.positions.size(); ++i) {
+        const Vec3f p = torus.positions[i];
+        torus.colors.push_back({0.5f + 0.5f * p.x, 0.5f + 0.5f * p.y, 0.5f + 0.5f * p.z, 1});
+    }
+    add(s, torus, add_material(s, clay), translation({0.1f, 0.1f, 0.9f}) * turned(0.6f, 0.1f, 0.2f, 0.7f));
+
+    Material grate;
+    grate.alpha_mode = AlphaMode::mask;
+    grate.alpha_cutoff = 0.45f;
+    grate.double_sided = true;
+    grate.metallic = 0;
+    grate.base_color_texture.texture = color;
+    add(s, make_box({0.35f, 0.35f, 0.35f}), add_material(s, grate), translation({1.4f, 0.1f, 0.8f}) * turned(0.1f, 0.4f, 0.2f, 0.9f));
+
+    Material glass;
+    glass.alpha_mode = AlphaMode::blend;
+    glass.base_color = {0.3f, 0.6f, 0.9f, 0.4f};
+    glass.metallic = 0;
+    glass.double_sided = true;
+    add(s, make_plane(0.8f, 2), add_material(s, glass), translation({0.3f, 0.3f, 1.5f}) * turned(0.7f, 0.1f, 0, 0.7f));
+
+    Material flag;
+    flag.unlit = true;
+    flag.double_sided = true;
+    flag.base_color = {0.9f, 0.2f, 0.1f, 1};
+    Mesh through;  // from the far ground past the eye
+    through.positions = {{2.2f, 1.4f, 3.6f}, {-3, 1.8f, -3}, {-3, 2.4f, -3}};
+    through.indices = {0, 1, 2};
+    add(s, through, add_material(s, flag), {});
+    return out;
+}
+
+NamedScene small_triangles_scene() {
+    NamedScene out{"small triangles", {}, camera_at({0.3f, 0.2f, 2.1f}, {0, 0, 0}, 0.7f, 0.05f)};
+    Scene& s = out.scene;
+    add_lights(s);
+    Material matte;
+    matte.metallic = 0;
+    matte.lobe = shading::Lobe::valve();
+    add(s, make_sphere_of(0.7f, 20'000), add_material(s, matte), {});
+    Material back;
+    back.metallic = 0;
+    back.roughness = 0.3f;
+    back.base_color_texture.texture = add_texture(s, 128, 128, shading::ColorSpace::srgb, 9, false);
+    add(s, make_plane(40, 1), add_material(s, back), translation({0, -0.5f, 0}));
+    return out;
+}
+
+NamedScene layers_scene() {
+    NamedScene out{"layers", {}, camera_at({0.5f, 0.8f, 2.6f}, {0, 0, 0}, 0.8f, 0.05f)};
+    Scene& s = out.scene;
+    add_lights(s);
+    Material fence;
+    fence.alpha_mode = AlphaMode::mask;
+    fence.double_sided = true;
+    fence.unlit = true;
+    fence.base_color_texture.texture = add_texture(s, 32, 32, shading::ColorSpace::srgb, 12, false);
+    fence.base_color_texture.row_u = {5, 0, 0};
+    add(s, make_plane(1.2f, 1), add_material(s, fence), translation({0, 0, -0.4f}) * turned(0.7f, 0, 0, 0.7f));
+    Random random(13);
+    for (int i = 0; i < 12; ++i) {
+        Material pane;
+        pane.alpha_mode = AlphaMode::blend;
+        pane.base_color = {random.real32(0, 1), random.real32(0, 1), random.real32(0, 1), random.real32(0.1, 0.9)};
+        pane.double_sided = i % 3 != 0;
+        pane.unlit = i % 2 == 0;
+        pane.metallic = 0;
+        add(s, make_plane(0.7f, 2), add_material(s, pane),
+            translation({random.real32(-0.5, 0.5), random.real32(-0.4, 0.4), random.real32(-0.5, 0.8)}) *
+                turned(random.real32(-1, 1), random.real32(-1, 1), random.real32(-1, 1), random.real32(0.2, 1)));
+    }
+    return out;
+}
+
+NamedScene rough_scene() {
+    NamedScene out{"rough", {}, camera_at({0.4f, 0.5f, 3.0f}, {0, 0, 0}, 0.9f, 0.01f)};
+    Scene& s = out.scene;
+    add_lights(s);
+    Material plain;
+    plain.metallic = 0.5f;
+    plain.roughness = 0.0f;
+    const int material = add_material(s, plain);
+    Mesh ball = make_sphere(0.5f, 16, 10);
+    for (std::size_t i = 0; i < ball.normals.size(); i += 7) ball.normals[i] = ball.normals[i] * 1e-30f;
+    for (std::size_t i = 3; i < ball.normals.size(); i += 31) ball.normals[i] = {kNan, 0, kInf};
+    for (std::size_t i = 5; i < ball.positions.size(); i += 41) ball.positions[i] = {kNan, 0, 0};
+    for (std::size_t i = 6; i < ball.positions.size(); i += 43) ball.positions[i] = {0, kInf, 0};
+    add(s, ball, material, translation({-0.6f, 0, 0}));
+    add(s, make_box({1e-20f, 1e-20f, 1e-20f}), material, translation({0.7f, 0, 0}) * scaling({4e19f, 3e19f, 5e19f}));
+    add(s, make_plane(1e7f, 2), material, translation({0, -0.7f, 0}));
+    add(s, make_sphere(1e-30f, 8, 5), material, {});
+    Mesh bright = make_box({0.2f, 0.2f, 0.2f});
+    for (std::size_t i = 0; i < bright.positions.size(); ++i) bright.colors.push_back({i % 2 ? 1e38f : -1e38f, 3e38f, 1e-42f, 1});
+    add(s, bright, material, translation({0, 0.8f, 0}));
+    return out;
+}
+
+std::vector<NamedScene> all_scenes() {
+    std::vector<NamedScene> scenes;
+    Scene demo = demo_scene();
+    const Camera camera = demo.cameras.at(0);
+    scenes.push_back({"demo", std::move(demo), camera});
+    scenes.push_back(materials_scene());
+    scenes.push_back(small_triangles_scene());
+    scenes.push_back(layers_scene());
+    scenes.push_back(rough_scene());
+    return scenes;
+}
+
+}  // namespace halflit::raster::test

@@ -1,0 +1,34 @@
+// Scenes made by code that together use all that the renderer can do. Each brings its camera.
+#pragma once
+
+#include "raster/scene.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace halflit::raster::test {
+
+struct NamedScene {
+    std::string name;
+    Scene scene;
+    Camera camera;
+};
+
+/// Textures with mips, normal maps, every wrap and filter; opaque, MASK and BLEND; metal and clay; all kinds of lights and lobes; mirrored
+/// and uneven placings; vertex colours and a second set of texture coordinates; a triangle through the near plane.
+[[nodiscard]] NamedScene materials_scene();
+
+/// Thousands of triangles of about a pixel, and some across the whole picture behind them.
+[[nodiscard]] NamedScene small_triangles_scene();
+
+/// Transparent layers that cross each other, over a masked fence.
+[[nodiscard]] NamedScene layers_scene();
+
+/// Numbers at the edge of float: huge and tiny placings, degenerate normals, vertices that are not finite.
+[[nodiscard]] NamedScene rough_scene();
+
+/// The four above, and the built-in demo scene.
+[[nodiscard]] std::vector<NamedScene> all_scenes();
+
+}  // namespace halflit::raster::test
