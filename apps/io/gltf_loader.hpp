@@ -24,7 +24,7 @@ struct LoadLimits {
     int max_texture_side = 16384;
     std::size_t max_texture_pixels = std::size_t{64} << 20;  ///< one texture
     int max_jpeg_scans = 64;
-    /// All vertices, indices and instances together. A small file gets less: 64 MB and 96 bytes for each of its own, which no
+    /// All vertices, indices and instances together. A small file gets less: 32 MB and 96 bytes for each of its own, which no
     /// honest model needs and which keeps a crafted one from multiplying its size; the same holds for the JSON objects.
     std::uint64_t max_geometry_bytes = std::uint64_t{16} << 30;
     std::size_t max_lights = 1024;

@@ -12,7 +12,7 @@ namespace halflit::io::detail {
 
 namespace {
 
-constexpr std::uint64_t kFreeBytes = std::uint64_t{64} << 20;  // that any file may cost
+constexpr std::uint64_t kFreeBytes = std::uint64_t{32} << 20;  // that any file may cost
 constexpr std::uint64_t kBytesPerByte = 96;                    // and for each of its own; a flat-shaded u8 index becomes 76
 
 std::vector<std::byte> fetch(const Document& document, const BufferEntry& entry, std::string_view where) {

@@ -12,8 +12,6 @@ namespace halflit::io::detail {
 
 namespace {
 
-constexpr double kMaxExactInteger = 9007199254740992.0;  // 2^53: beyond it, JSON readers disagree on the value
-
 const char* expected_by(Rule rule) {
     switch (rule) {
         case Rule::object:
@@ -75,8 +73,7 @@ public:
     void on_value(const JsonValue& value, std::size_t end_offset) override {
         const bool extras = !levels_.empty() && levels_.back().in_extras;
         const SchemaNode* node = enter();
-        if (value.type == JsonType::integer && !extras && !(value.number <= kMaxExactInteger && value.number >= -kMaxExactInteger))
-            throw JsonFault{ErrorCode::bad_input, value.offset, "expected an integer of at most 2^53 in size"};
+        if (!extras && !value.exact) throw JsonFault{ErrorCode::bad_input, value.offset, "expected an integer of at most 2^53 in size"};
         if (node == nullptr) return;
         check(*node, value);
         capture(*node, value);
@@ -132,7 +129,7 @@ private:
 
     void check(const SchemaNode& node, const JsonValue& value) {
         const bool numeric = value.type == JsonType::integer || value.type == JsonType::number;
-        double limit = kMaxExactInteger;
+        double limit = 9007199254740992.0;  // 2^53
         switch (node.rule) {
             case Rule::any:
                 return;
@@ -230,12 +227,14 @@ private:
 
 std::uint64_t estimated_model_bytes(const Precheck& out) {
     const auto bytes = [&](Target target, std::size_t each) { return static_cast<std::uint64_t>(out.count(target)) * each; };
-    return bytes(Target::nodes, sizeof(tinygltf::Node)) + bytes(Target::materials, sizeof(tinygltf::Material)) +
-           bytes(Target::meshes, sizeof(tinygltf::Mesh)) + out.primitives * sizeof(tinygltf::Primitive) +
-           bytes(Target::accessors, sizeof(tinygltf::Accessor)) + bytes(Target::buffer_views, sizeof(tinygltf::BufferView)) +
-           bytes(Target::textures, sizeof(tinygltf::Texture)) + bytes(Target::samplers, sizeof(tinygltf::Sampler)) +
-           bytes(Target::skins, sizeof(tinygltf::Skin)) + bytes(Target::scenes, sizeof(tinygltf::Scene)) +
-           bytes(Target::cameras, sizeof(tinygltf::Camera)) + bytes(Target::lights, sizeof(tinygltf::Light));
+    const std::uint64_t once = bytes(Target::nodes, sizeof(tinygltf::Node)) + bytes(Target::materials, sizeof(tinygltf::Material)) +
+                               bytes(Target::meshes, sizeof(tinygltf::Mesh)) + out.primitives * sizeof(tinygltf::Primitive) +
+                               bytes(Target::accessors, sizeof(tinygltf::Accessor)) +
+                               bytes(Target::buffer_views, sizeof(tinygltf::BufferView)) +
+                               bytes(Target::textures, sizeof(tinygltf::Texture)) + bytes(Target::samplers, sizeof(tinygltf::Sampler)) +
+                               bytes(Target::skins, sizeof(tinygltf::Skin)) + bytes(Target::scenes, sizeof(tinygltf::Scene)) +
+                               bytes(Target::cameras, sizeof(tinygltf::Camera)) + bytes(Target::lights, sizeof(tinygltf::Light));
+    return 2 * once;  // vectors grow by copying: for a moment, both copies are there
 }
 
 }  // namespace

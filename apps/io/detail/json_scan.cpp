@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <charconv>
 #include <deque>
-#include <limits>
 #include <vector>
 
 namespace halflit::io::detail {
@@ -171,6 +170,10 @@ private:
                 refuse(begin, fmt::format("the number {} is outside the range of double", printable(text_.substr(begin, at_ - begin), 40)));
             v.number = 0;
         }
+        constexpr std::int64_t kMaxExact = std::int64_t{1} << 53;
+        std::int64_t whole = 0;
+        if (v.type == JsonType::integer)
+            v.exact = std::from_chars(text_.data() + begin, text_.data() + at_, whole).ec == std::errc{} && whole <= kMaxExact && whole >= -kMaxExact;
     }
 
     unsigned hex4() {

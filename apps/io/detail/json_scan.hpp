@@ -25,7 +25,8 @@ enum class JsonType : std::uint8_t { object, array, string, integer, number, boo
 struct JsonValue {
     JsonType type = JsonType::null;
     std::size_t offset = 0;  ///< of the first byte; a string begins at its quote
-    double number = 0;       ///< integer and number
+    double number = 0;         ///< integer and number
+    bool exact = true;         ///< false for an integer beyond 2^53, which not every reader keeps
     std::string_view text;   ///< string: decoded, valid during the call, and as long as the scanned text where `in_place`
     bool in_place = false;
 };

@@ -70,19 +70,19 @@ Result<DecodedImage> decode_png(std::span<const std::byte> file, const ImageLimi
 
     DecodedImage image{static_cast<int>(header.width), static_cast<int>(header.height), {}, {}};
     const bool deep = header.bit_depth == 16;
-    if (!deep) {
+    void* out = nullptr;
+    if (deep) {
+        image.rgba16.resize(pixels * 4);
+        out = image.rgba16.data();
+    } else {
         image.rgba8.resize(pixels * 4);
-        if (const int e = spng_decode_image(png->context.get(), image.rgba8.data(), image.rgba8.size(), SPNG_FMT_RGBA8, SPNG_DECODE_TRNS);
-            e != 0)
-            return png_error(e);
-        return image;
+        out = image.rgba8.data();
     }
-    image.rgba16.resize(pixels * 4);
-    if (const int e =
-            spng_decode_image(png->context.get(), image.rgba16.data(), image.rgba16.size() * 2, SPNG_FMT_RGBA16, SPNG_DECODE_TRNS);
-        e != 0)
+    const std::size_t bytes = pixels * 4 * (deep ? 2 : 1);
+    if (const int e = spng_decode_image(png->context.get(), out, bytes, deep ? SPNG_FMT_RGBA16 : SPNG_FMT_RGBA8, SPNG_DECODE_TRNS); e != 0)
         return png_error(e);
-    if (keep_16_bits) return image;
+    if (const int e = spng_decode_chunks(png->context.get()); e != 0) return png_error(e);  // the last checksum, and that IEND is there
+    if (!deep || keep_16_bits) return image;
     image.rgba8.resize(pixels * 4);
     for (std::size_t i = 0; i < image.rgba8.size(); ++i)
         image.rgba8[i] = static_cast<std::uint8_t>((image.rgba16[i] * 255u + 32767u) / 65535u);  // to nearest

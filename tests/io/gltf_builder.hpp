@@ -1,0 +1,121 @@
+// Small glTF files made in memory: binary data by appending values, JSON by hand, GLB or .gltf around them.
+#pragma once
+
+#include "apps/io/gltf_loader.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace halflit::test {
+
+using Bytes = std::vector<std::byte>;
+
+inline Bytes to_bytes(std::string_view text) {
+    Bytes out(text.size());
+    std::memcpy(out.data(), text.data(), text.size());
+    return out;
+}
+
+/// Appends values as they lie in memory (tests run on little-endian machines, as glTF is).
+template <class T>
+void append(Bytes& out, std::initializer_list<T> values) {
+    for (const T value : values) {
+        const std::size_t at = out.size();
+        out.resize(at + sizeof value);
+        std::memcpy(out.data() + at, &value, sizeof value);
+    }
+}
+
+inline void append_u32(Bytes& out, std::uint32_t value) { append<std::uint32_t>(out, {value}); }
+
+inline std::string base64(const Bytes& bytes) {
+    static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string out;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        std::uint32_t bits = 0;
+        for (std::size_t k = 0; k < 3; ++k) bits = bits << 8 | (i + k < bytes.size() ? static_cast<std::uint32_t>(bytes[i + k]) : 0u);
+        for (int k = 0; k < 4; ++k) out += i + static_cast<std::size_t>(k) > bytes.size() ? '=' : kDigits[bits >> (18 - 6 * k) & 63u];
+    }
+    return out;
+}
+
+/// A GLB of a JSON chunk and, unless `bin` is empty, a BIN chunk.
+inline Bytes glb(std::string json, Bytes bin = {}) {
+    while (json.size() % 4 != 0) json += ' ';
+    while (bin.size() % 4 != 0) bin.push_back(std::byte{0});
+    Bytes out = to_bytes("glTF");
+    append_u32(out, 2);
+    append_u32(out, static_cast<std::uint32_t>(12 + 8 + json.size() + (bin.empty() ? 0 : 8 + bin.size())));
+    append_u32(out, static_cast<std::uint32_t>(json.size()));
+    const Bytes type = to_bytes("JSON"), text = to_bytes(json);
+    out.insert(out.end(), type.begin(), type.end());
+    out.insert(out.end(), text.begin(), text.end());
+    if (bin.empty()) return out;
+    append_u32(out, static_cast<std::uint32_t>(bin.size()));
+    append_u32(out, 0x004E4942);
+    out.insert(out.end(), bin.begin(), bin.end());
+    return out;
+}
+
+/// `text` with the one place `from` changed; it must be there.
+inline std::string replaced(std::string text, std::string_view from, std::string_view to) {
+    const std::size_t at = text.find(from);
+    if (at == std::string::npos) FAIL("no " << from << " in " << text.substr(0, 200));
+    return text.replace(at, from.size(), to);
+}
+
+inline constexpr const char* kAsset = R"("asset":{"version":"2.0"})";
+
+/// A file whose scene is one node with mesh 0. `parts`: accessors, bufferViews, meshes and whatever else, without the outer braces.
+inline std::string one_mesh_json(const std::string& parts, std::size_t bin_size) {
+    return std::string("{") + kAsset + R"(,"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"buffers":[{"byteLength":)" +
+           std::to_string(bin_size) + "}]," + parts + "}";
+}
+
+inline Result<io::LoadedScene> load(const Bytes& bytes, const io::LoadOptions& options = {}, const std::string& base_dir = "") {
+    return io::load_gltf_bytes(bytes, "test.glb", base_dir, options);
+}
+
+/// Loads what must load.
+inline io::LoadedScene load_ok(const Bytes& bytes, const io::LoadOptions& options = {}, const std::string& base_dir = "") {
+    auto loaded = load(bytes, options, base_dir);
+    if (!loaded) FAIL("refused: " << loaded.error().message);
+    return *std::move(loaded);
+}
+
+/// Three float positions, (0,0,0) (1,0,0) (0,1,0), as bufferView 0 and accessor 0, and a mesh with one primitive of it.
+struct TriangleFile {
+    Bytes bin;
+    std::string views = R"({"buffer":0,"byteLength":36})";
+    std::string accessors = R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"})";
+    std::string attributes = R"("POSITION":0)";
+    std::string primitive;  ///< further members, beginning with a comma
+    std::string rest;       ///< further members of the root, beginning with a comma
+
+    TriangleFile() { append<float>(bin, {0, 0, 0, 1, 0, 0, 0, 1, 0}); }
+    [[nodiscard]] std::string json() const {
+        return one_mesh_json("\"bufferViews\":[" + views + "],\"accessors\":[" + accessors +
+                                 R"(],"meshes":[{"primitives":[{"attributes":{)" + attributes + "}" + primitive + "}]}]" + rest,
+                             bin.size());
+    }
+    [[nodiscard]] Bytes file() const { return glb(json(), bin); }
+    /// A view of `data` (4-byte aligned) and an accessor over it; returns the accessor's index.
+    int add(const Bytes& data, const std::string& accessor_members) {
+        while (bin.size() % 4 != 0) bin.push_back(std::byte{0});
+        views += ",{\"buffer\":0,\"byteOffset\":" + std::to_string(bin.size()) + ",\"byteLength\":" + std::to_string(data.size()) + "}";
+        bin.insert(bin.end(), data.begin(), data.end());
+        ++count;
+        accessors += ",{\"bufferView\":" + std::to_string(count) + "," + accessor_members + "}";
+        return count;
+    }
+    int count = 0;
+};
+
+}  // namespace halflit::test

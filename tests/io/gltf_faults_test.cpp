@@ -1,0 +1,240 @@
+// Files that are wrong: each fault is refused with the right code, one line, and a place; some are drawn as far as they go.
+#include "tests/io/gltf_builder.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <string>
+#include <tuple>
+
+using namespace halflit;
+using namespace halflit::test;
+
+namespace {
+
+Error refusal(const Bytes& file, const io::LoadOptions& options = {}) {
+    const auto loaded = load(file, options);
+    if (loaded) return {ErrorCode::negative_result, "loaded"};
+    CHECK(loaded.error().message.find('\n') == std::string::npos);
+    CHECK(loaded.error().message.rfind("test.glb: ", 0) == 0);
+    return loaded.error();
+}
+
+/// The triangle's JSON with one place changed.
+Bytes changed(const TriangleFile& file, const std::string& from, const std::string& to) {
+    return glb(replaced(file.json(), from, to), file.bin);
+}
+
+Bytes text_file(const std::string& json) { return to_bytes(json); }
+
+}  // namespace
+
+TEST_CASE("faults: JSON that is not what it should be, with line and column", "[io]") {
+    CHECK(refusal(text_file("{\n\"asset\":{\"version\":NaN}}")).message ==
+          "test.glb: asset.version: line 2, column 20: expected a JSON value, found \"NaN\"");
+    for (const char* bad :
+         {"", "   ", "{", "[]", "3", "null", "\"x\"", "{\"asset\":{\"version\":\"2.0\"},\"asset\":{}}",
+          "{\"asset\":{\"version\":\"2.0\\uD800\"}}", "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"translation\":[1e999,0,0]}]}",
+          "{\"asset\":{\"version\":\"2.0\"}} trailing"})
+        CHECK(refusal(text_file(bad)).code == ErrorCode::bad_input);
+    const std::string good = std::string("{") + kAsset + "}";
+    const io::LoadedScene bom = load_ok(text_file("\xEF\xBB\xBF" + good));
+    CHECK(bom.warnings.at(0).find("byte order mark") != std::string::npos);
+    const std::string deep = std::string("{") + kAsset + ",\"extras\":" + std::string(100000, '[') + std::string(100000, ']') + "}";
+    CHECK(refusal(text_file(deep)).code == ErrorCode::limit);
+    io::LoadOptions small;
+    small.limits.max_json_tokens = 2;
+    CHECK(refusal(text_file(good), small).code == ErrorCode::limit);
+    small = {};
+    small.limits.max_file_bytes = 10;
+    CHECK(refusal(text_file(good), small).code == ErrorCode::limit);
+}
+
+TEST_CASE("faults: values of a wrong type or size are refused at their path", "[io]") {
+    const TriangleFile t;
+    const auto check = [&](const std::string& from, const std::string& to, const std::string& path) {
+        const Error error = refusal(changed(t, from, to));
+        INFO(to << " gave " << error.message);
+        CHECK(error.code == ErrorCode::bad_input);
+        CHECK(error.message.find(path) != std::string::npos);
+    };
+    check("\"mesh\":0", "\"mesh\":-1", "nodes[0].mesh");
+    check("\"mesh\":0", "\"mesh\":1", "nodes[0].mesh");
+    check("\"mesh\":0", "\"mesh\":4294967296", "nodes[0].mesh");
+    check("\"mesh\":0", "\"mesh\":0.5", "nodes[0].mesh");
+    check("\"mesh\":0", "\"mesh\":\"0\"", "nodes[0].mesh");
+    check("\"mesh\":0", "\"mesh\":null", "nodes[0].mesh");
+    check("\"count\":3", "\"count\":9007199254740993", "accessors[0].count");
+    check("\"count\":3", "\"count\":-3", "accessors[0].count");
+    check("\"count\":3", "\"count\":4611686018427387904", "accessors[0].count");
+    check("\"componentType\":5126", "\"componentType\":5124", "accessors[0]");
+    check("\"componentType\":5126", "\"componentType\":5130", "accessors[0]");
+    check(",\"type\":\"VEC3\"", "", "accessors[0]");
+    check("\"POSITION\":0", "\"POSITION\":1", "attributes.POSITION");
+    check("\"POSITION\":0", "\"POSITION\":[0]", "attributes.POSITION");
+    check("\"nodes\":[0]", "\"nodes\":{\"0\":0}", "scenes[0].nodes");
+    check("\"nodes\":[0]", "\"nodes\":[1]", "scenes[0].nodes[0]");
+    check("\"scene\":0", "\"scene\":1", "scene");
+    check("\"buffer\":0", "\"buffer\":3", "bufferViews[0].buffer");
+    check("\"buffers\":[", "\"buffers\":[7,", "buffers[0]");
+    check("\"attributes\":{\"POSITION\":0}", "\"attributes\":[]", "attributes");
+    check("\"attributes\":{\"POSITION\":0}", "\"mode\":4", "primitives[0]");
+}
+
+TEST_CASE("faults: accessors and views that leave their buffer, in any arithmetic", "[io]") {
+    const TriangleFile t;
+    const auto code = [&](const std::string& from, const std::string& to) { return refusal(changed(t, from, to)).code; };
+    for (const char* count : {"4", "2147483648", "4294967295", "715827883", "4294967299", "9007199254740992"})
+        CHECK(code("\"count\":3", std::string("\"count\":") + count) == ErrorCode::bad_input);
+    for (const char* offset : {"1", "36", "4294967296", "9007199254740992"}) {
+        CHECK(code("\"bufferView\":0", std::string("\"bufferView\":0,\"byteOffset\":") + offset) == ErrorCode::bad_input);
+        CHECK(code("\"buffer\":0", std::string("\"buffer\":0,\"byteOffset\":") + offset) == ErrorCode::bad_input);
+    }
+    for (const char* stride : {"4", "8", "13", "16", "256", "2147483647"})
+        CHECK(code("\"buffer\":0", std::string("\"buffer\":0,\"byteStride\":") + stride) == ErrorCode::bad_input);
+    CHECK(code("\"buffer\":0", "\"buffer\":0,\"byteStride\":12") == ErrorCode::negative_result);
+    CHECK(code("\"byteLength\":36}]", "\"byteLength\":37}]") == ErrorCode::bad_input);
+    // Without a view there is no buffer to leave; the limit is memory.
+    CHECK(code("\"bufferView\":0,", "") == ErrorCode::negative_result);
+    CHECK(refusal(changed(t, "\"bufferView\":0,\"componentType\":5126,\"count\":3", "\"componentType\":5126,\"count\":2147483646")).code ==
+          ErrorCode::limit);
+    CHECK(refusal(changed(t, "\"bufferView\":0,\"componentType\":5126,\"count\":3", "\"componentType\":5126,\"count\":9007199254740990"))
+              .code == ErrorCode::limit);
+}
+
+TEST_CASE("faults: sparse accessors with wrong counts, orders and places", "[io]") {
+    const auto with = [](std::initializer_list<std::uint16_t> indices, const std::string& count, const std::string& offset = "0",
+                         int type = 5123) {
+        TriangleFile file;
+        file.bin.resize(36);
+        append<std::uint16_t>(file.bin, indices);
+        const std::size_t values = file.bin.size();
+        append<float>(file.bin, {7, 8, 9, 7, 8, 9});
+        file.views += R"(,{"buffer":0,"byteOffset":36,"byteLength":)" + std::to_string(values - 36) + R"(},{"buffer":0,"byteOffset":)" +
+                      std::to_string(values) + R"(,"byteLength":24})";
+        file.accessors = R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","sparse":{"count":)" + count +
+                         R"(,"indices":{"bufferView":1,"componentType":)" + std::to_string(type) +
+                         R"(},"values":{"bufferView":2,"byteOffset":)" + offset + "}}}";
+        return refusal(file.file()).code;
+    };
+    CHECK(with({0, 2}, "2") == ErrorCode::negative_result);
+    CHECK(with({0, 2}, "0") == ErrorCode::negative_result);
+    CHECK(with({0, 3}, "2") == ErrorCode::bad_input);
+    CHECK(with({2, 0}, "2") == ErrorCode::bad_input);
+    CHECK(with({1, 1}, "2") == ErrorCode::bad_input);
+    CHECK(with({0, 2}, "3") == ErrorCode::bad_input);
+    CHECK(with({0, 2}, "2147483647") == ErrorCode::bad_input);
+    CHECK(with({0, 2}, "2", "4") == ErrorCode::bad_input);
+    CHECK(with({0, 2}, "2", "2147483647") == ErrorCode::bad_input);
+    CHECK(with({0, 2}, "2", "0", 5126) == ErrorCode::bad_input);
+    CHECK(with({0, 2}, "2", "0", 5125) == ErrorCode::bad_input);
+}
+
+TEST_CASE("faults: indices out of range are refused, or their triangles left out when lenient", "[io]") {
+    const auto with = [](const Bytes& indices, int type, int count) {
+        TriangleFile file;
+        const int accessor =
+            file.add(indices, "\"componentType\":" + std::to_string(type) + ",\"count\":" + std::to_string(count) + ",\"type\":\"SCALAR\"");
+        file.primitive = ",\"indices\":" + std::to_string(accessor);
+        return file.file();
+    };
+    Bytes bytes, shorts, words;
+    append<std::uint8_t>(bytes, {0, 1, 2, 0, 1, 3, 255, 1, 2, 0});
+    append<std::uint16_t>(shorts, {0, 1, 2, 0, 1, 65535});
+    append<std::uint32_t>(words, {0, 1, 2, 0, 0x80000000u, 2, 0, 1, 0xFFFFFFFFu});
+    io::LoadOptions lenient;
+    lenient.lenient = true;
+    const std::tuple<const Bytes*, int, int> cases[] = {{&bytes, 5121, 9}, {&shorts, 5123, 6}, {&words, 5125, 9}, {&bytes, 5121, 4}};
+    for (const auto& [data, type, count] : cases) {
+        const Bytes file = with(*data, type, count);
+        const Error error = refusal(file);
+        CHECK(error.code == ErrorCode::bad_input);
+        CHECK(error.message.find("meshes[0].primitives[0]") != std::string::npos);
+        const io::LoadedScene loaded = load_ok(file, lenient);
+        CHECK(loaded.scene.meshes.at(0).indices.size() == 3);
+        CHECK(loaded.warnings.size() == 1);
+    }
+    CHECK(refusal(with(bytes, 5126, 1)).code == ErrorCode::bad_input);  // float indices
+}
+
+TEST_CASE("faults: attributes of other lengths or types are refused", "[io]") {
+    for (const char* attribute : {"NORMAL", "TEXCOORD_0", "COLOR_0"}) {
+        TriangleFile file;
+        const bool pair = std::string(attribute) == "TEXCOORD_0";
+        Bytes two;
+        append<float>(two, {0, 0, 1, 0, 0, 1});
+        file.attributes +=
+            std::string(",\"") + attribute + "\":" +
+            std::to_string(file.add(two, std::string(R"("componentType":5126,"count":2,"type":)") + (pair ? "\"VEC2\"" : "\"VEC3\"")));
+        const Error error = refusal(file.file());
+        CHECK(error.code == ErrorCode::bad_input);
+        CHECK(error.message.find(attribute) != std::string::npos);
+    }
+    CHECK(refusal(changed(TriangleFile(), "VEC3", "VEC2")).code == ErrorCode::bad_input);
+    CHECK(refusal(changed(TriangleFile(), "VEC3", "VEC4")).code == ErrorCode::bad_input);
+    CHECK(refusal(changed(TriangleFile(), "VEC3", "VEC9")).code == ErrorCode::bad_input);
+}
+
+TEST_CASE("faults: versions and required extensions that are not supported are refused by name", "[io]") {
+    const auto with = [](const std::string& asset, const std::string& rest = "") {
+        return text_file("{\"asset\":{" + asset + "}" + rest + "}");
+    };
+    CHECK(refusal(with(R"("version":"2.0")")).code == ErrorCode::negative_result);
+    CHECK(refusal(with(R"("version":"2.1")")).code == ErrorCode::negative_result);
+    CHECK(refusal(with(R"("version":"2.1","minVersion":"2.0")")).code == ErrorCode::negative_result);
+    for (const char* asset : {R"("version":"2.1","minVersion":"2.1")", R"("version":"3.0")", R"("version":"1.0")", R"("version":"two")",
+                              R"("version":2.0)", R"("generator":"x")", R"("version":"2.")"})
+        CHECK(refusal(with(asset)).code == ErrorCode::bad_input);
+    CHECK(refusal(text_file("{}")).code == ErrorCode::bad_input);
+    const Error error = refusal(with(R"("version":"2.0")", R"(,"extensionsRequired":["KHR_texture_basisu"])"));
+    CHECK(error.code == ErrorCode::bad_input);
+    CHECK(error.message.find("KHR_texture_basisu") != std::string::npos);
+    CHECK(refusal(with(R"("version":"2.0")", R"(,"extensionsUsed":["VENDOR_anything"])")).code == ErrorCode::negative_result);
+}
+
+TEST_CASE("faults: names from the file cannot reach the terminal", "[io]") {
+    const Error error = refusal(text_file(R"({"asset":{"version":"2.0"},"extensionsRequired":["a\u001b[31m\n\u009bx\u007f"]})"));
+    CHECK(error.message.find('\x1b') == std::string::npos);
+    CHECK(error.message.find("a\\x1b[31m\\x0a\\xc2\\x9bx\\x7f") != std::string::npos);
+    const auto loaded = io::load_gltf_bytes({}, "evil\x1b[2J\n.glb", "");
+    CHECK(loaded.error().message.rfind("evil\\x1b[2J\\x0a.glb: ", 0) == 0);
+}
+
+TEST_CASE("faults: other files are not read from memory, nor from outside the folder", "[io]") {
+    for (const char* uri : {"a.bin", "../a.bin", "..%2fa.bin", "/etc/passwd", "file:///etc/passwd", "http://example.org/x", "%00", ""}) {
+        std::string json = TriangleFile().json();
+        json = replaced(json, "\"byteLength\":36}],", std::string("\"byteLength\":36,\"uri\":\"") + uri + "\"}],");
+        CHECK(refusal(text_file(json)).code == ErrorCode::bad_input);
+        const auto in_folder = load(text_file(json), {}, "/tmp");
+        REQUIRE(!in_folder);
+        CHECK(in_folder.error().code == ErrorCode::bad_input);
+        CHECK(in_folder.error().message.find("buffers[0].uri") != std::string::npos);
+    }
+}
+
+TEST_CASE("faults: a small file cannot ask for much memory or time", "[io]") {
+    const auto start = std::chrono::steady_clock::now();
+    const auto many = [](const std::string& one, std::size_t bytes) {
+        std::string out = one;
+        while (out.size() < bytes) out += "," + one;
+        return out;
+    };
+    const std::string head = std::string("{") + kAsset + ",";
+    CHECK(refusal(text_file(head + "\"materials\":[" + many("{}", 1'000'000) + "]}")).code == ErrorCode::limit);
+    CHECK(refusal(text_file(head + "\"nodes\":[" + many("{}", 1'000'000) + "]}")).code != ErrorCode::internal);
+    CHECK(refusal(text_file(head + "\"extras\":[" + many("[]", 1'000'000) + "]}")).code != ErrorCode::internal);
+    // A thousand primitives, each with the same hundred thousand vertices; then a mesh of them placed a thousand times.
+    TriangleFile file;
+    file.bin.resize(12 * 99999);
+    file.views = R"({"buffer":0,"byteLength":1199988})";
+    file.accessors = R"({"bufferView":0,"componentType":5126,"count":99999,"type":"VEC3"})";
+    file.primitive = "}," + many(R"({"attributes":{"POSITION":0}})", 30'000) + R"(,{"attributes":{"POSITION":0})";
+    CHECK(refusal(file.file()).code == ErrorCode::limit);
+    TriangleFile placed;
+    placed.primitive = "}," + many(R"({"attributes":{"POSITION":0}})", 300'000) + R"(,{"attributes":{"POSITION":0})";
+    std::string json = placed.json();
+    json = replaced(json, "\"nodes\":[{\"mesh\":0}]", "\"nodes\":[" + many("{\"mesh\":0}", 300'000) + "]");
+    json = replaced(json, "\"scene\":0,\"scenes\":[{\"nodes\":[0]}],", "");
+    CHECK(refusal(glb(json, placed.bin)).code == ErrorCode::limit);
+    CHECK(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < 60.0);  // 2 s each; slack for sanitizers
+}

@@ -1,0 +1,175 @@
+// Random damage: whatever the bytes, loading ends with a scene or an error.
+#include "tests/io/png_maker.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <random>
+#include <string>
+
+using namespace halflit;
+using namespace halflit::test;
+
+namespace {
+
+/// A file with a bit of everything: indices, normals, texture coordinates, colours, sparse, morph targets, a skin, a camera, a light,
+/// materials, a picture in a bufferView.
+Bytes rich_file(bool embedded = false) {
+    TriangleFile file;
+    Bytes floats, bytes, indices, matrices, joint_numbers;
+    append<std::uint8_t>(joint_numbers, {0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 1});
+    append<float>(floats, {0, 0, 1, 0, 1, 0, 1, 0, 0});
+    append<std::uint8_t>(bytes, {0, 1, 0, 0, 255, 0, 0, 1, 128, 0, 0, 1});
+    append<std::uint16_t>(indices, {0, 1, 2, 2, 1, 0});
+    for (int j = 0; j < 2; ++j) append<float>(matrices, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
+    const auto text = [](int i) { return std::to_string(i); };
+    const int normal = file.add(floats, R"("componentType":5126,"count":3,"type":"VEC3")");
+    const int uv = file.add(floats, R"("componentType":5126,"count":3,"type":"VEC2")");
+    const int color = file.add(bytes, R"("componentType":5121,"normalized":true,"count":3,"type":"VEC4")");
+    const int index = file.add(indices, R"("componentType":5123,"count":6,"type":"SCALAR")");
+    const int joints = file.add(joint_numbers, R"("componentType":5121,"count":3,"type":"VEC4")");
+    const int bind = file.add(matrices, R"("componentType":5126,"count":2,"type":"MAT4")");
+    const int sparse = file.add(
+        floats,
+        R"("componentType":5126,"count":3,"type":"VEC3","sparse":{"count":2,"indices":{"bufferView":4,"componentType":5123},"values":{"bufferView":0}})");
+    const int picture = file.add(plain_png(3, 2, 200, 100, 50), R"("componentType":5121,"count":1,"type":"SCALAR")");
+    file.attributes += ",\"NORMAL\":" + text(normal) + ",\"TEXCOORD_0\":" + text(uv) + ",\"COLOR_0\":" + text(color) +
+                       ",\"JOINTS_0\":" + text(joints) + ",\"WEIGHTS_0\":" + text(color);
+    file.primitive = ",\"indices\":" + text(index) + ",\"material\":0,\"targets\":[{\"POSITION\":" + text(sparse) +
+                     "}]},{\"attributes\":{\"POSITION\":" + text(sparse) + "},\"mode\":5";
+    file.rest =
+        ",\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0,\"extensions\":{\"KHR_texture_transform\":{"
+        "\"rotation\":1,\"scale\":[2,2]}}}},\"normalTexture\":{\"index\":0},"
+        "\"alphaMode\":\"MASK\",\"extras\":{\"halflit\":{\"lobe\":\"sloan\",\"wrap\":0.5}}}],\"textures\":[{\"source\":0,\"sampler\":0}],"
+        "\"samplers\":[{\"wrapS\":33071}],\"images\":[{\"bufferView\":" +
+        text(picture) + ",\"mimeType\":\"image/png\"}],\"skins\":[{\"joints\":[1,2],\"inverseBindMatrices\":" + text(bind) +
+        "}],\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":1,\"znear\":0.1}}],\"extensionsUsed\":[\"KHR_lights_"
+        "punctual\"],"
+        "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"spot\",\"spot\":{}}]}}";
+    std::string json = file.json();
+    json = replaced(json, "\"nodes\":[{\"mesh\":0}]",
+                    "\"nodes\":[{\"mesh\":0,\"skin\":0,\"weights\":[0.5],\"children\":[1]},{\"camera\":0,\"rotation\":[0,0,1,0],"
+                    "\"children\":[2]},{\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}},\"scale\":[1,2,3]}]");
+    if (!embedded) return glb(json, file.bin);
+    return to_bytes(replaced(json, "\"buffers\":[{", "\"buffers\":[{\"uri\":\"data:;base64," + base64(file.bin) + "\","));
+}
+
+/// Flips bits, puts in interesting bytes, moves, cuts and repeats pieces, or changes a number of the JSON.
+void damage(Bytes& file, std::mt19937& random) {
+    const auto below = [&](std::size_t n) { return n == 0 ? 0 : static_cast<std::size_t>(random() % n); };
+    const auto at = [&] { return static_cast<std::ptrdiff_t>(below(file.size())); };
+    static constexpr std::uint8_t kBytes[] = {0,   1,   127, 128, 254, 255, '"', '{', '}',  '[',
+                                              ']', ',', ':', '-', '0', '9', 'e', '.', '\\', ' '};
+    static const char* const kNumbers[] = {
+        "-1",    "0",      "1",   "2",    "3",  "255", "65536", "2147483647", "2147483648", "4294967295", "9007199254740993",
+        "1e308", "1e-320", "0.5", "null", "{}", "[]",  "\"\""};
+    if (file.empty()) return;
+    switch (random() % 7) {
+        case 0:
+            file[below(file.size())] ^= static_cast<std::byte>(1u << random() % 8);
+            break;
+        case 1:
+            file[below(file.size())] = static_cast<std::byte>(kBytes[random() % std::size(kBytes)]);
+            break;
+        case 2:
+            file.resize(below(file.size()));
+            break;
+        case 3: {  // remove a piece
+            const std::ptrdiff_t from = at();
+            file.erase(file.begin() + from, file.begin() + from +
+                                                static_cast<std::ptrdiff_t>(std::min<std::size_t>(
+                                                    1 + random() % 16, file.size() - static_cast<std::size_t>(from))));
+            break;
+        }
+        case 4: {  // repeat a piece
+            const std::ptrdiff_t from = at();
+            const Bytes piece(file.begin() + from, file.begin() + from +
+                                                       static_cast<std::ptrdiff_t>(std::min<std::size_t>(
+                                                           1 + random() % 64, file.size() - static_cast<std::size_t>(from))));
+            file.insert(file.begin() + at(), piece.begin(), piece.end());
+            break;
+        }
+        default: {  // another number in place of one
+            std::size_t from = below(file.size());
+            const auto digit = [&](std::size_t i) { return file[i] >= std::byte{'0'} && file[i] <= std::byte{'9'}; };
+            while (from < file.size() && !digit(from)) ++from;
+            std::size_t end = from;
+            while (end < file.size() && digit(end)) ++end;
+            file.erase(file.begin() + static_cast<std::ptrdiff_t>(from), file.begin() + static_cast<std::ptrdiff_t>(end));
+            const Bytes number = to_bytes(kNumbers[random() % std::size(kNumbers)]);
+            file.insert(file.begin() + static_cast<std::ptrdiff_t>(from), number.begin(), number.end());
+        }
+    }
+}
+
+/// Makes the container sound again, so that damage inside the chunks is reached.
+void mend_lengths(Bytes& file, std::size_t json_size_was, std::size_t size_was) {
+    if (file.size() < 28 || file.size() % 4 != 0) return;
+    const std::size_t json_size = json_size_was + file.size() - size_was;
+    if (json_size % 4 != 0 || 20 + json_size > file.size()) return;
+    const auto total = static_cast<std::uint32_t>(file.size()), json = static_cast<std::uint32_t>(json_size);
+    std::memcpy(file.data() + 8, &total, 4);
+    std::memcpy(file.data() + 12, &json, 4);
+}
+
+}  // namespace
+
+TEST_CASE("fuzz: the undamaged file loads whole", "[io]") {
+    const io::LoadedScene loaded = load_ok(rich_file());
+    CHECK(loaded.scene.meshes.size() == 2);
+    CHECK(loaded.scene.cameras.size() == 1);
+    CHECK(loaded.scene.lights.size() == 1);
+    CHECK(loaded.scene.textures.size() == 2);
+    CHECK(loaded.scene.materials.at(0).has_own_lobe);
+}
+
+TEST_CASE("fuzz: damaged files give a sound scene or an error", "[io]") {
+    const Bytes good = rich_file();
+    std::uint32_t json_size = 0;
+    std::memcpy(&json_size, good.data() + 12, 4);
+    const Bytes text = rich_file(true);
+    std::size_t loaded_count = 0, refused_count = 0;
+    for (unsigned seed = 0; seed < 20000; ++seed) {
+        std::mt19937 random(seed);
+        Bytes file = seed % 2 == 0 ? good : text;
+        const int times = 1 + static_cast<int>(random() % 3);
+        for (int i = 0; i < times; ++i) damage(file, random);
+        if (seed % 2 == 0) {
+            while (file.size() % 4 != 0)
+                file.insert(file.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(file.size(), 20)), std::byte{' '});
+            mend_lengths(file, json_size, good.size());
+        }
+        io::LoadOptions options;
+        options.lenient = seed % 3 == 0;
+        const auto result = load(file, options);
+        INFO("seed " << seed);
+        if (!result) {
+            ++refused_count;
+            const Error& error = result.error();
+            if (error.code != ErrorCode::bad_input && error.code != ErrorCode::limit)
+                FAIL("code " << static_cast<int>(error.code) << ": " << error.message);
+            for (const char c : error.message)
+                if (static_cast<unsigned char>(c) < 0x20) FAIL("a control character in: " << error.message);
+            continue;
+        }
+        ++loaded_count;
+        for (const raster::Mesh& mesh : result->scene.meshes) {
+            const std::size_t n = mesh.positions.size();
+            const auto fits = [n](const auto& values) { return values.empty() || values.size() == n; };
+            if (mesh.indices.size() % 3 != 0 || mesh.normals.size() != n || !fits(mesh.tangents) || !fits(mesh.uv0) || !fits(mesh.uv1) ||
+                !fits(mesh.colors))
+                FAIL("lengths differ");
+            for (const std::uint32_t index : mesh.indices)
+                if (index >= n) FAIL("index " << index << " of " << n);
+            if (mesh.material >= static_cast<int>(result->scene.materials.size())) FAIL("material " << mesh.material);
+        }
+        for (const raster::Instance& instance : result->scene.instances)
+            if (instance.mesh < 0 || instance.mesh >= static_cast<int>(result->scene.meshes.size())) FAIL("mesh " << instance.mesh);
+        for (const shading::Material& m : result->scene.materials)
+            for (const shading::TextureUse& use :
+                 {m.base_color_texture, m.metallic_roughness_texture, m.normal_texture, m.occlusion_texture, m.emissive_texture})
+                if (use.texture >= static_cast<int>(result->scene.textures.size())) FAIL("texture " << use.texture);
+    }
+    INFO(loaded_count << " loaded, " << refused_count << " refused");
+    CHECK(loaded_count > 500);  // damage that everything refuses would reach nothing
+    CHECK(refused_count > 5000);
+}

@@ -1,0 +1,185 @@
+#include "tests/io/png_maker.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace halflit;
+using namespace halflit::test;
+
+namespace {
+
+/// A triangle with the given material members and pictures; textures and images are PNG files in data: URIs.
+Bytes with_material(const std::string& material, const std::vector<Bytes>& pictures = {}, const std::string& textures = "",
+                    const std::string& rest = "") {
+    TriangleFile file;
+    Bytes uv;
+    append<float>(uv, {0, 0, 1, 0, 0, 1});
+    const int a = file.add(uv, R"("componentType":5126,"count":3,"type":"VEC2")");
+    file.attributes += ",\"TEXCOORD_0\":" + std::to_string(a) + ",\"TEXCOORD_1\":" + std::to_string(a);
+    file.primitive = ",\"material\":0";
+    file.rest = ",\"materials\":[{" + material + "}]" + rest;
+    std::string images;
+    for (const Bytes& p : pictures)
+        images += (images.empty() ? "" : ",") + std::string("{\"uri\":\"data:image/png;base64,") + base64(p) + "\"}";
+    if (!pictures.empty())
+        file.rest += ",\"images\":[" + images + "],\"textures\":[" + (textures.empty() ? R"({"source":0})" : textures) + "]";
+    return file.file();
+}
+
+shading::Material material_of(const Bytes& file) { return load_ok(file).scene.materials.at(0); }
+
+Vec2f apply(const shading::TextureUse& use, Vec2f uv) {
+    return {use.row_u.x * uv.x + use.row_u.y * uv.y + use.row_u.z, use.row_v.x * uv.x + use.row_v.y * uv.y + use.row_v.z};
+}
+
+}  // namespace
+
+TEST_CASE("materials: factors, alpha and sides", "[io]") {
+    const shading::Material plain = material_of(with_material(""));
+    CHECK(plain.base_color == Vec4f{1, 1, 1, 1});
+    CHECK(plain.metallic == 1.0f);
+    CHECK(plain.roughness == 1.0f);
+    CHECK(plain.alpha_mode == shading::AlphaMode::opaque);
+    CHECK(!plain.has_own_lobe);
+    const shading::Material m = material_of(with_material(
+        R"("name":"m","pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,0.4],"metallicFactor":0.5,"roughnessFactor":0.25},"emissiveFactor":[1,0.5,0],"alphaMode":"MASK","alphaCutoff":0.75,"doubleSided":true,"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":4},"KHR_materials_unlit":{}})"));
+    CHECK(m.name == "m");
+    CHECK(m.base_color == Vec4f{0.1f, 0.2f, 0.3f, 0.4f});
+    CHECK(m.metallic == 0.5f);
+    CHECK(m.roughness == 0.25f);
+    CHECK(m.emissive == Vec3f{4, 2, 0});
+    CHECK(m.alpha_mode == shading::AlphaMode::mask);
+    CHECK(m.alpha_cutoff == 0.75f);
+    CHECK(m.double_sided);
+    CHECK(m.unlit);
+    CHECK(material_of(with_material(R"("alphaMode":"BLEND")")).alpha_mode == shading::AlphaMode::blend);
+}
+
+TEST_CASE("materials: one texture for each picture and colour space", "[io]") {
+    const Bytes red = plain_png(2, 2, 255, 0, 0), grey = plain_png(4, 2, 128, 128, 128);
+    const std::string textures = R"({"source":0},{"source":1},{"source":0,"sampler":0})";
+    const io::LoadedScene loaded = load_ok(with_material(
+        R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":1},"metallicRoughnessTexture":{"index":2}},"emissiveTexture":{"index":2},"occlusionTexture":{"index":1,"strength":0.5},"normalTexture":{"index":1,"scale":2})",
+        {red, grey}, textures, R"(,"samplers":[{"wrapS":33071,"wrapT":33648,"magFilter":9728,"minFilter":9985}])"));
+    const shading::Material& m = loaded.scene.materials[0];
+    CHECK(loaded.scene.textures.size() == 3);
+    CHECK(m.base_color_texture.texture == m.emissive_texture.texture);
+    CHECK(m.base_color_texture.texture != m.metallic_roughness_texture.texture);
+    CHECK(m.occlusion_texture.texture == m.normal_texture.texture);
+    CHECK(m.base_color_texture.uv_set == 1);
+    CHECK(m.occlusion_strength == 0.5f);
+    CHECK(m.normal_scale == 2.0f);
+    CHECK(m.base_color_texture.sampler == shading::Sampler{});
+    using namespace shading;
+    CHECK(m.emissive_texture.sampler == Sampler{Wrap::clamp, Wrap::mirror, Filter::nearest, Filter::linear, MipFilter::nearest});
+    const Texture& texture = loaded.scene.textures[static_cast<std::size_t>(m.occlusion_texture.texture)];
+    CHECK(texture.width() == 4);
+    CHECK(texture.height() == 2);
+    CHECK(texture.data()[0] == 128 * 257);               // linear: 8 bits widened to 16
+    CHECK(loaded.scene.meshes[0].tangents.size() == 3);  // made for the normal map
+}
+
+TEST_CASE("materials: every minification filter of glTF is understood", "[io]") {
+    using namespace shading;
+    const std::pair<int, std::pair<Filter, MipFilter>> kinds[] = {
+        {9728, {Filter::nearest, MipFilter::none}},    {9729, {Filter::linear, MipFilter::none}},
+        {9984, {Filter::nearest, MipFilter::nearest}}, {9985, {Filter::linear, MipFilter::nearest}},
+        {9986, {Filter::nearest, MipFilter::linear}},  {9987, {Filter::linear, MipFilter::linear}}};
+    for (const auto& [code, wanted] : kinds) {
+        const Bytes file = with_material(R"("emissiveTexture":{"index":0})", {plain_png(1, 1, 0, 0, 0)}, R"({"source":0,"sampler":0})",
+                                         ",\"samplers\":[{\"minFilter\":" + std::to_string(code) + "}]");
+        const Sampler sampler = material_of(file).emissive_texture.sampler;
+        CHECK(sampler.min == wanted.first);
+        CHECK(sampler.mip == wanted.second);
+        CHECK(sampler.mag == Filter::linear);
+    }
+}
+
+TEST_CASE("materials: a texture transform turns, scales and shifts as its test model says", "[io]") {
+    const auto use = [](const std::string& members) {
+        return material_of(with_material(R"("emissiveTexture":{"index":0,"extensions":{"KHR_texture_transform":{)" + members + "}}}",
+                                         {plain_png(1, 1, 0, 0, 0)}))
+            .emissive_texture;
+    };
+    const shading::TextureUse shifted = use(R"("offset":[0.5,-0.25],"scale":[2,3],"texCoord":1)");
+    CHECK(apply(shifted, {1, 1}) == Vec2f{2.5f, 2.75f});
+    CHECK(shifted.uv_set == 1);
+    // Khronos' TextureTransformTest: on its quads u = x + 1/2, v = 1/2 - y. The arrow's tip is seen at (0.2778, -0.2778) untransformed
+    // and has to be seen at (-0.0790, -0.5163) with a rotation of 22.5 degrees, at (0.0185, -0.0185) with a scale of 1.5.
+    const Vec2f tip{0.7778174593f, 0.7778174593f};
+    const Vec2f turned = apply(use(R"("rotation":0.39269908169872414)"), {0.5f - 0.07904822439f, 0.5f + 0.51626748576f});
+    CHECK(turned.x == Approx(tip.x).margin(1e-6));
+    CHECK(turned.y == Approx(tip.y).margin(1e-6));
+    const Vec2f scaled = apply(use(R"("scale":[1.5,1.5])"), {0.51854497287f, 0.51854497287f});
+    CHECK(scaled.x == Approx(tip.x).margin(1e-6));
+    CHECK(scaled.y == Approx(tip.y).margin(1e-6));
+    // Scale before rotation before offset: (u, v) = (1, 0) scaled by (2, 3) and turned by 90 degrees is (0, -2).
+    const Vec2f all = apply(use(R"("offset":[10,20],"rotation":1.5707963267948966,"scale":[2,3])"), {1, 0});
+    CHECK(all.x == Approx(10.0));
+    CHECK(all.y == Approx(18.0));
+}
+
+TEST_CASE("materials: extras.halflit sets the lobe, and mistakes in it are errors", "[io]") {
+    const auto with = [](const std::string& extras) { return with_material(R"("extras":{"other":1,"halflit":)" + extras + "}"); };
+    const auto lobe = [&](const std::string& extras) {
+        const shading::Material m = material_of(with(extras));
+        CHECK(m.has_own_lobe);
+        return m.lobe;
+    };
+    using shading::Lobe;
+    CHECK(lobe(R"({"lobe":"lambert"})") == Lobe::lambert());
+    CHECK(lobe(R"({"lobe":"half-lambert"})") == Lobe::half_lambert());
+    CHECK(lobe(R"({"lobe":"valve","normalize":true})") == Lobe{1, 2, true});
+    CHECK(lobe(R"({"lobe":"green","wrap":0.25})") == Lobe::green(0.25f));
+    CHECK(lobe(R"({"lobe":"sloan","wrap":0.25})") == Lobe::sloan(0.25f));
+    CHECK(lobe(R"({"lobe":"sloan","wrap":0.5,"power":1.5,"normalize":true})") == Lobe{0.5f, 1.5f, true});
+    CHECK(lobe(R"({"lobe":"mcauley","wrap":0.75,"power":3})") == Lobe::mcauley(0.75f, 3.0f));
+    for (const char* bad : {R"({"lobe":"phong"})", R"({"wrap":0.5})", R"({"lobe":"sloan","wrap":1.5})", R"({"lobe":"sloan","wrap":-0.1})",
+                            R"({"lobe":"mcauley","power":-1})", R"({"lobe":"sloan","wrap":"0.5"})", R"({"lobe":3})",
+                            R"({"lobe":"sloan","warp":0.5})", R"({"lobe":"sloan","normalize":1})", R"(3)", R"("sloan")"}) {
+        INFO(bad);
+        const auto loaded = load(with(bad));
+        REQUIRE(!loaded);
+        CHECK(loaded.error().code == ErrorCode::bad_input);
+        CHECK(loaded.error().message.find("materials[0].extras.halflit") != std::string::npos);
+    }
+}
+
+TEST_CASE("materials: a broken picture is refused, or a magenta checkerboard when lenient", "[io]") {
+    Bytes broken = plain_png(8, 8, 1, 2, 3);
+    broken.resize(broken.size() / 2);
+    for (const Bytes& picture : {broken, to_bytes("not a picture"), Bytes{}}) {
+        const Bytes file = with_material(R"("emissiveTexture":{"index":0})", {picture});
+        const auto refused = load(file);
+        REQUIRE(!refused);
+        CHECK(refused.error().code == ErrorCode::bad_input);
+        CHECK(refused.error().message.find("images[0]") != std::string::npos);
+        io::LoadOptions lenient;
+        lenient.lenient = true;
+        const io::LoadedScene loaded = load_ok(file, lenient);
+        CHECK(loaded.warnings.size() == 1);
+        const auto texels = loaded.scene.textures.at(0).data();
+        CHECK(texels[0] == 65535);
+        CHECK(texels[1] == 0);
+        CHECK(texels[2] == 65535);
+    }
+    const Bytes unused = with_material("", {broken});
+    CHECK(load_ok(unused).scene.textures.empty());  // what nothing uses is not read
+}
+
+TEST_CASE("materials: textures have limits, each and together", "[io]") {
+    const Bytes file = with_material(R"("emissiveTexture":{"index":0},"normalTexture":{"index":1})",
+                                     {plain_png(64, 64, 0, 0, 0), plain_png(64, 64, 1, 1, 1)}, R"({"source":0},{"source":1})");
+    io::LoadOptions options;
+    CHECK(load(file, options));
+    options.limits.max_texture_side = 63;
+    CHECK(load(file, options).error().code == ErrorCode::limit);
+    options = {};
+    options.limits.max_texture_pixels = 64 * 64 - 1;
+    CHECK(load(file, options).error().code == ErrorCode::limit);
+    options = {};
+    options.limits.max_texture_bytes = 2 * 64 * 64 * 32 / 3 - 10;
+    options.lenient = true;  // a limit is a limit
+    CHECK(load(file, options).error().code == ErrorCode::limit);
+}

@@ -1,0 +1,210 @@
+#include "apps/io/image_reader.hpp"
+
+#include "tests/io/png_maker.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cstdio>
+#include <cstdlib>
+
+#include <jpeglib.h>
+
+using namespace halflit;
+using namespace halflit::io;
+using namespace halflit::test;
+
+namespace {
+
+std::uint32_t noise(std::uint32_t x, std::uint32_t y, int c) {
+    std::uint32_t h = x * 2654435761u ^ y * 40503u ^ static_cast<std::uint32_t>(c) * 97u;
+    h ^= h >> 15;
+    h *= 2246822519u;
+    return h ^ h >> 13;
+}
+
+struct JpegSpec {
+    int width = 16, height = 16, channels = 3;
+    J_COLOR_SPACE space = JCS_RGB;
+    int quality = 100;
+    int scans = 0;  ///< 0: baseline
+};
+
+Bytes make_jpeg(const JpegSpec& spec, const std::vector<std::uint8_t>& pixels) {
+    jpeg_compress_struct info{};
+    jpeg_error_mgr errors{};
+    info.err = jpeg_std_error(&errors);
+    jpeg_create_compress(&info);
+    unsigned char* out = nullptr;
+    unsigned long size = 0;
+    jpeg_mem_dest(&info, &out, &size);
+    info.image_width = static_cast<JDIMENSION>(spec.width);
+    info.image_height = static_cast<JDIMENSION>(spec.height);
+    info.input_components = spec.channels;
+    info.in_color_space = spec.space;
+    jpeg_set_defaults(&info);
+    jpeg_set_quality(&info, spec.quality, TRUE);
+    for (int c = 0; c < info.num_components; ++c) info.comp_info[c].h_samp_factor = info.comp_info[c].v_samp_factor = 1;
+    std::vector<jpeg_scan_info> script;
+    if (spec.scans > 0) {  // DC, then one AC band after the other, again and again by component
+        script.push_back({1, {0}, 0, 0, 0, 0});
+        for (int k = 1; k < spec.scans; ++k) script.push_back({1, {0}, k, k == spec.scans - 1 ? 63 : k, 0, 0});
+        info.scan_info = script.data();
+        info.num_scans = static_cast<int>(script.size());
+    }
+    jpeg_start_compress(&info, TRUE);
+    while (info.next_scanline < info.image_height) {
+        auto* row = const_cast<unsigned char*>(pixels.data()) +
+                    static_cast<std::size_t>(info.next_scanline) * static_cast<std::size_t>(spec.width * spec.channels);
+        jpeg_write_scanlines(&info, &row, 1);
+    }
+    jpeg_finish_compress(&info);
+    jpeg_destroy_compress(&info);
+    Bytes file(size);
+    std::memcpy(file.data(), out, size);
+    std::free(out);
+    return file;
+}
+
+DecodedImage decode_ok(const Bytes& file, bool keep_16_bits = false) {
+    auto image = decode_image(file, {}, keep_16_bits);
+    if (!image) FAIL(image.error().message);
+    return *std::move(image);
+}
+
+}  // namespace
+
+TEST_CASE("png: every colour type, bit depth and interlacing gives the stored samples", "[io]") {
+    for (const int type : {0, 2, 3, 4, 6}) {
+        for (const int bits : {1, 2, 4, 8, 16}) {
+            if ((type == 2 || type == 4 || type == 6) && bits < 8) continue;
+            if (type == 3 && bits == 16) continue;
+            for (const bool interlaced : {false, true}) {
+                for (const std::uint32_t width : {1u, 5u, 19u}) {
+                    PngSpec spec{width, 13, bits, type, interlaced, {}, {}};
+                    const std::uint32_t entries = 1u << std::min(bits, 8), top = (1u << bits) - 1;
+                    if (type == 3)
+                        for (std::uint32_t i = 0; i < 3 * entries; ++i) spec.palette.push_back(static_cast<std::byte>(i * 37 % 256));
+                    if (type == 3) spec.transparency = {std::byte{7}, std::byte{200}};
+                    const auto sample = [&](std::uint32_t x, std::uint32_t y, int c) { return noise(x, y, c) & top; };
+                    const DecodedImage image = decode_ok(make_png(spec, sample));
+                    INFO("type " << type << " bits " << bits << " interlaced " << interlaced << " width " << width);
+                    REQUIRE(image.rgba8.size() == std::size_t{4} * width * 13);
+                    bool same = true;
+                    for (std::uint32_t y = 0; y < 13; ++y) {
+                        for (std::uint32_t x = 0; x < width; ++x) {
+                            const auto to8 = [&](int c) { return static_cast<std::uint32_t>((sample(x, y, c) * 255.0) / top + 0.5); };
+                            std::uint32_t want[4];
+                            for (int c = 0; c < 4; ++c) {
+                                if (type == 0) want[c] = c < 3 ? to8(0) : 255;
+                                if (type == 2) want[c] = c < 3 ? to8(c) : 255;
+                                if (type == 4) want[c] = c < 3 ? to8(0) : to8(1);
+                                if (type == 6) want[c] = to8(c);
+                                const std::uint32_t index = sample(x, y, 0);
+                                if (type == 3)
+                                    want[c] = c < 3        ? (3 * index + static_cast<std::uint32_t>(c)) * 37 % 256
+                                              : index == 0 ? 7
+                                              : index == 1 ? 200
+                                                           : 255;
+                                same = same && image.rgba8[4 * (y * width + x) + static_cast<std::uint32_t>(c)] == want[c];
+                            }
+                        }
+                    }
+                    CHECK(same);
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("png: 16 bits are kept when asked for", "[io]") {
+    const auto sample = [](std::uint32_t x, std::uint32_t y, int c) { return noise(x, y, c) & 0xFFFFu; };
+    const Bytes file = make_png({3, 2, 16, 6, false, {}, {}}, sample);
+    CHECK(read_image_header(file)->bits == 16);
+    const DecodedImage image = decode_ok(file, true);
+    CHECK(image.rgba8.empty());
+    REQUIRE(image.rgba16.size() == 24);
+    for (std::uint32_t i = 0; i < 24; ++i) CHECK(image.rgba16[i] == sample(i / 4 % 3, i / 12, static_cast<int>(i % 4)));
+}
+
+TEST_CASE("png: cut, damaged and oversized files are refused", "[io]") {
+    const Bytes good = plain_png(20, 20, 10, 20, 30);
+    CHECK(decode_ok(good).rgba8[4 * 399 + 2] == 30);
+    for (std::size_t length = 0; length + 12 < good.size(); ++length)  // the last 12 bytes are IEND
+        if (decode_image(std::span(good).first(length))) FAIL("cut to " << length);
+    std::size_t refused = 0;
+    for (std::size_t at = 8; at + 12 < good.size(); ++at) {
+        Bytes bad = good;
+        bad[at] ^= std::byte{0x10};
+        refused += decode_image(bad) ? 0 : 1;
+    }
+    CHECK(refused == good.size() - 20);  // each byte is under a CRC
+    const auto header_only = [](std::uint32_t width, std::uint32_t height) {
+        Bytes file = plain_png(1, 1, 0, 0, 0);
+        Bytes header;
+        append_big(header, width);
+        append_big(header, height);
+        for (const int v : {8, 6, 0, 0, 0}) header.push_back(static_cast<std::byte>(v));
+        Bytes out(file.begin(), file.begin() + 8);
+        append_chunk(out, "IHDR", header);
+        out.insert(out.end(), file.begin() + 33, file.end());
+        return out;
+    };
+    CHECK(decode_image(header_only(30000, 30000)).error().code == ErrorCode::limit);
+    CHECK(decode_image(header_only(16385, 1)).error().code == ErrorCode::limit);
+    CHECK(decode_image(header_only(16384, 16384)).error().code == ErrorCode::limit);
+    CHECK(decode_image(header_only(8000, 8000)).error().code == ErrorCode::bad_input);  // the data is too short for it
+    CHECK(decode_image(header_only(2, 2)).error().code == ErrorCode::bad_input);
+    CHECK(decode_image(header_only(0, 4)).error().code == ErrorCode::bad_input);
+    CHECK(decode_image(good, {16, 1000, 64}).error().code == ErrorCode::limit);
+    CHECK(decode_image(good, {100, 399, 64}).error().code == ErrorCode::limit);
+}
+
+TEST_CASE("jpeg: flat colour, grey and four inks give what was put in", "[io]") {
+    const auto flat = [](const JpegSpec& spec, std::initializer_list<std::uint8_t> color) {
+        std::vector<std::uint8_t> pixels;
+        for (int i = 0; i < spec.width * spec.height; ++i) pixels.insert(pixels.end(), color);
+        return decode_ok(make_jpeg(spec, pixels));
+    };
+    // Quality 100 has quantisation steps of 1; what is left is the rounding of the colour transform (within 2 of 255).
+    const auto near = [](const DecodedImage& image, int r, int g, int b) {
+        for (std::size_t i = 0; i < image.rgba8.size(); i += 4)
+            if (std::abs(image.rgba8[i] - r) > 2 || std::abs(image.rgba8[i + 1] - g) > 2 || std::abs(image.rgba8[i + 2] - b) > 2 ||
+                image.rgba8[i + 3] != 255)
+                return false;
+        return !image.rgba8.empty();
+    };
+    CHECK(near(flat({17, 9, 3, JCS_RGB, 100, 0}, {200, 30, 90}), 200, 30, 90));
+    CHECK(near(flat({17, 9, 1, JCS_GRAYSCALE, 100, 0}, {77}), 77, 77, 77));
+    CHECK(near(flat({17, 9, 1, JCS_GRAYSCALE, 100, 5}, {77}), 77, 77, 77));
+    // libjpeg writes the Adobe marker for CMYK: values are 255 - ink.
+    CHECK(near(flat({8, 8, 4, JCS_CMYK, 100, 0}, {255, 128, 0, 255}), 255, 128, 0));
+    CHECK(near(flat({8, 8, 4, JCS_CMYK, 100, 0}, {255, 255, 255, 128}), 128, 128, 128));
+}
+
+TEST_CASE("jpeg: cut files, too many scans and lying sizes are refused", "[io]") {
+    std::vector<std::uint8_t> pixels(64 * 64);
+    for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = static_cast<std::uint8_t>(noise(static_cast<std::uint32_t>(i), 0, 0));
+    const Bytes baseline = make_jpeg({64, 64, 1, JCS_GRAYSCALE, 90, 0}, pixels),
+                progressive = make_jpeg({64, 64, 1, JCS_GRAYSCALE, 90, 20}, pixels);
+    CHECK(decode_image(baseline));
+    CHECK(decode_image(progressive));
+    CHECK(decode_image(progressive, {16384, 1 << 20, 20}));
+    CHECK(decode_image(progressive, {16384, 1 << 20, 19}).error().code == ErrorCode::limit);
+    for (const Bytes& file : {baseline, progressive})
+        for (std::size_t length = 0; length + 2 < file.size(); length += 7)
+            if (decode_image(std::span(file).first(length))) FAIL("cut to " << length);
+    Bytes huge = baseline;  // the frame header: FF C0, length, precision, height, width
+    for (std::size_t i = 0; i + 9 < huge.size(); ++i) {
+        if (huge[i] != std::byte{0xFF} || huge[i + 1] != std::byte{0xC0}) continue;
+        for (std::size_t k = 5; k < 9; ++k) huge[i + k] = std::byte{0x1F};  // 7967 x 7967
+        break;
+    }
+    CHECK(decode_image(huge).error().code == ErrorCode::bad_input);
+    CHECK(read_image_header(huge)->width == 0x1F1F);
+}
+
+TEST_CASE("image reader: other formats are refused by name", "[io]") {
+    CHECK(decode_image(to_bytes("RIFF....WEBPVP8 ")).error().message.find("WebP") != std::string::npos);
+    CHECK(decode_image({}).error().code == ErrorCode::bad_input);
+    CHECK(decode_image(to_bytes("hello")).error().message.find("68 65 6c 6c") != std::string::npos);
+}

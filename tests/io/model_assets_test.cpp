@@ -1,0 +1,106 @@
+// The sample models: what must load does, with the number of triangles that an independent count gives; what must not is refused.
+#include "tests/io/gltf_builder.hpp"
+#include "tests/support/assets.hpp"
+#include "tests/support/skip.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+using namespace halflit;
+using namespace halflit::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<fs::path> all_models(const fs::path& folder) {
+    std::vector<fs::path> out;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (entry.path().extension() == ".gltf" || entry.path().extension() == ".glb") out.push_back(entry.path());
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("models: each sample loads, or is refused where it has to be", "[io][assets]") {
+    const auto assets = asset_dir();
+    if (!assets) HALFLIT_SKIP("no sample models (HALFLIT_ASSETS)");
+    const std::set<std::string> refused = {"Box_Draco.glb", "BoxMeshopt.glb", "Compatibility_04.gltf", "Compatibility_05.gltf"};
+    // Triangles drawn, from counting accessors with a separate script.
+    const std::map<std::string, std::uint64_t> drawn = {{"Triangle.gltf", 1},
+                                                        {"TriangleWithoutIndices.gltf", 1},
+                                                        {"SimpleMeshes.gltf", 2},
+                                                        {"SimpleSparseAccessor.gltf", 12},
+                                                        {"BoxAnimated.glb", 254},
+                                                        {"Suzanne.gltf", 3936},
+                                                        {"Duck.glb", 4212},
+                                                        {"FlightHelmet.gltf", 94722},
+                                                        {"AlphaBlendModeTest.glb", 61},
+                                                        {"NormalTangentTest.glb", 7774},
+                                                        {"OrientationTest.glb", 524},
+                                                        {"TextureTransformTest.gltf", 24},
+                                                        {"CesiumMilkTruck.glb", 3624},
+                                                        {"cornellBox.glb", 4006},
+                                                        {"BabylonShaderBall_Simple.gltf", 7276},
+                                                        {"shadows-directional.gltf", 1046},
+                                                        {"low-poly.gltf", 5228},
+                                                        {"camp.gltf", 6285},
+                                                        {"garage.gltf", 11358},
+                                                        {"space_exploration.glb", 50003},
+                                                        {"many-cubes.gltf", 6012},
+                                                        {"RiggedSimple.glb", 188},
+                                                        {"Mesh_PrimitiveMode_04.gltf", 2},
+                                                        {"Mesh_PrimitiveMode_12.gltf", 2},
+                                                        {"Mesh_PrimitiveMode_03.gltf", 0},
+                                                        {"Node_Attribute_08.gltf", 54}};
+    std::size_t seen = 0, counted = 0;
+    for (const fs::path& path : all_models(*assets / "models")) {
+        const auto loaded = io::load_gltf(path.string());
+        const std::string name = path.filename().string();
+        INFO(path.string() << (loaded ? "" : ": " + loaded.error().message));
+        ++seen;
+        if (refused.count(name) != 0) {
+            REQUIRE(!loaded);
+            CHECK(loaded.error().code == ErrorCode::bad_input);
+            continue;
+        }
+        REQUIRE(loaded);
+        const auto wanted = drawn.find(name);
+        if (wanted != drawn.end()) {
+            ++counted;
+            CHECK(loaded->info.triangles_drawn == wanted->second);
+        }
+    }
+    CHECK(seen >= 120);
+    CHECK(counted == drawn.size());
+}
+
+TEST_CASE("models: three containers of one model give one scene", "[io][assets]") {
+    const auto assets = asset_dir();
+    if (!assets) HALFLIT_SKIP("no sample models (HALFLIT_ASSETS)");
+    const fs::path folder = *assets / "models" / "BoxTextured";
+    const auto read = [&](const char* name) {
+        auto loaded = io::load_gltf((folder / name).string());
+        if (!loaded) FAIL(loaded.error().message);
+        return *std::move(loaded);
+    };
+    const io::LoadedScene separate = read("separate/BoxTextured.gltf"), binary = read("binary/BoxTextured.glb"),
+                          embedded = read("embedded/BoxTextured.gltf");
+    for (const io::LoadedScene* other : {&binary, &embedded}) {
+        const raster::Scene &a = separate.scene, &b = other->scene;
+        REQUIRE(a.meshes.size() == b.meshes.size());
+        CHECK(a.meshes[0].positions == b.meshes[0].positions);
+        CHECK(a.meshes[0].normals == b.meshes[0].normals);
+        CHECK(a.meshes[0].uv0 == b.meshes[0].uv0);
+        CHECK(a.meshes[0].indices == b.meshes[0].indices);
+        REQUIRE(a.instances.size() == b.instances.size());
+        CHECK(a.instances[0].world_from_object == b.instances[0].world_from_object);
+        REQUIRE(a.textures.size() == 1);
+        REQUIRE(b.textures.size() == 1);
+        CHECK(
+            std::equal(a.textures[0].data().begin(), a.textures[0].data().end(), b.textures[0].data().begin(), b.textures[0].data().end()));
+    }
+}
