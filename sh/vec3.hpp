@@ -9,19 +9,19 @@ namespace halflit {
 template <class T>
 struct Vec2 {
     T x{}, y{};
-    friend constexpr bool operator==(const Vec2&, const Vec2&) = default;
+    friend bool operator==(const Vec2&, const Vec2&) = default;  // constexpr where T's is
 };
 
 template <class T>
 struct Vec3 {
     T x{}, y{}, z{};
-    friend constexpr bool operator==(const Vec3&, const Vec3&) = default;
+    friend bool operator==(const Vec3&, const Vec3&) = default;  // constexpr where T's is
 };
 
 template <class T>
 struct Vec4 {
     T x{}, y{}, z{}, w{};
-    friend constexpr bool operator==(const Vec4&, const Vec4&) = default;
+    friend bool operator==(const Vec4&, const Vec4&) = default;  // constexpr where T's is
 };
 
 using Vec2f = Vec2<float>;
