@@ -20,5 +20,7 @@ struct Command {
 [[nodiscard]] Command add_bench_command(CLI::App& root);
 [[nodiscard]] Command add_info_command(CLI::App& root);
 [[nodiscard]] Command add_diff_command(CLI::App& root);
+[[nodiscard]] Command add_lobe_command(CLI::App& root);
+[[nodiscard]] Command add_env_command(CLI::App& root);
 
 }  // namespace halflit::cli

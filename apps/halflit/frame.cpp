@@ -111,7 +111,8 @@ Result<Frame> make_frame(const RenderOptions& options, PictureSize usual) {
     frame.warnings = frame.source.warnings;
 
     const raster::Bounds bounds = raster::scene_bounds(frame.source.scene);
-    if (bounds.empty) frame.warnings.push_back("nothing to draw: the scene has no triangles");
+    const bool loader_said_so = frame.source.file && frame.source.file->triangles_drawn == 0;
+    if (bounds.empty && !loader_said_so) frame.warnings.push_back("nothing to draw: no vertex is a finite point");
     if (const auto viewed = choose_view(frame, options, usual); !viewed) return tl::unexpected(viewed.error());
     choose_light(frame, options, bounds);
     frame.settings.region = options.region.width > 0 ? options.region : raster::Region{0, 0, frame.width, frame.height};

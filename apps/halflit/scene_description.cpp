@@ -27,7 +27,6 @@ constexpr NamedStage kStages[] = {{shading::kStageBaseColorTexture, "base colour
                                   {shading::kStageAmbient, "ambient"},
                                   {shading::kStageUnlit, "unlit"},
                                   {shading::kStageGradients, "texture gradients"}};
-static_assert(std::size(kStages) == shading::kStageCount);
 
 /// The float as people would write it: the double that prints as shortly, 0.8 and not 0.800000011920929.
 Json number(float value) {
