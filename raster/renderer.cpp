@@ -79,7 +79,9 @@ struct Renderer::Impl {
             report.warnings.push_back(std::to_string(report.triangles_not_finite) + " triangles dropped: a vertex is NaN or infinite");
         if (report.nan_pixels > 0)
             report.warnings.push_back(std::to_string(report.nan_pixels) + " fragments came out as NaN and were written as 0");
-        if (report.triangles_submitted == 0) report.warnings.emplace_back("nothing to draw");
+        // A part of a picture may well be empty; a whole one is rarely meant to be.
+        const bool whole_picture = settings.region.width == 0;
+        if (report.triangles_submitted == 0 || (whole_picture && report.triangles_drawn == 0)) report.warnings.emplace_back("nothing to draw");
         report.total_ms = total.lap();
         return report;
     }

@@ -69,6 +69,15 @@ SamplePattern sample_pattern(int samples) {
     return p;
 }
 
+Result<void> check_material(const shading::Material& material, std::size_t index, std::size_t texture_count) {
+    for (const shading::TextureUse* use : {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
+                                           &material.occlusion_texture, &material.emissive_texture})
+        if (use->used() && static_cast<std::size_t>(use->texture) >= texture_count)
+            return fail(ErrorCode::bad_input, "material " + std::to_string(index) + ": texture " + std::to_string(use->texture) + " of " +
+                                                  std::to_string(texture_count));
+    return {};
+}
+
 Result<void> check_target(const Settings& settings, const FramebufferView& target) {
     if (target.width < 1 || target.height < 1) return fail(ErrorCode::usage, "the picture has no pixels");
     if (target.width > 2 * kGuardBandPx || target.height > 2 * kGuardBandPx)
@@ -167,8 +176,12 @@ Result<void> prepare_frame(Frame& frame, const Scene& scene, const Camera& camer
                            const FramebufferView& target) {
     if (auto ok = check_target(settings, target); !ok) return ok;
     if (!settings.isa) return tl::unexpected<Error>(settings.isa.error());
+    if (!shading::isa_available(*settings.isa))
+        return fail(ErrorCode::usage, "this CPU does not run the instruction set " + std::string(shading::isa_name(*settings.isa)));
     for (std::size_t i = 0; i < scene.meshes.size(); ++i)
         if (auto ok = check_mesh(scene.meshes[i], i, scene.materials.size()); !ok) return ok;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        if (auto ok = check_material(scene.materials[i], i, scene.textures.size()); !ok) return ok;
     for (const Instance& instance : scene.instances)
         if (instance.mesh < 0 || static_cast<std::size_t>(instance.mesh) >= scene.meshes.size())
             return fail(ErrorCode::bad_input,
