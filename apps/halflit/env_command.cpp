@@ -1,0 +1,154 @@
+// halflit env: what an environment holds, band by band, and how many bands it needs.
+#include "apps/halflit/cli_support.hpp"
+#include "apps/halflit/commands.hpp"
+#include "apps/halflit/messages.hpp"
+#include "apps/halflit/run_report.hpp"
+#include "apps/halflit/values.hpp"
+#include "apps/io/atomic_file.hpp"
+#include "apps/io/environment.hpp"
+#include "sh/order.hpp"
+#include "sh/sun.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace halflit::cli {
+namespace {
+
+struct EnvOptions {
+    std::string name;
+    int bands = sh::kMaxBands;
+    bool json = false;
+};
+
+/// All that is said about an environment.
+struct Description {
+    io::Environment environment;
+    sh::Projection whole;
+    sh::SunExtraction extraction;
+    sh::LobeSpectrum lambert = sh::lobe_spectrum({0.0, 1.0, 1.0});
+    Vec3d mean;
+    float max = 0;
+};
+
+Description look_at(io::Environment environment) {
+    sh::Projection whole(environment.view());
+    sh::SunExtraction extraction = sh::extract_suns(environment.view(), whole);
+    Description out;
+    out.mean = whole.mean();
+    out.max = *std::max_element(environment.rgb.begin(), environment.rgb.end());
+    out.environment = std::move(environment);
+    out.whole = std::move(whole);
+    out.extraction = std::move(extraction);
+    return out;
+}
+
+Json triple(Vec3d v) { return {v.x, v.y, v.z}; }
+
+/// Coefficients, band norms and bounds of one projection.
+void add_projection(Json& json, const sh::Projection& projection, const sh::LobeSpectrum& lambert, int bands) {
+    const sh::RadianceSh radiance = projection.radiance(bands);
+    const sh::Spectrum spectrum = projection.spectrum();
+    Json norms = Json::array(), coefficients = Json::array(), bounds = Json::array();
+    for (std::size_t l = 0; l < static_cast<std::size_t>(bands); ++l) norms.push_back(triple(spectrum.norm[l]));
+    for (std::size_t i = 0; i < static_cast<std::size_t>(sh::coefficient_count(bands)); ++i) coefficients.push_back(triple(radiance.c[i]));
+    for (const Vec3d& bound : sh::order_bounds(spectrum, lambert).by_order) bounds.push_back(sh::largest(bound));
+    json["band_norms"] = std::move(norms);
+    json["coefficients"] = std::move(coefficients);
+    json["bound_lobe"] = "lambert";
+    json["bound_by_order"] = std::move(bounds);
+}
+
+Json json_of(const Description& d, int bands) {
+    Json json;
+    json["width"] = d.environment.width;
+    json["height"] = d.environment.height;
+    json["mean_radiance"] = triple(d.mean);
+    json["max"] = d.max;
+    add_projection(json, d.whole, d.lambert, bands);
+    json["suns"] = Json::array();
+    for (const sh::Sun& sun : d.extraction.suns)
+        json["suns"].push_back({{"direction", triple(sun.direction)},
+                                {"irradiance", triple(sun.irradiance)},
+                                {"solid_angle", sun.solid_angle},
+                                {"spread_rad", sun.spread_rad}});
+    Json rest;
+    rest["mean_radiance"] = triple(d.extraction.residual.mean());
+    add_projection(rest, d.extraction.residual, d.lambert, bands);
+    rest["sun_bound"] = sh::largest(sh::sun_bound(d.extraction.suns, d.lambert));
+    json["without_suns"] = std::move(rest);
+    return json;
+}
+
+/// The expansion's luminance as characters, seen like the image; each step of the ramp is twice as bright, '@' the brightest.
+std::string picture(const sh::RadianceSh& radiance) {
+    constexpr int kColumns = 64, kRows = 16;
+    constexpr std::string_view kRamp = " .:-=+*#%@";
+    std::vector<double> values;
+    for (int row = 0; row < kRows; ++row)
+        for (int column = 0; column < kColumns; ++column)
+            values.push_back(sh::luminance(sh::evaluate(radiance, sh::equirect_direction((column + 0.5) / kColumns, (row + 0.5) / kRows))));
+    const double brightest = *std::max_element(values.begin(), values.end());
+    std::string text;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const double steps = values[i] > 0 ? std::log2(values[i] / brightest) : -100.0;
+        const auto level = static_cast<std::size_t>(std::clamp(9.0 + std::round(steps), 0.0, 9.0));
+        text += i % kColumns == 0 ? "  |" : "";
+        text += kRamp[level];
+        text += i % kColumns == kColumns - 1 ? "|\n" : "";
+    }
+    return text;
+}
+
+std::string text_of(const Description& d, int bands) {
+    const sh::Spectrum spectrum = d.whole.spectrum();
+    const sh::OrderBounds bounds = sh::order_bounds(spectrum, d.lambert);
+    const sh::OrderBounds rest = sh::order_bounds(d.extraction.residual.spectrum(), d.lambert);
+    std::string text = fmt::format("{} x {}, mean radiance {:.4g} {:.4g} {:.4g}, max {:.4g}\n\n", d.environment.width, d.environment.height,
+                                   d.mean.x, d.mean.y, d.mean.z, d.max);
+    text += "band   |L_l| r          g          b   order  error of Lambert is below";
+    text += d.extraction.suns.empty() ? "\n" : ", suns apart\n";
+    for (std::size_t l = 0; l < static_cast<std::size_t>(bands); ++l) {
+        const Vec3d& norm = spectrum.norm[l];
+        text += fmt::format("{:4} {:10.4g} {:10.4g} {:10.4g}   {:5}  {:<10.4g}", l, norm.x, norm.y, norm.z, l + 1,
+                            sh::largest(bounds.by_order[l]));
+        text += d.extraction.suns.empty() ? "\n" : fmt::format("                {:.4g}\n", sh::largest(rest.by_order[l]));
+    }
+    for (const sh::Sun& sun : d.extraction.suns)
+        text += fmt::format("\nsun towards {:.4f} {:.4f} {:.4f}, irradiance {:.4g} {:.4g} {:.4g}, {:.3g} sr", sun.direction.x,
+                            sun.direction.y, sun.direction.z, sun.irradiance.x, sun.irradiance.y, sun.irradiance.z, sun.solid_angle);
+    if (!d.extraction.suns.empty()) text += "\n";
+    text += fmt::format("\n{} bands of it{}, each step twice as bright:\n", bands, d.extraction.suns.empty() ? "" : " without suns");
+    return text + picture(d.extraction.residual.radiance(bands));
+}
+
+Result<int> run_env(const EnvOptions& options) {
+    auto environment = io::environment_by_name(options.name);
+    if (!environment) return tl::unexpected(environment.error());
+    const Description description = look_at(std::move(*environment));
+    const std::string text = options.json ? to_text(json_of(description, options.bands)) : text_of(description, options.bands);
+    if (const auto written = io::write_file("-", {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}); !written)
+        return tl::unexpected(written.error());
+    return 0;
+}
+
+}  // namespace
+
+Command add_env_command(CLI::App& root) {
+    CLI::App* app = root.add_subcommand("env", "Describe an environment: its spherical harmonics, its suns, how many bands it needs");
+    const auto options = std::make_shared<EnvOptions>();
+    app->add_option("ENVIRONMENT", options->name, "A Radiance picture (.hdr), or sky for the built-in one")->required()->type_name("");
+    add_value(*app, "--bands", "N", "How many bands to list, 1 to 10 (default 10)", [options](const std::string& text) -> Result<void> {
+        const auto bands = parse_int(text, 1, sh::kMaxBands);
+        if (!bands) return tl::unexpected(bands.error());
+        options->bands = static_cast<int>(*bands);
+        return {};
+    });
+    app->add_flag("--json", options->json, "As one JSON object");
+    return {app, [options] { return run_env(*options); }};
+}
+
+}  // namespace halflit::cli

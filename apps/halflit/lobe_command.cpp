@@ -1,0 +1,114 @@
+// halflit lobe: a shading model's curve, its bands, and what a series of N bands makes of it.
+#include "apps/halflit/cli_support.hpp"
+#include "apps/halflit/commands.hpp"
+#include "apps/halflit/lobe_model.hpp"
+#include "apps/halflit/messages.hpp"
+#include "apps/halflit/run_report.hpp"
+#include "apps/io/atomic_file.hpp"
+#include "sh/lobe_error.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+namespace halflit::cli {
+namespace {
+
+constexpr int kSamples = 201;  ///< of the cosine, -1 to 1
+
+struct LobeOptions {
+    LobeModelOptions model;
+    bool json = false;
+};
+
+double sample_cosine(int i) { return (i - kSamples / 2) / static_cast<double>(kSamples / 2); }
+
+Json describe(const LobeModel& model) {
+    const sh::WrapLobe& lobe = model.lobe;
+    const double slope = sh::slope_at_boundary(lobe);
+    Json json;
+    json["model"] = model.name;
+    json["wrap"] = lobe.wrap;
+    json["power"] = lobe.power;
+    json["scale"] = lobe.scale;
+    json["boundary_cos"] = lobe.wrap == 0.0 ? 0.0 : -lobe.wrap;
+    json["boundary_deg"] = std::acos(-lobe.wrap) * 180.0 / kPi;
+    json["normalization"] = sh::normalizing_scale(lobe.wrap, lobe.power);
+    json["slope_at_boundary"] = std::isfinite(slope) ? Json(slope) : Json(nullptr);
+    json["bands"] = sh::zonal_bands(lobe);
+    json["samples"] = Json::array();
+    for (int i = 0; i < kSamples; ++i)
+        json["samples"].push_back({{"cos", sample_cosine(i)}, {"f", sh::lobe_value(lobe, sample_cosine(i))}});
+    json["orders"] = Json::array();
+    for (int order = 1; order <= sh::kMaxBands; ++order) {
+        const sh::TruncationError error = sh::truncation_error(lobe, order);
+        json["orders"].push_back({{"order", order}, {"l2", error.l2}, {"sup", error.sup}, {"min", error.min}});
+    }
+    return json;
+}
+
+/// The curve over the cosine, 61 columns by 12 rows.
+std::string curve(const sh::WrapLobe& lobe) {
+    constexpr int kColumns = 61, kRows = 12;
+    std::vector<std::string> rows(kRows, std::string(kColumns, ' '));
+    for (int column = 0; column < kColumns; ++column) {
+        const double x = (column - kColumns / 2) / static_cast<double>(kColumns / 2);
+        const double height = lobe.scale > 0 ? sh::lobe_value(lobe, x) / lobe.scale * (kRows - 1) : 0.0;
+        rows[static_cast<std::size_t>(kRows - 1 - std::lround(height))][static_cast<std::size_t>(column)] = '*';
+    }
+    std::string text;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const std::string label = i == 0 ? fmt::format("{:.3g}", lobe.scale) : i + 1 == rows.size() ? "0" : "";
+        text += fmt::format("{:>8} |{}\n", label, rows[i]);
+    }
+    return text + fmt::format("{:>8} +{}\n{:>8}  -1{:>28}{:>31}\n", "", std::string(kColumns, '-'), "N.L", "0", "1");
+}
+
+std::string description(const LobeModel& model) {
+    const sh::WrapLobe& lobe = model.lobe;
+    std::string text = fmt::format("{}: {:.6g} * max(0, (x + {:.6g}) / {:.6g})^{:.6g}, x = N.L\n\n{}\n", model.name, lobe.scale, lobe.wrap,
+                                   1.0 + lobe.wrap, lobe.power, curve(lobe));
+    text += fmt::format("boundary       {:.4f} degrees, where the slope df/dx is {:.6g}\n", std::acos(-lobe.wrap) * 180.0 / kPi,
+                        sh::slope_at_boundary(lobe));
+    text += fmt::format("normalization  {:.6g} makes a sky of constant light as bright as with Lambert\n\n",
+                        sh::normalizing_scale(lobe.wrap, lobe.power));
+    text += "band            f_l    order      L2 error     max error  lowest value\n";
+    const sh::BandFactors f = sh::zonal_bands(lobe);
+    for (int l = 0; l < sh::kMaxBands; ++l) {
+        const sh::TruncationError error = sh::truncation_error(lobe, l + 1);
+        text += fmt::format("{:4} {:14.9f}    {:5} {:13.6g} {:13.6g} {:13.6g}\n", l, f[static_cast<std::size_t>(l)], l + 1, error.l2,
+                            error.sup, error.min);
+    }
+    return text;
+}
+
+Result<int> run_lobe(const LobeOptions& options) {
+    const auto model = make_lobe_model(options.model);
+    if (!model) return tl::unexpected(model.error());
+    if (model->lobe.power < 1.0)
+        print_warning(fmt::format("power {}: below 1 the curve {} at its boundary", model->lobe.power,
+                                  model->lobe.power == 0.0 ? "jumps" : "has an infinite slope"));
+    const std::string text = options.json ? to_text(describe(*model)) : description(*model);
+    if (const auto written = io::write_file("-", {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}); !written)
+        return tl::unexpected(written.error());
+    return 0;
+}
+
+}  // namespace
+
+Command add_lobe_command(CLI::App& root) {
+    CLI::App* app = root.add_subcommand("lobe", "Describe a shading model: its curve, its bands, the error of a short series");
+    const auto options = std::make_shared<LobeOptions>();
+    app->add_option("MODEL", options->model.name, "lambert, green, half-lambert, valve, sloan or mcauley")->required()->type_name("");
+    add_value(*app, "--wrap", "W", "How far light reaches round, 0 to 1 (green, sloan, mcauley: 0.5)",
+              [options](const std::string& text) { return assign(options->model.wrap, parse_wrap(text)); });
+    add_value(*app, "--power", "N", "Exponent, 0 to 10000 (sloan, mcauley: 1 + W)",
+              [options](const std::string& text) { return assign(options->model.power, parse_power(text)); });
+    app->add_flag("--normalize,!--no-normalize", options->model.normalize, "Scale so that the mean over all light directions is Lambert's");
+    app->add_flag("--json", options->json, "As one JSON object");
+    return {app, [options] { return run_lobe(*options); }};
+}
+
+}  // namespace halflit::cli

@@ -1,0 +1,30 @@
+// Lobes by name in double, for reports whose numbers are compared with closed forms; what is rendered is io::lobe_from_name's, in float.
+#pragma once
+
+#include "sh/zonal.hpp"
+#include "shading/result.hpp"
+
+#include <optional>
+#include <string>
+
+namespace halflit::cli {
+
+struct LobeModelOptions {
+    std::string name;
+    std::optional<double> wrap, power;  ///< what is not said is what the name stands for
+    std::optional<bool> normalize;
+};
+
+struct LobeModel {
+    std::string name;
+    sh::WrapLobe lobe;
+};
+
+/// w in [0, 1]; the error says why not another one.
+[[nodiscard]] Result<double> parse_wrap(const std::string& text);
+/// n in [0, 10000].
+[[nodiscard]] Result<double> parse_power(const std::string& text);
+
+[[nodiscard]] Result<LobeModel> make_lobe_model(const LobeModelOptions& options);
+
+}  // namespace halflit::cli

@@ -1,0 +1,276 @@
+#include "apps/io/rgbe_reader.hpp"
+
+#include "apps/io/detail/text.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+
+namespace halflit::io {
+namespace {
+
+constexpr std::size_t kMaxHeaderBytes = 65536;
+constexpr double kLargest = 1e30;
+
+tl::unexpected<Error> refuse(std::string message) { return fail(ErrorCode::bad_input, std::move(message)); }
+
+struct Header {
+    std::array<double, 3> divisor{1, 1, 1};  ///< EXPOSURE times COLORCORR
+    bool columns = false;                    ///< scanlines are columns: "X" comes first in the resolution line
+    bool x_reversed = false, y_upwards = false;
+    int width = 0, height = 0;
+    std::size_t end = 0;  ///< where the pixels begin
+};
+
+/// Lines of the header; the last one may lack its newline only at the end of the file, which is then too short anyway.
+class Lines {
+public:
+    explicit Lines(std::span<const std::byte> file)
+        : text_(reinterpret_cast<const char*>(file.data()), file.size() < kMaxHeaderBytes ? file.size() : kMaxHeaderBytes) {}
+
+    Result<std::string_view> next() {
+        const std::size_t end = text_.find('\n', at_);
+        if (end == std::string_view::npos) {
+            if (text_.size() == kMaxHeaderBytes) return refuse(fmt::format("the header is longer than {} bytes", kMaxHeaderBytes));
+            return refuse(fmt::format("line {}: the file ends within the header", number_ + 1));
+        }
+        std::string_view line = text_.substr(at_, end - at_);
+        at_ = end + 1;
+        ++number_;
+        if (line.ends_with('\r')) line.remove_suffix(1);
+        return line;
+    }
+    [[nodiscard]] std::size_t position() const { return at_; }
+    [[nodiscard]] tl::unexpected<Error> error(std::string_view expected, std::string_view found) const {
+        return refuse(fmt::format("line {}: expected {}, found \"{}\"", number_, expected, detail::printable(found, 60)));
+    }
+
+private:
+    std::string_view text_;
+    std::size_t at_ = 0;
+    int number_ = 0;
+};
+
+std::string_view trimmed(std::string_view text) {
+    while (text.starts_with(' ') || text.starts_with('\t')) text.remove_prefix(1);
+    while (text.ends_with(' ') || text.ends_with('\t')) text.remove_suffix(1);
+    return text;
+}
+
+/// Takes the first word off `text`.
+std::string_view word(std::string_view& text) {
+    text = trimmed(text);
+    const std::size_t end = text.find_first_of(" \t");
+    const std::string_view first = text.substr(0, end);
+    text.remove_prefix(first.size());
+    return first;
+}
+
+template <class T>
+bool parse(std::string_view text, T& value) {
+    if (text.starts_with('+')) text.remove_prefix(1);
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size();
+}
+
+/// Factors that pixels have been multiplied by; each must be usable as a divisor.
+template <std::size_t N>
+bool parse_factors(std::string_view text, std::array<double, N>& factors) {
+    for (double& factor : factors)
+        if (!parse(word(text), factor) || !(factor >= 1e-30 && factor <= 1e30)) return false;
+    return trimmed(text).empty();
+}
+
+Result<void> read_variable(const Lines& lines, std::string_view line, Header& header) {
+    const auto value_of = [&](std::string_view name) { return trimmed(line.substr(name.size())); };
+    if (line.starts_with("FORMAT=") && value_of("FORMAT=") != "32-bit_rle_rgbe") return lines.error("FORMAT=32-bit_rle_rgbe", line);
+    if (line.starts_with("EXPOSURE=")) {
+        std::array<double, 1> exposure{};
+        if (!parse_factors(value_of("EXPOSURE="), exposure)) return lines.error("EXPOSURE= and a positive number", line);
+        for (double& divisor : header.divisor) divisor *= exposure[0];
+    } else if (line.starts_with("COLORCORR=")) {
+        std::array<double, 3> correction{};
+        if (!parse_factors(value_of("COLORCORR="), correction)) return lines.error("COLORCORR= and three positive numbers", line);
+        for (std::size_t i = 0; i < 3; ++i) header.divisor[i] *= correction[i];
+    }
+    return {};
+}
+
+/// "-Y 512 +X 1024" and its seven relatives. The axis that comes first is the slow one.
+Result<void> read_resolution(const Lines& lines, std::string_view line, Header& header) {
+    std::string_view rest = line;
+    std::array<std::string_view, 2> axis;
+    std::array<int, 2> size{};
+    bool good = true;
+    for (std::size_t i = 0; i < 2; ++i) {
+        axis[i] = word(rest);
+        good = good && axis[i].size() == 2 && (axis[i][0] == '-' || axis[i][0] == '+') && parse(word(rest), size[i]) && size[i] > 0;
+    }
+    good = good && trimmed(rest).empty() && ((axis[0][1] == 'Y' && axis[1][1] == 'X') || (axis[0][1] == 'X' && axis[1][1] == 'Y'));
+    if (!good) return lines.error("a resolution like \"-Y 512 +X 1024\"", line);
+    header.columns = axis[0][1] == 'X';
+    const std::size_t x = header.columns ? 0 : 1, y = 1 - x;
+    header.width = size[x];
+    header.height = size[y];
+    header.x_reversed = axis[x][0] == '-';
+    header.y_upwards = axis[y][0] == '+';
+    return {};
+}
+
+Result<Header> read_header(std::span<const std::byte> file) {
+    Lines lines(file);
+    Header header;
+    auto line = lines.next();
+    if (!line || !(line->starts_with("#?RADIANCE") || line->starts_with("#?RGBE")))
+        return refuse("expected a Radiance picture, which begins with #?RADIANCE or #?RGBE");
+    for (line = lines.next(); line && !line->empty(); line = lines.next())
+        if (const auto read = read_variable(lines, *line, header); !read) return tl::unexpected(read.error());
+    if (!line) return tl::unexpected(line.error());
+    line = lines.next();
+    if (!line) return tl::unexpected(line.error());
+    if (const auto read = read_resolution(lines, *line, header); !read) return tl::unexpected(read.error());
+    for (const double divisor : header.divisor)
+        if (!(divisor >= 1e-60 && divisor <= 1e60))
+            return refuse("EXPOSURE and COLORCORR lines multiply to less than 1e-60 or more than 1e60");
+    header.end = lines.position();
+    return header;
+}
+
+using Rgbe = std::array<std::uint8_t, 4>;
+
+/// Scanlines one after the other. Every function takes at least one byte for what it gives, or fails.
+class Scanlines {
+public:
+    explicit Scanlines(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+    /// False, with `why` set, where the data ends or contradicts itself.
+    bool read(std::span<Rgbe> line) {
+        if (bytes_.size() < 4) return ends();
+        const std::uint8_t b0 = byte(0), b1 = byte(1), b2 = byte(2), b3 = byte(3);
+        // Pixels with this start are not normalised, so no flat picture has them.
+        const bool new_runs = line.size() >= 8 && line.size() <= 32767 && b0 == 2 && b1 == 2 && b2 < 128;
+        if (!new_runs) return read_flat(line);
+        if (static_cast<std::size_t>(b2) * 256 + b3 != line.size()) {
+            why = fmt::format("expected a scanline of {} pixels, found one of {}", line.size(), b2 * 256 + b3);
+            return false;
+        }
+        bytes_ = bytes_.subspan(4);
+        for (std::size_t component = 0; component < 4; ++component)
+            if (!read_component(line, component)) return false;
+        return true;
+    }
+
+    std::string why;
+
+private:
+    [[nodiscard]] std::uint8_t byte(std::size_t i) const { return std::to_integer<std::uint8_t>(bytes_[i]); }
+    bool ends() {
+        why = "the file ends within the pixels";
+        return false;
+    }
+    bool overruns() {
+        why = "a run goes past the end of its scanline";
+        return false;
+    }
+
+    /// New run lengths: count > 128 repeats the next byte count - 128 times, else count bytes follow.
+    bool read_component(std::span<Rgbe> line, std::size_t component) {
+        for (std::size_t x = 0; x < line.size();) {
+            if (bytes_.size() < 2) return ends();
+            const std::size_t code = byte(0), count = code > 128 ? code - 128 : code, used = code > 128 ? 1 : count;
+            if (count == 0) {
+                why = "a run of no pixels";
+                return false;
+            }
+            if (count > line.size() - x) return overruns();
+            if (bytes_.size() < 1 + used) return ends();
+            for (std::size_t i = 0; i < count; ++i) line[x + i][component] = byte(code > 128 ? 1 : 1 + i);
+            x += count;
+            bytes_ = bytes_.subspan(1 + used);
+        }
+        return true;
+    }
+
+    /// Flat pixels and old run lengths: (1, 1, 1, n) repeats the pixel before n times; in a row of them each counts 256 times the last.
+    bool read_flat(std::span<Rgbe> line) {
+        int shift = 0;
+        for (std::size_t x = 0; x < line.size();) {
+            if (bytes_.size() < 4) return ends();
+            const Rgbe pixel{byte(0), byte(1), byte(2), byte(3)};
+            bytes_ = bytes_.subspan(4);
+            if (pixel[0] != 1 || pixel[1] != 1 || pixel[2] != 1) {
+                line[x++] = pixel;
+                shift = 0;
+                continue;
+            }
+            if (x == 0) {
+                why = "a run with no pixel before it";
+                return false;
+            }
+            if (shift > 16) return overruns();
+            const std::size_t count = static_cast<std::size_t>(pixel[3]) << shift;
+            if (count > line.size() - x) return overruns();
+            for (std::size_t i = 0; i < count; ++i) line[x + i] = line[x - 1];
+            x += count;
+            shift += 8;
+        }
+        return true;
+    }
+
+    std::span<const std::byte> bytes_;
+};
+
+/// Component values by exponent: 2^(e - 136) / divisor.
+std::array<std::array<double, 256>, 3> make_scales(const Header& header) {
+    std::array<std::array<double, 256>, 3> scales{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        double power = 0x1p-135;
+        for (std::size_t e = 1; e < 256; ++e, power *= 2.0) scales[i][e] = power / header.divisor[i];
+    }
+    return scales;
+}
+
+/// From the file's order, slow axis first, to rows from the top.
+std::vector<float> reordered(const Header& header, std::vector<float> stored) {
+    if (!header.columns && !header.x_reversed && !header.y_upwards) return stored;
+    std::vector<float> rgb(stored.size());
+    const auto width = static_cast<std::size_t>(header.width), height = static_cast<std::size_t>(header.height);
+    std::size_t to = 0;
+    for (std::size_t row = 0; row < height; ++row)
+        for (std::size_t column = 0; column < width; ++column) {
+            const std::size_t x = header.x_reversed ? width - 1 - column : column, y = header.y_upwards ? height - 1 - row : row;
+            const std::size_t from = 3 * (header.columns ? x * height + y : y * width + x);
+            for (std::size_t i = 0; i < 3; ++i) rgb[to++] = stored[from + i];
+        }
+    return rgb;
+}
+
+}  // namespace
+
+Result<RgbeImage> decode_rgbe(std::span<const std::byte> file, const RgbeLimits& limits) {
+    const auto header = read_header(file);
+    if (!header) return tl::unexpected(header.error());
+    if (header->width > limits.max_width || header->height > limits.max_height)
+        return fail(ErrorCode::limit, fmt::format("has {}x{} pixels, the limit is {}x{}", header->width, header->height, limits.max_width,
+                                                  limits.max_height));
+    const auto scales = make_scales(*header);
+    const int lines = header->columns ? header->width : header->height;
+    std::vector<Rgbe> line(static_cast<std::size_t>(header->columns ? header->height : header->width));
+    Scanlines scanlines(file.subspan(header->end));
+    std::vector<float> stored;  // grows with what has been read: a short file cannot ask for much memory
+    for (int i = 0; i < lines; ++i) {
+        if (!scanlines.read(line)) return refuse(fmt::format("scanline {} of {}: {}", i, lines, scanlines.why));
+        for (const Rgbe& pixel : line)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double value = pixel[k] * scales[k][pixel[3]];
+                stored.push_back(static_cast<float>(value < kLargest ? value : kLargest));
+            }
+    }
+    return RgbeImage{header->width, header->height, reordered(*header, std::move(stored))};
+}
+
+}  // namespace halflit::io
