@@ -29,7 +29,7 @@ struct LevelTaps {
 /// How lanes filter within a level; `mixed` asks the mask.
 enum class TapMode { linear, nearest, mixed };
 
-/// Brings a coordinate into [0, 1].
+/// Brings a coordinate into [0, 1], repeat: into [0, 1).
 HALFLIT_INLINE F wrap_unit(F u, shading::Wrap mode) {
     const F held = clamp(u, F(-kCoordinateLimit), F(kCoordinateLimit));
     switch (mode) {
@@ -45,7 +45,7 @@ HALFLIT_INLINE F wrap_unit(F u, shading::Wrap mode) {
     return clamp(held, F(0.0f), F(1.0f));
 }
 
-/// Brings a texel index in [-1, size] into [0, size): a mirrored edge repeats its last texel, like a clamped one.
+/// Brings a texel index into [0, size): a mirrored edge repeats its last texel, like a clamped one. Repeat takes -1 to size.
 HALFLIT_INLINE I wrap_index(I i, I size, shading::Wrap mode) {
     const I last = size - I(1);
     const M below = less(i, I(0)), above = less(last, i);
