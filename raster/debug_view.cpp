@@ -19,6 +19,7 @@ Result<VisibilityView> visibility(const Scene& scene, const Camera& camera, cons
     transform_vertices(frame, executor);
     bin_triangles(frame, executor);
     make_vertex_records(frame, executor);
+    make_clip_records(frame, executor);
 
     VisibilityView view{width, height, {}, {}};
     const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);

@@ -4,6 +4,7 @@
 #include "raster/detail/executor.hpp"
 #include "raster/detail/fp_environment.hpp"
 #include "raster/detail/geometry.hpp"
+#include "raster/detail/shading_rate.hpp"
 #include "raster/detail/tile_renderer.hpp"
 
 #include <atomic>
@@ -46,6 +47,8 @@ struct Renderer::Impl {
         bin_triangles(frame, executor);
         report.ms.bin = watch.lap();
         make_vertex_records(frame, executor);
+        if (settings.shading.rate == shading::ShadingRate::gouraud) light_vertices(frame, executor);
+        make_clip_records(frame, executor);
         report.ms.transform += watch.lap();
 
         std::atomic<std::uint64_t> visible{0}, shaded{0}, nan_pixels{0};

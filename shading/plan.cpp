@@ -163,6 +163,7 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
     if (lit && frame.lights) plan.stages |= kStageLights;
     if (lit && frame.ambient) plan.stages |= kStageAmbient;
     if (lit && frame.specular) plan.stages |= kStageSpecular;
+    if (lit && options.rate != ShadingRate::pixel) plan.stages |= kStagePrelit;
 
     bool gradients = false;
     const auto use_texture = [&](bool wanted, Stage stage, const TextureUse& use, TexturePlan& target) {

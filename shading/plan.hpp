@@ -53,7 +53,8 @@ enum Stage : std::uint32_t {
     kStageAmbient = 1u << 8,
     kStageUnlit = 1u << 9,
     kStageGradients = 1u << 10,  ///< some texture has mips: raster fills the kDu.. rows
-    kStageCount = 11
+    kStagePrelit = 1u << 11,     ///< light comes in with the fragments: a shading rate below one a pixel
+    kStageCount = 12
 };
 
 struct MaterialPlan {
@@ -93,8 +94,16 @@ struct FramePlan {
     bool orthographic = false;
 };
 
+/// How often light is evaluated. Textures and base colour are always read at every pixel.
+enum class ShadingRate : std::uint8_t {
+    flat,     ///< once a visible triangle, at its centroid, with the triangle's own normal
+    gouraud,  ///< once a vertex, interpolated
+    pixel
+};
+
 /// Settings that change what a plan contains.
 struct PlanOptions {
+    ShadingRate rate = ShadingRate::pixel;
     bool override_lobe = false;  ///< use `lobe` for all materials that do not bring their own
     Lobe lobe;
     bool specular = true;

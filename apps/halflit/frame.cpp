@@ -89,6 +89,7 @@ Result<void> choose_settings(raster::Settings& settings, const RenderOptions& op
     settings.shading.override_lobe = lobe->has_value();
     settings.shading.lobe = lobe->value_or(shading::Lobe{});
     settings.shading.specular = options.specular;
+    settings.shading.rate = options.rate;
     return {};
 }
 

@@ -25,6 +25,22 @@ ReadValue choice(int& target, std::initializer_list<int> allowed) {
     };
 }
 
+/// One of a few names.
+template <class T>
+ReadValue named(T& target, std::vector<std::pair<std::string, T>> names) {
+    return [&target, names = std::move(names)](const std::string& text) -> Result<void> {
+        std::string known;
+        for (const auto& [name, value] : names) {
+            if (name == text) {
+                target = value;
+                return {};
+            }
+            known += (known.empty() ? "" : ", ") + name;
+        }
+        return fail(ErrorCode::usage, fmt::format("expected one of {}, found '{}'", known, text));
+    };
+}
+
 void add_picture_flags(CLI::App& app, RenderOptions& o) {
     constexpr const char* kGroup = "Picture";
     add_value(app, "--size", "WxH", "Size in pixels (default 1280x720, or the shape of the file's camera)", [&o](const std::string& text) {
@@ -115,6 +131,10 @@ void add_surface_flags(CLI::App& app, RenderOptions& o) {
         o.specular = text == "blinn";
         return {};
     })->group(kGroup);
+    using shading::ShadingRate;
+    add_value(app, "--shading", "RATE", "Light once a triangle, vertex or pixel: flat, gouraud or pixel (default pixel)",
+              named<ShadingRate>(o.rate, {{"flat", ShadingRate::flat}, {"gouraud", ShadingRate::gouraud}, {"pixel", ShadingRate::pixel}}))
+        ->group(kGroup);
 }
 
 void add_machine_flags(CLI::App& app, RenderOptions& o) {

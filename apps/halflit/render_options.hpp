@@ -31,6 +31,7 @@ struct RenderOptions {
     std::optional<std::string> lobe_name;
     io::LobeParameters lobe;
     bool specular = true;
+    shading::ShadingRate rate = shading::ShadingRate::pixel;
     std::optional<Vec3f> ambient_linear;
     std::vector<shading::Light> lights;
     bool scene_lights = true;

@@ -26,7 +26,8 @@ constexpr NamedStage kStages[] = {{shading::kStageBaseColorTexture, "base colour
                                   {shading::kStageSpecular, "specular"},
                                   {shading::kStageAmbient, "ambient"},
                                   {shading::kStageUnlit, "unlit"},
-                                  {shading::kStageGradients, "texture gradients"}};
+                                  {shading::kStageGradients, "texture gradients"},
+                                  {shading::kStagePrelit, "light at vertices or triangles"}};
 
 /// The float as people would write it: the double that prints as shortly, 0.8 and not 0.800000011920929.
 Json number(float value) {

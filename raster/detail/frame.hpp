@@ -2,6 +2,7 @@
 // nothing.
 #pragma once
 
+#include "raster/detail/light_culling.hpp"
 #include "raster/framebuffer.hpp"
 #include "raster/kernels/raster_kernels.hpp"
 #include "raster/renderer.hpp"
@@ -82,9 +83,11 @@ struct Frame {
     Viewport viewport;
     const RasterKernels* raster = nullptr;
     const shading::ShadeKernels* shade = nullptr;
+    bool draw_back_faces = false;   ///< cull nothing, whatever the materials say
     bool keep_submitted = false;  ///< fill Chunk::submitted
 
     shading::FramePlan plan;
+    LightCuller lights;
     std::vector<Draw> draws;
     std::vector<DrawRecords> draw_records;
     bool has_mask = false, has_blend = false;

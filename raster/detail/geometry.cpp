@@ -107,7 +107,8 @@ void add_draws(Frame& frame, const Scene& scene, const Mat4& clip_from_world_mat
         draw.clip_from_object = multiply_in_double(clip_from_world_matrix, instance.world_from_object);
         draw.mirrored = determinant3(instance.world_from_object) < 0.0;
         const shading::MaterialPlan& plan = frame.plan.materials[static_cast<std::size_t>(draw.material)];
-        draw.cull_back = mesh.material < 0 || !scene.materials[static_cast<std::size_t>(mesh.material)].double_sided;
+        draw.cull_back =
+            !frame.draw_back_faces && (mesh.material < 0 || !scene.materials[static_cast<std::size_t>(mesh.material)].double_sided);
         draw.mask = plan.alpha_mode == shading::AlphaMode::mask;
         draw.blend = plan.alpha_mode == shading::AlphaMode::blend;
         draw.stride = 4 * std::popcount(plan.quads);
@@ -211,6 +212,7 @@ Result<void> prepare_frame(Frame& frame, const Scene& scene, const Camera& camer
     frame.plan.view_direction_ws = normalize_or({-back.x, -back.y, -back.z}, {0, 0, -1});
     frame.plan.orthographic = camera.orthographic;
 
+    frame.lights.build(frame.plan);
     frame.draws.clear();
     frame.vertex_count = frame.triangle_count = frame.record_floats = 0;
     frame.has_mask = frame.has_blend = false;
@@ -256,7 +258,9 @@ void make_vertex_records(Frame& frame, Executor& executor) {
             frame.raster->vertex_records(args);
         }
     });
+}
 
+void make_clip_records(Frame& frame, Executor& executor) {
     frame.clip_records.resize(frame.chunk_count);
     executor.run(static_cast<int>(frame.chunk_count), [&](int i) {
         Chunk& chunk = *frame.chunks[static_cast<std::size_t>(i)];

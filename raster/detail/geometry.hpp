@@ -12,7 +12,10 @@ Result<void> prepare_frame(Frame& frame, const Scene& scene, const Camera& camer
 /// Screen positions and outcodes of all vertices.
 void transform_vertices(Frame& frame, Executor& executor);
 
-/// Vertex records of the groups that binning marked as used, and of clipped vertices.
+/// Vertex records of the groups that binning marked as used.
 void make_vertex_records(Frame& frame, Executor& executor);
+
+/// Records of vertices that clipping made, from those of their triangles.
+void make_clip_records(Frame& frame, Executor& executor);
 
 }  // namespace halflit::raster

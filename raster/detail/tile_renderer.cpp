@@ -1,5 +1,7 @@
 #include "raster/detail/tile_renderer.hpp"
 
+#include "raster/detail/shading_rate.hpp"
+
 #include <cstring>
 
 namespace halflit::raster {
@@ -105,7 +107,14 @@ void TileRenderer::shade_visible() {
 void TileRenderer::shade(FragmentList& list) {
     shading::FragmentBlock& block = scratch_.block;
     interpolate(frame_, list, block);
-    frame_.shade->shade(frame_.plan, frame_.plan.materials[static_cast<std::size_t>(list.material)], block, list.count);
+    const shading::MaterialPlan& plan = frame_.plan.materials[static_cast<std::size_t>(list.material)];
+    shading::LightList lights;
+    if ((plan.stages & shading::kStagePrelit) != 0) {
+        if (frame_.settings->shading.rate == shading::ShadingRate::flat) light_triangles(frame_, list, block);
+    } else if ((plan.stages & shading::kStageLights) != 0) {
+        lights = frame_.lights.select(block, list.count, scratch_.lights);
+    }
+    frame_.shade->shade(frame_.plan, plan, lights, block, list.count);
     counts_.fragments_shaded += static_cast<std::uint64_t>(list.count);
     for (int l = 0; l < list.count; ++l) {
         const float sum = (block.red[l] + block.green[l]) + (block.blue[l] + block.alpha[l]);

@@ -18,6 +18,7 @@ struct TileScratch {
     FragmentQueue queue;
     FragmentList list;  ///< of the triangle at hand: alpha test, blending
     shading::FragmentBlock block;
+    LightSelection lights;
     /// Linear light times alpha, and alpha, of every sample; used only where samples or layers are combined.
     RawBuffer<float> color;
 };

@@ -25,43 +25,71 @@ HALFLIT_INLINE V3 hemisphere(const shading::Ambient& ambient, F up) {
 /// Share of the mirrored surroundings: F0 head on, rising at grazing angles towards 1 - roughness (Schlick's fifth power).
 HALFLIT_INLINE F environment_reflectance(F f0, F roughness, F grazing) { return mad(vmax(F(1.0f) - roughness, f0) - f0, grazing, f0); }
 
+/// All light that meets a surface point, before the base colour decides what becomes of it.
+struct IncidentLight {
+    V3 diffuse;            ///< through the lobe, its scale included
+    V3 specular;           ///< normalised Blinn-Phong
+    V3 ambient, mirrored;  ///< of the surroundings towards the normal, and towards the mirrored view; times occlusion
+    F metallic, roughness, grazing;
+};
+
 template <bool kSpecular>
-HALFLIT_INLINE V3 lit_color(const shading::FramePlan& frame, const shading::MaterialPlan& material, const shading::FragmentBlock& block,
-                            int lane, V3 base) {
+HALFLIT_INLINE IncidentLight incident_light(const shading::FramePlan& frame, const shading::MaterialPlan& material,
+                                            shading::LightList lights, const shading::FragmentBlock& block, int lane) {
+    const V3 zero{F(0.0f), F(0.0f), F(0.0f)};
     const V3 position = row3(block, shading::kPosX, lane);
     const V3 normal = shading_normal(material, block, lane);
     const Reflectance surface = reflectance(material, block, lane);
-    V3 albedo = base, f0{F(0.0f), F(0.0f), F(0.0f)}, to_eye = f0;
-    F roughness(1.0f), half_exponent(0.0f);
+    IncidentLight light{zero, zero, zero, zero, surface.metallic, F(1.0f), F(0.0f)};
+    V3 to_eye = zero;
+    F half_exponent(0.0f);
     if constexpr (kSpecular) {
-        const F dielectric(kDielectricReflectance);
-        f0 = lerp(V3{dielectric, dielectric, dielectric}, base, surface.metallic);
-        albedo = base * ((F(1.0f) - surface.metallic) * F(1.0f - kDielectricReflectance));
         to_eye = view_vector(frame, position);
-        roughness = vmax(surface.roughness, F(kMinRoughness));
-        const F alpha = roughness * roughness;
+        light.roughness = vmax(surface.roughness, F(kMinRoughness));
+        const F alpha = light.roughness * light.roughness;
         half_exponent = vdiv(F(1.0f), alpha * alpha) - F(1.0f);  // s = 2 / alpha^2 - 2
     }
-    V3 color{F(0.0f), F(0.0f), F(0.0f)};
     if (has(material, shading::kStageLights)) {
-        const LightSums sums = sum_lights<kSpecular>(frame.lights.data(), static_cast<int>(frame.lights.size()), material.lobe, position,
-                                                     normal, to_eye, half_exponent);
-        color = albedo * (sums.diffuse * F(material.lobe.scale));
-        if constexpr (kSpecular) color = color + f0 * (sums.specular * mad(F(0.25f), half_exponent, F(1.0f)));  // (s + 8) / 8
+        const LightSums sums = sum_lights<kSpecular>(lights.lights, lights.count, material.lobe, position, normal, to_eye, half_exponent);
+        light.diffuse = sums.diffuse * F(material.lobe.scale);
+        if constexpr (kSpecular) light.specular = sums.specular * mad(F(0.25f), half_exponent, F(1.0f));  // (s + 8) / 8
     }
     if (has(material, shading::kStageAmbient)) {
-        V3 ambient = albedo * hemisphere(frame.ambient, normal.y);
+        light.ambient = hemisphere(frame.ambient, normal.y) * surface.occlusion;
         if constexpr (kSpecular) {
             const F n_dot_v = dot(normal, to_eye);
             const F mirrored_y = mad(n_dot_v + n_dot_v, normal.y, F(0.0f) - to_eye.y);
             const F away = F(1.0f) - clamp(n_dot_v, F(0.0f), F(1.0f));
             const F away2 = away * away;
-            const F grazing = (away2 * away2) * away;
-            const V3 share{environment_reflectance(f0.x, roughness, grazing), environment_reflectance(f0.y, roughness, grazing),
-                           environment_reflectance(f0.z, roughness, grazing)};
-            ambient = ambient + share * hemisphere(frame.ambient, mirrored_y);
+            light.grazing = (away2 * away2) * away;
+            light.mirrored = hemisphere(frame.ambient, mirrored_y) * surface.occlusion;
         }
-        color = color + ambient * surface.occlusion;
+    }
+    return light;
+}
+
+/// What a surface of that base colour sends to the eye.
+template <bool kSpecular>
+HALFLIT_INLINE V3 reflected(const shading::MaterialPlan& material, const IncidentLight& light, V3 base) {
+    V3 albedo = base, f0{F(0.0f), F(0.0f), F(0.0f)};
+    if constexpr (kSpecular) {
+        const F dielectric(kDielectricReflectance);
+        f0 = lerp(V3{dielectric, dielectric, dielectric}, base, light.metallic);
+        albedo = base * ((F(1.0f) - light.metallic) * F(1.0f - kDielectricReflectance));
+    }
+    V3 color{F(0.0f), F(0.0f), F(0.0f)};
+    if (has(material, shading::kStageLights)) {
+        color = albedo * light.diffuse;
+        if constexpr (kSpecular) color = color + f0 * light.specular;
+    }
+    if (has(material, shading::kStageAmbient)) {
+        color = color + albedo * light.ambient;
+        if constexpr (kSpecular) {
+            const V3 share{environment_reflectance(f0.x, light.roughness, light.grazing),
+                           environment_reflectance(f0.y, light.roughness, light.grazing),
+                           environment_reflectance(f0.z, light.roughness, light.grazing)};
+            color = color + share * light.mirrored;
+        }
     }
     return color;
 }
@@ -76,14 +104,16 @@ HALFLIT_INLINE V3 emitted(const shading::MaterialPlan& material, const shading::
 }
 
 template <bool kSpecular>
-HALFLIT_INLINE void shade_block(const shading::FramePlan& frame, const shading::MaterialPlan& material, shading::FragmentBlock& block,
-                                int count) {
+HALFLIT_INLINE void shade_block(const shading::FramePlan& frame, const shading::MaterialPlan& material, shading::LightList lights,
+                                shading::FragmentBlock& block, int count) {
     for (int lane = 0; lane < count; lane += kWidth) {
         const Sample base = base_color(material, block, lane);
         V3 color{base.r, base.g, base.b};
         if (!has(material, shading::kStageUnlit)) {
-            if ((material.stages & (shading::kStageLights | shading::kStageAmbient)) != 0)
-                color = lit_color<kSpecular>(frame, material, block, lane, color);
+            if (has(material, shading::kStagePrelit))
+                color = color * row3(block, shading::kPosX, lane) + row3(block, shading::kNormalX, lane);
+            else if ((material.stages & (shading::kStageLights | shading::kStageAmbient)) != 0)
+                color = reflected<kSpecular>(material, incident_light<kSpecular>(frame, material, lights, block, lane), color);
             else
                 color = {F(0.0f), F(0.0f), F(0.0f)};
             color = color + emitted(material, block, lane);
@@ -96,11 +126,38 @@ HALFLIT_INLINE void shade_block(const shading::FramePlan& frame, const shading::
     }
 }
 
-static void shade(const shading::FramePlan& frame, const shading::MaterialPlan& material, shading::FragmentBlock& block, int count) {
-    if (has(material, shading::kStageSpecular))
-        shade_block<true>(frame, material, block, count);
+/// The reflected colour is affine in the base colour but for a clamp in the mirrored share, so black and white tell all.
+template <bool kSpecular>
+HALFLIT_INLINE void light_block(const shading::FramePlan& frame, const shading::MaterialPlan& material, shading::LightList lights,
+                                shading::FragmentBlock& block, int count) {
+    for (int lane = 0; lane < count; lane += kWidth) {
+        const IncidentLight light = incident_light<kSpecular>(frame, material, lights, block, lane);
+        const F none(0.0f), full(1.0f);
+        const V3 offset = reflected<kSpecular>(material, light, {none, none, none});
+        const V3 factor = reflected<kSpecular>(material, light, {full, full, full}) - offset;
+        store(&block.lane[shading::kPosX][lane], factor.x);
+        store(&block.lane[shading::kPosY][lane], factor.y);
+        store(&block.lane[shading::kPosZ][lane], factor.z);
+        store(&block.lane[shading::kNormalX][lane], offset.x);
+        store(&block.lane[shading::kNormalY][lane], offset.y);
+        store(&block.lane[shading::kNormalZ][lane], offset.z);
+    }
+}
+
+static void shade(const shading::FramePlan& frame, const shading::MaterialPlan& material, shading::LightList lights,
+                  shading::FragmentBlock& block, int count) {
+    if (has(material, shading::kStageSpecular) && !has(material, shading::kStagePrelit))
+        shade_block<true>(frame, material, lights, block, count);
     else
-        shade_block<false>(frame, material, block, count);
+        shade_block<false>(frame, material, lights, block, count);
+}
+
+static void light(const shading::FramePlan& frame, const shading::MaterialPlan& material, shading::LightList lights,
+                  shading::FragmentBlock& block, int count) {
+    if (has(material, shading::kStageSpecular))
+        light_block<true>(frame, material, lights, block, count);
+    else
+        light_block<false>(frame, material, lights, block, count);
 }
 
 static void shade_alpha(const shading::MaterialPlan& material, shading::FragmentBlock& block, int count) {
@@ -118,6 +175,6 @@ static void encode(const float* red, const float* green, const float* blue, cons
 namespace shading {
 #define HALFLIT_SHADE_KERNELS HALFLIT_CONCAT(shade_kernels_, HALFLIT_ISA)
 extern const ShadeKernels HALFLIT_SHADE_KERNELS;
-const ShadeKernels HALFLIT_SHADE_KERNELS = {shade, shade_alpha, encode};
+const ShadeKernels HALFLIT_SHADE_KERNELS = {shade, light, shade_alpha, encode};
 }  // namespace shading
 }  // namespace halflit

@@ -9,11 +9,22 @@
 
 namespace halflit::shading {
 
+/// Lights in list order: all of the frame's, or those of them that can be other than zero where a block lies.
+struct LightList {
+    const LightPlan* lights = nullptr;
+    int count = 0;
+};
+[[nodiscard]] inline LightList all_lights(const FramePlan& frame) { return {frame.lights.data(), static_cast<int>(frame.lights.size())}; }
+
 struct ShadeKernels {
     /// Runs the stages of `material` over lanes [0, count) of the block, and writes red, green, blue, alpha there.
     /// count in [1, kBlockSize]; lanes from count up to the next multiple of the SIMD width are read (they must hold
     /// finite copies of a real lane) and written. Needs rows of the plan's quads, kFacing when double sided, gradients.
-    void (*shade)(const FramePlan& frame, const MaterialPlan& material, FragmentBlock& block, int count);
+    void (*shade)(const FramePlan& frame, const MaterialPlan& material, LightList lights, FragmentBlock& block, int count);
+
+    /// Light alone, for shading rates below one a pixel: with base colour b the lit colour is b X + Y. X goes to the rows kPosX..
+    /// kPosZ, Y to kNormalX..kNormalZ, from where `shade` takes them when the material's plan has kStagePrelit.
+    void (*light)(const FramePlan& frame, const MaterialPlan& material, LightList lights, FragmentBlock& block, int count);
 
     /// Only the alpha channel that MASK compares and BLEND uses: base colour alpha * texture alpha * vertex alpha.
     void (*alpha)(const MaterialPlan& material, FragmentBlock& block, int count);

@@ -34,7 +34,7 @@ TEST_CASE("kernels: shade agrees with the float64 reference for every kind of sc
         const reference::Frame frame = reference_frame(c);
         FragmentBlock block{};
         fill_block(make, block, false);
-        shade_kernels(Isa::scalar).shade(c.plan, c.plan.materials[0], block, kBlockSize);
+        shade_kernels(Isa::scalar).shade(c.plan, c.plan.materials[0], all_lights(c.plan), block, kBlockSize);
         for (int lane = 0; lane < kBlockSize; ++lane) {
             const reference::Rgba want = reference::shade(frame, material, c.available[0], block, lane);
             const double got[4] = {block.red[lane], block.green[lane], block.blue[lane], block.alpha[lane]};
@@ -66,7 +66,7 @@ TEST_CASE("kernels: a highlight at the sharpest roughness agrees with the refere
         const double angle = 0.0175 * lane / kBlockSize;
         block.lane[kNormalX][lane] = static_cast<float>(std::sin(angle)), block.lane[kNormalZ][lane] = static_cast<float>(std::cos(angle));
     }
-    shade_kernels(Isa::scalar).shade(plan, plan.materials[0], block, kBlockSize);
+    shade_kernels(Isa::scalar).shade(plan, plan.materials[0], all_lights(plan), block, kBlockSize);
     const double peak = reference::shade(frame, material, 3u, block, 0).r;
     CHECK(peak > 1e4);
     for (int lane = 0; lane < kBlockSize; ++lane) {

@@ -35,7 +35,7 @@ Curve curve_of(const Lobe& lobe) {
         block.lane[kNormalY][i] = static_cast<float>(std::sqrt(1.0 - x * x));
     }
     block.lane[kNormalX][31] = 0.0f, block.lane[kNormalY][31] = 1.0f;
-    shade_kernels(Isa::scalar).shade(plan, plan.materials[0], block, kBlockSize);
+    shade_kernels(Isa::scalar).shade(plan, plan.materials[0], all_lights(plan), block, kBlockSize);
     for (int i = 0; i < kBlockSize; ++i) {
         // What normalising makes of it, in double.
         const double nx = block.lane[kNormalX][i], ny = block.lane[kNormalY][i];

@@ -39,7 +39,7 @@ std::vector<reference::Rgba> sample_all(const Texture& texture, const TextureUse
         block.lane[kV0][i] = points[i].v;
         block.lane[kDu0Dx][i] = points[i].texels_per_pixel / static_cast<float>(texture.width());
     }
-    shade_kernels(default_isa().value()).shade(plan, plan.materials[0], block, static_cast<int>(points.size()));
+    shade_kernels(default_isa().value()).shade(plan, plan.materials[0], all_lights(plan), block, static_cast<int>(points.size()));
     std::vector<reference::Rgba> colors;
     for (std::size_t i = 0; i < points.size(); ++i) colors.push_back({block.red[i], block.green[i], block.blue[i], block.alpha[i]});
     return colors;
@@ -170,5 +170,23 @@ TEST_CASE("sampling: a texture transform moves coordinates and footprint alike",
         const reference::Rgba want =
             reference::sample(texture, use.sampler, u, v, std::log2(2.0 * static_cast<double>(points[i].texels_per_pixel)));
         CHECK(distance(colors[i], want) <= 3e-5);
+    }
+}
+
+TEST_CASE("sampling: just below zero a repeated picture shows its last texel", "[shading][sampling]") {
+    for (const int size : {1, 2, 3, 7, 16}) {
+        const Texture texture = random_texture(size, size, 8);
+        for (const Filter mag : {Filter::nearest, Filter::linear}) {
+            TextureUse use;
+            use.sampler.mag = mag;
+            use.sampler.min = Filter::nearest;
+            use.sampler.mip = MipFilter::none;
+            // Minified, so that the filter is nearest; with a linear mag the lanes share the path of both filters.
+            const auto colors = sample_all(texture, use, {{-1e-9f, -1e-20f, 2.0f}, {-1e-45f, -6e-8f, 2.0f}});
+            for (const auto& color : colors) {
+                INFO("size " << size);
+                CHECK(color.r == Approx(unorm(texture, 0, size - 1, size - 1, 0)).epsilon(1.2e-7));
+            }
+        }
     }
 }
