@@ -223,6 +223,35 @@ NamedScene rough_scene() {
     return out;
 }
 
+NamedScene many_lights_scene() {
+    NamedScene out{"many lights", {}, camera_at({0, 2.5f, 4}, {0, 0, 0}, 0.9f, 0.1f)};
+    Scene& s = out.scene;
+    add_lights(s);
+    Random random(14);
+    for (int i = 0; i < 100; ++i) {
+        Light light;
+        light.type = i % 3 == 0 ? LightType::spot : LightType::point;
+        light.position_ws = {random.real32(-4, 4), random.real32(0.1, 0.6), random.real32(-4, 3)};
+        light.color_linear = {random.real32(0, 0.1), random.real32(0, 0.1), random.real32(0, 0.1)};
+        light.direction_ws = {random.real32(-1, 1), -1, random.real32(-1, 1)};
+        light.range = random.real32(0.3, 1.2);
+        s.lights.push_back(light);
+    }
+    Material floor;
+    floor.metallic = 0;
+    floor.roughness = 0.3f;
+    floor.lobe = shading::Lobe::green(0.3f);
+    add(s, make_plane(6, 8), add_material(s, floor), {});
+    Material ball;
+    ball.metallic = 0.8f;
+    ball.roughness = 0.5f;
+    const int ball_index = add_material(s, ball);
+    for (int i = 0; i < 9; ++i)
+        add(s, make_sphere(0.3f, 16, 10), ball_index,
+            translation({1.2f * static_cast<float>(i % 3 - 1), 0.3f, 1.2f * static_cast<float>(i / 3 - 1)}));
+    return out;
+}
+
 std::vector<NamedScene> all_scenes() {
     std::vector<NamedScene> scenes;
     Scene demo = demo_scene();
@@ -232,6 +261,7 @@ std::vector<NamedScene> all_scenes() {
     scenes.push_back(small_triangles_scene());
     scenes.push_back(layers_scene());
     scenes.push_back(rough_scene());
+    scenes.push_back(many_lights_scene());
     return scenes;
 }
 

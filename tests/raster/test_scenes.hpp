@@ -28,7 +28,10 @@ struct NamedScene {
 /// Numbers at the edge of float: huge and tiny placings, degenerate normals, vertices that are not finite.
 [[nodiscard]] NamedScene rough_scene();
 
-/// The four above, and the built-in demo scene.
+/// A hundred small lights, each of which reaches a few tiles, and some that reach all.
+[[nodiscard]] NamedScene many_lights_scene();
+
+/// The five above, and the built-in demo scene.
 [[nodiscard]] std::vector<NamedScene> all_scenes();
 
 }  // namespace halflit::raster::test
