@@ -3,7 +3,12 @@
 namespace halflit::sh {
 namespace {
 
+constexpr int kGridBands = 24, kGridRows = 96, kGridColumns = 192;
+
 double absolute(double x) { return x < 0 ? -x : x; }
+Vec3d absolute(Vec3d v) { return {absolute(v.x), absolute(v.y), absolute(v.z)}; }
+Vec3d larger(Vec3d a, Vec3d b) { return {a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z}; }
+Vec3d smaller(Vec3d a, Vec3d b) { return {a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z}; }
 
 /// 0 times infinity is 0 here: darkness has no error.
 double tail(double norm, double absolute_sum, const LobeSpectrum& lobe) {
@@ -12,16 +17,47 @@ double tail(double norm, double absolute_sum, const LobeSpectrum& lobe) {
     return by_norm < by_sum ? by_norm : by_sum;
 }
 
+/// bounds[l]: of everything from band l on, by the norms.
+std::array<Vec3d, kSpectrumBands + 1> bounds_from(const Spectrum& environment, const LobeSpectrum& lobe) {
+    std::array<Vec3d, kSpectrumBands + 1> bounds;
+    bounds[kSpectrumBands] = {tail(environment.tail_norm.x, environment.absolute.x, lobe),
+                              tail(environment.tail_norm.y, environment.absolute.y, lobe),
+                              tail(environment.tail_norm.z, environment.absolute.z, lobe)};
+    for (std::size_t l = kSpectrumBands; l-- > 0;)
+        bounds[l] =
+            bounds[l + 1] + environment.norm[l] * (absolute(lobe.f[l]) * __builtin_sqrt(static_cast<double>(2 * l + 1) / (4.0 * kPi)));
+    return bounds;
+}
+
 }  // namespace
 
 OrderBounds order_bounds(const Spectrum& environment, const LobeSpectrum& lobe) {
+    const auto bounds = bounds_from(environment, lobe);
     OrderBounds out;
-    Vec3d sum{tail(environment.tail_norm.x, environment.absolute.x, lobe), tail(environment.tail_norm.y, environment.absolute.y, lobe),
-              tail(environment.tail_norm.z, environment.absolute.z, lobe)};
-    for (std::size_t l = kSpectrumBands - 1; l >= 1; --l) {
-        sum = sum + environment.norm[l] * (absolute(lobe.f[l]) * __builtin_sqrt(static_cast<double>(2 * l + 1) / (4.0 * kPi)));
-        if (l <= out.by_order.size()) out.by_order[l - 1] = sum;
+    for (std::size_t i = 0; i < out.by_order.size(); ++i) out.by_order[i] = bounds[i + 1];
+    return out;
+}
+
+BandGrid::BandGrid(const Projection& environment)
+    : spectrum_(environment.spectrum()), values_(environment.bands_on_grid(kGridBands, kGridRows, kGridColumns)) {}
+
+OrderBounds BandGrid::order_bounds(const LobeSpectrum& lobe) const {
+    std::array<Vec3d, kMaxBands> largest_sum{};
+    for (std::size_t point = 0; point < values_.size(); point += kGridBands) {
+        Vec3d sum{};
+        for (std::size_t l = kGridBands; l-- > 1;) {
+            const Vec3f& band = values_[point + l];
+            sum = sum + Vec3d{band.x, band.y, band.z} * lobe.f[l];
+            if (l <= kMaxBands) largest_sum[l - 1] = larger(largest_sum[l - 1], absolute(sum));
+        }
     }
+    // Half a grid cell's diagonal; values are stored as float, hence the last factor.
+    const double distance = 0.5 * kPi / kGridRows * __builtin_sqrt(2.0);
+    const double factor = (1.0 + 1e-6) / sin_cos((kGridBands - 1) * distance).cos;
+    const auto by_norms = bounds_from(spectrum_, lobe);
+    OrderBounds out;
+    for (std::size_t i = 0; i < out.by_order.size(); ++i)
+        out.by_order[i] = smaller(by_norms[i + 1], largest_sum[i] * factor + by_norms[kGridBands]);
     return out;
 }
 

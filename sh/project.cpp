@@ -181,4 +181,30 @@ std::array<Vec3d, kSpectrumBands> Projection::bands_at(Vec3d direction) const {
     return values;
 }
 
+std::vector<Vec3f> Projection::bands_on_grid(int bands, int rows, int columns) const {
+    const auto count = static_cast<std::size_t>(bands), width = static_cast<std::size_t>(columns);
+    std::vector<Vec3f> out(count * static_cast<std::size_t>(rows) * width);
+    std::vector<SinCos> around(count * width);  // [m][column]
+    for (std::size_t m = 0; m < count; ++m)
+        for (std::size_t x = 0; x < width; ++x)
+            around[m * width + x] = sin_cos(2.0 * kPi * static_cast<double>(m) * (static_cast<double>(x) + 0.5) / columns);
+    std::array<detail::LegendreRow, kBands> p;
+    std::vector<Vec3d> sums(width);
+    for (int row = 0; row < rows; ++row) {
+        const SinCos theta = sin_cos(kPi * (row + 0.5) / rows);
+        detail::legendre(theta.cos, theta.sin, p);
+        for (std::size_t l = 0; l < count; ++l) {
+            for (std::size_t x = 0; x < width; ++x) sums[x] = c_[l * l + l] * p[0].p[l];
+            for (std::size_t m = 1; m <= l; ++m) {
+                const Vec3d c = c_[l * l + l + m] * p[m].p[l - m], s = c_[l * l + l - m] * p[m].p[l - m];
+                for (std::size_t x = 0; x < width; ++x) sums[x] = sums[x] + (c * around[m * width + x].cos + s * around[m * width + x].sin);
+            }
+            for (std::size_t x = 0; x < width; ++x)
+                out[(static_cast<std::size_t>(row) * width + x) * count + l] = {
+                    static_cast<float>(sums[x].x), static_cast<float>(sums[x].y), static_cast<float>(sums[x].z)};
+        }
+    }
+    return out;
+}
+
 }  // namespace halflit::sh

@@ -37,6 +37,8 @@ public:
     [[nodiscard]] Vec3d squares() const { return squares_; }
     /// What each band is worth in a direction.
     [[nodiscard]] std::array<Vec3d, kSpectrumBands> bands_at(Vec3d direction) const;
+    /// The same for the first `bands` bands in the middles of a grid of latitudes and longitudes: [row][column][band].
+    [[nodiscard]] std::vector<Vec3f> bands_on_grid(int bands, int rows, int columns) const;
 
 private:
     // The image's own frame: polar axis y. Rotated into the world's only for the bands that are asked for; norms do not care.

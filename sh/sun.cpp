@@ -24,9 +24,10 @@ struct State {
     double bound = 0;
 
     [[nodiscard]] EquirectView view() const { return {width, height, rgb}; }
-    [[nodiscard]] float* pixel(int x, int y) {
-        return &rgb[(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * 3];
+    [[nodiscard]] std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
     }
+    [[nodiscard]] float* pixel(int x, int y) { return &rgb[3 * index(x, y)]; }
 };
 
 struct Judge {
@@ -49,32 +50,29 @@ std::optional<Pixel> brightest(const State& state, const std::vector<std::uint8_
     std::optional<Pixel> best;
     for (int y = 0; y < state.height; ++y)
         for (int x = 0; x < state.width; ++x) {
-            if (seen[static_cast<std::size_t>(y) * static_cast<std::size_t>(state.width) + static_cast<std::size_t>(x)] != 0) continue;
+            if (seen[state.index(x, y)] != 0) continue;
             const double value = luminance(state.view().at(x, y));
             if (!best || value > best->luminance) best = Pixel{x, y, value};
         }
     return best;
 }
 
-/// The connected pixels around a peak that are brighter than `floor` and near enough. Marks them as seen, whatever becomes of them.
-std::vector<Pixel> region(const State& state, const Pixel& peak, double floor, double max_radius, std::vector<std::uint8_t>& seen) {
-    const Vec3d axis = center(state, peak);
-    const double max_chord2 = 4.0 * sin_cos(0.5 * max_radius).sin * sin_cos(0.5 * max_radius).sin;
-    const auto flag = [&](int x, int y) -> std::uint8_t& {
-        return seen[static_cast<std::size_t>(y) * static_cast<std::size_t>(state.width) + static_cast<std::size_t>(x)];
-    };
+/// The pixels connected with a peak that are brighter than `floor` and within a distance of `axis`. They are marked as seen.
+std::vector<Pixel> region(const State& state, const Pixel& peak, Vec3d axis, double floor, double max_radius,
+                          std::vector<std::uint8_t>& seen) {
+    const double half_chord = sin_cos(0.5 * max_radius).sin, max_chord2 = 4.0 * half_chord * half_chord;
     std::vector<Pixel> found{peak};
-    flag(peak.x, peak.y) = 1;
+    seen[state.index(peak.x, peak.y)] = 1;
     for (std::size_t next = 0; next < found.size(); ++next) {
         const Pixel p = found[next];
         const int neighbours[4][2] = {
             {p.x > 0 ? p.x - 1 : state.width - 1, p.y}, {p.x + 1 < state.width ? p.x + 1 : 0, p.y}, {p.x, p.y - 1}, {p.x, p.y + 1}};
         for (const auto& [x, y] : neighbours) {
-            if (y < 0 || y >= state.height || flag(x, y) != 0) continue;
+            if (y < 0 || y >= state.height || seen[state.index(x, y)] != 0) continue;
             const Pixel q{x, y, luminance(state.view().at(x, y))};
             const Vec3d apart = center(state, q) - axis;
             if (!(q.luminance > floor) || dot(apart, apart) > max_chord2) continue;
-            flag(x, y) = 1;
+            seen[state.index(x, y)] = 1;
             found.push_back(q);
         }
     }
@@ -89,7 +87,8 @@ void dim(const State& state, const Pixel& p, double level, float (&left)[3]) {
 
 struct Candidate {
     Sun sun;
-    Vec3d squares_removed;  ///< integral of L^2 before minus after
+    Vec3d squares_removed;                           ///< integral of L^2 before minus after
+    std::array<double, kSpectrumBands> sharpness{};  ///< mean of P_l(cos angle to the direction): 1 for a point, falling with l for a disc
 };
 
 /// The light above `level` as one direction.
@@ -116,13 +115,34 @@ Candidate gather(const State& state, const std::vector<Pixel>& pixels, double le
         if (!(p.luminance > level)) continue;
         const Vec3d apart = center(state, p) - out.sun.direction;
         const double chord = length(apart), angle = chord + chord * chord * chord / 16.0;  // at least 2 asin(chord/2), for chords below 1
-        spread += (p.luminance - level) * pixel_solid_angle(state.width, state.height, p.y) * (angle + pixel_radius(state, p.y));
+        const double share = (p.luminance - level) * pixel_solid_angle(state.width, state.height, p.y) / flux;
+        spread += share * (angle + pixel_radius(state, p.y));
+        const double x = 1.0 - 0.5 * chord * chord;
+        double before = 0.0, here = 1.0;
+        for (std::size_t l = 0; l < out.sharpness.size(); ++l) {
+            out.sharpness[l] += share * here;
+            const double next =
+                ((2.0 * static_cast<double>(l) + 1.0) * x * here - static_cast<double>(l) * before) / (static_cast<double>(l) + 1.0);
+            before = here;
+            here = next;
+        }
     }
-    out.sun.spread_rad = spread / flux;
+    out.sun.spread_rad = spread;
     return out;
 }
 
-/// The spectrum after a candidate has gone, as if all its light came from one direction: cheap, and good enough to choose a level.
+/// The pixels that belong to the source around a peak. A source's brightest pixel may stand at its edge, so its middle is looked for first.
+std::vector<Pixel> source(const State& state, const Pixel& peak, double floor, double max_radius, std::vector<std::uint8_t>& seen) {
+    Vec3d axis = center(state, peak);
+    for (int pass = 0; pass < 2; ++pass) {
+        const std::vector<Pixel> pixels = region(state, peak, axis, floor, max_radius, seen);
+        axis = gather(state, pixels, 0.5 * peak.luminance).sun.direction;
+        for (const Pixel& p : pixels) seen[state.index(p.x, p.y)] = 0;
+    }
+    return region(state, peak, axis, floor, max_radius, seen);
+}
+
+/// The spectrum after a candidate has gone, as if it were round: cheap, and good enough to choose a level.
 Spectrum without(const State& state, const Candidate& candidate) {
     Spectrum out = state.projection.spectrum();
     const auto at = state.projection.bands_at(candidate.sun.direction);
@@ -130,7 +150,9 @@ Spectrum without(const State& state, const Candidate& candidate) {
     Vec3d known{};
     const auto root = [](double x) { return x > 0 ? __builtin_sqrt(x) : 0.0; };
     for (std::size_t l = 0; l < out.norm.size(); ++l) {
-        const Vec3d square = out.norm[l] * out.norm[l] - (e * at[l]) * 2.0 + (e * e) * (static_cast<double>(2 * l + 1) / (4.0 * kPi));
+        const Vec3d part = e * candidate.sharpness[l];
+        const Vec3d square =
+            out.norm[l] * out.norm[l] - (part * at[l]) * 2.0 + (part * part) * (static_cast<double>(2 * l + 1) / (4.0 * kPi));
         out.norm[l] = {root(square.x), root(square.y), root(square.z)};
         known = known + out.norm[l] * out.norm[l];
     }
@@ -181,7 +203,7 @@ SunExtraction extract_suns(const EquirectView& image, const Projection& full, co
         const double mean = luminance(state.projection.mean());
         const std::optional<Pixel> peak = brightest(state, seen);
         if (!peak || !(peak->luminance > options.min_contrast * mean)) break;
-        const std::vector<Pixel> pixels = region(state, *peak, mean, options.max_radius_rad, seen);
+        const std::vector<Pixel> pixels = source(state, *peak, mean, options.max_radius_rad, seen);
         const double target = (1.0 - options.min_gain) * state.bound;
         double best_level = 0, best_bound = target;
         Sun best;

@@ -19,7 +19,7 @@ struct Sun {
 
 struct SunOptions {
     int max_suns = 4;
-    double max_radius_rad = 0.07;  ///< 4 degrees: light farther than this from a source's brightest pixel is not its own
+    double max_radius_rad = 0.07;  ///< 4 degrees: light farther than this from a source's middle is not its own
     double min_contrast = 16.0;    ///< times the mean luminance, for the brightest pixel
     double min_gain = 0.1;         ///< the part of the bound that has to go
 };

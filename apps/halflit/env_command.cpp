@@ -55,7 +55,7 @@ void add_projection(Json& json, const sh::Projection& projection, const sh::Lobe
     Json norms = Json::array(), coefficients = Json::array(), bounds = Json::array();
     for (std::size_t l = 0; l < static_cast<std::size_t>(bands); ++l) norms.push_back(triple(spectrum.norm[l]));
     for (std::size_t i = 0; i < static_cast<std::size_t>(sh::coefficient_count(bands)); ++i) coefficients.push_back(triple(radiance.c[i]));
-    for (const Vec3d& bound : sh::order_bounds(spectrum, lambert).by_order) bounds.push_back(sh::largest(bound));
+    for (const Vec3d& bound : sh::BandGrid(projection).order_bounds(lambert).by_order) bounds.push_back(sh::largest(bound));
     json["band_norms"] = std::move(norms);
     json["coefficients"] = std::move(coefficients);
     json["bound_lobe"] = "lambert";
@@ -105,8 +105,8 @@ std::string picture(const sh::RadianceSh& radiance) {
 
 std::string text_of(const Description& d, int bands) {
     const sh::Spectrum spectrum = d.whole.spectrum();
-    const sh::OrderBounds bounds = sh::order_bounds(spectrum, d.lambert);
-    const sh::OrderBounds rest = sh::order_bounds(d.extraction.residual.spectrum(), d.lambert);
+    const sh::OrderBounds bounds = sh::BandGrid(d.whole).order_bounds(d.lambert);
+    const sh::OrderBounds rest = sh::BandGrid(d.extraction.residual).order_bounds(d.lambert);
     std::string text = fmt::format("{} x {}, mean radiance {:.4g} {:.4g} {:.4g}, max {:.4g}\n\n", d.environment.width, d.environment.height,
                                    d.mean.x, d.mean.y, d.mean.z, d.max);
     text += "band   |L_l| r          g          b   order  error of Lambert is below";
