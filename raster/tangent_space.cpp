@@ -223,7 +223,7 @@ private:
     }
 
     [[nodiscard]] Vec4f tangent_of(std::uint32_t group) const {
-        if (group == kNone) return {1, 0, 0, 1};
+        if (group == kNone) return {1, 0, 0, 1};  // what MikkTSpace gives where nothing decides
         const Group& g = groups_[group];
         // v points down, so where texture space keeps the orientation, "up in the picture" is against it.
         return {g.tangent.x, g.tangent.y, g.tangent.z, g.positive ? -1.0f : 1.0f};
