@@ -34,7 +34,8 @@ HALFLIT_INLINE F wrap_unit(F u, shading::Wrap mode) {
     const F held = clamp(u, F(-kCoordinateLimit), F(kCoordinateLimit));
     switch (mode) {
         case shading::Wrap::repeat:
-            return held - vfloor(held);
+            // Just below a whole number the difference rounds to 1; held below it, the last texel is the one that is meant.
+            return vmin(held - vfloor(held), F(0.99999994f));
         case shading::Wrap::mirror: {
             const F period = held - F(2.0f) * vfloor(held * F(0.5f));
             return vmin(period, F(2.0f) - period);
