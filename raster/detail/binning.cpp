@@ -82,6 +82,7 @@ private:
         PolygonVertex polygon[kMaxPolygon];
         const int n = clip_triangle(clip, codes, frame_.viewport, polygon);
         if (n == 0) return;
+        const std::size_t records_before = chunk_.records.size(), corners_before = chunk_.clip_vertices.size();
         std::uint32_t corner[kMaxPolygon];
         ScreenVertex screen[kMaxPolygon];
         for (int k = 0; k < n; ++k) {
@@ -100,6 +101,11 @@ private:
         for (int k = 2; k < n; ++k) {
             const std::uint32_t piece[3] = {corner[0], corner[k - 1], corner[k]};
             add(piece, screen[0], screen[k - 1], screen[k], draw, draw_index, v, t);
+        }
+        // Corners that no drawn piece uses must not stay: they would be made from parents whose records nobody made.
+        if (chunk_.records.size() == records_before) {
+            chunk_.clip_vertices.resize(corners_before);
+            chunk_.clip_screen.resize(corners_before);
         }
     }
 
