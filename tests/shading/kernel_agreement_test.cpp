@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cstring>
 
 using namespace halflit;
@@ -66,6 +67,40 @@ TEST_CASE("kernels: shade and alpha give scalar's bits on every set, for all sta
     // All that a plan names from materials and lights alone.
     CHECK(stages_seen == 2u * kStageGradients - 1u);
     CHECK(lanes_compared > 60000);
+}
+
+TEST_CASE("kernels: light alone gives scalar's bits on every set, and shade takes it up", "[shading][kernels]") {
+    FloatMaker make(55);
+    int compared = 0;
+    for (int round = 0; round < 200; ++round) {
+        const Case c = make_case(make, true);
+        const MaterialPlan& material = c.plan.materials[0];
+        if ((material.stages & (kStageLights | kStageAmbient)) == 0) continue;
+        const bool wild = round % 2 == 0;
+        FragmentBlock input{};
+        fill_block(make, input, wild);
+        FragmentBlock want = input, direct = input;
+        shade_kernels(Isa::scalar).light(c.plan, material, all_lights(c.plan), want, kBlockSize);
+        for (const Isa isa : other_isas()) {
+            FragmentBlock got = input;
+            shade_kernels(isa).light(c.plan, material, all_lights(c.plan), got, kBlockSize);
+            int different = 0;
+            for (int row = kPosX; row <= kNormalZ; ++row)
+                for (int lane = 0; lane < kBlockSize; ++lane) different += !same_bits(want.lane[row][lane], got.lane[row][lane]);
+            INFO(isa_name(isa) << ", round " << round << ", stages " << material.stages);
+            CHECK(different == 0);
+        }
+        if (wild || (material.stages & kStageSpecular) != 0) continue;
+        // Without specular the model is affine in the base colour, so the two ways differ by rounding only.
+        MaterialPlan prelit = material;
+        prelit.stages |= kStagePrelit;
+        shade_kernels(Isa::scalar).shade(c.plan, material, all_lights(c.plan), direct, kBlockSize);
+        shade_kernels(Isa::scalar).shade(c.plan, prelit, all_lights(c.plan), want, kBlockSize);
+        for (int lane = 0; lane < kBlockSize; ++lane, ++compared)
+            if (std::fabs(want.red[lane] - direct.red[lane]) > 1e-6f * std::max(1.0f, std::fabs(direct.red[lane])))
+                FAIL("round " << round << ", lane " << lane << ": " << want.red[lane] << " for " << direct.red[lane]);
+    }
+    CHECK(compared > 500);
 }
 
 TEST_CASE("kernels: a lane's value does not depend on its place or its neighbours", "[shading][kernels]") {
