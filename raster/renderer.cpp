@@ -6,6 +6,7 @@
 #include "raster/detail/geometry.hpp"
 #include "raster/detail/shading_rate.hpp"
 #include "raster/detail/tile_renderer.hpp"
+#include "raster/shadow_map.hpp"
 
 #include <atomic>
 #include <chrono>
@@ -34,6 +35,7 @@ struct Renderer::Impl {
     Frame frame;
     Executor executor;
     Pool<TileScratch> scratch;
+    ShadowMaps shadow_maps;
 
     Result<RenderReport> render(const Scene& scene, const Camera& camera, const Settings& settings, const FramebufferView& target) {
         const FpEnvironment environment;
@@ -42,6 +44,9 @@ struct Renderer::Impl {
         if (auto ok = prepare_frame(frame, scene, camera, settings, target); !ok) return tl::unexpected<Error>(ok.error());
         executor.configure(settings.threads, settings.parallel_for);
         report.ms.plan = watch.lap();
+        if (auto ok = shadow_maps.draw(scene, settings, executor, frame.plan); !ok) return tl::unexpected<Error>(ok.error());
+        set_shadow_fades(frame);
+        report.ms.shadows = watch.lap();
         transform_vertices(frame, executor);
         report.ms.transform = watch.lap();
         bin_triangles(frame, executor);

@@ -25,22 +25,25 @@ struct Region {
 using ParallelFor = std::function<void(int count, const std::function<void(int)>& body)>;
 
 struct Settings {
-    Region region;
+    Region region{};
     int samples = 1;                       ///< a pixel: 1, 4 or 8
     int tile_size = 64;                    ///< 16, 32 or 64; changes speed, never a pixel
     int threads = 0;                       ///< 0: one a core; changes speed, never a pixel
     Result<shading::Isa> isa = shading::default_isa();  ///< changes speed, never a pixel
     Vec4f background_linear{0, 0, 0, 0};   ///< linear colour, not premultiplied; w = 0 is transparent
     float exposure = 1.0f;                 ///< factor on all light, > 0
-    shading::PlanOptions shading;
-    ParallelFor parallel_for;              ///< the hook for a host's own threads; empty: oneTBB
+    shading::PlanOptions shading{};
+    shading::ShadowMode shadows = shading::ShadowMode::soft_split;
+    int shadow_size = 2048;    ///< texels on a side of a shadow map, a power of two from 64 to 4096; a cube's faces have half
+    float shadow_fade = 0.0f;  ///< soft_split: blocker distance where wrapped light is gone, world units; 0: from object size and wrap
+    ParallelFor parallel_for{};            ///< the hook for a host's own threads; empty: oneTBB
     const std::function<bool()>* cancelled = nullptr;  ///< asked at tile borders; true stops the frame with an error
 };
 
 /// What a frame did. Times in milliseconds of wall clock.
 struct RenderReport {
     struct StageTimes {
-        double plan = 0, transform = 0, bin = 0, tiles = 0;
+        double plan = 0, shadows = 0, transform = 0, bin = 0, tiles = 0;
     } ms;
     double total_ms = 0;
     int threads = 1;

@@ -5,6 +5,7 @@
 #include "shading/fragment_block.hpp"
 #include "shading/light.hpp"
 #include "shading/material.hpp"
+#include "shading/shadow.hpp"
 #include "shading/texture.hpp"
 
 #include <cstdint>
@@ -68,6 +69,7 @@ struct MaterialPlan {
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
     LobePlan lobe;
+    float shadow_fade_scale = 0;  ///< 1 / d0: wrapped light is gone where its blocker is d0 away; 0: no wrapped light
     bool occlusion_is_metallic_roughness = false;  ///< both read the same texels the same way: one fetch serves both
     TexturePlan base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;
 };
@@ -81,6 +83,7 @@ struct LightPlan {
     float inv_range_squared;     ///< 1 / range^2; 0: no limit
     float min_distance_squared;  ///< source radius squared
     float cone_cutoff;           ///< spot: 1 - cos(outer angle)
+    std::int32_t shadow_map = -1;  ///< index into FramePlan::shadow_maps; -1: casts no shadow
     float cone_scale;            ///< spot: 1 / (cos(inner) - cos(outer)); see kernels/light_kernel.hpp
 };
 
@@ -88,6 +91,8 @@ struct LightPlan {
 struct FramePlan {
     std::vector<MaterialPlan> materials;  ///< index = index of Scene material; one more at the end for "no material"
     std::vector<LightPlan> lights;        ///< in list order: sums keep it; black lights and those not finite are left out
+    std::vector<ShadowMapPlan> shadow_maps;
+    ShadowMode shadow_mode = ShadowMode::off;
     Ambient ambient;
     Vec3f eye_ws{0, 0, 0};              ///< perspective: camera position
     Vec3f view_direction_ws{0, 0, -1};  ///< orthographic: the way the camera looks, unit

@@ -90,6 +90,9 @@ Result<void> choose_settings(raster::Settings& settings, const RenderOptions& op
     settings.shading.lobe = lobe->value_or(shading::Lobe{});
     settings.shading.specular = options.specular;
     settings.shading.rate = options.rate;
+    settings.shadows = options.shadows;
+    settings.shadow_size = options.shadow_size;
+    settings.shadow_fade = options.shadow_fade;
     return {};
 }
 

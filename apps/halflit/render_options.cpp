@@ -109,6 +109,20 @@ void add_light_flags(CLI::App& app, RenderOptions& o) {
     })->group(kGroup);
 }
 
+void add_shadow_flags(CLI::App& app, RenderOptions& o) {
+    constexpr const char* kGroup = "Shadows";
+    using shading::ShadowMode;
+    add_value(app, "--shadows", "MODE", "off, hard, or soft-split: wrapped light fades instead of being cut off (default)",
+              named<ShadowMode>(o.shadows, {{"off", ShadowMode::off}, {"hard", ShadowMode::hard}, {"soft-split", ShadowMode::soft_split}}))
+        ->group(kGroup);
+    add_value(app, "--shadow-size", "N", "Side of a shadow map in texels, a power of two from 64 to 4096 (default 2048)",
+              choice(o.shadow_size, {64, 128, 256, 512, 1024, 2048, 4096}))
+        ->group(kGroup);
+    add_value(app, "--shadow-fade", "D", "soft-split: blocker distance where wrapped light is gone (default: from object size and wrap)",
+              [&o](const std::string& text) { return assign(o.shadow_fade, parse_float(text, 1e-6f, 1e9f)); })
+        ->group(kGroup);
+}
+
 void add_surface_flags(CLI::App& app, RenderOptions& o) {
     constexpr const char* kGroup = "Surface";
     add_value(app, "--lobe", "NAME", "Diffuse lobe: lambert, green, half-lambert, valve, sloan or mcauley (default lambert)",
@@ -214,6 +228,7 @@ void add_render_options(CLI::App& app, RenderOptions& o, bool scene_required) {
     add_picture_flags(app, o);
     add_camera_flags(app, o);
     add_light_flags(app, o);
+    add_shadow_flags(app, o);
     add_surface_flags(app, o);
     add_machine_flags(app, o);
     add_file_flags(app, o);

@@ -35,6 +35,9 @@ struct RenderOptions {
     std::optional<Vec3f> ambient_linear;
     std::vector<shading::Light> lights;
     bool scene_lights = true;
+    shading::ShadowMode shadows = shading::ShadowMode::soft_split;
+    int shadow_size = 2048;
+    float shadow_fade = 0.0f;  ///< 0: from object size and wrap
     std::optional<float> exposure;  ///< a factor; none: chosen from the lights
 
     std::optional<shading::Isa> isa;

@@ -53,7 +53,7 @@ void add_frame(Json& report, const Frame& frame, const raster::RenderReport& ren
 
 Json stages_ms(const raster::RenderReport& rendered) {
     const auto& ms = rendered.ms;
-    return {{"plan", ms.plan}, {"transform", ms.transform}, {"bin", ms.bin}, {"tiles", ms.tiles}};
+    return {{"plan", ms.plan}, {"shadows", ms.shadows}, {"transform", ms.transform}, {"bin", ms.bin}, {"tiles", ms.tiles}};
 }
 
 std::string to_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shading/kernels/lobe_kernel.hpp"
+#include "shading/kernels/shadow_kernel.hpp"
 #include "shading/kernels/vector.hpp"
 #include "shading/plan.hpp"
 
@@ -49,9 +50,35 @@ HALFLIT_INLINE F blinn_value(V3 normal, V3 to_eye, V3 to_light, F n_dot_l, F hal
     return sel(vmin(n_dot_l, n_dot_h) > F(0.0f), n_dot_l * power, F(0.0f));
 }
 
+/// What shadows need of a fragment.
+struct ShadowReceiver {
+    const shading::FramePlan& frame;
+    V3 surface_normal;  ///< before the normal map
+    float fade_scale;   ///< 1 / d0 of the material; 0: the excess is cut off like the core
+};
+
+/// The lobe and the highlight under a shadow. hard: all of it is cut; soft-split: the core, min(f, max(0, x)), is cut, and the
+/// excess over it fades with the blocker's distance. What is hidden is taken away from f, so that unhidden light keeps its bits,
+/// and light that is hidden altogether comes to exactly 0.
 template <bool kSpecular>
-HALFLIT_INLINE LightSums sum_lights(const shading::LightPlan* lights, int count, const shading::LobePlan& lobe, V3 position, V3 normal,
-                                    V3 to_eye, F half_exponent) {
+HALFLIT_INLINE void cast_shadow(const ShadowReceiver& receiver, const shading::LightPlan& light, const LocalLight& at, V3 position,
+                                F n_dot_l, F& diffuse, F& specular) {
+    M lit = (diffuse * at.strength) > F(0.0f);
+    if constexpr (kSpecular) lit = lit | ((specular * at.strength) > F(0.0f));
+    if (!any(lit)) return;  // nothing to hide
+    const bool split = receiver.frame.shadow_mode == shading::ShadowMode::soft_split;
+    const bool soft = split && receiver.fade_scale > 0.0f;
+    const Hidden hidden = hidden_share(receiver.frame.shadow_maps[light.shadow_map], position, receiver.surface_normal, at.direction,
+                                       F(receiver.fade_scale), soft);
+    const F core = split ? vmin(diffuse, vmax(n_dot_l, F(0.0f))) : diffuse;
+    const F excess = diffuse - core;
+    diffuse = (diffuse - hidden.hard * core) - hidden.soft * excess;
+    if constexpr (kSpecular) specular = specular * (F(1.0f) - hidden.hard);
+}
+
+template <bool kSpecular>
+HALFLIT_INLINE LightSums sum_lights(const shading::LightPlan* lights, int count, const shading::LobePlan& lobe,
+                                    const ShadowReceiver& receiver, V3 position, V3 normal, V3 to_eye, F half_exponent) {
     LightSums sums;
     for (int i = 0; i < count; ++i) {
         const shading::LightPlan& light = lights[i];
@@ -59,15 +86,12 @@ HALFLIT_INLINE LightSums sum_lights(const shading::LightPlan* lights, int count,
         LocalLight at{broadcast(light.to_light), F(1.0f)};
         if (local) at = local_light(light, position);
         const F n_dot_l = dot(normal, at.direction);
-        F diffuse = lobe_value(lobe, n_dot_l);
-        if (local) diffuse = diffuse * at.strength;
+        F diffuse = lobe_value(lobe, n_dot_l), specular(0.0f);
+        if constexpr (kSpecular) specular = blinn_value(normal, to_eye, at.direction, n_dot_l, half_exponent);
+        if (light.shadow_map >= 0) cast_shadow<kSpecular>(receiver, light, at, position, n_dot_l, diffuse, specular);
         const V3 color = broadcast(light.color);
-        sums.diffuse = sums.diffuse + color * diffuse;
-        if constexpr (kSpecular) {
-            F specular = blinn_value(normal, to_eye, at.direction, n_dot_l, half_exponent);
-            if (local) specular = specular * at.strength;
-            sums.specular = sums.specular + color * specular;
-        }
+        sums.diffuse = sums.diffuse + color * (local ? diffuse * at.strength : diffuse);
+        if constexpr (kSpecular) sums.specular = sums.specular + color * (local ? specular * at.strength : specular);
     }
     return sums;
 }

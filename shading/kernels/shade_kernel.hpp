@@ -38,7 +38,8 @@ HALFLIT_INLINE IncidentLight incident_light(const shading::FramePlan& frame, con
                                             shading::LightList lights, const shading::FragmentBlock& block, int lane) {
     const V3 zero{F(0.0f), F(0.0f), F(0.0f)};
     const V3 position = row3(block, shading::kPosX, lane);
-    const V3 normal = shading_normal(material, block, lane);
+    const Normals facing = normals(material, block, lane);
+    const V3 normal = facing.shading;
     const Reflectance surface = reflectance(material, block, lane);
     IncidentLight light{zero, zero, zero, zero, surface.metallic, F(1.0f), F(0.0f)};
     V3 to_eye = zero;
@@ -50,7 +51,9 @@ HALFLIT_INLINE IncidentLight incident_light(const shading::FramePlan& frame, con
         half_exponent = vdiv(F(1.0f), alpha * alpha) - F(1.0f);  // s = 2 / alpha^2 - 2
     }
     if (has(material, shading::kStageLights)) {
-        const LightSums sums = sum_lights<kSpecular>(lights.lights, lights.count, material.lobe, position, normal, to_eye, half_exponent);
+        const ShadowReceiver receiver{frame, facing.surface, material.shadow_fade_scale};
+        const LightSums sums =
+            sum_lights<kSpecular>(lights.lights, lights.count, material.lobe, receiver, position, normal, to_eye, half_exponent);
         light.diffuse = sums.diffuse * F(material.lobe.scale);
         if constexpr (kSpecular) light.specular = sums.specular * mad(F(0.25f), half_exponent, F(1.0f));  // (s + 8) / 8
     }

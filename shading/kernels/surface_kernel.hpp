@@ -23,9 +23,13 @@ HALFLIT_INLINE Sample base_color(const shading::MaterialPlan& material, const sh
     return color;
 }
 
-/// The unit normal: interpolated, bent by the normal map, turned to the side that is seen.
-HALFLIT_INLINE V3 shading_normal(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane) {
-    V3 normal = normalize_any(row3(block, shading::kNormalX, lane));
+/// Unit normals, turned to the side that is seen: that of the surface, and the same bent by the normal map.
+struct Normals {
+    V3 surface, shading;
+};
+HALFLIT_INLINE Normals normals(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane) {
+    V3 surface = normalize_any(row3(block, shading::kNormalX, lane));
+    V3 normal = surface;
     if (has(material, shading::kStageNormalMap)) {
         const Sample texture = sample_texture(material.normal_texture, block, lane);
         const V3 tangent = normalize_any(row3(block, shading::kTangentX, lane));
@@ -35,8 +39,12 @@ HALFLIT_INLINE V3 shading_normal(const shading::MaterialPlan& material, const sh
         const F z = mad(F(2.0f), texture.b, F(-1.0f));
         normal = normalize((tangent * x + bitangent * y) + normal * z);
     }
-    if (material.double_sided) normal = normal * row(block, shading::kFacing, lane);
-    return normal;
+    if (material.double_sided) {
+        const F facing = row(block, shading::kFacing, lane);
+        surface = surface * facing;
+        normal = normal * facing;
+    }
+    return {surface, normal};
 }
 
 /// Metallic-roughness parameters and the occlusion of ambient light.

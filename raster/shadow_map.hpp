@@ -1,0 +1,33 @@
+// Shadow maps: the scene's depth as seen from its lights, drawn by the same rasterizer as the picture.
+#pragma once
+
+#include "raster/detail/executor.hpp"
+#include "raster/detail/frame.hpp"
+#include "raster/detail/tile_renderer.hpp"
+#include "shading/plan.hpp"
+#include "shading/shadow.hpp"
+
+#include <vector>
+
+namespace halflit::raster {
+
+/// How far wrapped light reaches into a shadow: d0 = 2 w R for a lobe of wrap w on an object of radius R, so that half of the wrapped
+/// light is left where the surface has turned half of the way. Materials without wrap get none.
+void set_shadow_fades(Frame& frame);
+
+class ShadowMaps {
+public:
+    /// Draws a map for every light of `plan` that casts, and enters the maps into the plan. Directional maps are fitted to the
+    /// scene, spots to their cone, point lights get six faces. The maps live until the next call.
+    Result<void> draw(const Scene& scene, const Settings& settings, Executor& executor, shading::FramePlan& plan);
+
+private:
+    Result<void> draw_face(const Scene& scene, const Camera& camera, int size, bool perspective, const Settings& settings,
+                           Executor& executor, float* distance);
+
+    Frame frame_;
+    Pool<TileScratch> scratch_;
+    RawBuffer<float> texels_;
+};
+
+}  // namespace halflit::raster

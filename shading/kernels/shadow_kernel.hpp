@@ -1,0 +1,110 @@
+// Shadow-map look-ups: how much of a light is hidden at each fragment, as sums over a fixed neighbourhood of 4 x 4 texels.
+//
+// Each of the 16 texels is compared on its own (percentage closer); rows and columns are weighted 1-f, 1, 1, f with f the position
+// between texel centres, a box of 3 x 3 texels that slides without steps. What is summed is the hidden share, so that a fragment
+// that no texel hides gets exactly 0, and one that all texels hide exactly 1.
+#pragma once
+
+#include "shading/kernels/vector.hpp"
+#include "shading/plan.hpp"
+
+namespace halflit {
+inline namespace HALFLIT_ISA_NAMESPACE {
+
+/// Hidden shares in [0, 1]: of light that a hard shadow cuts off, and of light that fades with the distance of the blocker.
+struct Hidden {
+    F hard, soft;
+};
+
+/// The receiver is moved off its surface by this many texels times the sine of the light's angle: the neighbourhood's far corner is
+/// 2 sqrt 2 texels away, and a plane that falls away from the light by that much must not hide itself.
+inline constexpr float kNormalOffsetTexels = 3.0f;
+/// And towards the light by this many texels and this share of the distance, for rounding.
+inline constexpr float kDepthBiasTexels = 0.5f, kDepthBiasRelative = 4e-6f;
+
+/// Where a fragment falls in a map: texel coordinates, distance along the axis, and the first texel of its map.
+struct MapPoint {
+    F u, v, distance;
+    I base;
+    M inside;
+};
+
+HALFLIT_INLINE F row_product(const float (&row)[4], V3 p) { return ((F(row[0]) * p.x + F(row[1]) * p.y) + F(row[2]) * p.z) + F(row[3]); }
+
+/// Faces of a cube: +x, -x, +y, ..; u follows the next axis, v the one after it times the face's sign (raster/shadow_map.cpp).
+HALFLIT_INLINE MapPoint cube_point(const shading::ShadowMapPlan& map, V3 offset) {
+    const F ax = vabs(offset.x), ay = vabs(offset.y), az = vabs(offset.z);
+    const M is_x = (ax >= ay) & (ax >= az);
+    const M is_y = ay >= az;
+    const F major = sel(is_x, offset.x, sel(is_y, offset.y, offset.z));
+    const F along_u = sel(is_x, offset.y, sel(is_y, offset.z, offset.x));
+    const F along_v = sel(is_x, offset.z, sel(is_y, offset.x, offset.y));
+    const M negative = major < F(0.0f);
+    const F distance = vabs(major);
+    const F inv = vdiv(F(1.0f), vmax(distance, F(1e-30f)));
+    const F half(0.5f * static_cast<float>(map.size - 2 * shading::kShadowBorder)), middle(0.5f * static_cast<float>(map.size));
+    const I axis = sel(is_x, I(0), sel(is_y, I(2), I(4)));
+    const I face = axis + sel(negative, I(1), I(0));
+    // Six faces of at most 2^22 texels: exact in float, and a multiplication of integers is slow on some sets.
+    const I base = round_even(to_float(face) * F(static_cast<float>(map.size * map.size)));
+    return {mad(along_u * inv, half, middle), mad(sel(negative, F(0.0f) - along_v, along_v) * inv, half, middle), distance, base,
+            distance > F(0.0f)};
+}
+
+HALFLIT_INLINE MapPoint map_point(const shading::ShadowMapPlan& map, V3 p) {
+    if (map.kind == shading::ShadowMapPlan::Kind::cube) return cube_point(map, p - broadcast(map.origin));
+    MapPoint at{row_product(map.rows[0], p), row_product(map.rows[1], p), row_product(map.rows[2], p), I(0), F(0.0f) <= F(0.0f)};
+    if (map.kind == shading::ShadowMapPlan::Kind::perspective) {
+        at.inside = at.distance > F(0.0f);
+        const F inv = vdiv(F(1.0f), sel(at.inside, at.distance, F(1.0f)));
+        at.u = at.u * inv;
+        at.v = at.v * inv;
+    }
+    const F size(static_cast<float>(map.size));
+    at.inside = at.inside & (at.u > F(0.0f)) & (at.v > F(0.0f)) & (at.u < size) & (at.v < size);
+    return at;
+}
+
+/// 1 - T(u) with T(u) = (1-u)^2 (1 + 2u) on [0, 1]: exactly 0 for u <= 0, exactly 1 for u >= 1.
+HALFLIT_INLINE F faded(F u) {
+    const F t = clamp(u, F(0.0f), F(1.0f));
+    return (t * t) * (F(3.0f) - (t + t));
+}
+
+/// `normal`: of the surface, unit; `fade_scale`: 1 / d0, 0 where nothing fades.
+HALFLIT_INLINE Hidden hidden_share(const shading::ShadowMapPlan& map, V3 position, V3 normal, V3 to_light, F fade_scale, bool soft) {
+    const F cosine = dot(normal, to_light);
+    const F sine = vsqrt(vmax(F(1.0f) - cosine * cosine, F(0.0f)));
+    F texel(map.texel_size);
+    if (map.kind != shading::ShadowMapPlan::Kind::orthographic) texel = texel * map_point(map, position).distance;
+    const MapPoint at = map_point(map, position + normal * ((texel * F(kNormalOffsetTexels)) * sine));
+    const F receiver = at.distance - mad(texel, F(kDepthBiasTexels), at.distance * F(kDepthBiasRelative));
+
+    const F limit(static_cast<float>(map.size) - 2.0f);
+    const F u = clamp(at.u, F(2.0f), limit) - F(0.5f), v = clamp(at.v, F(2.0f), limit) - F(0.5f);
+    const F u0 = vfloor(u), v0 = vfloor(v);
+    const F fu = u - u0, fv = v - v0;
+    // Rows are at most 2^12 texels: the index of a row's first texel is exact in float.
+    const I column = round_to_int(u0) - I(1);
+    F hard_row[4], soft_row[4];
+    for (int j = 0; j < 4; ++j) {
+        const I row = round_even((v0 + F(static_cast<float>(j - 1))) * F(static_cast<float>(map.size))) + column + at.base;
+        F hard[4], fade[4];
+        for (int i = 0; i < 4; ++i) {
+            const F behind = receiver - gather(map.distance + i, row);
+            hard[i] = sel(behind > F(0.0f), F(1.0f), F(0.0f));
+            if (soft) fade[i] = faded(behind * fade_scale);
+        }
+        hard_row[j] = (hard[1] + hard[2]) + mad(fu, hard[3] - hard[0], hard[0]);
+        if (soft) soft_row[j] = (fade[1] + fade[2]) + mad(fu, fade[3] - fade[0], fade[0]);
+    }
+    const F ninth(1.0f / 9.0f), none(0.0f);
+    Hidden hidden;
+    hidden.hard = sel(at.inside, ((hard_row[1] + hard_row[2]) + mad(fv, hard_row[3] - hard_row[0], hard_row[0])) * ninth, none);
+    hidden.soft = hidden.hard;
+    if (soft) hidden.soft = sel(at.inside, ((soft_row[1] + soft_row[2]) + mad(fv, soft_row[3] - soft_row[0], soft_row[0])) * ninth, none);
+    return hidden;
+}
+
+}  // namespace HALFLIT_ISA_NAMESPACE
+}  // namespace halflit
