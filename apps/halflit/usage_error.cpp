@@ -60,7 +60,8 @@ std::string usage_message(const CLI::App& root, const CLI::ParseError& error) {
         const std::string meant = nearest(rest[0].substr(0, rest[0].find('=')), names_of(app));
         message = kind + rest[0] + (meant.empty() ? "" : " (did you mean " + meant + "?)");
     } else if (no_command) {
-        message = "no command: expected render, bench, info, diff, lobe or env";
+        message = "no command: expected one of";
+        for (const CLI::App* command : root.get_subcommands([](const CLI::App*) { return true; })) message += " " + command->get_name();
     }
     std::replace(message.begin(), message.end(), '\n', ' ');
     return message + "; see " + help;
