@@ -106,7 +106,9 @@ Command add_lobe_command(CLI::App& root) {
               [options](const std::string& text) { return assign(options->model.wrap, parse_wrap(text)); });
     add_value(*app, "--power", "N", "Exponent, 0 to 10000 (sloan, mcauley: 1 + W)",
               [options](const std::string& text) { return assign(options->model.power, parse_power(text)); });
-    app->add_flag("--normalize,!--no-normalize", options->model.normalize, "Scale so that the mean over all light directions is Lambert's");
+    app->add_flag_function(
+        "--normalize,!--no-normalize", [options](std::int64_t count) { options->model.normalize = count > 0; },
+        "Scale so that the mean over all light directions is Lambert's");
     app->add_flag("--json", options->json, "As one JSON object");
     return {app, [options] { return run_lobe(*options); }};
 }
