@@ -108,7 +108,10 @@ Result<void> ShadowMaps::draw_face(const Scene& scene, const Camera& camera, int
     if (auto ok = prepare_frame(frame_, scene, camera, depth_only, {size, size, nullptr, nullptr}); !ok) return ok;
     transform_vertices(frame_, executor);
     bin_triangles(frame_, executor);
-    if (frame_.has_mask) make_vertex_records(frame_, executor);
+    if (frame_.has_mask) {  // the alpha test reads attributes
+        make_vertex_records(frame_, executor);
+        make_clip_records(frame_, executor);
+    }
     executor.run(frame_.tiles_x * frame_.tiles_y, [&](int tile) {
         Pool<TileScratch>::Loan loan(scratch_);
         TileRenderer(frame_, tile, *loan).draw_visibility();
