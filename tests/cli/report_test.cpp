@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdio>
 
 using namespace halflit::test;
@@ -84,7 +85,10 @@ TEST_CASE("bench: the least time is not above the median, and the pixels are tho
     CHECK(report["frames"] == 4);
     CHECK(report["min_ms"].get<double>() > 0.0);
     CHECK(report["min_ms"].get<double>() <= report["median_ms"].get<double>());
-    CHECK(report["stages"].size() == 4);
+    double stages_ms = 0;
+    for (const auto& ms : report["stages"]) stages_ms += ms.get<double>();
+    CHECK(stages_ms > 0.0);
+    CHECK(stages_ms <= report["min_ms"].get<double>());  // they are those of the fastest frame
     CHECK(report["load_ms"].get<double>() >= 0.0);
     CHECK(report["encode_ms"].get<double>() > 0.0);
     CHECK(report["pixel_hash"] == hash_text(read_picture(run({"render", "sphere:500", "--size", "60x40", "-o", "-"}).out)));
@@ -101,7 +105,10 @@ TEST_CASE("info: it counts the built-in sphere and plans its one material", "[cl
     CHECK(material["lobe"]["computed_as"] == "t*sqrt(t)");  // sloan 0.5: n = 1.5
     CHECK(material["requires"].dump().find("lights") != std::string::npos);
     CHECK(material["does_without"].dump().find("normal map") != std::string::npos);
-    CHECK(material["requires"].size() + material["does_without"].size() == 11);
+    for (const auto& stage : material["requires"]) {
+        const auto& others = material["does_without"];
+        CHECK(std::find(others.begin(), others.end(), stage) == others.end());
+    }
     const auto flat = json_of(run({"info", "sphere:1000", "--json", "--specular", "none"}).out);
     CHECK(flat["materials"][0]["does_without"].dump().find("specular") != std::string::npos);
 }
