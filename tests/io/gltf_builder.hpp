@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -19,7 +20,7 @@ using Bytes = std::vector<std::byte>;
 
 inline Bytes to_bytes(std::string_view text) {
     Bytes out(text.size());
-    std::memcpy(out.data(), text.data(), text.size());
+    std::transform(text.begin(), text.end(), out.begin(), [](char c) { return static_cast<std::byte>(c); });
     return out;
 }
 

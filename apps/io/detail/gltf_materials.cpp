@@ -25,7 +25,8 @@ const tinygltf::Value* member(const tinygltf::ExtensionMap& extensions, const ch
 double number_at(const tinygltf::Value* array, std::size_t index, double otherwise) {
     if (array == nullptr || !array->IsArray() || array->ArrayLen() <= index) return otherwise;
     const tinygltf::Value& value = array->Get(static_cast<int>(index));
-    return value.IsNumber() ? value.GetNumberAsDouble() : otherwise;
+    constexpr double kMost = 1e6;  // beyond it, float texture coordinates have no fraction left
+    return value.IsNumber() ? std::clamp(value.GetNumberAsDouble(), -kMost, kMost) : otherwise;
 }
 
 shading::Wrap wrap_of(Document& document, int code) {

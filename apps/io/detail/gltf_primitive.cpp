@@ -178,7 +178,7 @@ std::vector<std::uint32_t> PrimitiveReader::gather_vertices(std::vector<std::uin
 void PrimitiveReader::morph(const tinygltf::Primitive& primitive, const std::string& where, std::size_t vertex_count,
                             std::span<const double> weights, ReadMesh& out) const {
     for (std::size_t t = 0; t < std::min(primitive.targets.size(), weights.size()); ++t) {
-        const auto weight = static_cast<float>(weights[t]);
+        const auto weight = static_cast<float>(std::clamp(weights[t], -1e30, 1e30));
         if (weight == 0.0f) continue;
         const std::string target = fmt::format("{}.targets[{}]", where, t);
         const auto add = [&](const AttributeRule& rule, auto& values) {
