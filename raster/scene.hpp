@@ -3,10 +3,12 @@
 
 #include "raster/camera.hpp"
 #include "raster/mesh.hpp"
+#include "shading/environment.hpp"
 #include "shading/light.hpp"
 #include "shading/material.hpp"
 #include "shading/texture.hpp"
 
+#include <memory>
 #include <vector>
 
 namespace halflit::raster {
@@ -18,6 +20,7 @@ struct Scene {
     std::vector<shading::Texture> textures;        ///< shared by materials
     std::vector<shading::Light> lights;            ///< summed in this order; empty: see default_lights
     shading::Ambient ambient;
+    std::shared_ptr<const shading::Environment> environment;  ///< light from all around, in place of `ambient`; its suns stand in `lights`
     std::vector<Camera> cameras;                   ///< empty: see frame_scene
 };
 

@@ -74,28 +74,48 @@ struct Constant<double> {
 
 }  // namespace detail
 
+namespace detail {
+
+/// A loop whose index is a constant of the compiler: table entries become immediate values, in every build.
+template <int I>
+struct Index {
+    static constexpr int value = I;
+};
+template <int Begin, int End, class Fn>
+HALFLIT_INLINE constexpr void static_for(const Fn& fn) {
+    if constexpr (Begin < End) {
+        fn(Index<Begin>{});
+        static_for<Begin + 1, End>(fn);
+    }
+}
+
+}  // namespace detail
+
 /// All basis functions of the bands 0..N-1 at the unit vector d. |d| = 1 - e costs l(l+1)/2 e, relative, in band l.
 template <int N, class T>
 HALFLIT_INLINE constexpr void evaluate_basis(Vec3<T> d, T (&y)[N * N]) {
     static_assert(N >= 1 && N <= kMaxBands);
     using C = detail::Constant<T>;
-    const detail::BasisTable& table = detail::kBasisTable;
     T c = C::of(1.0), s = C::of(0.0);  // sin^m theta times cos and sin of m phi: the parts of (x + iy)^m
-    for (int m = 0; m < N; ++m) {
-        T before = C::of(0.0), q = C::of(table.diagonal[m]);
-        for (int l = m; l < N; ++l) {
+    detail::static_for<0, N>([&](auto order) __attribute__((always_inline)) {
+        constexpr int m = decltype(order)::value;
+        constexpr double diagonal = detail::kBasisTable.diagonal[m];
+        T before = C::of(0.0), q = C::of(diagonal);
+        detail::static_for<m, N>([&](auto band) __attribute__((always_inline)) {
+            constexpr int l = decltype(band)::value;
             y[coefficient_index(l, m)] = q * c;
-            if (m > 0) y[coefficient_index(l, -m)] = q * s;
-            if (l + 1 < N) {
-                const T next = (d.z * q) * C::of(table.up[l + 1][m]) - before * C::of(table.back[l + 1][m]);
+            if constexpr (m > 0) y[coefficient_index(l, -m)] = q * s;
+            if constexpr (l + 1 < N) {
+                constexpr double up = detail::kBasisTable.up[l + 1][m], back = detail::kBasisTable.back[l + 1][m];
+                const T next = (d.z * q) * C::of(up) - before * C::of(back);
                 before = q;
                 q = next;
             }
-        }
+        });
         const T turned = c * d.x - s * d.y;
         s = s * d.x + c * d.y;
         c = turned;
-    }
+    });
 }
 
 }  // namespace halflit::sh

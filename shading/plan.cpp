@@ -1,6 +1,7 @@
 #include "shading/plan.hpp"
 
 #include "sh/trig.hpp"
+#include "shading/environment.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -190,20 +191,71 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
     return plan;
 }
 
+// ---- environment ----------------------------------------------------------------------------------------------------
+
+/// Distinct lobes of a frame, each convolved once.
+class EnvironmentPlanner {
+public:
+    EnvironmentPlanner(const Environment& environment, const EnvironmentOrder& order, std::vector<EnvironmentPlan>& plans)
+        : environment_(environment), order_(order), plans_(plans) {}
+
+    int diffuse(const LobePlan& lobe) {
+        return find({lobe.wrap, static_cast<double>(lobe.power_minus_one) + 1.0, lobe.scale}, order_);
+    }
+
+    /// What a rough surface mirrors: a cosine power about the mirrored view, with a quarter of the highlight's exponent, because
+    /// the mirrored direction turns twice as fast as the half vector. A stand-in for reflections, so twice the error is allowed.
+    int mirrored(float roughness) {
+        const double alpha = std::max(static_cast<double>(roughness), 0.07), alpha2 = alpha * alpha;
+        const double power = std::max(1.0, (2.0 / (alpha2 * alpha2) - 2.0) * 0.25);
+        EnvironmentOrder order = order_;
+        order.tolerance *= 2.0;
+        return find({0.0, power, 0.5 * (power + 1.0)}, order);
+    }
+
+private:
+    struct Key {
+        double wrap, power, scale;
+        bool operator==(const Key&) const = default;
+    };
+    int find(const Key& key, const EnvironmentOrder& order) {
+        const auto known = std::find(keys_.begin(), keys_.end(), key);
+        if (known != keys_.end()) return static_cast<int>(known - keys_.begin());
+        keys_.push_back(key);
+        plans_.push_back(plan_environment(environment_, key.wrap, key.power, key.scale, order));
+        return static_cast<int>(keys_.size()) - 1;
+    }
+
+    const Environment& environment_;
+    EnvironmentOrder order_;
+    std::vector<EnvironmentPlan>& plans_;
+    std::vector<Key> keys_;
+};
+
 }  // namespace
 
 FramePlan make_frame_plan(std::span<const Material> materials, std::span<const Texture> textures, std::span<const QuadMask> available_quads,
-                          std::span<const Light> lights, const Ambient& ambient, const PlanOptions& options) {
+                          std::span<const Light> lights, const Ambient& ambient, const PlanOptions& options,
+                          const Environment* environment) {
     HALFLIT_ASSERT(available_quads.size() == materials.size() + 1);
     FramePlan plan;
     for (const Light& light : lights)
         if (contributes(light)) plan.lights.push_back(plan_light(light));
     plan.ambient = ambient;
-    const FrameFacts facts{!plan.lights.empty(), !zero(ambient.sky_linear) || !zero(ambient.ground_linear), options.specular};
+    const FrameFacts facts{!plan.lights.empty(), environment != nullptr || !zero(ambient.sky_linear) || !zero(ambient.ground_linear),
+                           options.specular};
     plan.materials.reserve(materials.size() + 1);
     for (std::size_t i = 0; i <= materials.size(); ++i)
         plan.materials.push_back(
             plan_material(i < materials.size() ? materials[i] : Material{}, textures, available_quads[i], facts, options));
+    if (environment == nullptr) return plan;
+    EnvironmentPlanner planner(*environment, options.environment_order, plan.environments);
+    for (MaterialPlan& material : plan.materials) {
+        if ((material.stages & kStageAmbient) == 0) continue;
+        material.stages |= kStageEnvironment;
+        material.environment = planner.diffuse(material.lobe);
+        if ((material.stages & kStageSpecular) != 0) material.mirrored_environment = planner.mirrored(material.roughness);
+    }
     return plan;
 }
 

@@ -2,6 +2,7 @@
 // not need is not in the plan, and what is not in the plan is not computed.
 #pragma once
 
+#include "shading/environment_plan.hpp"
 #include "shading/fragment_block.hpp"
 #include "shading/light.hpp"
 #include "shading/material.hpp"
@@ -55,7 +56,8 @@ enum Stage : std::uint32_t {
     kStageUnlit = 1u << 9,
     kStageGradients = 1u << 10,  ///< some texture has mips: raster fills the kDu.. rows
     kStagePrelit = 1u << 11,     ///< light comes in with the fragments: a shading rate below one a pixel
-    kStageCount = 12
+    kStageEnvironment = 1u << 12,  ///< the ambient light is an environment's, in spherical harmonics
+    kStageCount = 13
 };
 
 struct MaterialPlan {
@@ -70,6 +72,7 @@ struct MaterialPlan {
     bool double_sided = false;
     LobePlan lobe;
     float shadow_fade_scale = 0;  ///< 1 / d0: wrapped light is gone where its blocker is d0 away; 0: no wrapped light
+    int environment = -1, mirrored_environment = -1;  ///< indices into FramePlan::environments
     bool occlusion_is_metallic_roughness = false;  ///< both read the same texels the same way: one fetch serves both
     TexturePlan base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;
 };
@@ -92,6 +95,7 @@ struct FramePlan {
     std::vector<MaterialPlan> materials;  ///< index = index of Scene material; one more at the end for "no material"
     std::vector<LightPlan> lights;        ///< in list order: sums keep it; black lights and those not finite are left out
     std::vector<ShadowMapPlan> shadow_maps;
+    std::vector<EnvironmentPlan> environments;  ///< one for each lobe that meets the environment
     ShadowMode shadow_mode = ShadowMode::off;
     Ambient ambient;
     Vec3f eye_ws{0, 0, 0};              ///< perspective: camera position
@@ -106,18 +110,21 @@ enum class ShadingRate : std::uint8_t {
     pixel
 };
 
+struct Environment;
+
 /// Settings that change what a plan contains.
 struct PlanOptions {
     ShadingRate rate = ShadingRate::pixel;
     bool override_lobe = false;  ///< use `lobe` for all materials that do not bring their own
     Lobe lobe;
     bool specular = true;
+    EnvironmentOrder environment_order;
 };
 
 /// Materials without vertex data that they ask for (texture coordinates, colours, tangents) must be planned without it:
 /// `available_quads[i]` is the union of what the primitives of material i bring.
 [[nodiscard]] FramePlan make_frame_plan(std::span<const Material> materials, std::span<const Texture> textures,
                                         std::span<const QuadMask> available_quads, std::span<const Light> lights, const Ambient& ambient,
-                                        const PlanOptions& options);
+                                        const PlanOptions& options, const Environment* environment = nullptr);
 
 }  // namespace halflit::shading

@@ -1,8 +1,11 @@
 #include "apps/halflit/frame.hpp"
 
 #include "apps/halflit/stopwatch.hpp"
+#include "apps/io/environment.hpp"
 #include "apps/io/image_writer.hpp"
 #include "raster/exposure.hpp"
+#include "sh/trig.hpp"
+#include "shading/environment.hpp"
 
 #include <fmt/format.h>
 
@@ -57,13 +60,38 @@ Result<void> choose_view(Frame& frame, const RenderOptions& options, PictureSize
     return check_size(size, options.region);
 }
 
+/// Light from all around, in place of the ambient, and its suns. Pictures come in any unit: the exposure is chosen so that their mean
+/// light, suns included, is mid-grey on white.
+Result<float> add_environment(raster::Scene& scene, const RenderOptions& options) {
+    const auto image = io::environment_by_name(options.environment);
+    if (!image) return tl::unexpected(image.error());
+    auto environment = std::make_shared<shading::Environment>(
+        shading::make_environment(image->view(), {options.environment_sun, static_cast<double>(options.environment_rotate_deg) * (kPi / 180.0)}));
+    scene.ambient = {};
+    double level = 0.28209479177387814 * sh::luminance(environment->radiance.c[0]);  // Y_0: the mean radiance
+    for (const shading::Light& sun : environment->suns) {
+        scene.lights.push_back(sun);
+        level += 0.25 * sh::luminance({sun.color_linear.x, sun.color_linear.y, sun.color_linear.z});
+    }
+    scene.environment = std::move(environment);
+    if (options.environment == "sky" || !(level > 1e-18 && level < 1e18)) return 1.0f;
+    return static_cast<float>(0.5 / level);
+}
+
 /// A file's own lights come in any unit: what they lack in ambient is added, and the exposure is chosen to fit. Lights that flags or
 /// the built-in scenes bring are made for exposure 1.
-void choose_light(Frame& frame, const RenderOptions& options, const raster::Bounds& bounds) {
+Result<void> choose_light(Frame& frame, const RenderOptions& options, const raster::Bounds& bounds) {
     raster::Scene& scene = frame.source.scene;
     if (!options.scene_lights) {
         scene.lights.clear();
         scene.ambient = {};
+    }
+    if (!options.environment.empty()) {
+        const auto exposure = add_environment(scene, options);
+        if (!exposure) return tl::unexpected(exposure.error());
+        scene.lights.insert(scene.lights.end(), options.lights.begin(), options.lights.end());
+        frame.settings.exposure = options.exposure.value_or(*exposure);
+        return {};
     }
     const bool foreign = frame.source.file && !scene.lights.empty();
     scene.lights.insert(scene.lights.end(), options.lights.begin(), options.lights.end());
@@ -75,6 +103,7 @@ void choose_light(Frame& frame, const RenderOptions& options, const raster::Boun
         scene.ambient = raster::soft_ambient(scene, bounds);
     const float automatic = foreign ? raster::auto_exposure(scene, bounds) : 1.0f;
     frame.settings.exposure = options.exposure.value_or(automatic);
+    return {};
 }
 
 Result<void> choose_settings(raster::Settings& settings, const RenderOptions& options) {
@@ -90,6 +119,7 @@ Result<void> choose_settings(raster::Settings& settings, const RenderOptions& op
     settings.shading.lobe = lobe->value_or(shading::Lobe{});
     settings.shading.specular = options.specular;
     settings.shading.rate = options.rate;
+    settings.shading.environment_order.fixed = options.sh_order;
     settings.shadows = options.shadows;
     settings.shadow_size = options.shadow_size;
     settings.shadow_fade = options.shadow_fade;
@@ -118,7 +148,7 @@ Result<Frame> make_frame(const RenderOptions& options, PictureSize usual) {
     const bool loader_said_so = frame.source.file && frame.source.file->triangles_drawn == 0;
     if (bounds.empty && !loader_said_so) frame.warnings.push_back("nothing to draw: no vertex is a finite point");
     if (const auto viewed = choose_view(frame, options, usual); !viewed) return tl::unexpected(viewed.error());
-    choose_light(frame, options, bounds);
+    if (const auto lit = choose_light(frame, options, bounds); !lit) return tl::unexpected(lit.error());
     frame.settings.region = options.region.width > 0 ? options.region : raster::Region{0, 0, frame.width, frame.height};
     return frame;
 }

@@ -109,6 +109,32 @@ void add_light_flags(CLI::App& app, RenderOptions& o) {
     })->group(kGroup);
 }
 
+void add_environment_flags(CLI::App& app, RenderOptions& o) {
+    constexpr const char* kGroup = "Environment";
+    add_value(app, "--env", "FILE|sky|none", "Light from all around: a Radiance picture (.hdr) or the built-in sky (default none)",
+              [&o](const std::string& text) {
+                  o.environment = text == "none" ? "" : text;
+                  return Result<void>();
+              })
+        ->group(kGroup);
+    add_value(app, "--env-rotate", "DEG", "Turn it about the vertical", [&o](const std::string& text) {
+        return assign(o.environment_rotate_deg, parse_float(text, -3600.0f, 3600.0f));
+    })->group(kGroup);
+    add_value(app, "--env-sun", "on|off", "Take suns out of it as lights of their own (default on)",
+              named<bool>(o.environment_sun, {{"on", true}, {"off", false}}))
+        ->group(kGroup);
+    add_value(app, "--sh-order", "auto|1..10", "Bands of spherical harmonics; auto: as many as half an 8-bit code asks for (default)",
+              [&o](const std::string& text) -> Result<void> {
+                  o.sh_order = 0;
+                  if (text == "auto") return {};
+                  const auto order = parse_int(text, 1, sh::kMaxBands);
+                  if (!order) return fail(ErrorCode::usage, fmt::format("expected auto or 1 to {}, found '{}'", sh::kMaxBands, text));
+                  o.sh_order = static_cast<int>(*order);
+                  return {};
+              })
+        ->group(kGroup);
+}
+
 void add_shadow_flags(CLI::App& app, RenderOptions& o) {
     constexpr const char* kGroup = "Shadows";
     using shading::ShadowMode;
@@ -228,6 +254,7 @@ void add_render_options(CLI::App& app, RenderOptions& o, bool scene_required) {
     add_picture_flags(app, o);
     add_camera_flags(app, o);
     add_light_flags(app, o);
+    add_environment_flags(app, o);
     add_shadow_flags(app, o);
     add_surface_flags(app, o);
     add_machine_flags(app, o);

@@ -35,6 +35,10 @@ struct RenderOptions {
     std::optional<Vec3f> ambient_linear;
     std::vector<shading::Light> lights;
     bool scene_lights = true;
+    std::string environment;  ///< a file, "sky", or empty
+    bool environment_sun = true;
+    float environment_rotate_deg = 0.0f;
+    int sh_order = 0;  ///< 0: from the bound
     shading::ShadowMode shadows = shading::ShadowMode::soft_split;
     int shadow_size = 2048;
     float shadow_fade = 0.0f;  ///< 0: from object size and wrap

@@ -206,7 +206,9 @@ Result<void> prepare_frame(Frame& frame, const Scene& scene, const Camera& camer
     std::vector<shading::QuadMask> quads(scene.materials.size() + 1, 1u | 2u);
     for (const Mesh& mesh : scene.meshes)
         quads[mesh.material >= 0 ? static_cast<std::size_t>(mesh.material) : scene.materials.size()] |= quads_of(mesh);
-    frame.plan = shading::make_frame_plan(scene.materials, scene.textures, quads, scene.lights, scene.ambient, settings.shading);
+    shading::PlanOptions plan_options = settings.shading;
+    plan_options.environment_order.exposure = static_cast<double>(settings.exposure);
+    frame.plan = shading::make_frame_plan(scene.materials, scene.textures, quads, scene.lights, scene.ambient, plan_options, scene.environment.get());
     const Vec4f back = camera.world_from_camera.c[2], eye = camera.world_from_camera.c[3];
     frame.plan.eye_ws = {eye.x, eye.y, eye.z};
     frame.plan.view_direction_ws = normalize_or({-back.x, -back.y, -back.z}, {0, 0, -1});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shading/kernels/color_kernel.hpp"
+#include "shading/kernels/environment_kernel.hpp"
 #include "shading/kernels/light_kernel.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 #include "shading/kernels/surface_kernel.hpp"
@@ -58,14 +59,22 @@ HALFLIT_INLINE IncidentLight incident_light(const shading::FramePlan& frame, con
         if constexpr (kSpecular) light.specular = sums.specular * mad(F(0.25f), half_exponent, F(1.0f));  // (s + 8) / 8
     }
     if (has(material, shading::kStageAmbient)) {
-        light.ambient = hemisphere(frame.ambient, normal.y) * surface.occlusion;
+        const bool environment = has(material, shading::kStageEnvironment);
+        light.ambient = (environment ? environment_light(frame.environments[static_cast<std::size_t>(material.environment)], normal)
+                                     : hemisphere(frame.ambient, normal.y)) *
+                        surface.occlusion;
         if constexpr (kSpecular) {
             const F n_dot_v = dot(normal, to_eye);
-            const F mirrored_y = mad(n_dot_v + n_dot_v, normal.y, F(0.0f) - to_eye.y);
+            const F twice = n_dot_v + n_dot_v;
             const F away = F(1.0f) - clamp(n_dot_v, F(0.0f), F(1.0f));
             const F away2 = away * away;
             light.grazing = (away2 * away2) * away;
-            light.mirrored = hemisphere(frame.ambient, mirrored_y) * surface.occlusion;
+            const V3 mirrored{mad(twice, normal.x, F(0.0f) - to_eye.x), mad(twice, normal.y, F(0.0f) - to_eye.y),
+                              mad(twice, normal.z, F(0.0f) - to_eye.z)};
+            light.mirrored =
+                (environment ? environment_light(frame.environments[static_cast<std::size_t>(material.mirrored_environment)], mirrored)
+                             : hemisphere(frame.ambient, mirrored.y)) *
+                surface.occlusion;
         }
     }
     return light;

@@ -1,0 +1,33 @@
+// Light from all around: an environment as shading takes it, ready to be convolved with any lobe at the order that the error asks for.
+#pragma once
+
+#include "sh/coefficients.hpp"
+#include "sh/order.hpp"
+#include "sh/project.hpp"
+#include "sh/rotate.hpp"
+#include "shading/environment_plan.hpp"
+#include "shading/light.hpp"
+
+#include <vector>
+
+namespace halflit::shading {
+
+/// An environment image in ten bands, with what bounds the error of leaving bands out. Suns that were taken out of it are lights of
+/// their own: whoever lights a scene with this adds them to the scene's lights.
+struct Environment {
+    sh::RadianceSh radiance;  ///< turned as the scene wants it
+    sh::BandGrid grid{sh::Projection()};
+    std::vector<Light> suns;  ///< directional, colour premultiplied by 1/pi
+};
+
+struct EnvironmentOptions {
+    bool extract_suns = true;  ///< where that lowers the bound
+    double rotate_rad = 0.0;   ///< about +y, counterclockwise seen from above
+};
+
+[[nodiscard]] Environment make_environment(const sh::EquirectView& image, const EnvironmentOptions& options = {});
+
+/// For a lobe (w, n) with its scale: bands by the stable recurrence, order by the bound.
+[[nodiscard]] EnvironmentPlan plan_environment(const Environment& environment, double wrap, double power, double scale, const EnvironmentOrder& order);
+
+}  // namespace halflit::shading
