@@ -62,6 +62,7 @@ Settings settings_of(shading::Isa isa, int threads, int tile, int samples) {
     settings.tile_size = tile;
     settings.samples = samples;
     settings.background_linear = {0.02f, 0.05f, 0.1f, 0.5f};
+    settings.shadow_size = 64;  // small: the scenes have many lights
     return settings;
 }
 
@@ -79,10 +80,14 @@ TEST_CASE("determinism: every instruction set, thread count and tile size gives 
             REQUIRE(first.visible > 3000);
             int combinations = 0;
             for (const shading::Isa isa : available_isas())
-                for (const int threads : {1, 2, 5})
-                    for (const int tile : {16, 32, 64}) {
-                        // Each thread count with each tile size and each set would say little more than each pair of them.
-                        if (samples != 1 && (threads + tile / 16 + static_cast<int>(isa)) % 3 != 0) continue;
+                for (int t = 0; t < 3; ++t)
+                    for (int size = 0; size < 3; ++size) {
+                        // One sample: each set with each tile size, the widest with each thread count too. More samples: each set once.
+                        const int turn = static_cast<int>(isa) + size;
+                        if (samples == 1 ? t != turn % 3 && isa != available_isas().back()
+                                         : t != turn % 3 || size != static_cast<int>(isa) % 3)
+                            continue;
+                        const int threads = t == 2 ? 5 : t + 1, tile = 16 << size;
                         const Picture p = draw(s, settings_of(isa, threads, tile, samples));
                         INFO(s.name << ", samples " << samples << ", " << shading::isa_name(isa) << ", threads " << threads << ", tile "
                                     << tile);
@@ -94,6 +99,26 @@ TEST_CASE("determinism: every instruction set, thread count and tile size gives 
                         ++combinations;
                     }
             CHECK(combinations >= 3);
+        }
+    }
+}
+
+TEST_CASE("determinism: light once a triangle or once a vertex gives the same pixels everywhere too", "[raster][determinism]") {
+    for (const NamedScene& s : scenes()) {
+        for (const shading::ShadingRate rate : {shading::ShadingRate::flat, shading::ShadingRate::gouraud}) {
+            Settings settings = settings_of(shading::Isa::scalar, 1, 64, 4);
+            settings.shading.rate = rate;
+            const Picture first = draw(s, settings);
+            Picture pixel_rate = draw(s, settings_of(shading::Isa::scalar, 1, 64, 4));
+            CHECK_FALSE(first == pixel_rate);
+            int tile = 16;
+            for (const shading::Isa isa : available_isas()) {
+                settings = settings_of(isa, 2, tile, 4);
+                settings.shading.rate = rate;
+                INFO(s.name << ", rate " << static_cast<int>(rate) << ", " << shading::isa_name(isa) << ", tile " << tile);
+                CHECK(draw(s, settings) == first);
+                tile = tile == 64 ? 16 : 2 * tile;
+            }
         }
     }
 }

@@ -37,6 +37,7 @@ Picture draw(const Scene& scene, const Settings& settings = {}, const Camera& ca
     p.rgba8.resize(4 * kSide * kSide);
     p.linear.resize(4 * kSide * kSide);
     auto report = render(scene, camera, settings, {kSide, kSide, p.rgba8.data(), p.linear.data()});
+    INFO((report ? std::string() : report.error().message));
     REQUIRE(report);
     p.report = *report;
     return p;

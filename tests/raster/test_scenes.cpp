@@ -228,7 +228,7 @@ NamedScene many_lights_scene() {
     Scene& s = out.scene;
     add_lights(s);
     Random random(14);
-    for (int i = 0; i < 100; ++i) {
+    for (int i = 0; i < 48; ++i) {
         Light light;
         light.type = i % 3 == 0 ? LightType::spot : LightType::point;
         light.position_ws = {random.real32(-4, 4), random.real32(0.1, 0.6), random.real32(-4, 3)};

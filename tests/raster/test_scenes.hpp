@@ -28,7 +28,7 @@ struct NamedScene {
 /// Numbers at the edge of float: huge and tiny placings, degenerate normals, vertices that are not finite.
 [[nodiscard]] NamedScene rough_scene();
 
-/// A hundred small lights, each of which reaches a few tiles, and some that reach all.
+/// Some fifty small lights, each of which reaches a few tiles, and some that reach all.
 [[nodiscard]] NamedScene many_lights_scene();
 
 /// The five above, and the built-in demo scene.
