@@ -45,7 +45,7 @@ TEST_CASE("lobe: bands, boundary, norm and samples are the closed forms', wrap r
     }
 }
 
-TEST_CASE("lobe: names stand for their (w, n); --normalize scales curve and bands alike", "[cli][lobe]") {
+TEST_CASE("lobe: names stand for their (w, n), --normalize scales curve and bands alike", "[cli][lobe]") {
     CHECK(lobe({"valve"})["power"] == 2.0);
     CHECK(lobe({"half-lambert"})["wrap"] == 1.0);
     CHECK(lobe({"green", "--wrap", "0.5"})["slope_at_boundary"].get<double>() == Approx(1 / 1.5));

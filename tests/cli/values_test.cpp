@@ -57,7 +57,7 @@ TEST_CASE("values: a number must be all of the text, finite and in range", "[cli
     CHECK(!parse_float("1.0001", 0, 1));
 }
 
-TEST_CASE("values: a light's keys come in any order, with : or ;", "[cli][values]") {
+TEST_CASE("values: a light's keys come in any order, with colons or semicolons", "[cli][values]") {
     const auto a = parse_light("spot:pos=1,2,3:dir=0,0,-2:cone=10,30:color=#fff:intensity=4:range=9:radius=0.5");
     const auto b = parse_light("spot;intensity=4;radius=0.5;range=9;cone=10,30;dir=0,0,-2;color=white;pos=1,2,3");
     REQUIRE(a);

@@ -121,7 +121,7 @@ TEST_CASE("environment: the built-in sky is lit as it says", "[io][environment]"
     CHECK(luminance(evaluate(lambert, {0, -1, 0})) < 0.25);
 }
 
-TEST_CASE("environment: by name, the sky or a file; a file that is not there names itself", "[io][environment]") {
+TEST_CASE("environment: by name, the sky or a file, a file that is not there names itself", "[io][environment]") {
     CHECK(io::environment_by_name("sky")->rgb == io::built_in_sky().rgb);
     const auto missing = io::environment_by_name("no/such/file.hdr");
     REQUIRE_FALSE(missing);

@@ -105,7 +105,7 @@ TEST_CASE("uri: data URIs decode as RFC 4648 says, and broken ones are refused",
     }
 }
 
-TEST_CASE("uri: names are percent-decoded once; addresses are refused", "[io]") {
+TEST_CASE("uri: names are percent-decoded once, addresses are refused", "[io]") {
     using io::detail::decode_file_uri;
     CHECK(*decode_file_uri("a%20b.png") == "a b.png");
     CHECK(*decode_file_uri("a b.png") == "a b.png");

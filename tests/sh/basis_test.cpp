@@ -106,7 +106,7 @@ TEST_CASE("basis: near a pole, m = 1 keeps its relative accuracy", "[sh][basis]"
     }
 }
 
-TEST_CASE("basis: the sum of squares of a band is (2l+1)/4pi everywhere; float is within 1.5e-6 of it", "[sh][basis]") {
+TEST_CASE("basis: the sum of squares of a band is (2l+1)/4pi everywhere, float is within 1.5e-6 of it", "[sh][basis]") {
     test::Random random(3);
     for (int i = 0; i < 300; ++i) {
         const Vec3d d = random_direction(random);

@@ -48,7 +48,7 @@ TEST_CASE("order: one direction of irradiance pi, from above by the sum of |f_l|
     }
 }
 
-TEST_CASE("order: the tolerance is a part of the scale; without an order that keeps it, 10 and the bound", "[sh][order]") {
+TEST_CASE("order: the tolerance is a part of the scale, without an order that keeps it, 10 and the bound", "[sh][order]") {
     OrderBounds bounds;
     for (std::size_t i = 0; i < kMaxBands; ++i)
         bounds.by_order[i] = {0.0, 1.0 / static_cast<double>(1 + i), 0.5 / static_cast<double>(1 + i)};

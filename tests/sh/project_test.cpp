@@ -70,7 +70,7 @@ TEST_CASE("project: coefficients are the exact integrals over patches, for every
     }
 }
 
-TEST_CASE("project: a sky of one colour has only its mean; its norm is sqrt(4 pi) of it", "[sh][project]") {
+TEST_CASE("project: a sky of one colour has only its mean, its norm is sqrt(4 pi) of it", "[sh][project]") {
     for (const auto& [width, height] : {std::pair{1, 1}, {5, 3}, {64, 32}}) {
         const Projection p(painted_sky(width, height, [](Vec3d) { return Vec3d{1, 0.5, 2}; }).view());
         const RadianceSh sh = p.radiance();

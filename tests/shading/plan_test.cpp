@@ -156,7 +156,7 @@ TEST_CASE("plan: a setting's lobe replaces all but those that the file chose", "
     CHECK(scene.first().lobe.path == LobePath::linear);
 }
 
-TEST_CASE("plan: lights keep their order; black ones and those that are not numbers are left out", "[shading][plan]") {
+TEST_CASE("plan: lights keep their order, black ones and those that are not numbers are left out", "[shading][plan]") {
     Scene scene;
     Light red, black, broken, blue;
     red.color_linear = {1, 0, 0};
