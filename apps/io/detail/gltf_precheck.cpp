@@ -2,6 +2,7 @@
 
 #include "apps/io/detail/gltf_versions.hpp"
 #include "apps/io/detail/json_place.hpp"
+#include "apps/io/detail/text.hpp"
 #include "apps/io/detail/tinygltf.hpp"
 
 #include <fmt/format.h>
@@ -265,7 +266,7 @@ Result<Precheck> precheck_gltf(std::string_view text, const JsonScanLimits& limi
     } catch (const JsonFault& fault) {
         if (fault.offset == std::string_view::npos) return fail(fault.code, fault.what);
         const TextPlace place = place_of(text, fault.offset);
-        const std::string path = json_path_at(text, fault.offset, limits);
+        const std::string path = printable(json_path_at(text, fault.offset, limits), 120);
         return fail(fault.code,
                     fmt::format("{}{}line {}, column {}: {}", path, path.empty() ? "" : ": ", place.line, place.column, fault.what));
     }
