@@ -6,7 +6,7 @@
 #include "raster/detail/geometry.hpp"
 #include "raster/detail/shading_rate.hpp"
 #include "raster/detail/tile_renderer.hpp"
-#include "raster/shadow_map.hpp"
+#include "raster/detail/shadow_map.hpp"
 
 #include <atomic>
 #include <chrono>

@@ -1,4 +1,4 @@
-#include "raster/shadow_map.hpp"
+#include "raster/detail/shadow_map.hpp"
 
 #include "raster/detail/binning.hpp"
 #include "raster/detail/geometry.hpp"

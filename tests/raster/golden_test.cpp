@@ -1,0 +1,114 @@
+// The picture of today is the picture of tomorrow: hashes of small code-made scenes in many variants, one committed table for every
+// instruction set, compiler and machine. HALFLIT_UPDATE_GOLDEN=1 writes the table anew, after someone has looked at the pictures.
+#include "raster/framebuffer.hpp"
+#include "raster/renderer.hpp"
+#include "shading/environment.hpp"
+#include "tests/raster/test_scenes.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <array>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+namespace halflit::raster {
+namespace {
+
+constexpr int kWidth = 160, kHeight = 90;
+const char* const kTable = HALFLIT_SOURCE_DIR "/tests/golden/hashes.txt";
+
+struct Variant {
+    const char* name;
+    Settings settings;
+    bool environment = false;
+};
+
+std::vector<Variant> variants() {
+    std::vector<Variant> all;
+    const auto add = [&](const char* name) -> Settings& {
+        all.push_back({name, {}});
+        all.back().settings.background_linear = {0.05f, 0.06f, 0.08f, 1.0f};
+        return all.back().settings;
+    };
+    add("plain");
+    add("four-samples").samples = 4;
+    add("eight-samples-transparent").samples = 8;
+    all.back().settings.background_linear = {0, 0, 0, 0};
+    add("gouraud").shading.rate = shading::ShadingRate::gouraud;
+    add("flat").shading.rate = shading::ShadingRate::flat;
+    add("unshadowed").shadows = shading::ShadowMode::off;
+    add("hard-shadows-wrapped").shadows = shading::ShadowMode::hard;
+    all.back().settings.shading.override_lobe = true;
+    all.back().settings.shading.lobe = shading::Lobe::sloan(0.3f);
+    add("matte").shading.specular = false;
+    add("environment");
+    all.back().environment = true;
+    return all;
+}
+
+/// A sky brighter above, with a small hot spot: soft bands and a sun.
+std::shared_ptr<const shading::Environment> small_sky() {
+    constexpr int kSkyWidth = 64, kSkyHeight = 32;
+    std::vector<float> rgb;
+    for (int y = 0; y < kSkyHeight; ++y)
+        for (int x = 0; x < kSkyWidth; ++x) {
+            const float up = 1.0f - static_cast<float>(y) / kSkyHeight;
+            const float hot = x == 40 && y == 8 ? 200.0f : 0.0f;
+            rgb.insert(rgb.end(), {0.2f + 0.3f * up + hot, 0.2f + 0.4f * up + hot, 0.25f + 0.6f * up + hot * 0.8f});
+        }
+    return std::make_shared<shading::Environment>(shading::make_environment({kSkyWidth, kSkyHeight, rgb}));
+}
+
+std::string hex(std::uint64_t value) {
+    std::ostringstream text;
+    text << std::hex << value;
+    return text.str();
+}
+
+/// "rgba8 linear": the 8-bit picture, and the linear one as bytes.
+std::string hashes(const test::NamedScene& named, const Variant& variant) {
+    Scene scene = named.scene;
+    if (variant.environment) {
+        scene.environment = small_sky();
+        scene.lights.insert(scene.lights.end(), scene.environment->suns.begin(), scene.environment->suns.end());
+    }
+    std::vector<std::uint8_t> rgba8(std::size_t{4} * kWidth * kHeight);
+    std::vector<float> linear(rgba8.size());
+    Settings settings = variant.settings;
+    settings.shadow_size = 256;
+    const auto report = render(scene, named.camera, settings, {kWidth, kHeight, rgba8.data(), linear.data()});
+    if (!report) return report.error().message;
+    return hex(pixel_hash(rgba8)) + " " + hex(pixel_hash({reinterpret_cast<const std::uint8_t*>(linear.data()), linear.size() * sizeof(float)}));
+}
+
+}  // namespace
+
+TEST_CASE("golden: every scene in every variant has the committed pixels", "[raster][golden]") {
+    std::map<std::string, std::string> found;
+    for (const test::NamedScene& scene : test::all_scenes())
+        for (const Variant& variant : variants()) found[scene.name + "/" + variant.name] = hashes(scene, variant);
+
+    if (std::getenv("HALFLIT_UPDATE_GOLDEN") != nullptr) {
+        std::ofstream out(kTable);
+        out << "# scene/variant, hash of the 8-bit picture, hash of the linear one; made by HALFLIT_UPDATE_GOLDEN=1 (tests/raster/golden_test.cpp)\n";
+        for (const auto& [name, hash] : found) out << name << " " << hash << "\n";
+        out.close();
+        CHECK(out.good());
+        WARN("the table of golden hashes was written anew");
+        return;
+    }
+    std::map<std::string, std::string> expected;
+    std::ifstream in(kTable);
+    for (std::string line; std::getline(in, line);)
+        if (!line.empty() && line[0] != '#') expected[line.substr(0, line.find(' '))] = line.substr(line.find(' ') + 1);
+    REQUIRE(found.size() >= 50);
+    CHECK(expected.size() == found.size());
+    for (const auto& [name, hash] : found) {
+        INFO(name);
+        CHECK(expected[name] == hash);
+    }
+}
+
+}  // namespace halflit::raster
