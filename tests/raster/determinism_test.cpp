@@ -55,6 +55,19 @@ Picture draw(const NamedScene& s, const Settings& settings) {
     return draw(s, settings, renderer);
 }
 
+/// A loop over threads of its own, as a host might bring it.
+ParallelFor host_loop(int thread_count) {
+    return [thread_count](int count, const std::function<void(int)>& body) {
+        std::atomic<int> next{0};
+        std::vector<std::thread> threads;
+        for (int t = 0; t < thread_count; ++t)
+            threads.emplace_back([&] {
+                for (int i = next++; i < count; i = next++) body(i);
+            });
+        for (std::thread& t : threads) t.join();
+    };
+}
+
 Settings settings_of(shading::Isa isa, int threads, int tile, int samples) {
     Settings settings;
     settings.isa = isa;
@@ -62,6 +75,10 @@ Settings settings_of(shading::Isa isa, int threads, int tile, int samples) {
     settings.tile_size = tile;
     settings.samples = samples;
     settings.background_linear = {0.02f, 0.05f, 0.1f, 0.5f};
+#if defined(__SANITIZE_THREAD__)
+    // The thread sanitizer does not see how the system's oneTBB synchronises, and would report each of its joins. The tasks are the same.
+    if (threads > 1) settings.parallel_for = host_loop(threads);
+#endif
     settings.shadow_size = 64;  // small: the scenes have many lights
     return settings;
 }
@@ -98,7 +115,7 @@ TEST_CASE("determinism: every instruction set, thread count and tile size gives 
                         CHECK(p.not_finite == first.not_finite);
                         ++combinations;
                     }
-            CHECK(combinations >= 3);
+            CHECK(combinations >= static_cast<int>(available_isas().size()));
         }
     }
 }
@@ -163,15 +180,7 @@ TEST_CASE("determinism: a host's own loop, in any order and on any threads", "[r
         };
         CHECK(draw(s, settings) == expected);
         CHECK(calls > 0);
-        settings.parallel_for = [](int count, const std::function<void(int)>& body) {
-            std::atomic<int> next{0};
-            std::vector<std::thread> threads;
-            for (int t = 0; t < 3; ++t)
-                threads.emplace_back([&] {
-                    for (int i = next++; i < count; i = next++) body(i);
-                });
-            for (std::thread& t : threads) t.join();
-        };
+        settings.parallel_for = host_loop(3);
         CHECK(draw(s, settings) == expected);
     }
 }
