@@ -29,6 +29,23 @@ private:
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+/// Of the materials that something is drawn with, in the plan's order.
+std::vector<EnvironmentUse> environment_uses(const Frame& frame) {
+    enum : unsigned { kDiffuse = 1, kMirrored = 2 };
+    std::vector<unsigned> uses(frame.plan.environments.size(), 0);
+    for (const Draw& draw : frame.draws) {
+        const shading::MaterialPlan& material = frame.plan.materials[static_cast<std::size_t>(draw.material)];
+        if (material.environment >= 0) uses[static_cast<std::size_t>(material.environment)] |= kDiffuse;
+        if (material.mirrored_environment >= 0) uses[static_cast<std::size_t>(material.mirrored_environment)] |= kMirrored;
+    }
+    std::vector<EnvironmentUse> out;
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+        const shading::EnvironmentPlan& plan = frame.plan.environments[i];
+        if (uses[i] != 0) out.push_back({plan.bands, plan.bound, plan.within, uses[i] == kMirrored});
+    }
+    return out;
+}
+
 }  // namespace
 
 struct Renderer::Impl {
@@ -83,6 +100,7 @@ struct Renderer::Impl {
         report.pixels_visible = visible;
         report.fragments_shaded = shaded;
         report.nan_pixels = nan_pixels;
+        report.environment = environment_uses(frame);
         if (report.triangles_not_finite > 0)
             report.warnings.push_back(std::to_string(report.triangles_not_finite) + " triangles dropped: a vertex is NaN or infinite");
         if (report.nan_pixels > 0)

@@ -40,6 +40,14 @@ struct Settings {
     const std::function<bool()>* cancelled = nullptr;  ///< asked at tile borders; true stops the frame with an error
 };
 
+/// How the frame's materials of one lobe take the light of the scene's environment.
+struct EnvironmentUse {
+    int bands = 0;          ///< of spherical harmonics, 1..10
+    double bound = 0;       ///< no normal's light is off by more, white surface, worst channel, before exposure
+    bool within = true;     ///< whether that times the exposure is within the tolerance
+    bool mirrored = false;  ///< what surfaces mirror, which may be off by twice the tolerance; otherwise diffuse light
+};
+
 /// What a frame did. Times in milliseconds of wall clock.
 struct RenderReport {
     struct StageTimes {
@@ -52,6 +60,7 @@ struct RenderReport {
     std::uint64_t triangles_not_finite = 0;                       ///< dropped for a NaN or infinite vertex
     std::uint64_t pixels_visible = 0, fragments_shaded = 0;
     std::uint64_t nan_pixels = 0;                                 ///< written as 0
+    std::vector<EnvironmentUse> environment;                      ///< of the materials that are drawn, each lobe once
     std::vector<std::string> warnings;
 };
 

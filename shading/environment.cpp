@@ -39,6 +39,7 @@ EnvironmentPlan plan_environment(const Environment& environment, double wrap, do
     if (order.fixed > 0) {
         plan.bands = std::min(order.fixed, sh::kMaxBands);
         plan.bound = sh::largest(bounds.by_order[static_cast<std::size_t>(plan.bands - 1)]);
+        plan.within = plan.bound <= order.tolerance * (1.0 / order.exposure);
     } else {
         const sh::OrderChoice choice = sh::pick_order(bounds, order.tolerance, 1.0 / order.exposure);
         plan.bands = choice.order;

@@ -254,8 +254,11 @@ FramePlan make_frame_plan(std::span<const Material> materials, std::span<const T
         if ((material.stages & kStageAmbient) == 0) continue;
         material.stages |= kStageEnvironment;
         material.environment = planner.diffuse(material.lobe);
-        if ((material.stages & kStageSpecular) != 0) material.mirrored_environment = planner.mirrored(material.roughness);
     }
+    // Last: roughness 1 mirrors with Lambert's lobe, and a Lambert surface must not get the larger error that mirrors are allowed.
+    for (MaterialPlan& material : plan.materials)
+        if ((material.stages & kStageEnvironment) != 0 && (material.stages & kStageSpecular) != 0)
+            material.mirrored_environment = planner.mirrored(material.roughness);
     return plan;
 }
 

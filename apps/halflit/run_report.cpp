@@ -46,6 +46,15 @@ void add_frame(Json& report, const Frame& frame, const raster::RenderReport& ren
     report["pixels_visible"] = rendered.pixels_visible;
     report["fragments_shaded"] = rendered.fragments_shaded;
     report["nan_pixels"] = rendered.nan_pixels;
+    if (frame.source.scene.environment != nullptr) {
+        Json uses = Json::array();
+        for (const raster::EnvironmentUse& use : rendered.environment) {
+            Json one{{"light", use.mirrored ? "mirrored" : "diffuse"}};
+            one.update(environment_use_json(use, frame.settings));
+            uses.push_back(std::move(one));
+        }
+        report["environment"] = std::move(uses);
+    }
     report["warnings"] = frame.warnings;
     for (const std::string& warning : rendered.warnings) report["warnings"].push_back(warning);
     report["peak_memory_bytes"] = peak_memory();
@@ -54,6 +63,14 @@ void add_frame(Json& report, const Frame& frame, const raster::RenderReport& ren
 Json stages_ms(const raster::RenderReport& rendered) {
     const auto& ms = rendered.ms;
     return {{"plan", ms.plan}, {"shadows", ms.shadows}, {"transform", ms.transform}, {"bin", ms.bin}, {"tiles", ms.tiles}};
+}
+
+Json environment_use_json(const raster::EnvironmentUse& use, const raster::Settings& settings) {
+    return {{"order", use.bands},
+            {"bound_linear", use.bound},
+            {"bound_of_white", use.bound * static_cast<double>(settings.exposure)},
+            {"tolerance_of_white", settings.shading.environment_order.tolerance * (use.mirrored ? 2.0 : 1.0)},
+            {"within", use.within}};
 }
 
 std::string to_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }

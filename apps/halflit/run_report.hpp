@@ -22,6 +22,10 @@ void add_frame(Json& report, const Frame& frame, const raster::RenderReport& ren
 /// {"plan": ms, ...}: the renderer's stages.
 [[nodiscard]] Json stages_ms(const raster::RenderReport& rendered);
 
+/// {"order", "bound_linear", "bound_of_white", "tolerance_of_white", "within"}: the bands in use and what the others may amount to, in
+/// linear light before exposure and as a part of display white.
+[[nodiscard]] Json environment_use_json(const raster::EnvironmentUse& use, const raster::Settings& settings);
+
 /// As text with a newline at the end; strings that are not UTF-8 have the offending bytes replaced.
 [[nodiscard]] std::string to_text(const Json& json);
 

@@ -1,6 +1,7 @@
 #include "apps/halflit/scene_description.hpp"
 
 #include "apps/halflit/messages.hpp"
+#include "apps/halflit/run_report.hpp"
 #include "shading/plan.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +28,8 @@ constexpr NamedStage kStages[] = {{shading::kStageBaseColorTexture, "base colour
                                   {shading::kStageAmbient, "ambient"},
                                   {shading::kStageUnlit, "unlit"},
                                   {shading::kStageGradients, "texture gradients"},
-                                  {shading::kStagePrelit, "light at vertices or triangles"}};
+                                  {shading::kStagePrelit, "light at vertices or triangles"},
+                                  {shading::kStageEnvironment, "environment"}};
 
 /// The float as people would write it: the double that prints as shortly, 0.8 and not 0.800000011920929.
 Json number(float value) {
@@ -142,17 +144,27 @@ std::vector<shading::QuadMask> available_quads(const raster::Scene& scene) {
     return quads;
 }
 
-Json material_json(const shading::Material& source, const shading::MaterialPlan& plan, const shading::PlanOptions& options) {
+Json environment_json(const shading::FramePlan& frame, int index, bool mirrored, const raster::Settings& settings) {
+    const shading::EnvironmentPlan& plan = frame.environments[static_cast<std::size_t>(index)];
+    return environment_use_json({plan.bands, plan.bound, plan.within, mirrored}, settings);
+}
+
+Json material_json(const shading::Material& source, const shading::FramePlan& frame, const shading::MaterialPlan& plan,
+                   const raster::Settings& settings) {
+    const shading::PlanOptions& options = settings.shading;
     Json needed = Json::array(), not_needed = Json::array();
     for (const NamedStage& stage : kStages) (plan.stages & stage.stage ? needed : not_needed).push_back(stage.name);
     Json material{{"name", source.name}, {"alpha", name_of(plan.alpha_mode)}, {"double_sided", plan.double_sided}};
-    if (plan.stages & shading::kStageLights) {
+    if (plan.stages & (shading::kStageLights | shading::kStageEnvironment)) {
         const shading::Lobe lobe = options.override_lobe && !source.has_own_lobe ? options.lobe : source.lobe;
         material["lobe"] = {{"wrap", number(lobe.wrap)},
                             {"power", number(lobe.power)},
                             {"normalize", lobe.normalize},
                             {"computed_as", name_of(plan.lobe.path)}};
     }
+    if (plan.environment >= 0) material["environment"] = environment_json(frame, plan.environment, false, settings);
+    if (plan.mirrored_environment >= 0)
+        material["mirrored_environment"] = environment_json(frame, plan.mirrored_environment, true, settings);
     material["requires"] = std::move(needed);
     material["does_without"] = std::move(not_needed);
     return material;
@@ -160,8 +172,10 @@ Json material_json(const shading::Material& source, const shading::MaterialPlan&
 
 Json materials_json(const Frame& frame) {
     const raster::Scene& scene = frame.source.scene;
+    shading::PlanOptions options = frame.settings.shading;
+    options.environment_order.exposure = static_cast<double>(frame.settings.exposure);
     const shading::FramePlan plan = shading::make_frame_plan(scene.materials, scene.textures, available_quads(scene), scene.lights,
-                                                             scene.ambient, frame.settings.shading);
+                                                             scene.ambient, options, scene.environment.get());
     std::vector<bool> used(scene.materials.size() + 1, false);
     for (const raster::Instance& instance : scene.instances) {
         const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
@@ -173,7 +187,7 @@ Json materials_json(const Frame& frame) {
     for (std::size_t i = 0; i < used.size(); ++i)
         if (used[i]) {
             const shading::Material& material = i < scene.materials.size() ? scene.materials[i] : without;
-            materials.push_back(material_json(material, plan.materials[i], frame.settings.shading));
+            materials.push_back(material_json(material, plan, plan.materials[i], frame.settings));
         }
     return materials;
 }

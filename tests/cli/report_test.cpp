@@ -112,3 +112,38 @@ TEST_CASE("info: it counts the built-in sphere and plans its one material", "[cl
     const auto flat = json_of(run({"info", "sphere:1000", "--json", "--specular", "none"}).out);
     CHECK(flat["materials"][0]["does_without"].dump().find("specular") != std::string::npos);
 }
+
+TEST_CASE("report: an environment's orders and bounds, as info has them", "[cli][env]") {
+    const auto environment_of = [](const std::vector<std::string>& flags) {
+        std::vector<std::string> arguments{"render", "sphere:500", "--size", "16x16", "-o", "", "--env", "sky"};
+        arguments.insert(arguments.end(), flags.begin(), flags.end());
+        const TemporaryFolder folder;
+        arguments[5] = folder.file("a.png");
+        arguments.insert(arguments.end(), {"--report", folder.file("r.json")});
+        REQUIRE(run(arguments).code == 0);
+        return json_of(contents(folder.file("r.json")))["environment"];
+    };
+    const auto valve = environment_of({"--lobe", "valve", "--specular", "none"});
+    REQUIRE(valve.size() == 1);
+    CHECK(valve[0]["light"] == "diffuse");
+    CHECK(valve[0]["order"] == 3);  // its bands 3 and up are zero
+    CHECK(valve[0]["bound_linear"] == 0.0);
+    CHECK(valve[0]["within"] == true);
+
+    const auto one_band = environment_of({"--lobe", "lambert", "--specular", "none", "--sh-order", "1", "--exposure", "1"});
+    REQUIRE(one_band.size() == 1);
+    CHECK(one_band[0]["order"] == 1);
+    CHECK(one_band[0]["within"] == false);
+    CHECK(one_band[0]["bound_of_white"].get<double>() == Approx(2.0 * one_band[0]["bound_linear"].get<double>()));  // 2^1
+    CHECK(one_band[0]["tolerance_of_white"].get<double>() == Approx(1.0 / 510.0));
+
+    const auto both = environment_of({});
+    const auto info = json_of(run({"info", "sphere:500", "--env", "sky", "--json"}).out)["materials"][0];
+    REQUIRE(both.size() == 2);
+    CHECK(both[1]["light"] == "mirrored");
+    CHECK(info["environment"]["order"] == both[0]["order"]);
+    CHECK(info["environment"]["bound_linear"] == both[0]["bound_linear"]);
+    CHECK(info["mirrored_environment"]["order"] == both[1]["order"]);
+    CHECK(info["requires"].dump().find("environment") != std::string::npos);
+    CHECK(json_of(run({"info", "sphere:500", "--json"}).out)["materials"][0].count("environment") == 0);
+}
