@@ -14,8 +14,9 @@ enum class ShadowMode : std::uint8_t {
     soft_split  ///< V core + W excess, core = min(f, max(0, x)), excess = f - core, W = max(V, T(d / d0)) per tap
 };
 
-/// Texels between a cube face's edge and the edge of its map, so that filtering never leaves the face.
-inline constexpr int kShadowBorder = 3;
+/// Texels between the edge of what a map must show and the edge of the map. A receiver is looked up 3 texels off its surface, among
+/// texels up to 2 away; with less, look-ups at the rim are pushed back onto the outline of what they belong to, which then hides itself.
+inline constexpr int kShadowBorder = 6;
 
 /// Distances from a light to the nearest surface. Texel (i, j) is at j * size + i; its centre is at (i + 0.5, j + 0.5).
 struct ShadowMapPlan {

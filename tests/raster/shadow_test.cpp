@@ -1,0 +1,294 @@
+// Shadows on wrapped light, in pictures: the step of hard shadows at the terminator, what soft_split makes of it, and that shadow maps
+// leave alone what nothing hides. White matte surfaces under one directional light of colour 1, so that a pixel is V f(N.L).
+#include "raster/renderer.hpp"
+#include "raster/shapes.hpp"
+#include "tests/support/cameras.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <cstring>
+
+using namespace halflit;
+using namespace halflit::raster;
+using shading::Lobe;
+using shading::ShadowMode;
+
+namespace {
+
+constexpr float kRadians = 0.0174532925f;  // pi / 180
+constexpr int kWidth = 1024, kHeight = 4;
+
+const std::vector<std::pair<const char*, Lobe>>& lobes() {
+    static const std::vector<std::pair<const char*, Lobe>> all{{"sloan 0", Lobe::sloan(0)},
+                                                               {"sloan .25", Lobe::sloan(0.25f)},
+                                                               {"sloan .5", Lobe::sloan(0.5f)},
+                                                               {"sloan .75", Lobe::sloan(0.75f)},
+                                                               {"sloan 1", Lobe::sloan(1)},
+                                                               {"green .5", Lobe::green(0.5f)},
+                                                               {"valve", Lobe::valve()},
+                                                               {"half-lambert", Lobe::half_lambert()},
+                                                               {"green .5 normalized", {0.5f, 1, true}},
+                                                               {"sloan .5 normalized", {0.5f, 1.5f, true}},
+                                                               {"valve normalized", {1, 2, true}}};
+    return all;
+}
+
+struct Setup {
+    Scene scene;
+    Camera camera;
+    Settings settings;
+
+    /// Light from +x; the camera looks along -z, at right angles to it: x in the picture is N.L on a unit sphere.
+    explicit Setup(const Lobe& lobe, ShadowMode mode) {
+        shading::Material clay;
+        clay.metallic = 0;
+        clay.lobe = lobe;
+        clay.has_own_lobe = true;
+        scene.materials.push_back(clay);
+        scene.lights.push_back({});
+        scene.lights[0].direction_ws = {-1, 0, 0};
+        settings.shading.specular = false;
+        settings.shadows = mode;
+        camera = test::camera_flat(static_cast<float>(kHeight) / kWidth);
+        camera.half_width = 1.0f;
+    }
+    void add(Mesh mesh, const Mat4& place = {}) {
+        mesh.material = 0;
+        scene.meshes.push_back(std::move(mesh));
+        scene.instances.push_back({static_cast<int>(scene.meshes.size()) - 1, place});
+    }
+    [[nodiscard]] std::vector<float> draw(int width = kWidth, int height = kHeight) const {
+        std::vector<float> rgba(static_cast<std::size_t>(4 * width * height));
+        const auto report = render(scene, camera, settings, {width, height, nullptr, rgba.data()});
+        REQUIRE(report);
+        CHECK(report->nan_pixels == 0);
+        return rgba;
+    }
+};
+
+/// One value a pixel: the red of row `y`.
+std::vector<float> row(const std::vector<float>& rgba, int y = kHeight / 2, int width = kWidth) {
+    std::vector<float> values;
+    for (int x = 0; x < width; ++x) values.push_back(rgba[static_cast<std::size_t>(4 * (y * width + x))]);
+    return values;
+}
+
+std::vector<float> sphere_profile(const Lobe& lobe, ShadowMode mode, int slices = 2048, int stacks = 64) {
+    Setup setup(lobe, mode);
+    setup.add(make_sphere(1, slices, stacks));
+    return row(setup.draw());
+}
+
+float x_of(int pixel) { return (2.0f * static_cast<float>(pixel) + 1.0f) / kWidth - 1.0f; }
+
+/// Largest change between neighbours for x in [low, high].
+float steepest(const std::vector<float>& profile, float low, float high) {
+    float most = 0;
+    for (int i = 0; i + 1 < kWidth; ++i)
+        if (x_of(i) >= low && x_of(i + 1) <= high) most = std::max(most, std::fabs(profile[i + 1] - profile[i]));
+    return most;
+}
+
+int differing(const std::vector<float>& a, const std::vector<float>& b) {
+    REQUIRE(a.size() == b.size());
+    int count = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) count += std::memcmp(&a[i], &b[i], sizeof(float)) != 0;
+    return count;
+}
+
+double boundary_value(const Lobe& lobe) {
+    return static_cast<double>(lobe.scale()) * std::pow(lobe.wrap / (1.0 + lobe.wrap), static_cast<double>(lobe.power));
+}
+
+}  // namespace
+
+TEST_CASE("shadows: hard ones step by (w / (1 + w))^n where a sphere turns away from the light", "[raster][shadow]") {
+    // Filtering and the offset that keeps a surface from hiding itself put the step at N.L = -sqrt(3 t) to -sqrt(9 t), t the texel over
+    // the radius: the receiver stands 3 t off the sphere, of which texels 1.5 t to either side are looked at.
+    const float texel = 2.0f / (2048 - 2 * shading::kShadowBorder);
+    const float lit_from = -std::sqrt(2.0f * texel), dark_to = -std::sqrt(11.0f * texel);
+    for (const auto& [name, lobe] : lobes()) {
+        INFO(name);
+        const std::vector<float> hard = sphere_profile(lobe, ShadowMode::hard), off = sphere_profile(lobe, ShadowMode::off);
+        int lit_wrong = 0, dark_wrong = 0;
+        for (int i = 0; i < kWidth; ++i) {
+            lit_wrong += x_of(i) > lit_from && hard[i] != off[i];
+            dark_wrong += x_of(i) < dark_to && hard[i] != 0.0f;
+        }
+        CHECK(lit_wrong == 0);
+        CHECK(dark_wrong == 0);
+        // Plateau to plateau: the value at N.L = 0, between the two pixels beside it, less the 0 where nothing is left.
+        const float at_terminator = 0.5f * (hard[kWidth / 2 - 1] + hard[kWidth / 2]);
+        CHECK(at_terminator - hard[kWidth / 2 - 100] == Approx(boundary_value(lobe)).margin(1e-3));
+    }
+}
+
+TEST_CASE("shadows: soft-split fades across a sphere's terminator without a step", "[raster][shadow]") {
+    for (const auto& [name, lobe] : lobes()) {
+        if (lobe.wrap == 0) continue;
+        INFO(name);
+        const std::vector<float> soft = sphere_profile(lobe, ShadowMode::soft_split), off = sphere_profile(lobe, ShadowMode::off);
+        const std::vector<float> hard = sphere_profile(lobe, ShadowMode::hard);
+        const float most = steepest(off, -lobe.wrap, 0.1f), got = steepest(soft, -lobe.wrap, 0.1f);
+        CAPTURE(most, got, steepest(hard, -lobe.wrap, 0.1f));
+        // The faded lobe f T(|x| / w) is itself steeper than f: 1.25 times for Green's. The filter, which ends where the sphere's outline
+        // leaves it, doubles that over some 15 pixels.
+        CHECK(got <= 2.4f * most);                              // measured: 1.1 (sloan 1) to 2.3 (sloan .25)
+        CHECK(got <= 0.5f * steepest(hard, -lobe.wrap, 0.1f));  // measured: 0.06 (half-lambert) to 0.49 (sloan .25)
+        int brighter = 0, lit_wrong = 0;
+        for (int i = 0; i < kWidth; ++i) {
+            brighter += soft[i] > off[i] * 1.000001f;
+            lit_wrong += x_of(i) > 0.01f && soft[i] != off[i];
+        }
+        CHECK(brighter == 0);
+        CHECK(lit_wrong == 0);
+        // Half of the wrapped light is left half of the way round: d = 2 |x| and d0 = 2 w, so T(1/2) = 1/2 there.
+        const int halfway = static_cast<int>((1.0f - 0.5f * lobe.wrap) * kWidth / 2);
+        CHECK(soft[halfway] == Approx(0.5 * off[halfway]).epsilon(0.2));  // measured: 0.17 at w = .25, near the filter; 0.04 from .5 on
+    }
+}
+
+TEST_CASE("shadows: without wrap, soft-split is hard bit for bit", "[raster][shadow]") {
+    for (const Lobe& lobe : {Lobe::lambert(), Lobe{0, 2, true}}) {
+        Setup hard(lobe, ShadowMode::hard), soft(lobe, ShadowMode::soft_split), off(lobe, ShadowMode::off);
+        for (Setup* s : {&hard, &soft, &off}) {
+            s->scene.lights[0].direction_ws = {-0.6f, -0.8f, 0};
+            s->add(make_sphere(0.5f, 64, 32));
+            s->add(make_box({0.1f, 0.05f, 0.6f}), translation({0.45f, 0.6f, 0}));
+            s->camera.half_height = 1.0f;
+        }
+        const std::vector<float> picture = hard.draw(256, 256);
+        CHECK(differing(picture, soft.draw(256, 256)) == 0);
+        CHECK(differing(picture, off.draw(256, 256)) > 1000);
+    }
+}
+
+TEST_CASE("shadows: a far caster's shadow is exactly 0 in soft-split too", "[raster][shadow]") {
+    for (const auto& [name, lobe] : lobes()) {
+        INFO(name);
+        Setup setup(lobe, ShadowMode::soft_split);
+        setup.settings.shadow_fade = 0.4f;
+        setup.add(make_sphere(0.5f, 128, 64));
+        setup.add(make_box({0.01f, 0.6f, 0.6f}), translation({2, 0, 0}));
+        const std::vector<float> soft = row(setup.draw());
+        setup.settings.shadows = ShadowMode::off;
+        const std::vector<float> off = row(setup.draw());
+        int checked = 0, wrong = 0;
+        for (int i = 0; i < kWidth; ++i) {
+            // The box hides the whole sphere.
+            if (x_of(i) < 0.49f && x_of(i) > 0.0f) ++checked, wrong += soft[i] != 0.0f || off[i] <= 0.0f;
+        }
+        CHECK(checked > 200);
+        CHECK(wrong == 0);
+    }
+}
+
+TEST_CASE("shadows: what leaks in below a caster that touches is at most the lobe's value at the terminator", "[raster][shadow]") {
+    // A wall on a floor, light from 45 degrees over the wall: in the corner the blocker is as near as can be.
+    for (const auto& [name, lobe] : lobes()) {
+        Setup setup(lobe, ShadowMode::soft_split);
+        setup.scene.lights[0].direction_ws = {-0.70710678f, -0.70710678f, 0};
+        setup.add(make_plane(1, 1));
+        setup.add(make_box({0.02f, 0.2f, 0.5f}), translation({0.3f, 0.2f, 0}));
+        setup.settings.shadow_fade = 0.3f;
+        setup.camera = test::camera_at({0, 5, 0}, {0, 0, 0});
+        setup.camera.orthographic = true;
+        setup.camera.half_height = static_cast<float>(kHeight) / kWidth, setup.camera.half_width = 1;
+        setup.camera.far_z = 20;
+        Setup plain = setup;
+        plain.settings.shadows = ShadowMode::off;
+        // Up in the picture is +x for a vertical view: draw a column, then.
+        setup.camera.half_height = 1, setup.camera.half_width = static_cast<float>(kHeight) / kWidth;
+        plain.camera = setup.camera;
+        const std::vector<float> soft = setup.draw(kHeight, kWidth), off = plain.draw(kHeight, kWidth);
+        float leak = 0;
+        int shadowed = 0;
+        for (int i = 0; i < kWidth; ++i) {
+            const float x = -x_of(i);
+            const float value = soft[static_cast<std::size_t>(4 * (i * kHeight + 1))];
+            // From the foot of the wall to 4 texels before the end of its shadow.
+            if (x < 0.278f && x > -0.11f) leak = std::max(leak, value), ++shadowed;
+            if (x < -0.2f && x > -0.99f) CHECK(value == off[static_cast<std::size_t>(4 * (i * kHeight + 1))]);
+        }
+        INFO(name << ": leak " << leak << " of f(0) = " << boundary_value(lobe));
+        CHECK(shadowed > 150);
+        CHECK(leak <= boundary_value(lobe) + 1e-6);
+    }
+}
+
+TEST_CASE("shadows: on a coarse sphere soft-split is no rougher than the facets make Lambert", "[raster][shadow]") {
+    // 32 facets round the equator. Theory for a = .5: a jump of .243 with hard shadows, .084 with soft-split and with plain Lambert.
+    const Lobe lobe = Lobe::sloan(0.5f);
+    const std::vector<float> hard = sphere_profile(lobe, ShadowMode::hard, 32, 32),
+                             soft = sphere_profile(lobe, ShadowMode::soft_split, 32, 32);
+    const std::vector<float> off = sphere_profile(lobe, ShadowMode::off, 32, 32);
+    const auto jump = [&](const std::vector<float>& p) {  // over 0.04 in x, as wide as the filter makes the step
+        float most = 0;
+        for (int i = kWidth / 4; i + 20 < kWidth * 3 / 4; ++i) most = std::max(most, std::fabs(p[i + 20] - p[i]));
+        return most;
+    };
+    INFO("largest change over 0.04 in x: hard " << jump(hard) << ", soft-split " << jump(soft) << ", off " << jump(off));
+    CHECK(jump(hard) <= 0.243f);
+    CHECK(jump(hard) >= 0.1f);
+    CHECK(jump(soft) <= 0.084f);  // measured 0.03: interpolated normals
+}
+
+TEST_CASE("shadows: planes and spheres do not hide themselves under any light", "[raster][shadow]") {
+    int compared = 0;
+    for (const float degrees : {0.0f, 10.0f, 30.0f, 45.0f, 60.0f, 75.0f, 85.0f}) {
+        for (const float turn : {0.0f, 0.3f, 0.7853982f}) {
+            for (const bool sphere : {false, true}) {
+                const float s = std::sin(degrees * kRadians), c = std::cos(degrees * kRadians);
+                Setup setup(Lobe::sloan(0.5f), ShadowMode::soft_split);
+                setup.scene.lights[0].direction_ws = {-s * std::cos(turn), -c, -s * std::sin(turn)};
+                setup.add(sphere ? make_sphere(1, 256, 128) : make_plane(1, 3));
+                setup.camera = test::camera_at({0, 5, 0}, {0, 0, 0});
+                setup.camera.orthographic = true, setup.camera.half_height = 1.1f, setup.camera.half_width = 1.1f, setup.camera.far_z = 20;
+                const std::vector<float> soft = setup.draw(200, 200);
+                setup.settings.shadows = ShadowMode::hard;
+                const std::vector<float> hard = setup.draw(200, 200);
+                setup.settings.shadows = ShadowMode::off;
+                const std::vector<float> off = setup.draw(200, 200);
+                int wrong = 0;
+                const float lowest = static_cast<float>(boundary_value(Lobe::sloan(0.5f))) * 1.02f;  // N.L > 0.01
+                for (std::size_t i = 0; i < off.size(); i += 4) {
+                    if (off[i] < lowest) continue;
+                    ++compared, wrong += soft[i] != off[i] || hard[i] != off[i];
+                }
+                INFO(degrees << " degrees, turned by " << turn << (sphere ? ", sphere" : ", plane"));
+                CHECK(wrong == 0);
+            }
+        }
+    }
+    CHECK(compared > 400000);
+}
+
+TEST_CASE("shadows: a box's shadow begins within four texels of where it stands", "[raster][shadow]") {
+    for (const float degrees : {30.0f, 45.0f, 60.0f}) {
+        const float s = std::sin(degrees * kRadians), c = std::cos(degrees * kRadians);
+        Setup setup(Lobe::lambert(), ShadowMode::hard);
+        setup.scene.lights[0].direction_ws = {-s, -c, 0};
+        setup.add(make_plane(1, 1));
+        setup.add(make_box({0.1f, 0.2f, 0.3f}), translation({0, 0.2f, 0}));
+        // Seen from the shadow's side and below the horizon of the box's own outline: straight down, the box hides nothing of it.
+        setup.camera = test::camera_at({0, 5, 0}, {0, 0, 0});
+        setup.camera.orthographic = true;
+        setup.camera.half_width = 0;
+        setup.camera.half_height = 0.2f, setup.camera.far_z = 20;
+        const int height = 2048;
+        const std::vector<float> picture = setup.draw(4, height);
+        // In the picture up is +x; the wall's foot on the dark side is at x = -0.1.
+        const float texel = 2 * 1.5f / 2048;
+        float first_dark = -1;
+        for (int i = 0; i < height; ++i) {
+            const float x = 0.2f - 0.4f * (static_cast<float>(i) + 0.5f) / static_cast<float>(height);
+            if (x < -0.1f && picture[static_cast<std::size_t>(16 * i + 4)] < 0.5f * c) {
+                first_dark = x;
+                break;
+            }
+        }
+        INFO(degrees << " degrees: first dark point at " << first_dark << ", texels from the box " << (-0.1f - first_dark) / texel);
+        CHECK(first_dark > -0.1f - 4 * texel);
+    }
+}
