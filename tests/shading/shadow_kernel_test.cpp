@@ -1,0 +1,216 @@
+// Shadow-map look-ups in the kernels, on small maps made by hand: the same bits on every instruction set for any input, exact values at
+// boundaries, and the float64 meaning of the sums.
+#include "random_case.hpp"
+#include "shading/kernels/shade_kernels.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+using namespace halflit;
+using namespace halflit::shading;
+using namespace halflit::testing;
+
+namespace {
+
+constexpr int kSize = 32;
+
+/// One light from +z with one map over [-1, 1] x [-1, 1]; a receiver at z = 0 is 10 away from the map's plane (perspective: from the
+/// light).
+struct Setup {
+    std::vector<float> texels = std::vector<float>(std::size_t{6} * kSize * kSize, kNoBlocker);
+    Material material;
+    Light light;
+    FramePlan plan;
+
+    Setup(ShadowMapPlan::Kind kind, const Lobe& lobe, ShadowMode mode, bool specular = false) {
+        material.metallic = 0;
+        material.lobe = lobe;
+        light.direction_ws = {0, 0, -1};
+        if (kind != ShadowMapPlan::Kind::orthographic) {
+            light.type = kind == ShadowMapPlan::Kind::cube ? LightType::point : LightType::spot;
+            light.position_ws = {0, 0, 10};
+            light.color_linear = {100, 100, 100};
+            light.outer_cone_rad = 1.5f;
+            light.inner_cone_rad = 1.4f;
+        }
+        const std::vector<QuadMask> available{3u, 3u};
+        PlanOptions options;
+        options.specular = specular;
+        plan = make_frame_plan(std::span(&material, 1), {}, available, std::span(&light, 1), {}, options);
+        plan.shadow_mode = mode;
+        plan.orthographic = true;
+        plan.materials[0].shadow_fade_scale = lobe.wrap > 0 ? 0.5f : 0.0f;
+        plan.lights[0].shadow_map = 0;
+        ShadowMapPlan map;
+        map.kind = kind;
+        map.size = kSize;
+        map.texel_size = 2.0f / kSize;
+        const float half = 0.5f * kSize;
+        if (kind == ShadowMapPlan::Kind::orthographic) {
+            map.rows[0][0] = half, map.rows[0][3] = half;
+            map.rows[1][1] = -half, map.rows[1][3] = half;
+        } else if (kind == ShadowMapPlan::Kind::perspective) {
+            map.rows[0][0] = half, map.rows[0][2] = -half, map.rows[0][3] = 10 * half;
+            map.rows[1][1] = -half, map.rows[1][2] = -half, map.rows[1][3] = 10 * half;
+        } else {
+            for (int i = 0; i < 3; ++i) map.origin[i] = plan.lights[0].position[i];
+        }
+        map.rows[2][2] = -1, map.rows[2][3] = 10;
+        plan.shadow_maps.push_back(map);
+        connect();
+    }
+    Setup(const Setup&) = delete;
+    Setup& operator=(const Setup&) = delete;
+    void connect() { plan.shadow_maps[0].distance = texels.data(); }
+    void fill(float distance) { std::fill(texels.begin(), texels.end(), distance); }
+
+    void shade(Isa isa, FragmentBlock& block) const {
+        shade_kernels(isa).shade(plan, plan.materials[0], all_lights(plan), block, kBlockSize);
+    }
+};
+
+constexpr ShadowMapPlan::Kind kKinds[] = {ShadowMapPlan::Kind::orthographic, ShadowMapPlan::Kind::perspective, ShadowMapPlan::Kind::cube};
+constexpr ShadowMode kModes[] = {ShadowMode::off, ShadowMode::hard, ShadowMode::soft_split};
+
+/// All lanes at one place with one normal.
+FragmentBlock uniform(Vec3f position, Vec3f normal) {
+    FragmentBlock block{};
+    for (int lane = 0; lane < kBlockSize; ++lane) {
+        block.lane[kPosX][lane] = position.x, block.lane[kPosY][lane] = position.y, block.lane[kPosZ][lane] = position.z;
+        block.lane[kNormalX][lane] = normal.x, block.lane[kNormalY][lane] = normal.y, block.lane[kNormalZ][lane] = normal.z;
+        block.lane[kFacing][lane] = 1;
+    }
+    return block;
+}
+
+}  // namespace
+
+TEST_CASE("shadow kernel: random maps and any fragments give scalar's bits on every set", "[shading][shadow]") {
+    FloatMaker make(808);
+    std::int64_t compared = 0;
+    int hidden = 0;
+    for (int round = 0; round < 1800; ++round) {
+        Setup setup(kKinds[round % 3], make_lobe(make), kModes[1 + round / 3 % 2], round % 5 == 0);
+        const bool wild_map = round % 7 == 0;
+        for (float& d : setup.texels)
+            d = make.below(3) == 0 ? kNoBlocker : wild_map ? make.wild(5, 15) : make.below(4) == 0 ? 10.0f : make.ordinary(5, 15);
+        FragmentBlock input{};
+        fill_block(make, input, round % 2 == 0);
+        FragmentBlock want = input;
+        setup.shade(Isa::scalar, want);
+        setup.plan.shadow_mode = ShadowMode::off;
+        FragmentBlock open = input;
+        setup.plan.lights[0].shadow_map = -1;
+        setup.shade(Isa::scalar, open);
+        setup.plan.lights[0].shadow_map = 0;
+        setup.plan.shadow_mode = kModes[1 + round / 3 % 2];
+        int different = 0, nans = 0;
+        for (int lane = 0; lane < kBlockSize; ++lane) {
+            hidden += want.red[lane] < open.red[lane];
+            // A shadow makes no NaN of what was none.
+            nans += std::isnan(want.red[lane]) && std::isfinite(open.red[lane]);
+        }
+        for (const Isa isa : other_isas()) {
+            FragmentBlock got = input;
+            setup.shade(isa, got);
+            for (int lane = 0; lane < kBlockSize; ++lane)
+                different += !same_bits(want.red[lane], got.red[lane]) || !same_bits(want.green[lane], got.green[lane]);
+        }
+        INFO("round " << round);
+        if (different != 0) CHECK(different == 0);
+        if (!wild_map && nans != 0) CHECK(nans == 0);
+        compared += kBlockSize;
+    }
+    CHECK(compared > 100000);
+    CHECK(hidden > 10000);
+}
+
+TEST_CASE("shadow kernel: all, nothing and depth by the texel are exact", "[shading][shadow]") {
+    for (const auto kind : kKinds) {
+        for (const ShadowMode mode : {ShadowMode::hard, ShadowMode::soft_split}) {
+            for (const Lobe& lobe : {Lobe::lambert(), Lobe::sloan(0.5f), Lobe::valve(), Lobe{0.5f, 1, true}}) {
+                INFO("kind " << static_cast<int>(kind) << ", mode " << static_cast<int>(mode) << ", wrap " << lobe.wrap);
+                Setup setup(kind, lobe, mode);
+                const auto red = [&](Vec3f position, Vec3f normal) {
+                    FragmentBlock block = uniform(position, normal);
+                    setup.shade(Isa::scalar, block);
+                    return block.red[7];
+                };
+                const Vec3f here{0.1f, 0.05f, 0};
+                const float ulp_up = std::nextafter(0.0f, 1.0f);
+                const std::vector<Vec3f> normals{{0, 0, 1},
+                                                 {0.6f, 0, 0.8f},
+                                                 {1, 0, 0},
+                                                 {1, 0, ulp_up},
+                                                 {1, 0, -ulp_up},
+                                                 {0.8660254f, 0, -0.5f},
+                                                 {0, 1, -0.1f},
+                                                 {0.8660254f, 0, -0.49999997f},
+                                                 {0.8660254f, 0, -0.50000006f},
+                                                 {0, 0, -1}};
+                for (const Vec3f& n : normals) {
+                    INFO("normal " << n.x << " " << n.y << " " << n.z);
+                    setup.plan.shadow_mode = mode;
+                    setup.plan.lights[0].shadow_map = -1;
+                    setup.fill(kNoBlocker);
+                    const float open = red(here, n);
+                    setup.plan.lights[0].shadow_map = 0;
+                    CHECK(open >= 0.0f);
+                    CHECK(same_bits(red(here, n), open));  // nothing in the map
+                    setup.fill(10.5f);                     // all of it behind the receiver
+                    CHECK(same_bits(red(here, n), open));
+                    setup.fill(1.0f);  // far in front: d > d0 = 2
+                    CHECK(red(here, n) == 0.0f);
+                    setup.fill(9.0f);  // half of d0 in front: at most what is open, never below 0
+                    CHECK(red(here, n) >= 0.0f);
+                    CHECK(red(here, n) <= open);
+                }
+                // Facing the light, at exactly the stored depth: not hidden.
+                setup.fill(10.0f);
+                CHECK(red({0, 0, 0}, {0, 0, 1}) > 0.0f);
+                // Off the map, and on its edges: no look-up leaves it.
+                setup.fill(1.0f);
+                for (const float x : {-1.0f, 1.0f, -1.0000001f, 1.0000001f, 11.0f, -1e30f, kInf, -kInf, kNan}) {
+                    CHECK_FALSE(red({x, 0, 0}, {0, 0, 1}) < 0.0f);
+                    CHECK_FALSE(red({0, x, x}, {0, 0, 1}) < 0.0f);
+                }
+                if (kind == ShadowMapPlan::Kind::orthographic) CHECK(red({1.5f, 0, 0}, {0, 0, 1}) == Approx(lobe.scale()));
+            }
+        }
+    }
+}
+
+TEST_CASE("shadow kernel: a lit share is the weighted mean over 3 x 3 texels", "[shading][shadow]") {
+    FloatMaker make(77);
+    for (const ShadowMode mode : {ShadowMode::hard, ShadowMode::soft_split}) {
+        const Lobe lobe = Lobe::sloan(0.5f);
+        Setup setup(ShadowMapPlan::Kind::orthographic, lobe, mode);
+        for (float& d : setup.texels) d = make.below(2) == 0 ? kNoBlocker : make.ordinary(7, 9.5f);
+        for (int round = 0; round < 500; ++round) {
+            const float x = make.ordinary(-0.65f, 0.65f), y = make.ordinary(-0.65f, 0.65f), cosine = make.ordinary(-0.49f, 1);
+            const float sine = std::sqrt(1 - cosine * cosine);
+            FragmentBlock block = uniform({x, y, 0}, {sine, 0, cosine});
+            setup.shade(Isa::scalar, block);
+            // In double: 3 texels along the normal times the sine, then a box 3 texels wide around the point.
+            const double texel = 2.0 / kSize, offset = 3 * texel * double{sine};
+            const double u = (x + offset * double{sine} + 1) / texel, v = (1 - double{y}) / texel;
+            const double receiver = 10 - offset * double{cosine} - 0.5 * texel;
+            double hard = 0, soft = 0;
+            for (int j = 0; j < kSize; ++j) {
+                for (int i = 0; i < kSize; ++i) {
+                    const double du = std::clamp(2.0 - std::fabs(i + 0.5 - u), 0.0, 1.0),
+                                 dv = std::clamp(2.0 - std::fabs(j + 0.5 - v), 0.0, 1.0);
+                    const double d = receiver - double{setup.texels[static_cast<std::size_t>(j * kSize + i)]};
+                    const double t = std::clamp(d * 0.5, 0.0, 1.0);
+                    hard += du * dv / 9 * (d > 0);
+                    soft += du * dv / 9 * (1 - (1 - t) * (1 - t) * (1 + 2 * t));
+                }
+            }
+            const double f = reference::lobe_value(lobe, double{cosine}),
+                         core = mode == ShadowMode::hard ? f : std::min(f, std::max(0.0, double{cosine}));
+            INFO("x " << x << ", y " << y << ", cosine " << cosine);
+            CHECK(block.red[3] == Approx((1 - hard) * core + (1 - soft) * (f - core)).margin(2e-5));
+        }
+    }
+}
