@@ -1,5 +1,4 @@
-// Environment light at a normal: spherical harmonics of 1 to 10 bands, each order its own code, so that an order pays for its own
-// bands alone.
+// Environment light at a normal: spherical harmonics of 1 to 10 bands.
 #pragma once
 
 #include "shading/environment_plan.hpp"
@@ -8,35 +7,52 @@
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
-/// Ascending order, products rounded before the sum. Below 0, where the series rings, is 0.
-template <int N>
-HALFLIT_INLINE V3 environment_sum(const shading::EnvironmentPlan& plan, V3 normal) {
-    F y[N * N];
-    sh::evaluate_basis<N>(normal, y);
+/// The recurrence of sh::evaluate_basis in float, as a table that every object keeps to itself.
+struct BasisSteps {
+    float diagonal[sh::kMaxBands]{}, up[sh::kMaxBands][sh::kMaxBands]{}, back[sh::kMaxBands][sh::kMaxBands]{};
+};
+constexpr BasisSteps make_basis_steps() {
+    constexpr sh::detail::BasisTable table = sh::detail::make_basis_table();
+    BasisSteps steps;
+    for (int m = 0; m < sh::kMaxBands; ++m) {
+        steps.diagonal[m] = static_cast<float>(table.diagonal[m]);
+        for (int l = 0; l < sh::kMaxBands; ++l) {
+            steps.up[l][m] = static_cast<float>(table.up[l][m]);
+            steps.back[l][m] = static_cast<float>(table.back[l][m]);
+        }
+    }
+    return steps;
+}
+static constexpr BasisSteps kBasisSteps = make_basis_steps();
+
+/// The operations of sh::evaluate_basis<N> with N = plan.bands, in loops: an order pays for its own bands alone, and all ten share one
+/// small piece of code (unrolled for each order they were 40 times as much to compile).
+/// The sum is in ascending order, products rounded before it. Below 0, where the series rings, is 0.
+[[gnu::noinline]] static V3 environment_light(const shading::EnvironmentPlan& plan, V3 normal) {
+    F y[sh::kMaxCoefficients];
+    F c(1.0f), s(0.0f);  // the parts of (x + iy)^m
+    for (int m = 0; m < plan.bands; ++m) {
+        F before(0.0f), q(kBasisSteps.diagonal[m]);
+        for (int l = m; l < plan.bands; ++l) {
+            y[sh::coefficient_index(l, m)] = q * c;
+            if (m > 0) y[sh::coefficient_index(l, -m)] = q * s;
+            if (l + 1 == plan.bands) break;
+            const F next = (normal.z * q) * F(kBasisSteps.up[l + 1][m]) - before * F(kBasisSteps.back[l + 1][m]);
+            before = q;
+            q = next;
+        }
+        const F turned = c * normal.x - s * normal.y;
+        s = s * normal.x + c * normal.y;
+        c = turned;
+    }
     V3 sum{F(plan.red[0]) * y[0], F(plan.green[0]) * y[0], F(plan.blue[0]) * y[0]};
-    for (int i = 1; i < N * N; ++i) {
+    for (int i = 1; i < sh::coefficient_count(plan.bands); ++i) {
         sum.x = mad(F(plan.red[i]), y[i], sum.x);
         sum.y = mad(F(plan.green[i]), y[i], sum.y);
         sum.z = mad(F(plan.blue[i]), y[i], sum.z);
     }
     const F none(0.0f);
     return {vmax(sum.x, none), vmax(sum.y, none), vmax(sum.z, none)};
-}
-
-/// One function a set, not inlined: the ten orders together are large, and each fragment runs one or two of them.
-[[gnu::noinline]] static V3 environment_light(const shading::EnvironmentPlan& plan, V3 normal) {
-    switch (plan.bands) {
-        case 1: return environment_sum<1>(plan, normal);
-        case 2: return environment_sum<2>(plan, normal);
-        case 3: return environment_sum<3>(plan, normal);
-        case 4: return environment_sum<4>(plan, normal);
-        case 5: return environment_sum<5>(plan, normal);
-        case 6: return environment_sum<6>(plan, normal);
-        case 7: return environment_sum<7>(plan, normal);
-        case 8: return environment_sum<8>(plan, normal);
-        case 9: return environment_sum<9>(plan, normal);
-        default: return environment_sum<10>(plan, normal);
-    }
 }
 
 }  // namespace HALFLIT_ISA_NAMESPACE
