@@ -97,4 +97,12 @@ Mat4 clip_from_world(const Camera& camera, float picture_aspect) {
              clip_column(-dot(axis[0], eye), -dot(axis[1], eye), -dot(axis[2], eye), 1.0)}};
 }
 
+ViewRays view_rays(const Camera& camera, float picture_aspect) {
+    const Mat4& m = camera.world_from_camera;
+    const auto axis = [&](int i) { return Vec3d{m.c[i].x, m.c[i].y, m.c[i].z}; };
+    if (camera.orthographic) return {axis(2) * -1.0, {}, {}};
+    const HalfView half = half_view(camera, usable_aspect(picture_aspect));
+    return {axis(2) * -1.0, axis(0) * half.x, axis(1) * half.y};
+}
+
 }  // namespace halflit::raster

@@ -41,6 +41,12 @@ struct ViewSettings {
 /// bounds are framed as a unit cube at the origin, a point as a small box; settings that are not finite count as their neutral value.
 [[nodiscard]] Camera frame_bounds(const Bounds& bounds, float aspect, const ViewSettings& view);
 
+/// The way a camera looks through a picture: at (x, y) in [-1, 1], x right and y up, along middle + x right + y up, of any length.
+struct ViewRays {
+    Vec3d middle{0, 0, -1}, right, up;
+};
+[[nodiscard]] ViewRays view_rays(const Camera& camera, float aspect);
+
 /// clip_from_world with reversed depth: z/w is 1 at the near plane and 0 at the far plane (or at infinity), so that float depth keeps
 /// its precision at any range. x and y in [-w, w], y up. `aspect` is the picture's width / height. A camera made for another aspect
 /// shows more on one side, never less. Always finite for a finite placing: a field of view outside (0, pi) is brought inside, a far

@@ -31,6 +31,7 @@ struct Settings {
     int threads = 0;                       ///< 0: one a core; changes speed, never a pixel
     Result<shading::Isa> isa = shading::default_isa();  ///< changes speed, never a pixel
     Vec4f background_linear{0, 0, 0, 0};   ///< linear colour, not premultiplied; w = 0 is transparent
+    bool background_environment = false;   ///< the scene's environment instead, where it kept its image
     float exposure = 1.0f;                 ///< factor on all light, > 0
     shading::PlanOptions shading{};
     shading::ShadowMode shadows = shading::ShadowMode::soft_split;

@@ -5,6 +5,7 @@
 // A pixel is a patch of constant radiance, not a point sample: every integral in this folder is exact for that function.
 #pragma once
 
+#include "sh/arc.hpp"
 #include "sh/trig.hpp"
 #include "sh/vec3.hpp"
 
@@ -27,6 +28,15 @@ struct EquirectView {
 [[nodiscard]] inline Vec3d equirect_direction(double u, double v) {
     const SinCos theta = sin_cos(kPi * v), phi = sin_cos(2.0 * kPi * (u - 0.5));
     return {theta.sin * phi.sin, theta.cos, -theta.sin * phi.cos};
+}
+
+struct EquirectPoint {
+    double u, v;  ///< in [0, 1]
+};
+
+/// The inverse, for directions of any length.
+[[nodiscard]] inline EquirectPoint equirect_point(Vec3d d) {
+    return {0.5 + angle_of(d.x, -d.z) / (2.0 * kPi), angle_of(__builtin_sqrt(d.x * d.x + d.z * d.z), d.y) / kPi};
 }
 
 /// Solid angle of one pixel of a row: 2 pi/width (cos theta_0 - cos theta_1), written as a product that does not cancel.

@@ -11,6 +11,12 @@ Environment make_environment(const sh::EquirectView& image, const EnvironmentOpt
     const sh::Projection whole(image);
     const sh::Rotation turn = sh::rotation_about_y(options.rotate_rad);
     Environment environment;
+    if (options.keep_image) {
+        environment.rgb.assign(image.rgb.begin(), image.rgb.end());
+        environment.width = image.width;
+        environment.height = image.height;
+        environment.rotate_rad = options.rotate_rad;
+    }
     const auto take = [&](const sh::Projection& projection) {
         environment.radiance = sh::rotated(projection.radiance(), turn);
         environment.grid = sh::BandGrid(projection);

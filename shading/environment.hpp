@@ -18,11 +18,16 @@ struct Environment {
     sh::RadianceSh radiance;  ///< turned as the scene wants it
     sh::BandGrid grid{sh::Projection()};
     std::vector<Light> suns;  ///< directional, colour premultiplied by 1/pi
+    /// The image itself, suns and all, as it came, and how it is to be turned: what is seen behind a scene. Empty unless kept.
+    std::vector<float> rgb;
+    int width = 0, height = 0;
+    double rotate_rad = 0.0;
 };
 
 struct EnvironmentOptions {
     bool extract_suns = true;  ///< where that lowers the bound
     double rotate_rad = 0.0;   ///< about +y, counterclockwise seen from above
+    bool keep_image = false;   ///< for a background
 };
 
 [[nodiscard]] Environment make_environment(const sh::EquirectView& image, const EnvironmentOptions& options = {});

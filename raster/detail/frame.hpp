@@ -2,6 +2,7 @@
 // nothing.
 #pragma once
 
+#include "raster/detail/background.hpp"
 #include "raster/detail/light_culling.hpp"
 #include "raster/framebuffer.hpp"
 #include "raster/kernels/raster_kernels.hpp"
@@ -88,6 +89,7 @@ struct Frame {
 
     shading::FramePlan plan;
     LightCuller lights;
+    Background background;  ///< instead of Settings::background_linear
     std::vector<Draw> draws;
     std::vector<DrawRecords> draw_records;
     bool has_mask = false, has_blend = false;

@@ -214,6 +214,9 @@ Result<void> prepare_frame(Frame& frame, const Scene& scene, const Camera& camer
     frame.plan.view_direction_ws = normalize_or({-back.x, -back.y, -back.z}, {0, 0, -1});
     frame.plan.orthographic = camera.orthographic;
 
+    frame.background = {};
+    if (settings.background_environment && scene.environment != nullptr && !scene.environment->rgb.empty())
+        frame.background = Background(*scene.environment, camera, target.width, target.height, settings.exposure);
     frame.lights.build(frame.plan);
     frame.draws.clear();
     frame.vertex_count = frame.triangle_count = frame.record_floats = 0;

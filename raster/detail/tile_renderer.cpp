@@ -36,6 +36,7 @@ TileCounts TileRenderer::render() {
         const Vec4f b = number_or_zero(frame_.settings->background_linear);
         const float back[4] = {b.x * b.w, b.y * b.w, b.z * b.w, b.w};
         for (int i = 0; i < frame_.pattern.count * kTilePixels; ++i) std::memcpy(color + 4 * i, back, sizeof back);
+        if (frame_.background) fill_samples();
     }
     shade_visible();
     if (!direct_) {
@@ -164,7 +165,22 @@ void TileRenderer::write_samples(const FragmentList& list, bool blend) {
     }
 }
 
+void TileRenderer::fill_samples() {
+    for (int y = 0; y < rect_.height; ++y)
+        for (int x = 0; x < rect_.width; ++x) {
+            const Vec4f b = number_or_zero(frame_.background.at(rect_.x + x, rect_.y + y));
+            for (int s = 0; s < frame_.pattern.count; ++s) std::memcpy(sample_color(s) + 4 * (y * kTileStride + x), &b, sizeof b);
+        }
+}
+
 void TileRenderer::fill_background() {
+    if (frame_.background) {
+        // By way of samples, so that an empty tile rounds as an empty pixel beside a triangle does.
+        scratch_.color.reserve(static_cast<std::size_t>(frame_.pattern.count) * 4 * kTilePixels);
+        fill_samples();
+        resolve();
+        return;
+    }
     Vec4f b = number_or_zero(frame_.settings->background_linear);
     if (!direct_) {
         // A tile that nothing touches must round as an empty pixel beside a triangle does, or pixels would depend on the tile size.

@@ -45,6 +45,7 @@ private:
     void write_direct(const FragmentList& list);
     void write_samples(const FragmentList& list, bool blend);
     void fill_background();
+    void fill_samples();  ///< every sample with the environment behind its pixel
     void resolve();
     [[nodiscard]] float* sample_color(int s) { return scratch_.color.data() + static_cast<std::size_t>(s) * 4 * kTilePixels; }
     [[nodiscard]] const Draw& draw_of(const TriangleRecord& r) const { return frame_.draws[r.draw_and_back >> 1]; }
