@@ -66,7 +66,8 @@ Result<float> add_environment(raster::Scene& scene, const RenderOptions& options
     const auto image = io::environment_by_name(options.environment);
     if (!image) return tl::unexpected(image.error());
     auto environment = std::make_shared<shading::Environment>(
-        shading::make_environment(image->view(), {options.environment_sun, static_cast<double>(options.environment_rotate_deg) * (kPi / 180.0)}));
+        shading::make_environment(image->view(), {options.environment_sun, static_cast<double>(options.environment_rotate_deg) * (kPi / 180.0),
+                                                 options.background_environment}));
     scene.ambient = {};
     double level = 0.28209479177387814 * sh::luminance(environment->radiance.c[0]);  // Y_0: the mean radiance
     for (const shading::Light& sun : environment->suns) {
@@ -115,6 +116,7 @@ Result<void> choose_settings(raster::Settings& settings, const RenderOptions& op
     if (options.isa) settings.isa = *options.isa;
     if (!settings.isa) return fail(ErrorCode::usage, settings.isa.error().message);
     settings.background_linear = options.background_linear;
+    settings.background_environment = options.background_environment;
     settings.shading.override_lobe = lobe->has_value();
     settings.shading.lobe = lobe->value_or(shading::Lobe{});
     settings.shading.specular = options.specular;
@@ -129,6 +131,8 @@ Result<void> choose_settings(raster::Settings& settings, const RenderOptions& op
 }  // namespace
 
 Result<Frame> make_frame(const RenderOptions& options, PictureSize usual) {
+    if (options.background_environment && options.environment.empty())
+        return fail(ErrorCode::usage, "--background: expected --env with environment");
     if (options.camera && options.own_view)
         return fail(ErrorCode::usage,
                     "--camera: expected without --azimuth, --elevation, --zoom and --fov, which make a camera of their own");

@@ -50,8 +50,13 @@ void add_picture_flags(CLI::App& app, RenderOptions& o) {
         return assign(o.region, parse_region(text));
     })->group(kGroup);
     add_value(app, "--samples", "1|4|8", "Samples a pixel against jagged edges (default 4)", choice(o.samples, {1, 4, 8}))->group(kGroup);
-    add_value(app, "--background", "COLOR", "transparent, #rgb, #rrggbb, #rrggbbaa or a name (default #3a3f47)",
-              [&o](const std::string& text) { return assign(o.background_linear, parse_color(text)); })
+    add_value(app, "--background", "COLOR|environment",
+              "transparent, #rgb, #rrggbb, #rrggbbaa or a name (default #3a3f47); environment: what --env names",
+              [&o](const std::string& text) -> Result<void> {
+                  o.background_environment = text == "environment";
+                  if (o.background_environment) return {};
+                  return assign(o.background_linear, parse_color(text));
+              })
         ->group(kGroup);
     add_value(
         app, "--exposure", "EV|auto", "Light times 2^EV; auto: chosen from the file's lights (default)",

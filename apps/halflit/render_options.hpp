@@ -23,6 +23,7 @@ struct RenderOptions {
     raster::Region region;  ///< width 0: all
     int samples = 1;
     Vec4f background_linear{0, 0, 0, 0};
+    bool background_environment = false;
 
     std::optional<std::string> camera;
     raster::ViewSettings view;
