@@ -132,11 +132,12 @@ Result<void> ShadowMaps::draw_face(const Scene& scene, const Camera& camera, int
 
 Result<void> ShadowMaps::draw(const Scene& scene, const Settings& settings, Executor& executor, shading::FramePlan& plan) {
     plan.shadow_maps.clear();
-    const Bounds bounds = scene_bounds(scene);
     const int side = settings.shadow_size;
     if (side < 64 || side > 4096 || (side & (side - 1)) != 0)
         return fail(ErrorCode::usage, "shadow size: " + std::to_string(side) + ", expected a power of two from 64 to 4096");
-    if (settings.shadows == shading::ShadowMode::off || bounds.empty || !(bounds.radius() > 0.0f)) return {};
+    if (settings.shadows == shading::ShadowMode::off || plan.lights.empty()) return {};
+    const Bounds bounds = scene_bounds(scene);
+    if (bounds.empty || !(bounds.radius() > 0.0f)) return {};
     std::size_t floats = 0;
     for (const LightPlan& light : plan.lights) {
         if (!reaches(light, bounds)) continue;
