@@ -26,7 +26,7 @@ constexpr BasisSteps make_basis_steps() {
 static constexpr BasisSteps kBasisSteps = make_basis_steps();
 
 /// The operations of sh::evaluate_basis<N> with N = plan.bands, in loops: an order pays for its own bands alone, and all ten share one
-/// small piece of code (unrolled for each order they were 40 times as much to compile).
+/// small piece of code (bench/README.md has the price of that).
 /// The sum is in ascending order, products rounded before it. Below 0, where the series rings, is 0.
 [[gnu::noinline]] static V3 environment_light(const shading::EnvironmentPlan& plan, V3 normal) {
     F y[sh::kMaxCoefficients];
