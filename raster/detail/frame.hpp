@@ -84,7 +84,7 @@ struct Frame {
     Viewport viewport;
     const RasterKernels* raster = nullptr;
     const shading::ShadeKernels* shade = nullptr;
-    bool draw_back_faces = false;   ///< cull nothing, whatever the materials say
+    bool depth_only = false;      ///< for shadow maps: no light is planned, and back faces count whatever the materials say
     bool keep_submitted = false;  ///< fill Chunk::submitted
 
     shading::FramePlan plan;

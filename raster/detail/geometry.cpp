@@ -108,7 +108,7 @@ void add_draws(Frame& frame, const Scene& scene, const Mat4& clip_from_world_mat
         draw.mirrored = determinant3(instance.world_from_object) < 0.0;
         const shading::MaterialPlan& plan = frame.plan.materials[static_cast<std::size_t>(draw.material)];
         draw.cull_back =
-            !frame.draw_back_faces && (mesh.material < 0 || !scene.materials[static_cast<std::size_t>(mesh.material)].double_sided);
+            !frame.depth_only && (mesh.material < 0 || !scene.materials[static_cast<std::size_t>(mesh.material)].double_sided);
         draw.mask = plan.alpha_mode == shading::AlphaMode::mask;
         draw.blend = plan.alpha_mode == shading::AlphaMode::blend;
         draw.stride = 4 * std::popcount(plan.quads);
@@ -208,7 +208,10 @@ Result<void> prepare_frame(Frame& frame, const Scene& scene, const Camera& camer
         quads[mesh.material >= 0 ? static_cast<std::size_t>(mesh.material) : scene.materials.size()] |= quads_of(mesh);
     shading::PlanOptions plan_options = settings.shading;
     plan_options.environment_order.exposure = static_cast<double>(settings.exposure);
-    frame.plan = shading::make_frame_plan(scene.materials, scene.textures, quads, scene.lights, scene.ambient, plan_options, scene.environment.get());
+    // Depth alone takes no light: what remains of a plan is what an alpha test reads.
+    frame.plan = frame.depth_only ? shading::make_frame_plan(scene.materials, scene.textures, quads, {}, {}, plan_options)
+                                  : shading::make_frame_plan(scene.materials, scene.textures, quads, scene.lights, scene.ambient,
+                                                             plan_options, scene.environment.get());
     const Vec4f back = camera.world_from_camera.c[2], eye = camera.world_from_camera.c[3];
     frame.plan.eye_ws = {eye.x, eye.y, eye.z};
     frame.plan.view_direction_ws = normalize_or({-back.x, -back.y, -back.z}, {0, 0, -1});

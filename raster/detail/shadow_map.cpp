@@ -72,10 +72,12 @@ double cone_tangent(const LightPlan& light) {
     return cosine < 0.25 ? 0.0 : __builtin_sqrt(std::max(0.0, 1.0 - cosine * cosine)) / cosine;
 }
 
-int size_of(const LightPlan& light, const Settings& settings) {
-    const bool cube = light.type == LightType::point || (light.type == LightType::spot && cone_tangent(light) == 0.0);
-    return cube ? std::max(settings.shadow_size / 2, 16) : settings.shadow_size;
+/// Whether it takes six maps.
+bool is_cube(const LightPlan& light) {
+    return light.type == LightType::point || (light.type == LightType::spot && cone_tangent(light) == 0.0);
 }
+
+int size_of(const LightPlan& light, const Settings& settings) { return is_cube(light) ? settings.shadow_size / 2 : settings.shadow_size; }
 
 }  // namespace
 
@@ -101,11 +103,12 @@ void set_shadow_fades(Frame& frame) {
 
 Result<void> ShadowMaps::draw_face(const Scene& scene, const Camera& camera, int size, bool perspective, const Settings& settings,
                                    Executor& executor, float* distance) {
-    Settings depth_only = settings;
-    depth_only.region = {};
-    depth_only.samples = 1;
-    frame_.draw_back_faces = true;
-    if (auto ok = prepare_frame(frame_, scene, camera, depth_only, {size, size, nullptr, nullptr}); !ok) return ok;
+    Settings whole_map = settings;
+    whole_map.region = {};
+    whole_map.samples = 1;
+    whole_map.background_environment = false;
+    frame_.depth_only = true;
+    if (auto ok = prepare_frame(frame_, scene, camera, whole_map, {size, size, nullptr, nullptr}); !ok) return ok;
     transform_vertices(frame_, executor);
     bin_triangles(frame_, executor);
     if (frame_.has_mask) {  // the alpha test reads attributes
@@ -142,8 +145,7 @@ Result<void> ShadowMaps::draw(const Scene& scene, const Settings& settings, Exec
     for (const LightPlan& light : plan.lights) {
         if (!reaches(light, bounds)) continue;
         const auto size = static_cast<std::size_t>(size_of(light, settings));
-        floats +=
-            size * size * (light.type == LightType::directional || (light.type == LightType::spot && cone_tangent(light) > 0.0) ? 1 : 6);
+        floats += size * size * (is_cube(light) ? 6 : 1);
     }
     float* out = texels_.reserve(floats);
     const Vec3f c = bounds.center();
@@ -184,9 +186,9 @@ Result<void> ShadowMaps::draw(const Scene& scene, const Settings& settings, Exec
             set_rows(map, axes, eye, half);
             if (auto ok = draw_face(scene, camera, map.size, false, settings, executor, out); !ok) return ok;
             out += texels;
-        } else if (const double tangent = light.type == LightType::spot ? cone_tangent(light) : 0.0; tangent > 0.0) {
+        } else if (!is_cube(light)) {
             const Axes axes = axes_for(unit(to_double(light.to_light)));
-            const double half = tangent * usable;
+            const double half = cone_tangent(light) * usable;
             const Vec3d eye = to_double(light.position);
             Camera camera = camera_at(axes, eye);
             camera.fov_y_rad = static_cast<float>(2.0 * arc_tangent(half));
