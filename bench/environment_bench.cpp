@@ -32,7 +32,7 @@ FramePlan plan_of(int order) {
     const Material material;
     const QuadMask quads[] = {3u, 3u};
     PlanOptions options;
-    options.specular = false;  // one look-up a fragment
+    options.highlight = Highlight::none;  // one look-up a fragment
     options.environment_order.fixed = order;
     return make_frame_plan({&material, 1}, {}, quads, {}, Ambient{{0.4f, 0.5f, 0.6f}, {0.2f, 0.2f, 0.1f}}, options,
                            order > 0 ? &environment : nullptr);
@@ -58,8 +58,8 @@ const bool kRegistered = [] {
     for (const Isa isa : built_isas()) {
         if (!isa_available(isa)) continue;
         for (int order = 0; order <= sh::kMaxBands; ++order)
-            benchmark::RegisterBenchmark(("environment/" + std::string(isa_name(isa)) + "/order:" + std::to_string(order)).c_str(), shade_block,
-                                         isa, order);
+            benchmark::RegisterBenchmark(("environment/" + std::string(isa_name(isa)) + "/order:" + std::to_string(order)).c_str(),
+                                         shade_block, isa, order);
     }
     return true;
 }();

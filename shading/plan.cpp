@@ -120,6 +120,7 @@ LightPlan plan_light(const Light& light) {
     const double cutoff = versine(outer), width = cutoff - versine(inner);
     plan.cone_cutoff = static_cast<float>(cutoff);
     plan.cone_scale = static_cast<float>(1.0 / std::max(width, 1e-30));  // inner = outer: a step
+    plan.half_cone_power = 0.5f * clamp_or_low(light.cone_power, 0.0f, 1e5f);
     return plan;
 }
 
@@ -243,7 +244,9 @@ FramePlan make_frame_plan(std::span<const Material> materials, std::span<const T
         if (contributes(light)) plan.lights.push_back(plan_light(light));
     plan.ambient = ambient;
     const FrameFacts facts{!plan.lights.empty(), environment != nullptr || !zero(ambient.sky_linear) || !zero(ambient.ground_linear),
-                           options.specular};
+                           options.highlight != Highlight::none};
+    plan.highlight = options.highlight;
+    plan.normalize_highlight = options.normalize_highlight;
     plan.materials.reserve(materials.size() + 1);
     for (std::size_t i = 0; i <= materials.size(); ++i)
         plan.materials.push_back(

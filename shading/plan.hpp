@@ -88,7 +88,12 @@ struct LightPlan {
     float cone_cutoff;           ///< spot: 1 - cos(outer angle)
     std::int32_t shadow_map = -1;  ///< index into FramePlan::shadow_maps; -1: casts no shadow
     float cone_scale;            ///< spot: 1 / (cos(inner) - cos(outer)); see kernels/light_kernel.hpp
+    float half_cone_power;       ///< spot: half the power of the cosine; 0: none
 };
+
+/// Shape of the highlight. Phong looks at the mirrored light, Blinn at the half vector; both with the exponent that gives the same
+/// width, four times larger for Blinn.
+enum class Highlight : std::uint8_t { none, phong, blinn };
 
 /// Everything about the frame that shading needs, the same for all fragments.
 struct FramePlan {
@@ -97,6 +102,8 @@ struct FramePlan {
     std::vector<ShadowMapPlan> shadow_maps;
     std::vector<EnvironmentPlan> environments;  ///< one for each lobe that meets the environment
     ShadowMode shadow_mode = ShadowMode::off;
+    Highlight highlight = Highlight::blinn;
+    bool normalize_highlight = true;
     Ambient ambient;
     Vec3f eye_ws{0, 0, 0};              ///< perspective: camera position
     Vec3f view_direction_ws{0, 0, -1};  ///< orthographic: the way the camera looks, unit
@@ -117,7 +124,8 @@ struct PlanOptions {
     ShadingRate rate = ShadingRate::pixel;
     bool override_lobe = false;  ///< use `lobe` for all materials that do not bring their own
     Lobe lobe;
-    bool specular = true;
+    Highlight highlight = Highlight::blinn;  ///< none: no specular stage, albedo is the base colour itself
+    bool normalize_highlight = true;         ///< times (s + 8) / 8, so that sharper highlights are brighter; off: a peak of 1 for every exponent
     EnvironmentOrder environment_order;
 };
 

@@ -92,6 +92,7 @@ Arrival arrival(const Light& light, Vec3d position) {
         const double inner = std::cos(std::min(double{light.inner_cone_rad}, double{light.outer_cone_rad}));
         const double cone = inner > outer ? std::clamp((cosine - outer) / (inner - outer), 0.0, 1.0) : (cosine > outer ? 1.0 : 0.0);
         strength *= cone * cone;
+        if (light.cone_power > 0) strength *= std::pow(std::max(cosine, 0.0), double{light.cone_power});
     }
     return {direction, strength};
 }
@@ -118,7 +119,7 @@ Vec3d shading_normal(const Frame& frame, const Material& material, QuadMask avai
 }
 
 Vec3d lit(const Frame& frame, const Material& material, const Surface& surface, Vec3d position) {
-    const bool specular = frame.options.specular;
+    const bool specular = frame.options.highlight != Highlight::none;
     const Lobe& lobe = frame.options.override_lobe && !material.has_own_lobe ? frame.options.lobe : material.lobe;
     const double alpha = std::pow(std::max(surface.roughness, 0.07), 2.0), s = 2.0 / (alpha * alpha) - 2.0;
     Vec3d sum{};
@@ -127,8 +128,12 @@ Vec3d lit(const Frame& frame, const Material& material, const Surface& surface, 
         const double n_dot_l = dot(surface.normal, at.direction);
         Vec3d reflected = scale(surface.albedo, lobe_value(lobe, n_dot_l));
         if (specular && n_dot_l > 0) {
-            const double n_dot_h = dot(surface.normal, unit(at.direction + surface.to_eye));
-            if (n_dot_h > 0) reflected = reflected + scale(surface.f0, (s + 8) / 8 * std::pow(std::min(n_dot_h, 1.0), s) * n_dot_l);
+            const bool phong = frame.options.highlight == Highlight::phong;
+            const Vec3d mirrored = scale(surface.normal, 2 * n_dot_l) - at.direction;
+            const double cosine = phong ? dot(surface.to_eye, unit(mirrored)) : dot(surface.normal, unit(at.direction + surface.to_eye));
+            const double factor = frame.options.normalize_highlight ? (s + 8) / 8 : 1.0;
+            if (cosine > 0)
+                reflected = reflected + scale(surface.f0, factor * std::pow(std::min(cosine, 1.0), phong ? s / 4 : s) * n_dot_l);
         }
         sum = sum + scale(reflected * to_double(light.color_linear), at.strength);
     }
@@ -197,7 +202,7 @@ Rgba shade(const Frame& frame, const Material& material, QuadMask available, con
     surface.occlusion = 1.0 + double{material.occlusion_strength} * (occlusion.r - 1.0);
     surface.to_eye = frame.orthographic ? scale(to_double(frame.view_direction_ws), -1) : unit(to_double(frame.eye_ws) - position);
     surface.albedo = surface.base;
-    if (frame.options.specular) {
+    if (frame.options.highlight != Highlight::none) {
         const double metallic = material.metallic * mr.b;
         surface.albedo = scale(surface.base, (1 - metallic) * 0.96);
         surface.f0 = scale(surface.base, metallic) + scale({1, 1, 1}, 0.04 * (1 - metallic));

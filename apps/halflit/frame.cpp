@@ -119,7 +119,8 @@ Result<void> choose_settings(raster::Settings& settings, const RenderOptions& op
     settings.background_environment = options.background_environment;
     settings.shading.override_lobe = lobe->has_value();
     settings.shading.lobe = lobe->value_or(shading::Lobe{});
-    settings.shading.specular = options.specular;
+    settings.shading.highlight = options.highlight;
+    settings.shading.normalize_highlight = options.normalize_highlight;
     settings.shading.rate = options.rate;
     settings.shading.environment_order.fixed = options.sh_order;
     settings.shadows = options.shadows;

@@ -94,7 +94,7 @@ void add_light_flags(CLI::App& app, RenderOptions& o) {
     constexpr const char* kGroup = "Light";
     add_values(app, "--light", "TYPE:KEY=VALUE:...",
                "Add a light, as directional:dir=-1,-2,-1:color=#fff:intensity=1; also point (pos, range, "
-               "radius) and spot (pos, dir, cone=IN,OUT)",
+               "radius) and spot (pos, dir, cone=IN,OUT, power)",
                [&o](const std::string& text) -> Result<void> {
                    const auto light = parse_light(text);
                    if (!light) return tl::unexpected(light.error());
@@ -171,11 +171,13 @@ void add_surface_flags(CLI::App& app, RenderOptions& o) {
     app.add_flag_callback(
            "--normalize", [&o] { o.lobe.normalize = true; }, "Scale the lobe to reflect as much light as Lambert's")
         ->group(kGroup);
-    add_value(app, "--specular", "none|blinn", "Highlights (default blinn)", [&o](const std::string& text) -> Result<void> {
-        if (text != "none" && text != "blinn") return fail(ErrorCode::usage, "expected none or blinn, found '" + text + "'");
-        o.specular = text == "blinn";
-        return {};
-    })->group(kGroup);
+    using shading::Highlight;
+    add_value(app, "--specular", "none|phong|blinn", "Highlights (default blinn)",
+              named<Highlight>(o.highlight, {{"none", Highlight::none}, {"phong", Highlight::phong}, {"blinn", Highlight::blinn}}))
+        ->group(kGroup);
+    add_value(app, "--specular-normalize", "on|off", "Make sharper highlights brighter (default on)",
+              named<bool>(o.normalize_highlight, {{"on", true}, {"off", false}}))
+        ->group(kGroup);
     using shading::ShadingRate;
     add_value(app, "--shading", "RATE", "Light once a triangle, vertex or pixel: flat, gouraud or pixel (default pixel)",
               named<ShadingRate>(o.rate, {{"flat", ShadingRate::flat}, {"gouraud", ShadingRate::gouraud}, {"pixel", ShadingRate::pixel}}))

@@ -31,7 +31,8 @@ struct RenderOptions {
 
     std::optional<std::string> lobe_name;
     io::LobeParameters lobe;
-    bool specular = true;
+    shading::Highlight highlight = shading::Highlight::blinn;
+    bool normalize_highlight = true;
     shading::ShadingRate rate = shading::ShadingRate::pixel;
     std::optional<Vec3f> ambient_linear;
     std::vector<shading::Light> lights;

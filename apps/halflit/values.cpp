@@ -109,6 +109,7 @@ Result<void> set_light_key(shading::Light& light, float& intensity, std::string_
     if (key == "range" && placed) return store(light.range, parse_float(value, 0.0f, kMax));
     if (key == "radius" && placed) return store(light.source_radius, parse_float(value, 0.0f, kMax));
     if (key == "cone" && light.type == LightType::spot) return set_cone(light, value);
+    if (key == "power" && light.type == LightType::spot) return store(light.cone_power, parse_float(value, 0.0f, 1e5f));
     if (key == "intensity") return store(intensity, parse_float(value, 0.0f, 1e9f));
     if (key == "color") {
         const auto color = parse_color(value);
@@ -118,7 +119,7 @@ Result<void> set_light_key(shading::Light& light, float& intensity, std::string_
     }
     const std::string_view keys = light.type == LightType::directional ? "dir, color, intensity"
                                   : light.type == LightType::point     ? "pos, color, intensity, range, radius"
-                                                                       : "pos, dir, cone, color, intensity, range, radius";
+                                                                       : "pos, dir, cone, power, color, intensity, range, radius";
     return expected(fmt::format("one of {}", keys), key);
 }
 

@@ -1,4 +1,4 @@
-// Direct light: for each light its direction and strength at a fragment, the diffuse lobe, and normalised Blinn-Phong.
+// Direct light: for each light its direction and strength at a fragment, the diffuse lobe, and the highlight.
 #pragma once
 
 #include "shading/kernels/lobe_kernel.hpp"
@@ -35,19 +35,33 @@ HALFLIT_INLINE LocalLight local_light(const shading::LightPlan& light, V3 positi
         const F versine = F(0.5f) * dot(off_axis, off_axis);
         const F cone = clamp((F(light.cone_cutoff) - versine) * F(light.cone_scale), F(0.0f), F(1.0f));
         strength = strength * (cone * cone);
+        if (light.half_cone_power > 0.0f) {
+            const F cosine = F(1.0f) - versine, sine_squared = versine * (F(2.0f) - versine);
+            const F power = power_of_cosine(cosine * cosine, sine_squared, F(light.half_cone_power));
+            strength = strength * sel(cosine > F(0.0f), power, F(0.0f));
+        }
     }
     return {direction, strength};
 }
 
-/// (N.H)^s (N.L) where both cosines are positive, else 0: wrapped light makes no highlight. H = L + V is not normalised; the
-/// squared sine |N x H|^2 / |H|^2 keeps its digits where the cosine is nearly 1.
-HALFLIT_INLINE F blinn_value(V3 normal, V3 to_eye, V3 to_light, F n_dot_l, F half_exponent) {
-    const V3 half = to_light + to_eye;
-    const F n_dot_h = dot(normal, half);
-    const V3 n_cross_h = cross(normal, half);
-    const F inv_squared = vdiv(F(1.0f), vmax(dot(half, half), F(1e-30f)));
-    const F power = power_of_cosine((n_dot_h * n_dot_h) * inv_squared, dot(n_cross_h, n_cross_h) * inv_squared, half_exponent);
-    return sel(vmin(n_dot_l, n_dot_h) > F(0.0f), n_dot_l * power, F(0.0f));
+/// (N.H)^s (N.L) or (V.R)^(s/4) (N.L) where both cosines are positive, else 0: wrapped light makes no highlight. H = L + V and the
+/// mirrored light R = 2 (N.L) N - L are not normalised; the squared sine, |N x H|^2 / |H|^2, keeps its digits where the cosine is
+/// nearly 1. R turns twice as fast as H, so a quarter of the exponent gives a highlight of the same width.
+HALFLIT_INLINE F highlight_value(shading::Highlight highlight, V3 normal, V3 to_eye, V3 to_light, F n_dot_l, F half_exponent) {
+    const bool phong = highlight == shading::Highlight::phong;
+    V3 axis = normal, turning = to_light + to_eye;
+    if (phong) {
+        const F twice = n_dot_l + n_dot_l;
+        axis = to_eye;
+        turning = {mad(twice, normal.x, F(0.0f) - to_light.x), mad(twice, normal.y, F(0.0f) - to_light.y),
+                   mad(twice, normal.z, F(0.0f) - to_light.z)};
+        half_exponent = half_exponent * F(0.25f);
+    }
+    const F cosine = dot(axis, turning);
+    const V3 sine = cross(axis, turning);
+    const F inv_squared = vdiv(F(1.0f), vmax(dot(turning, turning), F(1e-30f)));
+    const F power = power_of_cosine((cosine * cosine) * inv_squared, dot(sine, sine) * inv_squared, half_exponent);
+    return sel(vmin(n_dot_l, cosine) > F(0.0f), n_dot_l * power, F(0.0f));
 }
 
 /// What shadows need of a fragment.
@@ -87,7 +101,8 @@ HALFLIT_INLINE LightSums sum_lights(const shading::LightPlan* lights, int count,
         if (local) at = local_light(light, position);
         const F n_dot_l = dot(normal, at.direction);
         F diffuse = lobe_value(lobe, n_dot_l), specular(0.0f);
-        if constexpr (kSpecular) specular = blinn_value(normal, to_eye, at.direction, n_dot_l, half_exponent);
+        if constexpr (kSpecular)
+            specular = highlight_value(receiver.frame.highlight, normal, to_eye, at.direction, n_dot_l, half_exponent);
         if (light.shadow_map >= 0) cast_shadow<kSpecular>(receiver, light, at, position, n_dot_l, diffuse, specular);
         const V3 color = broadcast(light.color);
         sums.diffuse = sums.diffuse + color * (local ? diffuse * at.strength : diffuse);

@@ -29,7 +29,7 @@ HALFLIT_INLINE F environment_reflectance(F f0, F roughness, F grazing) { return 
 /// All light that meets a surface point, before the base colour decides what becomes of it.
 struct IncidentLight {
     V3 diffuse;            ///< through the lobe, its scale included
-    V3 specular;           ///< normalised Blinn-Phong
+    V3 specular;           ///< the highlight, before the reflectance
     V3 ambient, mirrored;  ///< of the surroundings towards the normal, and towards the mirrored view; times occlusion
     F metallic, roughness, grazing;
 };
@@ -56,7 +56,10 @@ HALFLIT_INLINE IncidentLight incident_light(const shading::FramePlan& frame, con
         const LightSums sums =
             sum_lights<kSpecular>(lights.lights, lights.count, material.lobe, receiver, position, normal, to_eye, half_exponent);
         light.diffuse = sums.diffuse * F(material.lobe.scale);
-        if constexpr (kSpecular) light.specular = sums.specular * mad(F(0.25f), half_exponent, F(1.0f));  // (s + 8) / 8
+        if constexpr (kSpecular) {
+            light.specular = sums.specular;
+            if (frame.normalize_highlight) light.specular = light.specular * mad(F(0.25f), half_exponent, F(1.0f));  // (s + 8) / 8
+        }
     }
     if (has(material, shading::kStageAmbient)) {
         const bool environment = has(material, shading::kStageEnvironment);

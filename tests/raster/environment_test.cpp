@@ -44,7 +44,7 @@ struct Patches {
 
     std::vector<Vec3d> drawn(int order, RenderReport* report = nullptr) const {
         Settings settings;
-        settings.shading.specular = false;
+        settings.shading.highlight = shading::Highlight::none;
         settings.shading.environment_order.fixed = order;
         std::vector<float> rgba(4 * kSide * kSide);
         const auto done = render(scene, camera_flat(), settings, {kSide, kSide, nullptr, rgba.data()});

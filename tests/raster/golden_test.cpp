@@ -42,7 +42,7 @@ std::vector<Variant> variants() {
     add("hard-shadows-wrapped").shadows = shading::ShadowMode::hard;
     all.back().settings.shading.override_lobe = true;
     all.back().settings.shading.lobe = shading::Lobe::sloan(0.3f);
-    add("matte").shading.specular = false;
+    add("matte").shading.highlight = shading::Highlight::none;
     add("environment");
     all.back().environment = true;
     return all;

@@ -48,7 +48,7 @@ struct Setup {
         scene.materials.push_back(clay);
         scene.lights.push_back({});
         scene.lights[0].direction_ws = {-1, 0, 0};
-        settings.shading.specular = false;
+        settings.shading.highlight = shading::Highlight::none;
         settings.shadows = mode;
         camera = test::camera_flat(static_cast<float>(kHeight) / kWidth);
         camera.half_width = 1.0f;

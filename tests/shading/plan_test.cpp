@@ -98,7 +98,7 @@ TEST_CASE("plan: a texture nobody sees is not fetched", "[shading][plan]") {
     scene.materials[0].metallic_roughness_texture.texture = 0;
     CHECK((scene.first().stages & (kStageEmissiveTexture | kStageOcclusionTexture)) == 0);
     CHECK((scene.first().stages & kStageMetallicRoughnessTexture) != 0);
-    scene.options.specular = false;
+    scene.options.highlight = Highlight::none;
     CHECK((scene.first().stages & (kStageMetallicRoughnessTexture | kStageSpecular)) == 0);
     scene.ambient.sky_linear = {0.1f, 0.1f, 0.1f};
     CHECK((scene.first().stages & (kStageOcclusionTexture | kStageAmbient)) == (kStageOcclusionTexture | kStageAmbient));

@@ -104,6 +104,7 @@ inline shading::Light make_light(FloatMaker& make) {
     light.source_radius = make.below(2) == 0 ? 0.0f : make.ordinary(0, 1);
     light.outer_cone_rad = make.ordinary(0.3f, 1.5f);
     light.inner_cone_rad = light.outer_cone_rad * make.ordinary(0, 0.9f);
+    light.cone_power = make.below(2) == 0 ? 0.0f : make.ordinary(0, 60);
     return light;
 }
 
@@ -155,7 +156,8 @@ inline Case make_case(FloatMaker& make, bool smooth_textures) {
     for (std::uint32_t i = 0; i < light_count; ++i) c.lights.push_back(make_light(make));
     if (make.below(2) == 0)
         c.ambient = {{make.ordinary(0, 1), make.ordinary(0, 1), make.ordinary(0, 1)}, {0.2f, make.ordinary(0, 1), 0.0f}};
-    c.options.specular = make.below(3) != 0;
+    c.options.highlight = static_cast<Highlight>(make.below(3));
+    c.options.normalize_highlight = make.below(4) != 0;
     c.options.override_lobe = make.below(4) == 0;
     c.options.lobe = make_lobe(make);
     c.available = {3u | (make.below(8) << 2), 3u};

@@ -36,7 +36,7 @@ struct Setup {
         }
         const std::vector<QuadMask> available{3u, 3u};
         PlanOptions options;
-        options.specular = specular;
+        options.highlight = specular ? Highlight::blinn : Highlight::none;
         plan = make_frame_plan(std::span(&material, 1), {}, available, std::span(&light, 1), {}, options);
         plan.shadow_mode = mode;
         plan.orthographic = true;
