@@ -1,0 +1,2 @@
+#define HALFLIT_ISA scalar
+#include "bench/kernels/bare_kernel.hpp"
