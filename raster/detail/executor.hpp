@@ -1,4 +1,4 @@
-// Threads: oneTBB unless the host brings its own loop.
+// Threads: oneTBB's, the standard library's where halflit is built without oneTBB, or the host's own loop.
 #pragma once
 
 #include "raster/renderer.hpp"
@@ -19,7 +19,7 @@ public:
     Executor(const Executor&) = delete;
     Executor& operator=(const Executor&) = delete;
 
-    /// threads: 0 for one a core. An empty hook means oneTBB.
+    /// threads: 0 for one a core. An empty hook means the threads of this build.
     void configure(int threads, const ParallelFor& hook);
     [[nodiscard]] int threads() const { return threads_; }
     void run(int count, const std::function<void(int)>& body);
