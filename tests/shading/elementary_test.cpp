@@ -1,11 +1,14 @@
 // Every operation that kernels use, on each instruction set against scalar, and the elementary functions against long double.
 #include "elementary/elementary.hpp"
 #include "floats.hpp"
+#include "tests/support/all_cores.hpp"
 #include "tests/support/skip.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cstring>
+#include <mutex>
 #include <string>
 
 using namespace halflit;
@@ -21,6 +24,48 @@ std::vector<float> spread_of_floats() {
     return values;
 }
 
+/// Where sets differ from scalar: [set][operation].
+struct Difference {
+    std::int64_t count = 0;
+    float x = 0, want = 0, got = 0;  ///< the first that was found
+};
+using Differences = std::vector<std::vector<Difference>>;
+
+/// Runs every unary operation on x by every set.
+void compare_unary(const std::vector<float>& x, const std::vector<shading::Isa>& isas, Differences& differences) {
+    const Elementary& scalar = elementary(shading::Isa::scalar);
+    const int count = static_cast<int>(x.size());
+    std::vector<float> want(x.size()), got(x.size());
+    for (int f = 0; f < scalar.unary_count; ++f) {
+        scalar.unary[f].run(x.data(), want.data(), count);
+        for (std::size_t set = 0; set < isas.size(); ++set) {
+            elementary(isas[set]).unary[f].run(x.data(), got.data(), count);
+            if (std::memcmp(want.data(), got.data(), x.size() * sizeof(float)) == 0) continue;
+            Difference& difference = differences[set][static_cast<std::size_t>(f)];
+            for (std::size_t i = 0; i < x.size(); ++i)
+                if (!same_bits(want[i], got[i]) && difference.count++ == 0)
+                    difference.x = x[i], difference.want = want[i], difference.got = got[i];
+        }
+    }
+}
+
+Differences no_differences(std::size_t set_count) {
+    const auto unary_count = static_cast<std::size_t>(elementary(shading::Isa::scalar).unary_count);
+    return Differences(set_count, std::vector<Difference>(unary_count));
+}
+
+void check_none(const std::vector<shading::Isa>& isas, const Differences& differences) {
+    for (std::size_t set = 0; set < isas.size(); ++set) {
+        REQUIRE(elementary(isas[set]).unary_count == static_cast<int>(differences[set].size()));
+        for (std::size_t f = 0; f < differences[set].size(); ++f) {
+            const Difference& first = differences[set][f];
+            INFO(shading::isa_name(isas[set]) << " " << elementary(isas[set]).unary[f].name << ", first: (" << first.x << ") is "
+                                              << first.got << ", scalar says " << first.want);
+            CHECK(first.count == 0);
+        }
+    }
+}
+
 double ulps_from(float got, long double exact) {
     int exponent = 0;
     (void)std::frexp(static_cast<double>(exact), &exponent);
@@ -30,27 +75,40 @@ double ulps_from(float got, long double exact) {
 }  // namespace
 
 TEST_CASE("vocabulary: every unary operation gives scalar's bits on every set", "[shading][simd]") {
-    if (other_isas().empty()) HALFLIT_SKIP("no set but scalar here");
+    const std::vector<shading::Isa> isas = other_isas();
+    if (isas.empty()) HALFLIT_SKIP("no set but scalar here");
     const std::vector<float> x = spread_of_floats();
-    const int count = static_cast<int>(x.size());
-    const Elementary& scalar = elementary(shading::Isa::scalar);
-    REQUIRE(count > 1000000);
-    for (const shading::Isa isa : other_isas()) {
-        const Elementary& set = elementary(isa);
-        REQUIRE(set.unary_count == scalar.unary_count);
-        for (int f = 0; f < set.unary_count; ++f) {
-            std::vector<float> want(x.size()), got(x.size());
-            scalar.unary[f].run(x.data(), want.data(), count);
-            set.unary[f].run(x.data(), got.data(), count);
-            int mismatches = 0;
-            for (std::size_t i = 0; i < x.size(); ++i) {
-                if (same_bits(want[i], got[i])) continue;
-                if (mismatches++ == 0) UNSCOPED_INFO("first: (" << x[i] << ") is " << got[i] << ", scalar says " << want[i]);
+    REQUIRE(x.size() > 1000000);
+    Differences differences = no_differences(isas.size());
+    compare_unary(x, isas, differences);
+    check_none(isas, differences);
+}
+
+TEST_CASE("vocabulary: every unary operation gives scalar's bits on every set for all 2^32 floats", "[shading][simd][deep]") {
+    const std::vector<shading::Isa> isas = other_isas();
+    if (isas.empty()) HALFLIT_SKIP("no set but scalar here");
+    constexpr std::int64_t kRun = 1 << 14;  // x, want and got stay in the first caches
+    constexpr std::int64_t kRuns = (std::int64_t{1} << 32) / kRun;
+    Differences all = no_differences(isas.size());
+    std::mutex mutex;
+    std::int64_t compared = 0;
+    test::on_all_cores(kRuns, [&](std::int64_t run) {
+        std::vector<float> x(kRun);
+        for (std::int64_t i = 0; i < kRun; ++i)
+            x[static_cast<std::size_t>(i)] = std::bit_cast<float>(static_cast<std::uint32_t>(run * kRun + i));
+        Differences differences = no_differences(isas.size());
+        compare_unary(x, isas, differences);
+        const std::lock_guard lock(mutex);
+        compared += kRun;
+        for (std::size_t set = 0; set < isas.size(); ++set)
+            for (std::size_t f = 0; f < all[set].size(); ++f) {
+                Difference merged = all[set][f].count == 0 ? differences[set][f] : all[set][f];
+                merged.count = all[set][f].count + differences[set][f].count;
+                all[set][f] = merged;
             }
-            INFO(shading::isa_name(isa) << " " << set.unary[f].name);
-            CHECK(mismatches == 0);
-        }
-    }
+    });
+    CHECK(compared == std::int64_t{1} << 32);
+    check_none(isas, all);
 }
 
 TEST_CASE("vocabulary: every operation of two and three operands gives scalar's bits on every set", "[shading][simd]") {

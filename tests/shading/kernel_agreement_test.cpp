@@ -1,12 +1,16 @@
 // Promise: every instruction set gives the scalar kernel's result bit for bit, for any input.
 #include "random_case.hpp"
 #include "shading/kernels/shade_kernels.hpp"
+#include "tests/support/all_cores.hpp"
 #include "tests/support/skip.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
+#include <mutex>
+#include <sstream>
 
 using namespace halflit;
 using namespace halflit::shading;
@@ -14,59 +18,113 @@ using namespace halflit::testing;
 
 namespace {
 
-/// Number of lanes whose colours differ; tells of the first.
-int differing_lanes(const FragmentBlock& want, const FragmentBlock& got, int count) {
-    int different = 0;
-    for (int lane = 0; lane < count; ++lane) {
-        if (same_bits(want.red[lane], got.red[lane]) && same_bits(want.green[lane], got.green[lane]) &&
-            same_bits(want.blue[lane], got.blue[lane]) && same_bits(want.alpha[lane], got.alpha[lane]))
-            continue;
-        if (different++ == 0)
-            UNSCOPED_INFO("lane " << lane << ": want " << want.red[lane] << " " << want.green[lane] << " " << want.blue[lane] << " "
-                                  << want.alpha[lane] << ", got " << got.red[lane] << " " << got.green[lane] << " " << got.blue[lane] << " "
-                                  << got.alpha[lane]);
+/// Gives some lanes whole vectors that are zero, tiny (denormal, or with a length that underflows), huge (a length that overflows) or
+/// infinite; every fourth lane is left as it is.
+void roughen_vectors(FloatMaker& make, FragmentBlock& block) {
+    constexpr float kScales[] = {0.0f, 1e-45f, 1e-40f, 1e-30f, 1e-20f, 1e15f, 1e30f, 1e38f, kInf};
+    for (int lane = 0; lane < kBlockSize; ++lane) {
+        if (lane % 4 == 3) continue;
+        for (const int row : {static_cast<int>(kPosX), static_cast<int>(kNormalX), static_cast<int>(kTangentX)}) {
+            if (make.below(2) == 0) continue;
+            const float scale = kScales[make.below(std::size(kScales))];
+            for (int i = 0; i < 3; ++i) block.lane[row + i][lane] *= scale;
+        }
     }
-    return different;
+}
+
+/// What a run of random cases has seen.
+struct Agreement {
+    std::int64_t fragments = 0;  ///< each compared on every set
+    std::int64_t nan_fragments = 0;
+    std::int64_t differing = 0;
+    std::uint32_t stages_seen = 0;
+    std::string first;  ///< the first difference, with what repeats it
+
+    void add(const Agreement& other) {
+        fragments += other.fragments, nan_fragments += other.nan_fragments, differing += other.differing;
+        stages_seen |= other.stages_seen;
+        if (first.empty()) first = other.first;
+    }
+};
+
+constexpr int kBlocksPerCase = 8;
+
+/// Shades blocks of one random case by scalar and by every set. NaNs must be where scalar has them; their bits do not count.
+Agreement compare_case(std::uint32_t number, const std::vector<Isa>& isas) {
+    FloatMaker make(20240607 + number);
+    const Case c = make_case(make, false);
+    const MaterialPlan& material = c.plan.materials[number % 16 == 15 ? 1 : 0];
+    Agreement seen;
+    seen.stages_seen = material.stages;
+    for (int round = 0; round < kBlocksPerCase; ++round) {
+        FragmentBlock input{};
+        fill_block(make, input, round % 3 != 0);
+        if (round % 4 == 1) roughen_vectors(make, input);
+        const int count = round % 2 == 0 ? kBlockSize : 1 + static_cast<int>(make.below(kBlockSize));
+        FragmentBlock want = input, want_alpha = input;
+        shade_kernels(Isa::scalar).shade(c.plan, material, all_lights(c.plan), want, count);
+        shade_kernels(Isa::scalar).alpha(material, want_alpha, count);
+        seen.fragments += count;
+        for (int lane = 0; lane < count; ++lane)
+            seen.nan_fragments += std::isnan(want.red[lane]) || std::isnan(want.green[lane]) || std::isnan(want.blue[lane]);
+        for (const Isa isa : isas) {
+            FragmentBlock got = input, got_alpha = input;
+            shade_kernels(isa).shade(c.plan, material, all_lights(c.plan), got, count);
+            shade_kernels(isa).alpha(material, got_alpha, count);
+            for (int lane = 0; lane < count; ++lane) {
+                if (same_bits(want.red[lane], got.red[lane]) && same_bits(want.green[lane], got.green[lane]) &&
+                    same_bits(want.blue[lane], got.blue[lane]) && same_bits(want.alpha[lane], got.alpha[lane]) &&
+                    same_bits(want_alpha.alpha[lane], got_alpha.alpha[lane]))
+                    continue;
+                ++seen.differing;
+                if (!seen.first.empty()) continue;
+                std::ostringstream text;
+                text << isa_name(isa) << ", case " << number << ", block " << round << ", lane " << lane << ", stages " << material.stages
+                     << ", lobe path " << static_cast<int>(material.lobe.path) << ", lights " << c.plan.lights.size() << ": want "
+                     << want.red[lane] << " " << want.green[lane] << " " << want.blue[lane] << " " << want.alpha[lane] << ", got "
+                     << got.red[lane] << " " << got.green[lane] << " " << got.blue[lane] << " " << got.alpha[lane] << "; alpha kernel "
+                     << want_alpha.alpha[lane] << ", got " << got_alpha.alpha[lane];
+                seen.first = text.str();
+            }
+        }
+    }
+    return seen;
+}
+
+Agreement compare_cases(int case_count) {
+    const std::vector<Isa> isas = other_isas();
+    Agreement all;
+    std::mutex mutex;
+    halflit::test::on_all_cores(case_count, [&](std::int64_t number) {
+        const Agreement one = compare_case(static_cast<std::uint32_t>(number), isas);
+        const std::lock_guard lock(mutex);
+        all.add(one);
+    });
+    return all;
+}
+
+/// Every fragment of `case_count` random cases agrees, and the cases were as hard as they are meant to be.
+void check_cases(int case_count) {
+    const Agreement all = compare_cases(case_count);
+    INFO(all.fragments << " fragments, " << all.nan_fragments << " with NaN; " << all.first);
+    CHECK(all.differing == 0);
+    // All that a plan names from materials and lights alone.
+    CHECK(all.stages_seen == 2u * kStageGradients - 1u);
+    CHECK(all.fragments > std::int64_t{case_count} * kBlocksPerCase * kBlockSize / 2);
+    CHECK(all.nan_fragments > all.fragments / 1000);
+    CHECK(all.nan_fragments < all.fragments / 2);
 }
 
 }  // namespace
 
 TEST_CASE("kernels: shade and alpha give scalar's bits on every set, for all stages and any input", "[shading][kernels]") {
     if (other_isas().empty()) HALFLIT_SKIP("no set but scalar here");
-    FloatMaker make(20240607);
-    const ShadeKernels& scalar = shade_kernels(Isa::scalar);
-    const std::vector<Isa> isas = other_isas();
-    std::uint32_t stages_seen = 0;
-    std::int64_t lanes_compared = 0;
-    for (int round = 0; round < 1500; ++round) {
-        const Case c = make_case(make, false);
-        const MaterialPlan& material = c.plan.materials[round % 16 == 15 ? 1 : 0];
-        FragmentBlock want{};
-        fill_block(make, want, round % 3 != 0);
-        FragmentBlock input;
-        std::memcpy(&input, &want, sizeof(input));
-        const int count = round % 2 == 0 ? kBlockSize : 1 + static_cast<int>(make.below(kBlockSize));
-        scalar.shade(c.plan, material, all_lights(c.plan), want, count);
-        FragmentBlock want_alpha = input;
-        scalar.alpha(material, want_alpha, count);
-        stages_seen |= material.stages;
-        for (const Isa isa : isas) {
-            FragmentBlock got = input;
-            shade_kernels(isa).shade(c.plan, material, all_lights(c.plan), got, count);
-            INFO(isa_name(isa) << ", round " << round << ", stages " << material.stages << ", lobe path "
-                               << static_cast<int>(material.lobe.path) << ", lights " << c.plan.lights.size());
-            const int different = differing_lanes(want, got, count);
-            if (different != 0) CHECK(different == 0);
-            got = input;
-            shade_kernels(isa).alpha(material, got, count);
-            for (int lane = 0; lane < count; ++lane)
-                if (!same_bits(want_alpha.alpha[lane], got.alpha[lane])) CHECK(got.alpha[lane] == want_alpha.alpha[lane]);
-            lanes_compared += count;
-        }
-    }
-    // All that a plan names from materials and lights alone.
-    CHECK(stages_seen == 2u * kStageGradients - 1u);
-    CHECK(lanes_compared > 60000);
+    check_cases(2600);  // a million fragments
+}
+
+TEST_CASE("kernels: shade and alpha give scalar's bits on every set, for 10^8 fragments of any input", "[shading][kernels][deep]") {
+    if (other_isas().empty()) HALFLIT_SKIP("no set but scalar here");
+    check_cases(270000);
 }
 
 TEST_CASE("kernels: light alone gives scalar's bits on every set, and shade takes it up", "[shading][kernels]") {

@@ -90,3 +90,11 @@ TEST_CASE("isa: this processor runs every set that is built", "[shading][isa]") 
     if (!missing.empty()) HALFLIT_SKIP("not run here, so not compared with scalar:" + missing);
     CHECK(missing.empty());
 }
+
+TEST_CASE("isa: the set in use is the one that HALFLIT_EXPECTED_KERNEL names", "[shading][isa]") {
+    // For emulated processors, of which the caller knows what they can do.
+    const char* const expected = std::getenv("HALFLIT_EXPECTED_KERNEL");
+    if (expected == nullptr) HALFLIT_SKIP("HALFLIT_EXPECTED_KERNEL is not set");
+    const KernelVariable none(nullptr);
+    CHECK(isa_name(default_isa().value()) == expected);
+}

@@ -24,8 +24,28 @@ inline namespace HALFLIT_ISA_NAMESPACE {
         }                                                                                              \
     }
 
+HALFLIT_INLINE F sum(Log2 log) { return log.exponent + log.fraction; }
+/// n - 1 with the part of it that power_of_unit multiplies exactly.
+struct SplitPower {
+    explicit SplitPower(float n)
+        : minus_one(n - 1.0f), high(from_bits(bits(minus_one) & static_cast<std::int32_t>(0xffffffc0u))), low(minus_one - high) {}
+    float minus_one, high, low;
+};
+HALFLIT_INLINE F power_to(F t, float n) {
+    const SplitPower split(n);
+    return power_of_unit(clamp(t, F(0.0f), F(1.0f)), split.minus_one, split.high, split.low);
+}
+HALFLIT_INLINE F cosine_power_to(F sine_squared, float half_exponent) {
+    const F held = clamp(sine_squared, F(0.0f), F(1.0f));
+    return power_of_cosine(F(1.0f) - held, held, F(half_exponent));
+}
+
 HALFLIT_UNARY(run_sqrt, vsqrt(x))
 HALFLIT_UNARY(run_reciprocal, vdiv(F(1.0f), x))
+HALFLIT_UNARY(run_reciprocal_sqrt, vdiv(F(1.0f), vsqrt(x)))
+HALFLIT_UNARY(run_times_sqrt, vsqrt(x) * x)
+HALFLIT_UNARY(run_int_to_float, to_float(shr<7>(bits(x))))
+HALFLIT_UNARY(run_round_even, to_float(shr<7>(round_even(clamp(x, F(-2e9f), F(2e9f))))))
 HALFLIT_UNARY(run_abs, vabs(x))
 HALFLIT_UNARY(run_negate, vneg(x))
 HALFLIT_UNARY(run_round, round_near(clamp(x, F(-4e6f), F(4e6f))))
@@ -34,15 +54,21 @@ HALFLIT_UNARY(run_round_to_int, to_float(round_to_int(clamp(x, F(-4e6f), F(4e6f)
 HALFLIT_UNARY(run_shift, from_bits(shl<3>(shr<5>(bits(x)))))
 HALFLIT_UNARY(run_nan, sel(is_nan(x), F(1.0f), F(0.0f)))
 HALFLIT_UNARY(run_exp2, exp2_floored(kExp2Degree6, clamp(x, F(-2e3f), F(126.0f))))
+HALFLIT_UNARY(run_exp2_degree4, exp2_floored(kExp2Degree4, clamp(x, F(-2e3f), F(126.0f))))
+HALFLIT_UNARY(run_exp2_degree5, exp2_floored(kExp2Degree5, clamp(x, F(-2e3f), F(126.0f))))
 HALFLIT_UNARY(run_srgb_curve, srgb_curve(clamp(x, F(0.0f), F(1.0f))))
 HALFLIT_UNARY(run_srgb8, to_float(srgb8(x)))
 HALFLIT_UNARY(run_unorm8, to_float(unorm8(x)))
-static void run_log2(const float* in, float* out, int count) {
-    for (int i = 0; i < count; i += kWidth) {
-        const Log2 log = log2_parts(kLog2Degree8, vmax(load(in + i), F(0.0f)));
-        store(out + i, log.exponent + log.fraction);
-    }
-}
+HALFLIT_UNARY(run_log2_degree5, sum(log2_parts(kLog2Degree5, vmax(x, F(0.0f)))))
+HALFLIT_UNARY(run_log2_degree7, sum(log2_parts(kLog2Degree7, vmax(x, F(0.0f)))))
+HALFLIT_UNARY(run_log2, sum(log2_parts(kLog2Degree8, vmax(x, F(0.0f)))))
+HALFLIT_UNARY(run_power_05, power_to(x, 0.5f))
+HALFLIT_UNARY(run_power_13, power_to(x, 1.3f))
+HALFLIT_UNARY(run_power_165, power_to(x, 16.5f))
+HALFLIT_UNARY(run_power_1000, power_to(x, 1000.0f))
+HALFLIT_UNARY(run_cosine_power_1, cosine_power_to(x, 1.0f))
+HALFLIT_UNARY(run_cosine_power_20, cosine_power_to(x, 20.0f))
+HALFLIT_UNARY(run_cosine_power_30000, cosine_power_to(x, 30000.0f))
 HALFLIT_TERNARY(run_min, vmin(a, b))
 HALFLIT_TERNARY(run_max, vmax(a, b))
 HALFLIT_TERNARY(run_divide, vdiv(a, b))
@@ -53,8 +79,8 @@ HALFLIT_TERNARY(run_select_equal, sel(a == b, a, c))
 HALFLIT_TERNARY(run_integers, from_bits(sel(less(bits(a), bits(b)), bits(b) ^ bits(c), bits(a) & bits(c))))
 
 static void power(const float* t, float n, float* out, int count) {
-    const float a = n - 1.0f, high = from_bits(bits(a) & static_cast<std::int32_t>(0xffffffc0u));
-    for (int i = 0; i < count; i += kWidth) store(out + i, power_of_unit(load(t + i), a, high, a - high));
+    const SplitPower split(n);
+    for (int i = 0; i < count; i += kWidth) store(out + i, power_of_unit(load(t + i), split.minus_one, split.high, split.low));
 }
 static void cosine_power(const float* cosine_squared, const float* sine_squared, const float* half_exponent, float* out, int count) {
     for (int i = 0; i < count; i += kWidth)
@@ -71,9 +97,35 @@ static void normalize_rows(const float* x, const float* y, const float* z, float
 static std::uint32_t mask_of_less(const float* a, const float* b) { return mask_bits(load(a) < load(b)); }
 
 static const testing::NamedUnary kUnary[] = {
-    {"sqrt", run_sqrt},   {"reciprocal", run_reciprocal},     {"abs", run_abs},     {"negate", run_negate}, {"round", run_round},
-    {"floor", run_floor}, {"round to int", run_round_to_int}, {"shift", run_shift}, {"is nan", run_nan},    {"log2", run_log2},
-    {"exp2", run_exp2},   {"srgb curve", run_srgb_curve},     {"srgb8", run_srgb8}, {"unorm8", run_unorm8},
+    {"sqrt", run_sqrt},
+    {"reciprocal", run_reciprocal},
+    {"reciprocal of sqrt", run_reciprocal_sqrt},
+    {"x sqrt(x)", run_times_sqrt},
+    {"abs", run_abs},
+    {"negate", run_negate},
+    {"round", run_round},
+    {"floor", run_floor},
+    {"round to int", run_round_to_int},
+    {"round even", run_round_even},
+    {"int to float", run_int_to_float},
+    {"shift", run_shift},
+    {"is nan", run_nan},
+    {"log2 of degree 5", run_log2_degree5},
+    {"log2 of degree 7", run_log2_degree7},
+    {"log2", run_log2},
+    {"exp2 of degree 4", run_exp2_degree4},
+    {"exp2 of degree 5", run_exp2_degree5},
+    {"exp2", run_exp2},
+    {"power 0.5", run_power_05},
+    {"power 1.3", run_power_13},
+    {"power 16.5", run_power_165},
+    {"power 1000", run_power_1000},
+    {"cosine power 2", run_cosine_power_1},
+    {"cosine power 40", run_cosine_power_20},
+    {"cosine power 60000", run_cosine_power_30000},
+    {"srgb curve", run_srgb_curve},
+    {"srgb8", run_srgb8},
+    {"unorm8", run_unorm8},
 };
 static const testing::NamedTernary kTernary[] = {
     {"min", run_min},
@@ -91,6 +143,10 @@ static const testing::NamedTernary kTernary[] = {
 namespace testing {
 #define HALFLIT_ELEMENTARY HALFLIT_CONCAT(elementary_, HALFLIT_ISA)
 extern const Elementary HALFLIT_ELEMENTARY;
-const Elementary HALFLIT_ELEMENTARY = {kUnary, 14, kTernary, 8, power, cosine_power, normalize_rows, mask_of_less, kWidth};
+const Elementary HALFLIT_ELEMENTARY = {kUnary,         static_cast<int>(sizeof(kUnary) / sizeof(kUnary[0])),
+                                       kTernary,       static_cast<int>(sizeof(kTernary) / sizeof(kTernary[0])),
+                                       power,          cosine_power,
+                                       normalize_rows, mask_of_less,
+                                       kWidth};
 }  // namespace testing
 }  // namespace halflit
