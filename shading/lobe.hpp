@@ -2,6 +2,10 @@
 // Sources: [Green04], [Valve06], [SNY11] eq. 3, [McA13]; keys resolve in sh/README.md.
 #pragma once
 
+#include "shading/result.hpp"
+
+#include <string>
+
 namespace halflit::shading {
 
 /// One member of the wrap family. The named constructors are the models of the literature.
@@ -21,5 +25,13 @@ struct Lobe {
     [[nodiscard]] constexpr float scale() const { return normalize ? (power + 1.0f) / (2.0f * (1.0f + wrap)) : 1.0f; }
     friend constexpr bool operator==(const Lobe&, const Lobe&) = default;
 };
+
+/// Sharper lobes than this are not taken: they are points of light.
+inline constexpr float kMaxLobePower = 10000.0f;
+
+/// Fails (bad_input) unless w is in [0, 1] and n in [0, kMaxLobePower]; the message begins with "wrap" or "power" and says why.
+[[nodiscard]] Result<void> check_lobe(const Lobe& lobe);
+/// Of a lobe that is allowed and yet may surprise, powers below 1; empty for all others.
+[[nodiscard]] std::string lobe_warning(const Lobe& lobe);
 
 }  // namespace halflit::shading

@@ -7,11 +7,6 @@
 namespace halflit::io {
 
 Result<shading::Lobe> lobe_from_name(std::string_view name, const LobeParameters& parameters) {
-    if (parameters.wrap && !(*parameters.wrap >= 0.0f && *parameters.wrap <= 1.0f))
-        return fail(ErrorCode::bad_input, fmt::format("wrap: expected a number from 0 to 1, found {}", *parameters.wrap));
-    if (parameters.power && !(*parameters.power >= 0.0f && *parameters.power <= 10000.0f))
-        return fail(ErrorCode::bad_input, fmt::format("power: expected a number from 0 to 10000, found {}", *parameters.power));
-
     const float wrap = parameters.wrap.value_or(0.5f);
     shading::Lobe lobe;
     if (name == "lambert")
@@ -32,6 +27,7 @@ Result<shading::Lobe> lobe_from_name(std::string_view name, const LobeParameters
     if (parameters.wrap) lobe.wrap = *parameters.wrap;
     if (parameters.power) lobe.power = *parameters.power;
     if (parameters.normalize) lobe.normalize = *parameters.normalize;
+    if (const auto ok = shading::check_lobe(lobe); !ok) return tl::unexpected(ok.error());
     return lobe;
 }
 

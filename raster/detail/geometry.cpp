@@ -75,6 +75,8 @@ Result<void> check_material(const shading::Material& material, std::size_t index
         if (use->used() && static_cast<std::size_t>(use->texture) >= texture_count)
             return fail(ErrorCode::bad_input, "material " + std::to_string(index) + ": texture " + std::to_string(use->texture) + " of " +
                                                   std::to_string(texture_count));
+    if (const auto lobe = shading::check_lobe(material.lobe); !lobe)
+        return fail(lobe.error().code, "material " + std::to_string(index) + ": lobe: " + lobe.error().message);
     return {};
 }
 
@@ -88,6 +90,8 @@ Result<void> check_target(const Settings& settings, const FramebufferView& targe
     if (settings.tile_size != 16 && settings.tile_size != 32 && settings.tile_size != 64)
         return fail(ErrorCode::usage, "tile size: " + std::to_string(settings.tile_size) + ", expected 16, 32 or 64");
     if (!(settings.exposure > 0.0f && settings.exposure < 3e38f)) return fail(ErrorCode::usage, "the exposure is not a positive number");
+    if (const auto lobe = shading::check_lobe(settings.shading.lobe); settings.shading.override_lobe && !lobe)
+        return fail(ErrorCode::usage, "lobe: " + lobe.error().message);
     const Region& r = settings.region;
     if (r.width != 0 &&
         (r.x < 0 || r.y < 0 || r.width < 1 || r.height < 1 || r.width > target.width - r.x || r.height > target.height - r.y))
