@@ -8,8 +8,10 @@
 #include "raster/detail/tile_renderer.hpp"
 #include "raster/detail/shadow_map.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <mutex>
 #include <new>
 
 namespace halflit::raster {
@@ -46,6 +48,21 @@ std::vector<EnvironmentUse> environment_uses(const Frame& frame) {
     return out;
 }
 
+/// Of the materials that light meets, each warning once.
+void add_lobe_warnings(const Frame& frame, std::vector<std::string>& warnings) {
+    const shading::PlanOptions& options = frame.settings->shading;
+    for (const Draw& draw : frame.draws) {
+        const auto index = static_cast<std::size_t>(draw.material);
+        if ((frame.plan.materials[index].stages & (shading::kStageLights | shading::kStageEnvironment)) == 0) continue;
+        const bool listed = index < frame.scene->materials.size();
+        const bool own = listed && frame.scene->materials[index].has_own_lobe;
+        const shading::Lobe lobe = options.override_lobe && !own ? options.lobe : listed ? frame.scene->materials[index].lobe : shading::Lobe{};
+        std::string warning = shading::lobe_warning(lobe);
+        if (!warning.empty() && std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
+            warnings.push_back(std::move(warning));
+    }
+}
+
 }  // namespace
 
 struct Renderer::Impl {
@@ -69,11 +86,12 @@ struct Renderer::Impl {
         bin_triangles(frame, executor);
         report.ms.bin = watch.lap();
         make_vertex_records(frame, executor);
-        if (settings.shading.rate == shading::ShadingRate::gouraud) light_vertices(frame, executor);
+        if (settings.shading.rate == shading::ShadingRate::gouraud) report.work = light_vertices(frame, executor);
         make_clip_records(frame, executor);
         report.ms.transform += watch.lap();
 
-        std::atomic<std::uint64_t> visible{0}, shaded{0}, nan_pixels{0};
+        std::mutex counting;
+        TileCounts sum;
         std::atomic<bool> stopped{false};
         executor.run(frame.tiles_x * frame.tiles_y, [&](int tile) {
             if (stopped.load(std::memory_order_relaxed)) return;
@@ -83,9 +101,8 @@ struct Renderer::Impl {
             }
             typename Pool<TileScratch>::Loan loan(scratch);
             const TileCounts counts = TileRenderer(frame, tile, *loan).render();
-            visible.fetch_add(counts.pixels_visible, std::memory_order_relaxed);
-            shaded.fetch_add(counts.fragments_shaded, std::memory_order_relaxed);
-            nan_pixels.fetch_add(counts.nan_pixels, std::memory_order_relaxed);
+            const std::lock_guard lock(counting);
+            sum += counts;
         });
         if (stopped) return fail(ErrorCode::negative_result, "stopped on request");
         report.ms.tiles = watch.lap();
@@ -97,10 +114,12 @@ struct Renderer::Impl {
             report.triangles_drawn += frame.chunks[i]->records.size();
             report.triangles_not_finite += frame.chunks[i]->not_finite;
         }
-        report.pixels_visible = visible;
-        report.fragments_shaded = shaded;
-        report.nan_pixels = nan_pixels;
+        report.pixels_visible = sum.pixels_visible;
+        report.fragments_shaded = sum.fragments_shaded;
+        report.nan_pixels = sum.nan_pixels;
+        report.work += sum.work;
         report.environment = environment_uses(frame);
+        add_lobe_warnings(frame, report.warnings);
         if (report.triangles_not_finite > 0)
             report.warnings.push_back(std::to_string(report.triangles_not_finite) + " triangles dropped: a vertex is NaN or infinite");
         if (report.nan_pixels > 0)

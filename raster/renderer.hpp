@@ -4,6 +4,7 @@
 #include "raster/camera.hpp"
 #include "raster/framebuffer.hpp"
 #include "raster/scene.hpp"
+#include "raster/work_counts.hpp"
 #include "shading/kernels/isa.hpp"
 #include "shading/plan.hpp"
 #include "shading/result.hpp"
@@ -61,6 +62,7 @@ struct RenderReport {
     std::uint64_t triangles_not_finite = 0;                       ///< dropped for a NaN or infinite vertex
     std::uint64_t pixels_visible = 0, fragments_shaded = 0;
     std::uint64_t nan_pixels = 0;                                 ///< written as 0
+    WorkCounts work;                                              ///< of fragments_shaded, stage by stage
     std::vector<EnvironmentUse> environment;                      ///< of the materials that are drawn, each lobe once
     std::vector<std::string> warnings;
 };

@@ -1,5 +1,6 @@
 #include "apps/halflit/run_report.hpp"
 
+#include "apps/halflit/plan_names.hpp"
 #include "apps/io/atomic_file.hpp"
 #include "raster/pixel_epoch.hpp"
 
@@ -15,6 +16,17 @@ std::int64_t peak_memory() {
     struct rusage usage {};
     ::getrusage(RUSAGE_SELF, &usage);
     return std::int64_t{usage.ru_maxrss} * 1024;
+}
+
+/// How many fragments (vertices or triangles at lower shading rates) each stage ran for, and each kind of light was evaluated for.
+Json work_json(const raster::WorkCounts& work) {
+    Json stages = Json::object(), lights = Json::object();
+    for (std::size_t bit = 0; bit < work.stage_lanes.size(); ++bit) stages[std::string(kStageNames[bit])] = work.stage_lanes[bit];
+    for (std::size_t type = 0; type < work.light_lanes.size(); ++type) lights[std::string(kLightTypeNames[type])] = work.light_lanes[type];
+    return {{"stages", std::move(stages)},
+            {"alpha_test", work.alpha_test_lanes},
+            {"lights", std::move(lights)},
+            {"shadow_look_ups", work.shadow_lookup_lanes}};
 }
 
 }  // namespace
@@ -46,6 +58,7 @@ void add_frame(Json& report, const Frame& frame, const raster::RenderReport& ren
     report["pixels_visible"] = rendered.pixels_visible;
     report["fragments_shaded"] = rendered.fragments_shaded;
     report["nan_pixels"] = rendered.nan_pixels;
+    report["lanes"] = work_json(rendered.work);
     if (frame.source.scene.environment != nullptr) {
         Json uses = Json::array();
         for (const raster::EnvironmentUse& use : rendered.environment) {

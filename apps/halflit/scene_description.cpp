@@ -1,35 +1,19 @@
 #include "apps/halflit/scene_description.hpp"
 
 #include "apps/halflit/messages.hpp"
+#include "apps/halflit/plan_names.hpp"
 #include "apps/halflit/run_report.hpp"
 #include "shading/plan.hpp"
 
 #include <fmt/format.h>
 
 #include <charconv>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
 namespace halflit::cli {
 namespace {
-
-struct NamedStage {
-    shading::Stage stage;
-    std::string_view name;
-};
-constexpr NamedStage kStages[] = {{shading::kStageBaseColorTexture, "base colour texture"},
-                                  {shading::kStageVertexColor, "vertex colour"},
-                                  {shading::kStageNormalMap, "normal map"},
-                                  {shading::kStageMetallicRoughnessTexture, "metallic roughness texture"},
-                                  {shading::kStageOcclusionTexture, "occlusion texture"},
-                                  {shading::kStageEmissiveTexture, "emissive texture"},
-                                  {shading::kStageLights, "lights"},
-                                  {shading::kStageSpecular, "specular"},
-                                  {shading::kStageAmbient, "ambient"},
-                                  {shading::kStageUnlit, "unlit"},
-                                  {shading::kStageGradients, "texture gradients"},
-                                  {shading::kStagePrelit, "light at vertices or triangles"},
-                                  {shading::kStageEnvironment, "environment"}};
 
 /// The float as people would write it: the double that prints as shortly, 0.8 and not 0.800000011920929.
 Json number(float value) {
@@ -40,18 +24,6 @@ Json number(float value) {
 }
 
 Json vector_json(Vec3f v) { return {number(v.x), number(v.y), number(v.z)}; }
-
-std::string_view name_of(shading::LightType type) {
-    switch (type) {
-        case shading::LightType::directional:
-            return "directional";
-        case shading::LightType::point:
-            return "point";
-        case shading::LightType::spot:
-            return "spot";
-    }
-    return "";
-}
 
 std::string_view name_of(shading::AlphaMode mode) {
     switch (mode) {
@@ -79,6 +51,18 @@ std::string_view name_of(shading::LobePath path) {
             return "t^n, n whole";
         case shading::LobePath::general:
             return "t^n";
+    }
+    return "";
+}
+
+std::string_view name_of(shading::ShadowMode mode) {
+    switch (mode) {
+        case shading::ShadowMode::off:
+            return "off";
+        case shading::ShadowMode::hard:
+            return "hard";
+        case shading::ShadowMode::soft_split:
+            return "soft-split";
     }
     return "";
 }
@@ -125,7 +109,7 @@ Json counts_json(const raster::Scene& scene) {
 Json lights_json(const raster::Scene& scene) {
     Json lights = Json::array();
     for (const shading::Light& light : scene.lights) {
-        Json one{{"type", name_of(light.type)}, {"color", vector_json(light.color_linear)}};
+        Json one{{"type", kLightTypeNames[static_cast<std::size_t>(light.type)]}, {"color", vector_json(light.color_linear)}};
         if (light.type != shading::LightType::directional) one["position"] = vector_json(light.position_ws);
         if (light.type != shading::LightType::point) one["direction"] = vector_json(light.direction_ws);
         if (light.range > 0) one["range"] = number(light.range);
@@ -153,7 +137,8 @@ Json material_json(const shading::Material& source, const shading::FramePlan& fr
                    const raster::Settings& settings) {
     const shading::PlanOptions& options = settings.shading;
     Json needed = Json::array(), not_needed = Json::array();
-    for (const NamedStage& stage : kStages) (plan.stages & stage.stage ? needed : not_needed).push_back(stage.name);
+    for (std::size_t bit = 0; bit < std::size(kStageNames); ++bit)
+        ((plan.stages >> bit & 1u) != 0 ? needed : not_needed).push_back(kStageNames[bit]);
     Json material{{"name", source.name}, {"alpha", name_of(plan.alpha_mode)}, {"double_sided", plan.double_sided}};
     if (plan.stages & (shading::kStageLights | shading::kStageEnvironment)) {
         const shading::Lobe lobe = options.override_lobe && !source.has_own_lobe ? options.lobe : source.lobe;
@@ -170,12 +155,25 @@ Json material_json(const shading::Material& source, const shading::FramePlan& fr
     return material;
 }
 
-Json materials_json(const Frame& frame) {
+shading::FramePlan plan_of(const Frame& frame) {
     const raster::Scene& scene = frame.source.scene;
     shading::PlanOptions options = frame.settings.shading;
     options.environment_order.exposure = static_cast<double>(frame.settings.exposure);
-    const shading::FramePlan plan = shading::make_frame_plan(scene.materials, scene.textures, available_quads(scene), scene.lights,
-                                                             scene.ambient, options, scene.environment.get());
+    return shading::make_frame_plan(scene.materials, scene.textures, available_quads(scene), scene.lights, scene.ambient, options,
+                                    scene.environment.get());
+}
+
+/// What is left of the lights: black ones and those that are not numbers are not computed.
+Json planned_lights_json(const shading::FramePlan& plan) {
+    std::size_t count[std::size(kLightTypeNames)] = {};
+    for (const shading::LightPlan& light : plan.lights) ++count[static_cast<std::size_t>(light.type)];
+    Json lights = Json::object();
+    for (std::size_t type = 0; type < std::size(kLightTypeNames); ++type) lights[std::string(kLightTypeNames[type])] = count[type];
+    return lights;
+}
+
+Json materials_json(const Frame& frame, const shading::FramePlan& plan) {
+    const raster::Scene& scene = frame.source.scene;
     std::vector<bool> used(scene.materials.size() + 1, false);
     for (const raster::Instance& instance : scene.instances) {
         const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
@@ -224,7 +222,10 @@ Json describe_scene(const Frame& frame) {
     description["exposure"] = number(frame.settings.exposure);
     description["lights"] = lights_json(scene);
     description["ambient"] = {{"sky", vector_json(scene.ambient.sky_linear)}, {"ground", vector_json(scene.ambient.ground_linear)}};
-    description["materials"] = materials_json(frame);
+    const shading::FramePlan plan = plan_of(frame);
+    description["lights_computed"] = planned_lights_json(plan);
+    description["shadows"] = name_of(frame.settings.shadows);
+    description["materials"] = materials_json(frame, plan);
     description["warnings"] = frame.warnings;
     return description;
 }

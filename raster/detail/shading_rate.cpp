@@ -1,6 +1,9 @@
 #include "raster/detail/shading_rate.hpp"
 
+#include "raster/detail/count_work.hpp"
+
 #include <algorithm>
+#include <mutex>
 
 namespace halflit::raster {
 namespace {
@@ -57,7 +60,7 @@ void load_triangle(const Frame& frame, std::uint32_t id, shading::QuadMask quads
 
 }  // namespace
 
-void light_vertices(Frame& frame, Executor& executor) {
+WorkCounts light_vertices(Frame& frame, Executor& executor) {
     struct Group {
         const Draw* draw;
         std::int64_t first;  // in the draw
@@ -72,8 +75,11 @@ void light_vertices(Frame& frame, Executor& executor) {
                 groups.push_back({&draw, v, static_cast<int>(vertices - v < kVertexGroup ? vertices - v : kVertexGroup)});
     }
     constexpr int kGroupsPerTask = 16;
+    std::mutex mutex;
+    WorkCounts work;
     executor.run(static_cast<int>((groups.size() + kGroupsPerTask - 1) / kGroupsPerTask), [&](int task) {
         FragmentBlock block{};
+        WorkCounts of_task;
         const std::size_t end = std::min(groups.size(), static_cast<std::size_t>(task + 1) * kGroupsPerTask);
         for (std::size_t g = static_cast<std::size_t>(task) * kGroupsPerTask; g < end; ++g) {
             const Group& group = groups[g];
@@ -88,13 +94,17 @@ void light_vertices(Frame& frame, Executor& executor) {
             }
             finish_lanes(block, group.count);
             frame.shade->light(frame.plan, plan, shading::all_lights(frame.plan), block, group.count);
+            count_prelighting(of_task, frame.plan, plan, group.count);
             for (int l = 0; l < group.count; ++l)
                 for (int j = 0; j < kLightRows; ++j) records[l * group.draw->stride + j] = block.lane[j][l];
         }
+        const std::lock_guard lock(mutex);
+        work += of_task;
     });
+    return work;
 }
 
-void light_triangles(const Frame& frame, const FragmentList& list, FragmentBlock& block) {
+void light_triangles(const Frame& frame, const FragmentList& list, FragmentBlock& block, WorkCounts& work) {
     const shading::MaterialPlan& plan = frame.plan.materials[static_cast<std::size_t>(list.material)];
     FragmentBlock triangles{};
     int of_lane[kBlockSize], count = 0;
@@ -104,6 +114,7 @@ void light_triangles(const Frame& frame, const FragmentList& list, FragmentBlock
     }
     finish_lanes(triangles, count);
     frame.shade->light(frame.plan, plan, shading::all_lights(frame.plan), triangles, count);
+    count_prelighting(work, frame.plan, plan, count);
     for (int l = 0; l < kBlockSize; ++l)
         for (int j = 0; j < kLightRows; ++j) block.lane[j][l] = triangles.lane[j][of_lane[l < list.count ? l : list.count - 1]];
 }

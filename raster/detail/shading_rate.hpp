@@ -9,10 +9,10 @@
 
 namespace halflit::raster {
 
-/// Gouraud: replaces position and normal in the vertex records that are in use.
-void light_vertices(Frame& frame, Executor& executor);
+/// Gouraud: replaces position and normal in the vertex records that are in use. Returns the work that was.
+WorkCounts light_vertices(Frame& frame, Executor& executor);
 
 /// Flat: replaces the position and normal rows of a block by the light of each fragment's triangle.
-void light_triangles(const Frame& frame, const FragmentList& list, shading::FragmentBlock& block);
+void light_triangles(const Frame& frame, const FragmentList& list, shading::FragmentBlock& block, WorkCounts& work);
 
 }  // namespace halflit::raster

@@ -1,5 +1,6 @@
 #include "raster/detail/tile_renderer.hpp"
 
+#include "raster/detail/count_work.hpp"
 #include "raster/detail/shading_rate.hpp"
 
 #include <cstring>
@@ -111,10 +112,12 @@ void TileRenderer::shade(FragmentList& list) {
     const shading::MaterialPlan& plan = frame_.plan.materials[static_cast<std::size_t>(list.material)];
     shading::LightList lights;
     if ((plan.stages & shading::kStagePrelit) != 0) {
-        if (frame_.settings->shading.rate == shading::ShadingRate::flat) light_triangles(frame_, list, block);
+        if (frame_.settings->shading.rate == shading::ShadingRate::flat) light_triangles(frame_, list, block, counts_.work);
     } else if ((plan.stages & shading::kStageLights) != 0) {
         lights = frame_.lights.select(block, list.count, scratch_.lights);
+        count_lights(counts_.work, plan, lights, list.count);
     }
+    count_shading(counts_.work, plan, list.count);
     frame_.shade->shade(frame_.plan, plan, lights, block, list.count);
     counts_.fragments_shaded += static_cast<std::uint64_t>(list.count);
     for (int l = 0; l < list.count; ++l) {

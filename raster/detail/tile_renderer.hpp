@@ -4,12 +4,23 @@
 
 #include "raster/detail/fragment_queue.hpp"
 #include "raster/detail/frame.hpp"
+#include "raster/work_counts.hpp"
 
 namespace halflit::raster {
 
 /// What tiles report; summed over the frame.
 struct TileCounts {
     std::uint64_t triangles = 0, pixels_visible = 0, fragments_shaded = 0, nan_pixels = 0;
+    WorkCounts work;
+
+    TileCounts& operator+=(const TileCounts& other) {
+        triangles += other.triangles;
+        pixels_visible += other.pixels_visible;
+        fragments_shaded += other.fragments_shaded;
+        nan_pixels += other.nan_pixels;
+        work += other.work;
+        return *this;
+    }
 };
 
 /// The working memory of one task.

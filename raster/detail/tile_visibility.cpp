@@ -1,4 +1,5 @@
 // Which triangle each sample of a tile shows.
+#include "raster/detail/count_work.hpp"
 #include "raster/detail/tile_renderer.hpp"
 
 #include <cstring>
@@ -68,6 +69,7 @@ void TileRenderer::draw_masked(const TriangleSource& source, std::uint32_t recor
         const shading::MaterialPlan& plan = frame_.plan.materials[static_cast<std::size_t>(list.material)];
         interpolate(frame_, list, scratch_.block);
         frame_.shade->alpha(plan, scratch_.block, list.count);
+        count_alpha_test(counts_.work, plan, list.count);
         for (int l = 0; l < list.count; ++l) {
             if (scratch_.block.alpha[l] >= plan.alpha_cutoff)
                 any = true;

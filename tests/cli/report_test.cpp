@@ -147,3 +147,69 @@ TEST_CASE("report: an environment's orders and bounds, as info has them", "[cli]
     CHECK(info["requires"].dump().find("environment") != std::string::npos);
     CHECK(json_of(run({"info", "sphere:500", "--json"}).out)["materials"][0].count("environment") == 0);
 }
+
+TEST_CASE("report: lanes say which stages ran for how many fragments, and info which do not run at all", "[cli][work]") {
+    const auto report_of = [](std::vector<std::string> flags) {
+        const TemporaryFolder folder;
+        std::vector<std::string> arguments{"render", "sphere:500", "--size", "64x48", "-o", folder.file("a.png"), "--report", "-"};
+        arguments.insert(arguments.end(), flags.begin(), flags.end());
+        const Outcome outcome = run(arguments);
+        REQUIRE(outcome.code == 0);
+        return json_of(outcome.out);
+    };
+    const std::vector<std::string> flags{"--no-scene-lights", "--light",    "directional:dir=0,-1,-1", "--light", "point:pos=2,2,2",
+                                         "--shadows",         "soft-split", "--shadow-size",           "64"};
+    const auto report = report_of(flags);
+    const std::uint64_t fragments = report["fragments_shaded"];
+    CHECK(fragments > 1000);
+    const auto& lanes = report["lanes"];
+    CHECK(lanes["stages"]["lights"] == fragments);
+    CHECK(lanes["stages"]["specular"] == fragments);
+    CHECK(lanes["lights"]["directional"] == fragments);
+    CHECK(lanes["lights"]["point"] == fragments);
+    CHECK(lanes["lights"]["spot"] == 0);
+    CHECK(lanes["shadow_look_ups"] == 2 * fragments);
+    CHECK(lanes["alpha_test"] == 0);
+
+    // Every stage that the plan does without has no lane, and all others have all.
+    std::vector<std::string> arguments{"info", "sphere:500", "--json", "--size", "64x48"};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    const auto info = json_of(run(arguments).out);
+    REQUIRE(info["materials"].size() == 1);
+    const auto& required = info["materials"][0]["requires"];
+    const auto& others = info["materials"][0]["does_without"];
+    CHECK(required.size() + others.size() == lanes["stages"].size());
+    for (const auto& stage : required) CHECK(lanes["stages"][stage.get<std::string>()] == fragments);
+    for (const auto& stage : others) CHECK(lanes["stages"][stage.get<std::string>()] == 0);
+    CHECK(info["lights_computed"] == nlohmann::json{{"directional", 1}, {"point", 1}, {"spot", 0}});
+    CHECK(info["shadows"] == "soft-split");
+
+    CHECK(report_of({"--shadows", "off"})["lanes"]["shadow_look_ups"] == 0);
+    CHECK(report_of({"--specular", "none"})["lanes"]["stages"]["specular"] == 0);
+    const auto gouraud = report_of({"--shading", "gouraud"});
+    CHECK(gouraud["lanes"]["stages"]["light at vertices or triangles"] == gouraud["fragments_shaded"]);
+    CHECK(gouraud["lanes"]["stages"]["lights"].get<int>() > 0);
+    CHECK(gouraud["lanes"]["stages"]["lights"].get<int>() <= 500);  // a sphere of 500 triangles has about 250 vertices
+}
+
+TEST_CASE("render: a lobe out of range is refused with the reason, one below power 1 is warned of", "[cli][lobe]") {
+    const TemporaryFolder folder;
+    const std::vector<std::pair<std::vector<std::string>, std::string>> refused = {
+        {{"--wrap", "-0.5"}, "from 0 to 1"},
+        {{"--wrap", "nan"}, "from 0 to 1"},
+        {{"--power", "-2"}, "from 0 to 10000"},
+        {{"--lobe", "mcauley", "--power", "nan"}, "from 0 to 10000"},
+        {{"--lobe", "green", "--wrap", "1.25"}, "from 0 to 1"}};
+    for (const auto& [flags, reason] : refused) {
+        std::vector<std::string> arguments{"render", "sphere:500", "--size", "8x8", "-o", folder.file("a.png")};
+        arguments.insert(arguments.end(), flags.begin(), flags.end());
+        const Outcome outcome = run(arguments);
+        INFO(outcome.err);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.err.find(flags[flags.size() - 2]) != std::string::npos);
+        CHECK(outcome.err.find(reason) != std::string::npos);
+    }
+    const Outcome warned = run({"render", "sphere:500", "--size", "8x8", "-o", folder.file("a.png"), "--power", "0.5"});
+    CHECK(warned.code == 0);
+    CHECK(warned.err.find("warning: power 0.5: below 1 the curve has an infinite slope at its boundary") != std::string::npos);
+}

@@ -1,0 +1,28 @@
+// What users read instead of the plan's numbers.
+#pragma once
+
+#include "shading/plan.hpp"
+
+#include <string_view>
+
+namespace halflit::cli {
+
+/// By bit of shading::Stage.
+inline constexpr std::string_view kStageNames[shading::kStageCount] = {"base colour texture",
+                                                                       "vertex colour",
+                                                                       "normal map",
+                                                                       "metallic roughness texture",
+                                                                       "occlusion texture",
+                                                                       "emissive texture",
+                                                                       "lights",
+                                                                       "specular",
+                                                                       "ambient",
+                                                                       "unlit",
+                                                                       "texture gradients",
+                                                                       "light at vertices or triangles",
+                                                                       "environment"};
+
+/// By shading::LightType.
+inline constexpr std::string_view kLightTypeNames[] = {"directional", "point", "spot"};
+
+}  // namespace halflit::cli

@@ -1,0 +1,36 @@
+// How much work shading was, in lanes: what the plan promises not to do can be seen not to be done.
+#pragma once
+
+#include "shading/plan.hpp"
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+namespace halflit::raster {
+
+/// Counts of one frame. They do not depend on threads or instruction set. Lights are left out block by block where their range or cone
+/// ends, and ShadingRate::flat lights a triangle once a block, so what counts lights depends on the tile size, which decides what meets in
+/// a block.
+struct WorkCounts {
+    /// Lanes for which a stage ran, by its bit in shading::Stage: fragments; vertices or triangles for the stages of light at a lower rate.
+    std::array<std::uint64_t, shading::kStageCount> stage_lanes{};
+    std::uint64_t alpha_test_lanes = 0;          ///< fragments that a mask was asked about; what that read counts in stage_lanes too
+    std::array<std::uint64_t, 3> light_lanes{};  ///< pairs of a light and a lane, by shading::LightType
+    std::uint64_t shadow_lookup_lanes = 0;       ///< of these pairs, those whose light has a shadow map
+
+    [[nodiscard]] std::uint64_t lanes(shading::Stage stage) const {
+        return stage_lanes[static_cast<std::size_t>(std::countr_zero(static_cast<std::uint32_t>(stage)))];
+    }
+    WorkCounts& operator+=(const WorkCounts& other) {
+        for (std::size_t i = 0; i < stage_lanes.size(); ++i) stage_lanes[i] += other.stage_lanes[i];
+        for (std::size_t i = 0; i < light_lanes.size(); ++i) light_lanes[i] += other.light_lanes[i];
+        alpha_test_lanes += other.alpha_test_lanes;
+        shadow_lookup_lanes += other.shadow_lookup_lanes;
+        return *this;
+    }
+    friend bool operator==(const WorkCounts&, const WorkCounts&) = default;
+};
+
+}  // namespace halflit::raster
