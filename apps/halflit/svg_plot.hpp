@@ -1,0 +1,57 @@
+// Plots as SVG: axes, curves, scattered points, legends. Dark on white; alone, on a page with others, or inline in HTML.
+#pragma once
+
+#include "apps/halflit/svg_page.hpp"
+#include "sh/vec3.hpp"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace halflit::cli {
+
+struct PlotSeries {
+    enum class Mark : std::uint8_t { line, dots, line_and_dots };
+
+    std::string name;                  ///< in the legend; empty: not there
+    std::vector<Vec2<double>> points;  ///< one that is not finite is a gap in the line; 0 on a logarithmic axis leaves by its lower edge
+    std::string color{};               ///< as SVG has it; empty: by the series' place, from colours that all eyes tell apart
+    Mark mark = Mark::line;
+    std::string dash{};                 ///< "6 3": lengths on and off
+    std::vector<std::string> labels{};  ///< beside the points; empty, or one a point
+    double line_width = 1.8;
+};
+
+struct PlotAxis {
+    std::string label{};
+    double min = 0, max = 0;  ///< equal: from the data
+    bool log = false;
+};
+
+/// A dashed upright line over the whole plot.
+struct PlotMark {
+    double x = 0;
+    std::string label{};
+};
+
+enum class LegendPlace : std::uint8_t { none, top_left, top_right, bottom_left, bottom_right };
+
+struct Plot {
+    std::string title{};
+    PlotAxis x{}, y{};
+    std::vector<PlotSeries> series{};
+    std::vector<PlotMark> marks{};
+    LegendPlace legend = LegendPlace::top_right;
+    double width = 430, height = 300;  ///< all of it: labels too
+};
+
+void add_plot(SvgPage& page, double x, double y, const Plot& plot);
+
+/// A plot alone.
+[[nodiscard]] std::string plot_svg(const Plot& plot);
+
+/// "plot,series,x,y" and a line for each point: the numbers that were drawn, 10 digits.
+[[nodiscard]] std::string plots_csv(std::span<const Plot> plots);
+
+}  // namespace halflit::cli
