@@ -22,5 +22,6 @@ struct Command {
 [[nodiscard]] Command add_diff_command(CLI::App& root);
 [[nodiscard]] Command add_lobe_command(CLI::App& root);
 [[nodiscard]] Command add_env_command(CLI::App& root);
+[[nodiscard]] Command add_figures_command(CLI::App& root);
 
 }  // namespace halflit::cli

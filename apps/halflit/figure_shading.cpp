@@ -1,0 +1,92 @@
+// How often light is evaluated, and where it comes from.
+#include "apps/halflit/figure_entries.hpp"
+#include "apps/halflit/figure_studio.hpp"
+#include "raster/shapes.hpp"
+
+#include <fmt/format.h>
+
+namespace halflit::cli {
+namespace {
+
+using shading::Light;
+using shading::LightType;
+using shading::Lobe;
+
+constexpr int kSlices = 16, kStacks = 10;  ///< of the coarse sphere
+
+Shot coarse_sphere(shading::ShadingRate rate, bool glossy) {
+    Shot shot = empty_shot();
+    shading::Material material = matte(Lobe::lambert(), {0.75f, 0.32f, 0.22f});
+    material.roughness = 0.32f;
+    add_object(shot, raster::make_sphere(1.0f, kSlices, kStacks), material);
+    shot.camera = front_camera(1.08f);
+    shot.scene.lights = {light_from({0.55f, 0.62f, 0.75f}, 0.9f)};
+    shot.scene.ambient = {{0.05f, 0.055f, 0.07f}, {0.03f, 0.03f, 0.03f}};
+    shot.settings.shading.rate = rate;
+    if (glossy) shot.settings.shading.highlight = shading::Highlight::blinn;
+    shot.width = shot.height = 480;
+    return shot;
+}
+
+/// Balls in a ring on a floor.
+Shot ball_ring(const Light& light) {
+    constexpr float kRadius = 0.42f;
+    Shot shot = empty_shot();
+    shot.width = 540;
+    shot.height = 400;
+    add_object(shot, raster::make_plane(4.0f, 1), matte(Lobe::lambert(), {0.75f, 0.75f, 0.72f}));
+    constexpr Vec3f kPlaces[] = {{-1.4f, 0, 0}, {1.4f, 0, 0}, {0, 0, -1.4f}, {0, 0, 1.4f}};
+    for (const Vec3f place : kPlaces)
+        add_object(shot, raster::make_sphere(kRadius, 96, 48), matte(Lobe::lambert(), {0.80f, 0.48f, 0.30f}), place + Vec3f{0, kRadius, 0});
+    raster::Bounds bounds;
+    bounds.add({-2.1f, -0.1f, -2.0f});
+    bounds.add({2.1f, 0.9f, 2.0f});
+    shot.camera = raster::frame_bounds(bounds, 540.0f / 400.0f, {.azimuth_deg = 18, .elevation_deg = 34, .zoom = 1.15f, .fov_y_deg = 30});
+    shot.scene.lights = {light};
+    shot.scene.ambient = {{0.03f, 0.035f, 0.045f}, {0.02f, 0.02f, 0.02f}};
+    shot.settings.shadows = shading::ShadowMode::hard;
+    return shot;
+}
+
+}  // namespace
+
+Result<Figure> make_shading_rates_figure() {
+    constexpr shading::ShadingRate kRates[] = {shading::ShadingRate::flat, shading::ShadingRate::gouraud, shading::ShadingRate::pixel};
+    PictureGrid grid{.columns = {"flat", "Gouraud", "per pixel"}, .rows = {"matte", "with a\nhighlight"}, .width = 220};
+    auto pictures =
+        take_grid(std::move(grid), [&](std::size_t row, std::size_t column) { return coarse_sphere(kRates[column], row == 1); });
+    if (!pictures) return tl::unexpected(pictures.error());
+    return Figure{
+        .caption = fmt::format(
+            "The same {} triangles three times, under one directional light and a little ambient: light evaluated once a triangle with its "
+            "own normal, once a vertex and interpolated, and once a pixel with the interpolated normal. Lambert's lobe; below with a "
+            "highlight of roughness 0.32. A highlight smaller than a triangle is smeared or lost between vertices.",
+            2 * kSlices * (kStacks - 1)),
+        .parts = {std::move(*pictures)}};
+}
+
+Result<Figure> make_light_sources_figure() {
+    constexpr Vec3f kPlace{0, 1.5f, 0};
+    Light point{.type = LightType::point, .color_linear = {2, 2, 2}, .position_ws = kPlace};
+    Light spot{.type = LightType::spot,
+               .color_linear = {4, 4, 4},
+               .position_ws = {0, 2.2f, 0},
+               .direction_ws = normalize_or({0.45f, -1, 0.1f}, {0, -1, 0})};
+    spot.inner_cone_rad = 0.40f;
+    spot.outer_cone_rad = 0.60f;
+    const Light lights[] = {light_from({-1, 1.4f, 0.8f}, 0.9f), point, spot};
+    PictureGrid grid{.columns = {"directional", "point", "spot"}, .rows = {""}, .width = 270};
+    auto pictures = take_grid(std::move(grid), [&](std::size_t, std::size_t column) { return ball_ring(lights[column]); });
+    if (!pictures) return tl::unexpected(pictures.error());
+    return Figure{.caption =
+                      "Four balls on a floor, Lambert's lobe, a little ambient light, and shadow maps. Directional: the same light "
+                      "everywhere, from (-1, 1.4, 0.8), "
+                      "strength 0.9; shadows are parallel. Point: at (0, 1.5, 0) between the balls, strength 2 at distance 1, falling with "
+                      "the square of the "
+                      "distance; shadows spread from below it. Spot: the same fall-off from (0, 2.2, 0), strength 4, within a cone around "
+                      "(0.45, -1, 0.1), "
+                      "full to 0.4 radians from its axis and gone at 0.6; differs: the source's cone ends abruptly.",
+                  .parts = {std::move(*pictures)}};
+}
+
+}  // namespace halflit::cli
