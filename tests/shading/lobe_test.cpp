@@ -25,7 +25,7 @@ Curve curve_of(const Lobe& lobe) {
     const Light light{.direction_ws = {-1, 0, 0}};
     const std::vector<QuadMask> available{3u, 3u};
     PlanOptions options;
-    options.specular = false;
+    options.highlight = Highlight::none;
     const FramePlan plan = make_frame_plan(std::span(&material, 1), {}, available, std::span(&light, 1), {}, options);
     FragmentBlock block{};
     Curve curve{};

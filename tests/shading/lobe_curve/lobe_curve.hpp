@@ -1,0 +1,14 @@
+// The lobe as the kernels compute it, for any x = N.L instead of a normal and a light, on each instruction set.
+#pragma once
+
+#include "shading/kernels/isa.hpp"
+#include "shading/plan.hpp"
+
+namespace halflit::testing {
+
+/// f(x), scale included. count: a multiple of 16.
+using LobeCurve = void (*)(const shading::LobePlan& lobe, const float* x, float* out, int count);
+
+LobeCurve lobe_curve(shading::Isa isa);
+
+}  // namespace halflit::testing

@@ -1,0 +1,2 @@
+#define HALFLIT_ISA scalar
+#include "lobe_curve_kernel.hpp"
