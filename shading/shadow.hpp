@@ -18,6 +18,12 @@ enum class ShadowMode : std::uint8_t {
 /// texels up to 2 away; with less, look-ups at the rim are pushed back onto the outline of what they belong to, which then hides itself.
 inline constexpr int kShadowBorder = 6;
 
+/// A receiver is moved off its surface by this many texels times the sine of the light's angle: the far corner of the 4 x 4 texels that it
+/// is compared with is 2 sqrt 2 away, and a plane that falls away from the light by that much must not hide itself.
+inline constexpr float kShadowNormalOffset = 3.0f;
+/// And towards the light by this many texels and this share of the distance, for rounding.
+inline constexpr float kShadowDepthBias = 0.5f, kShadowRelativeBias = 4e-6f;
+
 /// Distances from a light to the nearest surface. Texel (i, j) is at j * size + i; its centre is at (i + 0.5, j + 0.5).
 struct ShadowMapPlan {
     enum class Kind : std::uint8_t { orthographic, perspective, cube };

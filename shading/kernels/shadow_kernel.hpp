@@ -16,12 +16,6 @@ struct Hidden {
     F hard, soft;
 };
 
-/// The receiver is moved off its surface by this many texels times the sine of the light's angle: the neighbourhood's far corner is
-/// 2 sqrt 2 texels away, and a plane that falls away from the light by that much must not hide itself.
-inline constexpr float kNormalOffsetTexels = 3.0f;
-/// And towards the light by this many texels and this share of the distance, for rounding.
-inline constexpr float kDepthBiasTexels = 0.5f, kDepthBiasRelative = 4e-6f;
-
 /// Where a fragment falls in a map: texel coordinates, distance along the axis, and the first texel of its map.
 struct MapPoint {
     F u, v, distance;
@@ -77,8 +71,8 @@ HALFLIT_INLINE Hidden hidden_share(const shading::ShadowMapPlan& map, V3 positio
     const F sine = vsqrt(vmax(F(1.0f) - cosine * cosine, F(0.0f)));
     F texel(map.texel_size);
     if (map.kind != shading::ShadowMapPlan::Kind::orthographic) texel = texel * map_point(map, position).distance;
-    const MapPoint at = map_point(map, position + normal * ((texel * F(kNormalOffsetTexels)) * sine));
-    const F receiver = at.distance - mad(texel, F(kDepthBiasTexels), at.distance * F(kDepthBiasRelative));
+    const MapPoint at = map_point(map, position + normal * ((texel * F(shading::kShadowNormalOffset)) * sine));
+    const F receiver = at.distance - mad(texel, F(shading::kShadowDepthBias), at.distance * F(shading::kShadowRelativeBias));
 
     const F limit(static_cast<float>(map.size) - 2.0f);
     const F u = clamp(at.u, F(2.0f), limit) - F(0.5f), v = clamp(at.v, F(2.0f), limit) - F(0.5f);
