@@ -1,0 +1,10 @@
+// t^1.3 for t in [0, 1] from the kernels' source, where the processor can multiply and add with one rounding: compiled under the project's
+// flags, which forbid that, and under the compiler's own, which do it. CMake gives the two objects their names and flags.
+#pragma once
+
+namespace halflit::testing {
+
+void power_uncontracted(const float* t, float* out, int count);
+void power_contracted(const float* t, float* out, int count);
+
+}  // namespace halflit::testing
