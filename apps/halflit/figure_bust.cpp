@@ -1,5 +1,5 @@
-// The form is a distance field: ellipsoids joined (or cut out) with rounded seams, mirrored at x = 0. A surface net turns it into
-// triangles: one vertex in each cell that the surface crosses, moved onto it, and a quad across each edge that it crosses.
+// The form is a distance field: ellipsoids joined (or cut out) with rounded seams, those beside the middle on both sides. A surface net
+// turns it into triangles: one vertex in each cell that the surface crosses, moved onto it, and a quad across each edge that it crosses.
 #include "apps/halflit/figure_bust.hpp"
 
 #include "sh/vec3.hpp"
@@ -19,26 +19,26 @@ struct Part {
 };
 
 constexpr Part kParts[] = {
-    {{0, 0.30, -0.14}, {0.70, 0.74, 0.86}, 0.05},          // cranium
-    {{0, -0.22, 0.10}, {0.53, 0.76, 0.62}, 0.22},          // face
-    {{0, -0.82, 0.44}, {0.20, 0.14, 0.20}, 0.22},          // chin
-    {{0.30, -0.60, 0.12}, {0.20, 0.22, 0.34}, 0.22},       // jaw
-    {{0.30, -0.20, 0.46}, {0.18, 0.16, 0.18}, 0.18},       // cheek
-    {{0.22, 0.18, 0.62}, {0.26, 0.08, 0.13}, 0.12},        // brow
-    {{0.25, 0.00, 0.82}, {0.16, 0.11, 0.17}, 0.12, true},  // eye socket
-    {{0.25, -0.01, 0.57}, {0.15, 0.13, 0.15}, 0.03},       // eye
-    {{0, -0.06, 0.70}, {0.085, 0.26, 0.12}, 0.10},         // bridge of the nose
-    {{0, -0.26, 0.82}, {0.10, 0.085, 0.12}, 0.10},         // its tip
-    {{0.10, -0.29, 0.74}, {0.065, 0.055, 0.085}, 0.05},    // its wings
-    {{0, -0.47, 0.68}, {0.19, 0.045, 0.09}, 0.06},         // upper lip
-    {{0, -0.56, 0.66}, {0.155, 0.05, 0.09}, 0.05},         // lower lip
-    {{0.70, -0.04, -0.12}, {0.06, 0.20, 0.12}, 0.06},      // ear
-    {{0, -1.25, -0.16}, {0.36, 0.85, 0.37}, 0.18},         // neck
-    {{0.60, -1.95, -0.22}, {0.58, 0.36, 0.42}, 0.35},      // shoulder
-    {{0, -2.05, -0.10}, {0.78, 0.50, 0.48}, 0.35},         // chest
+    {{0, 0.30, -0.14}, {0.70, 0.74, 0.86}, 0.05},           // cranium
+    {{0, -0.22, 0.10}, {0.52, 0.74, 0.62}, 0.22},           // face
+    {{0, -0.80, 0.46}, {0.19, 0.13, 0.19}, 0.24},           // chin
+    {{0.27, -0.58, 0.12}, {0.19, 0.22, 0.34}, 0.24},        // jaw
+    {{0.30, -0.20, 0.45}, {0.18, 0.15, 0.18}, 0.20},        // cheek
+    {{0.24, 0.18, 0.60}, {0.23, 0.07, 0.13}, 0.13},         // brow
+    {{0.25, 0.02, 0.80}, {0.17, 0.09, 0.17}, 0.14, true},   // eye socket
+    {{0.25, 0.005, 0.565}, {0.145, 0.12, 0.145}, 0.03},     // eye
+    {{0, -0.04, 0.70}, {0.07, 0.26, 0.12}, 0.12},           // bridge of the nose
+    {{0, -0.25, 0.81}, {0.09, 0.08, 0.12}, 0.10},           // its tip
+    {{0.09, -0.28, 0.74}, {0.065, 0.055, 0.085}, 0.06},     // its wings
+    {{0.055, -0.465, 0.665}, {0.115, 0.045, 0.085}, 0.06},  // upper lip
+    {{0, -0.555, 0.65}, {0.14, 0.05, 0.09}, 0.06},          // lower lip
+    {{0.70, -0.04, -0.12}, {0.06, 0.20, 0.12}, 0.08},       // ear
+    {{0, -1.20, -0.18}, {0.35, 0.80, 0.37}, 0.18},          // neck
+    {{0.52, -1.80, -0.24}, {0.62, 0.34, 0.40}, 0.40},       // shoulder
+    {{0, -1.95, -0.10}, {0.78, 0.46, 0.48}, 0.40},          // chest
 };
-constexpr double kFoot = -1.95;  ///< where the form is cut off
-constexpr Vec3d kLow{-1.32, -2.05, -1.12}, kHigh{1.32, 1.16, 1.08};
+constexpr double kFoot = -1.90;  ///< where the form is cut off
+constexpr Vec3d kLow{-1.32, -2.0, -1.12}, kHigh{1.32, 1.16, 1.08};
 
 double ellipsoid(Vec3d p, const Part& part) {
     const Vec3d d = p - part.center, q{d.x / part.radii.x, d.y / part.radii.y, d.z / part.radii.z};
@@ -53,12 +53,15 @@ double smooth_min(double a, double b, double k) {
     return std::min(a, b) - h * h * k / 4;
 }
 
-/// Negative inside.
+/// Negative inside. Parts beside the middle are there twice; mirroring the point instead would leave a crease at x = 0.
 double field(Vec3d p) {
-    p.x = p.x < 0 ? -p.x : p.x;
     double distance = 1e9;
     for (const Part& part : kParts)
-        distance = part.cut ? -smooth_min(-distance, ellipsoid(p, part), part.blend) : smooth_min(distance, ellipsoid(p, part), part.blend);
+        for (const double side : {1.0, -1.0}) {
+            if (part.center.x == 0 && side < 0) continue;
+            const double other = ellipsoid({side * p.x, p.y, p.z}, part);
+            distance = part.cut ? -smooth_min(-distance, other, part.blend) : smooth_min(distance, other, part.blend);
+        }
     return std::max(distance, kFoot - p.y);
 }
 

@@ -47,7 +47,7 @@ double energy_share(double a, int l) {
 }  // namespace
 
 Result<Figure> make_curves_figure() {
-    const PlotAxis angle{.label = "angle between normal and light, degrees", .min = -180, .max = 180},
+    const PlotAxis angle{.label = "angle between normal and light, degrees", .min = -180, .max = 180, .step = 90},
         value{.label = "f", .min = 0, .max = 1.05};
     Plot models{.title = "Three models", .x = angle, .y = value, .series = {}, .marks = {}, .legend = LegendPlace::top_left};
     models.series = {over_angle("Lambert", {0, 1, 1}, "#2255cc"), over_angle("Valve", {1, 2, 1}, "#8833aa"),
@@ -86,7 +86,7 @@ Result<Figure> make_sh_error_figure() {
 
 Result<Figure> make_band_energy_figure() {
     Plot low{
-        .title = "Shares of the energy", .x = {.label = "a", .min = 0, .max = 1}, .y = {.label = "% of the energy", .min = 0, .max = 60}};
+        .title = "Shares of the energy", .x = {.label = "a", .min = 0, .max = 1}, .y = {.label = "% of the energy", .min = 0, .max = 100}};
     Plot high{
         .title = "The same on a logarithmic scale", .x = low.x, .y = {.label = "% of the energy", .min = 1e-4, .max = 100, .log = true}};
     for (int l = 0; l < 6; ++l) {
@@ -95,14 +95,13 @@ Result<Figure> make_band_energy_figure() {
         high.series.push_back(std::move(series));
     }
     for (Plot* plot : {&low, &high}) plot->width = 460, plot->height = 360;
-    low.legend = LegendPlace::none;
-    high.legend = LegendPlace::bottom_left;
+    high.legend = LegendPlace::none;
     const auto first_three = [](double a) { return 100.0 * (energy_share(a, 0) + energy_share(a, 1) + energy_share(a, 2)); };
     return Figure{.caption = fmt::format("The share of band l in the integral of f^2 over the sphere, for Sloan's lobe as an order-6 "
                                          "kernel: (2l + 1)(pi/4) f_l^2 / |f|^2, with the "
                                          "band factors f_l and the closed form of |f|^2. As a grows the energy moves to the lower bands: "
-                                         "the first three hold {:.3f} % at a = 0, {:.3f} % "
-                                         "at a = 1/2 and {:.3f} % at a = 1, where bands 3 to 5 are exactly 0. Bands 3 and 5 are 0 at a = 0 "
+                                         "the first three hold {:.3f}% at a = 0, {:.3f}% "
+                                         "at a = 1/2 and {:.3f}% at a = 1, where bands 3 to 5 are exactly 0. Bands 3 and 5 are 0 at a = 0 "
                                          "too, and band 4 once in between, so no "
                                          "single band falls all the way.",
                                          first_three(0), first_three(0.5), first_three(1)),

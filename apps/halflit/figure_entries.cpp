@@ -14,6 +14,7 @@ std::span<const FigureEntry> all_figures() {
         {"normalized", "Wrapped light, as it is and normalised", "[McA13], before and after", &make_normalized_figure},
         {"half-lambert", "Lambert, half-Lambert and its square", "[Lis]; [Valve06]", &make_half_lambert_figure},
         {"shading-rates", "Light once a triangle, once a vertex, once a pixel", "[CMSC], shading strategies", &make_shading_rates_figure},
+        {"highlights", "Phong's highlight and Blinn's", "[CMSC], Phong model and Blinn model", &make_highlights_figure},
         {"light-sources", "Directional, point and spot light", "[CMSC], light sources", &make_light_sources_figure},
         {"terminator", "Shadow maps and wrapped light at the terminator", "[SNY11] sec. 3", &make_terminator_figure},
     };

@@ -21,6 +21,9 @@ namespace halflit::cli {
 [[nodiscard]] Result<Figure> make_shading_rates_figure();
 [[nodiscard]] Result<Figure> make_light_sources_figure();
 
+// figure_highlights.cpp: Phong against Blinn
+[[nodiscard]] Result<Figure> make_highlights_figure();
+
 // figure_terminator.cpp: shadows and wrapped light
 [[nodiscard]] Result<Figure> make_terminator_figure();
 

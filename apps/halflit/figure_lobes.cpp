@@ -91,7 +91,7 @@ Result<Figure> make_normalized_figure() {
         lobe.normalize = on;
         return lobe;
     };
-    PictureGrid grid{.columns = {"before", "normalised", "before", "normalised"},
+    PictureGrid grid{.columns = {"as it is", "normalised", "as it is", "normalised"},
                      .rows = {"Valve\n(w 1, n 2)", "Sloan, a = 0.5\n(w 0.5, n 1.5)", "generic\n(w 0.5, n 4)"},
                      .width = 165};
     auto pictures = take_grid(std::move(grid), [&](std::size_t row, std::size_t column) {
@@ -99,7 +99,7 @@ Result<Figure> make_normalized_figure() {
                    kStrength);
     });
     if (!pictures) return tl::unexpected(pictures.error());
-    Plot plot{.title = "The three lobes, before (dashed) and normalised",
+    Plot plot{.title = "The three lobes, as they are (dashed) and normalised",
               .x = {.label = "cos t", .min = -1, .max = 1},
               .y = {.label = "reflected", .min = 0, .max = 1.75},
               .series = {},
@@ -110,7 +110,7 @@ Result<Figure> make_normalized_figure() {
     const char* const names[] = {"Valve", "Sloan, a = 0.5", "w 0.5, n 4"};
     const char* const colors[] = {"#0072b2", "#d55e00", "#009e73"};
     for (std::size_t i = 0; i < 3; ++i) {
-        plot.series.push_back(over_cosine(std::string(names[i]) + ", before", normalized(lobes[i], false), colors[i], "5 3"));
+        plot.series.push_back(over_cosine(std::string(names[i]) + ", as it is", normalized(lobes[i], false), colors[i], "5 3"));
         plot.series.push_back(over_cosine(std::string(names[i]) + ", normalised", normalized(lobes[i], true), colors[i]));
     }
     return Figure{

@@ -34,7 +34,7 @@ Shot ball_ring(const Light& light) {
     Shot shot = empty_shot();
     shot.width = 540;
     shot.height = 400;
-    add_object(shot, raster::make_plane(4.0f, 1), matte(Lobe::lambert(), {0.75f, 0.75f, 0.72f}));
+    add_object(shot, raster::make_plane(6.5f, 1), matte(Lobe::lambert(), {0.75f, 0.75f, 0.72f}));
     constexpr Vec3f kPlaces[] = {{-1.4f, 0, 0}, {1.4f, 0, 0}, {0, 0, -1.4f}, {0, 0, 1.4f}};
     for (const Vec3f place : kPlaces)
         add_object(shot, raster::make_sphere(kRadius, 96, 48), matte(Lobe::lambert(), {0.80f, 0.48f, 0.30f}), place + Vec3f{0, kRadius, 0});
@@ -43,7 +43,7 @@ Shot ball_ring(const Light& light) {
     bounds.add({2.1f, 0.9f, 2.0f});
     shot.camera = raster::frame_bounds(bounds, 540.0f / 400.0f, {.azimuth_deg = 18, .elevation_deg = 34, .zoom = 1.15f, .fov_y_deg = 30});
     shot.scene.lights = {light};
-    shot.scene.ambient = {{0.03f, 0.035f, 0.045f}, {0.02f, 0.02f, 0.02f}};
+    shot.scene.ambient = {{0.04f, 0.04f, 0.045f}, {0.03f, 0.03f, 0.03f}};
     shot.settings.shadows = shading::ShadowMode::hard;
     return shot;
 }
@@ -66,27 +66,27 @@ Result<Figure> make_shading_rates_figure() {
 }
 
 Result<Figure> make_light_sources_figure() {
-    constexpr Vec3f kPlace{0, 1.5f, 0};
-    Light point{.type = LightType::point, .color_linear = {2, 2, 2}, .position_ws = kPlace};
-    Light spot{.type = LightType::spot,
-               .color_linear = {4, 4, 4},
-               .position_ws = {0, 2.2f, 0},
-               .direction_ws = normalize_or({0.45f, -1, 0.1f}, {0, -1, 0})};
-    spot.inner_cone_rad = 0.40f;
-    spot.outer_cone_rad = 0.60f;
+    Light point{.type = LightType::point, .color_linear = {2, 2, 2}, .position_ws = {0, 1.5f, 0}};
+    Light spot{.type = LightType::spot, .color_linear = {9, 9, 9}, .position_ws = {-1.4f, 2.8f, 1.2f}};
+    spot.direction_ws = normalize_or({1.8f, -2.8f, -1.3f}, {0, -1, 0});
+    spot.inner_cone_rad = 0.395f;
+    spot.outer_cone_rad = 0.40f;
+    spot.cone_power = 6.0f;
     const Light lights[] = {light_from({-1, 1.4f, 0.8f}, 0.9f), point, spot};
     PictureGrid grid{.columns = {"directional", "point", "spot"}, .rows = {""}, .width = 270};
     auto pictures = take_grid(std::move(grid), [&](std::size_t, std::size_t column) { return ball_ring(lights[column]); });
     if (!pictures) return tl::unexpected(pictures.error());
-    return Figure{.caption =
-                      "Four balls on a floor, Lambert's lobe, a little ambient light, and shadow maps. Directional: the same light "
-                      "everywhere, from (-1, 1.4, 0.8), "
-                      "strength 0.9; shadows are parallel. Point: at (0, 1.5, 0) between the balls, strength 2 at distance 1, falling with "
-                      "the square of the "
-                      "distance; shadows spread from below it. Spot: the same fall-off from (0, 2.2, 0), strength 4, within a cone around "
-                      "(0.45, -1, 0.1), "
-                      "full to 0.4 radians from its axis and gone at 0.6; differs: the source's cone ends abruptly.",
-                  .parts = {std::move(*pictures)}};
+    return Figure{
+        .caption =
+            "Four balls on a floor, Lambert's lobe, a little ambient light, and shadow maps. Directional: the same light everywhere, from "
+            "(-1, 1.4, 0.8), "
+            "strength 0.9; shadows are parallel. Point: at (0, 1.5, 0) between the balls, strength 2 at distance 1, falling with the "
+            "square of the "
+            "distance; shadows spread from below it. Spot: from (-1.4, 2.8, 1.2) towards (0.4, 0, -0.1), strength 9 on its axis at "
+            "distance 1, times the cosine to the axis to the power of 6, within 0.4 radians of it; it falls with distance too, which the "
+            "source's "
+            "does not.",
+        .parts = {std::move(*pictures)}};
 }
 
 }  // namespace halflit::cli

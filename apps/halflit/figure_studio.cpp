@@ -50,7 +50,7 @@ Shot shot_of(Subject subject, const shading::Lobe& lobe, Vec3f color) {
     static const raster::Mesh sphere = raster::make_sphere(1.0f, 128, 64), bust = make_bust();
     Shot shot = empty_shot();
     add_object(shot, subject == Subject::sphere ? sphere : bust, matte(lobe, color));
-    shot.camera = subject == Subject::sphere ? front_camera(1.08f) : front_camera(1.42f, {0, -0.36f, 0});
+    shot.camera = subject == Subject::sphere ? front_camera(1.08f) : front_camera(1.38f, {0, -0.32f, 0});
     return shot;
 }
 

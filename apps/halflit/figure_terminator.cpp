@@ -55,7 +55,7 @@ Result<PlotRow> profiles(Body body) {
                   .x = {.label = "x across the body", .min = -1, .max = 1},
                   .y = {.label = "linear light", .min = 0, .max = 1},
                   .series = {},
-                  .marks = {{0, "terminator"}},
+                  .marks = {{0, "x = 0"}},
                   .legend = LegendPlace::top_left,
                   .width = 330,
                   .height = 260};
@@ -69,38 +69,56 @@ Result<PlotRow> profiles(Body body) {
     return plots;
 }
 
+/// The largest x below which less than half of the light is left.
+double cut_at(const PlotSeries& whole, const PlotSeries& cut) {
+    double x = -1;
+    for (std::size_t i = 0; i < cut.points.size(); ++i)
+        if (cut.points[i].y < 0.5 * whole.points[i].y) x = cut.points[i].x;
+    return x;
+}
+
 }  // namespace
 
 Result<Figure> make_terminator_figure() {
-    const std::pair<Body, const char*> bodies[] = {
-        {Body::smooth, "Sphere"}, {Body::coarse, "Coarse sphere, 32 by 16"}, {Body::shadowed, "Sphere in the shadow of a ball"}};
+    struct Section {
+        Body body;
+        const char *name, *short_name;
+    };
+    constexpr Section kSections[] = {{Body::smooth, "Sphere", "sphere"},
+                                     {Body::coarse, "Coarse sphere, 32 by 16", "coarse sphere"},
+                                     {Body::shadowed, "Sphere with the shadow of a ball", "ball's shadow"}};
     Figure figure;
-    for (const auto& [body, name] : bodies) {
-        PictureGrid grid{.title = name,
-                         .columns = {"a = 0", "1/4", "1/2", "3/4", "1"},
+    std::vector<double> cuts;
+    for (const Section& section : kSections) {
+        PictureGrid grid{.title = section.name,
+                         .columns = {"a = 0", "a = 1/4", "a = 1/2", "a = 3/4", "a = 1"},
                          .rows = {kModeNames[0], kModeNames[1], kModeNames[2]},
                          .width = 170};
-        auto pictures =
-            take_grid(std::move(grid), [&](std::size_t row, std::size_t column) { return shot_of(body, kModes[row], kWraps[column]); });
+        auto pictures = take_grid(std::move(grid),
+                                  [&](std::size_t row, std::size_t column) { return shot_of(section.body, kModes[row], kWraps[column]); });
         if (!pictures) return tl::unexpected(pictures.error());
-        auto plots = profiles(body);
+        auto plots = profiles(section.body);
         if (!plots) return tl::unexpected(plots.error());
-        for (Plot& plot : *plots) plot.title = std::string(name) + ": " + plot.title;
+        cuts.push_back(cut_at((*plots)[0].series.back(), (*plots)[1].series.back()));
+        for (Plot& plot : *plots) plot.title = std::string(section.short_name) + ", " + plot.title;
         figure.parts.emplace_back(std::move(*pictures));
         figure.parts.emplace_back(std::move(*plots));
     }
-    figure.caption =
+    figure.caption = fmt::format(
         "White bodies of radius 1 with Sloan's lobe f, one directional light of strength 1 from the right, a shadow map of 2048 texels. "
         "Rows: shadows off "
         "(f), hard (f times visibility), soft-split (Lambert's part times visibility, the wrapped rest fading with the distance to the "
         "blocker, here over "
         "2a). The plots are the pictures' linear light, read along a row of pixels a tenth above the middle; on the sphere x is N.L and "
         "the first plot is f. "
-        "Hard visibility cuts f at the terminator, x = 0, by f(0) = (a/(1 + a))^(1 + a): 0, 0.134, 0.192, 0.227, 0.250 for the five wraps. "
-        "Soft-split "
-        "is f on the lit side, continuous at the terminator, and dark where the ball, of radius 0.2 and 5 away towards the light, casts "
-        "its shadow, on both "
-        "sides of it.";
+        "Where a body turns away from the light, x = 0, hard visibility cuts f off, a step of f(0) = (a/(1 + a))^(1 + a): 0, 0.134, 0.192, "
+        "0.227 and 0.250 for "
+        "the five wraps. Because the map is looked up 3 texels off the surface, the cut is seen at x = {:.2f} on the sphere and at {:.2f} "
+        "on the coarse one, "
+        "whose edges show. Soft-split is f on the lit side, continuous where the body turns away, and dark on both sides where the ball, "
+        "of radius 0.2 and "
+        "5 away towards the light, casts its shadow.",
+        cuts[0], cuts[1]);
     return figure;
 }
 

@@ -33,7 +33,8 @@ std::string power_of_ten(int exponent) {
 
 }  // namespace
 
-PlotScale::PlotScale(const PlotAxis& axis, const std::vector<double>& values) : min_(axis.min), max_(axis.max), log_(axis.log) {
+PlotScale::PlotScale(const PlotAxis& axis, const std::vector<double>& values)
+    : min_(axis.min), max_(axis.max), step_(axis.step), log_(axis.log) {
     if (min_ == max_) {
         std::vector<double> usable;
         std::copy_if(values.begin(), values.end(), std::back_inserter(usable),
@@ -51,7 +52,7 @@ PlotScale::PlotScale(const PlotAxis& axis, const std::vector<double>& values) : 
             if (min_ == max_) max_ *= 10;
         } else {
             if (min_ == max_) max_ = min_ + 1;
-            const double step = tick_step(max_ - min_);
+            const double step = step_ > 0 ? step_ : tick_step(max_ - min_);
             min_ = std::floor(min_ / step) * step;
             max_ = std::ceil(max_ / step) * step;
         }
@@ -70,7 +71,7 @@ double PlotScale::place(double value) const {
 std::vector<PlotTick> PlotScale::ticks() const {
     if (log_) return log_ticks();
     std::vector<PlotTick> ticks;
-    const double step = tick_step(max_ - min_);
+    const double step = step_ > 0 ? step_ : tick_step(max_ - min_);
     const auto first = static_cast<int>(std::ceil(min_ / step - 1e-6)), last = static_cast<int>(std::floor(max_ / step + 1e-6));
     for (int i = first; i <= last; ++i) ticks.push_back({i * step, number(i * step)});
     return ticks;

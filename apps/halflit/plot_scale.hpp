@@ -28,6 +28,7 @@ private:
     [[nodiscard]] std::vector<PlotTick> log_ticks() const;
 
     double min_ = 0, max_ = 1;
+    double step_ = 0;
     bool log_ = false;
 };
 

@@ -49,7 +49,7 @@ std::string xml_escaped(std::string_view text) {
 
 double text_width(std::string_view text, double size) {
     const auto characters = std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
-    return 0.56 * size * static_cast<double>(characters);
+    return 0.53 * size * static_cast<double>(characters);
 }
 
 std::string text_element(double x, double y, std::string_view svg_content, const TextStyle& style) {

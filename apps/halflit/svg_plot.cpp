@@ -97,7 +97,7 @@ private:
     void add_mark(const PlotMark& mark) {
         const double x = x_.place(mark.x) * width();
         out_ += line_element(x, 0, x, height(), "#777", " stroke-dasharray=\"3 3\"");
-        out_ += text_element(x + 4, height() - 6, xml_escaped(mark.label), {.size = 10, .color = "#555"});
+        out_ += text_element(x + 4, 13, xml_escaped(mark.label), {.size = 10, .color = "#555"});
     }
 
     /// Far values are drawn where they leave, so that coordinates stay small numbers.

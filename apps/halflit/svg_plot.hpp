@@ -27,6 +27,7 @@ struct PlotAxis {
     std::string label{};
     double min = 0, max = 0;  ///< equal: from the data
     bool log = false;
+    double step = 0;  ///< between ticks, linear axes; 0: a round number
 };
 
 /// A dashed upright line over the whole plot.
