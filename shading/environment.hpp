@@ -33,6 +33,10 @@ struct EnvironmentOptions {
 [[nodiscard]] Environment make_environment(const sh::EquirectView& image, const EnvironmentOptions& options = {});
 
 /// For a lobe (w, n) with its scale: bands by the stable recurrence, order by the bound.
-[[nodiscard]] EnvironmentPlan plan_environment(const Environment& environment, double wrap, double power, double scale, const EnvironmentOrder& order);
+[[nodiscard]] EnvironmentPlan plan_environment(const Environment& environment, double wrap, double power, double scale,
+                                               const EnvironmentOrder& order);
+
+/// Makes `nested` from the series' coefficients.
+void nest_coefficients(EnvironmentPlan& plan);
 
 }  // namespace halflit::shading

@@ -1,4 +1,4 @@
-// Environment light at a normal: spherical harmonics of 1 to 10 bands.
+// Environment light at a normal: spherical harmonics of 1 to 10 bands, as polynomials in its components.
 #pragma once
 
 #include "shading/environment_plan.hpp"
@@ -7,52 +7,61 @@
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
-/// The recurrence of sh::evaluate_basis in float, as a table that every object keeps to itself.
-struct BasisSteps {
-    float diagonal[sh::kMaxBands]{}, up[sh::kMaxBands][sh::kMaxBands]{}, back[sh::kMaxBands][sh::kMaxBands]{};
-};
-constexpr BasisSteps make_basis_steps() {
-    constexpr sh::detail::BasisTable table = sh::detail::make_basis_table();
-    BasisSteps steps;
-    for (int m = 0; m < sh::kMaxBands; ++m) {
-        steps.diagonal[m] = static_cast<float>(table.diagonal[m]);
-        for (int l = 0; l < sh::kMaxBands; ++l) {
-            steps.up[l][m] = static_cast<float>(table.up[l][m]);
-            steps.back[l][m] = static_cast<float>(table.back[l][m]);
-        }
-    }
-    return steps;
-}
-static constexpr BasisSteps kBasisSteps = make_basis_steps();
+HALFLIT_INLINE V3 mad(V3 a, F b, V3 c) { return {mad(a.x, b, c.x), mad(a.y, b, c.y), mad(a.z, b, c.z)}; }
+HALFLIT_INLINE V3 three(const float* v) { return {F(v[0]), F(v[1]), F(v[2])}; }
 
-/// The operations of sh::evaluate_basis<N> with N = plan.bands, in loops: an order pays for its own bands alone, and all ten share one
-/// small piece of code (bench/README.md has the price of that).
-/// The sum is in ascending order, products rounded before it. Below 0, where the series rings, is 0.
-[[gnu::noinline]] static V3 environment_light(const shading::EnvironmentPlan& plan, V3 normal) {
-    F y[sh::kMaxCoefficients];
-    F c(1.0f), s(0.0f);  // the parts of (x + iy)^m
-    for (int m = 0; m < plan.bands; ++m) {
-        F before(0.0f), q(kBasisSteps.diagonal[m]);
-        for (int l = m; l < plan.bands; ++l) {
-            y[sh::coefficient_index(l, m)] = q * c;
-            if (m > 0) y[sh::coefficient_index(l, -m)] = q * s;
-            if (l + 1 == plan.bands) break;
-            const F next = (normal.z * q) * F(kBasisSteps.up[l + 1][m]) - before * F(kBasisSteps.back[l + 1][m]);
-            before = q;
-            q = next;
+/// The nested form of EnvironmentPlan. Below 0, where the series rings, is 0.
+HALFLIT_INLINE V3 nested_environment(const shading::EnvironmentPlan& plan, int bands, V3 normal) {
+    F from_node[sh::kMaxBands];
+#pragma GCC unroll 16
+    for (int k = 0; k + 1 < bands; ++k) from_node[k] = normal.z - F(shading::kNodes[k]);
+    const float* a = plan.nested;
+    V3 sum = three(a);
+    a += 3;
+#pragma GCC unroll 16
+    for (int k = bands - 2; k >= 0; --k, a += 3) sum = mad(sum, from_node[k], three(a));
+    F c = normal.x, s = normal.y;  // the parts of (x + iy)^m
+#pragma GCC unroll 16
+    for (int m = 1; m < bands; ++m) {
+        V3 real = three(a), imaginary = three(a + 3);
+        a += 6;
+#pragma GCC unroll 16
+        for (int k = bands - 2 - m; k >= 0; --k, a += 6) {
+            real = mad(real, from_node[k], three(a));
+            imaginary = mad(imaginary, from_node[k], three(a + 3));
         }
+        sum = mad(imaginary, s, mad(real, c, sum));
         const F turned = c * normal.x - s * normal.y;
         s = s * normal.x + c * normal.y;
         c = turned;
     }
-    V3 sum{F(plan.red[0]) * y[0], F(plan.green[0]) * y[0], F(plan.blue[0]) * y[0]};
-    for (int i = 1; i < sh::coefficient_count(plan.bands); ++i) {
-        sum.x = mad(F(plan.red[i]), y[i], sum.x);
-        sum.y = mad(F(plan.green[i]), y[i], sum.y);
-        sum.z = mad(F(plan.blue[i]), y[i], sum.z);
-    }
     const F none(0.0f);
     return {vmax(sum.x, none), vmax(sum.y, none), vmax(sum.z, none)};
+}
+
+/// Not inlined: six calls times ten orders. Components are arguments of their own because those go in registers, while GCC 12 copies a
+/// vector of them to the stack in halves that the next load has to wait for.
+[[gnu::noinline]] static V3 environment_light(const shading::EnvironmentPlan& plan, F x, F y, F z) {
+    const V3 normal{x, y, z};
+    switch (plan.bands) {
+        case 1:
+            return nested_environment(plan, 1, normal);
+        case 2:
+            return nested_environment(plan, 2, normal);
+        case 3:
+            return nested_environment(plan, 3, normal);
+        case 4:
+            return nested_environment(plan, 4, normal);
+        case 5:
+            return nested_environment(plan, 5, normal);
+        case 6:
+            return nested_environment(plan, 6, normal);
+        default:
+            return nested_environment(plan, plan.bands, normal);
+    }
+}
+HALFLIT_INLINE V3 environment_light(const shading::EnvironmentPlan& plan, V3 normal) {
+    return environment_light(plan, normal.x, normal.y, normal.z);
 }
 
 }  // namespace HALFLIT_ISA_NAMESPACE

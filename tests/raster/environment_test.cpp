@@ -118,7 +118,10 @@ TEST_CASE("environment: Valve's lobe takes three bands, and nothing above them i
     shading::FramePlan frame;
     for (int i = 9; i < sh::kMaxCoefficients; ++i) {
         CHECK(plan.red[i] == 0.0f);
-        plan.red[i] = plan.green[i] = plan.blue[i] = std::numeric_limits<float>::quiet_NaN();
+    }
+    for (int i = 3 * 9; i < 3 * sh::kMaxCoefficients; ++i) {
+        CHECK(plan.nested[i] == 0.0f);
+        plan.nested[i] = std::numeric_limits<float>::quiet_NaN();
     }
     frame.environments.push_back(plan);
     shading::MaterialPlan material;
@@ -178,6 +181,44 @@ TEST_CASE("environment: turning it is turning the normals the other way, at ever
             INFO("angle " << angle << ", order " << order);
             CHECK(worst < 1e-6);
         }
+    }
+}
+
+TEST_CASE("environment: nested polynomials keep the digits of the series, at every order", "[raster][environment]") {
+    // Bands of equal size, the worst case: a real lobe weakens the upper ones. Poles and equator are the ends of the polynomials.
+    auto normals = random_normals(61, 52);
+    normals.push_back({0, 0, 1});
+    normals.push_back({0, 0, -1});
+    normals.push_back({1, 0, 0});
+    Random random(51);
+    for (int order = 1; order <= sh::kMaxBands; ++order) {
+        double worst = 0;
+        for (int round = 0; round < 50; ++round) {
+            shading::FramePlan frame;
+            shading::EnvironmentPlan plan;
+            plan.bands = order;
+            for (int i = 0; i < sh::coefficient_count(order); ++i)
+                plan.red[i] = random.real32(-1, 1), plan.green[i] = random.real32(-1, 1), plan.blue[i] = random.real32(-1, 1);
+            shading::nest_coefficients(plan);
+            frame.environments.push_back(plan);
+            shading::MaterialPlan material;
+            material.stages = shading::kStageAmbient | shading::kStageEnvironment;
+            material.environment = 0;
+            shading::FragmentBlock block{};
+            for (std::size_t l = 0; l < 64; ++l) {
+                block.lane[shading::kNormalX][l] = static_cast<float>(normals[l].x);
+                block.lane[shading::kNormalY][l] = static_cast<float>(normals[l].y);
+                block.lane[shading::kNormalZ][l] = static_cast<float>(normals[l].z);
+            }
+            shading::shade_kernels(shading::Isa::scalar).shade(frame, material, {}, block, shading::kBlockSize);
+            for (std::size_t l = 0; l < 64; ++l) {
+                const Vec3d want = value(plan, normals[l]);
+                const Vec3d held{std::max(want.x, 0.0), std::max(want.y, 0.0), std::max(want.z, 0.0)};
+                worst = std::max(worst, largest_difference({block.red[l], block.green[l], block.blue[l]}, held));
+            }
+        }
+        INFO("order " << order << ": " << worst);
+        CHECK(worst <= 8e-8 * order * order);  // measured 6.8e-8, at order 5; most of it is the normal's rounding to float32
     }
 }
 
