@@ -7,6 +7,9 @@
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
+/// From this power on 1 - t is taken from 1 - x, which is exact for x in [1/2, 1], instead of from t.
+inline constexpr float kSharpPowerMinusOne = 63.0f;
+
 /// t^n with t = clamp((x + w) / (1 + w), 0, 1), without the lobe's scale. Clamped after the sum: max(0, x) + w would light the whole
 /// back side. NaN gives 0, and so does x <= -w for every n, 0 included.
 HALFLIT_INLINE F lobe_value(const shading::LobePlan& lobe, F x) {
@@ -28,6 +31,9 @@ HALFLIT_INLINE F lobe_value(const shading::LobePlan& lobe, F x) {
             return lobe.integer_power == 4 ? t4 : t4 * t;
         }
         case LobePath::general:
+            if (lobe.power_minus_one >= kSharpPowerMinusOne)
+                return sharp_power_of_unit(t, clamp((F(1.0f) - x) * F(lobe.inv_one_plus_wrap), F(0.0f), F(1.0f)),
+                                           F(lobe.power_minus_one + 1.0f));
             return power_of_unit(t, lobe.power_minus_one, lobe.power_minus_one_high, lobe.power_minus_one_low);
     }
     return t;

@@ -76,6 +76,16 @@ HALFLIT_INLINE F power_of_unit(F t, float power_minus_one, float high, float low
     return sel(y >= F(kLowestExponent), t * factor, F(0.0f));
 }
 
+/// t^n for large n, from 1 - t as well: t has lost the digits near 1 that a large power makes visible. The relative error is a few eps
+/// times |ln t^n| and no longer n eps (tests/shading/extremes_test.cpp). 1 - t = 0 gives exactly 1, t = 0 gives 0.
+HALFLIT_INLINE F sharp_power_of_unit(F t, F one_minus_t, F power) {
+    const Log2Argument wide = log2_argument(t);
+    const M near_one = one_minus_t < F(0.25f);
+    const F exponent = sel(near_one, F(0.0f), wide.exponent);
+    const F u = sel(near_one, F(0.0f) - one_minus_t, wide.u);
+    return sel(t > F(0.0f), exp2_floored(kExp2Degree6, power * mad(u, horner(kLog2Degree8, u), exponent)), F(0.0f));
+}
+
 /// (cos^2)^half_exponent, the power of a cosine, from both squares. Near 1 log2 is taken of 1 - sin^2 as log1p would, because the
 /// cosine has lost the digits there that a large exponent makes visible; elsewhere the sine has lost them, for angles near 90 degrees.
 HALFLIT_INLINE F power_of_cosine(F cosine_squared, F sine_squared, F half_exponent) {
