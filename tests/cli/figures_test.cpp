@@ -1,0 +1,230 @@
+#include "tests/cli/program.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+using namespace halflit::test;
+
+namespace {
+
+const std::vector<std::string> kNames = {"wrap-form",  "backlight",    "curves",        "green-sloan", "sh-error",      "band-energy",
+                                         "normalized", "half-lambert", "shading-rates", "highlights",  "light-sources", "terminator"};
+const double kPi = std::acos(-1.0);
+
+/// Series by "plot / series", each as x to y.
+using Numbers = std::map<std::string, std::map<double, double>>;
+
+Numbers read_csv(const std::string& path) {
+    std::istringstream lines(contents(path));
+    std::string line;
+    REQUIRE(std::getline(lines, line));
+    REQUIRE(line == "plot,series,x,y");
+    Numbers numbers;
+    while (std::getline(lines, line)) {
+        std::vector<std::string> fields{""};
+        bool quoted = false;
+        for (const char c : line) {
+            if (c == '"')
+                quoted = !quoted;
+            else if (c == ',' && !quoted)
+                fields.emplace_back();
+            else
+                fields.back() += c;
+        }
+        REQUIRE(fields.size() == 4);
+        numbers[fields[0] + " / " + fields[1]][std::stod(fields[2])] = std::stod(fields[3]);
+    }
+    return numbers;
+}
+
+Numbers numbers_of(const std::string& name) {
+    const TemporaryFolder folder;
+    const Outcome outcome = run({"figures", name, "-o", folder.path()});
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK(outcome.out.empty());
+    CHECK(folder.names() == std::vector<std::string>{name + ".csv", name + ".svg"});
+    return read_csv(folder.file(name + ".csv"));
+}
+
+const std::map<double, double>& series_of(const Numbers& numbers, const std::string& key) {
+    INFO(key);
+    REQUIRE(numbers.count(key) == 1);
+    return numbers.at(key);
+}
+
+std::string base64_decoded(const std::string& text) {
+    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string bytes;
+    unsigned bits = 0;
+    int count = 0;
+    for (const char c : text) {
+        if (c == '=') break;
+        bits = bits << 6 | static_cast<unsigned>(digits.find(c));
+        count += 6;
+        if (count >= 8) bytes += static_cast<char>(bits >> (count -= 8) & 255);
+    }
+    return bytes;
+}
+
+double srgb_code(double linear) {
+    return 255 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(std::min(linear, 1.0), 1 / 2.4) - 0.055);
+}
+
+double sloan(double x, double a) { return x > -a ? std::pow((x + a) / (1 + a), 1 + a) : 0.0; }
+
+}  // namespace
+
+TEST_CASE("figures: --list names every figure with its source", "[cli][figures]") {
+    const Outcome outcome = run({"figures", "--list"});
+    REQUIRE(outcome.code == 0);
+    CHECK(outcome.err.empty());
+    std::istringstream lines(outcome.out);
+    std::vector<std::string> names;
+    for (std::string line; std::getline(lines, line);) {
+        names.push_back(line.substr(0, line.find(' ')));
+        INFO(line);
+        CHECK(line.find("; [") != std::string::npos);
+    }
+    CHECK(names == kNames);
+}
+
+TEST_CASE("figures: the order-3 error is the closed form's at a = 0 and 1/2, falls, and is 0 at a = 1", "[cli][figures]") {
+    const Numbers numbers = numbers_of("sh-error");
+    const std::string plot = "Order-3 error of Sloan's lobe / ";
+    const auto& absolute = series_of(numbers, plot + "absolute, |f - f_3|");
+    REQUIRE(absolute.size() == 101);
+    CHECK(absolute.at(0) == Approx(std::sqrt(kPi / 192)).epsilon(1e-9));
+    CHECK(absolute.at(1) == 0.0);
+    double before = 1;
+    for (const auto& [a, error] : absolute) {
+        INFO("a = " << a);
+        CHECK(error < before);
+        before = error;
+    }
+    const auto& relative = series_of(numbers, plot + "relative, |f - f_3| / |f|");
+    CHECK(relative.at(0) == Approx(1 / (8 * std::sqrt(2.0))).epsilon(1e-9));
+    CHECK(relative.at(0.5) == Approx(1.0 / 35).epsilon(1e-8));
+    CHECK(relative.at(1) == 0.0);
+}
+
+TEST_CASE("figures: the bands' energy is the closed forms', all of it in three bands at a = 1", "[cli][figures]") {
+    const Numbers numbers = numbers_of("band-energy");
+    const double lambert[] = {37.5, 50, 11.71875, 0, 0.5859375, 0}, valve[] = {500.0 / 9, 125.0 / 3, 25.0 / 9, 0, 0, 0};
+    std::map<double, double> sum;
+    for (std::size_t l = 0; l < 6; ++l) {
+        const auto& share = series_of(numbers, "Shares of the energy / band " + std::to_string(l));
+        REQUIRE(share.size() == 101);
+        INFO("band " << l);
+        CHECK(share.at(0) == Approx(lambert[l]).epsilon(1e-9).margin(1e-12));
+        CHECK(share.at(1) == Approx(valve[l]).epsilon(1e-9));
+        for (const auto& [a, percent] : share) sum[a] += percent;
+    }
+    CHECK(sum.at(1) == Approx(100).epsilon(1e-9));
+    for (const auto& [a, percent] : sum) CHECK(percent <= 100 + 1e-7);
+}
+
+TEST_CASE("figures: the curves are the formulas", "[cli][figures]") {
+    const Numbers numbers = numbers_of("curves");
+    const auto check = [&](const std::string& key, auto&& f) {
+        const auto& curve = series_of(numbers, key);
+        REQUIRE(curve.size() == 721);
+        for (const auto& [degrees, value] : curve) {
+            INFO(key << " at " << degrees);
+            CHECK(value == Approx(f(std::cos(degrees * kPi / 180))).margin(1e-9));
+        }
+    };
+    check("Three models / Lambert", [](double x) { return std::max(0.0, x); });
+    check("Three models / Valve", [](double x) { return 0.25 * (x + 1) * (x + 1); });
+    check("Three models / Green, w = 1", [](double x) { return (x + 1) / 2; });
+    check("Sloan's lobe / a = 0.25", [](double x) { return sloan(x, 0.25); });
+}
+
+TEST_CASE("figures: pictures show the lobes' values, alike in a sheet and on a page", "[cli][figures]") {
+    const TemporaryFolder folder;
+    REQUIRE(run({"figures", "backlight", "--format", "png", "-o", folder.file("new/folder")}).code == 0);
+    REQUIRE(run({"figures", "backlight", "-o", folder.path()}).code == 0);
+    const Picture sheet = read_picture(contents(folder.file("new/folder/backlight.png")));
+    REQUIRE(sheet.width == 1208);
+    REQUIRE(sheet.height == 600);
+    // A sphere of radius 1 in a view 2.16 high, lit from behind with strength 2: cos t = -sqrt(1 - r^2).
+    for (int x = 300; x < 560; x += 20) {
+        const double r = (x + 0.5 - 300) / 300 * 1.08, half = 0.5 * (1 - std::sqrt(std::max(0.0, 1 - r * r)));
+        INFO("x = " << x);
+        CHECK(std::abs(sheet.pixel(x, 300)[0] - srgb_code(2 * half)) < 2.0);
+        CHECK(std::abs(sheet.pixel(608 + x, 300)[0] - srgb_code(2 * half * half)) < 2.0);
+    }
+    const std::string svg = contents(folder.file("backlight.svg")), mark = "data:image/png;base64,";
+    REQUIRE(svg.starts_with("<svg "));
+    REQUIRE(svg.ends_with("</svg>\n"));
+    const std::size_t start = svg.find(mark) + mark.size();
+    const Picture first = read_picture(base64_decoded(svg.substr(start, svg.find('"', start) - start)));
+    REQUIRE(first.width == 600);
+    bool same = true;
+    for (int y = 0; y < 600; ++y)
+        for (int x = 0; x < 600; ++x) same = same && first.pixel(x, y) == sheet.pixel(x, y);
+    CHECK(same);
+}
+
+TEST_CASE("figures: an unknown name ends before anything is made, and lists the known ones", "[cli][figures]") {
+    const TemporaryFolder folder;
+    const Outcome outcome = run({"figures", "curves", "figure-7", "-o", folder.file("out")});
+    CHECK(outcome.code == 2);
+    CHECK(outcome.err.find("'figure-7'") != std::string::npos);
+    for (const std::string& name : kNames) CHECK(outcome.err.find(name) != std::string::npos);
+    CHECK(folder.names().empty());
+    CHECK(run({"figures", "--format", "gif", "-o", folder.file("out")}).code == 2);
+    CHECK(run({"figures", "curves", "-o", "-"}).code == 2);
+    write_contents(folder.file("file"), "");
+    for (const std::string& path : {folder.file("file"), folder.file("file/below")}) {
+        const Outcome blocked = run({"figures", "curves", "-o", path});
+        INFO(blocked.err);
+        CHECK(blocked.code == 4);
+        CHECK(blocked.err.find(path) != std::string::npos);
+    }
+}
+
+TEST_CASE("figures: all of them, with an index; light across the terminator is what each shadow mode promises", "[cli][figures][slow]") {
+    const TemporaryFolder folder;
+    const Outcome outcome = run({"figures", "-o", folder.path()});
+    REQUIRE(outcome.code == 0);
+    const std::string index = contents(folder.file("index.html"));
+    CHECK(index.ends_with("</html>\n"));
+    for (const std::string& name : kNames) {
+        INFO(name);
+        CHECK(index.find("<img src=\"" + name + ".svg\"") != std::string::npos);
+        const std::string svg = contents(folder.file(name + ".svg"));
+        CHECK(svg.starts_with("<svg "));
+        CHECK(svg.ends_with("</svg>\n"));
+        CHECK(svg.find(">nan<") == std::string::npos);
+    }
+
+    const Numbers numbers = read_csv(folder.file("terminator.csv"));
+    for (const double a : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+        std::ostringstream wrap;
+        wrap << " / a = " << a;
+        INFO("a = " << a);
+        // A step of the finest row is 1/300 of the radius; where the lobe is steepest that is 1/300 of the light.
+        for (const auto& [x, light] : series_of(numbers, "sphere, off" + wrap.str())) CHECK(light == Approx(sloan(x, a)).margin(2e-3));
+        double before = 0;
+        for (const auto& [x, light] : series_of(numbers, "sphere, soft-split" + wrap.str())) {
+            INFO("x = " << x);
+            if (x > 0) CHECK(light == Approx(sloan(x, a)).margin(2e-3));
+            CHECK(std::abs(light - before) < 0.01);
+            before = light;
+        }
+        for (const auto& [x, light] : series_of(numbers, "sphere, hard" + wrap.str())) {
+            INFO("x = " << x);
+            if (x > 0) CHECK(light == Approx(sloan(x, a)).margin(2e-3));
+            if (x < -0.12) CHECK(light == 0.0);
+        }
+        // The ball hides z in 0.63 .. 0.97: |x| in 0.21 .. 0.77.
+        for (const std::string mode : {"hard", "soft-split"})
+            for (const auto& [x, light] : series_of(numbers, "ball's shadow, " + mode + wrap.str()))
+                if (std::abs(x) > 0.26 && std::abs(x) < 0.74) CHECK(light == 0.0);
+    }
+}
