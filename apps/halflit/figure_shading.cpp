@@ -68,7 +68,7 @@ Result<Figure> make_shading_rates_figure() {
 Result<Figure> make_light_sources_figure() {
     Light point{.type = LightType::point, .color_linear = {2, 2, 2}, .position_ws = {0, 1.5f, 0}};
     Light spot{.type = LightType::spot, .color_linear = {9, 9, 9}, .position_ws = {-1.4f, 2.8f, 1.2f}};
-    spot.direction_ws = normalize_or({1.8f, -2.8f, -1.3f}, {0, -1, 0});
+    spot.direction_ws = normalize_or({1.4f, -2.8f, -1.3f}, {0, -1, 0});
     spot.inner_cone_rad = 0.395f;
     spot.outer_cone_rad = 0.40f;
     spot.cone_power = 6.0f;
@@ -82,7 +82,7 @@ Result<Figure> make_light_sources_figure() {
             "(-1, 1.4, 0.8), "
             "strength 0.9; shadows are parallel. Point: at (0, 1.5, 0) between the balls, strength 2 at distance 1, falling with the "
             "square of the "
-            "distance; shadows spread from below it. Spot: from (-1.4, 2.8, 1.2) towards (0.4, 0, -0.1), strength 9 on its axis at "
+            "distance; shadows spread from below it. Spot: from (-1.4, 2.8, 1.2) towards (0, 0, -0.1), strength 9 on its axis at "
             "distance 1, times the cosine to the axis to the power of 6, within 0.4 radians of it; it falls with distance too, which the "
             "source's "
             "does not.",
