@@ -304,6 +304,23 @@ TEST_CASE("extremes: a highlight's power up to s = 100000 keeps its digits and d
     }
 }
 
+TEST_CASE("extremes: a light exactly opposite the viewer has no half vector, and no highlight by it", "[shading][extremes]") {
+    // [CMSC] divides L + e by its length, which is 0 here.
+    Shot shot;
+    shot.material.metallic = 1.0f;
+    shot.light.direction_ws = {0, 0, 1};  // L = (0, 0, -1), the view is (0, 0, 1)
+    const Vec3f plain = plain_normalize(Vec3f{0, 0, -1} + Vec3f{0, 0, 1});
+    CHECK(std::isnan(plain.x));
+    shot.make_plan();
+    FragmentBlock block{};
+    for (int l = 0; l < kBlockSize; ++l) {
+        const double angle = 2 * kPi * l / kBlockSize;
+        set3(block, kNormalX, l, {static_cast<float>(std::sin(angle)), 0, static_cast<float>(std::cos(angle))});
+    }
+    for (const Isa isa : test::available_isas())
+        for (const float value : shot.shade(isa, block)) CHECK(value == 0.0f);
+}
+
 TEST_CASE("extremes: light from all around is as good at the poles of its basis as elsewhere, on every set", "[shading][extremes]") {
     FloatMaker make(17);
     Environment environment;
