@@ -180,13 +180,16 @@ Result<std::vector<FigureFile>> figure_files(const FigureEntry& entry, const Fig
 std::string figure_index(std::span<const MadeFigure> figures) {
     std::string html = kIndexHead;
     for (const MadeFigure& figure : figures) {
-        const std::string title = xml_escaped(figure.entry->title);
-        html += fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n<p class=\"source\">{}</p>\n", figure.entry->name, title,
-                            xml_escaped(figure.entry->source));
-        for (const std::string& file : figure.files)
+        const std::string caption = xml_escaped(figure.caption);
+        html += fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", figure.entry->name, xml_escaped(figure.entry->title));
+        bool on_page = false;  // an SVG page shows source and caption itself
+        for (const std::string& file : figure.files) {
+            on_page = on_page || file.ends_with(".svg");
             html += file.ends_with(".csv") ? fmt::format("<p><a href=\"{0}\">{0}</a>: the numbers</p>\n", file)
-                                           : fmt::format("<img src=\"{}\" alt=\"{}\">\n", file, title);
-        html += fmt::format("<p>{}</p>\n</section>\n", xml_escaped(figure.caption));
+                                           : fmt::format("<img src=\"{}\" alt=\"{}\">\n", file, caption);
+        }
+        if (!on_page) html += fmt::format("<p>{}</p>\n<p class=\"source\">{}</p>\n", caption, xml_escaped(figure.entry->source));
+        html += "</section>\n";
     }
     return html + "</body>\n</html>\n";
 }
