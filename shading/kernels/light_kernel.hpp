@@ -90,9 +90,11 @@ HALFLIT_INLINE void cast_shadow(const ShadowReceiver& receiver, const shading::L
     if constexpr (kSpecular) specular = specular * (F(1.0f) - hidden.hard);
 }
 
-template <bool kSpecular>
-HALFLIT_INLINE LightSums sum_lights(const shading::LightPlan* lights, int count, const shading::LobePlan& lobe,
-                                    const ShadowReceiver& receiver, V3 position, V3 normal, V3 to_eye, F half_exponent) {
+/// One loop over the lights. Without highlights and shadows a light is so little work that the loop must hold nothing else: in one that
+/// holds every path, GCC keeps the sums in memory, and each light waits for the store of the one before. With them it makes no difference.
+template <bool kSpecular, bool kShadows, class LobeValue>
+HALFLIT_INLINE LightSums sum_lights_by(const LobeValue& lobe_value_at, const shading::LightPlan* lights, int count,
+                                       const ShadowReceiver& receiver, V3 position, V3 normal, V3 to_eye, F half_exponent) {
     LightSums sums;
     for (int i = 0; i < count; ++i) {
         const shading::LightPlan& light = lights[i];
@@ -100,15 +102,32 @@ HALFLIT_INLINE LightSums sum_lights(const shading::LightPlan* lights, int count,
         LocalLight at{broadcast(light.to_light), F(1.0f)};
         if (local) at = local_light(light, position);
         const F n_dot_l = dot(normal, at.direction);
-        F diffuse = lobe_value(lobe, n_dot_l), specular(0.0f);
-        if constexpr (kSpecular)
-            specular = highlight_value(receiver.frame.highlight, normal, to_eye, at.direction, n_dot_l, half_exponent);
-        if (light.shadow_map >= 0) cast_shadow<kSpecular>(receiver, light, at, position, n_dot_l, diffuse, specular);
+        F diffuse = lobe_value_at(n_dot_l), specular(0.0f);
+        if constexpr (kSpecular) specular = highlight_value(receiver.frame.highlight, normal, to_eye, at.direction, n_dot_l, half_exponent);
+        if constexpr (kShadows) {
+            if (light.shadow_map >= 0) cast_shadow<kSpecular>(receiver, light, at, position, n_dot_l, diffuse, specular);
+        }
         const V3 color = broadcast(light.color);
         sums.diffuse = sums.diffuse + color * (local ? diffuse * at.strength : diffuse);
         if constexpr (kSpecular) sums.specular = sums.specular + color * (local ? specular * at.strength : specular);
     }
     return sums;
+}
+
+template <bool kSpecular>
+HALFLIT_INLINE LightSums sum_lights(const shading::LightPlan* lights, int count, const shading::LobePlan& lobe,
+                                    const ShadowReceiver& receiver, V3 position, V3 normal, V3 to_eye, F half_exponent) {
+    const auto sum = [&]<bool kShadows>(const auto& value) __attribute__((always_inline)) {
+        return sum_lights_by<kSpecular, kShadows>(value, lights, count, receiver, position, normal, to_eye, half_exponent);
+    };
+    if constexpr (!kSpecular) {
+        if (receiver.frame.shadow_maps.empty()) {
+            if (lobe.path == shading::LobePath::general)
+                return sum.template operator()<false>([&](F x) __attribute__((always_inline)) { return general_lobe_value(lobe, x); });
+            return sum.template operator()<false>([&](F x) __attribute__((always_inline)) { return simple_lobe_value(lobe, x); });
+        }
+    }
+    return sum.template operator()<true>([&](F x) __attribute__((always_inline)) { return lobe_value(lobe, x); });
 }
 
 }  // namespace HALFLIT_ISA_NAMESPACE
