@@ -29,16 +29,18 @@ HALFLIT_INLINE F simple_lobe_value(const shading::LobePlan& lobe, F x) {
     return lobe.integer_power == 4 ? t4 : t4 * t;
 }
 
-/// The same on the general path.
+/// The same on the general path, for powers below and from kSharpPowerMinusOne + 1 on.
 HALFLIT_INLINE F general_lobe_value(const shading::LobePlan& lobe, F x) {
-    const F t = lobe_argument(lobe, x);
-    if (lobe.power_minus_one >= kSharpPowerMinusOne)
-        return sharp_power_of_unit(t, clamp((F(1.0f) - x) * F(lobe.inv_one_plus_wrap), F(0.0f), F(1.0f)), F(lobe.power_minus_one + 1.0f));
-    return power_of_unit(t, lobe.power_minus_one, lobe.power_minus_one_high, lobe.power_minus_one_low);
+    return power_of_unit(lobe_argument(lobe, x), lobe.power_minus_one, lobe.power_minus_one_high, lobe.power_minus_one_low);
+}
+HALFLIT_INLINE F sharp_lobe_value(const shading::LobePlan& lobe, F x) {
+    return sharp_power_of_unit(lobe_argument(lobe, x), clamp((F(1.0f) - x) * F(lobe.inv_one_plus_wrap), F(0.0f), F(1.0f)),
+                               F(lobe.power_minus_one + 1.0f));
 }
 
 HALFLIT_INLINE F lobe_value(const shading::LobePlan& lobe, F x) {
-    return lobe.path == shading::LobePath::general ? general_lobe_value(lobe, x) : simple_lobe_value(lobe, x);
+    if (lobe.path != shading::LobePath::general) return simple_lobe_value(lobe, x);
+    return lobe.power_minus_one >= kSharpPowerMinusOne ? sharp_lobe_value(lobe, x) : general_lobe_value(lobe, x);
 }
 
 }  // namespace HALFLIT_ISA_NAMESPACE
