@@ -193,9 +193,13 @@ NamedScene layers_scene() {
         pane.double_sided = i % 3 != 0;
         pane.unlit = i % 2 == 0;
         pane.metallic = 0;
-        add(s, make_plane(0.7f, 2), add_material(s, pane),
-            translation({random.real32(-0.5, 0.5), random.real32(-0.4, 0.4), random.real32(-0.5, 0.8)}) *
-                turned(random.real32(-1, 1), random.real32(-1, 1), random.real32(-1, 1), random.real32(0.2, 1)));
+        // One draw a statement: compilers differ in the order in which they evaluate arguments.
+        const float turn_w = random.real32(0.2, 1);
+        const float turn_z = random.real32(-1, 1);
+        const float turn_y = random.real32(-1, 1);
+        const float turn_x = random.real32(-1, 1);
+        const Vec3f centre{random.real32(-0.5, 0.5), random.real32(-0.4, 0.4), random.real32(-0.5, 0.8)};
+        add(s, make_plane(0.7f, 2), add_material(s, pane), translation(centre) * turned(turn_x, turn_y, turn_z, turn_w));
     }
     return out;
 }
