@@ -35,6 +35,10 @@ HALFLIT_INLINE F power_to(F t, float n) {
     const SplitPower split(n);
     return power_of_unit(clamp(t, F(0.0f), F(1.0f)), split.minus_one, split.high, split.low);
 }
+HALFLIT_INLINE F sharp_power_to(F one_minus_t, float n) {
+    const F held = clamp(one_minus_t, F(0.0f), F(1.0f));
+    return sharp_power_of_unit(F(1.0f) - held, held, F(n));
+}
 HALFLIT_INLINE F cosine_power_to(F sine_squared, float half_exponent) {
     const F held = clamp(sine_squared, F(0.0f), F(1.0f));
     return power_of_cosine(F(1.0f) - held, held, F(half_exponent));
@@ -66,6 +70,8 @@ HALFLIT_UNARY(run_power_05, power_to(x, 0.5f))
 HALFLIT_UNARY(run_power_13, power_to(x, 1.3f))
 HALFLIT_UNARY(run_power_165, power_to(x, 16.5f))
 HALFLIT_UNARY(run_power_1000, power_to(x, 1000.0f))
+HALFLIT_UNARY(run_sharp_power_100, sharp_power_to(x, 100.0f))
+HALFLIT_UNARY(run_sharp_power_10000, sharp_power_to(x, 10000.0f))
 HALFLIT_UNARY(run_cosine_power_1, cosine_power_to(x, 1.0f))
 HALFLIT_UNARY(run_cosine_power_20, cosine_power_to(x, 20.0f))
 HALFLIT_UNARY(run_cosine_power_30000, cosine_power_to(x, 30000.0f))
@@ -120,6 +126,8 @@ static const testing::NamedUnary kUnary[] = {
     {"power 1.3", run_power_13},
     {"power 16.5", run_power_165},
     {"power 1000", run_power_1000},
+    {"sharp power 100", run_sharp_power_100},
+    {"sharp power 10000", run_sharp_power_10000},
     {"cosine power 2", run_cosine_power_1},
     {"cosine power 40", run_cosine_power_20},
     {"cosine power 60000", run_cosine_power_30000},
