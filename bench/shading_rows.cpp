@@ -165,6 +165,8 @@ void add_environment_rows(std::vector<Row>& rows) {
         row.work = Work::environment;
         row.lights = {0};
         row.frames = {plan({}, {}, false, order)};
+        // A multiplication and an addition for each coefficient and channel but the leading ones; z less each node; powers of x + iy.
+        row.operations = {6 * (order * order - 1) + (order - 1) + (order > 2 ? 6 * (order - 2) : 0)};
         row.largest_price = 0.12;
         rows.push_back(std::move(row));
     }
