@@ -71,7 +71,10 @@ struct MaterialPlan {
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
     LobePlan lobe;
-    float shadow_fade_scale = 0;  ///< 1 / d0: wrapped light is gone where its blocker is d0 away; 0: no wrapped light
+    /// 1 / d0: wrapped light is gone where its blocker is d0 away; 0: no wrapped light.
+    float shadow_fade_scale = 0;
+    /// Times -N.L: the share of d0 that a body which turns away from the light by N.L is thick, and that it does not shade itself by.
+    float shadow_turn_scale = 0;
     int environment = -1, mirrored_environment = -1;  ///< indices into FramePlan::environments
     bool occlusion_is_metallic_roughness = false;  ///< both read the same texels the same way: one fetch serves both
     TexturePlan base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;

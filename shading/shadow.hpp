@@ -11,7 +11,7 @@ namespace halflit::shading {
 enum class ShadowMode : std::uint8_t {
     off,        ///< f
     hard,       ///< V f: a step of f(0) where the surface turns away from the light
-    soft_split  ///< V core + W excess, core = min(f, max(0, x)), excess = f - core, W = max(V, T(d / d0)) per tap
+    soft_split  ///< V core + W excess, core = min(f, max(0, x)), excess = f - core, W = max(V, T) for each texel; T: raster/README.md
 };
 
 /// Texels between the edge of what a map must show and the edge of the map. A receiver is looked up 3 texels off its surface, among
@@ -39,5 +39,9 @@ struct ShadowMapPlan {
 };
 
 inline constexpr float kNoBlocker = 3e38f;
+
+/// Where a sphere of radius R turns away from the light, x = N.L < 0, it is 2 R |x| thick towards it. d0 is 2 w R over this share, so that the
+/// thickness is less than d0 wherever a lobe of wrap w leaves light, |x| < w.
+inline constexpr float kOwnThickness = 8.0f / 9.0f;
 
 }  // namespace halflit::shading

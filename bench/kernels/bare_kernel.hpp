@@ -27,7 +27,7 @@ static void bare_sum(const shading::FramePlan& frame, const shading::MaterialPla
         const V3 normal = row3(block, shading::kNormalX, lane);
         V3 to_eye = normal;
         if constexpr (kHighlight) to_eye = row3(block, shading::kTangentX, lane);
-        const ShadowReceiver receiver{frame, normal, 0.0f};
+        const ShadowReceiver receiver{frame, normal, {}};
         const LightSums sums = sum_lights<kHighlight>(frame.lights.data(), count, material.lobe, receiver,
                                                       row3(block, shading::kPosX, lane), normal, to_eye, F(bench::kHalfExponent));
         store_color(block, lane, sums.diffuse);

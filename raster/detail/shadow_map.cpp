@@ -93,11 +93,13 @@ void set_shadow_fades(Frame& frame) {
         // The sphere of that bounding box.
         if (!bounds.empty) radius[material] = std::max(radius[material], bounds.radius() / 1.7320508075688772);
     }
+    constexpr double kOwn = shading::kOwnThickness;
     for (std::size_t i = 0; i < radius.size(); ++i) {
         shading::MaterialPlan& plan = frame.plan.materials[i];
         if (plan.lobe.wrap <= 0.0f) continue;
-        const double fade = frame.settings->shadow_fade > 0.0f ? frame.settings->shadow_fade : 2.0 * plan.lobe.wrap * radius[i];
+        const double fade = frame.settings->shadow_fade > 0.0f ? frame.settings->shadow_fade : 2.0 / kOwn * plan.lobe.wrap * radius[i];
         plan.shadow_fade_scale = fade > 1e-30 ? static_cast<float>(1.0 / fade) : 0.0f;
+        plan.shadow_turn_scale = static_cast<float>(kOwn / plan.lobe.wrap);
     }
 }
 

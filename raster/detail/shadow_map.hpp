@@ -11,8 +11,8 @@
 
 namespace halflit::raster {
 
-/// How far wrapped light reaches into a shadow: d0 = 2 w R for a lobe of wrap w on an object of radius R, so that half of the wrapped
-/// light is left where the surface has turned half of the way. Materials without wrap get none.
+/// Over what distance wrapped light fades in a shadow: d0 = 9/8 * 2 w R for a lobe of wrap w on an object of radius R. Materials without
+/// wrap get none.
 void set_shadow_fades(Frame& frame);
 
 class ShadowMaps {

@@ -75,7 +75,7 @@ HALFLIT_INLINE F highlight_value(shading::Highlight highlight, V3 normal, V3 to_
 struct ShadowReceiver {
     const shading::FramePlan& frame;
     V3 surface_normal;  ///< before the normal map
-    float fade_scale;   ///< 1 / d0 of the material; 0: the excess is cut off like the core
+    ShadowFade fade;    ///< of the material
 };
 
 /// The lobe and the highlight under a shadow. hard: all of it is cut; soft-split: the core, min(f, max(0, x)), is cut, and the
@@ -88,9 +88,9 @@ HALFLIT_INLINE void cast_shadow(const ShadowReceiver& receiver, const shading::L
     if constexpr (kSpecular) lit = lit | ((specular * at.strength) > F(0.0f));
     if (!any(lit)) return;  // nothing to hide
     const bool split = receiver.frame.shadow_mode == shading::ShadowMode::soft_split;
-    const bool soft = split && receiver.fade_scale > 0.0f;
+    const bool soft = split && receiver.fade.scale > 0.0f;
     const Hidden hidden = hidden_share(receiver.frame.shadow_maps[light.shadow_map], position, receiver.surface_normal, at.direction,
-                                       F(receiver.fade_scale), soft);
+                                       receiver.fade, soft);
     const F core = split ? vmin(diffuse, vmax(n_dot_l, F(0.0f))) : diffuse;
     const F excess = diffuse - core;
     diffuse = (diffuse - hidden.hard * core) - hidden.soft * excess;

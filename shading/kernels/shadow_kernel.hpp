@@ -59,14 +59,19 @@ HALFLIT_INLINE MapPoint map_point(const shading::ShadowMapPlan& map, V3 p) {
     return at;
 }
 
-/// 1 - T(u) with T(u) = (1-u)^2 (1 + 2u) on [0, 1]: exactly 0 for u <= 0, exactly 1 for u >= 1.
-HALFLIT_INLINE F faded(F u) {
-    const F t = clamp(u, F(0.0f), F(1.0f));
-    return (t * t) * (F(3.0f) - (t + t));
+/// How light fades with the blocker's distance: MaterialPlan::shadow_fade_scale and shadow_turn_scale. scale 0: it is cut off.
+struct ShadowFade {
+    float scale = 0, turn = 0;
+};
+
+/// 1 - T with T = v^2 (3 - 2 v) on [0, 1]: exactly 1 for v <= 0, exactly 0 for v >= 1.
+HALFLIT_INLINE F faded(F v) {
+    const F t = clamp(v, F(0.0f), F(1.0f));
+    return F(1.0f) - (t * t) * (F(3.0f) - (t + t));
 }
 
-/// `normal`: of the surface, unit; `fade_scale`: 1 / d0, 0 where nothing fades.
-HALFLIT_INLINE Hidden hidden_share(const shading::ShadowMapPlan& map, V3 position, V3 normal, V3 to_light, F fade_scale, bool soft) {
+/// `normal`: of the surface, unit.
+HALFLIT_INLINE Hidden hidden_share(const shading::ShadowMapPlan& map, V3 position, V3 normal, V3 to_light, ShadowFade fade, bool soft) {
     const F cosine = dot(normal, to_light);
     const F sine = vsqrt(vmax(F(1.0f) - cosine * cosine, F(0.0f)));
     F texel(map.texel_size);
@@ -80,17 +85,24 @@ HALFLIT_INLINE Hidden hidden_share(const shading::ShadowMapPlan& map, V3 positio
     const F fu = u - u0, fv = v - v0;
     // Rows are at most 2^12 texels: the index of a row's first texel is exact in float.
     const I column = round_to_int(u0) - I(1);
+    F left(1.0f);
+    if (soft) {
+        // A blocker nearer than the body is thick itself, `own` of d0, hides no wrapped light; one at d0 hides all. Light that nothing
+        // hides keeps its bits: the reciprocal is at least 1.
+        const F own = vmin(vmax(F(0.0f) - cosine, F(0.0f)) * F(fade.turn), F(shading::kOwnThickness));
+        left = vdiv(F(1.0f), F(1.0f) - own);
+    }
     F hard_row[4], soft_row[4];
     for (int j = 0; j < 4; ++j) {
         const I row = round_even((v0 + F(static_cast<float>(j - 1))) * F(static_cast<float>(map.size))) + column + at.base;
-        F hard[4], fade[4];
+        F hard[4], gone[4];
         for (int i = 0; i < 4; ++i) {
             const F behind = receiver - gather(map.distance + i, row);
             hard[i] = sel(behind > F(0.0f), F(1.0f), F(0.0f));
-            if (soft) fade[i] = faded(behind * fade_scale);
+            if (soft) gone[i] = faded((F(1.0f) - behind * F(fade.scale)) * left);
         }
         hard_row[j] = (hard[1] + hard[2]) + mad(fu, hard[3] - hard[0], hard[0]);
-        if (soft) soft_row[j] = (fade[1] + fade[2]) + mad(fu, fade[3] - fade[0], fade[0]);
+        if (soft) soft_row[j] = (gone[1] + gone[2]) + mad(fu, gone[3] - gone[0], gone[0]);
     }
     const F ninth(1.0f / 9.0f), none(0.0f);
     Hidden hidden;

@@ -42,6 +42,7 @@ struct Setup {
         plan.shadow_mode = mode;
         plan.orthographic = true;
         plan.materials[0].shadow_fade_scale = lobe.wrap > 0 ? 0.5f : 0.0f;
+        plan.materials[0].shadow_turn_scale = lobe.wrap > 0 ? kOwnThickness / lobe.wrap : 0.0f;
         plan.lights[0].shadow_map = 0;
         ShadowMapPlan map;
         map.kind = kind;
@@ -203,7 +204,8 @@ TEST_CASE("shadow kernel: a lit share is the weighted mean over 3 x 3 texels", "
                     const double du = std::clamp(2.0 - std::fabs(i + 0.5 - u), 0.0, 1.0),
                                  dv = std::clamp(2.0 - std::fabs(j + 0.5 - v), 0.0, 1.0);
                     const double d = receiver - double{setup.texels[static_cast<std::size_t>(j * kSize + i)]};
-                    const double t = std::clamp(d * 0.5, 0.0, 1.0);
+                    const double own = std::max(0.0, -double{cosine}) / 0.5 * 8 / 9;
+                    const double t = std::clamp((d * 0.5 - own) / (1 - own), 0.0, 1.0);
                     hard += du * dv / 9 * (d > 0);
                     soft += du * dv / 9 * (1 - (1 - t) * (1 - t) * (1 + 2 * t));
                 }
@@ -212,6 +214,33 @@ TEST_CASE("shadow kernel: a lit share is the weighted mean over 3 x 3 texels", "
                          core = mode == ShadowMode::hard ? f : std::min(f, std::max(0.0, double{cosine}));
             INFO("x " << x << ", y " << y << ", cosine " << cosine);
             CHECK(block.red[3] == Approx((1 - hard) * core + (1 - soft) * (f - core)).margin(2e-5));
+        }
+    }
+}
+
+TEST_CASE("shadow kernel: no wrapped light comes back where a surface turns away below a caster", "[shading][shadow]") {
+    // A sphere of radius 1 behind a plane blocker at distance d from its terminator. As it turns away by x, its surface is |x| farther from
+    // the blocker and, seen alone, 2 |x| thick. What is left must not grow with |x|, and must be 0 from d0 on and f where d is 0.
+    for (const Lobe& lobe : {Lobe::sloan(0.25f), Lobe::sloan(0.5f), Lobe::sloan(1), Lobe::green(0.5f), Lobe::half_lambert()}) {
+        Setup setup(ShadowMapPlan::Kind::orthographic, lobe, ShadowMode::soft_split);
+        const float d0 = 2 * lobe.wrap / kOwnThickness;
+        setup.plan.materials[0].shadow_fade_scale = 1 / d0;
+        for (int i = 0; i <= 16; ++i) {
+            const float d = d0 * static_cast<float>(i) / 16;
+            setup.fill(10 - d);
+            float before = kInf;
+            for (int k = 0; k < 200; ++k) {
+                const float x = -lobe.wrap * static_cast<float>(k) / 200;
+                FragmentBlock block = uniform({0, 0, x}, {std::sqrt(1 - x * x), 0, x});
+                setup.shade(Isa::scalar, block);
+                INFO("wrap " << lobe.wrap << ", d " << d << ", x " << x);
+                // Where hardly any is left, the last bit of what was taken away shows.
+                if (!(block.red[0] <= before + 1e-7f)) CHECK(block.red[0] <= before);
+                before = block.red[0];
+                if (i == 0 && !(before >= 0.999f * static_cast<float>(reference::lobe_value(lobe, double{x}))))
+                    CHECK(before == Approx(reference::lobe_value(lobe, double{x})));
+                if (i == 16 && before != 0.0f && d - x > d0 + 0.07f) CHECK(before == 0.0f);
+            }
         }
     }
 }
