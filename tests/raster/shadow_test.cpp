@@ -3,11 +3,13 @@
 #include "raster/renderer.hpp"
 #include "raster/shapes.hpp"
 #include "tests/support/cameras.hpp"
+#include "tests/support/isas.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 using namespace halflit;
 using namespace halflit::raster;
@@ -254,6 +256,106 @@ TEST_CASE("shadows: on a coarse sphere soft-split is no rougher than the facets 
     CHECK(jump(hard) <= 0.243f);
     CHECK(jump(hard) >= 0.1f);
     CHECK(jump(soft) <= 0.084f);  // measured 0.03: interpolated normals
+}
+
+namespace {
+
+/// The same picture with every instruction set, free of NaN.
+std::vector<float> on_all_sets(Setup& setup, int size) {
+    std::vector<float> first;
+    for (const shading::Isa isa : test::available_isas()) {
+        setup.settings.isa = isa;
+        const std::vector<float> picture = setup.draw(size, size);
+        if (first.empty()) first = picture;
+        CHECK(differing(first, picture) == 0);
+        int bad = 0;
+        for (const float v : picture) bad += !std::isfinite(v) || v < 0;
+        CHECK(bad == 0);
+    }
+    return first;
+}
+
+void look_down(Setup& setup, float half = 1) {
+    setup.camera = test::camera_at({0, 5, 0}, {0, 0, 0});
+    setup.camera.orthographic = true, setup.camera.half_height = setup.camera.half_width = half, setup.camera.far_z = 20;
+}
+
+void set_local(Setup& setup, bool spot, Vec3f position, Vec3f direction) {
+    shading::Light& light = setup.scene.lights[0];
+    light.type = spot ? shading::LightType::spot : shading::LightType::point;
+    light.position_ws = position;
+    light.direction_ws = direction;
+    light.outer_cone_rad = 1.2f, light.inner_cone_rad = 1.0f;
+}
+
+}  // namespace
+
+TEST_CASE("shadows: a light inside a closed mesh lights nothing outside it", "[raster][shadow]") {
+    for (const bool spot : {false, true}) {
+        for (const bool box : {false, true}) {
+            for (const ShadowMode mode : {ShadowMode::hard, ShadowMode::soft_split}) {
+                INFO((spot ? "spot" : "point") << " in a " << (box ? "box" : "sphere"));
+                Setup setup(Lobe::sloan(0.5f), mode);
+                setup.settings.shadow_fade = 0.1f;
+                setup.settings.shadow_size = 256;
+                set_local(setup, spot, {0.01f, 0.5f, 0.02f}, {0, -1, 0});
+                setup.add(make_plane(1, 4));
+                Setup open = setup;
+                setup.add(box ? make_box({0.15f, 0.15f, 0.15f}) : make_sphere(0.2f, 32, 16), translation({0, 0.5f, 0}));
+                look_down(setup);
+                look_down(open);
+                const std::vector<float> floor = on_all_sets(setup, 64), lit = open.draw(64, 64);
+                int dark = 0, was_lit = 0;
+                for (int j = 0; j < 64; ++j)
+                    for (int i = 0; i < 64; ++i) {
+                        if (i > 20 && i < 43 && j > 20 && j < 43) continue;  // where the mesh itself is seen
+                        const auto at = static_cast<std::size_t>(4 * (j * 64 + i));
+                        dark += floor[at] == 0.0f, was_lit += lit[at] > 0.0f;
+                    }
+                CHECK(dark == 64 * 64 - 22 * 22);
+                CHECK(was_lit > 1000);
+            }
+        }
+    }
+}
+
+TEST_CASE("shadows: a light in a surface's own plane leaves it as it is without shadows", "[raster][shadow]") {
+    for (const bool spot : {false, true}) {
+        for (const Vec3f position : {Vec3f{0.1f, 0, 0.2f}, Vec3f{1.5f, 0, 0.3f}, Vec3f{0.25f, 0, 1.5f}, Vec3f{0, 0, 0}}) {
+            for (const ShadowMode mode : {ShadowMode::hard, ShadowMode::soft_split}) {
+                INFO((spot ? "spot at " : "point at ") << position.x << " " << position.z);
+                Setup setup(Lobe::sloan(0.5f), mode);
+                setup.settings.shadow_size = 256;
+                set_local(setup, spot, position, {-1, 0, 0});
+                setup.add(make_plane(1, 4));
+                look_down(setup);
+                const std::vector<float> picture = on_all_sets(setup, 64);
+                setup.settings.shadows = ShadowMode::off;
+                CHECK(differing(picture, setup.draw(64, 64)) == 0);
+            }
+        }
+    }
+}
+
+TEST_CASE("shadows: casters without area or with a NaN vertex cast nothing", "[raster][shadow]") {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    for (const int kind : {0, 1, 2}) {
+        Setup setup(Lobe::sloan(0.5f), ShadowMode::soft_split);
+        setup.settings.shadow_size = 256;
+        if (kind > 0) set_local(setup, kind == 2, {0.2f, 1.5f, 0.1f}, {0, -1, 0});
+        if (kind == 0) setup.scene.lights[0].direction_ws = {-0.5f, -0.8f, 0.1f};
+        setup.add(make_plane(1, 2));
+        setup.add(make_box({0.2f, 0.2f, 0.2f}), translation({0.1f, 0.3f, 0}));
+        look_down(setup);
+        const std::vector<float> clean = on_all_sets(setup, 64);
+        Mesh broken;
+        broken.positions = {{-0.5f, 0.4f, -0.5f}, {0.5f, 0.4f, 0.5f}, {0, 0.4f, 0},      {-0.5f, 0.3f, 0.5f}, {-0.5f, 0.3f, 0.5f},
+                            {0.5f, 0.3f, -0.5f},  {nan, 0.4f, 0},     {0.5f, nan, 0.2f}, {0, 0.2f, nan}};
+        broken.indices = {0, 1, 2, 3, 4, 5, 3, 3, 3, 0, 1, 6, 0, 7, 5, 8, 1, 3};
+        setup.add(std::move(broken));
+        INFO("light " << kind);
+        CHECK(differing(clean, on_all_sets(setup, 64)) == 0);
+    }
 }
 
 TEST_CASE("shadows: planes and spheres do not hide themselves under any light", "[raster][shadow]") {
