@@ -120,6 +120,7 @@ struct Renderer::Impl {
         report.work += sum.work;
         report.environment = environment_uses(frame);
         add_lobe_warnings(frame, report.warnings);
+        if (std::string halved = shadow_maps.warning(); !halved.empty()) report.warnings.push_back(std::move(halved));
         if (report.triangles_not_finite > 0)
             report.warnings.push_back(std::to_string(report.triangles_not_finite) + " triangles dropped: a vertex is NaN or infinite");
         if (report.nan_pixels > 0)

@@ -152,6 +152,14 @@ void add_shadow_flags(CLI::App& app, RenderOptions& o) {
     add_value(app, "--shadow-fade", "D", "soft-split: blocker distance where wrapped light is gone (default: from object size and wrap)",
               [&o](const std::string& text) { return assign(o.shadow_fade, parse_float(text, 1e-6f, 1e9f)); })
         ->group(kGroup);
+    add_value(app, "--shadow-memory", "MIB", "Halve shadow maps until all fit this many MiB, 1 to 65536 (default 256)",
+              [&o](const std::string& text) -> Result<void> {
+                  const auto mib = parse_int(text, 1, 65536);
+                  if (!mib) return tl::unexpected(mib.error());
+                  o.shadow_memory_mib = static_cast<int>(*mib);
+                  return {};
+              })
+        ->group(kGroup);
 }
 
 void add_surface_flags(CLI::App& app, RenderOptions& o) {

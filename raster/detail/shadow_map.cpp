@@ -77,7 +77,31 @@ bool is_cube(const LightPlan& light) {
     return light.type == LightType::point || (light.type == LightType::spot && cone_tangent(light) == 0.0);
 }
 
-int size_of(const LightPlan& light, const Settings& settings) { return is_cube(light) ? settings.shadow_size / 2 : settings.shadow_size; }
+int size_of(const LightPlan& light, int side) { return is_cube(light) ? side / 2 : side; }
+
+/// Texels of all maps, `side` being the size of those that are not a cube's.
+std::size_t texel_count(const shading::FramePlan& plan, const Bounds& bounds, int side) {
+    std::size_t count = 0;
+    for (const LightPlan& light : plan.lights) {
+        if (!reaches(light, bounds)) continue;
+        const auto size = static_cast<std::size_t>(size_of(light, side));
+        count += size * size * (is_cube(light) ? 6 : 1);
+    }
+    return count;
+}
+
+/// Whether a camera with a square field of view can see anything of a box: not when all corners are behind it or beyond one side.
+bool can_see(const Axes& axes, Vec3d eye, double half, const Bounds& bounds) {
+    int behind = 0, beyond[4] = {};
+    for (int k = 0; k < 8; ++k) {
+        const Vec3d p{k & 1 ? bounds.max.x : bounds.min.x, k & 2 ? bounds.max.y : bounds.min.y, k & 4 ? bounds.max.z : bounds.min.z};
+        const Vec3d q = p - eye;
+        const double x = dot(q, axes.right), y = dot(q, axes.up), reach = -dot(q, axes.back) * half;
+        behind += reach < 0.0;
+        beyond[0] += x > reach, beyond[1] += -x > reach, beyond[2] += y > reach, beyond[3] += -y > reach;
+    }
+    return behind < 8 && beyond[0] < 8 && beyond[1] < 8 && beyond[2] < 8 && beyond[3] < 8;
+}
 
 }  // namespace
 
@@ -137,19 +161,22 @@ Result<void> ShadowMaps::draw_face(const Scene& scene, const Camera& camera, int
 
 Result<void> ShadowMaps::draw(const Scene& scene, const Settings& settings, Executor& executor, shading::FramePlan& plan) {
     plan.shadow_maps.clear();
-    const int side = settings.shadow_size;
+    warning_.clear();
+    int side = settings.shadow_size;
     if (side < 64 || side > 4096 || (side & (side - 1)) != 0)
         return fail(ErrorCode::usage, "shadow size: " + std::to_string(side) + ", expected a power of two from 64 to 4096");
     if (settings.shadows == shading::ShadowMode::off || plan.lights.empty()) return {};
     const Bounds bounds = scene_bounds(scene);
     if (bounds.empty || !(bounds.radius() > 0.0f)) return {};
-    std::size_t floats = 0;
-    for (const LightPlan& light : plan.lights) {
-        if (!reaches(light, bounds)) continue;
-        const auto size = static_cast<std::size_t>(size_of(light, settings));
-        floats += size * size * (is_cube(light) ? 6 : 1);
-    }
-    float* out = texels_.reserve(floats);
+    const std::size_t most = settings.shadow_memory_limit / sizeof(float);
+    while (side > 64 && texel_count(plan, bounds, side) > most) side /= 2;
+    if (texel_count(plan, bounds, side) > most)
+        return fail(ErrorCode::limit, "shadow maps of " + std::to_string(plan.lights.size()) + " lights do not fit in " +
+                                          std::to_string(settings.shadow_memory_limit) + " bytes even at 64 texels a side");
+    if (side < settings.shadow_size)
+        warning_ = "shadow maps of " + std::to_string(side) + " texels a side instead of " + std::to_string(settings.shadow_size) +
+                   ", to stay within " + std::to_string(settings.shadow_memory_limit) + " bytes";
+    float* out = texels_.reserve(texel_count(plan, bounds, side));
     const Vec3f c = bounds.center();
     const Vec3d center{c.x, c.y, c.z};
     const double radius = bounds.radius();
@@ -157,7 +184,7 @@ Result<void> ShadowMaps::draw(const Scene& scene, const Settings& settings, Exec
         light.shadow_map = -1;
         if (!reaches(light, bounds)) continue;
         ShadowMapPlan map;
-        map.size = size_of(light, settings);
+        map.size = size_of(light, side);
         map.distance = out;
         const double usable = static_cast<double>(map.size) / (map.size - 2 * shading::kShadowBorder);
         const auto texels = static_cast<std::size_t>(map.size) * static_cast<std::size_t>(map.size);
@@ -213,7 +240,10 @@ Result<void> ShadowMaps::draw(const Scene& scene, const Settings& settings, Exec
                 Camera camera = camera_at(axes, to_double(light.position));
                 camera.fov_y_rad = static_cast<float>(2.0 * arc_tangent(usable));
                 camera.near_z = static_cast<float>(least_distance);
-                if (auto ok = draw_face(scene, camera, map.size, true, settings, executor, out); !ok) return ok;
+                if (!can_see(axes, to_double(light.position), usable, bounds))
+                    std::fill_n(out, texels, shading::kNoBlocker);
+                else if (auto ok = draw_face(scene, camera, map.size, true, settings, executor, out); !ok)
+                    return ok;
                 out += texels;
             }
         }

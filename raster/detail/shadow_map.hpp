@@ -7,6 +7,7 @@
 #include "shading/plan.hpp"
 #include "shading/shadow.hpp"
 
+#include <string>
 #include <vector>
 
 namespace halflit::raster {
@@ -18,8 +19,12 @@ void set_shadow_fades(Frame& frame);
 class ShadowMaps {
 public:
     /// Draws a map for every light of `plan` that casts, and enters the maps into the plan. Directional maps are fitted to the
-    /// scene, spots to their cone, point lights get six faces. The maps live until the next call.
+    /// scene, spots to their cone, point lights get six faces. All are halved in size until they fit Settings::shadow_memory_limit.
+    /// The maps live until the next call.
     Result<void> draw(const Scene& scene, const Settings& settings, Executor& executor, shading::FramePlan& plan);
+
+    /// What the last call had to make smaller; empty when nothing.
+    [[nodiscard]] const std::string& warning() const { return warning_; }
 
 private:
     Result<void> draw_face(const Scene& scene, const Camera& camera, int size, bool perspective, const Settings& settings,
@@ -28,6 +33,7 @@ private:
     Frame frame_;
     Pool<TileScratch> scratch_;
     RawBuffer<float> texels_;
+    std::string warning_;
 };
 
 }  // namespace halflit::raster

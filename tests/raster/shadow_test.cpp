@@ -416,3 +416,38 @@ TEST_CASE("shadows: a box's shadow begins within four texels of where it stands"
         CHECK(first_dark > -0.1f - 4 * texel);
     }
 }
+
+TEST_CASE("shadows: maps that do not fit their memory are halved, and the report says so", "[raster][shadow]") {
+    Setup setup(Lobe::lambert(), ShadowMode::hard);
+    setup.add(make_plane(1, 2));
+    setup.add(make_box({0.2f, 0.2f, 0.2f}), translation({0.1f, 0.3f, 0}));
+    setup.scene.lights[0].direction_ws = {-0.5f, -0.8f, 0.1f};
+    shading::Light lamp;
+    lamp.type = shading::LightType::point;
+    lamp.position_ws = {0.3f, 1, 0.2f};
+    setup.scene.lights.push_back(lamp);
+    look_down(setup);
+    setup.settings.shadow_size = 256;
+    const std::vector<float> full = setup.draw(64, 64);
+    // One map of 256 x 256 floats and six of 128 x 128: 655 360 bytes.
+    const auto draw = [&](std::size_t limit, std::vector<float>& rgba) {
+        setup.settings.shadow_memory_limit = limit;
+        rgba.assign(4 * 64 * 64, 0.0f);
+        return render(setup.scene, setup.camera, setup.settings, {64, 64, nullptr, rgba.data()});
+    };
+    std::vector<float> fits, halved, small;
+    const auto enough = draw(655360, fits), less = draw(655359, halved);
+    REQUIRE(enough);
+    REQUIRE(less);
+    CHECK(enough->warnings.empty());
+    CHECK(differing(full, fits) == 0);
+    REQUIRE(less->warnings.size() == 1);
+    CHECK(less->warnings[0] == "shadow maps of 128 texels a side instead of 256, to stay within 655359 bytes");
+    setup.settings.shadow_size = 128;
+    REQUIRE(draw(655360, small));
+    CHECK(differing(halved, small) == 0);
+    setup.settings.shadow_size = 256;
+    const auto refused = draw(40000, small);  // 64 x 64 and six of 32 x 32 take 40 960
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().code == ErrorCode::limit);
+}
