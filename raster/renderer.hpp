@@ -40,6 +40,7 @@ struct Settings {
     int shadow_size = 2048;    ///< texels on a side of a shadow map, a power of two from 64 to 4096; a cube's faces have half
     std::size_t shadow_memory_limit = std::size_t{256} << 20;  ///< bytes; shadow maps are halved in size until all fit
     float shadow_fade = 0.0f;  ///< soft_split: blocker distance where wrapped light is gone, world units; 0: from object size and wrap
+    bool shadow_terminator_offset = false;  ///< coarse meshes look shadows up where their normals' surface would be
     ParallelFor parallel_for{};            ///< the hook for a host's own threads; empty: oneTBB
     const std::function<bool()>* cancelled = nullptr;  ///< asked at tile borders; true stops the frame with an error
 };

@@ -105,6 +105,7 @@ struct FramePlan {
     std::vector<ShadowMapPlan> shadow_maps;
     std::vector<EnvironmentPlan> environments;  ///< one for each lobe that meets the environment
     ShadowMode shadow_mode = ShadowMode::off;
+    bool shadow_offset = false;  ///< shadows are looked up off the position: raster fills the kShadowX.. rows
     Highlight highlight = Highlight::blinn;
     bool normalize_highlight = true;
     Ambient ambient;

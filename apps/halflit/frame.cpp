@@ -127,6 +127,7 @@ Result<void> choose_settings(raster::Settings& settings, const RenderOptions& op
     settings.shadow_size = options.shadow_size;
     settings.shadow_fade = options.shadow_fade;
     settings.shadow_memory_limit = static_cast<std::size_t>(options.shadow_memory_mib) << 20;
+    settings.shadow_terminator_offset = options.shadow_terminator;
     return {};
 }
 

@@ -160,6 +160,10 @@ void add_shadow_flags(CLI::App& app, RenderOptions& o) {
                   return {};
               })
         ->group(kGroup);
+    add_value(app, "--shadow-terminator", "off|on",
+              "Look shadows of coarse meshes up on the smooth surface that their normals tell of (default off)",
+              named<bool>(o.shadow_terminator, {{"off", false}, {"on", true}}))
+        ->group(kGroup);
 }
 
 void add_surface_flags(CLI::App& app, RenderOptions& o) {

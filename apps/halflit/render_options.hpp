@@ -43,6 +43,7 @@ struct RenderOptions {
     int sh_order = 0;  ///< 0: from the bound
     shading::ShadowMode shadows = shading::ShadowMode::soft_split;
     int shadow_size = 2048;
+    bool shadow_terminator = false;
     int shadow_memory_mib = 256;
     float shadow_fade = 0.0f;  ///< 0: from object size and wrap
     std::optional<float> exposure;  ///< a factor; none: chosen from the lights

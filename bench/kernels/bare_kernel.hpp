@@ -27,9 +27,10 @@ static void bare_sum(const shading::FramePlan& frame, const shading::MaterialPla
         const V3 normal = row3(block, shading::kNormalX, lane);
         V3 to_eye = normal;
         if constexpr (kHighlight) to_eye = row3(block, shading::kTangentX, lane);
-        const ShadowReceiver receiver{frame, normal, {}};
-        const LightSums sums = sum_lights<kHighlight>(frame.lights.data(), count, material.lobe, receiver,
-                                                      row3(block, shading::kPosX, lane), normal, to_eye, F(bench::kHalfExponent));
+        const V3 position = row3(block, shading::kPosX, lane);
+        const ShadowReceiver receiver{frame, position, normal, {}};
+        const LightSums sums =
+            sum_lights<kHighlight>(frame.lights.data(), count, material.lobe, receiver, position, normal, to_eye, F(bench::kHalfExponent));
         store_color(block, lane, sums.diffuse);
         if constexpr (kHighlight) store3(block, shading::kColorR, lane, sums.specular);
     }

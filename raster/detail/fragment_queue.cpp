@@ -18,6 +18,8 @@ void interpolate(const Frame& frame, FragmentList& list, shading::FragmentBlock&
     args.stride = 4 * __builtin_popcount(plan.quads);
     args.gradients = (plan.stages & shading::kStageGradients) != 0;
     args.facing = plan.double_sided;
+    args.shadow_offset =
+        frame.plan.shadow_offset && (plan.stages & (shading::kStageLights | shading::kStagePrelit)) == shading::kStageLights;
     args.count = padded;
     args.ids = list.id;
     args.x_px = list.x_px;

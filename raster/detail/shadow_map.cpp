@@ -107,6 +107,7 @@ bool can_see(const Axes& axes, Vec3d eye, double half, const Bounds& bounds) {
 
 void set_shadow_fades(Frame& frame) {
     frame.plan.shadow_mode = frame.plan.shadow_maps.empty() ? shading::ShadowMode::off : frame.settings->shadows;
+    frame.plan.shadow_offset = frame.plan.shadow_mode != shading::ShadowMode::off && frame.settings->shadow_terminator_offset;
     if (frame.plan.shadow_mode != shading::ShadowMode::soft_split) return;
     std::vector<double> radius(frame.plan.materials.size(), 0.0);
     for (const Draw& draw : frame.draws) {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "raster/kernels/raster_kernels.hpp"
+#include "raster/kernels/terminator_offset.hpp"
 #include "shading/kernels/simd_records.hpp"
 
 namespace halflit::raster {
@@ -111,7 +112,32 @@ HALFLIT_INLINE void interpolate_one(const InterpolateArgs& args, shading::Fragme
         }
         offset += 4;
     }
-    if (args.facing) store(block.lane[shading::kFacing] + at, F((record.draw_and_back & 1u) ? -1.0f : 1.0f));
+    const F side(args.facing && (record.draw_and_back & 1u) ? -1.0f : 1.0f);
+    if (args.facing) store(block.lane[shading::kFacing] + at, side);
+    if (args.shadow_offset) {
+        CornerLanes corners;
+        for (int k = 0; k < 3; ++k) {
+            const float* v = records.v[k];
+            corners.position[k] = {F(v[0]), F(v[1]), F(v[2])};
+            corners.normal[k] = {F(v[3]), F(v[4]), F(v[5])};
+        }
+        store_terminator_offset(block, at, terminator_offset(corners, row3(block, shading::kPosX, at), b.b1, b.b2, side));
+    }
+}
+
+/// The same for kWidth lanes of different triangles.
+HALFLIT_INLINE void offset_many(const InterpolateArgs& args, const VertexRecords* records, const Barycentrics& b,
+                                shading::FragmentBlock& block, int at) {
+    alignas(64) float values[6][kWidth < 4 ? 4 : kWidth];
+    CornerLanes corners;
+    for (int k = 0; k < 3; ++k) {
+        for (int l = 0; l < kWidth; ++l)
+            for (int j = 0; j < 6; ++j) values[j][l] = records[l].v[k][j];
+        corners.position[k] = {load(values[0]), load(values[1]), load(values[2])};
+        corners.normal[k] = {load(values[3]), load(values[4]), load(values[5])};
+    }
+    const F side = args.facing ? row(block, shading::kFacing, at) : F(1.0f);
+    store_terminator_offset(block, at, terminator_offset(corners, row3(block, shading::kPosX, at), b.b1, b.b2, side));
 }
 
 /// Lanes of different triangles.
@@ -189,6 +215,7 @@ HALFLIT_INLINE void interpolate_many(const InterpolateArgs& args, shading::Fragm
         }
         offset += 4;
     }
+    if (args.shadow_offset) offset_many(args, records, b, block, at);
 }
 
 inline void interpolate(const InterpolateArgs& args, shading::FragmentBlock& block) {

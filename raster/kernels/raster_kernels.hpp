@@ -129,6 +129,7 @@ struct InterpolateArgs {
     int stride;
     bool gradients;  ///< fill the kDu.. rows
     bool facing;     ///< fill kFacing
+    bool shadow_offset;  ///< fill the kShadowX.. rows; needs quads 0 and 1
     int count;       ///< fragments; ids and positions are padded to a multiple of 16 with copies of the last one
     const std::uint32_t* ids;
     const std::int32_t *x_px, *y_px;

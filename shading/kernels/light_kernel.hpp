@@ -74,6 +74,7 @@ HALFLIT_INLINE F highlight_value(shading::Highlight highlight, V3 normal, V3 to_
 /// What shadows need of a fragment.
 struct ShadowReceiver {
     const shading::FramePlan& frame;
+    V3 position;        ///< where shadows are looked up
     V3 surface_normal;  ///< before the normal map
     ShadowFade fade;    ///< of the material
 };
@@ -82,15 +83,15 @@ struct ShadowReceiver {
 /// excess over it fades with the blocker's distance. What is hidden is taken away from f, so that unhidden light keeps its bits,
 /// and light that is hidden altogether comes to exactly 0.
 template <bool kSpecular>
-HALFLIT_INLINE void cast_shadow(const ShadowReceiver& receiver, const shading::LightPlan& light, const LocalLight& at, V3 position,
-                                F n_dot_l, F& diffuse, F& specular) {
+HALFLIT_INLINE void cast_shadow(const ShadowReceiver& receiver, const shading::LightPlan& light, const LocalLight& at, F n_dot_l,
+                                F& diffuse, F& specular) {
     M lit = (diffuse * at.strength) > F(0.0f);
     if constexpr (kSpecular) lit = lit | ((specular * at.strength) > F(0.0f));
     if (!any(lit)) return;  // nothing to hide
     const bool split = receiver.frame.shadow_mode == shading::ShadowMode::soft_split;
     const bool soft = split && receiver.fade.scale > 0.0f;
-    const Hidden hidden = hidden_share(receiver.frame.shadow_maps[light.shadow_map], position, receiver.surface_normal, at.direction,
-                                       receiver.fade, soft);
+    const Hidden hidden = hidden_share(receiver.frame.shadow_maps[light.shadow_map], receiver.position, receiver.surface_normal,
+                                       at.direction, receiver.fade, soft);
     const F core = split ? vmin(diffuse, vmax(n_dot_l, F(0.0f))) : diffuse;
     const F excess = diffuse - core;
     diffuse = (diffuse - hidden.hard * core) - hidden.soft * excess;
@@ -112,7 +113,7 @@ HALFLIT_INLINE LightSums sum_lights_by(const LobeValue& lobe_value_at, const sha
         F diffuse = lobe_value_at(n_dot_l), specular(0.0f);
         if constexpr (kSpecular) specular = highlight_value(receiver.frame.highlight, normal, to_eye, at.direction, n_dot_l, half_exponent);
         if constexpr (kShadows) {
-            if (light.shadow_map >= 0) cast_shadow<kSpecular>(receiver, light, at, position, n_dot_l, diffuse, specular);
+            if (light.shadow_map >= 0) cast_shadow<kSpecular>(receiver, light, at, n_dot_l, diffuse, specular);
         }
         const V3 color = broadcast(light.color);
         sums.diffuse = sums.diffuse + color * (local ? diffuse * at.strength : diffuse);

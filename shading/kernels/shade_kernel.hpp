@@ -52,7 +52,9 @@ HALFLIT_INLINE IncidentLight incident_light(const shading::FramePlan& frame, con
         half_exponent = vdiv(F(1.0f), alpha * alpha) - F(1.0f);  // s = 2 / alpha^2 - 2
     }
     if (has(material, shading::kStageLights)) {
-        const ShadowReceiver receiver{frame, facing.surface, {material.shadow_fade_scale, material.shadow_turn_scale}};
+        V3 looked_up = position;
+        if (frame.shadow_offset) looked_up = position + row3(block, shading::kShadowX, lane);
+        const ShadowReceiver receiver{frame, looked_up, facing.surface, {material.shadow_fade_scale, material.shadow_turn_scale}};
         const LightSums sums =
             sum_lights<kSpecular>(lights.lights, lights.count, material.lobe, receiver, position, normal, to_eye, half_exponent);
         light.diffuse = sums.diffuse * F(material.lobe.scale);

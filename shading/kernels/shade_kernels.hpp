@@ -19,7 +19,8 @@ struct LightList {
 struct ShadeKernels {
     /// Runs the stages of `material` over lanes [0, count) of the block, and writes red, green, blue, alpha there.
     /// count in [1, kBlockSize]; lanes from count up to the next multiple of the SIMD width are read (they must hold
-    /// finite copies of a real lane) and written. Needs rows of the plan's quads, kFacing when double sided, gradients.
+    /// finite copies of a real lane) and written. Needs rows of the plan's quads, kFacing when double sided, gradients, kShadowX..
+    /// when the frame's shadows are looked up off the position.
     void (*shade)(const FramePlan& frame, const MaterialPlan& material, LightList lights, FragmentBlock& block, int count);
 
     /// Light alone, for shading rates below one a pixel: with base colour b the lit colour is b X + Y. X goes to the rows kPosX..

@@ -39,6 +39,7 @@ std::vector<Variant> variants() {
     add("gouraud").shading.rate = shading::ShadingRate::gouraud;
     add("flat").shading.rate = shading::ShadingRate::flat;
     add("unshadowed").shadows = shading::ShadowMode::off;
+    add("shadow-terminator").shadow_terminator_offset = true;
     add("hard-shadows-wrapped").shadows = shading::ShadowMode::hard;
     all.back().settings.shading.override_lobe = true;
     all.back().settings.shading.lobe = shading::Lobe::sloan(0.3f);

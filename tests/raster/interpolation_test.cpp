@@ -1,6 +1,7 @@
 // Depth and attributes of the kernels against float64, and the two ways of interpolating against each other.
 #include "raster/kernels/raster_kernels.hpp"
 #include "raster/reference.hpp"
+#include "sh/vec3.hpp"
 #include "tests/raster/kernel_fixture.hpp"
 #include "tests/raster/random_triangles.hpp"
 #include "tests/support/isas.hpp"
@@ -114,6 +115,7 @@ void interpolate(shading::Isa isa, const Fragments& f, int first, int count, sha
     args.stride = kFloats;
     args.gradients = true;
     args.facing = true;
+    args.shadow_offset = (quads & 3u) == 3u;
     args.count = padded;
     args.ids = ids;
     args.x_px = x;
@@ -321,6 +323,39 @@ TEST_CASE("interpolation: one triangle or many in a vector, and every instructio
         CHECK(differing == 0);
         CHECK(compared > 1000);
     }
+}
+
+TEST_CASE("interpolation: shadows are looked up on the planes of the vertices, blended", "[raster][interpolation]") {
+    const Fragments f = random_fragments(29, 500, 60, 0, 8, 4);
+    const auto block = std::make_unique<shading::FragmentBlock>();
+    double worst = 0;
+    int moved = 0, compared = 0;
+    for (int first = 0; first < f.count(); first += shading::kBlockSize) {
+        const int count = std::min(shading::kBlockSize, f.count() - first);
+        interpolate(available_isas().back(), f, first, count, kAllQuads, *block);
+        for (int l = 0; l < count; ++l) {
+            const auto at = static_cast<std::size_t>(first + l);
+            const auto corner = [&](std::uint32_t k, int row) {
+                const float* v = &f.attributes[(3 * f.id[at] + k) * kFloats + static_cast<std::uint32_t>(row)];
+                return Vec3d{v[0], v[1], v[2]};
+            };
+            const auto p = f.shape(f.id[at]).at(f.x[at] + 0.5, f.y[at] + 0.5);
+            Vec3d point{}, want{};
+            for (std::uint32_t k = 0; k < 3; ++k) point = point + corner(k, shading::kPosX) * p.barycentric[k];
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                const Vec3d n = corner(k, shading::kNormalX), unit = n * (1 / std::sqrt(dot(n, n)));
+                want = want + unit * (p.barycentric[k] * std::max(0.0, dot(corner(k, shading::kPosX) - point, unit)));
+            }
+            const double got[3] = {block->lane[shading::kShadowX][l], block->lane[shading::kShadowY][l], block->lane[shading::kShadowZ][l]};
+            worst = std::max({worst, std::abs(got[0] - want.x), std::abs(got[1] - want.y), std::abs(got[2] - want.z)});
+            moved += dot(want, want) > 0.01;
+            ++compared;
+        }
+    }
+    INFO("worst " << worst << " of positions in [-1, 1]");
+    CHECK(worst <= 4e-6);
+    CHECK(compared > 1000);
+    CHECK(moved > 500);
 }
 
 TEST_CASE("interpolation: any choice of quads gives the rows that all quads give", "[raster][interpolation]") {
