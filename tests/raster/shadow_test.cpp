@@ -383,6 +383,24 @@ TEST_CASE("shadows: a light in a surface's own plane leaves it as it is without 
     }
 }
 
+TEST_CASE("shadows: faces of a cube that see nothing are as if they were drawn", "[raster][shadow]") {
+    for (const Vec3f position : {Vec3f{2, 2, 0.5f}, Vec3f{0.3f, 2.5f, -0.2f}, Vec3f{-1.2f, 0.7f, -1.3f}}) {
+        Setup setup(Lobe::sloan(0.5f), ShadowMode::hard);
+        setup.settings.shadow_size = 256;
+        set_local(setup, false, position, {0, -1, 0});
+        setup.add(make_plane(1, 2));
+        setup.add(make_box({0.2f, 0.2f, 0.2f}), translation({0.1f, 0.3f, 0}));
+        look_down(setup);
+        const std::vector<float> few_faces = on_all_sets(setup, 64);
+        // Crumbs on all sides, out of sight, bring every face into the scene's box.
+        for (const float x : {-6.0f, 6.0f})
+            for (const float y : {-6.0f, 6.0f}) setup.add(make_box({0.01f, 0.01f, 0.01f}), translation({x, y, x * y / 6}));
+        CHECK(differing(few_faces, on_all_sets(setup, 64)) == 0);
+        setup.settings.shadows = ShadowMode::off;
+        CHECK(differing(few_faces, setup.draw(64, 64)) > 100);
+    }
+}
+
 TEST_CASE("shadows: casters without area or with a NaN vertex cast nothing", "[raster][shadow]") {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     for (const int kind : {0, 1, 2}) {
