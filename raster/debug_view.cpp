@@ -8,6 +8,14 @@
 
 namespace halflit::raster {
 
+Result<shading::FramePlan> frame_plan(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height) {
+    const FpEnvironment environment;
+    Frame frame;
+    if (auto ok = prepare_frame(frame, scene, camera, settings, {width, height, nullptr, nullptr}); !ok)
+        return tl::unexpected<Error>(ok.error());
+    return std::move(frame.plan);
+}
+
 Result<VisibilityView> visibility(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height) {
     const FpEnvironment environment;
     Frame frame;

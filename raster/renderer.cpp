@@ -71,8 +71,15 @@ struct Renderer::Impl {
     Pool<TileScratch> scratch;
     ShadowMaps shadow_maps;
 
-    Result<RenderReport> render(const Scene& scene, const Camera& camera, const Settings& settings, const FramebufferView& target) {
+    Result<RenderReport> render(const Scene& scene, const Camera& camera, const Settings& asked, const FramebufferView& target) {
         const FpEnvironment environment;
+        Settings settings = asked;
+        if (settings.shading.accuracy == shading::Accuracy::reference) {
+            // What the cheaper ways are measured against: light at every pixel, textures as their samplers say.
+            settings.shading.rate = shading::ShadingRate::pixel;
+            settings.shading.texture_detail = shading::TextureDetail::full;
+            settings.shading.max_error_codes = 0.0;
+        }
         Stopwatch total, watch;
         RenderReport report;
         if (auto ok = prepare_frame(frame, scene, camera, settings, target); !ok) return tl::unexpected<Error>(ok.error());
@@ -119,6 +126,7 @@ struct Renderer::Impl {
         report.nan_pixels = sum.nan_pixels;
         report.work += sum.work;
         report.environment = environment_uses(frame);
+        report.error = frame.plan.error;
         add_lobe_warnings(frame, report.warnings);
         if (std::string halved = shadow_maps.warning(); !halved.empty()) report.warnings.push_back(std::move(halved));
         if (report.triangles_not_finite > 0)

@@ -67,6 +67,7 @@ struct RenderReport {
     std::uint64_t nan_pixels = 0;                                 ///< written as 0
     WorkCounts work;                                              ///< of fragments_shaded, stage by stage
     std::vector<EnvironmentUse> environment;                      ///< of the materials that are drawn, each lobe once
+    shading::ErrorBound error;                                    ///< with a budget: what was promised
     std::vector<std::string> warnings;
 };
 

@@ -22,12 +22,16 @@ struct Environment {
     std::vector<float> rgb;
     int width = 0, height = 0;
     double rotate_rad = 0.0;
+    /// What the bands stand for: the image without the suns. Empty unless kept.
+    std::vector<float> lit_rgb;
+    int lit_width = 0, lit_height = 0;
 };
 
 struct EnvironmentOptions {
     bool extract_suns = true;  ///< where that lowers the bound
     double rotate_rad = 0.0;   ///< about +y, counterclockwise seen from above
     bool keep_image = false;   ///< for a background
+    bool keep_light = false;   ///< for Accuracy::reference
 };
 
 [[nodiscard]] Environment make_environment(const sh::EquirectView& image, const EnvironmentOptions& options = {});

@@ -10,6 +10,7 @@ struct EnvironmentPlan {
     int bands = 0;       ///< 1..10
     double bound = 0.0;  ///< of the error of leaving out the others, any normal, worst channel, before exposure
     bool within = true;  ///< whether that is within the tolerance asked for
+    double bound_codes = 0.0;  ///< the same error in 8-bit sRGB codes; only where codes were asked for
     float red[sh::kMaxCoefficients]{}, green[sh::kMaxCoefficients]{}, blue[sh::kMaxCoefficients]{};
 
     /// The same sum as the kernels read it. With N = (x, y, z) it is a polynomial in z for each part of each power (x + iy)^m, of degree
@@ -28,6 +29,8 @@ struct EnvironmentOrder {
     int fixed = 0;                   ///< 1..10, or 0: the smallest whose bound is within the tolerance
     double tolerance = 1.0 / 510.0;  ///< of display white, in linear light: half an 8-bit code
     double exposure = 1.0;           ///< display white is 1 / exposure
+    double codes = 0.0;              ///< when above 0, instead of the tolerance: 8-bit sRGB codes
+    bool ten_bands_are_all = false;  ///< the light is defined by ten bands: leaving out none of them is no error
 };
 
 }  // namespace halflit::shading

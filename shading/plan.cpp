@@ -21,7 +21,7 @@ float clamp_or_low(float x, float lo, float hi) { return x > lo ? (x < hi ? x : 
 
 // ---- textures ------------------------------------------------------------------------------------------------------
 
-TexturePlan plan_texture(const TextureUse& use, std::span<const Texture> textures, QuadMask available) {
+TexturePlan plan_texture(const TextureUse& use, std::span<const Texture> textures, QuadMask available, TextureDetail detail) {
     TexturePlan plan{};
     if (use.texture < 0 || static_cast<std::size_t>(use.texture) >= textures.size()) return plan;
     const Texture& texture = textures[static_cast<std::size_t>(use.texture)];
@@ -49,6 +49,8 @@ TexturePlan plan_texture(const TextureUse& use, std::span<const Texture> texture
     plan.mag = use.sampler.mag;
     plan.min = use.sampler.min;
     plan.mip = use.sampler.mip;
+    if (detail != TextureDetail::full && plan.mip == MipFilter::linear) plan.mip = MipFilter::nearest;
+    if (detail == TextureDetail::nearest) plan.mag = plan.min = Filter::nearest;
     plan.needs_lod = (plan.mip != MipFilter::none && plan.level_count > 1) || plan.mag != plan.min;
     return plan;
 }
@@ -61,9 +63,10 @@ bool same_fetch(const TexturePlan& a, const TexturePlan& b) {
 // ---- lobe ----------------------------------------------------------------------------------------------------------
 
 /// Wrap is held to [0, 1] (beyond 1 the norm is another one) and power to [0, 1e5].
-LobePlan plan_lobe(const Lobe& asked) {
+LobePlan plan_lobe(const Lobe& asked, PowTier tier) {
     const Lobe lobe{clamp_or_low(asked.wrap, 0.0f, 1.0f), clamp_or_low(asked.power, 0.0f, 1e5f), asked.normalize};
     LobePlan plan;
+    plan.tier = tier;
     plan.wrap = lobe.wrap;
     plan.scale = lobe.scale();
     plan.inv_one_plus_wrap = 1.0f / (1.0f + lobe.wrap);
@@ -88,6 +91,19 @@ LobePlan plan_lobe(const Lobe& asked) {
         plan.path = LobePath::general;
     }
     return plan;
+}
+
+PowTier tier_of(Accuracy accuracy) {
+    switch (accuracy) {
+        case Accuracy::reference:
+        case Accuracy::exact:
+            break;
+        case Accuracy::display:
+            return PowTier::display;
+        case Accuracy::fast:
+            return PowTier::fast;
+    }
+    return PowTier::exact;
 }
 
 // ---- lights --------------------------------------------------------------------------------------------------------
@@ -120,6 +136,7 @@ LightPlan plan_light(const Light& light) {
     const double cutoff = versine(outer), width = cutoff - versine(inner);
     plan.cone_cutoff = static_cast<float>(cutoff);
     plan.cone_scale = static_cast<float>(1.0 / std::max(width, 1e-30));  // inner = outer: a step
+    plan.brightness = std::max({light.color_linear.x, light.color_linear.y, light.color_linear.z});
     plan.half_cone_power = 0.5f * clamp_or_low(light.cone_power, 0.0f, 1e5f);
     return plan;
 }
@@ -157,7 +174,8 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
     plan.occlusion_strength = clamp_or_low(material.occlusion_strength, 0.0f, 1.0f);
     plan.alpha_mode = material.alpha_mode;
     plan.alpha_cutoff = material.alpha_cutoff;
-    plan.lobe = plan_lobe(options.override_lobe && !material.has_own_lobe ? options.lobe : material.lobe);
+    plan.highlight_tier = tier_of(options.accuracy);
+    plan.lobe = plan_lobe(options.override_lobe && !material.has_own_lobe ? options.lobe : material.lobe, plan.highlight_tier);
 
     const bool lit = !material.unlit && (frame.lights || frame.ambient);
     plan.double_sided = material.double_sided && lit;
@@ -170,7 +188,7 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
     bool gradients = false;
     const auto use_texture = [&](bool wanted, Stage stage, const TextureUse& use, TexturePlan& target) {
         if (!wanted) return;
-        target = plan_texture(use, textures, available);
+        target = plan_texture(use, textures, available, options.texture_detail);
         if (target.data == nullptr) return;
         plan.stages |= stage;
         gradients = gradients || target.needs_lod;
@@ -211,6 +229,8 @@ public:
         const double power = std::max(1.0, (2.0 / (alpha2 * alpha2) - 2.0) * 0.25);
         EnvironmentOrder order = order_;
         order.tolerance *= 2.0;
+        order.codes *= 0.5;
+        order.ten_bands_are_all = true;
         return find({0.0, power, 0.5 * (power + 1.0)}, order);
     }
 
@@ -240,8 +260,11 @@ FramePlan make_frame_plan(std::span<const Material> materials, std::span<const T
                           const Environment* environment) {
     HALFLIT_ASSERT(available_quads.size() == materials.size() + 1);
     FramePlan plan;
-    for (const Light& light : lights)
-        if (contributes(light)) plan.lights.push_back(plan_light(light));
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        if (!contributes(lights[i])) continue;
+        plan.lights.push_back(plan_light(lights[i]));
+        plan.lights.back().source = static_cast<std::int32_t>(i);
+    }
     plan.ambient = ambient;
     const FrameFacts facts{!plan.lights.empty(), environment != nullptr || !zero(ambient.sky_linear) || !zero(ambient.ground_linear),
                            options.highlight != Highlight::none};

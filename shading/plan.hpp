@@ -2,6 +2,7 @@
 // not need is not in the plan, and what is not in the plan is not computed.
 #pragma once
 
+#include "shading/accuracy.hpp"
 #include "shading/environment_plan.hpp"
 #include "shading/fragment_block.hpp"
 #include "shading/light.hpp"
@@ -40,6 +41,7 @@ struct LobePlan {
     std::int32_t integer_power = 1;  ///< path integer: n, 3 to 5
     float power_minus_one = 0;       ///< path general: n - 1, and the same in two parts of 18 and 6 bits (pow.hpp)
     float power_minus_one_high = 0, power_minus_one_low = 0;
+    PowTier tier = PowTier::exact;  ///< path general
 };
 
 /// Stages, one bit each; a block runs only those that its material's plan names.
@@ -71,6 +73,9 @@ struct MaterialPlan {
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
     LobePlan lobe;
+    PowTier highlight_tier = PowTier::exact;
+    /// A light's highlight, before the reflectance, is left out where it is surely below this; 0: only where it is exactly 0.
+    float highlight_threshold = 0;
     /// 1 / d0: wrapped light is gone where its blocker is d0 away; 0: no wrapped light.
     float shadow_fade_scale = 0;
     /// Times -N.L: the share of d0 that a body which turns away from the light by N.L is thick, and that it does not shade itself by.
@@ -83,6 +88,7 @@ struct MaterialPlan {
 /// A light as a kernel sees it.
 struct LightPlan {
     LightType type;
+    std::int32_t source;         ///< index into the lights that were planned
     float color[3];
     float position[3];
     float to_light[3];           ///< directional: unit vector towards the light; spot: minus the axis
@@ -92,6 +98,8 @@ struct LightPlan {
     std::int32_t shadow_map = -1;  ///< index into FramePlan::shadow_maps; -1: casts no shadow
     float cone_scale;            ///< spot: 1 / (cos(inner) - cos(outer)); see kernels/light_kernel.hpp
     float half_cone_power;       ///< spot: half the power of the cosine; 0: none
+    float reach_squared;         ///< point, spot: left out from this distance on, squared; 0: no limit but the range
+    float brightness;            ///< the largest channel of the colour
 };
 
 /// Shape of the highlight. Phong looks at the mirrored light, Blinn at the half vector; both with the exponent that gives the same
@@ -112,6 +120,14 @@ struct FramePlan {
     Vec3f eye_ws{0, 0, 0};              ///< perspective: camera position
     Vec3f view_direction_ws{0, 0, -1};  ///< orthographic: the way the camera looks, unit
     bool orthographic = false;
+    ErrorBound error;
+};
+
+/// Which of a texture's filters are used at most.
+enum class TextureDetail : std::uint8_t {
+    full,      ///< as the sampler asks for
+    bilinear,  ///< one level of the mips, the nearest
+    nearest    ///< one texel of that
 };
 
 /// How often light is evaluated. Textures and base colour are always read at every pixel.
@@ -131,6 +147,9 @@ struct PlanOptions {
     Highlight highlight = Highlight::blinn;  ///< none: no specular stage, albedo is the base colour itself
     bool normalize_highlight = true;         ///< times (s + 8) / 8, so that sharper highlights are brighter; off: a peak of 1 for every exponent
     EnvironmentOrder environment_order;
+    Accuracy accuracy = Accuracy::exact;
+    double max_error_codes = 0.0;  ///< 0: as `accuracy` says; otherwise the cheapest whose bound is below this (error_budget.hpp)
+    TextureDetail texture_detail = TextureDetail::full;
 };
 
 /// Materials without vertex data that they ask for (texture coordinates, colours, tangents) must be planned without it:

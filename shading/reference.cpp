@@ -118,32 +118,41 @@ Vec3d shading_normal(const Frame& frame, const Material& material, QuadMask avai
     return material.double_sided ? scale(normal, block.lane[kFacing][lane]) : normal;
 }
 
-Vec3d lit(const Frame& frame, const Material& material, const Surface& surface, Vec3d position) {
+Vec3d lit(const Frame& frame, const Material& material, const Surface& surface, Vec3d position, const Surroundings& around) {
     const bool specular = frame.options.highlight != Highlight::none;
     const Lobe& lobe = frame.options.override_lobe && !material.has_own_lobe ? frame.options.lobe : material.lobe;
     const double alpha = std::pow(std::max(surface.roughness, 0.07), 2.0), s = 2.0 / (alpha * alpha) - 2.0;
     Vec3d sum{};
-    for (const Light& light : frame.lights) {
+    for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+        const Light& light = frame.lights[i];
         const Arrival at = arrival(light, position);
         const double n_dot_l = dot(surface.normal, at.direction);
-        Vec3d reflected = scale(surface.albedo, lobe_value(lobe, n_dot_l));
+        const double core_hidden = around.hidden_core.empty() ? 0.0 : around.hidden_core[i];
+        const double excess_hidden = around.hidden_excess.empty() ? 0.0 : around.hidden_excess[i];
+        // Split before the lobe's scale, as the kernels do.
+        const double normalization = lobe.normalize ? (double{lobe.power} + 1.0) / (2.0 * (1.0 + double{lobe.wrap})) : 1.0;
+        const double whole = lobe_value(lobe, n_dot_l) / normalization;
+        const double core = frame.shadow_mode == ShadowMode::soft_split ? std::min(whole, std::max(n_dot_l, 0.0)) : whole;
+        const double seen = core * (1.0 - core_hidden) + (whole - core) * (1.0 - excess_hidden);
+        Vec3d reflected = scale(surface.albedo, normalization * seen);
         if (specular && n_dot_l > 0) {
             const bool phong = frame.options.highlight == Highlight::phong;
             const Vec3d mirrored = scale(surface.normal, 2 * n_dot_l) - at.direction;
             const double cosine = phong ? dot(surface.to_eye, unit(mirrored)) : dot(surface.normal, unit(at.direction + surface.to_eye));
             const double factor = frame.options.normalize_highlight ? (s + 8) / 8 : 1.0;
             if (cosine > 0)
-                reflected = reflected + scale(surface.f0, factor * std::pow(std::min(cosine, 1.0), phong ? s / 4 : s) * n_dot_l);
+                reflected = reflected + scale(surface.f0, factor * std::pow(std::min(cosine, 1.0), phong ? s / 4 : s) * n_dot_l * (1.0 - core_hidden));
         }
         sum = sum + scale(reflected * to_double(light.color_linear), at.strength);
     }
-    Vec3d ambient = surface.albedo * hemisphere(frame.ambient, surface.normal.y);
+    const bool environment = around.diffuse != nullptr && around.mirrored != nullptr;
+    Vec3d ambient = surface.albedo * (environment ? around.diffuse->at(surface.normal) : hemisphere(frame.ambient, surface.normal.y));
     if (specular) {
         const double n_dot_v = dot(surface.normal, surface.to_eye), roughness = std::max(surface.roughness, 0.07);
         const Vec3d mirrored = scale(surface.normal, 2 * n_dot_v) - surface.to_eye;
         const Vec3d share{environment_share(surface.f0.x, roughness, n_dot_v), environment_share(surface.f0.y, roughness, n_dot_v),
                           environment_share(surface.f0.z, roughness, n_dot_v)};
-        ambient = ambient + share * hemisphere(frame.ambient, mirrored.y);
+        ambient = ambient + share * (environment ? around.mirrored->at(mirrored) : hemisphere(frame.ambient, mirrored.y));
     }
     return sum + scale(ambient, surface.occlusion);
 }
@@ -181,7 +190,8 @@ double level_of_detail(const Texture& texture, const TextureUse& use, const Frag
     return std::log2(std::max(length(first), length(first + 2)));
 }
 
-Rgba shade(const Frame& frame, const Material& material, QuadMask available, const FragmentBlock& block, int lane) {
+Rgba shade(const Frame& frame, const Material& material, QuadMask available, const FragmentBlock& block, int lane,
+           const Surroundings& around) {
     const Rgba white{1, 1, 1, 1};
     Rgba base = material_texture(frame, material.base_color_texture, available, block, lane, white);
     base = {base.r * material.base_color.x, base.g * material.base_color.y, base.b * material.base_color.z, base.a * material.base_color.w};
@@ -207,7 +217,7 @@ Rgba shade(const Frame& frame, const Material& material, QuadMask available, con
         surface.albedo = scale(surface.base, (1 - metallic) * 0.96);
         surface.f0 = scale(surface.base, metallic) + scale({1, 1, 1}, 0.04 * (1 - metallic));
     }
-    const Vec3d color = lit(frame, material, surface, position) + to_double(material.emissive) * Vec3d{glow.r, glow.g, glow.b};
+    const Vec3d color = lit(frame, material, surface, position, around) + to_double(material.emissive) * Vec3d{glow.r, glow.g, glow.b};
     return {color.x, color.y, color.z, alpha};
 }
 

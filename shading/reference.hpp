@@ -16,6 +16,13 @@ struct Rgba {
     double r = 0, g = 0, b = 0, a = 0;
 };
 
+/// Light from all around that reaches a direction, channel by channel.
+class Irradiance {
+public:
+    virtual ~Irradiance() = default;
+    [[nodiscard]] virtual Vec3d at(Vec3d normal) const = 0;
+};
+
 /// All that a frame's fragments share.
 struct Frame {
     std::span<const Texture> textures;
@@ -25,6 +32,16 @@ struct Frame {
     Vec3f eye_ws{0, 0, 0};
     Vec3f view_direction_ws{0, 0, -1};  ///< used when orthographic
     bool orthographic = false;
+    ShadowMode shadow_mode = ShadowMode::off;
+};
+
+/// What belongs to one fragment besides its block's rows.
+struct Surroundings {
+    /// For each light, what shadows hide of the lobe's core and of its excess; empty: nothing.
+    std::span<const double> hidden_core, hidden_excess;
+    /// Instead of the two-colour ambient light, where both are given: of a normal, and of the mirrored view.
+    const Irradiance* diffuse = nullptr;
+    const Irradiance* mirrored = nullptr;
 };
 
 /// f(x; w, n) with its scale, by std::pow.
@@ -37,7 +54,8 @@ struct Frame {
 [[nodiscard]] double level_of_detail(const Texture& texture, const TextureUse& use, const FragmentBlock& block, int lane);
 
 /// The colour and alpha of one lane. `available` as in make_frame_plan.
-[[nodiscard]] Rgba shade(const Frame& frame, const Material& material, QuadMask available, const FragmentBlock& block, int lane);
+[[nodiscard]] Rgba shade(const Frame& frame, const Material& material, QuadMask available, const FragmentBlock& block, int lane,
+                         const Surroundings& around = {});
 
 /// The sRGB curve times 255, not rounded; x is clamped to [0, 1].
 [[nodiscard]] double srgb_code(double linear);

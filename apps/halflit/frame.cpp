@@ -67,7 +67,7 @@ Result<float> add_environment(raster::Scene& scene, const RenderOptions& options
     if (!image) return tl::unexpected(image.error());
     auto environment = std::make_shared<shading::Environment>(
         shading::make_environment(image->view(), {options.environment_sun, static_cast<double>(options.environment_rotate_deg) * (kPi / 180.0),
-                                                 options.background_environment}));
+                                                 options.background_environment, options.accuracy == shading::Accuracy::reference}));
     scene.ambient = {};
     double level = 0.28209479177387814 * sh::luminance(environment->radiance.c[0]);  // Y_0: the mean radiance
     for (const shading::Light& sun : environment->suns) {
@@ -108,6 +108,13 @@ Result<void> choose_light(Frame& frame, const RenderOptions& options, const rast
 }
 
 Result<void> choose_settings(raster::Settings& settings, const RenderOptions& options) {
+    if (options.max_error_codes > 0.0) {
+        if (options.accuracy != shading::Accuracy::exact) return fail(ErrorCode::usage, "--max-error: expected without --accuracy");
+        if (options.rate != shading::ShadingRate::pixel)
+            return fail(ErrorCode::usage, "--max-error: expected --shading pixel, the error of other rates has no bound");
+        if (options.texture_detail != shading::TextureDetail::full)
+            return fail(ErrorCode::usage, "--max-error: expected --texture-filter full, the error of others has no bound");
+    }
     const auto lobe = chosen_lobe(options);
     if (!lobe) return tl::unexpected(lobe.error());
     settings.samples = options.samples;
@@ -122,6 +129,9 @@ Result<void> choose_settings(raster::Settings& settings, const RenderOptions& op
     settings.shading.highlight = options.highlight;
     settings.shading.normalize_highlight = options.normalize_highlight;
     settings.shading.rate = options.rate;
+    settings.shading.accuracy = options.accuracy;
+    settings.shading.max_error_codes = options.max_error_codes;
+    settings.shading.texture_detail = options.texture_detail;
     settings.shading.environment_order.fixed = options.sh_order;
     settings.shadows = options.shadows;
     settings.shadow_size = options.shadow_size;

@@ -22,7 +22,9 @@ Result<int> run_info(const InfoOptions& options) {
     const auto frame = make_frame(options, kUsualSize);
     if (!frame) return tl::unexpected(frame.error());
     for (const std::string& warning : frame->warnings) print_warning(warning);
-    const Json description = describe_scene(*frame);
+    const auto described = describe_scene(*frame);
+    if (!described) return tl::unexpected(described.error());
+    const Json& description = *described;
     const std::string text = options.json ? to_text(description) : description_text(description);
     if (const auto written = io::write_file("-", {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}); !written)
         return tl::unexpected(written.error());

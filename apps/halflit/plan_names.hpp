@@ -3,6 +3,7 @@
 
 #include "shading/plan.hpp"
 
+#include <cstddef>
 #include <string_view>
 
 namespace halflit::cli {
@@ -24,5 +25,15 @@ inline constexpr std::string_view kStageNames[shading::kStageCount] = {"base col
 
 /// By shading::LightType.
 inline constexpr std::string_view kLightTypeNames[] = {"directional", "point", "spot"};
+
+constexpr std::string_view accuracy_name(shading::Accuracy accuracy) {
+    constexpr std::string_view kNames[] = {"reference", "exact", "display", "fast"};
+    return kNames[static_cast<std::size_t>(accuracy)];
+}
+
+constexpr std::string_view tier_name(shading::PowTier tier) {
+    constexpr std::string_view kNames[] = {"exact", "display", "fast"};
+    return kNames[static_cast<std::size_t>(tier)];
+}
 
 }  // namespace halflit::cli

@@ -196,6 +196,30 @@ void add_surface_flags(CLI::App& app, RenderOptions& o) {
         ->group(kGroup);
 }
 
+void add_accuracy_flags(CLI::App& app, RenderOptions& o) {
+    constexpr const char* kGroup = "Accuracy";
+    using shading::Accuracy, shading::TextureDetail;
+    add_value(app, "--accuracy", "TIER", "reference (float64, slow), exact (default), display (within one 8-bit code of exact) or fast",
+              named<Accuracy>(o.accuracy, {{"reference", Accuracy::reference},
+                                           {"exact", Accuracy::exact},
+                                           {"display", Accuracy::display},
+                                           {"fast", Accuracy::fast}}))
+        ->group(kGroup);
+    add_value(app, "--max-error", "CODES", "Instead of a tier: the cheapest whose bound, in 8-bit codes, is below this, as 0.5",
+              [&o](const std::string& text) -> Result<void> {
+                  const auto codes = parse_float(text, 1e-3f, 255.0f);
+                  if (!codes) return tl::unexpected(codes.error());
+                  o.max_error_codes = static_cast<double>(*codes);
+                  return {};
+              })
+        ->group(kGroup);
+    add_value(app, "--texture-filter", "NAME", "full (default), bilinear: no blending of mip levels, or nearest",
+              named<TextureDetail>(o.texture_detail, {{"full", TextureDetail::full},
+                                                      {"bilinear", TextureDetail::bilinear},
+                                                      {"nearest", TextureDetail::nearest}}))
+        ->group(kGroup);
+}
+
 void add_machine_flags(CLI::App& app, RenderOptions& o) {
     constexpr const char* kGroup = "Speed (never changes a pixel)";
     add_value(app, "--isa", "NAME", "Instruction set: auto, scalar, sse2, sse4.1, avx2, avx512 or neon64",
@@ -276,6 +300,7 @@ void add_render_options(CLI::App& app, RenderOptions& o, bool scene_required) {
     add_environment_flags(app, o);
     add_shadow_flags(app, o);
     add_surface_flags(app, o);
+    add_accuracy_flags(app, o);
     add_machine_flags(app, o);
     add_file_flags(app, o);
 }

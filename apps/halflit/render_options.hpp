@@ -33,6 +33,9 @@ struct RenderOptions {
     io::LobeParameters lobe;
     shading::Highlight highlight = shading::Highlight::blinn;
     bool normalize_highlight = true;
+    shading::Accuracy accuracy = shading::Accuracy::exact;
+    double max_error_codes = 0.0;
+    shading::TextureDetail texture_detail = shading::TextureDetail::full;
     shading::ShadingRate rate = shading::ShadingRate::pixel;
     std::optional<Vec3f> ambient_linear;
     std::vector<shading::Light> lights;

@@ -49,6 +49,8 @@ void add_frame(Json& report, const Frame& frame, const raster::RenderReport& ren
     report["threads"] = rendered.threads;
     report["samples"] = frame.settings.samples;
     report["exposure"] = frame.settings.exposure;
+    report["accuracy"] = accuracy_name(frame.settings.shading.accuracy);
+    if (rendered.error.budget > 0.0) report["error_bound"] = error_bound_json(rendered.error);
     report["load_ms"] = frame.load_ms;
     report["render_ms"] = rendered.total_ms;
     report["stages"] = stages_ms(rendered);
@@ -71,6 +73,18 @@ void add_frame(Json& report, const Frame& frame, const raster::RenderReport& ren
     report["warnings"] = frame.warnings;
     for (const std::string& warning : rendered.warnings) report["warnings"].push_back(warning);
     report["peak_memory_bytes"] = peak_memory();
+}
+
+Json error_bound_json(const shading::ErrorBound& error) {
+    return {{"budget_codes", error.budget},
+            {"bound_codes", error.codes},
+            {"within", error.within},
+            {"parts",
+             {{"rounding", error.rounding},
+              {"lobes", error.lobes},
+              {"highlights", error.highlights},
+              {"environment", error.environment},
+              {"left_out", error.left_out}}}};
 }
 
 Json stages_ms(const raster::RenderReport& rendered) {

@@ -19,6 +19,9 @@ using Json = nlohmann::ordered_json;
 /// Adds what was drawn and what it took: size, hash, instruction set, threads, times, counts, warnings, peak memory.
 void add_frame(Json& report, const Frame& frame, const raster::RenderReport& rendered, const raster::Image& picture);
 
+/// {"budget_codes", "bound_codes", "within", "parts"}: what --max-error asked for and what is promised.
+[[nodiscard]] Json error_bound_json(const shading::ErrorBound& error);
+
 /// {"plan": ms, ...}: the renderer's stages.
 [[nodiscard]] Json stages_ms(const raster::RenderReport& rendered);
 

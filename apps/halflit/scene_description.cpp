@@ -3,6 +3,7 @@
 #include "apps/halflit/messages.hpp"
 #include "apps/halflit/plan_names.hpp"
 #include "apps/halflit/run_report.hpp"
+#include "raster/debug_view.hpp"
 #include "shading/plan.hpp"
 
 #include <fmt/format.h>
@@ -118,19 +119,22 @@ Json lights_json(const raster::Scene& scene) {
     return lights;
 }
 
-/// Per material, one more for meshes without: which vertex data its meshes bring.
-std::vector<shading::QuadMask> available_quads(const raster::Scene& scene) {
-    std::vector<shading::QuadMask> quads(scene.materials.size() + 1, 1u | 2u);
-    for (const raster::Mesh& mesh : scene.meshes) {
-        shading::QuadMask& available = quads[mesh.material >= 0 ? static_cast<std::size_t>(mesh.material) : scene.materials.size()];
-        available |= (mesh.tangents.empty() ? 0u : 4u) | (mesh.colors.empty() ? 0u : 8u) | (mesh.uv1.empty() ? 0u : 16u);
-    }
-    return quads;
-}
-
 Json environment_json(const shading::FramePlan& frame, int index, bool mirrored, const raster::Settings& settings) {
     const shading::EnvironmentPlan& plan = frame.environments[static_cast<std::size_t>(index)];
     return environment_use_json({plan.bands, plan.bound, plan.within, mirrored}, settings);
+}
+
+/// What an error budget was spent on.
+Json savings_json(const shading::FramePlan& frame, const shading::MaterialPlan& plan) {
+    Json savings{{"lobe_power", plan.lobe.path == shading::LobePath::general ? tier_name(plan.lobe.tier) : "not needed"}};
+    if ((plan.stages & shading::kStageSpecular) != 0) {
+        savings["highlight_power"] = tier_name(plan.highlight_tier);
+        savings["highlights_left_out_below"] = number(plan.highlight_threshold);
+    }
+    std::size_t limited = 0;
+    for (const shading::LightPlan& light : frame.lights) limited += light.reach_squared > 0.0f ? 1 : 0;
+    savings["lights_with_a_reach"] = limited;
+    return savings;
 }
 
 Json material_json(const shading::Material& source, const shading::FramePlan& frame, const shading::MaterialPlan& plan,
@@ -150,17 +154,10 @@ Json material_json(const shading::Material& source, const shading::FramePlan& fr
     if (plan.environment >= 0) material["environment"] = environment_json(frame, plan.environment, false, settings);
     if (plan.mirrored_environment >= 0)
         material["mirrored_environment"] = environment_json(frame, plan.mirrored_environment, true, settings);
+    if (frame.error.budget > 0.0) material["savings"] = savings_json(frame, plan);
     material["requires"] = std::move(needed);
     material["does_without"] = std::move(not_needed);
     return material;
-}
-
-shading::FramePlan plan_of(const Frame& frame) {
-    const raster::Scene& scene = frame.source.scene;
-    shading::PlanOptions options = frame.settings.shading;
-    options.environment_order.exposure = static_cast<double>(frame.settings.exposure);
-    return shading::make_frame_plan(scene.materials, scene.textures, available_quads(scene), scene.lights, scene.ambient, options,
-                                    scene.environment.get());
 }
 
 /// What is left of the lights: black ones and those that are not numbers are not computed.
@@ -208,7 +205,7 @@ void append_lines(std::string& text, const std::string& label, const Json& value
 
 }  // namespace
 
-Json describe_scene(const Frame& frame) {
+Result<Json> describe_scene(const Frame& frame) {
     const raster::Scene& scene = frame.source.scene;
     Json description{{"scene", frame.source.name}};
     if (frame.source.file) description["file"] = file_json(*frame.source.file);
@@ -222,7 +219,10 @@ Json describe_scene(const Frame& frame) {
     description["exposure"] = number(frame.settings.exposure);
     description["lights"] = lights_json(scene);
     description["ambient"] = {{"sky", vector_json(scene.ambient.sky_linear)}, {"ground", vector_json(scene.ambient.ground_linear)}};
-    const shading::FramePlan plan = plan_of(frame);
+    const auto planned = raster::frame_plan(scene, frame.camera, frame.settings, frame.width, frame.height);
+    if (!planned) return tl::unexpected(planned.error());
+    const shading::FramePlan& plan = *planned;
+    if (plan.error.budget > 0.0) description["error_bound"] = error_bound_json(plan.error);
     description["lights_computed"] = planned_lights_json(plan);
     description["shadows"] = name_of(frame.settings.shadows);
     description["materials"] = materials_json(frame, plan);

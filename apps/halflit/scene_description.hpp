@@ -9,7 +9,7 @@
 namespace halflit::cli {
 
 /// What the file holds, what the scene draws, and for each material the stages of its plan: those it requires and those it does without.
-[[nodiscard]] Json describe_scene(const Frame& frame);
+[[nodiscard]] Result<Json> describe_scene(const Frame& frame);
 
 /// The same for people: indented lines. Names are escaped (see printable).
 [[nodiscard]] std::string description_text(const Json& description);

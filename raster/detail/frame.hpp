@@ -4,6 +4,7 @@
 
 #include "raster/detail/background.hpp"
 #include "raster/detail/light_culling.hpp"
+#include "raster/detail/reference_shading.hpp"
 #include "raster/framebuffer.hpp"
 #include "raster/kernels/raster_kernels.hpp"
 #include "raster/renderer.hpp"
@@ -88,6 +89,7 @@ struct Frame {
     bool keep_submitted = false;  ///< fill Chunk::submitted
 
     shading::FramePlan plan;
+    ReferenceShading reference;  ///< used with Accuracy::reference
     LightCuller lights;
     Background background;  ///< instead of Settings::background_linear
     std::vector<Draw> draws;

@@ -1,5 +1,7 @@
 #include "raster/detail/geometry.hpp"
 
+#include "raster/detail/scene_facts.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -212,6 +214,8 @@ Result<void> prepare_frame(Frame& frame, const Scene& scene, const Camera& camer
         quads[mesh.material >= 0 ? static_cast<std::size_t>(mesh.material) : scene.materials.size()] |= quads_of(mesh);
     shading::PlanOptions plan_options = settings.shading;
     plan_options.environment_order.exposure = static_cast<double>(settings.exposure);
+    const bool budget = settings.shading.max_error_codes > 0.0 && !frame.depth_only;
+    if (budget) plan_options.environment_order.codes = settings.shading.max_error_codes * (0.5 * shading::kEnvironmentShare);
     // Depth alone takes no light: what remains of a plan is what an alpha test reads.
     frame.plan = frame.depth_only ? shading::make_frame_plan(scene.materials, scene.textures, quads, {}, {}, plan_options)
                                   : shading::make_frame_plan(scene.materials, scene.textures, quads, scene.lights, scene.ambient,
@@ -224,13 +228,17 @@ Result<void> prepare_frame(Frame& frame, const Scene& scene, const Camera& camer
     frame.background = {};
     if (settings.background_environment && scene.environment != nullptr && !scene.environment->rgb.empty())
         frame.background = Background(*scene.environment, camera, target.width, target.height, settings.exposure);
-    frame.lights.build(frame.plan);
     frame.draws.clear();
     frame.vertex_count = frame.triangle_count = frame.record_floats = 0;
     frame.has_mask = frame.has_blend = false;
     const Mat4 clip = clip_from_world(camera, static_cast<float>(target.width) / static_cast<float>(target.height));
     if (!finite(clip)) return fail(ErrorCode::bad_input, "the camera's matrix is not finite");
     add_draws(frame, scene, clip);
+    if (budget)
+        shading::spend_error_budget(frame.plan, settings.shading.max_error_codes, static_cast<double>(settings.exposure), scene_facts(frame));
+    frame.lights.build(frame.plan);
+    if (settings.shading.accuracy == shading::Accuracy::reference && !frame.depth_only)
+        if (auto ok = frame.reference.build(scene, frame.plan, plan_options, quads); !ok) return ok;
     if (frame.vertex_count >= static_cast<std::int64_t>(kClipVertex)) return fail(ErrorCode::limit, "more than 2^31 vertices");
     if (frame.triangle_count >= (std::int64_t{1} << 28)) return fail(ErrorCode::limit, "more than 2^28 triangles");
     return {};

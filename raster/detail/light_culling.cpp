@@ -12,7 +12,13 @@ constexpr std::size_t kGroupSize = 16;
 /// Rounding of the kernel's distances, and of ours: far more than both.
 constexpr double kMargin = 1.0 + 1e-4;
 
-double reach_of(const LightPlan& light) { return kMargin / __builtin_sqrt(static_cast<double>(light.inv_range_squared)); }
+/// Squared distance from which on the light is zero; 0: none.
+double end_squared(const LightPlan& light) {
+    const double range = light.inv_range_squared > 0.0f ? 1.0 / light.inv_range_squared : 0.0, reach = light.reach_squared;
+    return range > 0.0 && reach > 0.0 ? std::min(range, reach) : std::max(range, reach);
+}
+
+double reach_of(const LightPlan& light) { return kMargin * __builtin_sqrt(end_squared(light)); }
 
 /// Ten bits of each coordinate, interleaved: neighbours in space are mostly neighbours in this order.
 std::uint32_t morton(const LightPlan& light, const double (&low)[3], const double (&scale)[3]) {
@@ -32,7 +38,8 @@ bool zero_in(const LightPlan& light, const double (&low)[3], const double (&high
         const double d = p < low[axis] ? low[axis] - p : p > high[axis] ? p - high[axis] : 0.0;
         nearest_squared += d * d;
     }
-    if (light.inv_range_squared > 0.0f && nearest_squared * light.inv_range_squared > kMargin) return true;
+    const double end = end_squared(light);
+    if (end > 0.0 && nearest_squared > end * kMargin) return true;
     if (light.type != shading::LightType::spot || nearest_squared == 0.0) return false;
     // Seen from the light, the box lies within its bounding sphere: in the cone of half angle asin(r / d) around the centre.
     double offset[3], r_squared = 0.0, d_squared = 0.0, along = 0.0;
@@ -63,7 +70,7 @@ void LightCuller::build(const shading::FramePlan& plan) {
     double low[3] = {1e300, 1e300, 1e300}, high[3] = {-1e300, -1e300, -1e300};
     for (std::uint32_t i = 0; i < plan.lights.size(); ++i) {
         const LightPlan& light = plan.lights[i];
-        if (light.type == shading::LightType::directional || light.inv_range_squared == 0.0f) {
+        if (light.type == shading::LightType::directional || end_squared(light) == 0.0) {
             always_.push_back(i);
             continue;
         }

@@ -118,7 +118,10 @@ void TileRenderer::shade(FragmentList& list) {
         count_lights(counts_.work, plan, lights, list.count);
     }
     count_shading(counts_.work, plan, list.count);
-    frame_.shade->shade(frame_.plan, plan, lights, block, list.count);
+    if (frame_.settings->shading.accuracy == shading::Accuracy::reference)
+        frame_.reference.shade(*frame_.shade, frame_.plan, list.material, block, list.count);
+    else
+        frame_.shade->shade(frame_.plan, plan, lights, block, list.count);
     counts_.fragments_shaded += static_cast<std::uint64_t>(list.count);
     for (int l = 0; l < list.count; ++l) {
         const float sum = (block.red[l] + block.green[l]) + (block.blue[l] + block.alpha[l]);

@@ -28,6 +28,7 @@ HALFLIT_INLINE LocalLight local_light(const shading::LightPlan& light, V3 positi
     const F in_range = distance_squared * F(light.inv_range_squared);
     const F window = vmax(F(1.0f) - in_range * in_range, F(0.0f));
     F strength = vdiv(window, vmax(distance_squared, F(light.min_distance_squared)));
+    if (light.reach_squared > 0.0f) strength = sel(distance_squared < F(light.reach_squared), strength, F(0.0f));
     if (light.type == shading::LightType::spot) {
         // 1 - cos of the angle to the axis, as |L - A|^2 / 2: right to the last digits for narrow cones, where a difference of cosines
         // has none left. The subtraction from the cutoff is exact near the rim.
@@ -37,7 +38,7 @@ HALFLIT_INLINE LocalLight local_light(const shading::LightPlan& light, V3 positi
         strength = strength * (cone * cone);
         if (light.half_cone_power > 0.0f) {
             const F cosine = F(1.0f) - versine, sine_squared = versine * (F(2.0f) - versine);
-            const F power = power_of_cosine(cosine * cosine, sine_squared, F(light.half_cone_power));
+            const F power = power_of_cosine(shading::PowTier::exact, cosine * cosine, sine_squared, F(light.half_cone_power));
             strength = strength * sel(cosine > F(0.0f), power, F(0.0f));
         }
     }
@@ -51,24 +52,41 @@ HALFLIT_INLINE LocalLight arrival(const shading::LightPlan& light, V3 position) 
     return at;
 }
 
+/// How a material makes highlights, as its plan has it.
+struct HighlightShape {
+    shading::Highlight kind;
+    shading::PowTier tier;
+    float threshold;  ///< see MaterialPlan
+    F half_exponent;
+    F normalization;
+};
+
 /// (N.H)^s (N.L) or (V.R)^(s/4) (N.L) where both cosines are positive, else 0: wrapped light makes no highlight. H = L + V and the
 /// mirrored light R = 2 (N.L) N - L are not normalised; the squared sine, |N x H|^2 / |H|^2, keeps its digits where the cosine is
 /// nearly 1. R turns twice as fast as H, so a quarter of the exponent gives a highlight of the same width.
-HALFLIT_INLINE F highlight_value(shading::Highlight highlight, V3 normal, V3 to_eye, V3 to_light, F n_dot_l, F half_exponent) {
-    const bool phong = highlight == shading::Highlight::phong;
+HALFLIT_INLINE F highlight_value(const HighlightShape& shape, V3 normal, V3 to_eye, V3 to_light, F n_dot_l, F brightness) {
+    F half_exponent = shape.half_exponent;
     V3 axis = normal, turning = to_light + to_eye;
-    if (phong) {
+    if (shape.kind == shading::Highlight::phong) {
         const F twice = n_dot_l + n_dot_l;
         axis = to_eye;
         turning = {mad(twice, normal.x, F(0.0f) - to_light.x), mad(twice, normal.y, F(0.0f) - to_light.y),
                    mad(twice, normal.z, F(0.0f) - to_light.z)};
         half_exponent = half_exponent * F(0.25f);
     }
-    const F cosine = dot(axis, turning);
+    const F cosine = dot(axis, turning), squared = dot(turning, turning);
+    M shines = vmin(n_dot_l, cosine) > F(0.0f);
+    if (shape.threshold > 0.0f) {
+        // cos^s <= e^-z <= 8! / z^8 with z = s/2 sin^2: too little to be seen, and known before any division or logarithm.
+        const F z = half_exponent * (squared - cosine * cosine);
+        const F z2 = z * z, h2 = squared * squared, z4 = z2 * z2, h4 = h2 * h2;
+        shines = shines & ((brightness * shape.normalization) * (h4 * h4) > F(shape.threshold * (1.0f / 40320.0f)) * (z4 * z4));
+    }
+    if (!any(shines)) return F(0.0f);
     const V3 sine = cross(axis, turning);
-    const F inv_squared = vdiv(F(1.0f), vmax(dot(turning, turning), F(1e-30f)));
-    const F power = power_of_cosine((cosine * cosine) * inv_squared, dot(sine, sine) * inv_squared, half_exponent);
-    return sel(vmin(n_dot_l, cosine) > F(0.0f), n_dot_l * power, F(0.0f));
+    const F inv_squared = vdiv(F(1.0f), vmax(squared, F(1e-30f)));
+    const F power = power_of_cosine(shape.tier, (cosine * cosine) * inv_squared, dot(sine, sine) * inv_squared, half_exponent);
+    return sel(shines, n_dot_l * power, F(0.0f));
 }
 
 /// What shadows need of a fragment.
@@ -102,7 +120,7 @@ HALFLIT_INLINE void cast_shadow(const ShadowReceiver& receiver, const shading::L
 /// holds every path, GCC keeps the sums in memory, and each light waits for the store of the one before. With them it makes no difference.
 template <bool kSpecular, bool kShadows, class LobeValue>
 HALFLIT_INLINE LightSums sum_lights_by(const LobeValue& lobe_value_at, const shading::LightPlan* lights, int count,
-                                       const ShadowReceiver& receiver, V3 position, V3 normal, V3 to_eye, F half_exponent) {
+                                       const ShadowReceiver& receiver, V3 position, V3 normal, V3 to_eye, const HighlightShape& shape) {
     LightSums sums;
     for (int i = 0; i < count; ++i) {
         const shading::LightPlan& light = lights[i];
@@ -111,7 +129,8 @@ HALFLIT_INLINE LightSums sum_lights_by(const LobeValue& lobe_value_at, const sha
         if (local) at = local_light(light, position);
         const F n_dot_l = dot(normal, at.direction);
         F diffuse = lobe_value_at(n_dot_l), specular(0.0f);
-        if constexpr (kSpecular) specular = highlight_value(receiver.frame.highlight, normal, to_eye, at.direction, n_dot_l, half_exponent);
+        if constexpr (kSpecular)
+            specular = highlight_value(shape, normal, to_eye, at.direction, n_dot_l, at.strength * F(light.brightness));
         if constexpr (kShadows) {
             if (light.shadow_map >= 0) cast_shadow<kSpecular>(receiver, light, at, n_dot_l, diffuse, specular);
         }
@@ -124,6 +143,7 @@ HALFLIT_INLINE LightSums sum_lights_by(const LobeValue& lobe_value_at, const sha
 
 /// Two lights at a time through t^n, which is one chain of dependent operations, much longer than the processor can look past. They are
 /// added in list order.
+template <shading::PowTier kTier>
 HALFLIT_INLINE LightSums sum_lights_by_power(const shading::LobePlan& lobe, const shading::LightPlan* lights, int count, V3 position,
                                              V3 normal) {
     LightSums sums;
@@ -131,27 +151,34 @@ HALFLIT_INLINE LightSums sum_lights_by_power(const shading::LobePlan& lobe, cons
     for (; i + 1 < count; i += 2) {
         const LocalLight at = arrival(lights[i], position), next_at = arrival(lights[i + 1], position);
         const F x = dot(normal, at.direction), next_x = dot(normal, next_at.direction);
-        const F value = general_lobe_value(lobe, x), next_value = general_lobe_value(lobe, next_x);
+        const F value = general_lobe_value<kTier>(lobe, x), next_value = general_lobe_value<kTier>(lobe, next_x);
         sums.diffuse = sums.diffuse + broadcast(lights[i].color) * (value * at.strength);
         sums.diffuse = sums.diffuse + broadcast(lights[i + 1].color) * (next_value * next_at.strength);
     }
     if (i < count) {
         const LocalLight at = arrival(lights[i], position);
-        sums.diffuse = sums.diffuse + broadcast(lights[i].color) * (general_lobe_value(lobe, dot(normal, at.direction)) * at.strength);
+        sums.diffuse = sums.diffuse + broadcast(lights[i].color) * (general_lobe_value<kTier>(lobe, dot(normal, at.direction)) * at.strength);
     }
     return sums;
 }
 
 template <bool kSpecular>
 HALFLIT_INLINE LightSums sum_lights(const shading::LightPlan* lights, int count, const shading::LobePlan& lobe,
-                                    const ShadowReceiver& receiver, V3 position, V3 normal, V3 to_eye, F half_exponent) {
+                                    const ShadowReceiver& receiver, V3 position, V3 normal, V3 to_eye, const HighlightShape& shape) {
     const auto sum = [&]<bool kShadows>(const auto& value) __attribute__((always_inline)) {
-        return sum_lights_by<kSpecular, kShadows>(value, lights, count, receiver, position, normal, to_eye, half_exponent);
+        return sum_lights_by<kSpecular, kShadows>(value, lights, count, receiver, position, normal, to_eye, shape);
     };
     if constexpr (!kSpecular) {
         if (receiver.frame.shadow_maps.empty()) {
-            if (lobe.path == shading::LobePath::general && lobe.power_minus_one < kSharpPowerMinusOne)
-                return sum_lights_by_power(lobe, lights, count, position, normal);
+            if (lobe.path == shading::LobePath::general && lobe.power_minus_one < shading::kSharpPowerMinusOne)
+                switch (lobe.tier) {
+                    case shading::PowTier::exact:
+                        return sum_lights_by_power<shading::PowTier::exact>(lobe, lights, count, position, normal);
+                    case shading::PowTier::display:
+                        return sum_lights_by_power<shading::PowTier::display>(lobe, lights, count, position, normal);
+                    case shading::PowTier::fast:
+                        return sum_lights_by_power<shading::PowTier::fast>(lobe, lights, count, position, normal);
+                }
             if (lobe.path == shading::LobePath::general)
                 return sum.template operator()<false>([&](F x) __attribute__((always_inline)) { return sharp_lobe_value(lobe, x); });
             return sum.template operator()<false>([&](F x) __attribute__((always_inline)) { return simple_lobe_value(lobe, x); });

@@ -7,9 +7,6 @@
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
-/// From this power on 1 - t is taken from 1 - x, which is exact for x in [1/2, 1], instead of from t.
-inline constexpr float kSharpPowerMinusOne = 63.0f;
-
 /// (x + w) / (1 + w), clamped to [0, 1] after the sum: max(0, x) + w would light the whole back side. NaN gives 0.
 HALFLIT_INLINE F lobe_argument(const shading::LobePlan& lobe, F x) {
     return clamp((x + F(lobe.wrap)) * F(lobe.inv_one_plus_wrap), F(0.0f), F(1.0f));
@@ -29,9 +26,18 @@ HALFLIT_INLINE F simple_lobe_value(const shading::LobePlan& lobe, F x) {
     return lobe.integer_power == 4 ? t4 : t4 * t;
 }
 
-/// The same on the general path, for powers below and from kSharpPowerMinusOne + 1 on.
+/// The same on the general path, for powers below and from shading::kSharpPowerMinusOne + 1 on.
+template <shading::PowTier kTier>
 HALFLIT_INLINE F general_lobe_value(const shading::LobePlan& lobe, F x) {
-    return power_of_unit(lobe_argument(lobe, x), lobe.power_minus_one, lobe.power_minus_one_high, lobe.power_minus_one_low);
+    const F t = lobe_argument(lobe, x);
+    if constexpr (kTier == shading::PowTier::display) return short_power_of_unit(kLog2Degree5, kExp2Degree4, t, lobe.power_minus_one);
+    if constexpr (kTier == shading::PowTier::fast) return short_power_of_unit(kLog2Degree3, kExp2Degree3, t, lobe.power_minus_one);
+    return power_of_unit(t, lobe.power_minus_one, lobe.power_minus_one_high, lobe.power_minus_one_low);
+}
+HALFLIT_INLINE F general_lobe_value(const shading::LobePlan& lobe, F x) {
+    if (lobe.tier == shading::PowTier::display) return general_lobe_value<shading::PowTier::display>(lobe, x);
+    if (lobe.tier == shading::PowTier::fast) return general_lobe_value<shading::PowTier::fast>(lobe, x);
+    return general_lobe_value<shading::PowTier::exact>(lobe, x);
 }
 HALFLIT_INLINE F sharp_lobe_value(const shading::LobePlan& lobe, F x) {
     return sharp_power_of_unit(lobe_argument(lobe, x), clamp((F(1.0f) - x) * F(lobe.inv_one_plus_wrap), F(0.0f), F(1.0f)),
@@ -40,7 +46,7 @@ HALFLIT_INLINE F sharp_lobe_value(const shading::LobePlan& lobe, F x) {
 
 HALFLIT_INLINE F lobe_value(const shading::LobePlan& lobe, F x) {
     if (lobe.path != shading::LobePath::general) return simple_lobe_value(lobe, x);
-    return lobe.power_minus_one >= kSharpPowerMinusOne ? sharp_lobe_value(lobe, x) : general_lobe_value(lobe, x);
+    return lobe.power_minus_one >= shading::kSharpPowerMinusOne ? sharp_lobe_value(lobe, x) : general_lobe_value(lobe, x);
 }
 
 }  // namespace HALFLIT_ISA_NAMESPACE

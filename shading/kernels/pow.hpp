@@ -2,19 +2,22 @@
 // minimax in relative error, rounded to float32; each table states what it approximates and how well.
 #pragma once
 
+#include "shading/accuracy.hpp"
 #include "shading/kernels/simd.hpp"
 
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
-/// log2(1 + u) / u on [sqrt(1/2) - 1, sqrt(2) - 1], relative error 7.4e-6, 2.1e-7 and 3.8e-8. Leading term 1/ln 2.
+/// log2(1 + u) / u on [sqrt(1/2) - 1, sqrt(2) - 1], relative error 7.4e-6, 3.5e-4, 2.1e-7 and 3.8e-8. Leading term 1/ln 2.
 inline constexpr float kLog2Degree5[] = {1.44270158f, -0.721206367f, 0.479812503f, -0.366493285f, 0.318202913f, -0.206192777f};
+inline constexpr float kLog2Degree3[] = {1.4422704f, -0.724296927f, 0.511273205f, -0.327770442f};
 inline constexpr float kLog2Degree7[] = {1.44269502f,  -0.721352816f, 0.480922282f, -0.360238284f,
                                          0.287097692f, -0.248874456f, 0.234040871f, -0.145810664f};
 inline constexpr float kLog2Degree8[] = {1.44269502f,   -0.721347392f, 0.48091045f,   -0.360702813f, 0.287915081f,
                                          -0.238943219f, 0.21571368f,   -0.207268372f, 0.125835732f};
 
-/// 2^r on [-1/2, 1/2] with constant term exactly 1, relative error 2.8e-6, 9.5e-8 and 5.0e-9. Second term ln 2.
+/// 2^r on [-1/2, 1/2] with constant term exactly 1, relative error 1.0e-4, 2.8e-6, 9.5e-8 and 5.0e-9. Second term ln 2.
+inline constexpr float kExp2Degree3[] = {1.0f, 0.693282902f, 0.242210954f, 0.055009041f};
 inline constexpr float kExp2Degree4[] = {1.0f, 0.693124175f, 0.240240976f, 0.0559065267f, 0.00958282873f};
 inline constexpr float kExp2Degree5[] = {1.0f, 0.693147004f, 0.240222439f, 0.0555071943f, 0.00967147853f, 0.00132646016f};
 inline constexpr float kExp2Degree6[] = {1.0f, 0.693147182f, 0.240226462f, 0.0555034466f, 0.00961854495f, 0.00133990345f, 0.000153534857f};
@@ -86,14 +89,37 @@ HALFLIT_INLINE F sharp_power_of_unit(F t, F one_minus_t, F power) {
     return sel(t > F(0.0f), exp2_floored(kExp2Degree6, power * mad(u, horner(kLog2Degree8, u), exponent)), F(0.0f));
 }
 
+/// The same with less: t * 2^((n-1) log2 t) by shorter polynomials and without the splitting. 1 gives exactly 1, 0 gives 0. The error
+/// is what shading/accuracy.hpp says of the tier.
+template <int L, int E>
+HALFLIT_INLINE F short_power_of_unit(const float (&log2_polynomial)[L], const float (&exp2_polynomial)[E], F t, float power_minus_one) {
+    const Log2 log = log2_parts(log2_polynomial, t);
+    return t * exp2_floored(exp2_polynomial, F(power_minus_one) * (log.exponent + log.fraction));
+}
+
 /// (cos^2)^half_exponent, the power of a cosine, from both squares. Near 1 log2 is taken of 1 - sin^2 as log1p would, because the
 /// cosine has lost the digits there that a large exponent makes visible; elsewhere the sine has lost them, for angles near 90 degrees.
-HALFLIT_INLINE F power_of_cosine(F cosine_squared, F sine_squared, F half_exponent) {
+template <int L, int E>
+HALFLIT_INLINE F power_of_cosine(const float (&log2_polynomial)[L], const float (&exp2_polynomial)[E], F cosine_squared, F sine_squared,
+                                 F half_exponent) {
     const Log2Argument wide = log2_argument(vmax(cosine_squared, F(1e-30f)));
     const M near_one = sine_squared < F(0.25f);
     const F exponent = sel(near_one, F(0.0f), wide.exponent);
     const F u = sel(near_one, F(0.0f) - sine_squared, wide.u);
-    return exp2_floored(kExp2Degree5, half_exponent * mad(u, horner(kLog2Degree7, u), exponent));
+    return exp2_floored(exp2_polynomial, half_exponent * mad(u, horner(log2_polynomial, u), exponent));
+}
+
+/// The tier is the same for a whole material.
+HALFLIT_INLINE F power_of_cosine(shading::PowTier tier, F cosine_squared, F sine_squared, F half_exponent) {
+    switch (tier) {
+        case shading::PowTier::exact:
+            break;
+        case shading::PowTier::display:
+            return power_of_cosine(kLog2Degree5, kExp2Degree4, cosine_squared, sine_squared, half_exponent);
+        case shading::PowTier::fast:
+            return power_of_cosine(kLog2Degree3, kExp2Degree3, cosine_squared, sine_squared, half_exponent);
+    }
+    return power_of_cosine(kLog2Degree7, kExp2Degree5, cosine_squared, sine_squared, half_exponent);
 }
 
 }  // namespace HALFLIT_ISA_NAMESPACE

@@ -26,6 +26,12 @@ HALFLIT_INLINE V3 hemisphere(const shading::Ambient& ambient, F up) {
 /// Share of the mirrored surroundings: F0 head on, rising at grazing angles towards 1 - roughness (Schlick's fifth power).
 HALFLIT_INLINE F environment_reflectance(F f0, F roughness, F grazing) { return mad(vmax(F(1.0f) - roughness, f0) - f0, grazing, f0); }
 
+/// Where shadows are looked up for a fragment.
+HALFLIT_INLINE V3 looked_up(const shading::FramePlan& frame, const shading::FragmentBlock& block, int lane) {
+    const V3 position = row3(block, shading::kPosX, lane);
+    return frame.shadow_offset ? position + row3(block, shading::kShadowX, lane) : position;
+}
+
 /// All light that meets a surface point, before the base colour decides what becomes of it.
 struct IncidentLight {
     V3 diffuse;            ///< through the lobe, its scale included
@@ -44,24 +50,20 @@ HALFLIT_INLINE IncidentLight incident_light(const shading::FramePlan& frame, con
     const Reflectance surface = reflectance(material, block, lane);
     IncidentLight light{zero, zero, zero, zero, surface.metallic, F(1.0f), F(0.0f)};
     V3 to_eye = zero;
-    F half_exponent(0.0f);
+    HighlightShape shape{frame.highlight, material.highlight_tier, material.highlight_threshold, F(0.0f), F(1.0f)};
     if constexpr (kSpecular) {
         to_eye = view_vector(frame, position);
         light.roughness = vmax(surface.roughness, F(kMinRoughness));
         const F alpha = light.roughness * light.roughness;
-        half_exponent = vdiv(F(1.0f), alpha * alpha) - F(1.0f);  // s = 2 / alpha^2 - 2
+        shape.half_exponent = vdiv(F(1.0f), alpha * alpha) - F(1.0f);                                       // s = 2 / alpha^2 - 2
+        if (frame.normalize_highlight) shape.normalization = mad(F(0.25f), shape.half_exponent, F(1.0f));  // (s + 8) / 8
     }
     if (has(material, shading::kStageLights)) {
-        V3 looked_up = position;
-        if (frame.shadow_offset) looked_up = position + row3(block, shading::kShadowX, lane);
-        const ShadowReceiver receiver{frame, looked_up, facing.surface, {material.shadow_fade_scale, material.shadow_turn_scale}};
+        const ShadowReceiver receiver{frame, looked_up(frame, block, lane), facing.surface, {material.shadow_fade_scale, material.shadow_turn_scale}};
         const LightSums sums =
-            sum_lights<kSpecular>(lights.lights, lights.count, material.lobe, receiver, position, normal, to_eye, half_exponent);
+            sum_lights<kSpecular>(lights.lights, lights.count, material.lobe, receiver, position, normal, to_eye, shape);
         light.diffuse = sums.diffuse * F(material.lobe.scale);
-        if constexpr (kSpecular) {
-            light.specular = sums.specular;
-            if (frame.normalize_highlight) light.specular = light.specular * mad(F(0.25f), half_exponent, F(1.0f));  // (s + 8) / 8
-        }
+        if constexpr (kSpecular) light.specular = sums.specular * shape.normalization;
     }
     if (has(material, shading::kStageAmbient)) {
         const bool environment = has(material, shading::kStageEnvironment);
@@ -177,6 +179,19 @@ static void light(const shading::FramePlan& frame, const shading::MaterialPlan& 
         light_block<false>(frame, material, lights, block, count);
 }
 
+static void hidden(const shading::FramePlan& frame, const shading::MaterialPlan& material, const shading::LightPlan& light,
+                   const shading::FragmentBlock& block, int count, float* core, float* excess) {
+    const ShadowFade fade{material.shadow_fade_scale, material.shadow_turn_scale};
+    const bool soft = frame.shadow_mode == shading::ShadowMode::soft_split && fade.scale > 0.0f;
+    for (int lane = 0; lane < count; lane += kWidth) {
+        const V3 position = row3(block, shading::kPosX, lane), surface = normals(material, block, lane).surface;
+        const Hidden share = hidden_share(frame.shadow_maps[light.shadow_map], looked_up(frame, block, lane), surface,
+                                          arrival(light, position).direction, fade, soft);
+        store(core + lane, share.hard);
+        store(excess + lane, share.soft);
+    }
+}
+
 static void shade_alpha(const shading::MaterialPlan& material, shading::FragmentBlock& block, int count) {
     for (int lane = 0; lane < count; lane += kWidth)
         store(block.alpha + lane, clamp(base_color(material, block, lane).a, F(0.0f), F(1.0f)));
@@ -192,6 +207,6 @@ static void encode(const float* red, const float* green, const float* blue, cons
 namespace shading {
 #define HALFLIT_SHADE_KERNELS HALFLIT_CONCAT(shade_kernels_, HALFLIT_ISA)
 extern const ShadeKernels HALFLIT_SHADE_KERNELS;
-const ShadeKernels HALFLIT_SHADE_KERNELS = {shade, light, shade_alpha, encode};
+const ShadeKernels HALFLIT_SHADE_KERNELS = {shade, light, hidden, shade_alpha, encode};
 }  // namespace shading
 }  // namespace halflit

@@ -27,6 +27,10 @@ struct ShadeKernels {
     /// kPosZ, Y to kNormalX..kNormalZ, from where `shade` takes them when the material's plan has kStagePrelit.
     void (*light)(const FramePlan& frame, const MaterialPlan& material, LightList lights, FragmentBlock& block, int count);
 
+    /// What a light's shadow map hides of the core and of the excess (shadow.hpp), for lanes [0, count), in [0, 1].
+    void (*hidden)(const FramePlan& frame, const MaterialPlan& material, const LightPlan& light, const FragmentBlock& block, int count,
+                   float* core, float* excess);
+
     /// Only the alpha channel that MASK compares and BLEND uses: base colour alpha * texture alpha * vertex alpha.
     void (*alpha)(const MaterialPlan& material, FragmentBlock& block, int count);
 

@@ -41,7 +41,7 @@ HALFLIT_INLINE F sharp_power_to(F one_minus_t, float n) {
 }
 HALFLIT_INLINE F cosine_power_to(F sine_squared, float half_exponent) {
     const F held = clamp(sine_squared, F(0.0f), F(1.0f));
-    return power_of_cosine(F(1.0f) - held, held, F(half_exponent));
+    return power_of_cosine(shading::PowTier::exact, F(1.0f) - held, held, F(half_exponent));
 }
 
 HALFLIT_UNARY(run_sqrt, vsqrt(x))
@@ -90,7 +90,7 @@ static void power(const float* t, float n, float* out, int count) {
 }
 static void cosine_power(const float* cosine_squared, const float* sine_squared, const float* half_exponent, float* out, int count) {
     for (int i = 0; i < count; i += kWidth)
-        store(out + i, power_of_cosine(load(cosine_squared + i), load(sine_squared + i), load(half_exponent + i)));
+        store(out + i, power_of_cosine(shading::PowTier::exact, load(cosine_squared + i), load(sine_squared + i), load(half_exponent + i)));
 }
 static void normalize_rows(const float* x, const float* y, const float* z, float* out_x, float* out_y, float* out_z, int count) {
     for (int i = 0; i < count; i += kWidth) {

@@ -1,0 +1,263 @@
+#include "shading/error_budget.hpp"
+
+#include "sh/power.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halflit::shading {
+namespace {
+
+constexpr double kSlopeAtBlack = 255.0 * 12.92, kLinearEnd = 0.0031308, kLn2 = 0.69314718055994531;
+/// S at white: 255 * 1.055 / 2.4.
+constexpr double kSensitivity = 112.1;
+
+/// Of N.L for a normal from three interpolated floats, and for one from a texture whose filtered channels are within 3e-5.
+constexpr double kCosineError = 4e-7, kMappedCosineError = 2e-4;
+/// Of a filtered channel of a texture, of its range.
+constexpr double kTextureError = 3e-5;
+/// Of the products and sums that follow, relative.
+constexpr double kProductError = 1e-5;
+
+/// d code / d v, v in (0, 1].
+double slope(double v) { return v <= kLinearEnd ? kSlopeAtBlack : (255.0 * 1.055 / 2.4) * power_of(v, 1.0 / 2.4 - 1.0); }
+
+/// The largest f(v, slope(v)) for v from the end of the curve's straight part to white: below, what is bounded here only falls.
+template <class Function>
+double largest_on_curve(const Function& f) {
+    constexpr int kSteps = 60;
+    constexpr double kBetween = 1.05;  // v grows by a tenth from one to the next, f by less than half of that
+    double most = f(kLinearEnd, kSlopeAtBlack);
+    for (int i = 0; i <= kSteps; ++i) {
+        const double v = exp2_of(log2_of(kLinearEnd) * (kSteps - i) / kSteps);
+        most = std::max(most, f(v, slope(v)));
+    }
+    return most * kBetween;
+}
+
+/// v = A t^n off by t's error. Lights with A_1, A_2.. together are off by no more than one with their sum (Hoelder's inequality).
+double codes_of_edge(double amplitude, double n, double t_error) {
+    if (n <= 0.0) return 255.0;  // a step
+    const auto error = [&](double v, double at) {
+        const double t = std::min(1.0, power_of(v / amplitude, 1.0 / n));
+        const double held = std::max(t, t_error);
+        return at * amplitude * n * power_of(held, n) / held * t_error;
+    };
+    double codes = amplitude > 0.0 ? largest_on_curve(error) : 0.0;
+    if (n < 1.0) codes = std::max(codes, codes_of_absolute(amplitude * power_of(t_error, n)));
+    return std::min(codes, 255.0);
+}
+
+/// Highlights v = K e^-z whose logarithm is off by `constant` + `linear` z + `root` sqrt(z). `count` of them together are off by no more
+/// than one of `count` times the peak (concavity, and Cauchy and Schwarz's inequality for the root).
+double codes_of_highlight(double peak, int count, double constant, double linear, double root) {
+    const double top = peak * count;
+    if (!(top > 0.0)) return 0.0;
+    return std::min(255.0, largest_on_curve([&](double v, double at) {
+                        const double z = std::max(0.0, kLn2 * (log2_of(top) - log2_of(v)));
+                        return at * std::min(v, top) * (constant + linear * z + root * std::sqrt(z));
+                    }));
+}
+
+/// What the material makes of light, at most.
+struct Surface {
+    double albedo, reflectance;     ///< diffuse with the lobe's scale; F0
+    double exponent, normalization; ///< of the sharpest highlight
+    double cosine_error;
+    bool highlight;
+};
+
+Surface surface_of(const FramePlan& plan, const MaterialPlan& material, const SceneFacts& facts) {
+    const auto has = [&](Stage stage) { return (material.stages & stage) != 0; };
+    Surface s{};
+    const double color = std::max({material.base_color[0], material.base_color[1], material.base_color[2]}) *
+                         (has(kStageVertexColor) ? facts.vertex_color : 1.0);
+    s.albedo = color;
+    s.highlight = has(kStageSpecular) && has(kStageLights);
+    s.reflectance = material.metallic > 0.0f ? std::max(0.04, color) : 0.04;
+    const double roughness = has(kStageMetallicRoughnessTexture) ? 0.07 : std::max(0.07, static_cast<double>(material.roughness));
+    const double alpha = roughness * roughness;
+    s.exponent = 2.0 / (alpha * alpha) - 2.0;
+    s.normalization = plan.normalize_highlight ? (s.exponent + 8.0) / 8.0 : 1.0;
+    s.cosine_error = has(kStageNormalMap) ? kMappedCosineError * std::max(1.0, static_cast<double>(std::fabs(material.normal_scale))) : kCosineError;
+    return s;
+}
+
+/// All that reaches a surface at most, in units of display white.
+struct Arriving {
+    double sum = 0, largest = 0;  ///< of the lights' colours times strengths
+    double cone_error = 0;        ///< of the spots' cosines, in units of their cones
+    int count = 0, local = 0;
+};
+
+Arriving arriving(const FramePlan& plan, double exposure, const SceneFacts& facts) {
+    Arriving a;
+    for (std::size_t i = 0; i < plan.lights.size(); ++i) {
+        const LightPlan& light = plan.lights[i];
+        const double most = light.brightness * facts.light_strength[i] * exposure;
+        a.sum += most;
+        a.largest = std::max(a.largest, most);
+        ++a.count;
+        a.local += light.type != LightType::directional ? 1 : 0;
+        if (light.type == LightType::spot) a.cone_error = std::max(a.cone_error, 2e-7 * light.cone_scale);
+    }
+    return a;
+}
+
+double rounding_codes(const MaterialPlan& material, const FramePlan& plan, const Surface& s, const Arriving& light, double exposure) {
+    const auto has = [&](Stage stage) { return (material.stages & stage) != 0; };
+    const double n = material.lobe.power_minus_one + 1.0, scale = material.lobe.scale;
+    double codes = kSensitivity * (kProductError + 1.5e-7 * (has(kStageLights) ? n + light.count : 0.0));
+    double around = 0.0;  // ambient light
+    if (has(kStageAmbient)) {
+        const Vec3f sky = plan.ambient.sky_linear, ground = plan.ambient.ground_linear;
+        around = std::max({sky.x, sky.y, sky.z, ground.x, ground.y, ground.z}) * exposure;
+        if (has(kStageEnvironment)) {
+            const EnvironmentPlan& environment = plan.environments[static_cast<std::size_t>(material.environment)];
+            around = 0.0;
+            for (const float* channel : {environment.red, environment.green, environment.blue}) {
+                double most = 0.0;
+                for (int l = 0; l < environment.bands; ++l) {
+                    double squares = 0.0;
+                    for (int i = l * l; i < (l + 1) * (l + 1); ++i) squares += static_cast<double>(channel[i]) * channel[i];
+                    most += std::sqrt(squares * (2 * l + 1) * 0.079577471545947668);  // 1 / (4 pi)
+                }
+                around = std::max(around, most * exposure);
+            }
+            codes += codes_of_absolute(3e-7 * around) * (s.highlight ? 2.0 : 1.0);
+            if (has(kStageNormalMap)) codes += codes_of_absolute(4.0 * s.cosine_error * around);
+        } else {
+            codes += codes_of_absolute(s.cosine_error * around * std::max(s.albedo, 1.0));
+        }
+    }
+    if (has(kStageLights)) {
+        codes += codes_of_edge(s.albedo * scale * light.sum, n, s.cosine_error / (1.0 + material.lobe.wrap));
+        if (light.local > 0) codes += codes_of_edge(s.albedo * scale * light.sum, 1.0, 3e-7);  // the end of the range
+        if (light.cone_error > 0) codes += codes_of_edge(s.albedo * scale * light.sum, 2.0, light.cone_error);
+    }
+    if (s.highlight) {
+        const double turning = plan.highlight == Highlight::phong ? 2.0 : 1.0;
+        double constant = 0.0, linear = 3e-7;
+        if (has(kStageMetallicRoughnessTexture)) constant = linear = 4.0 * kTextureError / 0.07;
+        codes += codes_of_highlight(s.reflectance * s.normalization * light.largest, light.count, constant, linear,
+                                    turning * std::sqrt(2.0 * s.exponent) * s.cosine_error);
+    }
+    const double lit = has(kStageUnlit) ? exposure : light.sum * std::max(1.0, scale) + around;
+    if (has(kStageBaseColorTexture)) codes += codes_of_absolute(kTextureError * s.albedo * lit);
+    if (has(kStageMetallicRoughnessTexture)) codes += codes_of_absolute(2.0 * kTextureError * s.albedo * lit);
+    if (has(kStageOcclusionTexture)) codes += codes_of_absolute(kTextureError * around);
+    if (has(kStageEmissiveTexture))
+        codes += codes_of_absolute(kTextureError * exposure * std::max({material.emissive[0], material.emissive[1], material.emissive[2]}));
+    return std::min(codes, 255.0);
+}
+
+double lobe_tier_codes(const LobePlan& lobe, PowTier tier) {
+    if (lobe.path != LobePath::general || lobe.power_minus_one >= kSharpPowerMinusOne || tier == PowTier::exact) return 0.0;
+    const PowErrors errors = pow_errors(tier);
+    const double a = std::fabs(static_cast<double>(lobe.power_minus_one));
+    return codes_of_relative(kLn2 * a * 0.5 * errors.log2 + errors.exp2 + 4e-6);
+}
+
+double highlight_tier_codes(const Surface& s, const Arriving& light, PowTier tier) {
+    if (!s.highlight || tier == PowTier::exact) return 0.0;
+    const PowErrors errors = pow_errors(tier);
+    return codes_of_highlight(s.reflectance * s.normalization * light.largest, light.count, errors.exp2, errors.log2, 0.0);
+}
+
+template <class Codes>
+PowTier cheapest_tier(double budget, const Codes& codes) {
+    for (const PowTier tier : {PowTier::fast, PowTier::display})
+        if (codes(tier) <= budget) return tier;
+    return PowTier::exact;
+}
+
+double environment_codes(const FramePlan& plan, const MaterialPlan& material) {
+    double codes = 0.0;
+    for (const int index : {material.environment, material.mirrored_environment})
+        if (index >= 0) codes += plan.environments[static_cast<std::size_t>(index)].bound_codes;
+    return codes;
+}
+
+/// The squared distance from which on `brightness` times strength is below `least`; 0: none, or beyond the range.
+double reach_squared(const LightPlan& light, double least) {
+    const double range = light.inv_range_squared > 0.0f ? 1.0 / light.inv_range_squared : 0.0;
+    double low = light.min_distance_squared, high = std::max(low, light.brightness / least);
+    if (range > 0.0) high = std::min(high, range);
+    const auto strength = [&](double d2) {
+        const double in_range = d2 * light.inv_range_squared;
+        return light.brightness * std::max(0.0, 1.0 - in_range * in_range) / d2;
+    };
+    if (range == 0.0) return high < 1e36 ? high * 1.001 : 0.0;
+    if (strength(low) <= least) return low;
+    for (int i = 0; i < 50; ++i) {
+        const double middle = 0.5 * (low + high);
+        (strength(middle) > least ? low : high) = middle;
+    }
+    return high * 1.001 < range ? high * 1.001 : 0.0;
+}
+
+}  // namespace
+
+double codes_of_absolute(double delta) {
+    if (!(delta < 1.0)) return 255.0;
+    return delta <= kLinearEnd ? kSlopeAtBlack * delta : 255.0 * (1.055 * power_of(delta, 1.0 / 2.4) - 0.055) + 0.01;
+}
+
+double codes_of_relative(double r) { return r > 0.0 ? std::min(255.0, kSensitivity * (r < 1e-4 ? r : kLn2 * log2_of(1.0 + r))) : 0.0; }
+
+void spend_error_budget(FramePlan& plan, double budget_codes, double exposure, const SceneFacts& facts) {
+    HALFLIT_ASSERT(facts.light_strength.size() == plan.lights.size());
+    const Arriving light = arriving(plan, exposure, facts);
+    ErrorBound worst;
+
+    // The parts that nothing can change, and what the poorest material has left for the lights' reach, which is one for all.
+    std::vector<double> rounding, fixed;
+    double poorest = budget_codes, most_reflected = 0.0;
+    for (const MaterialPlan& material : plan.materials) {
+        const Surface s = surface_of(plan, material, facts);
+        rounding.push_back(rounding_codes(material, plan, s, light, exposure));
+        fixed.push_back(rounding.back() + environment_codes(plan, material));
+        if (!facts.drawn[rounding.size() - 1]) continue;
+        poorest = std::min(poorest, budget_codes - fixed.back());
+        most_reflected = std::max(most_reflected, s.albedo * material.lobe.scale + (s.highlight ? s.reflectance * s.normalization : 0.0));
+    }
+    double reach_codes = 0.0;
+    if (light.local > 0 && poorest > 0.0 && most_reflected > 0.0) {
+        reach_codes = 0.25 * poorest;
+        const double least = reach_codes / (kSlopeAtBlack * exposure * most_reflected * light.local);
+        for (LightPlan& one : plan.lights)
+            if (one.type != LightType::directional) one.reach_squared = static_cast<float>(reach_squared(one, least));
+    }
+
+    for (std::size_t i = 0; i < plan.materials.size(); ++i) {
+        MaterialPlan& material = plan.materials[i];
+        const Surface s = surface_of(plan, material, facts);
+        ErrorBound bound;
+        bound.rounding = rounding[i];
+        bound.environment = fixed[i] - rounding[i];
+        bound.left_out = reach_codes;
+        double left = budget_codes - fixed[i] - reach_codes;
+        if (left > 0.0) {
+            material.lobe.tier = cheapest_tier(0.4 * left, [&](PowTier tier) { return lobe_tier_codes(material.lobe, tier); });
+            bound.lobes = lobe_tier_codes(material.lobe, material.lobe.tier);
+            left -= bound.lobes;
+            material.highlight_tier = cheapest_tier(0.5 * left, [&](PowTier tier) { return highlight_tier_codes(s, light, tier); });
+            bound.highlights = highlight_tier_codes(s, light, material.highlight_tier);
+            left -= bound.highlights;
+            if (s.highlight && light.count > 0) {
+                const double spent = 0.98 * left;
+                material.highlight_threshold = static_cast<float>(std::min(1e30, spent / (kSlopeAtBlack * exposure * s.reflectance * light.count)));
+                bound.left_out += spent;
+            }
+        }
+        if (!facts.drawn[i]) continue;
+        bound.codes = bound.rounding + bound.lobes + bound.highlights + bound.environment + bound.left_out;
+        if (bound.codes > worst.codes) worst = bound;
+    }
+    worst.codes = std::min(worst.codes, 255.0);
+    worst.budget = budget_codes;
+    worst.within = worst.codes <= budget_codes;
+    plan.error = worst;
+}
+
+}  // namespace halflit::shading
