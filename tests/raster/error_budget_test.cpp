@@ -24,7 +24,7 @@ class Numbers {
 public:
     explicit Numbers(std::uint32_t seed) : engine_(seed) {}
     float in(float low, float high) { return low + (high - low) * static_cast<float>(engine_() >> 8) * 0x1p-24f; }
-    std::uint32_t below(std::uint32_t n) { return engine_() % n; }
+    std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(engine_()) % n; }
     /// Spread evenly over the powers of ten from low to high.
     float decades(float low, float high) { return std::pow(10.0f, in(std::log10(low), std::log10(high))); }
     Vec3f color(float brightness) { return {brightness * in(0.2f, 1), brightness * in(0.2f, 1), brightness * in(0.2f, 1)}; }
