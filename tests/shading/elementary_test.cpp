@@ -1,6 +1,7 @@
 // Every operation that kernels use, on each instruction set against scalar, and the elementary functions against long double.
 #include "elementary/elementary.hpp"
 #include "floats.hpp"
+#include "shading/accuracy.hpp"
 #include "tests/support/all_cores.hpp"
 #include "tests/support/skip.hpp"
 
@@ -232,6 +233,96 @@ TEST_CASE("highlight power: cos^s is right to 4e-7 for exponents from 0.5 to 8e4
         worst = std::max(worst, static_cast<double>(std::fabs(static_cast<long double>(out[i]) - exact[i])));
     INFO("largest absolute error " << worst << " of a peak of 1");
     CHECK(worst <= 4e-7);
+}
+
+TEST_CASE("power tiers: display and fast are off by what accuracy.hpp says of their polynomials", "[shading][pow]") {
+    // t^n = t 2^((n-1) log2 t): 2^r as far as its own error, and log2's on a fraction of at most 1/2, times ln 2 (n - 1). The exponent itself
+    // is a float32 of up to 24 here, rounded three times.
+    struct Row {
+        const char* name;
+        double n;
+        shading::PowTier tier;
+    };
+    const Row rows[] = {{"display power 1.3", static_cast<double>(1.3f), shading::PowTier::display},
+                        {"display power 16.5", 16.5, shading::PowTier::display},
+                        {"fast power 1.3", static_cast<double>(1.3f), shading::PowTier::fast},
+                        {"fast power 16.5", 16.5, shading::PowTier::fast}};
+    const Elementary& scalar = elementary(shading::Isa::scalar);
+    std::vector<float> t(1 << 18), out(t.size());
+    FloatMaker make(21);
+    for (std::size_t i = 0; i < t.size(); ++i) t[i] = i % 2 == 0 ? make.ordinary(0.0f, 1.0f) : std::exp2(make.ordinary(-24.0f, 0.0f));
+    int found = 0;
+    for (const Row& row : rows)
+        for (int f = 0; f < scalar.unary_count; ++f) {
+            if (std::string(scalar.unary[f].name) != row.name) continue;
+            ++found;
+            scalar.unary[f].run(t.data(), out.data(), static_cast<int>(t.size()));
+            const shading::PowErrors errors = shading::pow_errors(row.tier);
+            double worst = 0, worst_of_bound = 0;
+            for (std::size_t i = 0; i < t.size(); ++i) {
+                const double exact = std::pow(static_cast<double>(t[i]), row.n);
+                if (exact < 0x1p-24) continue;
+                const double error = std::fabs(static_cast<double>(out[i]) / exact - 1.0);
+                const double bound = errors.exp2 + 0.35 * (row.n - 1.0) * errors.log2 + 0x1p-24 * (4.0 + 3.0 * 0.7 * -std::log2(exact));
+                worst = std::max(worst, error);
+                worst_of_bound = std::max(worst_of_bound, error / bound);
+            }
+            INFO(row.name << ": relative error " << worst << ", of its bound " << worst_of_bound);
+            CHECK(worst_of_bound <= 1.0);
+            CHECK(worst_of_bound > 0.4);  // and no better than that: the tier did run
+            CHECK(worst <= (row.tier == shading::PowTier::display ? 2.6e-6 * row.n + 3e-6 : 1.3e-4 * row.n + 1e-4));  // in the tiers' own words
+        }
+    CHECK(found == 4);
+}
+
+TEST_CASE("power tiers: highlights are off by what accuracy.hpp says of their polynomials", "[shading][pow]") {
+    // cos^s = e^-z with z off by log2's relative error: e^-z z <= 1/e, so the peak bounds the sum of both.
+    struct Row {
+        const char* name;
+        double half_exponent;
+        shading::PowTier tier;
+    };
+    const Row rows[] = {{"display cosine power 40", 20, shading::PowTier::display},
+                        {"display cosine power 60000", 30000, shading::PowTier::display},
+                        {"fast cosine power 40", 20, shading::PowTier::fast},
+                        {"fast cosine power 60000", 30000, shading::PowTier::fast}};
+    const Elementary& scalar = elementary(shading::Isa::scalar);
+    std::vector<float> sine(1 << 16), out(sine.size());
+    FloatMaker make(22);
+    int found = 0;
+    for (const Row& row : rows)
+        for (int f = 0; f < scalar.unary_count; ++f) {
+            if (std::string(scalar.unary[f].name) != row.name) continue;
+            ++found;
+            for (float& s : sine) s = std::min(1.0f, make.ordinary(0.0f, 14.0f) / static_cast<float>(row.half_exponent));
+            scalar.unary[f].run(sine.data(), out.data(), static_cast<int>(sine.size()));
+            double worst = 0;
+            for (std::size_t i = 0; i < sine.size(); ++i)
+                worst = std::max(worst, std::fabs(static_cast<double>(out[i]) - std::exp(row.half_exponent * std::log1p(-static_cast<double>(sine[i])))));
+            const shading::PowErrors errors = shading::pow_errors(row.tier);
+            const double bound = errors.exp2 + 0.3679 * errors.log2 + 4e-7;
+            INFO(row.name << ": " << worst << " of the peak, bound " << bound);
+            CHECK(worst <= bound);
+            CHECK(worst > 0.2 * bound);
+        }
+    CHECK(found == 4);
+}
+
+TEST_CASE("power tiers: 0 gives 0 and 1 gives exactly 1", "[shading][pow]") {
+    const Elementary& scalar = elementary(shading::Isa::scalar);
+    const float t[16] = {0.0f, 1.0f};
+    int found = 0;
+    for (int f = 0; f < scalar.unary_count; ++f) {
+        const std::string name = scalar.unary[f].name;
+        if (!name.starts_with("display power") && !name.starts_with("fast power")) continue;
+        float out[16];
+        scalar.unary[f].run(t, out, 16);
+        INFO(name);
+        CHECK(out[0] == 0.0f);
+        CHECK(out[1] == 1.0f);
+        ++found;
+    }
+    CHECK(found == 4);
 }
 
 TEST_CASE("log2 and exp2: a few units of float32 away from the true values", "[shading][pow]") {

@@ -35,13 +35,15 @@ HALFLIT_INLINE F power_to(F t, float n) {
     const SplitPower split(n);
     return power_of_unit(clamp(t, F(0.0f), F(1.0f)), split.minus_one, split.high, split.low);
 }
+HALFLIT_INLINE F display_power_to(F t, float n) { return short_power_of_unit(kLog2Degree5, kExp2Degree4, clamp(t, F(0.0f), F(1.0f)), n - 1.0f); }
+HALFLIT_INLINE F fast_power_to(F t, float n) { return short_power_of_unit(kLog2Degree3, kExp2Degree3, clamp(t, F(0.0f), F(1.0f)), n - 1.0f); }
 HALFLIT_INLINE F sharp_power_to(F one_minus_t, float n) {
     const F held = clamp(one_minus_t, F(0.0f), F(1.0f));
     return sharp_power_of_unit(F(1.0f) - held, held, F(n));
 }
-HALFLIT_INLINE F cosine_power_to(F sine_squared, float half_exponent) {
+HALFLIT_INLINE F cosine_power_to(F sine_squared, float half_exponent, shading::PowTier tier = shading::PowTier::exact) {
     const F held = clamp(sine_squared, F(0.0f), F(1.0f));
-    return power_of_cosine(shading::PowTier::exact, F(1.0f) - held, held, F(half_exponent));
+    return power_of_cosine(tier, F(1.0f) - held, held, F(half_exponent));
 }
 
 HALFLIT_UNARY(run_sqrt, vsqrt(x))
@@ -70,11 +72,19 @@ HALFLIT_UNARY(run_power_05, power_to(x, 0.5f))
 HALFLIT_UNARY(run_power_13, power_to(x, 1.3f))
 HALFLIT_UNARY(run_power_165, power_to(x, 16.5f))
 HALFLIT_UNARY(run_power_1000, power_to(x, 1000.0f))
+HALFLIT_UNARY(run_display_power_13, display_power_to(x, 1.3f))
+HALFLIT_UNARY(run_display_power_165, display_power_to(x, 16.5f))
+HALFLIT_UNARY(run_fast_power_13, fast_power_to(x, 1.3f))
+HALFLIT_UNARY(run_fast_power_165, fast_power_to(x, 16.5f))
 HALFLIT_UNARY(run_sharp_power_100, sharp_power_to(x, 100.0f))
 HALFLIT_UNARY(run_sharp_power_10000, sharp_power_to(x, 10000.0f))
 HALFLIT_UNARY(run_cosine_power_1, cosine_power_to(x, 1.0f))
 HALFLIT_UNARY(run_cosine_power_20, cosine_power_to(x, 20.0f))
 HALFLIT_UNARY(run_cosine_power_30000, cosine_power_to(x, 30000.0f))
+HALFLIT_UNARY(run_display_cosine_power_20, cosine_power_to(x, 20.0f, shading::PowTier::display))
+HALFLIT_UNARY(run_display_cosine_power_30000, cosine_power_to(x, 30000.0f, shading::PowTier::display))
+HALFLIT_UNARY(run_fast_cosine_power_20, cosine_power_to(x, 20.0f, shading::PowTier::fast))
+HALFLIT_UNARY(run_fast_cosine_power_30000, cosine_power_to(x, 30000.0f, shading::PowTier::fast))
 HALFLIT_TERNARY(run_min, vmin(a, b))
 HALFLIT_TERNARY(run_max, vmax(a, b))
 HALFLIT_TERNARY(run_divide, vdiv(a, b))
@@ -126,11 +136,19 @@ static const testing::NamedUnary kUnary[] = {
     {"power 1.3", run_power_13},
     {"power 16.5", run_power_165},
     {"power 1000", run_power_1000},
+    {"display power 1.3", run_display_power_13},
+    {"display power 16.5", run_display_power_165},
+    {"fast power 1.3", run_fast_power_13},
+    {"fast power 16.5", run_fast_power_165},
     {"sharp power 100", run_sharp_power_100},
     {"sharp power 10000", run_sharp_power_10000},
     {"cosine power 2", run_cosine_power_1},
     {"cosine power 40", run_cosine_power_20},
     {"cosine power 60000", run_cosine_power_30000},
+    {"display cosine power 40", run_display_cosine_power_20},
+    {"display cosine power 60000", run_display_cosine_power_30000},
+    {"fast cosine power 40", run_fast_cosine_power_20},
+    {"fast cosine power 60000", run_fast_cosine_power_30000},
     {"srgb curve", run_srgb_curve},
     {"srgb8", run_srgb8},
     {"unorm8", run_unorm8},
