@@ -188,7 +188,7 @@ TEST_CASE("figures: an unknown name ends before anything is made, and lists the 
     }
 }
 
-TEST_CASE("figures: all of them, with an index; light across the terminator is what each shadow mode promises", "[cli][figures][slow]") {
+TEST_CASE("figures: all of them come with an index, and the terminator's profiles keep what shadow modes promise", "[cli][figures][slow]") {
     const TemporaryFolder folder;
     const Outcome outcome = run({"figures", "-o", folder.path()});
     REQUIRE(outcome.code == 0);
