@@ -1,5 +1,6 @@
 #include "shading/plan.hpp"
 
+#include "sh/power.hpp"
 #include "sh/trig.hpp"
 #include "shading/environment.hpp"
 
@@ -141,6 +142,37 @@ LightPlan plan_light(const Light& light) {
     return plan;
 }
 
+/// A point or spot light so far from the origin that float32 cannot hold the square of its distance becomes a directional one, with the
+/// strength that it has there: to 1e-7 the same for a scene within 1e12 of the origin.
+void plan_as_parallel_if_far(const Light& light, LightPlan& plan) {
+    constexpr double kFar = 1.5e19;
+    const Vec3d p{light.position_ws.x, light.position_ws.y, light.position_ws.z};
+    const double distance_squared = dot(p, p);
+    if (plan.type == LightType::directional || distance_squared < kFar * kFar) return;
+    const Vec3d to_light = p * (1.0 / __builtin_sqrt(distance_squared));
+    double strength = 1.0 / distance_squared;
+    if (light.range > 0.0f && finite(light.range)) {
+        const double in_range = distance_squared / (static_cast<double>(light.range) * static_cast<double>(light.range));
+        strength *= std::max(0.0, 1.0 - in_range * in_range);
+    }
+    if (plan.type == LightType::spot) {
+        const Vec3d off_axis = to_light - Vec3d{plan.to_light[0], plan.to_light[1], plan.to_light[2]};
+        const double off = 0.5 * dot(off_axis, off_axis);  // 1 - cos of the angle to the axis
+        const double cone = std::clamp((static_cast<double>(plan.cone_cutoff) - off) * static_cast<double>(plan.cone_scale), 0.0, 1.0);
+        strength *= cone * cone;
+        if (plan.half_cone_power > 0.0f) strength *= power_of(1.0 - off, 2.0 * static_cast<double>(plan.half_cone_power));
+    }
+    plan.type = LightType::directional;
+    plan.to_light[0] = static_cast<float>(to_light.x), plan.to_light[1] = static_cast<float>(to_light.y);
+    plan.to_light[2] = static_cast<float>(to_light.z);
+    const auto arriving = [&](float channel) {
+        const double value = static_cast<double>(channel) * strength;
+        return value > 1e-37 ? static_cast<float>(value) : 0.0f;  // denormals are slow
+    };
+    for (float& channel : plan.color) channel = arriving(channel);
+    plan.brightness = arriving(plan.brightness);
+}
+
 // ---- materials -----------------------------------------------------------------------------------------------------
 
 struct FrameFacts {
@@ -264,6 +296,7 @@ FramePlan make_frame_plan(std::span<const Material> materials, std::span<const T
         if (!contributes(lights[i])) continue;
         plan.lights.push_back(plan_light(lights[i]));
         plan.lights.back().source = static_cast<std::int32_t>(i);
+        plan_as_parallel_if_far(lights[i], plan.lights.back());
     }
     plan.ambient = ambient;
     const FrameFacts facts{!plan.lights.empty(), environment != nullptr || !zero(ambient.sky_linear) || !zero(ambient.ground_linear),
