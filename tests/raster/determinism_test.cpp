@@ -140,6 +140,48 @@ TEST_CASE("determinism: light once a triangle or once a vertex gives the same pi
     }
 }
 
+TEST_CASE("determinism: tiers, error budgets and coarser texture filters give the same pixels everywhere too", "[raster][determinism]") {
+    struct Variant {
+        const char* name;
+        shading::Accuracy accuracy;
+        double codes;
+        shading::TextureDetail detail;
+    };
+    constexpr Variant kVariants[] = {{"display", shading::Accuracy::display, 0, shading::TextureDetail::full},
+                                     {"fast", shading::Accuracy::fast, 0, shading::TextureDetail::full},
+                                     {"at most half a code", shading::Accuracy::exact, 0.5, shading::TextureDetail::full},
+                                     {"at most 8 codes", shading::Accuracy::exact, 8, shading::TextureDetail::full},
+                                     {"fast, nearest texels", shading::Accuracy::fast, 0, shading::TextureDetail::nearest}};
+    int changed = 0;
+    for (const NamedScene& s : scenes()) {
+        const Picture exact = draw(s, settings_of(shading::Isa::scalar, 1, 64, 1));
+        for (const Variant& variant : kVariants) {
+            const auto draw_by = [&](shading::Isa isa, int threads, int tile) {
+                Settings settings = settings_of(isa, threads, tile, 1);
+                settings.shading.accuracy = variant.accuracy;
+                settings.shading.max_error_codes = variant.codes;
+                settings.shading.texture_detail = variant.detail;
+                return draw(s, settings);
+            };
+            const Picture first = draw_by(shading::Isa::scalar, 1, 64);
+            changed += first == exact ? 0 : 1;
+            const auto check = [&](shading::Isa isa, int threads, int tile) {
+                INFO(s.name << ", " << variant.name << ", " << shading::isa_name(isa) << ", threads " << threads << ", tile " << tile);
+                const Picture p = draw_by(isa, threads, tile);
+                CHECK(p.hash8() == first.hash8());
+                CHECK(p.hash_linear() == first.hash_linear());
+            };
+            int tile = 16;
+            for (const shading::Isa isa : available_isas()) {
+                check(isa, 2, tile);
+                tile = tile == 64 ? 16 : 2 * tile;
+            }
+            for (const int threads : {1, 3, 5}) check(available_isas().back(), threads, threads == 3 ? 32 : 16);
+        }
+    }
+    CHECK(changed >= 20);  // of 30: the variants did something
+}
+
 TEST_CASE("determinism: a region is the same part of the whole picture, and nothing else is written", "[raster][determinism]") {
     constexpr Region kRegions[] = {{0, 0, 1, 1}, {199, 149, 1, 1}, {37, 21, 100, 77}, {0, 149, 200, 1}, {63, 0, 2, 150}, {130, 60, 70, 90}};
     for (const NamedScene& s : scenes()) {
