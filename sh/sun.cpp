@@ -9,6 +9,9 @@ namespace {
 
 constexpr int kJudgedOrder = 5;
 constexpr int kMaxCandidates = 8;
+/// Where nearly all light is the sun's, its own part of the bound hides what is left of it in the image. So of the levels whose bounds are
+/// as good as the best the lowest one is taken, and levels go on below the mean when most of that is the sun's, down to the sky.
+constexpr double kAsGood = 1.01, kAboveRest = 4.0;
 
 struct Pixel {
     int x = 0, y = 0;
@@ -162,6 +165,12 @@ Spectrum without(const State& state, const Candidate& candidate) {
     return out;
 }
 
+/// A level to cut a source at, and the bound that is to be expected then.
+struct Cut {
+    double level, bound;
+    Sun sun;
+};
+
 /// Takes what is above `level` out of the image and brings the projection up to date, unless that gains too little.
 void take(State& state, const Judge& judge, const std::vector<Pixel>& pixels, double level, const Sun& sun, double target) {
     int first = state.height, end = 0;
@@ -205,16 +214,19 @@ SunExtraction extract_suns(const EquirectView& image, const Projection& full, co
         if (!peak || !(peak->luminance > options.min_contrast * mean)) break;
         const std::vector<Pixel> pixels = source(state, *peak, mean, options.max_radius_rad, seen);
         const double target = (1.0 - options.min_gain) * state.bound;
-        double best_level = 0, best_bound = target;
-        Sun best;
-        for (double level = 0.5 * peak->luminance; level > mean; level *= 0.5) {
+        std::vector<Cut> cuts;
+        double best = target, floor = mean;
+        for (double level = 0.5 * peak->luminance; level > floor; level *= 0.5) {
             const Candidate candidate = gather(state, pixels, level);
             std::vector<Sun> suns = state.suns;
             suns.push_back(candidate.sun);
-            const double bound = judge.bound(without(state, candidate), suns);
-            if (bound < best_bound) best_level = level, best_bound = bound, best = candidate.sun;
+            cuts.push_back({level, judge.bound(without(state, candidate), suns), candidate.sun});
+            best = std::min(best, cuts.back().bound);
+            floor = std::min(mean, kAboveRest * luminance(state.projection.mean() - candidate.sun.irradiance * (0.25 / kPi)));
         }
-        if (best_level > 0) take(state, judge, pixels, best_level, best, target);
+        if (!(best < target)) continue;
+        const auto lowest = std::find_if(cuts.rbegin(), cuts.rend(), [best](const Cut& cut) { return cut.bound <= kAsGood * best; });
+        take(state, judge, pixels, lowest->level, lowest->sun, target);
     }
     SunExtraction out{std::move(state.suns), {}, std::move(state.projection)};
     if (!out.suns.empty()) out.residual_rgb = std::move(state.rgb);
