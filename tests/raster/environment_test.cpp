@@ -1,10 +1,10 @@
 // Light from an environment, from the image to the pixel: against closed forms and brute force in double.
+#include "shading/environment.hpp"
 #include "raster/renderer.hpp"
+#include "shading/kernels/shade_kernels.hpp"
 #include "tests/sh/bound_check.hpp"
 #include "tests/support/cameras.hpp"
 #include "tests/support/isas.hpp"
-#include "shading/environment.hpp"
-#include "shading/kernels/shade_kernels.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -88,7 +88,8 @@ TEST_CASE("environment: a constant sky gives its radiance times the lobe's integ
         Patches patches(normals, lobe);
         patches.scene.environment = sky;
         // f_0 = 2 scale times the integral of ((x + w) / (1 + w))^n over [-w, 1].
-        const double f0 = static_cast<double>(lobe.scale()) * 2.0 * (1.0 + static_cast<double>(lobe.wrap)) / (static_cast<double>(lobe.power) + 1.0);
+        const double f0 =
+            static_cast<double>(lobe.scale()) * 2.0 * (1.0 + static_cast<double>(lobe.wrap)) / (static_cast<double>(lobe.power) + 1.0);
         for (const int order : {0, 1, 3, 10}) {
             double worst = 0;
             for (const Vec3d& c : patches.drawn(order))
@@ -184,6 +185,67 @@ TEST_CASE("environment: turning it is turning the normals the other way, at ever
     }
 }
 
+TEST_CASE("environment: a scene that turns with its environment keeps its light, in every kernel and at every order",
+          "[raster][environment]") {
+    // Mirrored surroundings and highlights turn with the place and the eye; the sun is a light of its own.
+    Sky sky = random_sky(64, 32, 23);
+    for (std::size_t c = 0; c < 3; ++c) sky.rgb[3 * (9 * 64 + 40) + c] = 500.0f;
+    const auto straight = environment_of(sky, true);
+    REQUIRE_FALSE(straight->suns.empty());
+    std::vector<shading::Material> materials(4);
+    materials[1].lobe = as_lobe({0.5, 1.5, normalizing_scale(0.5, 1.5)});
+    materials[2].lobe = shading::Lobe::valve();
+    for (shading::Material& material : materials) material.metallic = 0, material.roughness = 1;
+    materials[3].metallic = 0.5f, materials[3].roughness = 0.6f;
+    const std::vector<shading::QuadMask> quads(materials.size(), 3u);
+    const auto normals = random_normals(shading::kBlockSize, 24), places = random_normals(shading::kBlockSize, 25);
+    const Vec3d eye{0.4, 1.1, 3.0};
+    double worst_of_all = 0;
+    for (const double angle : {0.3, 1.5707963267948966, -2.0, 5.5}) {
+        const sh::Rotation turn = sh::rotation_about_y(angle);
+        const auto turned = environment_of(sky, true, angle);
+        for (int order = 1; order <= sh::kMaxBands; ++order) {
+            shading::PlanOptions options;
+            options.environment_order.fixed = order;
+            const auto shaded = [&](const shading::Environment& environment, const sh::Rotation& by, std::size_t material,
+                                    shading::Isa isa) {
+                auto plan = shading::make_frame_plan(materials, {}, quads, environment.suns, {}, options, &environment);
+                const auto narrow = [](Vec3d v) {
+                    return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+                };
+                plan.eye_ws = narrow(by * eye);
+                shading::FragmentBlock block{};
+                for (std::size_t l = 0; l < shading::kBlockSize; ++l) {
+                    const Vec3f n = narrow(by * normals[l]), p = narrow(by * places[l]);
+                    block.lane[shading::kPosX][l] = p.x, block.lane[shading::kPosY][l] = p.y, block.lane[shading::kPosZ][l] = p.z;
+                    block.lane[shading::kNormalX][l] = n.x, block.lane[shading::kNormalY][l] = n.y, block.lane[shading::kNormalZ][l] = n.z;
+                    block.lane[shading::kFacing][l] = 1.0f;
+                }
+                shading::shade_kernels(isa).shade(plan, plan.materials[material], shading::all_lights(plan), block, shading::kBlockSize);
+                std::vector<Vec3d> out;
+                for (std::size_t l = 0; l < shading::kBlockSize; ++l) out.push_back({block.red[l], block.green[l], block.blue[l]});
+                return out;
+            };
+            for (std::size_t material = 0; material < materials.size(); ++material)
+                for (const shading::Isa isa : available_isas()) {
+                    const auto a = shaded(*straight, sh::Rotation{}, material, isa), b = shaded(*turned, turn, material, isa);
+                    double worst = 0, most = 0;
+                    for (std::size_t l = 0; l < a.size(); ++l) {
+                        worst = std::max(worst, largest_difference(a[l], b[l]));
+                        most = std::max(most, sh::largest(a[l]));
+                    }
+                    worst_of_all = std::max(worst_of_all, worst / most);
+                    INFO("angle " << angle << ", order " << order << ", material " << material << ", " << shading::isa_name(isa) << ": "
+                                  << worst / most);
+                    CHECK(most > 1);
+                    CHECK(worst <= 1e-6 * most);
+                }
+        }
+    }
+    INFO("worst " << worst_of_all);  // measured 2.9e-7 of the largest value: normals, places and coefficients are rounded to float
+    CHECK(worst_of_all > 0);
+}
+
 TEST_CASE("environment: nested polynomials keep the digits of the series, at every order", "[raster][environment]") {
     // Bands of equal size, the worst case: a real lobe weakens the upper ones. Poles and equator are the ends of the polynomials.
     auto normals = random_normals(61, 52);
@@ -255,7 +317,9 @@ TEST_CASE("environment: every instruction set gives the same bits at every order
 
 TEST_CASE("environment: orders outside 1 to 10, and tolerances that no order keeps", "[raster][environment]") {
     const auto environment = environment_of(random_sky(64, 32, 41), false);
-    const auto planned = [&](int fixed, double tolerance) { return shading::plan_environment(*environment, 0.0, 1.0, 1.0, {fixed, tolerance, 1.0}); };
+    const auto planned = [&](int fixed, double tolerance) {
+        return shading::plan_environment(*environment, 0.0, 1.0, 1.0, {fixed, tolerance, 1.0});
+    };
     CHECK(planned(99, 1e-3).bands == sh::kMaxBands);
     CHECK(planned(-5, 1e-3).bands == planned(0, 1e-3).bands);
     CHECK(planned(0, 1e9).bands == 1);
