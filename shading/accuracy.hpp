@@ -15,6 +15,9 @@ enum class Accuracy : std::uint8_t {
 /// From this power on 1 - t is taken from 1 - x, which is exact for x in [1/2, 1], instead of from t; all tiers then compute the same.
 inline constexpr float kSharpPowerMinusOne = 63.0f;
 
+/// Relative error of FramePlan::quick_roots.
+inline constexpr double kQuickRootError = 5e-6;
+
 /// Polynomials behind t^n and cos^s.
 enum class PowTier : std::uint8_t { exact, display, fast };
 
@@ -43,6 +46,7 @@ struct ErrorBound {
     double rounding = 0;     ///< float32 itself, and texture filters
     double lobes = 0;        ///< shorter polynomials for t^n
     double highlights = 0;   ///< shorter polynomials for cos^s
+    double roots = 0;        ///< inverse roots by integer arithmetic
     double environment = 0;  ///< bands left out
     double left_out = 0;     ///< lights beyond their reach and highlights too weak to see
 };

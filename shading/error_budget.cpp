@@ -87,6 +87,8 @@ Surface surface_of(const FramePlan& plan, const MaterialPlan& material, const Sc
 struct Arriving {
     double sum = 0, largest = 0;  ///< of the lights' colours times strengths
     double cone_error = 0;        ///< of the spots' cosines, in units of their cones
+    double cone_slope = 0;        ///< the same for a relative error of 1 of the direction's length
+    bool cone_power = false;
     int count = 0, local = 0;
 };
 
@@ -99,7 +101,10 @@ Arriving arriving(const FramePlan& plan, double exposure, const SceneFacts& fact
         a.largest = std::max(a.largest, most);
         ++a.count;
         a.local += light.type != LightType::directional ? 1 : 0;
-        if (light.type == LightType::spot) a.cone_error = std::max(a.cone_error, 2e-7 * light.cone_scale);
+        if (light.type != LightType::spot) continue;
+        a.cone_error = std::max(a.cone_error, 2e-7 * light.cone_scale);
+        a.cone_slope = std::max(a.cone_slope, static_cast<double>(light.cone_cutoff) * light.cone_scale);
+        a.cone_power |= light.half_cone_power > 0.0f;
     }
     return a;
 }
@@ -162,6 +167,24 @@ double highlight_tier_codes(const Surface& s, const Arriving& light, PowTier tie
     if (!s.highlight || tier == PowTier::exact) return 0.0;
     const PowErrors errors = pow_errors(tier);
     return codes_of_highlight(s.reflectance * s.normalization * light.largest, light.count, errors.exp2, errors.log2, 0.0);
+}
+
+/// A light's direction is longer or shorter by a relative error r: so is N.L, and light goes with its square.
+double roots_codes(const MaterialPlan& material, const FramePlan& plan, const Surface& s, const Arriving& light) {
+    if ((material.stages & kStageLights) == 0) return 0.0;
+    constexpr double r = kQuickRootError;
+    const double n = material.lobe.power_minus_one + 1.0, w = material.lobe.wrap, amplitude = s.albedo * material.lobe.scale * light.sum;
+    double codes = 0.0;
+    if (light.local > 0) {
+        codes += codes_of_relative((n + 2.0 + (light.cone_power ? 30.0 : 0.0)) * r);
+        if (w > 0.0) codes += codes_of_edge(amplitude, n, r * w / (1.0 + w));  // behind the terminator
+        if (light.cone_slope > 0.0) codes += codes_of_edge(amplitude, 2.0, r * light.cone_slope);
+    }
+    const double turning = plan.highlight == Highlight::phong ? 2.0 : 1.0;
+    if (s.highlight)
+        codes += codes_of_highlight(s.reflectance * s.normalization * light.largest, light.count, 4.0 * r, 8.0 * r,
+                                    turning * std::sqrt(2.0 * s.exponent) * r);
+    return codes;
 }
 
 template <class Codes>
@@ -229,6 +252,14 @@ void spend_error_budget(FramePlan& plan, double budget_codes, double exposure, c
             if (one.type != LightType::directional) one.reach_squared = static_cast<float>(reach_squared(one, least));
     }
 
+    std::vector<double> roots(plan.materials.size(), 0.0);
+    bool quick_roots = !facts.shadows && poorest > 0.0;
+    for (std::size_t i = 0; i < plan.materials.size(); ++i) {
+        roots[i] = roots_codes(plan.materials[i], plan, surface_of(plan, plan.materials[i], facts), light);
+        if (facts.drawn[i] && roots[i] > 0.3 * (budget_codes - fixed[i] - reach_codes)) quick_roots = false;
+    }
+    plan.quick_roots = quick_roots;
+
     for (std::size_t i = 0; i < plan.materials.size(); ++i) {
         MaterialPlan& material = plan.materials[i];
         const Surface s = surface_of(plan, material, facts);
@@ -236,7 +267,8 @@ void spend_error_budget(FramePlan& plan, double budget_codes, double exposure, c
         bound.rounding = rounding[i];
         bound.environment = fixed[i] - rounding[i];
         bound.left_out = reach_codes;
-        double left = budget_codes - fixed[i] - reach_codes;
+        bound.roots = quick_roots ? roots[i] : 0.0;
+        double left = budget_codes - fixed[i] - reach_codes - bound.roots;
         if (left > 0.0) {
             material.lobe.tier = cheapest_tier(0.4 * left, [&](PowTier tier) { return lobe_tier_codes(material.lobe, tier); });
             bound.lobes = lobe_tier_codes(material.lobe, material.lobe.tier);
@@ -251,7 +283,7 @@ void spend_error_budget(FramePlan& plan, double budget_codes, double exposure, c
             }
         }
         if (!facts.drawn[i]) continue;
-        bound.codes = bound.rounding + bound.lobes + bound.highlights + bound.environment + bound.left_out;
+        bound.codes = bound.rounding + bound.lobes + bound.highlights + bound.roots + bound.environment + bound.left_out;
         if (bound.codes > worst.codes) worst = bound;
     }
     worst.codes = std::min(worst.codes, 255.0);

@@ -20,6 +20,7 @@ namespace halflit::shading {
 struct SceneFacts {
     std::vector<double> light_strength;  ///< for each of the plan's lights: no surface gets more of it, times its colour; directional: 1
     std::vector<bool> drawn;             ///< for each of the plan's materials: something is made of it
+    bool shadows = false;                ///< shadow maps: what they hide is to stay the same to the last bit
     double vertex_color = 1.0;           ///< the largest channel of all vertex colours
 };
 

@@ -137,6 +137,7 @@ LightPlan plan_light(const Light& light) {
     const double cutoff = versine(outer), width = cutoff - versine(inner);
     plan.cone_cutoff = static_cast<float>(cutoff);
     plan.cone_scale = static_cast<float>(1.0 / std::max(width, 1e-30));  // inner = outer: a step
+    plan.largest_strength = 1.0f / plan.min_distance_squared;
     plan.brightness = std::max({light.color_linear.x, light.color_linear.y, light.color_linear.z});
     plan.half_cone_power = 0.5f * clamp_or_low(light.cone_power, 0.0f, 1e5f);
     return plan;
@@ -303,6 +304,7 @@ FramePlan make_frame_plan(std::span<const Material> materials, std::span<const T
                            options.highlight != Highlight::none};
     plan.highlight = options.highlight;
     plan.normalize_highlight = options.normalize_highlight;
+    plan.quick_roots = options.accuracy == Accuracy::fast;
     plan.materials.reserve(materials.size() + 1);
     for (std::size_t i = 0; i <= materials.size(); ++i)
         plan.materials.push_back(

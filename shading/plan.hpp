@@ -99,6 +99,7 @@ struct LightPlan {
     float cone_scale;            ///< spot: 1 / (cos(inner) - cos(outer)); see kernels/light_kernel.hpp
     float half_cone_power;       ///< spot: half the power of the cosine; 0: none
     float reach_squared;         ///< point, spot: left out from this distance on, squared; 0: no limit but the range
+    float largest_strength;      ///< 1 / min_distance_squared
     float brightness;            ///< the largest channel of the colour
 };
 
@@ -120,6 +121,7 @@ struct FramePlan {
     Vec3f eye_ws{0, 0, 0};              ///< perspective: camera position
     Vec3f view_direction_ws{0, 0, -1};  ///< orthographic: the way the camera looks, unit
     bool orthographic = false;
+    bool quick_roots = false;  ///< lights and highlights take inverse roots within kQuickRootError
     ErrorBound error;
 };
 

@@ -20,14 +20,21 @@ struct LocalLight {
     V3 direction;
     F strength;
 };
-HALFLIT_INLINE LocalLight local_light(const shading::LightPlan& light, V3 position) {
+HALFLIT_INLINE LocalLight local_light(const shading::LightPlan& light, V3 position, bool quick_roots) {
     const V3 offset = broadcast(light.position) - position;
     const F distance_squared = dot(offset, offset);
     // Below 1e-18 the direction has no meaning and fades to zero; an infinite distance gives strength 0.
-    const V3 direction = offset * vdiv(F(1.0f), vsqrt(vmax(distance_squared, F(1e-36f))));
     const F in_range = distance_squared * F(light.inv_range_squared);
     const F window = vmax(F(1.0f) - in_range * in_range, F(0.0f));
-    F strength = vdiv(window, vmax(distance_squared, F(light.min_distance_squared)));
+    F inverse, strength;
+    if (quick_roots) {
+        inverse = quick_inverse_root(distance_squared);
+        strength = window * vmin(inverse * inverse, F(light.largest_strength));
+    } else {
+        inverse = vdiv(F(1.0f), vsqrt(vmax(distance_squared, F(1e-36f))));
+        strength = vdiv(window, vmax(distance_squared, F(light.min_distance_squared)));
+    }
+    const V3 direction = offset * inverse;
     if (light.reach_squared > 0.0f) strength = sel(distance_squared < F(light.reach_squared), strength, F(0.0f));
     if (light.type == shading::LightType::spot) {
         // 1 - cos of the angle to the axis, as |L - A|^2 / 2: right to the last digits for narrow cones, where a difference of cosines
@@ -46,9 +53,9 @@ HALFLIT_INLINE LocalLight local_light(const shading::LightPlan& light, V3 positi
 }
 
 /// A directional light's strength is 1: times that is exact.
-HALFLIT_INLINE LocalLight arrival(const shading::LightPlan& light, V3 position) {
+HALFLIT_INLINE LocalLight arrival(const shading::LightPlan& light, V3 position, bool quick_roots) {
     LocalLight at{broadcast(light.to_light), F(1.0f)};
-    if (light.type != shading::LightType::directional) at = local_light(light, position);
+    if (light.type != shading::LightType::directional) at = local_light(light, position, quick_roots);
     return at;
 }
 
@@ -57,6 +64,7 @@ struct HighlightShape {
     shading::Highlight kind;
     shading::PowTier tier;
     float threshold;  ///< see MaterialPlan
+    bool quick_roots;
     F half_exponent;
     F normalization;
 };
@@ -84,7 +92,13 @@ HALFLIT_INLINE F highlight_value(const HighlightShape& shape, V3 normal, V3 to_e
     }
     if (!any(shines)) return F(0.0f);
     const V3 sine = cross(axis, turning);
-    const F inv_squared = vdiv(F(1.0f), vmax(squared, F(1e-30f)));
+    F inv_squared;
+    if (shape.quick_roots) {
+        const F inverse = quick_inverse_root(squared);
+        inv_squared = inverse * inverse;
+    } else {
+        inv_squared = vdiv(F(1.0f), vmax(squared, F(1e-30f)));
+    }
     const F power = power_of_cosine(shape.tier, (cosine * cosine) * inv_squared, dot(sine, sine) * inv_squared, half_exponent);
     return sel(shines, n_dot_l * power, F(0.0f));
 }
@@ -126,7 +140,7 @@ HALFLIT_INLINE LightSums sum_lights_by(const LobeValue& lobe_value_at, const sha
         const shading::LightPlan& light = lights[i];
         const bool local = light.type != shading::LightType::directional;
         LocalLight at{broadcast(light.to_light), F(1.0f)};  // not by arrival(): GCC 12 makes point lights 16 % slower of it with AVX-512
-        if (local) at = local_light(light, position);
+        if (local) at = local_light(light, position, receiver.frame.quick_roots);
         const F n_dot_l = dot(normal, at.direction);
         F diffuse = lobe_value_at(n_dot_l), specular(0.0f);
         if constexpr (kSpecular)
@@ -145,18 +159,18 @@ HALFLIT_INLINE LightSums sum_lights_by(const LobeValue& lobe_value_at, const sha
 /// added in list order.
 template <shading::PowTier kTier>
 HALFLIT_INLINE LightSums sum_lights_by_power(const shading::LobePlan& lobe, const shading::LightPlan* lights, int count, V3 position,
-                                             V3 normal) {
+                                             V3 normal, bool quick_roots) {
     LightSums sums;
     int i = 0;
     for (; i + 1 < count; i += 2) {
-        const LocalLight at = arrival(lights[i], position), next_at = arrival(lights[i + 1], position);
+        const LocalLight at = arrival(lights[i], position, quick_roots), next_at = arrival(lights[i + 1], position, quick_roots);
         const F x = dot(normal, at.direction), next_x = dot(normal, next_at.direction);
         const F value = general_lobe_value<kTier>(lobe, x), next_value = general_lobe_value<kTier>(lobe, next_x);
         sums.diffuse = sums.diffuse + broadcast(lights[i].color) * (value * at.strength);
         sums.diffuse = sums.diffuse + broadcast(lights[i + 1].color) * (next_value * next_at.strength);
     }
     if (i < count) {
-        const LocalLight at = arrival(lights[i], position);
+        const LocalLight at = arrival(lights[i], position, quick_roots);
         sums.diffuse = sums.diffuse + broadcast(lights[i].color) * (general_lobe_value<kTier>(lobe, dot(normal, at.direction)) * at.strength);
     }
     return sums;
@@ -173,11 +187,11 @@ HALFLIT_INLINE LightSums sum_lights(const shading::LightPlan* lights, int count,
             if (lobe.path == shading::LobePath::general && lobe.power_minus_one < shading::kSharpPowerMinusOne)
                 switch (lobe.tier) {
                     case shading::PowTier::exact:
-                        return sum_lights_by_power<shading::PowTier::exact>(lobe, lights, count, position, normal);
+                        return sum_lights_by_power<shading::PowTier::exact>(lobe, lights, count, position, normal, receiver.frame.quick_roots);
                     case shading::PowTier::display:
-                        return sum_lights_by_power<shading::PowTier::display>(lobe, lights, count, position, normal);
+                        return sum_lights_by_power<shading::PowTier::display>(lobe, lights, count, position, normal, receiver.frame.quick_roots);
                     case shading::PowTier::fast:
-                        return sum_lights_by_power<shading::PowTier::fast>(lobe, lights, count, position, normal);
+                        return sum_lights_by_power<shading::PowTier::fast>(lobe, lights, count, position, normal, receiver.frame.quick_roots);
                 }
             if (lobe.path == shading::LobePath::general)
                 return sum.template operator()<false>([&](F x) __attribute__((always_inline)) { return sharp_lobe_value(lobe, x); });
