@@ -1,6 +1,7 @@
 #include "apps/halflit/built_in_scenes.hpp"
 
 #include "apps/halflit/values.hpp"
+#include "raster/lights_scene.hpp"
 #include "raster/shapes.hpp"
 #include "sh/trig.hpp"
 
@@ -9,7 +10,7 @@
 namespace halflit::cli {
 namespace {
 
-constexpr std::string_view kSpherePrefix = "sphere:";
+constexpr std::string_view kSpherePrefix = "sphere:", kLightsPrefix = "lights:", kEndless = ":endless";
 
 raster::Camera touching_camera(double radius) {
     constexpr double kFovDeg = 35.0;
@@ -49,6 +50,13 @@ raster::Scene sphere_scene(std::int64_t triangles) {
 
 Result<std::optional<raster::Scene>> built_in_scene(std::string_view name) {
     if (name == "demo") return raster::demo_scene();
+    if (name.starts_with(kLightsPrefix)) {
+        const bool endless = name.ends_with(kEndless);
+        const std::string_view number = name.substr(kLightsPrefix.size(), name.size() - kLightsPrefix.size() - (endless ? kEndless.size() : 0));
+        const auto lights = parse_int(number, 1, raster::kMostHallLights);
+        if (!lights) return fail(ErrorCode::usage, std::string(name) + ": " + lights.error().message);
+        return raster::lights_scene(static_cast<int>(*lights), !endless);
+    }
     if (!name.starts_with(kSpherePrefix)) return std::nullopt;
     const auto triangles = parse_int(name.substr(kSpherePrefix.size()), 12, std::int64_t{1} << 26);
     if (!triangles) return fail(ErrorCode::usage, std::string(name) + ": " + triangles.error().message);

@@ -291,7 +291,7 @@ void add_render_options(CLI::App& app, RenderOptions& o, bool scene_required) {
     o.samples = 4;
     o.background_linear = *parse_color("#3a3f47");
     CLI::Option* scene =
-        app.add_option("SCENE", o.scene, "A .glb or .gltf file, - for standard input, or a built-in scene: demo, sphere:N (N triangles)");
+        app.add_option("SCENE", o.scene, "A .glb or .gltf file, - for standard input, or a built-in scene: demo, sphere:N (N triangles), lights:N (N lamps)");
     scene->type_name("");
     if (scene_required) scene->required();
     add_picture_flags(app, o);

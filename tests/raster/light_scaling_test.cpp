@@ -1,0 +1,59 @@
+// What many lights cost: those that reach a block of fragments, not those that there are.
+#include "raster/lights_scene.hpp"
+#include "raster/renderer.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <vector>
+
+using namespace halflit;
+using namespace halflit::raster;
+
+namespace {
+
+constexpr int kWidth = 480, kHeight = 270;
+
+struct Outcome {
+    double pairs = 0;  ///< of a light and a fragment, for each fragment
+    RenderReport report;
+    std::vector<float> linear = std::vector<float>(std::size_t{4} * kWidth * kHeight);
+};
+
+Outcome draw(const Scene& scene, double codes, int tile_size = 64) {
+    Outcome out;
+    Settings settings;
+    settings.shadows = shading::ShadowMode::off;
+    settings.tile_size = tile_size;
+    settings.shading.max_error_codes = codes;
+    const auto report = render(scene, scene.cameras.at(0), settings, {kWidth, kHeight, nullptr, out.linear.data()});
+    REQUIRE(report);
+    out.report = *report;
+    std::uint64_t pairs = 0;
+    for (const std::uint64_t lanes : report->work.light_lanes) pairs += lanes;
+    out.pairs = static_cast<double>(pairs) / static_cast<double>(report->fragments_shaded);
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("many lights: with a range, pairs of light and fragment do not grow with lamps beyond the picture", "[raster][lights]") {
+    // A point of the floor lies within the range of pi (3^2 - 0.8^2) / 2^2 = 6.6 lamps in the middle.
+    constexpr double kInRange = 6.6;
+    const double few = draw(lights_scene(64, true), 0).pairs;
+    INFO("64 lamps: " << few << " pairs a fragment");
+    CHECK(few > 0.8 * kInRange);
+    CHECK(few < 2 * kInRange);
+    for (const int lights : {256, 1024}) {
+        const Scene scene = lights_scene(lights, true);
+        const Outcome exact = draw(scene, 0), budget = draw(scene, 0.5);
+        INFO(lights << " lamps: " << exact.pairs << " pairs a fragment, " << budget.pairs << " within half a code");
+        CHECK(exact.pairs >= few);
+        CHECK(exact.pairs < 1.25 * few);  // the outermost fragments get their full number of lamps
+        CHECK(budget.pairs <= exact.pairs);
+    }
+    CHECK(draw(lights_scene(256, true), 0).pairs == Approx(draw(lights_scene(1024, true), 0).pairs).epsilon(0.02));
+}
+
+TEST_CASE("many lights: what is left out is zero: leaving lamps beyond the picture away changes no pixel", "[raster][lights]") {
+    CHECK(draw(lights_scene(1024, true), 0).linear == draw(lights_scene(400, true), 0, 16).linear);
+}
