@@ -69,13 +69,6 @@ TEST_CASE("environment: ten lobes under the shared pictures, 1,000 normals: no e
     CHECK(without_suns.more_than_two_above == 0);
 }
 
-TEST_CASE("environment: the same at a quarter of the size", "[.deep]") {
-    if (!have_environments()) HALFLIT_SKIP("no environments among the assets");
-    Choices as_is, without_suns;
-    for (const char* name : kNames) check_environment_bounds(name, 4, 1000, as_is, without_suns);
-    CHECK(without_suns.more_than_two_above == 0);
-}
-
 TEST_CASE("environment: suns of the shared pictures keep all energy and lower the bound", "[io][environment]") {
     if (!have_environments()) HALFLIT_SKIP("no environments among the assets");
     const LobeSpectrum lambert = lobe_spectrum({0.0, 1.0, 1.0});
