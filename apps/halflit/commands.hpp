@@ -23,5 +23,6 @@ struct Command {
 [[nodiscard]] Command add_lobe_command(CLI::App& root);
 [[nodiscard]] Command add_env_command(CLI::App& root);
 [[nodiscard]] Command add_figures_command(CLI::App& root);
+[[nodiscard]] Command add_trade_command(CLI::App& root);
 
 }  // namespace halflit::cli

@@ -3,6 +3,7 @@
 #include "apps/halflit/commands.hpp"
 #include "apps/halflit/figure.hpp"
 #include "apps/halflit/messages.hpp"
+#include "apps/halflit/output_folder.hpp"
 #include "apps/io/atomic_file.hpp"
 
 #include <fmt/format.h>
@@ -20,10 +21,6 @@ struct FiguresOptions {
     FigureFormat format = FigureFormat::svg;
     bool list = false;
 };
-
-Result<void> write_text(const std::string& path, const std::string& text) {
-    return io::write_file(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-}
 
 Result<void> write_list() {
     std::string text;
@@ -51,14 +48,6 @@ Result<std::vector<const FigureEntry*>> chosen_entries(const std::vector<std::st
     if (names.empty())
         for (const FigureEntry& entry : all_figures()) entries.push_back(&entry);
     return entries;
-}
-
-Result<void> make_folder(const std::string& path) {
-    std::error_code error;
-    std::filesystem::create_directories(path, error);
-    if (!error && !std::filesystem::is_directory(path, error)) error = std::make_error_code(std::errc::not_a_directory);
-    if (error) return fail(ErrorCode::io, fmt::format("{}: {}", printable(path), error.message()));
-    return {};
 }
 
 Result<MadeFigure> make_and_write(const FigureEntry& entry, const FiguresOptions& options) {
@@ -105,11 +94,7 @@ Command add_figures_command(CLI::App& root) {
     const auto options = std::make_shared<FiguresOptions>();
     app->add_option("NAME", options->names, "Which figures; without one all of them, and an index.html (see --list)")->type_name("");
     add_value(*app, "-o,--output", "DIR", "Where the files go; made where it is missing (default figures)",
-              [options](const std::string& text) -> Result<void> {
-                  if (text.empty() || text == "-") return fail(ErrorCode::usage, "expected a folder, found '" + text + "'");
-                  options->folder = text;
-                  return {};
-              });
+              [options](const std::string& text) { return assign(options->folder, parse_folder(text)); });
     add_value(*app, "--format", "svg|png",
               "Pictures on a page with their labels and caption, or one sheet without text; plots are always SVG",
               [options](const std::string& text) -> Result<void> {

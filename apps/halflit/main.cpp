@@ -47,8 +47,8 @@ int parse_and_run(int argc, char** argv) {
         "n.");
     root.require_subcommand(1);
     root.set_version_flag("--version", fmt::format("halflit {} (pixel_epoch {})", HALFLIT_VERSION, raster::kPixelEpoch));
-    const Command commands[] = {add_render_command(root), add_bench_command(root), add_info_command(root),   add_diff_command(root),
-                                add_lobe_command(root),   add_env_command(root),   add_figures_command(root)};
+    const Command commands[] = {add_render_command(root), add_bench_command(root), add_info_command(root),    add_diff_command(root),
+                                add_lobe_command(root),   add_env_command(root),   add_figures_command(root), add_trade_command(root)};
     try {
         root.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

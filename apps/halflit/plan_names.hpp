@@ -36,4 +36,24 @@ constexpr std::string_view tier_name(shading::PowTier tier) {
     return kNames[static_cast<std::size_t>(tier)];
 }
 
+constexpr std::string_view lobe_path_name(shading::LobePath path) {
+    constexpr std::string_view kNames[] = {"step", "t", "t*t", "t*sqrt(t)", "t^n, n whole", "t^n"};
+    return kNames[static_cast<std::size_t>(path)];
+}
+
+constexpr std::string_view rate_name(shading::ShadingRate rate) {
+    constexpr std::string_view kNames[] = {"flat", "gouraud", "pixel"};
+    return kNames[static_cast<std::size_t>(rate)];
+}
+
+constexpr std::string_view texture_detail_name(shading::TextureDetail detail) {
+    constexpr std::string_view kNames[] = {"full", "bilinear", "nearest"};
+    return kNames[static_cast<std::size_t>(detail)];
+}
+
+constexpr std::string_view shadow_mode_name(shading::ShadowMode mode) {
+    constexpr std::string_view kNames[] = {"off", "hard", "soft-split"};
+    return kNames[static_cast<std::size_t>(mode)];
+}
+
 }  // namespace halflit::cli

@@ -38,36 +38,6 @@ std::string_view name_of(shading::AlphaMode mode) {
     return "";
 }
 
-std::string_view name_of(shading::LobePath path) {
-    switch (path) {
-        case shading::LobePath::step:
-            return "step";
-        case shading::LobePath::linear:
-            return "t";
-        case shading::LobePath::square:
-            return "t*t";
-        case shading::LobePath::sqrt_product:
-            return "t*sqrt(t)";
-        case shading::LobePath::integer:
-            return "t^n, n whole";
-        case shading::LobePath::general:
-            return "t^n";
-    }
-    return "";
-}
-
-std::string_view name_of(shading::ShadowMode mode) {
-    switch (mode) {
-        case shading::ShadowMode::off:
-            return "off";
-        case shading::ShadowMode::hard:
-            return "hard";
-        case shading::ShadowMode::soft_split:
-            return "soft-split";
-    }
-    return "";
-}
-
 Json file_json(const io::SceneInfo& file) {
     return {{"version", file.version},
             {"generator", file.generator},
@@ -149,7 +119,7 @@ Json material_json(const shading::Material& source, const shading::FramePlan& fr
         material["lobe"] = {{"wrap", number(lobe.wrap)},
                             {"power", number(lobe.power)},
                             {"normalize", lobe.normalize},
-                            {"computed_as", name_of(plan.lobe.path)}};
+                            {"computed_as", lobe_path_name(plan.lobe.path)}};
     }
     if (plan.environment >= 0) material["environment"] = environment_json(frame, plan.environment, false, settings);
     if (plan.mirrored_environment >= 0)
@@ -224,7 +194,7 @@ Result<Json> describe_scene(const Frame& frame) {
     const shading::FramePlan& plan = *planned;
     if (plan.error.budget > 0.0) description["error_bound"] = error_bound_json(plan.error);
     description["lights_computed"] = planned_lights_json(plan);
-    description["shadows"] = name_of(frame.settings.shadows);
+    description["shadows"] = shadow_mode_name(frame.settings.shadows);
     description["materials"] = materials_json(frame, plan);
     description["warnings"] = frame.warnings;
     return description;

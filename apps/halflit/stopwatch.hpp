@@ -1,5 +1,7 @@
-// Wall-clock time.
+// Wall-clock time, and time on processors.
 #pragma once
+
+#include <time.h>
 
 #include <chrono>
 
@@ -12,6 +14,20 @@ public:
 
 private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// What all threads of the process took from processors: on a busy machine, steadier than the wall clock.
+class CpuStopwatch {
+public:
+    [[nodiscard]] double ms() const { return now_ms() - start_ms_; }
+
+private:
+    static double now_ms() {
+        struct timespec now {};
+        ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+        return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+    }
+    double start_ms_ = now_ms();
 };
 
 }  // namespace halflit::cli

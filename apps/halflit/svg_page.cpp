@@ -10,6 +10,8 @@ namespace {
 
 constexpr const char* kFont = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
 
+}  // namespace
+
 std::string base64(std::span<const std::uint8_t> bytes) {
     constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
@@ -21,8 +23,6 @@ std::string base64(std::span<const std::uint8_t> bytes) {
     }
     return text;
 }
-
-}  // namespace
 
 std::string xml_escaped(std::string_view text) {
     std::string out;

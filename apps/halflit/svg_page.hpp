@@ -12,6 +12,9 @@ namespace halflit::cli {
 /// Text for the inside of an element or attribute.
 [[nodiscard]] std::string xml_escaped(std::string_view text);
 
+/// Bytes for a data: address.
+[[nodiscard]] std::string base64(std::span<const std::uint8_t> bytes);
+
 /// How text is set. `anchor`: start, middle or end.
 struct TextStyle {
     double size = 12;

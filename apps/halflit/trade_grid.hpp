@@ -1,0 +1,65 @@
+// What `halflit trade` compares: settings that may cost accuracy, and the list of their combinations.
+#pragma once
+
+#include "raster/renderer.hpp"
+#include "shading/result.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace halflit::cli {
+
+/// A lobe for all materials, as users name it: NAME, NAME:WRAP or NAME:WRAP:POWER.
+struct TradeLobe {
+    std::string name;
+    shading::Lobe lobe;
+};
+[[nodiscard]] Result<TradeLobe> parse_trade_lobe(std::string_view text);
+
+/// One way to draw the frame.
+struct TradeChoice {
+    std::optional<std::size_t> lobe{};  ///< index into TradeSpace::lobes; none: the scene's own
+    shading::Accuracy accuracy = shading::Accuracy::exact;
+    double max_error_codes = 0.0;  ///< above 0: instead of the accuracy
+    int order = 0;                 ///< of the environment's harmonics; 0: from the bound
+    shading::ShadingRate rate = shading::ShadingRate::pixel;
+    shading::TextureDetail texture = shading::TextureDetail::full;
+    shading::ShadowMode shadows = shading::ShadowMode::soft_split;
+    int shadow_size = 2048;
+
+    friend bool operator==(const TradeChoice&, const TradeChoice&) = default;
+};
+
+/// What the scene has that can be traded, and the best of it, from which all errors are measured.
+struct TradeSpace {
+    bool environment = false, textures = false, lights = false;
+    shading::ShadowMode shadows = shading::ShadowMode::soft_split;
+    int shadow_size = 2048;
+    std::vector<TradeLobe> lobes;
+
+    [[nodiscard]] TradeChoice exact() const { return {.shadows = shadows, .shadow_size = shadow_size}; }
+    [[nodiscard]] TradeChoice reference(std::optional<std::size_t> lobe) const;
+};
+
+enum class TradeExtent : std::uint8_t {
+    quick,  ///< each setting alone, the others as in exact, and the budgets
+    usual,  ///< and the product of tier, order, rate and texture filter
+    all     ///< and that with every kind of shadow
+};
+
+/// Every combination once, exact first, for the scene's own lobe and then for each of the others. What the scene does not have is not
+/// varied.
+[[nodiscard]] std::vector<TradeChoice> trade_choices(const TradeSpace& space, TradeExtent extent);
+
+/// For people: "fast, order 3, gouraud".
+[[nodiscard]] std::string trade_name(const TradeChoice& choice, const TradeSpace& space);
+/// For `halflit render`, beyond the flags that describe the picture: "--accuracy fast --sh-order 3 --shading gouraud". Empty for exact.
+[[nodiscard]] std::string trade_flags(const TradeChoice& choice, const TradeSpace& space);
+
+/// Puts everything but the lobe into the frame's settings.
+void apply_choice(raster::Settings& settings, const TradeChoice& choice);
+
+}  // namespace halflit::cli

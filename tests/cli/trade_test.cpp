@@ -1,0 +1,262 @@
+#include "tests/cli/program.hpp"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <set>
+
+using namespace halflit::test;
+
+namespace {
+
+using Json = nlohmann::json;
+
+const std::vector<std::string> kSmall{"--size", "64x36", "--frames", "1"};
+
+Json rows_of(const std::string& folder) {
+    const auto report = Json::parse(contents(folder + "/trade.json"), nullptr, false);
+    REQUIRE(!report.is_discarded());
+    REQUIRE(report["status"] == "ok");
+    return report["rows"];
+}
+
+/// A small run; its rows.
+Json trade(const TemporaryFolder& folder, std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "trade");
+    arguments.insert(arguments.end(), kSmall.begin(), kSmall.end());
+    arguments.insert(arguments.end(), {"-o", folder.path()});
+    const Outcome outcome = run(arguments);
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    return rows_of(folder.path());
+}
+
+const Json& row_named(const Json& rows, const std::string& name) {
+    const auto found = std::find_if(rows.begin(), rows.end(), [&](const Json& row) { return row["name"] == name; });
+    INFO(name);
+    REQUIRE(found != rows.end());
+    return *found;
+}
+
+std::set<std::string> names_of(const Json& rows) {
+    std::set<std::string> names;
+    for (const Json& row : rows) names.insert(row["name"].get<std::string>());
+    return names;
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+    std::size_t n = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++n;
+    return n;
+}
+
+double time_of(const Json& row) { return row["ratio"]; }
+double error_of(const Json& row) { return row["error"]["p999"]; }
+
+}  // namespace
+
+TEST_CASE("trade: page, table and report are complete, and tell of the same rows", "[cli][trade]") {
+    const TemporaryFolder folder;
+    const Json rows = trade(folder, {"demo", "--quick", "--samples", "1", "--shadow-size", "1024"});
+    CHECK(folder.names() == std::vector<std::string>{"index.html", "trade.csv", "trade.json"});
+    const std::string csv = contents(folder.file("trade.csv")), page = contents(folder.file("index.html"));
+    CHECK(count(csv, "\n") == rows.size() + 1);
+    CHECK(page.starts_with("<!DOCTYPE html>"));
+    CHECK(page.ends_with("</body>\n</html>\n"));
+    CHECK(count(page, "<svg ") == 2);  // the plot, and the part of it within the axes
+    CHECK(count(page, "</svg>") == 2);
+    CHECK(count(page, "<tr class=") == rows.size());
+    CHECK(page.find("nan") == std::string::npos);
+    // Nothing is fetched from elsewhere.
+    CHECK(page.find("http") == page.find("http://www.w3.org"));
+    CHECK(count(page, "<img ") == count(page, "src=\"data:image/png;base64,"));
+    CHECK(count(page, "<img ") >= 5);  // reference, exact and worst, two of them with their differences
+
+    // Each setting alone, and every budget.
+    const std::set<std::string> wanted{"reference",         "exact",
+                                       "display",           "fast",
+                                       "gouraud",           "flat",
+                                       "bilinear",          "nearest",
+                                       "no shadows",        "hard shadows",
+                                       "shadow map 512",    "within 0.1 codes",
+                                       "within 0.25 codes", "within 0.5 codes",
+                                       "within 1 code",     "within 2 codes",
+                                       "within 4 codes",    "within 8 codes"};
+    const std::string exact = "exact, ";
+    std::set<std::string> found;
+    for (const std::string& name : names_of(rows)) found.insert(name.starts_with(exact) ? name.substr(exact.size()) : name);
+    CHECK(found == wanted);
+    for (const Json& row : rows) {
+        INFO(row.dump());
+        for (const char* key : {"name",
+                                "flags",
+                                "lobe",
+                                "accuracy",
+                                "max_error",
+                                "order",
+                                "orders_used",
+                                "rate",
+                                "texture_filter",
+                                "shadows",
+                                "shadow_size",
+                                "lobes_computed_as",
+                                "highlight_power",
+                                "frames",
+                                "ms",
+                                "ratio",
+                                "ratio_range",
+                                "cpu_ratio",
+                                "error",
+                                "bound",
+                                "front"})
+            CHECK(row.contains(key));
+        for (const char* key : {"max", "mean", "p999", "psnr", "share_off_by_one"}) CHECK(row["error"].contains(key));
+        CHECK(row["ms"].get<double>() > 0);
+        CHECK(time_of(row) > 0);
+        CHECK(row["error"]["mean"] <= row["error"]["max"]);
+        CHECK(error_of(row) <= row["error"]["max"]);
+        CHECK(csv.find(row["name"].get<std::string>()) != std::string::npos);
+        if (row["bound"].is_null()) continue;
+        CHECK(row["bound"]["kept"] == (row["error"]["max"] <= row["bound"]["bound_codes"]));
+        CHECK(row["bound"]["within"] == (row["bound"]["bound_codes"] <= row["max_error"]));
+    }
+    CHECK(row_named(rows, "within 0.5 codes")["flags"] == "--max-error 0.5");
+    CHECK(row_named(rows, "exact, hard shadows")["flags"] == "--shadows hard");
+    CHECK(row_named(rows, "exact, nearest")["flags"] == "--texture-filter nearest");
+    // Without shadows the balls cast none.
+    CHECK(error_of(row_named(rows, "exact, no shadows")) > 10);
+}
+
+TEST_CASE("trade: the fewer bands of an environment, the further from its integral", "[cli][trade]") {
+    const TemporaryFolder folder;
+    const Json rows =
+        trade(folder, {"sphere:500", "--env", "sky", "--env-sun", "off", "--specular", "none", "--lobe", "lambert", "--quick"});
+    double before = 1000;
+    for (int order = 1; order <= 10; ++order) {
+        const Json& row = row_named(rows, "exact, order " + std::to_string(order));
+        INFO(row.dump());
+        CHECK(row["order"] == order);
+        CHECK(row["orders_used"] == Json{order});
+        CHECK(row["flags"] == "--sh-order " + std::to_string(order));
+        // Lambert's lobe has no odd bands above the first: those add nothing. [RH01]
+        const double mean = row["error"]["mean"];
+        if (order == 4 || order == 6 || order == 8 || order == 10)
+            CHECK(mean == Approx(before).margin(0.01));
+        else
+            CHECK(mean < before);
+        before = mean;
+    }
+    CHECK(before < 1);  // the sun's edge is left
+    CHECK(row_named(rows, "exact")["order"] == "auto");
+}
+
+TEST_CASE("trade: exact is the measure of time, the reference that of error; a matte sphere is within a code", "[cli][trade]") {
+    const TemporaryFolder folder;
+    const Json rows = trade(folder, {"sphere:2000", "--specular", "none", "--quick"});
+    const Json& reference = row_named(rows, "reference");
+    CHECK(reference["error"]["max"] == 0);
+    CHECK(reference["error"]["psnr"].is_null());
+    const Json& exact = row_named(rows, "exact");
+    CHECK(exact["ratio"] == 1.0);
+    CHECK(exact["flags"] == "");
+    // float32 against float64: a few units in the seventh digit, of at most 112 codes.
+    CHECK(exact["error"]["max"].get<double>() > 0);
+    CHECK(exact["error"]["max"].get<double>() < 0.01);
+    CHECK(exact["error"]["psnr"].get<double>() > 100);
+    CHECK(row_named(rows, "display")["error"]["max"].get<double>() < 0.1);
+    CHECK(row_named(rows, "fast")["error"]["max"].get<double>() < 1);
+    CHECK(row_named(rows, "exact, flat")["error"]["share_off_by_one"].get<double>() > 0.3);
+    for (const Json& row : rows)
+        if (!row["bound"].is_null()) CHECK(row["bound"]["kept"] == true);
+    // The sphere has no texture and no environment: neither is varied.
+    for (const Json& row : rows) {
+        CHECK(row["texture_filter"] == "full");
+        CHECK(row["order"] == "auto");
+    }
+}
+
+TEST_CASE("trade: nothing else is both faster and nearer than what is on the front, and all else is dominated", "[cli][trade]") {
+    const TemporaryFolder folder;
+    const Json rows = trade(folder, {"sphere:500", "--lobes", "lambert,sloan:0.3"});
+    std::size_t on_front = 0;
+    for (const Json& row : rows) {
+        INFO(row.dump());
+        const bool dominated = std::any_of(rows.begin(), rows.end(), [&](const Json& other) {
+            return other["lobe"] == row["lobe"] && time_of(other) <= time_of(row) && error_of(other) <= error_of(row) &&
+                   (time_of(other) < time_of(row) || error_of(other) < error_of(row));
+        });
+        CHECK(row["front"] == !dominated);
+        on_front += row["front"] ? 1u : 0u;
+    }
+    CHECK(on_front >= 3);  // each lobe has one
+    std::set<std::string> lobes;
+    for (const Json& row : rows) lobes.insert(row["lobe"].get<std::string>());
+    CHECK(lobes == std::set<std::string>{"own", "lambert", "sloan:0.3"});
+    CHECK(row_named(rows, "exact, lobe lambert")["lobes_computed_as"] == Json{"t"});
+    CHECK(row_named(rows, "lobe sloan:0.3, fast")["lobes_computed_as"] == Json{"t^n (fast)"});
+    CHECK(row_named(rows, "exact, lobe sloan:0.3")["lobes_computed_as"] == Json{"t^n (exact)"});
+    // A lobe is measured from its own reference, not from the scene's own lobe.
+    CHECK(row_named(rows, "exact, lobe lambert")["error"]["max"].get<double>() < 0.5);
+}
+
+TEST_CASE("trade: the combinations are the product of what the scene has", "[cli][trade]") {
+    const auto rows_with = [](std::vector<std::string> flags) {
+        const TemporaryFolder folder;
+        flags.insert(flags.begin(), "sphere:100");
+        return trade(folder, flags).size();
+    };
+    // reference; tiers x rates; five other kinds of shadow; seven budgets.
+    const std::size_t kinds_alone = 4, budgets = 7;  // hard, off, 1024, 512
+    CHECK(rows_with({}) == 1 + 3 * 3 + kinds_alone + budgets);
+    CHECK(rows_with({"--quick"}) == 1 + 1 + 2 + 2 + kinds_alone + budgets);
+    CHECK(rows_with({"--all"}) == 1 + 3 * 3 * 7 + budgets);  // two modes of three sizes, and off
+    CHECK(rows_with({"--shadows", "off"}) == 1 + 3 * 3 + budgets);
+    CHECK(rows_with({"--shadow-size", "1024", "--quick"}) == 1 + 1 + 2 + 2 + (kinds_alone - 1) + budgets);
+}
+
+TEST_CASE("trade: progress is one line, and only where it is asked for or a terminal", "[cli][trade]") {
+    const TemporaryFolder folder;
+    std::vector<std::string> arguments{"trade", "sphere:100", "--quick", "-o", folder.path()};
+    arguments.insert(arguments.end(), kSmall.begin(), kSmall.end());
+    const Outcome silent = run(arguments);
+    CHECK(silent.err.find(" left") == std::string::npos);
+    CHECK(count(silent.err, "\n") == 3);  // the files
+    CHECK(count(silent.out, "exact takes") == 1);
+    arguments.emplace_back("--progress");
+    const Outcome told = run(arguments);
+    CHECK(told.err.find("100 %, 0 s left") != std::string::npos);
+    CHECK(count(told.err, "\n") == 3);
+    CHECK(told.err.find('\r') != std::string::npos);
+}
+
+TEST_CASE("trade: what it varies itself and what makes no sense is refused before anything is drawn", "[cli][trade]") {
+    const TemporaryFolder folder;
+    const std::vector<std::vector<std::string>> refused = {{"--accuracy", "fast"},
+                                                           {"--max-error", "1"},
+                                                           {"--texture-filter", "nearest"},
+                                                           {"--shading", "flat"},
+                                                           {"--sh-order", "3"},
+                                                           {"--quick", "--all"},
+                                                           {"--frames", "0"},
+                                                           {"--frames", "x"},
+                                                           {"-o", "-"},
+                                                           {"-o", ""},
+                                                           {"--lobes", ""},
+                                                           {"--lobes", "lambert,"},
+                                                           {"--lobes", "phong"},
+                                                           {"--lobes", "sloan:2"},
+                                                           {"--lobes", "sloan:0.5:1:1"}};
+    for (const auto& flags : refused) {
+        std::vector<std::string> arguments{"trade", "sphere:100"};
+        arguments.insert(arguments.end(), flags.begin(), flags.end());
+        const Outcome outcome = run(arguments, {.folder = folder.path()});
+        INFO(flags.front() << ": " << outcome.err);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.err.find(flags.front()) != std::string::npos);
+    }
+    CHECK(run({"trade"}, {.folder = folder.path()}).code == 2);
+    CHECK(folder.names().empty());
+    CHECK(run({"trade", "missing.glb"}, {.folder = folder.path()}).code == 4);
+    CHECK(folder.names().empty());
+}
