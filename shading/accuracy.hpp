@@ -42,7 +42,7 @@ constexpr PowErrors pow_errors(PowTier tier) {
 struct ErrorBound {
     double budget = 0;  ///< codes asked for; 0: none was, and nothing below is known
     double codes = 0;
-    bool within = true;      ///< codes <= budget; otherwise the frame is as exact as float32 gets
+    bool within = true;      ///< codes <= budget; otherwise some material's rounding alone is more, and that is computed exactly
     double rounding = 0;     ///< float32 itself, and texture filters
     double lobes = 0;        ///< shorter polynomials for t^n
     double highlights = 0;   ///< shorter polynomials for cos^s
