@@ -75,11 +75,21 @@ public:
     }
 
     [[nodiscard]] double nearest_squared(Vec3d p) const {
-        double nearest = std::numeric_limits<double>::max();
-        for (const Cluster& cluster : clusters_) {
-            if (box_distance(cluster, p) >= nearest) continue;
+        double nearest = std::numeric_limits<double>::max(), nearest_box = nearest;
+        const auto look_into = [&](const Cluster& cluster) {
             for (std::size_t i = cluster.first; i < cluster.end; ++i) nearest = std::min(nearest, distance(triangles_[i], p));
+        };
+        // The nearest box first: what is found in it rules most of the others out.
+        const Cluster* first = nullptr;
+        for (const Cluster& cluster : clusters_) {
+            const double d = box_distance(cluster, p);
+            if (first != nullptr && d >= nearest_box) continue;
+            nearest_box = d;
+            first = &cluster;
         }
+        if (first != nullptr) look_into(*first);
+        for (const Cluster& cluster : clusters_)
+            if (&cluster != first && box_distance(cluster, p) < nearest) look_into(cluster);
         return nearest;
     }
 

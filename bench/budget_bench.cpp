@@ -1,0 +1,92 @@
+// What an error budget costs and saves: random scenes drawn exactly and within half a code by turns, one thread; the shortest tile stage of
+// each, and what planning takes longer. Scenes in which the budget looks slower are measured again, ten times as often.
+//
+//     halflit_budget_bench [SCENES [WIDTH [CODES]]]      60 scenes, 320 pixels wide, 0.5 codes
+#include "raster/renderer.hpp"
+#include "tests/raster/random_trial.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+using namespace halflit;
+using namespace halflit::raster;
+
+namespace {
+
+/// Milliseconds, the shortest of several frames.
+struct Times {
+    double tiles = 1e30, plan = 1e30;
+};
+
+class Subject {
+public:
+    Subject(std::uint32_t seed, int width, double codes) : trial_(test::random_trial(seed)), width_(width), height_(width * 3 / 4) {
+        trial_.settings.threads = 1;
+        // Shadow maps take most of the frame and are the same for both.
+        trial_.settings.shadows = shading::ShadowMode::off;
+        rgba8_.resize(static_cast<std::size_t>(4 * width_ * height_));
+        budget_ = trial_.settings;
+        budget_.shading.max_error_codes = codes;
+    }
+    /// False when the scene cannot be drawn.
+    bool measure(int frames) {
+        for (int i = 0; i < frames; ++i)
+            if (!draw(trial_.settings, exact) || !draw(budget_, budget)) return false;
+        return true;
+    }
+    [[nodiscard]] double ratio() const { return budget.tiles / exact.tiles; }
+    [[nodiscard]] double planning() const { return budget.plan - exact.plan; }
+
+    Times exact, budget;
+
+private:
+    bool draw(const Settings& settings, Times& times) {
+        const auto report = renderer_.render(trial_.scene, trial_.camera, settings, {width_, height_, rgba8_.data(), nullptr});
+        if (!report) return false;
+        times.tiles = std::min(times.tiles, report->ms.tiles);
+        times.plan = std::min(times.plan, report->ms.plan);
+        return true;
+    }
+
+    test::Trial trial_;
+    int width_, height_;
+    Settings budget_;
+    Renderer renderer_;
+    std::vector<std::uint8_t> rgba8_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const int scenes = argc > 1 ? std::atoi(argv[1]) : 60, width = argc > 2 ? std::atoi(argv[2]) : 320;
+    const double codes = argc > 3 ? std::atof(argv[3]) : 0.5;
+    if (scenes < 1 || width < 16 || !(codes > 0)) {
+        std::fprintf(stderr, "halflit_budget_bench [SCENES [WIDTH [CODES]]]\n");
+        return 2;
+    }
+    constexpr int kFrames = 7;
+    double worst = 0, best = 1e30, log_sum = 0, planning_sum = 0, planning_worst = 0, saved_sum = 0;
+    int worst_seed = 0, dearer = 0;
+    for (int seed = 1; seed <= scenes; ++seed) {
+        Subject subject(static_cast<std::uint32_t>(seed), width, codes);
+        if (!subject.measure(kFrames) || (subject.ratio() > 1.02 && !subject.measure(10 * kFrames))) {
+            std::fprintf(stderr, "scene %d cannot be drawn\n", seed);
+            return 1;
+        }
+        const double saved = subject.exact.tiles - subject.budget.tiles;
+        log_sum += std::log(subject.ratio());
+        if (subject.ratio() > worst) worst = subject.ratio(), worst_seed = seed;
+        best = std::min(best, subject.ratio());
+        planning_sum += subject.planning();
+        planning_worst = std::max(planning_worst, subject.planning());
+        saved_sum += saved;
+        dearer += subject.planning() > saved ? 1 : 0;
+    }
+    std::printf("%d scenes, %d x %d, at most %g codes\n", scenes, width, width * 3 / 4, codes);
+    std::printf("tiles, budget / exact: worst %.3f (seed %d), mean %.3f, best %.3f\n", worst, worst_seed, std::exp(log_sum / scenes), best);
+    std::printf("a frame: %.3f ms of tiles saved, %.3f ms more of planning (worst %.3f); planning costs more than it saves in %d scenes\n",
+                saved_sum / scenes, planning_sum / scenes, planning_worst, dearer);
+    return 0;
+}
