@@ -29,6 +29,12 @@ std::array<Vec3d, kSpectrumBands + 1> bounds_from(const Spectrum& environment, c
     return bounds;
 }
 
+/// Of each direction's light no more is lost than of one light's.
+Vec3d by_lobe(const Spectrum& environment, const LobeSpectrum& lobe, std::size_t i) {
+    const auto part = [&](double absolute_sum) { return absolute_sum > 0 ? absolute_sum * lobe.sup[i] / kPi : 0.0; };
+    return {part(environment.absolute.x), part(environment.absolute.y), part(environment.absolute.z)};
+}
+
 }  // namespace
 
 OrderBounds order_bounds(const Spectrum& environment, const LobeSpectrum& lobe) {
@@ -57,7 +63,7 @@ OrderBounds BandGrid::order_bounds(const LobeSpectrum& lobe) const {
     const auto by_norms = bounds_from(spectrum_, lobe);
     OrderBounds out;
     for (std::size_t i = 0; i < out.by_order.size(); ++i)
-        out.by_order[i] = smaller(by_norms[i + 1], largest_sum[i] * factor + by_norms[kGridBands]);
+        out.by_order[i] = smaller(smaller(by_norms[i + 1], largest_sum[i] * factor + by_norms[kGridBands]), by_lobe(spectrum_, lobe, i));
     return out;
 }
 

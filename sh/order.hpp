@@ -7,9 +7,11 @@
 //
 // BandGrid is sharper, because bands seldom reach their largest values at one place: it looks at the sum of the bands N..23 itself, on a
 // grid. On every great circle that sum is a trigonometric polynomial of degree 23, and such a polynomial stays above cos(23 d) of its
-// maximum within the distance d of it (M. Riesz), so the grid's maximum bounds the maximum. The bands from 24 on are added as above.
+// maximum within the distance d of it (M. Riesz), so the grid's maximum bounds the maximum. The bands from 24 on are added as above. A sun
+// that was left in keeps those large; but of one direction's light no order loses more than the lobe's series is off the lobe, so the
+// integral of |L| / pi times that is a third bound, and the smallest holds.
 //
-// The error of an order is not monotone in N; the bounds are (up to the grid's), and they are what the choice goes by.
+// The error of an order is not monotone in N; the first bound is, the others nearly, and they are what the choice goes by.
 #pragma once
 
 #include "sh/project.hpp"

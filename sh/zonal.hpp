@@ -29,9 +29,10 @@ inline constexpr int kSpectrumBands = 64;
 /// A lobe's bands, and how much of it lies beyond them. Powers below 1/2 are not summable: tail_sum is then infinite.
 struct LobeSpectrum {
     std::array<double, kSpectrumBands> f{};
-    double tail_norm = 0.0;  ///< sqrt of the sum of f_l^2 (2l+1)/(4 pi) over l >= kSpectrumBands
-    double tail_sum = 0.0;   ///< sum of |f_l| (2l+1)/(4 pi) over l >= kSpectrumBands
-    double slope = 0.0;      ///< bound of |df/dtheta|; infinite for powers below 1
+    double tail_norm = 0.0;               ///< sqrt of the sum of f_l^2 (2l+1)/(4 pi) over l >= kSpectrumBands
+    double tail_sum = 0.0;                ///< sum of |f_l| (2l+1)/(4 pi) over l >= kSpectrumBands
+    double slope = 0.0;                   ///< bound of |df/dtheta|; infinite for powers below 1
+    std::array<double, kMaxBands> sup{};  ///< [N - 1]: bound of |f less its bands 0..N-1| at any angle; infinite for powers below 1
 };
 
 /// Bands 0..9, scale included. Bands below 8 eps f_0 are 0, so that Valve's lobe is recognised as order 3, Green's w = 1 as order 2.

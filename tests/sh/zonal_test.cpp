@@ -157,6 +157,21 @@ TEST_CASE("zonal: the claimed slope is at least the lobe's", "[sh][zonal]") {
     CHECK(std::isinf(lobe_spectrum({0.5, 0.5, 1.0}).slope));
 }
 
+TEST_CASE("zonal: the claimed largest error of each order is the series', from above by little", "[sh][zonal]") {
+    for (const double w : {0.0, 0.25, 0.5, 0.9, 1.0})
+        for (const double n : {1.0, 1.3, 2.0, 4.0}) {
+            const WrapLobe lobe{w, n, 1.5};
+            const LobeSpectrum spectrum = lobe_spectrum(lobe);
+            for (int order = 1; order <= kMaxBands; ++order) {
+                const double sup = truncation_error(lobe, order).sup, claimed = spectrum.sup[static_cast<std::size_t>(order - 1)];
+                INFO("w " << w << " n " << n << " order " << order << " error " << sup << " claimed " << claimed);
+                CHECK(claimed >= sup);
+                CHECK(claimed <= sup + 1e-3 * spectrum.slope);
+            }
+        }
+    CHECK(std::isinf(lobe_spectrum({0.5, 0.5, 1.0}).sup[2]));
+}
+
 TEST_CASE("lobe error: the L2 errors of the general lobe at order 3 and 6", "[sh][zonal]") {
     const struct {
         double a, e3, e6;
