@@ -248,8 +248,13 @@ void spend_error_budget(FramePlan& plan, double budget_codes, double exposure, c
     if (light.local > 0 && poorest > 0.0 && most_reflected > 0.0) {
         reach_codes = 0.25 * poorest;
         const double least = reach_codes / (kSlopeAtBlack * exposure * most_reflected * light.local);
-        for (LightPlan& one : plan.lights)
-            if (one.type != LightType::directional) one.reach_squared = static_cast<float>(reach_squared(one, least));
+        for (std::size_t i = 0; i < plan.lights.size(); ++i) {
+            LightPlan& one = plan.lights[i];
+            if (one.type == LightType::directional) continue;
+            const double reach = reach_squared(one, least);
+            // One that ends beyond all there is would be compared with every fragment for nothing.
+            one.reach_squared = reach < facts.light_farthest_squared[i] ? static_cast<float>(reach) : 0.0f;
+        }
     }
 
     std::vector<double> roots(plan.materials.size(), 0.0);

@@ -19,6 +19,7 @@ namespace halflit::shading {
 /// What the shading model cannot know of a scene.
 struct SceneFacts {
     std::vector<double> light_strength;  ///< for each of the plan's lights: no surface gets more of it, times its colour; directional: 1
+    std::vector<double> light_farthest_squared;  ///< likewise: no surface is farther from it, squared
     std::vector<bool> drawn;             ///< for each of the plan's materials: something is made of it
     bool shadows = false;                ///< shadow maps: what they hide is to stay the same to the last bit
     double vertex_color = 1.0;           ///< the largest channel of all vertex colours

@@ -143,10 +143,10 @@ LightPlan plan_light(const Light& light) {
     return plan;
 }
 
-/// A point or spot light so far from the origin that float32 cannot hold the square of its distance becomes a directional one, with the
-/// strength that it has there: to 1e-7 the same for a scene within 1e12 of the origin.
+/// A point or spot light so far from the origin that float32 cannot hold the square of its distance, or its inverse, becomes a directional one, with the
+/// strength that it has there: to 1e-7 the same for a scene within 1e11 of the origin.
 void plan_as_parallel_if_far(const Light& light, LightPlan& plan) {
-    constexpr double kFar = 1.5e19;
+    constexpr double kFar = 1e18;
     const Vec3d p{light.position_ws.x, light.position_ws.y, light.position_ws.z};
     const double distance_squared = dot(p, p);
     if (plan.type == LightType::directional || distance_squared < kFar * kFar) return;
