@@ -151,7 +151,7 @@ TEST_CASE("trade: the fewer bands of an environment, the further from its integr
     CHECK(row_named(rows, "exact")["order"] == "auto");
 }
 
-TEST_CASE("trade: exact is the measure of time, the reference that of error; a matte sphere is within a code", "[cli][trade]") {
+TEST_CASE("trade: exact is the measure of time, the reference that of error, and a matte sphere is within a code", "[cli][trade]") {
     const TemporaryFolder folder;
     const Json rows = trade(folder, {"sphere:2000", "--specular", "none", "--quick"});
     const Json& reference = row_named(rows, "reference");

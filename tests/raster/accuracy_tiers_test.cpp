@@ -74,7 +74,7 @@ Settings usual_settings() {
 
 }  // namespace
 
-TEST_CASE("tiers: display is at most one code from exact, in few places; fast is within its polynomials' bound", "[raster][accuracy]") {
+TEST_CASE("tiers: display is at most one code from exact, in few places, and fast is within its polynomials' bound", "[raster][accuracy]") {
     Difference display_all, fast_all;
     for (const NamedScene& s : all_scenes()) {
         const Picture exact = draw(s.scene, s.camera, usual_settings(), Accuracy::exact);
