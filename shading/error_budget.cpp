@@ -201,6 +201,12 @@ double environment_codes(const FramePlan& plan, const MaterialPlan& material) {
     return codes;
 }
 
+/// Whether highlights are below the threshold at 45 degrees from their middle: if not, looking costs more than it saves.
+bool highlights_end(const FramePlan& plan, const Surface& s, double largest, double threshold) {
+    const double z = 0.25 * s.exponent * (plan.highlight == Highlight::phong ? 0.25 : 1.0), z2 = z * z, z4 = z2 * z2;
+    return 40320.0 * largest * s.normalization <= threshold * z4 * z4;
+}
+
 /// The squared distance from which on `brightness` times strength is below `least`; 0: none, or beyond the range.
 double reach_squared(const LightPlan& light, double least) {
     const double range = light.inv_range_squared > 0.0f ? 1.0 / light.inv_range_squared : 0.0;
@@ -281,9 +287,9 @@ void spend_error_budget(FramePlan& plan, double budget_codes, double exposure, c
             material.highlight_tier = cheapest_tier(0.5 * left, [&](PowTier tier) { return highlight_tier_codes(s, light, tier); });
             bound.highlights = highlight_tier_codes(s, light, material.highlight_tier);
             left -= bound.highlights;
-            if (s.highlight && light.count > 0) {
-                const double spent = 0.98 * left;
-                material.highlight_threshold = static_cast<float>(std::min(1e30, spent / (kSlopeAtBlack * exposure * s.reflectance * light.count)));
+            const double spent = 0.98 * left, threshold = spent / (kSlopeAtBlack * exposure * s.reflectance * light.count);
+            if (s.highlight && light.count > 0 && highlights_end(plan, s, light.largest / exposure, threshold)) {
+                material.highlight_threshold = static_cast<float>(std::min(1e30, threshold));
                 bound.left_out += spent;
             }
         }
