@@ -6,16 +6,23 @@ extern const Elementary elementary_scalar, elementary_sse2, elementary_sse41, el
 
 const Elementary& elementary(shading::Isa isa) {
     switch (isa) {
-#if defined(__x86_64__)
+#ifdef HALFLIT_HAVE_SSE2
         case shading::Isa::sse2:
             return elementary_sse2;
+#endif
+#ifdef HALFLIT_HAVE_SSE41
         case shading::Isa::sse41:
             return elementary_sse41;
+#endif
+#ifdef HALFLIT_HAVE_AVX2
         case shading::Isa::avx2:
             return elementary_avx2;
+#endif
+#ifdef HALFLIT_HAVE_AVX512
         case shading::Isa::avx512:
             return elementary_avx512;
-#elif defined(__aarch64__)
+#endif
+#ifdef HALFLIT_HAVE_NEON64
         case shading::Isa::neon64:
             return elementary_neon64;
 #endif

@@ -6,16 +6,23 @@ extern const LobeCurve lobe_curve_scalar, lobe_curve_sse2, lobe_curve_sse41, lob
 
 LobeCurve lobe_curve(shading::Isa isa) {
     switch (isa) {
-#if defined(__x86_64__)
+#ifdef HALFLIT_HAVE_SSE2
         case shading::Isa::sse2:
             return lobe_curve_sse2;
+#endif
+#ifdef HALFLIT_HAVE_SSE41
         case shading::Isa::sse41:
             return lobe_curve_sse41;
+#endif
+#ifdef HALFLIT_HAVE_AVX2
         case shading::Isa::avx2:
             return lobe_curve_avx2;
+#endif
+#ifdef HALFLIT_HAVE_AVX512
         case shading::Isa::avx512:
             return lobe_curve_avx512;
-#elif defined(__aarch64__)
+#endif
+#ifdef HALFLIT_HAVE_NEON64
         case shading::Isa::neon64:
             return lobe_curve_neon64;
 #endif
