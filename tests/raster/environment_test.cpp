@@ -197,7 +197,7 @@ TEST_CASE("environment: a scene that turns with its environment keeps its light,
     materials[2].lobe = shading::Lobe::valve();
     for (shading::Material& material : materials) material.metallic = 0, material.roughness = 1;
     materials[3].metallic = 0.5f, materials[3].roughness = 0.6f;
-    const std::vector<shading::QuadMask> quads(materials.size(), 3u);
+    const std::vector<shading::QuadMask> quads(materials.size() + 1, 3u);
     const auto normals = random_normals(shading::kBlockSize, 24), places = random_normals(shading::kBlockSize, 25);
     const Vec3d eye{0.4, 1.1, 3.0};
     double worst_of_all = 0;
