@@ -1,6 +1,7 @@
 // What shading costs a fragment and light: every path of the lobe, every kind of light, on every instruction set that this processor has,
 // measured in short slices in random order, so that whatever else the machine does falls on all rows alike.
 #include "bench/ratio_table.hpp"
+#include "shading/kernels/isa_select.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -30,30 +31,7 @@ struct Column {
 };
 
 const BareKernels& bare_kernels(shading::Isa isa) {
-    switch (isa) {
-#ifdef HALFLIT_HAVE_SSE2
-        case shading::Isa::sse2:
-            return bare_kernels_sse2;
-#endif
-#ifdef HALFLIT_HAVE_SSE41
-        case shading::Isa::sse41:
-            return bare_kernels_sse41;
-#endif
-#ifdef HALFLIT_HAVE_AVX2
-        case shading::Isa::avx2:
-            return bare_kernels_avx2;
-#endif
-#ifdef HALFLIT_HAVE_AVX512
-        case shading::Isa::avx512:
-            return bare_kernels_avx512;
-#endif
-#ifdef HALFLIT_HAVE_NEON64
-        case shading::Isa::neon64:
-            return bare_kernels_neon64;
-#endif
-        default:
-            return bare_kernels_scalar;
-    }
+    HALFLIT_RETURN_TABLE_OF(isa, bare_kernels)
 }
 
 std::vector<Column> columns() {

@@ -51,13 +51,12 @@ std::vector<EnvironmentUse> environment_uses(const Frame& frame) {
 /// Of the materials that light meets, each warning once.
 void add_lobe_warnings(const Frame& frame, std::vector<std::string>& warnings) {
     const shading::PlanOptions& options = frame.settings->shading;
+    const shading::Material without;
     for (const Draw& draw : frame.draws) {
         const auto index = static_cast<std::size_t>(draw.material);
         if ((frame.plan.materials[index].stages & (shading::kStageLights | shading::kStageEnvironment)) == 0) continue;
         const bool listed = index < frame.scene->materials.size();
-        const bool own = listed && frame.scene->materials[index].has_own_lobe;
-        const shading::Lobe lobe = options.override_lobe && !own ? options.lobe : listed ? frame.scene->materials[index].lobe : shading::Lobe{};
-        std::string warning = shading::lobe_warning(lobe);
+        std::string warning = shading::lobe_warning(shading::lobe_of(listed ? frame.scene->materials[index] : without, options));
         if (!warning.empty() && std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
             warnings.push_back(std::move(warning));
     }

@@ -4,6 +4,7 @@
 #include "sh/trig.hpp"
 #include "sh/zonal.hpp"
 #include "shading/error_budget.hpp"
+#include "shading/material.hpp"
 
 #include <algorithm>
 #include <array>
@@ -70,6 +71,11 @@ std::array<double, sh::kMaxBands> bounds_in_codes(const Environment& environment
 }
 
 }  // namespace
+
+sh::WrapLobe mirrored_lobe(float roughness) {
+    const double power = std::max(1.0, highlight_exponent(static_cast<double>(roughness)) * 0.25);
+    return {0.0, power, 0.5 * (power + 1.0)};
+}
 
 Environment make_environment(const sh::EquirectView& image, const EnvironmentOptions& options) {
     const sh::Projection whole(image);

@@ -34,6 +34,10 @@ struct EnvironmentOptions {
     bool keep_light = false;   ///< for Accuracy::reference
 };
 
+/// What a rough surface mirrors: a cosine power about the mirrored view, with a quarter of the highlight's exponent, because
+/// the mirrored direction turns twice as fast as the half vector. Normalised.
+[[nodiscard]] sh::WrapLobe mirrored_lobe(float roughness);
+
 [[nodiscard]] Environment make_environment(const sh::EquirectView& image, const EnvironmentOptions& options = {});
 
 /// For a lobe (w, n) with its scale: bands by the stable recurrence, order by the bound.

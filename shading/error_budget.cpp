@@ -75,9 +75,7 @@ Surface surface_of(const FramePlan& plan, const MaterialPlan& material, const Sc
     s.albedo = color;
     s.highlight = has(kStageSpecular) && has(kStageLights);
     s.reflectance = material.metallic > 0.0f ? std::max(0.04, color) : 0.04;
-    const double roughness = has(kStageMetallicRoughnessTexture) ? 0.07 : std::max(0.07, static_cast<double>(material.roughness));
-    const double alpha = roughness * roughness;
-    s.exponent = 2.0 / (alpha * alpha) - 2.0;
+    s.exponent = highlight_exponent(has(kStageMetallicRoughnessTexture) ? 0.0 : static_cast<double>(material.roughness));
     s.normalization = plan.normalize_highlight ? (s.exponent + 8.0) / 8.0 : 1.0;
     s.cosine_error = has(kStageNormalMap) ? kMappedCosineError * std::max(1.0, static_cast<double>(std::fabs(material.normal_scale))) : kCosineError;
     return s;
@@ -240,10 +238,11 @@ void spend_error_budget(FramePlan& plan, double budget_codes, double exposure, c
     ErrorBound worst;
 
     // The parts that nothing can change, and what the poorest material has left for the lights' reach, which is one for all.
+    std::vector<Surface> surfaces;
     std::vector<double> rounding, fixed;
     double poorest = budget_codes, most_reflected = 0.0;
     for (const MaterialPlan& material : plan.materials) {
-        const Surface s = surface_of(plan, material, facts);
+        const Surface& s = surfaces.emplace_back(surface_of(plan, material, facts));
         rounding.push_back(rounding_codes(material, plan, s, light, exposure));
         fixed.push_back(rounding.back() + environment_codes(plan, material));
         if (!facts.drawn[rounding.size() - 1]) continue;
@@ -266,14 +265,14 @@ void spend_error_budget(FramePlan& plan, double budget_codes, double exposure, c
     std::vector<double> roots(plan.materials.size(), 0.0);
     bool quick_roots = !facts.shadows && poorest > 0.0;
     for (std::size_t i = 0; i < plan.materials.size(); ++i) {
-        roots[i] = roots_codes(plan.materials[i], plan, surface_of(plan, plan.materials[i], facts), light);
+        roots[i] = roots_codes(plan.materials[i], plan, surfaces[i], light);
         if (facts.drawn[i] && roots[i] > 0.3 * (budget_codes - fixed[i] - reach_codes)) quick_roots = false;
     }
     plan.quick_roots = quick_roots;
 
     for (std::size_t i = 0; i < plan.materials.size(); ++i) {
         MaterialPlan& material = plan.materials[i];
-        const Surface s = surface_of(plan, material, facts);
+        const Surface& s = surfaces[i];
         ErrorBound bound;
         bound.rounding = rounding[i];
         bound.environment = fixed[i] - rounding[i];

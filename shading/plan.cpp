@@ -208,7 +208,7 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
     plan.alpha_mode = material.alpha_mode;
     plan.alpha_cutoff = material.alpha_cutoff;
     plan.highlight_tier = tier_of(options.accuracy);
-    plan.lobe = plan_lobe(options.override_lobe && !material.has_own_lobe ? options.lobe : material.lobe, plan.highlight_tier);
+    plan.lobe = plan_lobe(lobe_of(material, options), plan.highlight_tier);
 
     const bool lit = !material.unlit && (frame.lights || frame.ambient);
     plan.double_sided = material.double_sided && lit;
@@ -255,16 +255,14 @@ public:
         return find({lobe.wrap, static_cast<double>(lobe.power_minus_one) + 1.0, lobe.scale}, order_);
     }
 
-    /// What a rough surface mirrors: a cosine power about the mirrored view, with a quarter of the highlight's exponent, because
-    /// the mirrored direction turns twice as fast as the half vector. A stand-in for reflections, so twice the error is allowed.
+    /// A stand-in for reflections, so twice the error is allowed.
     int mirrored(float roughness) {
-        const double alpha = std::max(static_cast<double>(roughness), 0.07), alpha2 = alpha * alpha;
-        const double power = std::max(1.0, (2.0 / (alpha2 * alpha2) - 2.0) * 0.25);
+        const sh::WrapLobe lobe = mirrored_lobe(roughness);
         EnvironmentOrder order = order_;
         order.tolerance *= 2.0;
         order.codes *= 0.5;
         order.ten_bands_are_all = true;
-        return find({0.0, power, 0.5 * (power + 1.0)}, order);
+        return find({lobe.wrap, lobe.power, lobe.scale}, order);
     }
 
 private:

@@ -154,6 +154,11 @@ struct PlanOptions {
     TextureDetail texture_detail = TextureDetail::full;
 };
 
+/// The lobe that a material is drawn with.
+[[nodiscard]] inline const Lobe& lobe_of(const Material& material, const PlanOptions& options) {
+    return options.override_lobe && !material.has_own_lobe ? options.lobe : material.lobe;
+}
+
 /// Materials without vertex data that they ask for (texture coordinates, colours, tangents) must be planned without it:
 /// `available_quads[i]` is the union of what the primitives of material i bring.
 [[nodiscard]] FramePlan make_frame_plan(std::span<const Material> materials, std::span<const Texture> textures,

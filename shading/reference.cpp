@@ -120,28 +120,22 @@ Vec3d shading_normal(const Frame& frame, const Material& material, QuadMask avai
 
 Vec3d lit(const Frame& frame, const Material& material, const Surface& surface, Vec3d position, const Surroundings& around) {
     const bool specular = frame.options.highlight != Highlight::none;
-    const Lobe& lobe = frame.options.override_lobe && !material.has_own_lobe ? frame.options.lobe : material.lobe;
+    const Lobe& lobe = lobe_of(material, frame.options);
     const double alpha = std::pow(std::max(surface.roughness, 0.07), 2.0), s = 2.0 / (alpha * alpha) - 2.0;
     Vec3d sum{};
     for (std::size_t i = 0; i < frame.lights.size(); ++i) {
         const Light& light = frame.lights[i];
         const Arrival at = arrival(light, position);
         const double n_dot_l = dot(surface.normal, at.direction);
-        const double core_hidden = around.hidden_core.empty() ? 0.0 : around.hidden_core[i];
-        const double excess_hidden = around.hidden_excess.empty() ? 0.0 : around.hidden_excess[i];
-        // Split before the lobe's scale, as the kernels do.
-        const double normalization = lobe.normalize ? (double{lobe.power} + 1.0) / (2.0 * (1.0 + double{lobe.wrap})) : 1.0;
-        const double whole = lobe_value(lobe, n_dot_l) / normalization;
-        const double core = frame.shadow_mode == ShadowMode::soft_split ? std::min(whole, std::max(n_dot_l, 0.0)) : whole;
-        const double seen = core * (1.0 - core_hidden) + (whole - core) * (1.0 - excess_hidden);
-        Vec3d reflected = scale(surface.albedo, normalization * seen);
+        const Hidden hidden = around.hidden.empty() ? Hidden{} : around.hidden[i];
+        Vec3d reflected = scale(surface.albedo, shadowed_lobe(lobe, n_dot_l, hidden, frame.shadow_mode));
         if (specular && n_dot_l > 0) {
             const bool phong = frame.options.highlight == Highlight::phong;
             const Vec3d mirrored = scale(surface.normal, 2 * n_dot_l) - at.direction;
             const double cosine = phong ? dot(surface.to_eye, unit(mirrored)) : dot(surface.normal, unit(at.direction + surface.to_eye));
             const double factor = frame.options.normalize_highlight ? (s + 8) / 8 : 1.0;
             if (cosine > 0)
-                reflected = reflected + scale(surface.f0, factor * std::pow(std::min(cosine, 1.0), phong ? s / 4 : s) * n_dot_l * (1.0 - core_hidden));
+                reflected = reflected + scale(surface.f0, factor * std::pow(std::min(cosine, 1.0), phong ? s / 4 : s) * n_dot_l * (1.0 - hidden.hard));
         }
         sum = sum + scale(reflected * to_double(light.color_linear), at.strength);
     }

@@ -6,6 +6,7 @@
 #include "shading/light.hpp"
 #include "shading/material.hpp"
 #include "shading/plan.hpp"
+#include "shading/reference_shadow.hpp"
 #include "shading/texture.hpp"
 
 #include <span>
@@ -37,8 +38,8 @@ struct Frame {
 
 /// What belongs to one fragment besides its block's rows.
 struct Surroundings {
-    /// For each light, what shadows hide of the lobe's core and of its excess; empty: nothing.
-    std::span<const double> hidden_core, hidden_excess;
+    /// For each light, what shadows hide of it; empty: nothing.
+    std::span<const Hidden> hidden;
     /// Instead of the two-colour ambient light, where both are given: of a normal, and of the mirrored view.
     const Irradiance* diffuse = nullptr;
     const Irradiance* mirrored = nullptr;

@@ -112,8 +112,8 @@ Vec3d DirectIrradiance::at(Vec3d normal) const {
     return sum;
 }
 
-BandIrradiance::BandIrradiance(const Environment& environment, double wrap, double power, double scale)
-    : bands_(sh::convolve(environment.radiance, sh::zonal_bands({wrap, power, scale}), sh::kMaxBands)) {}
+BandIrradiance::BandIrradiance(const Environment& environment, const sh::WrapLobe& lobe)
+    : bands_(sh::convolve(environment.radiance, sh::zonal_bands(lobe), sh::kMaxBands)) {}
 
 Vec3d BandIrradiance::at(Vec3d normal) const {
     const Vec3d sum = sh::evaluate(bands_, normal);

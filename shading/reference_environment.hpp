@@ -26,7 +26,7 @@ private:
 /// The ten bands that mirrored surroundings are made of, by definition, summed in double.
 class BandIrradiance final : public Irradiance {
 public:
-    BandIrradiance(const Environment& environment, double wrap, double power, double scale);
+    BandIrradiance(const Environment& environment, const sh::WrapLobe& lobe);
     [[nodiscard]] Vec3d at(Vec3d normal) const override;
 
 private:

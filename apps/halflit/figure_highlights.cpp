@@ -14,12 +14,6 @@ using shading::Highlight;
 
 constexpr float kRoughness = 0.35f;
 
-/// s = 2 / roughness^4 - 2.
-double blinn_exponent() {
-    const double alpha = static_cast<double>(kRoughness) * static_cast<double>(kRoughness);
-    return 2.0 / (alpha * alpha) - 2.0;
-}
-
 shading::Material lacquer() {
     shading::Material material = matte(shading::Lobe::lambert(), {0.20f, 0.035f, 0.03f});
     material.roughness = kRoughness;
@@ -54,7 +48,7 @@ Shot floor_shot(Highlight highlight) {
 /// Brightness over the angle by which the normal leaves the half vector, when the eye looks into the mirrored light at an incidence of
 /// `incidence_deg`: in the plane of eye and light, or across it.
 PlotSeries shape(std::string name, bool phong, bool across, double incidence_deg) {
-    const double s = blinn_exponent(), cos_i = std::cos(incidence_deg * kPi / 180.0);
+    const double s = shading::highlight_exponent(static_cast<double>(kRoughness)), cos_i = std::cos(incidence_deg * kPi / 180.0);
     PlotSeries series{.name = std::move(name), .points = {}, .color = phong ? "#d55e00" : "#0072b2", .dash = phong ? "" : "6 3"};
     for (int i = -120; i <= 120; ++i) {
         const double degrees = i / 4.0, c = std::cos(degrees * kPi / 180.0);
@@ -90,7 +84,7 @@ Result<Figure> make_highlights_figure() {
                                          "not do. On the ball the two are alike; "
                                          "at grazing angles Blinn's highlight grows long, as on a wet road, while Phong's stays round. One "
                                          "directional light of strength 1.5.",
-                                         static_cast<double>(kRoughness), blinn_exponent()),
+                                         static_cast<double>(kRoughness), shading::highlight_exponent(static_cast<double>(kRoughness))),
                   .parts = {std::move(*pictures), std::move(plots)}};
 }
 

@@ -115,7 +115,7 @@ Json material_json(const shading::Material& source, const shading::FramePlan& fr
         ((plan.stages >> bit & 1u) != 0 ? needed : not_needed).push_back(kStageNames[bit]);
     Json material{{"name", source.name}, {"alpha", name_of(plan.alpha_mode)}, {"double_sided", plan.double_sided}};
     if (plan.stages & (shading::kStageLights | shading::kStageEnvironment)) {
-        const shading::Lobe lobe = options.override_lobe && !source.has_own_lobe ? options.lobe : source.lobe;
+        const shading::Lobe& lobe = shading::lobe_of(source, options);
         material["lobe"] = {{"wrap", number(lobe.wrap)},
                             {"power", number(lobe.power)},
                             {"normalize", lobe.normalize},

@@ -27,10 +27,8 @@ Result<void> ReferenceShading::build(const Scene& scene, const shading::FramePla
     if (scene.environment == nullptr) return {};
     for (std::size_t i = 0; i < plan.materials.size(); ++i) {
         const shading::Material& material = i < scene.materials.size() ? scene.materials[i] : no_material_;
-        diffuse_[i] = diffuse(scene, options.override_lobe && !material.has_own_lobe ? options.lobe : material.lobe);
-        const double alpha = std::max(static_cast<double>(plan.materials[i].roughness), 0.07), alpha2 = alpha * alpha;
-        const double power = std::max(1.0, (2.0 / (alpha2 * alpha2) - 2.0) * 0.25);
-        mirrored_[i] = std::make_shared<reference::BandIrradiance>(*scene.environment, 0.0, power, 0.5 * (power + 1.0));
+        diffuse_[i] = diffuse(scene, shading::lobe_of(material, options));
+        mirrored_[i] = std::make_shared<reference::BandIrradiance>(*scene.environment, shading::mirrored_lobe(plan.materials[i].roughness));
     }
     return {};
 }
@@ -40,15 +38,15 @@ void ReferenceShading::shade(const shading::ShadeKernels& kernels, const shading
     const auto index = static_cast<std::size_t>(material);
     const shading::MaterialPlan& material_plan = plan.materials[index];
     const shading::Material& source = index < scene_->materials.size() ? scene_->materials[index] : no_material_;
-    std::vector<double> core(scene_->lights.size() * shading::kBlockSize), excess(core.size());
+    std::vector<reference::Hidden> hidden(plan.shadow_maps.empty() ? 0 : scene_->lights.size() * shading::kBlockSize);
     for (const shading::LightPlan& light : plan.lights) {
         if (light.shadow_map < 0) continue;
-        alignas(64) float hidden[2][shading::kBlockSize];
-        kernels.hidden(plan, material_plan, light, block, count, hidden[0], hidden[1]);
+        alignas(64) float core[shading::kBlockSize], excess[shading::kBlockSize];
+        kernels.hidden(plan, material_plan, light, block, count, core, excess);
         for (std::size_t lane = 0; lane < static_cast<std::size_t>(count); ++lane) {
-            const std::size_t at = lane * scene_->lights.size() + static_cast<std::size_t>(light.source);
-            core[at] = static_cast<double>(hidden[0][lane]);
-            excess[at] = static_cast<double>(hidden[1][lane]);
+            reference::Hidden& share = hidden[lane * scene_->lights.size() + static_cast<std::size_t>(light.source)];
+            share.hard = static_cast<double>(core[lane]);
+            share.soft = static_cast<double>(excess[lane]);
         }
     }
     reference::Surroundings around;
@@ -57,9 +55,8 @@ void ReferenceShading::shade(const shading::ShadeKernels& kernels, const shading
     reference::Frame frame = frame_;
     frame.shadow_mode = plan.shadow_mode;
     for (int lane = 0; lane < count; ++lane) {
-        const std::size_t first = static_cast<std::size_t>(lane) * scene_->lights.size();
-        around.hidden_core = std::span(core).subspan(first, scene_->lights.size());
-        around.hidden_excess = std::span(excess).subspan(first, scene_->lights.size());
+        if (!hidden.empty())
+            around.hidden = std::span(hidden).subspan(static_cast<std::size_t>(lane) * scene_->lights.size(), scene_->lights.size());
         const reference::Rgba color = reference::shade(frame, source, available_[index], block, lane, around);
         block.red[lane] = static_cast<float>(color.r);
         block.green[lane] = static_cast<float>(color.g);

@@ -1,4 +1,5 @@
 #include "shading/kernels/isa.hpp"
+#include "shading/kernels/isa_select.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 
 #include <cstdlib>
@@ -105,30 +106,7 @@ Result<Isa> isa_by_name(std::string_view name) {
 
 const ShadeKernels& shade_kernels(Isa isa) {
     HALFLIT_ASSERT(isa_available(isa));
-    switch (isa) {
-#ifdef HALFLIT_HAVE_SSE2
-        case Isa::sse2:
-            return shade_kernels_sse2;
-#endif
-#ifdef HALFLIT_HAVE_SSE41
-        case Isa::sse41:
-            return shade_kernels_sse41;
-#endif
-#ifdef HALFLIT_HAVE_AVX2
-        case Isa::avx2:
-            return shade_kernels_avx2;
-#endif
-#ifdef HALFLIT_HAVE_AVX512
-        case Isa::avx512:
-            return shade_kernels_avx512;
-#endif
-#ifdef HALFLIT_HAVE_NEON64
-        case Isa::neon64:
-            return shade_kernels_neon64;
-#endif
-        default:
-            return shade_kernels_scalar;
-    }
+    HALFLIT_RETURN_TABLE_OF(isa, shade_kernels)
 }
 
 }  // namespace halflit::shading
