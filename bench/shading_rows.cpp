@@ -122,8 +122,8 @@ shading::FramePlan plan(const shading::Material& material, const std::vector<sha
     shading::PlanOptions options;
     options.highlight = highlight ? Highlight::blinn : Highlight::none;
     options.environment_order.fixed = order;
-    shading::FramePlan frame =
-        make_frame_plan({&material, 1}, textures, quads, lights, {}, options, order > 0 ? &some_environment() : nullptr);
+    shading::EnvironmentPlans plans(some_environment());
+    shading::FramePlan frame = make_frame_plan({&material, 1}, textures, quads, lights, {}, options, order > 0 ? &plans : nullptr);
     frame.eye_ws = {0.2f, 0.3f, 6.0f};
     return frame;
 }

@@ -18,6 +18,7 @@ struct WrapLobe {
     double wrap = 0.0;
     double power = 1.0;
     double scale = 1.0;
+    bool operator==(const WrapLobe&) const = default;
 };
 
 /// The scale that makes f_0 = 1: every sky of constant radiance then looks as bright as with Lambert. [McA13]

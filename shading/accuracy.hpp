@@ -15,9 +15,6 @@ enum class Accuracy : std::uint8_t {
 /// From this power on 1 - t is taken from 1 - x, which is exact for x in [1/2, 1], instead of from t; all tiers then compute the same.
 inline constexpr float kSharpPowerMinusOne = 63.0f;
 
-/// Relative error of FramePlan::quick_roots.
-inline constexpr double kQuickRootError = 5e-6;
-
 /// Polynomials behind t^n and cos^s.
 enum class PowTier : std::uint8_t { exact, display, fast };
 
@@ -44,9 +41,8 @@ struct ErrorBound {
     double codes = 0;
     bool within = true;      ///< codes <= budget; otherwise some material's rounding alone is more, and that is computed exactly
     double rounding = 0;     ///< float32 itself, and texture filters
-    double lobes = 0;        ///< shorter polynomials for t^n
-    double highlights = 0;   ///< shorter polynomials for cos^s
-    double roots = 0;        ///< inverse roots by integer arithmetic
+    double lobes = 0;        ///< shorter polynomials for t^n, or curves
+    double highlights = 0;   ///< shorter polynomials for cos^s, or curves
     double environment = 0;  ///< bands left out
     double left_out = 0;     ///< lights beyond their reach and highlights too weak to see
 };

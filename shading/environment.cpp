@@ -3,7 +3,7 @@
 #include "sh/sun.hpp"
 #include "sh/trig.hpp"
 #include "sh/zonal.hpp"
-#include "shading/error_budget.hpp"
+#include "shading/code_bounds.hpp"
 #include "shading/material.hpp"
 
 #include <algorithm>
@@ -129,8 +129,7 @@ void nest_coefficients(EnvironmentPlan& plan) {
     }
 }
 
-EnvironmentPlan plan_environment(const Environment& environment, double wrap, double power, double scale, const EnvironmentOrder& order) {
-    const sh::WrapLobe lobe{wrap, power, scale};
+EnvironmentPlan plan_environment(const Environment& environment, const sh::WrapLobe& lobe, const EnvironmentOrder& order) {
     const sh::OrderBounds bounds = environment.grid.order_bounds(sh::lobe_spectrum(lobe));
     EnvironmentPlan plan;
     std::array<double, sh::kMaxBands> codes{};
@@ -157,6 +156,20 @@ EnvironmentPlan plan_environment(const Environment& environment, double wrap, do
     std::copy(product.b.begin(), product.b.end(), plan.blue);
     nest_coefficients(plan);
     return plan;
+}
+
+void EnvironmentPlans::use(std::shared_ptr<const Environment> environment) {
+    if (environment == environment_) return;
+    entries_.clear();
+    environment_ = std::move(environment);
+}
+
+EnvironmentPlan EnvironmentPlans::plan(const sh::WrapLobe& lobe, const EnvironmentOrder& order) {
+    constexpr std::size_t kMostEntries = 256;  // a scene whose lobes change all the time must not fill the memory
+    for (const Entry& entry : entries_)
+        if (entry.lobe == lobe && entry.order == order) return entry.plan;
+    if (entries_.size() == kMostEntries) entries_.clear();
+    return entries_.emplace_back(Entry{lobe, order, plan_environment(*environment_, lobe, order)}).plan;
 }
 
 }  // namespace halflit::shading

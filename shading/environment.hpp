@@ -8,6 +8,7 @@
 #include "shading/environment_plan.hpp"
 #include "shading/light.hpp"
 
+#include <memory>
 #include <vector>
 
 namespace halflit::shading {
@@ -40,9 +41,28 @@ struct EnvironmentOptions {
 
 [[nodiscard]] Environment make_environment(const sh::EquirectView& image, const EnvironmentOptions& options = {});
 
-/// For a lobe (w, n) with its scale: bands by the stable recurrence, order by the bound.
-[[nodiscard]] EnvironmentPlan plan_environment(const Environment& environment, double wrap, double power, double scale,
-                                               const EnvironmentOrder& order);
+/// Bands by the stable recurrence, order by the bound.
+[[nodiscard]] EnvironmentPlan plan_environment(const Environment& environment, const sh::WrapLobe& lobe, const EnvironmentOrder& order);
+
+/// The plans of one environment, kept from frame to frame: searching its bands for their largest error takes milliseconds.
+class EnvironmentPlans {
+public:
+    EnvironmentPlans() = default;
+    /// The environment must live as long.
+    explicit EnvironmentPlans(const Environment& environment) : environment_(std::shared_ptr<void>(), &environment) {}
+    /// For the plans that follow. Those of another environment are forgotten.
+    void use(std::shared_ptr<const Environment> environment);
+    [[nodiscard]] EnvironmentPlan plan(const sh::WrapLobe& lobe, const EnvironmentOrder& order);
+
+private:
+    struct Entry {
+        sh::WrapLobe lobe;
+        EnvironmentOrder order;
+        EnvironmentPlan plan;
+    };
+    std::shared_ptr<const Environment> environment_;
+    std::vector<Entry> entries_;
+};
 
 /// Makes `nested` from the series' coefficients.
 void nest_coefficients(EnvironmentPlan& plan);

@@ -31,6 +31,7 @@ struct EnvironmentOrder {
     double exposure = 1.0;           ///< display white is 1 / exposure
     double codes = 0.0;              ///< when above 0, instead of the tolerance: 8-bit sRGB codes
     bool ten_bands_are_all = false;  ///< the light is defined by ten bands: leaving out none of them is no error
+    bool operator==(const EnvironmentOrder&) const = default;
 };
 
 }  // namespace halflit::shading

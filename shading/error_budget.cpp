@@ -1,5 +1,7 @@
 #include "shading/error_budget.hpp"
 
+#include "shading/code_bounds.hpp"
+#include "shading/power_fit.hpp"
 #include "sh/power.hpp"
 
 #include <algorithm>
@@ -8,56 +10,12 @@
 namespace halflit::shading {
 namespace {
 
-constexpr double kSlopeAtBlack = 255.0 * 12.92, kLinearEnd = 0.0031308, kLn2 = 0.69314718055994531;
-/// S at white: 255 * 1.055 / 2.4.
-constexpr double kSensitivity = 112.1;
-
 /// Of N.L for a normal from three interpolated floats, and for one from a texture whose filtered channels are within 3e-5.
 constexpr double kCosineError = 4e-7, kMappedCosineError = 2e-4;
 /// Of a filtered channel of a texture, of its range.
 constexpr double kTextureError = 3e-5;
 /// Of the products and sums that follow, relative.
 constexpr double kProductError = 1e-5;
-
-/// d code / d v, v in (0, 1].
-double slope(double v) { return v <= kLinearEnd ? kSlopeAtBlack : (255.0 * 1.055 / 2.4) * power_of(v, 1.0 / 2.4 - 1.0); }
-
-/// The largest f(v, slope(v)) for v from the end of the curve's straight part to white: below, what is bounded here only falls.
-template <class Function>
-double largest_on_curve(const Function& f) {
-    constexpr int kSteps = 60;
-    constexpr double kBetween = 1.05;  // v grows by a tenth from one to the next, f by less than half of that
-    double most = f(kLinearEnd, kSlopeAtBlack);
-    for (int i = 0; i <= kSteps; ++i) {
-        const double v = exp2_of(log2_of(kLinearEnd) * (kSteps - i) / kSteps);
-        most = std::max(most, f(v, slope(v)));
-    }
-    return most * kBetween;
-}
-
-/// v = A t^n off by t's error. Lights with A_1, A_2.. together are off by no more than one with their sum (Hoelder's inequality).
-double codes_of_edge(double amplitude, double n, double t_error) {
-    if (n <= 0.0) return 255.0;  // a step
-    const auto error = [&](double v, double at) {
-        const double t = std::min(1.0, power_of(v / amplitude, 1.0 / n));
-        const double held = std::max(t, t_error);
-        return at * amplitude * n * power_of(held, n) / held * t_error;
-    };
-    double codes = amplitude > 0.0 ? largest_on_curve(error) : 0.0;
-    if (n < 1.0) codes = std::max(codes, codes_of_absolute(amplitude * power_of(t_error, n)));
-    return std::min(codes, 255.0);
-}
-
-/// Highlights v = K e^-z whose logarithm is off by `constant` + `linear` z + `root` sqrt(z). `count` of them together are off by no more
-/// than one of `count` times the peak (concavity, and Cauchy and Schwarz's inequality for the root).
-double codes_of_highlight(double peak, int count, double constant, double linear, double root) {
-    const double top = peak * count;
-    if (!(top > 0.0)) return 0.0;
-    return std::min(255.0, largest_on_curve([&](double v, double at) {
-                        const double z = std::max(0.0, kLn2 * (log2_of(top) - log2_of(v)));
-                        return at * std::min(v, top) * (constant + linear * z + root * std::sqrt(z));
-                    }));
-}
 
 /// What the material makes of light, at most.
 struct Surface {
@@ -85,8 +43,6 @@ Surface surface_of(const FramePlan& plan, const MaterialPlan& material, const Sc
 struct Arriving {
     double sum = 0, largest = 0;  ///< of the lights' colours times strengths
     double cone_error = 0;        ///< of the spots' cosines, in units of their cones
-    double cone_slope = 0;        ///< the same for a relative error of 1 of the direction's length
-    bool cone_power = false;
     int count = 0, local = 0;
 };
 
@@ -101,8 +57,6 @@ Arriving arriving(const FramePlan& plan, double exposure, const SceneFacts& fact
         a.local += light.type != LightType::directional ? 1 : 0;
         if (light.type != LightType::spot) continue;
         a.cone_error = std::max(a.cone_error, 2e-7 * light.cone_scale);
-        a.cone_slope = std::max(a.cone_slope, static_cast<double>(light.cone_cutoff) * light.cone_scale);
-        a.cone_power |= light.half_cone_power > 0.0f;
     }
     return a;
 }
@@ -110,7 +64,7 @@ Arriving arriving(const FramePlan& plan, double exposure, const SceneFacts& fact
 double rounding_codes(const MaterialPlan& material, const FramePlan& plan, const Surface& s, const Arriving& light, double exposure) {
     const auto has = [&](Stage stage) { return (material.stages & stage) != 0; };
     const double n = material.lobe.power_minus_one + 1.0, scale = material.lobe.scale;
-    double codes = kSensitivity * (kProductError + 1.5e-7 * (has(kStageLights) ? n + light.count : 0.0));
+    double codes = codes_of_relative(kProductError + 1.5e-7 * (has(kStageLights) ? n + light.count : 0.0));
     double around = 0.0;  // ambient light
     if (has(kStageAmbient)) {
         const Vec3f sky = plan.ambient.sky_linear, ground = plan.ambient.ground_linear;
@@ -158,7 +112,7 @@ double lobe_tier_codes(const LobePlan& lobe, PowTier tier) {
     if (lobe.path != LobePath::general || lobe.power_minus_one >= kSharpPowerMinusOne || tier == PowTier::exact) return 0.0;
     const PowErrors errors = pow_errors(tier);
     const double a = std::fabs(static_cast<double>(lobe.power_minus_one));
-    return codes_of_relative(kLn2 * a * 0.5 * errors.log2 + errors.exp2 + 4e-6);
+    return codes_of_relative(0.5 * 0.69314718055994531 * a * errors.log2 + errors.exp2 + 4e-6);
 }
 
 double highlight_tier_codes(const Surface& s, const Arriving& light, PowTier tier) {
@@ -167,21 +121,10 @@ double highlight_tier_codes(const Surface& s, const Arriving& light, PowTier tie
     return codes_of_highlight(s.reflectance * s.normalization * light.largest, light.count, errors.exp2, errors.log2, 0.0);
 }
 
-/// A light's direction is longer or shorter by a relative error r: so is N.L, and light goes with its square.
-double roots_codes(const MaterialPlan& material, const FramePlan& plan, const Surface& s, const Arriving& light) {
-    if ((material.stages & kStageLights) == 0) return 0.0;
-    constexpr double r = kQuickRootError;
-    const double n = material.lobe.power_minus_one + 1.0, w = material.lobe.wrap, amplitude = s.albedo * material.lobe.scale * light.sum;
+double environment_codes(const FramePlan& plan, const MaterialPlan& material) {
     double codes = 0.0;
-    if (light.local > 0) {
-        codes += codes_of_relative((n + 2.0 + (light.cone_power ? 30.0 : 0.0)) * r);
-        if (w > 0.0) codes += codes_of_edge(amplitude, n, r * w / (1.0 + w));  // behind the terminator
-        if (light.cone_slope > 0.0) codes += codes_of_edge(amplitude, 2.0, r * light.cone_slope);
-    }
-    const double turning = plan.highlight == Highlight::phong ? 2.0 : 1.0;
-    if (s.highlight)
-        codes += codes_of_highlight(s.reflectance * s.normalization * light.largest, light.count, 4.0 * r, 8.0 * r,
-                                    turning * std::sqrt(2.0 * s.exponent) * r);
+    for (const int index : {material.environment, material.mirrored_environment})
+        if (index >= 0) codes += plan.environments[static_cast<std::size_t>(index)].bound_codes;
     return codes;
 }
 
@@ -192,17 +135,69 @@ PowTier cheapest_tier(double budget, const Codes& codes) {
     return PowTier::exact;
 }
 
-double environment_codes(const FramePlan& plan, const MaterialPlan& material) {
-    double codes = 0.0;
-    for (const int index : {material.environment, material.mirrored_environment})
-        if (index >= 0) codes += plan.environments[static_cast<std::size_t>(index)].bound_codes;
-    return codes;
+/// Fits are made once for lobes of one power under about as much light.
+class LobeFits {
+public:
+    const LobeFit& fit(double n, double amplitude) {
+        // The next quarter of a power of two; more light is off by more, so that is a bound for less.
+        const double held = amplitude > 1e-30 && amplitude < 1e6 ? exp2_of(std::ceil(4.0 * log2_of(amplitude)) / 4.0) : 0.0;
+        for (const Entry& entry : entries_)
+            if (entry.n == n && entry.amplitude == held) return entry.fit;
+        return entries_.emplace_back(Entry{n, held, fit_lobe(n, held)}).fit;
+    }
+
+private:
+    struct Entry {
+        double n, amplitude;
+        LobeFit fit;
+    };
+    std::vector<Entry> entries_;
+};
+
+/// The cheapest way to t^n within `budget` codes; what it costs of them.
+double spend_on_lobe(MaterialPlan& material, const Surface& s, const Arriving& light, double budget, LobeFits& fits) {
+    LobePlan& lobe = material.lobe;
+    if (lobe.path != LobePath::general || lobe.power_minus_one >= kSharpPowerMinusOne) return 0.0;
+    const LobeFit& fit = fits.fit(static_cast<double>(lobe.power_minus_one) + 1.0, s.albedo * static_cast<double>(lobe.scale) * light.sum);
+    if (fit.codes <= budget) {
+        lobe.path = LobePath::curve;
+        std::copy_n(fit.c, kLobeCurveTerms, lobe.curve);
+        return fit.codes;
+    }
+    lobe.tier = cheapest_tier(budget, [&](PowTier tier) { return lobe_tier_codes(lobe, tier); });
+    return lobe_tier_codes(lobe, lobe.tier);
 }
 
 /// Whether highlights are below the threshold at 45 degrees from their middle: if not, looking costs more than it saves.
 bool highlights_end(const FramePlan& plan, const Surface& s, double largest, double threshold) {
     const double z = 0.25 * s.exponent * (plan.highlight == Highlight::phong ? 0.25 : 1.0), z2 = z * z, z4 = z2 * z2;
     return 40320.0 * largest * s.normalization <= threshold * z4 * z4;
+}
+
+/// The cheapest way to highlights within `budget` codes; adds to the bound what it costs of them.
+void spend_on_highlights(const FramePlan& plan, MaterialPlan& material, const Surface& s, const Arriving& light, double exposure, double budget,
+                         ErrorBound& bound) {
+    // Highlights below this, before the reflectance, are not seen in `codes` codes.
+    const auto threshold_of = [&](double codes) { return codes / (kSlopeAtBlack * exposure * s.reflectance * light.count); };
+    if ((material.stages & kStageMetallicRoughnessTexture) == 0) {
+        const double half_exponent = s.exponent * (plan.highlight == Highlight::phong ? 0.125 : 0.5);
+        const double share = threshold_of(0.5 * budget) / (light.largest / exposure * s.normalization);
+        const HighlightFit fit = fit_highlight(half_exponent, share < 1.0 ? power_of(share, 1.0 / half_exponent) : 1.0);
+        const double codes = codes_of_highlight(s.reflectance * s.normalization * light.largest, light.count, fit.relative_error, 0.0, 0.0);
+        if (codes <= 0.48 * budget) {
+            material.highlight_curve = fit.curve;
+            bound.highlights = codes;
+            bound.left_out += 0.5 * budget;
+            return;
+        }
+    }
+    material.highlight_tier = cheapest_tier(0.5 * budget, [&](PowTier tier) { return highlight_tier_codes(s, light, tier); });
+    bound.highlights = highlight_tier_codes(s, light, material.highlight_tier);
+    const double spent = 0.98 * (budget - bound.highlights), threshold = threshold_of(spent);
+    if (highlights_end(plan, s, light.largest / exposure, threshold)) {
+        material.highlight_threshold = static_cast<float>(std::min(1e30, threshold));
+        bound.left_out += spent;
+    }
 }
 
 /// The squared distance from which on `brightness` times strength is below `least`; 0: none, or beyond the range.
@@ -225,13 +220,6 @@ double reach_squared(const LightPlan& light, double least) {
 
 }  // namespace
 
-double codes_of_absolute(double delta) {
-    if (!(delta < 1.0)) return 255.0;
-    return delta <= kLinearEnd ? kSlopeAtBlack * delta : 255.0 * (1.055 * power_of(delta, 1.0 / 2.4) - 0.055) + 0.01;
-}
-
-double codes_of_relative(double r) { return r > 0.0 ? std::min(255.0, kSensitivity * (r < 1e-4 ? r : kLn2 * log2_of(1.0 + r))) : 0.0; }
-
 void spend_error_budget(FramePlan& plan, double budget_codes, double exposure, const SceneFacts& facts) {
     HALFLIT_ASSERT(facts.light_strength.size() == plan.lights.size());
     const Arriving light = arriving(plan, exposure, facts);
@@ -251,25 +239,18 @@ void spend_error_budget(FramePlan& plan, double budget_codes, double exposure, c
     }
     double reach_codes = 0.0;
     if (light.local > 0 && poorest > 0.0 && most_reflected > 0.0) {
-        reach_codes = 0.25 * poorest;
-        const double least = reach_codes / (kSlopeAtBlack * exposure * most_reflected * light.local);
+        const double codes = 0.25 * poorest, least = codes / (kSlopeAtBlack * exposure * most_reflected * light.local);
         for (std::size_t i = 0; i < plan.lights.size(); ++i) {
             LightPlan& one = plan.lights[i];
             if (one.type == LightType::directional) continue;
             const double reach = reach_squared(one, least);
             // One that ends beyond all there is would be compared with every fragment for nothing.
             one.reach_squared = reach < facts.light_farthest_squared[i] ? static_cast<float>(reach) : 0.0f;
+            if (one.reach_squared > 0.0f) reach_codes = codes;
         }
     }
 
-    std::vector<double> roots(plan.materials.size(), 0.0);
-    bool quick_roots = !facts.shadows && poorest > 0.0;
-    for (std::size_t i = 0; i < plan.materials.size(); ++i) {
-        roots[i] = roots_codes(plan.materials[i], plan, surfaces[i], light);
-        if (facts.drawn[i] && roots[i] > 0.3 * (budget_codes - fixed[i] - reach_codes)) quick_roots = false;
-    }
-    plan.quick_roots = quick_roots;
-
+    LobeFits fits;
     for (std::size_t i = 0; i < plan.materials.size(); ++i) {
         MaterialPlan& material = plan.materials[i];
         const Surface& s = surfaces[i];
@@ -277,23 +258,14 @@ void spend_error_budget(FramePlan& plan, double budget_codes, double exposure, c
         bound.rounding = rounding[i];
         bound.environment = fixed[i] - rounding[i];
         bound.left_out = reach_codes;
-        bound.roots = quick_roots ? roots[i] : 0.0;
-        double left = budget_codes - fixed[i] - reach_codes - bound.roots;
+        double left = budget_codes - fixed[i] - reach_codes;
         if (left > 0.0) {
-            material.lobe.tier = cheapest_tier(0.4 * left, [&](PowTier tier) { return lobe_tier_codes(material.lobe, tier); });
-            bound.lobes = lobe_tier_codes(material.lobe, material.lobe.tier);
+            bound.lobes = spend_on_lobe(material, s, light, 0.4 * left, fits);
             left -= bound.lobes;
-            material.highlight_tier = cheapest_tier(0.5 * left, [&](PowTier tier) { return highlight_tier_codes(s, light, tier); });
-            bound.highlights = highlight_tier_codes(s, light, material.highlight_tier);
-            left -= bound.highlights;
-            const double spent = 0.98 * left, threshold = spent / (kSlopeAtBlack * exposure * s.reflectance * light.count);
-            if (s.highlight && light.count > 0 && highlights_end(plan, s, light.largest / exposure, threshold)) {
-                material.highlight_threshold = static_cast<float>(std::min(1e30, threshold));
-                bound.left_out += spent;
-            }
+            if (s.highlight && light.count > 0) spend_on_highlights(plan, material, s, light, exposure, left, bound);
         }
         if (!facts.drawn[i]) continue;
-        bound.codes = bound.rounding + bound.lobes + bound.highlights + bound.roots + bound.environment + bound.left_out;
+        bound.codes = bound.rounding + bound.lobes + bound.highlights + bound.environment + bound.left_out;
         if (bound.codes > worst.codes) worst = bound;
     }
     worst.codes = std::min(worst.codes, 255.0);

@@ -137,7 +137,6 @@ LightPlan plan_light(const Light& light) {
     const double cutoff = versine(outer), width = cutoff - versine(inner);
     plan.cone_cutoff = static_cast<float>(cutoff);
     plan.cone_scale = static_cast<float>(1.0 / std::max(width, 1e-30));  // inner = outer: a step
-    plan.largest_strength = 1.0f / plan.min_distance_squared;
     plan.brightness = std::max({light.color_linear.x, light.color_linear.y, light.color_linear.z});
     plan.half_cone_power = 0.5f * clamp_or_low(light.cone_power, 0.0f, 1e5f);
     return plan;
@@ -248,8 +247,8 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
 /// Distinct lobes of a frame, each convolved once.
 class EnvironmentPlanner {
 public:
-    EnvironmentPlanner(const Environment& environment, const EnvironmentOrder& order, std::vector<EnvironmentPlan>& plans)
-        : environment_(environment), order_(order), plans_(plans) {}
+    EnvironmentPlanner(EnvironmentPlans& known, const EnvironmentOrder& order, std::vector<EnvironmentPlan>& plans)
+        : known_(known), order_(order), plans_(plans) {}
 
     int diffuse(const LobePlan& lobe) {
         return find({lobe.wrap, static_cast<double>(lobe.power_minus_one) + 1.0, lobe.scale}, order_);
@@ -257,38 +256,33 @@ public:
 
     /// A stand-in for reflections, so twice the error is allowed.
     int mirrored(float roughness) {
-        const sh::WrapLobe lobe = mirrored_lobe(roughness);
         EnvironmentOrder order = order_;
         order.tolerance *= 2.0;
         order.codes *= 0.5;
         order.ten_bands_are_all = true;
-        return find({lobe.wrap, lobe.power, lobe.scale}, order);
+        return find(mirrored_lobe(roughness), order);
     }
 
 private:
-    struct Key {
-        double wrap, power, scale;
-        bool operator==(const Key&) const = default;
-    };
-    int find(const Key& key, const EnvironmentOrder& order) {
-        const auto known = std::find(keys_.begin(), keys_.end(), key);
-        if (known != keys_.end()) return static_cast<int>(known - keys_.begin());
-        keys_.push_back(key);
-        plans_.push_back(plan_environment(environment_, key.wrap, key.power, key.scale, order));
-        return static_cast<int>(keys_.size()) - 1;
+    int find(const sh::WrapLobe& lobe, const EnvironmentOrder& order) {
+        const auto planned = std::find(lobes_.begin(), lobes_.end(), lobe);
+        if (planned != lobes_.end()) return static_cast<int>(planned - lobes_.begin());
+        lobes_.push_back(lobe);
+        plans_.push_back(known_.plan(lobe, order));
+        return static_cast<int>(lobes_.size()) - 1;
     }
 
-    const Environment& environment_;
+    EnvironmentPlans& known_;
     EnvironmentOrder order_;
     std::vector<EnvironmentPlan>& plans_;
-    std::vector<Key> keys_;
+    std::vector<sh::WrapLobe> lobes_;
 };
 
 }  // namespace
 
 FramePlan make_frame_plan(std::span<const Material> materials, std::span<const Texture> textures, std::span<const QuadMask> available_quads,
                           std::span<const Light> lights, const Ambient& ambient, const PlanOptions& options,
-                          const Environment* environment) {
+                          EnvironmentPlans* environment) {
     HALFLIT_ASSERT(available_quads.size() == materials.size() + 1);
     FramePlan plan;
     for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -302,7 +296,6 @@ FramePlan make_frame_plan(std::span<const Material> materials, std::span<const T
                            options.highlight != Highlight::none};
     plan.highlight = options.highlight;
     plan.normalize_highlight = options.normalize_highlight;
-    plan.quick_roots = options.accuracy == Accuracy::fast;
     plan.materials.reserve(materials.size() + 1);
     for (std::size_t i = 0; i <= materials.size(); ++i)
         plan.materials.push_back(

@@ -30,8 +30,10 @@ struct TexturePlan {
     MipFilter mip;
 };
 
-/// How t^n is computed, t = max(0, (x + w) / (1 + w)); the cheapest form that is within 2 ulp for this n.
-enum class LobePath : std::uint8_t { step, linear, square, sqrt_product, integer, general };
+/// How t^n is computed, t = max(0, (x + w) / (1 + w)); the cheapest form that is within 2 ulp for this n, or, for an error budget, a
+/// curve: t times a polynomial in sqrt(t) (power_fit.hpp).
+enum class LobePath : std::uint8_t { step, linear, square, sqrt_product, integer, general, curve };
+inline constexpr int kLobeCurveTerms = 6;
 
 struct LobePlan {
     LobePath path = LobePath::linear;
@@ -42,6 +44,14 @@ struct LobePlan {
     float power_minus_one = 0;       ///< path general: n - 1, and the same in two parts of 18 and 6 bits (pow.hpp)
     float power_minus_one_high = 0, power_minus_one_low = 0;
     PowTier tier = PowTier::exact;  ///< path general
+    float curve[kLobeCurveTerms] = {};  ///< path curve
+};
+
+/// (cos^2)^(s/2) as p(cos^2) squared so many times, p(x) = ((c[3] x + c[2]) x + c[1]) x + c[0] (power_fit.hpp).
+struct HighlightCurve {
+    std::int32_t squarings = -1;  ///< -1: none, the power is taken by log2 and exp2
+    float c[4] = {};
+    float least = 1;  ///< of cos^2; where it is smaller there is no highlight
 };
 
 /// Stages, one bit each; a block runs only those that its material's plan names.
@@ -76,6 +86,7 @@ struct MaterialPlan {
     PowTier highlight_tier = PowTier::exact;
     /// A light's highlight, before the reflectance, is left out where it is surely below this; 0: only where it is exactly 0.
     float highlight_threshold = 0;
+    HighlightCurve highlight_curve;
     /// 1 / d0: wrapped light is gone where its blocker is d0 away; 0: no wrapped light.
     float shadow_fade_scale = 0;
     /// Times -N.L: the share of d0 that a body which turns away from the light by N.L is thick, and that it does not shade itself by.
@@ -99,7 +110,6 @@ struct LightPlan {
     float cone_scale;            ///< spot: 1 / (cos(inner) - cos(outer)); see kernels/light_kernel.hpp
     float half_cone_power;       ///< spot: half the power of the cosine; 0: none
     float reach_squared;         ///< point, spot: left out from this distance on, squared; 0: no limit but the range
-    float largest_strength;      ///< 1 / min_distance_squared
     float brightness;            ///< the largest channel of the colour
 };
 
@@ -121,7 +131,6 @@ struct FramePlan {
     Vec3f eye_ws{0, 0, 0};              ///< perspective: camera position
     Vec3f view_direction_ws{0, 0, -1};  ///< orthographic: the way the camera looks, unit
     bool orthographic = false;
-    bool quick_roots = false;  ///< lights and highlights take inverse roots within kQuickRootError
     ErrorBound error;
 };
 
@@ -139,7 +148,7 @@ enum class ShadingRate : std::uint8_t {
     pixel
 };
 
-struct Environment;
+class EnvironmentPlans;
 
 /// Settings that change what a plan contains.
 struct PlanOptions {
@@ -163,6 +172,6 @@ struct PlanOptions {
 /// `available_quads[i]` is the union of what the primitives of material i bring.
 [[nodiscard]] FramePlan make_frame_plan(std::span<const Material> materials, std::span<const Texture> textures,
                                         std::span<const QuadMask> available_quads, std::span<const Light> lights, const Ambient& ambient,
-                                        const PlanOptions& options, const Environment* environment = nullptr);
+                                        const PlanOptions& options, EnvironmentPlans* environment = nullptr);
 
 }  // namespace halflit::shading

@@ -36,8 +36,13 @@ constexpr std::string_view tier_name(shading::PowTier tier) {
     return kNames[static_cast<std::size_t>(tier)];
 }
 
+/// How a material's highlights are computed.
+constexpr std::string_view highlight_power_name(const shading::MaterialPlan& plan) {
+    return plan.highlight_curve.squarings >= 0 ? "curve" : tier_name(plan.highlight_tier);
+}
+
 constexpr std::string_view lobe_path_name(shading::LobePath path) {
-    constexpr std::string_view kNames[] = {"step", "t", "t*t", "t*sqrt(t)", "t^n, n whole", "t^n"};
+    constexpr std::string_view kNames[] = {"step", "t", "t*t", "t*sqrt(t)", "t^n, n whole", "t^n", "t^n as a curve"};
     return kNames[static_cast<std::size_t>(path)];
 }
 

@@ -83,7 +83,6 @@ Json error_bound_json(const shading::ErrorBound& error) {
              {{"rounding", error.rounding},
               {"lobes", error.lobes},
               {"highlights", error.highlights},
-              {"roots", error.roots},
               {"environment", error.environment},
               {"left_out", error.left_out}}}};
 }

@@ -96,9 +96,10 @@ Json environment_json(const shading::FramePlan& frame, int index, bool mirrored,
 
 /// What an error budget was spent on.
 Json savings_json(const shading::FramePlan& frame, const shading::MaterialPlan& plan) {
-    Json savings{{"lobe_power", plan.lobe.path == shading::LobePath::general ? tier_name(plan.lobe.tier) : "not needed"}};
+    const bool power = plan.lobe.path == shading::LobePath::general, curve = plan.lobe.path == shading::LobePath::curve;
+    Json savings{{"lobe_power", power ? tier_name(plan.lobe.tier) : curve ? "curve" : "not needed"}};
     if ((plan.stages & shading::kStageSpecular) != 0) {
-        savings["highlight_power"] = tier_name(plan.highlight_tier);
+        savings["highlight_power"] = highlight_power_name(plan);
         savings["highlights_left_out_below"] = number(plan.highlight_threshold);
     }
     std::size_t limited = 0;

@@ -101,6 +101,7 @@ Result<void> TradeBench::describe(TradeRow& row) {
     if (!plan) return tl::unexpected(plan.error());
     const std::vector<bool> drawn = drawn_materials(scene);
     shading::PowTier highlight = shading::PowTier::exact;
+    int powers = 0;
     for (std::size_t i = 0; i < drawn.size(); ++i) {
         const shading::MaterialPlan& material = plan->materials[i];
         if (!drawn[i]) continue;
@@ -110,8 +111,12 @@ Result<void> TradeBench::describe(TradeRow& row) {
             add_once(row.lobe_paths, std::move(path));
         }
         if ((material.stages & shading::kStageSpecular) == 0) continue;
-        // With a budget materials may differ: the most exact one is named.
-        highlight = row.highlight_tier.empty() ? material.highlight_tier : std::min(highlight, material.highlight_tier);
+        // With a budget materials may differ: the most exact one is named, and a curve only where all have one.
+        if (material.highlight_curve.squarings >= 0) {
+            if (row.highlight_tier.empty()) row.highlight_tier = highlight_power_name(material);
+            continue;
+        }
+        highlight = powers++ == 0 ? material.highlight_tier : std::min(highlight, material.highlight_tier);
         row.highlight_tier = tier_name(highlight);
     }
     return {};

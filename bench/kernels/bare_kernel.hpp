@@ -29,7 +29,7 @@ static void bare_sum(const shading::FramePlan& frame, const shading::MaterialPla
         if constexpr (kHighlight) to_eye = row3(block, shading::kTangentX, lane);
         const V3 position = row3(block, shading::kPosX, lane);
         const ShadowReceiver receiver{frame, position, normal, {}};
-        const HighlightShape shape{frame.highlight, material.highlight_tier, 0.0f, frame.quick_roots, F(bench::kHalfExponent), F(1.0f)};
+        const HighlightShape shape{frame.highlight, material.highlight_tier, 0.0f, material.highlight_curve, F(bench::kHalfExponent), F(1.0f)};
         const LightSums sums =
             sum_lights<kHighlight>(frame.lights.data(), count, material.lobe, receiver, position, normal, to_eye, shape);
         store_color(block, lane, sums.diffuse);

@@ -89,6 +89,7 @@ struct Frame {
     bool keep_submitted = false;  ///< fill Chunk::submitted
 
     shading::FramePlan plan;
+    shading::EnvironmentPlans environment_plans;  ///< kept from frame to frame
     ReferenceShading reference;  ///< used with Accuracy::reference
     LightCuller lights;
     Background background;  ///< instead of Settings::background_linear

@@ -216,10 +216,11 @@ Result<void> prepare_frame(Frame& frame, const Scene& scene, const Camera& camer
     plan_options.environment_order.exposure = static_cast<double>(settings.exposure);
     const bool budget = settings.shading.max_error_codes > 0.0 && !frame.depth_only;
     if (budget) plan_options.environment_order.codes = settings.shading.max_error_codes * (0.5 * shading::kEnvironmentShare);
+    if (scene.environment != nullptr) frame.environment_plans.use(scene.environment);
     // Depth alone takes no light: what remains of a plan is what an alpha test reads.
     frame.plan = frame.depth_only ? shading::make_frame_plan(scene.materials, scene.textures, quads, {}, {}, plan_options)
                                   : shading::make_frame_plan(scene.materials, scene.textures, quads, scene.lights, scene.ambient,
-                                                             plan_options, scene.environment.get());
+                                                             plan_options, scene.environment != nullptr ? &frame.environment_plans : nullptr);
     const Vec4f back = camera.world_from_camera.c[2], eye = camera.world_from_camera.c[3];
     frame.plan.eye_ws = {eye.x, eye.y, eye.z};
     frame.plan.view_direction_ws = normalize_or({-back.x, -back.y, -back.z}, {0, 0, -1});

@@ -133,7 +133,6 @@ private:
 
 shading::SceneFacts scene_facts(const Frame& frame) {
     shading::SceneFacts facts;
-    facts.shadows = frame.settings->shadows != shading::ShadowMode::off;
     facts.drawn.assign(frame.plan.materials.size(), false);
     for (const Draw& draw : frame.draws) {
         facts.drawn[static_cast<std::size_t>(draw.material)] = true;

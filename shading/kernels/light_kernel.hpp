@@ -1,6 +1,7 @@
-// Direct light: for each light its direction and strength at a fragment, the diffuse lobe, and the highlight.
+// Direct light: for each light its direction and strength at a fragment, and the sums of lobes and highlights over all of them.
 #pragma once
 
+#include "shading/kernels/highlight_kernel.hpp"
 #include "shading/kernels/lobe_kernel.hpp"
 #include "shading/kernels/shadow_kernel.hpp"
 #include "shading/kernels/vector.hpp"
@@ -20,21 +21,14 @@ struct LocalLight {
     V3 direction;
     F strength;
 };
-HALFLIT_INLINE LocalLight local_light(const shading::LightPlan& light, V3 position, bool quick_roots) {
+HALFLIT_INLINE LocalLight local_light(const shading::LightPlan& light, V3 position) {
     const V3 offset = broadcast(light.position) - position;
     const F distance_squared = dot(offset, offset);
     // Below 1e-18 the direction has no meaning and fades to zero; an infinite distance gives strength 0.
     const F in_range = distance_squared * F(light.inv_range_squared);
     const F window = vmax(F(1.0f) - in_range * in_range, F(0.0f));
-    F inverse, strength;
-    if (quick_roots) {
-        inverse = quick_inverse_root(distance_squared);
-        strength = window * vmin(inverse * inverse, F(light.largest_strength));
-    } else {
-        inverse = vdiv(F(1.0f), vsqrt(vmax(distance_squared, F(1e-36f))));
-        strength = vdiv(window, vmax(distance_squared, F(light.min_distance_squared)));
-    }
-    const V3 direction = offset * inverse;
+    const V3 direction = offset * vdiv(F(1.0f), vsqrt(vmax(distance_squared, F(1e-36f))));
+    F strength = vdiv(window, vmax(distance_squared, F(light.min_distance_squared)));
     if (light.reach_squared > 0.0f) strength = sel(distance_squared < F(light.reach_squared), strength, F(0.0f));
     if (light.type == shading::LightType::spot) {
         // 1 - cos of the angle to the axis, as |L - A|^2 / 2: right to the last digits for narrow cones, where a difference of cosines
@@ -53,54 +47,10 @@ HALFLIT_INLINE LocalLight local_light(const shading::LightPlan& light, V3 positi
 }
 
 /// A directional light's strength is 1: times that is exact.
-HALFLIT_INLINE LocalLight arrival(const shading::LightPlan& light, V3 position, bool quick_roots) {
+HALFLIT_INLINE LocalLight arrival(const shading::LightPlan& light, V3 position) {
     LocalLight at{broadcast(light.to_light), F(1.0f)};
-    if (light.type != shading::LightType::directional) at = local_light(light, position, quick_roots);
+    if (light.type != shading::LightType::directional) at = local_light(light, position);
     return at;
-}
-
-/// How a material makes highlights, as its plan has it.
-struct HighlightShape {
-    shading::Highlight kind;
-    shading::PowTier tier;
-    float threshold;  ///< see MaterialPlan
-    bool quick_roots;
-    F half_exponent;
-    F normalization;
-};
-
-/// (N.H)^s (N.L) or (V.R)^(s/4) (N.L) where both cosines are positive, else 0: wrapped light makes no highlight. H = L + V and the
-/// mirrored light R = 2 (N.L) N - L are not normalised; the squared sine, |N x H|^2 / |H|^2, keeps its digits where the cosine is
-/// nearly 1. R turns twice as fast as H, so a quarter of the exponent gives a highlight of the same width.
-HALFLIT_INLINE F highlight_value(const HighlightShape& shape, V3 normal, V3 to_eye, V3 to_light, F n_dot_l, F brightness) {
-    F half_exponent = shape.half_exponent;
-    V3 axis = normal, turning = to_light + to_eye;
-    if (shape.kind == shading::Highlight::phong) {
-        const F twice = n_dot_l + n_dot_l;
-        axis = to_eye;
-        turning = {mad(twice, normal.x, F(0.0f) - to_light.x), mad(twice, normal.y, F(0.0f) - to_light.y),
-                   mad(twice, normal.z, F(0.0f) - to_light.z)};
-        half_exponent = half_exponent * F(0.25f);
-    }
-    const F cosine = dot(axis, turning), squared = dot(turning, turning);
-    M shines = vmin(n_dot_l, cosine) > F(0.0f);
-    if (shape.threshold > 0.0f) {
-        // cos^s <= e^-z <= 8! / z^8 with z = s/2 sin^2: too little to be seen, and known before any division or logarithm.
-        const F z = half_exponent * (squared - cosine * cosine);
-        const F z2 = z * z, h2 = squared * squared, z4 = z2 * z2, h4 = h2 * h2;
-        shines = shines & ((brightness * shape.normalization) * (h4 * h4) > F(shape.threshold * (1.0f / 40320.0f)) * (z4 * z4));
-    }
-    if (!any(shines)) return F(0.0f);
-    const V3 sine = cross(axis, turning);
-    F inv_squared;
-    if (shape.quick_roots) {
-        const F inverse = quick_inverse_root(squared);
-        inv_squared = inverse * inverse;
-    } else {
-        inv_squared = vdiv(F(1.0f), vmax(squared, F(1e-30f)));
-    }
-    const F power = power_of_cosine(shape.tier, (cosine * cosine) * inv_squared, dot(sine, sine) * inv_squared, half_exponent);
-    return sel(shines, n_dot_l * power, F(0.0f));
 }
 
 /// What shadows need of a fragment.
@@ -132,19 +82,18 @@ HALFLIT_INLINE void cast_shadow(const ShadowReceiver& receiver, const shading::L
 
 /// One loop over the lights. Without highlights and shadows a light is so little work that the loop must hold nothing else: in one that
 /// holds every path, GCC keeps the sums in memory, and each light waits for the store of the one before. With them it makes no difference.
-template <bool kSpecular, bool kShadows, class LobeValue>
-HALFLIT_INLINE LightSums sum_lights_by(const LobeValue& lobe_value_at, const shading::LightPlan* lights, int count,
-                                       const ShadowReceiver& receiver, V3 position, V3 normal, V3 to_eye, const HighlightShape& shape) {
+template <bool kSpecular, bool kShadows, class LobeValue, class HighlightValue>
+HALFLIT_INLINE LightSums sum_lights_by(const LobeValue& lobe_value_at, const HighlightValue& highlight_value_at,
+                                       const shading::LightPlan* lights, int count, const ShadowReceiver& receiver, V3 position, V3 normal) {
     LightSums sums;
     for (int i = 0; i < count; ++i) {
         const shading::LightPlan& light = lights[i];
         const bool local = light.type != shading::LightType::directional;
         LocalLight at{broadcast(light.to_light), F(1.0f)};  // not by arrival(): GCC 12 makes point lights 16 % slower of it with AVX-512
-        if (local) at = local_light(light, position, receiver.frame.quick_roots);
+        if (local) at = local_light(light, position);
         const F n_dot_l = dot(normal, at.direction);
         F diffuse = lobe_value_at(n_dot_l), specular(0.0f);
-        if constexpr (kSpecular)
-            specular = highlight_value(shape, normal, to_eye, at.direction, n_dot_l, at.strength * F(light.brightness));
+        if constexpr (kSpecular) specular = highlight_value_at(at.direction, n_dot_l, at.strength * F(light.brightness));
         if constexpr (kShadows) {
             if (light.shadow_map >= 0) cast_shadow<kSpecular>(receiver, light, at, n_dot_l, diffuse, specular);
         }
@@ -159,18 +108,18 @@ HALFLIT_INLINE LightSums sum_lights_by(const LobeValue& lobe_value_at, const sha
 /// added in list order.
 template <shading::PowTier kTier>
 HALFLIT_INLINE LightSums sum_lights_by_power(const shading::LobePlan& lobe, const shading::LightPlan* lights, int count, V3 position,
-                                             V3 normal, bool quick_roots) {
+                                             V3 normal) {
     LightSums sums;
     int i = 0;
     for (; i + 1 < count; i += 2) {
-        const LocalLight at = arrival(lights[i], position, quick_roots), next_at = arrival(lights[i + 1], position, quick_roots);
+        const LocalLight at = arrival(lights[i], position), next_at = arrival(lights[i + 1], position);
         const F x = dot(normal, at.direction), next_x = dot(normal, next_at.direction);
         const F value = general_lobe_value<kTier>(lobe, x), next_value = general_lobe_value<kTier>(lobe, next_x);
         sums.diffuse = sums.diffuse + broadcast(lights[i].color) * (value * at.strength);
         sums.diffuse = sums.diffuse + broadcast(lights[i + 1].color) * (next_value * next_at.strength);
     }
     if (i < count) {
-        const LocalLight at = arrival(lights[i], position, quick_roots);
+        const LocalLight at = arrival(lights[i], position);
         sums.diffuse = sums.diffuse + broadcast(lights[i].color) * (general_lobe_value<kTier>(lobe, dot(normal, at.direction)) * at.strength);
     }
     return sums;
@@ -179,26 +128,41 @@ HALFLIT_INLINE LightSums sum_lights_by_power(const shading::LobePlan& lobe, cons
 template <bool kSpecular>
 HALFLIT_INLINE LightSums sum_lights(const shading::LightPlan* lights, int count, const shading::LobePlan& lobe,
                                     const ShadowReceiver& receiver, V3 position, V3 normal, V3 to_eye, const HighlightShape& shape) {
-    const auto sum = [&]<bool kShadows>(const auto& value) __attribute__((always_inline)) {
-        return sum_lights_by<kSpecular, kShadows>(value, lights, count, receiver, position, normal, to_eye, shape);
+    using shading::LobePath, shading::PowTier;
+    const auto sum = [&]<bool kShadows>(const auto& value, const auto& highlight) __attribute__((always_inline)) {
+        return sum_lights_by<kSpecular, kShadows>(value, highlight, lights, count, receiver, position, normal);
     };
-    if constexpr (!kSpecular) {
-        if (receiver.frame.shadow_maps.empty()) {
-            if (lobe.path == shading::LobePath::general && lobe.power_minus_one < shading::kSharpPowerMinusOne)
-                switch (lobe.tier) {
-                    case shading::PowTier::exact:
-                        return sum_lights_by_power<shading::PowTier::exact>(lobe, lights, count, position, normal, receiver.frame.quick_roots);
-                    case shading::PowTier::display:
-                        return sum_lights_by_power<shading::PowTier::display>(lobe, lights, count, position, normal, receiver.frame.quick_roots);
-                    case shading::PowTier::fast:
-                        return sum_lights_by_power<shading::PowTier::fast>(lobe, lights, count, position, normal, receiver.frame.quick_roots);
-                }
-            if (lobe.path == shading::LobePath::general)
-                return sum.template operator()<false>([&](F x) __attribute__((always_inline)) { return sharp_lobe_value(lobe, x); });
-            return sum.template operator()<false>([&](F x) __attribute__((always_inline)) { return simple_lobe_value(lobe, x); });
+    const auto any_lobe = [&](F x) __attribute__((always_inline)) { return lobe_value(lobe, x); };
+    const auto simple = [&](F x) __attribute__((always_inline)) { return simple_lobe_value(lobe, x); };
+    const auto sharp = [&](F x) __attribute__((always_inline)) { return sharp_lobe_value(lobe, x); };
+    const auto curve = [&](F x) __attribute__((always_inline)) { return curve_lobe_value(lobe, x); };
+    const auto curve_highlight = [&](V3 to_light, F n_dot_l, F) __attribute__((always_inline)) {
+        return curve_highlight_value(shape, normal, to_eye, to_light, n_dot_l);
+    };
+    const auto any_highlight = [&](V3 to_light, F n_dot_l, F brightness) __attribute__((always_inline)) {
+        if (shape.curve.squarings >= 0) return curve_highlight_value(shape, normal, to_eye, to_light, n_dot_l);
+        return highlight_value(shape, normal, to_eye, to_light, n_dot_l, brightness);
+    };
+    const bool shadows = !receiver.frame.shadow_maps.empty();
+    if constexpr (kSpecular) {
+        if (!shadows && shape.curve.squarings >= 0) {
+            if (lobe.path == LobePath::curve) return sum.template operator()<false>(curve, curve_highlight);
+            return sum.template operator()<false>(any_lobe, curve_highlight);
+        }
+    } else if (!shadows) {
+        if (lobe.path == LobePath::curve) return sum.template operator()<false>(curve, any_highlight);
+        if (lobe.path != LobePath::general) return sum.template operator()<false>(simple, any_highlight);
+        if (lobe.power_minus_one >= shading::kSharpPowerMinusOne) return sum.template operator()<false>(sharp, any_highlight);
+        switch (lobe.tier) {
+            case PowTier::exact:
+                return sum_lights_by_power<PowTier::exact>(lobe, lights, count, position, normal);
+            case PowTier::display:
+                return sum_lights_by_power<PowTier::display>(lobe, lights, count, position, normal);
+            case PowTier::fast:
+                return sum_lights_by_power<PowTier::fast>(lobe, lights, count, position, normal);
         }
     }
-    return sum.template operator()<true>([&](F x) __attribute__((always_inline)) { return lobe_value(lobe, x); });
+    return sum.template operator()<true>(any_lobe, any_highlight);
 }
 
 }  // namespace HALFLIT_ISA_NAMESPACE

@@ -44,7 +44,14 @@ HALFLIT_INLINE F sharp_lobe_value(const shading::LobePlan& lobe, F x) {
                                F(lobe.power_minus_one + 1.0f));
 }
 
+/// The same on the path curve: a root, which runs beside the rest, and a polynomial. Never below 0.
+HALFLIT_INLINE F curve_lobe_value(const shading::LobePlan& lobe, F x) {
+    const F t = lobe_argument(lobe, x);
+    return vmax(t * horner(lobe.curve, vsqrt(t)), F(0.0f));
+}
+
 HALFLIT_INLINE F lobe_value(const shading::LobePlan& lobe, F x) {
+    if (lobe.path == shading::LobePath::curve) return curve_lobe_value(lobe, x);
     if (lobe.path != shading::LobePath::general) return simple_lobe_value(lobe, x);
     return lobe.power_minus_one >= shading::kSharpPowerMinusOne ? sharp_lobe_value(lobe, x) : general_lobe_value(lobe, x);
 }

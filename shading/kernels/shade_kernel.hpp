@@ -50,7 +50,7 @@ HALFLIT_INLINE IncidentLight incident_light(const shading::FramePlan& frame, con
     const Reflectance surface = reflectance(material, block, lane);
     IncidentLight light{zero, zero, zero, zero, surface.metallic, F(1.0f), F(0.0f)};
     V3 to_eye = zero;
-    HighlightShape shape{frame.highlight, material.highlight_tier, material.highlight_threshold, frame.quick_roots, F(0.0f), F(1.0f)};
+    HighlightShape shape{frame.highlight, material.highlight_tier, material.highlight_threshold, material.highlight_curve, F(0.0f), F(1.0f)};
     if constexpr (kSpecular) {
         to_eye = view_vector(frame, position);
         light.roughness = vmax(surface.roughness, F(kMinRoughness));
@@ -186,7 +186,7 @@ static void hidden(const shading::FramePlan& frame, const shading::MaterialPlan&
     for (int lane = 0; lane < count; lane += kWidth) {
         const V3 position = row3(block, shading::kPosX, lane), surface = normals(material, block, lane).surface;
         const Hidden share = hidden_share(frame.shadow_maps[light.shadow_map], looked_up(frame, block, lane), surface,
-                                          arrival(light, position, frame.quick_roots).direction, fade, soft);
+                                          arrival(light, position).direction, fade, soft);
         store(core + lane, share.hard);
         store(excess + lane, share.soft);
     }

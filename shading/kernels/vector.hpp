@@ -20,15 +20,6 @@ HALFLIT_INLINE V3 row3(const shading::FragmentBlock& block, int index, int lane)
 HALFLIT_INLINE V3 broadcast(const float (&v)[3]) { return {F(v[0]), F(v[1]), F(v[2])}; }
 HALFLIT_INLINE V3 broadcast(Vec3f v) { return {F(v.x), F(v.y), F(v.z)}; }
 
-/// 1 / sqrt(x) for x in [1e-36, 1e36], others are held there: half the exponent by integer arithmetic, then two steps of Newton's
-/// method. Relative error 4.8e-6; a division and a root take several times as long where registers are wide.
-HALFLIT_INLINE F quick_inverse_root(F x) {
-    const F held = clamp(x, F(1e-36f), F(1e36f)), half = held * F(0.5f);
-    F y = from_bits(I(0x5f375a86) - shr<1>(bits(held)));
-    y = y * (F(1.5f) - half * (y * y));
-    return y * (F(1.5f) - half * (y * y));
-}
-
 /// v / |v| for |v| in [1e-15, 1e19]; the zero vector stays zero.
 HALFLIT_INLINE V3 normalize(V3 v) { return v * vdiv(F(1.0f), vsqrt(vmax(dot(v, v), F(1e-30f)))); }
 

@@ -115,7 +115,7 @@ TEST_CASE("environment: Valve's lobe takes three bands, and nothing above them i
     CHECK(report.environment[0].within);
     CHECK_FALSE(report.environment[0].mirrored);
     // What the plan has above its bands is not read: not-a-number there would spread.
-    shading::EnvironmentPlan plan = shading::plan_environment(*environment, 1.0, 2.0, 1.0, {});
+    shading::EnvironmentPlan plan = shading::plan_environment(*environment, {1.0, 2.0, 1.0}, {});
     shading::FramePlan frame;
     for (int i = 9; i < sh::kMaxCoefficients; ++i) {
         CHECK(plan.red[i] == 0.0f);
@@ -172,8 +172,8 @@ TEST_CASE("environment: turning it is turning the normals the other way, at ever
         const sh::Rotation turn = sh::rotation_about_y(angle);
         const auto turned = environment_of(sky, false, angle);
         for (int order = 1; order <= sh::kMaxBands; ++order) {
-            const auto a = shading::plan_environment(*straight, 0.0, 1.0, 1.0, {order, 1e-3, 1.0});
-            const auto b = shading::plan_environment(*turned, 0.0, 1.0, 1.0, {order, 1e-3, 1.0});
+            const auto a = shading::plan_environment(*straight, {0.0, 1.0, 1.0}, {order, 1e-3, 1.0});
+            const auto b = shading::plan_environment(*turned, {0.0, 1.0, 1.0}, {order, 1e-3, 1.0});
             double worst = 0;
             for (const Vec3d& n : normals) {
                 const Vec3d want = value(a, n);
@@ -209,7 +209,8 @@ TEST_CASE("environment: a scene that turns with its environment keeps its light,
             options.environment_order.fixed = order;
             const auto shaded = [&](const shading::Environment& environment, const sh::Rotation& by, std::size_t material,
                                     shading::Isa isa) {
-                auto plan = shading::make_frame_plan(materials, {}, quads, environment.suns, {}, options, &environment);
+                shading::EnvironmentPlans plans(environment);
+                auto plan = shading::make_frame_plan(materials, {}, quads, environment.suns, {}, options, &plans);
                 const auto narrow = [](Vec3d v) {
                     return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
                 };
@@ -294,7 +295,8 @@ TEST_CASE("environment: every instruction set gives the same bits at every order
     for (int order = 1; order <= sh::kMaxBands; ++order) {
         shading::PlanOptions options;
         options.environment_order.fixed = order;
-        const auto plan = shading::make_frame_plan({&material, 1}, {}, quads, environment->suns, {}, options, environment.get());
+        shading::EnvironmentPlans plans(*environment);
+        const auto plan = shading::make_frame_plan({&material, 1}, {}, quads, environment->suns, {}, options, &plans);
         REQUIRE(plan.environments.front().bands == order);
         for (int round = 0; round < 20; ++round) {
             shading::FragmentBlock input{};
@@ -318,7 +320,7 @@ TEST_CASE("environment: every instruction set gives the same bits at every order
 TEST_CASE("environment: orders outside 1 to 10, and tolerances that no order keeps", "[raster][environment]") {
     const auto environment = environment_of(random_sky(64, 32, 41), false);
     const auto planned = [&](int fixed, double tolerance) {
-        return shading::plan_environment(*environment, 0.0, 1.0, 1.0, {fixed, tolerance, 1.0});
+        return shading::plan_environment(*environment, {0.0, 1.0, 1.0}, {fixed, tolerance, 1.0});
     };
     CHECK(planned(99, 1e-3).bands == sh::kMaxBands);
     CHECK(planned(-5, 1e-3).bands == planned(0, 1e-3).bands);
@@ -345,4 +347,39 @@ TEST_CASE("environment: suns and what is left of the sky hold all of its light",
     CHECK(flux.x == Approx(want.x).epsilon(1e-5));
     CHECK(flux.y == Approx(want.y).epsilon(1e-5));
     CHECK(flux.z == Approx(want.z).epsilon(1e-5));
+}
+
+TEST_CASE("environment: a renderer that has drawn other skies and lobes draws what a new one does", "[raster][environment]") {
+    Scene scene;
+    scene.materials.emplace_back().metallic = 0.0f;
+    Mesh mesh;
+    mesh.material = 0;
+    mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+    mesh.normals = {{-0.5f, 0, 1}, {0.5f, 0.2f, 1}, {0, 1, 1}};
+    mesh.indices = {0, 1, 2};
+    scene.meshes.push_back(mesh);
+    scene.instances.push_back({0, Mat4{}});
+    Renderer kept;
+    const auto draw = [&](Renderer& renderer, double codes) {
+        Settings settings;
+        settings.shading.max_error_codes = codes;
+        std::vector<float> rgba(4 * kSide * kSide);
+        REQUIRE(renderer.render(scene, camera_flat(), settings, {kSide, kSide, nullptr, rgba.data()}));
+        return rgba;
+    };
+    std::vector<std::vector<float>> pictures;
+    for (int round = 0; round < 3; ++round)
+        for (const std::uint32_t seed : {51u, 52u}) {
+            scene.environment = environment_of(random_sky(64, 32, seed), false);  // the last one's memory may well be used again
+            for (const float power : {1.0f, 2.0f, 1.3f})
+                for (const double codes : {0.0, 8.0}) {
+                    scene.materials[0].lobe = {0.5f, power, true};
+                    Renderer fresh;
+                    pictures.push_back(draw(kept, codes));
+                    CHECK(pictures.back() == draw(fresh, codes));
+                    CHECK(pictures.back() == draw(kept, codes));
+                }
+        }
+    CHECK(pictures[0] != pictures[2]);
+    CHECK(pictures[0] != pictures[6]);
 }

@@ -44,6 +44,12 @@ std::vector<Variant> variants() {
     all.back().settings.shading.override_lobe = true;
     all.back().settings.shading.lobe = shading::Lobe::sloan(0.3f);
     add("matte").shading.highlight = shading::Highlight::none;
+    add("fast").shading.accuracy = shading::Accuracy::fast;
+    all.back().settings.shading.override_lobe = true;
+    all.back().settings.shading.lobe = shading::Lobe::sloan(0.3f);
+    add("within-two-codes").shading.max_error_codes = 2.0;
+    all.back().settings.shading.override_lobe = true;
+    all.back().settings.shading.lobe = shading::Lobe::sloan(0.3f);
     add("environment");
     all.back().environment = true;
     return all;

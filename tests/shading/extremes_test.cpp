@@ -330,7 +330,8 @@ TEST_CASE("extremes: light from all around is as good at the poles of its basis 
     Shot shot = matte();
     shot.options.environment_order.fixed = sh::kMaxBands;
     const std::vector<QuadMask> available{3u, 3u};
-    shot.plan = make_frame_plan(std::span(&shot.material, 1), {}, available, {}, {}, shot.options, &environment);
+    EnvironmentPlans plans(environment);
+    shot.plan = make_frame_plan(std::span(&shot.material, 1), {}, available, {}, {}, shot.options, &plans);
     REQUIRE(shot.plan.environments.size() == 1);
     REQUIRE(shot.plan.environments[0].bands == sh::kMaxBands);
     const sh::BandFactors bands = sh::zonal_bands({0.0, 1.0, 1.0});

@@ -3,6 +3,7 @@
 
 #include "floats.hpp"
 #include "shading/plan.hpp"
+#include "shading/power_fit.hpp"
 #include "shading/reference.hpp"
 
 #include <vector>
@@ -166,6 +167,26 @@ inline Case make_case(FloatMaker& make, bool smooth_textures) {
     c.plan.view_direction_ws = {0.6f, 0.0f, -0.8f};
     c.plan.orthographic = make.below(3) == 0;
     return c;
+}
+
+/// What tiers and error budgets make of a plan: shorter polynomials, curves, reaches and thresholds, whatever they are off by.
+inline void shorten(FloatMaker& make, Case& c) {
+    using namespace shading;
+    for (MaterialPlan& material : c.plan.materials) {
+        material.lobe.tier = material.highlight_tier = static_cast<PowTier>(make.below(3));
+        if (material.lobe.path == LobePath::general && material.lobe.power_minus_one > 0.0f && make.below(2) == 0) {
+            const LobeFit fit = fit_lobe(static_cast<double>(material.lobe.power_minus_one) + 1.0, 2.0);
+            material.lobe.path = LobePath::curve;
+            std::copy_n(fit.c, kLobeCurveTerms, material.lobe.curve);
+        }
+        const float share = make.ordinary(0, 1);
+        if (make.below(2) == 0)
+            material.highlight_curve = fit_highlight(static_cast<double>(make.ordinary(1, 200)), static_cast<double>(share)).curve;
+        else if (make.below(2) == 0)
+            material.highlight_threshold = share;
+    }
+    for (LightPlan& light : c.plan.lights)
+        if (light.type != LightType::directional && make.below(3) == 0) light.reach_squared = make.ordinary(0, 9);
 }
 
 /// The reference's view of a case; valid while the case stays where it is.

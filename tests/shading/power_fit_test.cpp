@@ -1,0 +1,104 @@
+// Powers as curves made for one exponent: never off by more than their fits say, on every instruction set.
+#include "shading/power_fit.hpp"
+
+#include "floats.hpp"
+#include "lobe_curve/lobe_curve.hpp"
+#include "shading/reference.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <vector>
+
+using namespace halflit;
+using namespace halflit::shading;
+using namespace halflit::testing;
+
+namespace {
+
+constexpr int kPoints = 4096;
+
+/// t, closer together near 0.
+std::vector<float> spread() {
+    std::vector<float> t(kPoints);
+    for (int i = 0; i < kPoints; ++i) {
+        const double at = static_cast<double>(i) / (kPoints - 1);
+        t[static_cast<std::size_t>(i)] = static_cast<float>(at * at * at);
+    }
+    return t;
+}
+
+LobePlan curve_plan(const LobeFit& fit) {
+    LobePlan plan;
+    plan.path = LobePath::curve;
+    std::copy_n(fit.c, kLobeCurveTerms, plan.curve);
+    return plan;
+}
+
+double code(double linear) { return reference::srgb_code(std::min(linear, 1.0)); }
+
+}  // namespace
+
+TEST_CASE("curves: no lobe is off by more codes than its fit says, by one light or by several", "[shading][pow][curve]") {
+    const std::vector<float> t = spread();
+    FloatMaker make(77);
+    for (const double n : {1.0001, 1.02, 1.1, 1.3, 1.4999, 1.7, 2.2, 2.5, 3.2, 4.4, 6.3})
+        for (const double amplitude : {0.01, 0.3, 1.0, 5.0, 40.0}) {
+            const LobeFit fit = fit_lobe(n, amplitude);
+            for (const Isa isa : built_isas()) {
+                if (!isa_available(isa)) continue;
+                std::vector<float> f(t.size());
+                lobe_curve(isa)(curve_plan(fit), t.data(), f.data(), kPoints);
+                double worst = 0;
+                for (std::size_t i = 0; i < t.size(); ++i) {
+                    if (!(f[i] >= 0.0f)) FAIL("n = " << n << ", t = " << t[i] << ": " << f[i]);
+                    const double want = amplitude * std::pow(static_cast<double>(t[i]), n);
+                    worst = std::max(worst, std::fabs(code(amplitude * static_cast<double>(f[i])) - code(want)));
+                }
+                // Eight lights that share the amplitude, at any angles.
+                for (int round = 0; round < 2000; ++round) {
+                    double got = 0, want = 0;
+                    for (int light = 0; light < 8; ++light) {
+                        const std::size_t at = round % 2 == 0 ? make.below(kPoints) : make.below(kPoints / 4);
+                        got += amplitude / 8 * static_cast<double>(f[at]);
+                        want += amplitude / 8 * std::pow(static_cast<double>(t[at]), n);
+                    }
+                    worst = std::max(worst, std::fabs(code(got) - code(want)));
+                }
+                INFO(isa_name(isa) << ", n = " << n << ", amplitude " << amplitude << ": off by " << worst << ", said " << fit.codes);
+                CHECK(worst <= fit.codes);
+                // A bound that says nothing would hold too.
+                if (fit.codes > 0.01 && fit.codes < 50.0) CHECK(worst > 0.1 * fit.codes);
+            }
+        }
+}
+
+TEST_CASE("curves: a lobe of half-integer power is a polynomial, and other fits are close where budgets use them", "[shading][pow][curve]") {
+    for (const double n : {1.5, 2.5, 3.5}) CHECK(fit_lobe(n, 1.0).codes < 0.005);
+    for (const double n : {1.1, 1.3, 1.7}) CHECK(fit_lobe(n, 2.0).codes < 0.2);
+    // What has no bound is not promised.
+    CHECK(fit_lobe(0.9, 1.0).codes == 255.0);
+    CHECK(fit_lobe(70.0, 1.0).codes == 255.0);
+    CHECK(fit_lobe(1.3, 0.0).codes == 255.0);
+    CHECK(fit_lobe(1.3, 1e30).codes == 255.0);
+    CHECK(fit_lobe(std::nan(""), 1.0).codes == 255.0);
+}
+
+TEST_CASE("curves: highlights are off by no more than their fits say", "[shading][pow][curve]") {
+    for (const double half_exponent : {0.7, 1.0, 3.3, 8.0, 16.0, 24.5, 65.3, 131.0, 700.0, 5000.0})
+        for (const double cut : {0.3, 1e-2, 1e-4, 1e-6}) {
+            const double least = std::pow(cut, 1.0 / half_exponent);
+            const HighlightFit fit = fit_highlight(half_exponent, least);
+            double worst = 0;
+            for (int i = 0; i <= 2000; ++i) {
+                const auto x = static_cast<float>(least + (1.0 - least) * i / 2000.0);
+                float power = ((fit.curve.c[3] * x + fit.curve.c[2]) * x + fit.curve.c[1]) * x + fit.curve.c[0];
+                for (int k = 0; k < fit.curve.squarings; ++k) power *= power;
+                const double want = std::pow(static_cast<double>(x), half_exponent);
+                worst = std::max(worst, std::fabs(static_cast<double>(power) / want - 1.0));
+            }
+            INFO("half exponent " << half_exponent << ", cut " << cut << ": off by " << worst << ", said " << fit.relative_error);
+            CHECK(worst <= fit.relative_error);
+            if (half_exponent >= 8.0 && half_exponent <= 131.0 && cut >= 1e-4) CHECK(fit.relative_error < 0.03);
+        }
+}
