@@ -8,6 +8,7 @@
 #include "sh/power.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace halflit::shading {
 
@@ -19,17 +20,19 @@ inline constexpr double kSlopeAtBlack = 255.0 * 12.92, kLinearEnd = 0.0031308;
     return v <= kLinearEnd ? kSlopeAtBlack : (255.0 * 1.055 / 2.4) * power_of(v, 1.0 / 2.4 - 1.0);
 }
 
-/// The largest f(v, code_slope(v)) for v from the end of the curve's straight part to white. Below, f must only fall, and from v to
+struct CurvePoint {
+    double v, log2_v, slope;
+};
+/// From the end of the curve's straight part to white, v growing by a tenth from one to the next.
+[[nodiscard]] const std::array<CurvePoint, 61>& curve_points();
+
+/// The largest f(CurvePoint) for v from the end of the curve's straight part to white. Below, f must only fall, and from v to
 /// 1.1 v it must grow by less than a twentieth: so do slope(v) times anything concave that is 0 at 0 and does not fall.
 template <class Function>
 double largest_on_curve(const Function& f) {
-    constexpr int kSteps = 60;
     constexpr double kBetween = 1.05;
-    double most = f(kLinearEnd, kSlopeAtBlack);
-    for (int i = 0; i <= kSteps; ++i) {
-        const double v = exp2_of(log2_of(kLinearEnd) * (kSteps - i) / kSteps);
-        most = std::max(most, f(v, code_slope(v)));
-    }
+    double most = 0.0;
+    for (const CurvePoint& point : curve_points()) most = std::max(most, f(point));
     return most * kBetween;
 }
 

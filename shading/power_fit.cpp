@@ -171,7 +171,7 @@ LobeFit fit_lobe(double n, double amplitude) {
     }
     const std::vector<Point> majorant = concave_majorant(errors);
     const double below_the_first = codes_of_absolute(amplitude * errors.front().y);
-    const double codes = largest_on_curve([&](double v, double slope) { return slope * amplitude * at(majorant, v / amplitude); });
+    const double codes = largest_on_curve([&](const CurvePoint& on) { return on.slope * amplitude * at(majorant, on.v / amplitude); });
     fit.codes = std::min(255.0, codes + below_the_first);
     return fit;
 }
