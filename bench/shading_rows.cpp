@@ -205,8 +205,8 @@ std::vector<Row> shading_rows() {
     encode.work = Work::encode;
     encode.lights = {0};
     encode.frames.emplace_back();
-    // Exposure; log2 by degree 5, the power's factor, exp2 by degree 4, the curve's two arms, the code: three channels, and alpha's code.
-    encode.operations = {3 * (1 + 1 + (2 * 5 + 1) + 2 + 2 + 1 + 2 * 4 + 2 + 3 + 2) + 2};
+    // Exposure, two roots, a polynomial of degree 6, the curve's straight arm, the code: three channels, and alpha's code.
+    encode.operations = {3 * (1 + 2 * 6 + 1 + 1) + 1, 0, 6};
     rows.push_back(std::move(encode));
     rows.push_back(pixel_row());
     Row peak;
