@@ -2,18 +2,20 @@
 
 #include "shading/code_bounds.hpp"
 #include "shading/power_fit.hpp"
+#include "shading/texture_bounds.hpp"
 #include "sh/power.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 namespace halflit::shading {
 namespace {
 
-/// Of N.L for a normal from three interpolated floats, and for one from a texture whose filtered channels are within 3e-5.
-constexpr double kCosineError = 4e-7, kMappedCosineError = 2e-4;
-/// Of a filtered channel of a texture, of its range.
-constexpr double kTextureError = 3e-5;
+/// Of N.L for a normal from three interpolated floats.
+constexpr double kCosineError = 4e-7;
+/// What a mapped normal's length is taken for where its z may be less: shorter ones come of texels that point away from each other.
+constexpr double kShortestNormal = 0.1;
 /// Of the products and sums that follow, relative.
 constexpr double kProductError = 1e-5;
 
@@ -22,6 +24,8 @@ struct Surface {
     double albedo, reflectance;     ///< diffuse with the lobe's scale; F0
     double exponent, normalization; ///< of the sharpest highlight
     double cosine_error;
+    double roughness_error;  ///< relative, where a texture gives it
+    double base_color_error, metallic_error, occlusion_error, emissive_error;  ///< of a texture's value
     bool highlight;
 };
 
@@ -33,9 +37,29 @@ Surface surface_of(const FramePlan& plan, const MaterialPlan& material, const Sc
     s.albedo = color;
     s.highlight = has(kStageSpecular) && has(kStageLights);
     s.reflectance = material.metallic > 0.0f ? std::max(0.04, color) : 0.04;
-    s.exponent = highlight_exponent(has(kStageMetallicRoughnessTexture) ? 0.0 : static_cast<double>(material.roughness));
+    const auto filtered = [&](const TexturePlan& texture, std::initializer_list<int> channels) {
+        double error = 0.0;
+        for (const int c : channels) error = std::max(error, filter_error(texture, c, facts.largest_uv));
+        return error;
+    };
+    double roughness = material.roughness;
+    if (has(kStageMetallicRoughnessTexture)) {
+        roughness *= least_value(material.metallic_roughness_texture, 1);
+        s.roughness_error = filtered(material.metallic_roughness_texture, {1}) * static_cast<double>(material.roughness) / std::max(roughness, 0.07);
+        s.metallic_error = filtered(material.metallic_roughness_texture, {2});
+    }
+    if (has(kStageBaseColorTexture)) s.base_color_error = filtered(material.base_color_texture, {0, 1, 2});
+    if (has(kStageOcclusionTexture)) s.occlusion_error = filtered(material.occlusion_texture, {0});
+    if (has(kStageEmissiveTexture)) s.emissive_error = filtered(material.emissive_texture, {0, 1, 2});
+    s.exponent = highlight_exponent(roughness);
     s.normalization = plan.normalize_highlight ? (s.exponent + 8.0) / 8.0 : 1.0;
-    s.cosine_error = has(kStageNormalMap) ? kMappedCosineError * std::max(1.0, static_cast<double>(std::fabs(material.normal_scale))) : kCosineError;
+    s.cosine_error = kCosineError;
+    if (has(kStageNormalMap)) {
+        // Three components in [-1, 1], each off by twice its channel, of a vector that is no shorter than its z.
+        const double z = 2.0 * least_value(material.normal_texture, 2) - 1.0;
+        s.cosine_error += 2.0 * 1.7320508 * filtered(material.normal_texture, {0, 1, 2}) * std::max(1.0, std::fabs(double{material.normal_scale})) /
+                          std::max(z, kShortestNormal);
+    }
     return s;
 }
 
@@ -95,16 +119,16 @@ double rounding_codes(const MaterialPlan& material, const FramePlan& plan, const
     if (s.highlight) {
         const double turning = plan.highlight == Highlight::phong ? 2.0 : 1.0;
         double constant = 0.0, linear = 3e-7;
-        if (has(kStageMetallicRoughnessTexture)) constant = linear = 4.0 * kTextureError / 0.07;
+        if (has(kStageMetallicRoughnessTexture)) constant = linear = 4.0 * s.roughness_error;  // alpha^4, in the exponent and in its norm
         codes += codes_of_highlight(s.reflectance * s.normalization * light.largest, light.count, constant, linear,
                                     turning * std::sqrt(2.0 * s.exponent) * s.cosine_error);
     }
     const double lit = has(kStageUnlit) ? exposure : light.sum * std::max(1.0, scale) + around;
-    if (has(kStageBaseColorTexture)) codes += codes_of_absolute(kTextureError * s.albedo * lit);
-    if (has(kStageMetallicRoughnessTexture)) codes += codes_of_absolute(2.0 * kTextureError * s.albedo * lit);
-    if (has(kStageOcclusionTexture)) codes += codes_of_absolute(kTextureError * around);
+    if (has(kStageBaseColorTexture)) codes += codes_of_absolute(s.base_color_error * s.albedo * lit);
+    if (has(kStageMetallicRoughnessTexture)) codes += codes_of_absolute(2.0 * s.metallic_error * s.albedo * lit);
+    if (has(kStageOcclusionTexture)) codes += codes_of_absolute(s.occlusion_error * around);
     if (has(kStageEmissiveTexture))
-        codes += codes_of_absolute(kTextureError * exposure * std::max({material.emissive[0], material.emissive[1], material.emissive[2]}));
+        codes += codes_of_absolute(s.emissive_error * exposure * std::max({material.emissive[0], material.emissive[1], material.emissive[2]}));
     return std::min(codes, 255.0);
 }
 

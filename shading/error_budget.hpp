@@ -13,6 +13,7 @@ struct SceneFacts {
     std::vector<double> light_farthest_squared;  ///< likewise: no surface is farther from it, squared
     std::vector<bool> drawn;             ///< for each of the plan's materials: something is made of it
     double vertex_color = 1.0;           ///< the largest channel of all vertex colours
+    double largest_uv = 0.0;             ///< the largest texture coordinate; needed where a texture's are transformed
 };
 
 /// How much of a budget goes to the environment's bands; the rest is for spend_error_budget.

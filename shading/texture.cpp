@@ -65,6 +65,51 @@ void reduce(const std::uint16_t* from, const TextureLevel& large, std::uint16_t*
     }
 }
 
+/// Channel values of several texels at a time: lane i holds channel i % 4.
+constexpr std::size_t kLanes = 32;
+using Lanes = std::array<std::uint16_t, kLanes>;
+
+/// `sum` = combine(sum, value(i)) for all i below `values`; a copy on the stack, so that the compiler knows that nothing else changes it.
+template <class Combine, class Value>
+void accumulate(Lanes& sum, std::size_t values, const Combine& combine, const Value& value) {
+    Lanes lanes = sum;
+    std::size_t i = 0;
+    for (; i + kLanes <= values; i += kLanes)
+        for (std::size_t lane = 0; lane < kLanes; ++lane) lanes[lane] = combine(lanes[lane], value(i + lane));
+    for (; i < values; ++i) lanes[i % kLanes] = combine(lanes[i % kLanes], value(i));
+    sum = lanes;
+}
+
+TextureRange range_of(const std::uint16_t* data, const std::vector<TextureLevel>& levels) {
+    const auto smaller = [](std::uint16_t a, std::uint16_t b) { return a < b ? a : b; };
+    const auto larger = [](std::uint16_t a, std::uint16_t b) { return a > b ? a : b; };
+    Lanes least, most{}, step{};
+    least.fill(65535);
+    const auto add_steps = [&](const std::uint16_t* a, const std::uint16_t* b, std::size_t values) {
+        accumulate(step, values, larger, [=](std::size_t i) { return static_cast<std::uint16_t>(larger(a[i], b[i]) - smaller(a[i], b[i])); });
+    };
+    for (const TextureLevel& level : levels) {
+        const std::size_t row = std::size_t{4} * static_cast<std::size_t>(level.width), rows = static_cast<std::size_t>(level.height);
+        const std::uint16_t* first = data + std::size_t{4} * static_cast<std::size_t>(level.offset);
+        const auto value = [=](std::size_t i) { return first[i]; };
+        accumulate(least, row * rows, smaller, value);
+        accumulate(most, row * rows, larger, value);
+        add_steps(first, first + row, row * (rows - 1));
+        add_steps(first, first + row * (rows - 1), row);
+        for (std::size_t y = 0; y < rows; ++y) {
+            add_steps(first + y * row, first + y * row + 4, row - 4);
+            add_steps(first + y * row, first + (y + 1) * row - 4, 4);
+        }
+    }
+    TextureRange range{{65535, 65535, 65535, 65535}, {}, {}};
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        range.least[lane % 4] = smaller(range.least[lane % 4], least[lane]);
+        range.most[lane % 4] = larger(range.most[lane % 4], most[lane]);
+        range.step[lane % 4] = larger(range.step[lane % 4], step[lane]);
+    }
+    return range;
+}
+
 std::vector<TextureLevel> level_layout(int width, int height) {
     std::vector<TextureLevel> levels{{width, height, 0}};
     while (levels.back().width > 1 || levels.back().height > 1) {
@@ -101,6 +146,7 @@ Result<Texture> Texture::make(int width, int height, ReadTexel read_texel) {
             reduce(texture.data_.data() + std::size_t{4} * static_cast<std::size_t>(large.offset), large,
                    texture.data_.data() + std::size_t{4} * static_cast<std::size_t>(small.offset), small);
         }
+        texture.range_ = range_of(texture.data_.data(), texture.levels_);
         return texture;
     } catch (const std::bad_alloc&) {
         return fail(ErrorCode::limit, "texture: out of memory for " + std::to_string(width) + " x " + std::to_string(height) + " texels");

@@ -32,6 +32,12 @@ struct TextureLevel {
 inline constexpr int kMaxTextureLevels = 16;
 inline constexpr int kMaxTextureSide = 16384;
 
+/// What is known of a texture's channels, in 1 / 65535, over all levels: for bounds of what filtering can be off by.
+struct TextureRange {
+    std::uint16_t least[4], most[4];
+    std::uint16_t step[4];  ///< the largest difference between neighbours in a row or a column, those across opposite edges included
+};
+
 /// Texel (x, y) of level l is at data()[4 * (offset + y * width + x)], row 0 on top (v = 0), channel order RGBA.
 class Texture {
 public:
@@ -44,6 +50,7 @@ public:
     [[nodiscard]] int height() const { return levels_.empty() ? 0 : levels_[0].height; }
     [[nodiscard]] std::span<const TextureLevel> levels() const { return levels_; }
     [[nodiscard]] std::span<const std::uint16_t> data() const { return data_; }
+    [[nodiscard]] const TextureRange& range() const { return range_; }
 
 private:
     template <class ReadTexel>
@@ -51,6 +58,7 @@ private:
 
     std::vector<TextureLevel> levels_;
     std::vector<std::uint16_t> data_;
+    TextureRange range_{};
 };
 
 /// How a material uses a texture: which one, through which sampler, at which coordinates.

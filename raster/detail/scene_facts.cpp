@@ -1,6 +1,7 @@
 #include "raster/detail/scene_facts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -129,6 +130,11 @@ private:
     std::vector<Cluster> clusters_;
 };
 
+bool transforms_textures(const shading::MaterialPlan& material) {
+    return material.base_color_texture.transform || material.metallic_roughness_texture.transform || material.normal_texture.transform ||
+           material.occlusion_texture.transform || material.emissive_texture.transform;
+}
+
 }  // namespace
 
 shading::SceneFacts scene_facts(const Frame& frame) {
@@ -136,6 +142,10 @@ shading::SceneFacts scene_facts(const Frame& frame) {
     facts.drawn.assign(frame.plan.materials.size(), false);
     for (const Draw& draw : frame.draws) {
         facts.drawn[static_cast<std::size_t>(draw.material)] = true;
+        if (transforms_textures(frame.plan.materials[static_cast<std::size_t>(draw.material)]))
+            for (const std::vector<Vec2f>* set : {&draw.mesh->uv0, &draw.mesh->uv1})
+                for (const Vec2f uv : *set)
+                    facts.largest_uv = std::max({facts.largest_uv, std::fabs(static_cast<double>(uv.x)), std::fabs(static_cast<double>(uv.y))});
         for (const Vec4f& c : draw.mesh->colors)
             facts.vertex_color = std::max({facts.vertex_color, static_cast<double>(c.x), static_cast<double>(c.y), static_cast<double>(c.z)});
     }

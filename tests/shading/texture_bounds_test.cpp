@@ -1,0 +1,108 @@
+// What a texture's channels range over, and what filtering them in float32 is off by: never more than the bound.
+#include "shading/texture_bounds.hpp"
+
+#include "floats.hpp"
+#include "shading/kernels/shade_kernels.hpp"
+#include "shading/reference.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace halflit;
+using namespace halflit::shading;
+using namespace halflit::testing;
+
+namespace {
+
+/// Waves of `periods` across the picture, and `noise` of the range on top.
+Texture wavy(int width, int height, double periods, double noise, FloatMaker& make) {
+    std::vector<std::uint16_t> texels;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            for (int c = 0; c < 4; ++c) {
+                const double wave = std::sin(2.0 * kPi * periods * (static_cast<double>(x) / width + static_cast<double>(y) / height) + c);
+                const double rough = static_cast<double>(make.ordinary(-1, 1));
+                texels.push_back(static_cast<std::uint16_t>(65535.0 * (0.5 + 0.5 * ((1.0 - noise) * 0.9 * wave + noise * rough))));
+            }
+    return Texture::from_rgba16(texels, width, height).value();
+}
+
+}  // namespace
+
+TEST_CASE("texture bounds: ranges and steps are those of all levels, across the edges too", "[shading][texture]") {
+    FloatMaker make(8);
+    for (const auto& [width, height] : {std::pair{1, 1}, {1, 6}, {7, 1}, {2, 2}, {16, 8}, {13, 9}}) {
+        const Texture texture = wavy(width, height, 1.0, 0.5, make);
+        for (std::size_t c = 0; c < 4; ++c) {
+            int least = 65535, most = 0, step = 0;
+            for (const TextureLevel& level : texture.levels()) {
+                const auto at = [&](int x, int y) {
+                    const int texel = level.offset + (y % level.height) * level.width + x % level.width;
+                    return static_cast<int>(texture.data()[static_cast<std::size_t>(4 * texel) + c]);
+                };
+                for (int y = 0; y < level.height; ++y)
+                    for (int x = 0; x < level.width; ++x) {
+                        least = std::min(least, at(x, y)), most = std::max(most, at(x, y));
+                        step = std::max({step, std::abs(at(x, y) - at(x + 1, y)), std::abs(at(x, y) - at(x, y + 1))});
+                    }
+            }
+            INFO(width << " x " << height << ", channel " << c);
+            CHECK(texture.range().least[c] == least);
+            CHECK(texture.range().most[c] == most);
+            CHECK(texture.range().step[c] == step);
+        }
+    }
+}
+
+TEST_CASE("texture bounds: no filtered channel is off by more than its bound", "[shading][texture][sampling]") {
+    FloatMaker make(99);
+    double closest = 0;
+    for (const auto& [width, height] : {std::pair{64, 64}, {1024, 256}, {300, 77}, {5, 3}})
+        for (const double noise : {0.0, 1.0}) {
+            const Texture texture = wavy(width, height, 2.0, noise, make);
+            for (int mode = 0; mode < 3 * 2 * 2; ++mode) {
+                Material material;
+                material.unlit = true;
+                material.alpha_mode = AlphaMode::blend;
+                TextureUse& use = material.base_color_texture;
+                use.texture = 0;
+                use.sampler.wrap_u = use.sampler.wrap_v = static_cast<Wrap>(mode % 3);
+                use.sampler.mip = mode / 3 % 2 == 0 ? MipFilter::none : MipFilter::linear;
+                if (mode / 6 == 1) use.row_u = {0.7f, 1.9f, 0.3f}, use.row_v = {-1.9f, 0.7f, -0.1f};
+                const std::vector<QuadMask> available{3u, 3u};
+                const FramePlan plan = make_frame_plan(std::span(&material, 1), std::span(&texture, 1), available, {}, {}, {});
+                const TexturePlan& planned = plan.materials[0].base_color_texture;
+                constexpr float kLargest = 2.5f;
+                for (int round = 0; round < 20; ++round) {
+                    FragmentBlock block{};
+                    for (int lane = 0; lane < kBlockSize; ++lane) {
+                        block.lane[kU0][lane] = make.ordinary(-kLargest, kLargest);
+                        block.lane[kV0][lane] = make.ordinary(-kLargest, kLargest);
+                        block.lane[kDu0Dx][lane] = std::exp2(make.ordinary(-2.0f, 6.0f)) / static_cast<float>(width);
+                    }
+                    shade_kernels(default_isa().value()).shade(plan, plan.materials[0], all_lights(plan), block, kBlockSize);
+                    for (int lane = 0; lane < kBlockSize; ++lane) {
+                        const double u = block.lane[kU0][lane], v = block.lane[kV0][lane], du = block.lane[kDu0Dx][lane];
+                        const auto moved = [](Vec3f row, double a, double b) { return double{row.x} * a + double{row.y} * b; };
+                        const double right = moved(use.row_u, du, 0) * width, down = moved(use.row_v, du, 0) * height;
+                        const reference::Rgba want =
+                            reference::sample(texture, use.sampler, moved(use.row_u, u, v) + double{use.row_u.z},
+                                              moved(use.row_v, u, v) + double{use.row_v.z}, 0.5 * std::log2(right * right + down * down));
+                        const double errors[] = {std::fabs(static_cast<double>(block.red[lane]) - want.r), std::fabs(static_cast<double>(block.green[lane]) - want.g),
+                                                 std::fabs(static_cast<double>(block.blue[lane]) - want.b)};
+                        for (int c = 0; c < 3; ++c) {
+                            const double bound = filter_error(planned, c, static_cast<double>(kLargest));
+                            closest = std::max(closest, errors[c] / bound);
+                            if (errors[c] > bound)
+                                FAIL(width << " x " << height << ", noise " << noise << ", mode " << mode << ", u " << u << ", v " << v << ": off by "
+                                           << errors[c] << ", bound " << bound);
+                        }
+                    }
+                }
+            }
+        }
+    INFO("closest to its bound: " << closest);
+    CHECK(closest > 0.2);
+    CHECK(closest <= 1.0);
+}
