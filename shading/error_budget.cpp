@@ -1,9 +1,9 @@
 #include "shading/error_budget.hpp"
 
+#include "sh/power.hpp"
 #include "shading/code_bounds.hpp"
 #include "shading/power_fit.hpp"
 #include "shading/texture_bounds.hpp"
-#include "sh/power.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -276,6 +276,7 @@ void spend_error_budget(FramePlan& plan, double budget_codes, double exposure, c
 
     LobeFits fits;
     for (std::size_t i = 0; i < plan.materials.size(); ++i) {
+        if (!facts.drawn[i]) continue;
         MaterialPlan& material = plan.materials[i];
         const Surface& s = surfaces[i];
         ErrorBound bound;
@@ -288,7 +289,6 @@ void spend_error_budget(FramePlan& plan, double budget_codes, double exposure, c
             left -= bound.lobes;
             if (s.highlight && light.count > 0) spend_on_highlights(plan, material, s, light, exposure, left, bound);
         }
-        if (!facts.drawn[i]) continue;
         bound.codes = bound.rounding + bound.lobes + bound.highlights + bound.environment + bound.left_out;
         if (bound.codes > worst.codes) worst = bound;
     }

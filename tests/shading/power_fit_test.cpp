@@ -84,6 +84,13 @@ TEST_CASE("curves: a lobe of half-integer power is a polynomial, and other fits 
     CHECK(fit_lobe(std::nan(""), 1.0).codes == 255.0);
 }
 
+TEST_CASE("curves: a highlight without a range or without an exponent is not promised", "[shading][pow][curve]") {
+    CHECK(fit_highlight(16.0, 1.0).relative_error > 1e20);
+    CHECK(fit_highlight(16.0, 0.0).relative_error > 1e20);
+    CHECK(fit_highlight(0.0, 0.5).relative_error < 1e-4);  // x^0 is 1
+    CHECK(fit_highlight(0.0, 0.0).relative_error > 1e20);
+}
+
 TEST_CASE("curves: highlights are off by no more than their fits say", "[shading][pow][curve]") {
     for (const double half_exponent : {0.7, 1.0, 3.3, 8.0, 16.0, 24.5, 65.3, 131.0, 700.0, 5000.0})
         for (const double cut : {0.3, 1e-2, 1e-4, 1e-6}) {
