@@ -207,7 +207,7 @@ void spend_on_highlights(const FramePlan& plan, MaterialPlan& material, const Su
         const double half_exponent = s.exponent * (plan.highlight == Highlight::phong ? 0.125 : 0.5);
         const double share = threshold_of(0.5 * budget) / (light.largest / exposure * s.normalization);
         const HighlightFit fit = fit_highlight(half_exponent, share < 1.0 ? power_of(share, 1.0 / half_exponent) : 1.0);
-        const double codes = codes_of_highlight(s.reflectance * s.normalization * light.largest, light.count, fit.relative_error, 0.0, 0.0);
+        const double codes = fit.codes(s.reflectance * s.normalization * light.largest, light.count);
         if (codes <= 0.48 * budget) {
             material.highlight_curve = fit.curve;
             bound.highlights = codes;

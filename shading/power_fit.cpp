@@ -200,12 +200,44 @@ HighlightFit fit_highlight(double half_exponent, double least) {
         size += std::fabs(c[i]);
     }
     fit.curve.least = static_cast<float>(least);
-    // The interpolation's remainder: half^4 / (2^3 4!) times the largest fourth derivative, and the smallest value.
-    const double derivative = std::fabs(power * (power - 1.0) * (power - 2.0) * (power - 3.0)) * power_of(least, std::min(0.0, power - 4.0));
-    const double smallest = power_of(least, power), half2 = half * half;
-    const double remainder = half2 * half2 / 192.0 * derivative + 8.0 * kRounding * size;
-    fit.relative_error = smallest > remainder ? times * (remainder / (smallest - remainder) + 2.0 * kRounding) + half_exponent * 20.0 * kRounding : 1e30;
+    fit.rounding = times * 2.0 * kRounding + half_exponent * 20.0 * kRounding;
+    fit.least_root = power_of(least, power);
+    fit.root_error = 1e30;
+    if (!(least > 1e-6 && least < 1.0)) return fit;
+    // Sampled, closer together where x^power bends most; between two samples the second derivative bounds what is missed.
+    constexpr int kSteps = 64;
+    const auto error_at = [&](double at) {
+        const double p = ((fit.curve.c[3] * at + fit.curve.c[2]) * at + fit.curve.c[1]) * at + fit.curve.c[0];
+        return std::fabs(p - power_of(at, power));
+    };
+    double before = least, error_before = error_at(least), largest = 0.0;
+    for (int i = 1; i <= kSteps; ++i) {
+        const double at = i == kSteps ? 1.0 : power_of(least, 1.0 - static_cast<double>(i) / kSteps), step = at - before, error = error_at(at);
+        const double bend = std::fabs(power * (power - 1.0)) * power_of(before, std::min(0.0, power - 2.0)) + std::fabs(2.0 * c[2]) + std::fabs(6.0 * c[3]);
+        largest = std::max(largest, std::max(error, error_before) + 0.125 * bend * step * step);
+        before = at, error_before = error;
+    }
+    fit.root_error = largest + 8.0 * kRounding * size;
     return fit;
+}
+
+double HighlightFit::relative_error(double share) const {
+    // (r + e)^m against r^m, r the root: m e / r of it, and the rest of (1 + e / r)^m that is not straight.
+    const double m = static_cast<double>(std::int64_t{1} << std::max(0, curve.squarings));
+    const double root = std::max(least_root, power_of(share, 1.0 / m)), bent = m * root_error / root;
+    if (!(root > 0.0 && bent < 0.5)) return 1e30;
+    return rounding + (m > 1.0 ? bent * (1.0 + bent) : bent);
+}
+
+double HighlightFit::codes(double peak, int count) const {
+    const double top = peak * count;
+    if (!(top > 0.0)) return 0.0;
+    if (relative_error(0.0) > 1.0) return 255.0;
+    // v times the relative error is v^(1 - 1/m) and v^(1 - 2/m), and below the cut straight: concave, so that lights add up.
+    return std::min(255.0, largest_on_curve([&](const CurvePoint& at) {
+                        const double v = std::min(at.v, top);
+                        return at.slope * v * relative_error(v / top);
+                    }));
 }
 
 }  // namespace halflit::shading
