@@ -113,11 +113,10 @@ TEST_CASE("output: a closed standard output is an error, a closed standard error
 TEST_CASE("output: a run that waits for its input ends by SIGINT and SIGTERM, with its report", "[cli]") {
     for (const int signal : {SIGINT, SIGTERM}) {
         const TemporaryFolder folder;
-        int asked = 0;
-        // 200 rounds of half a millisecond: by then it reads.
-        const auto later = [&]() { return ++asked == 200 ? std::optional(signal) : std::nullopt; };
-        const Outcome outcome =
-            run({"render", "-", "-o", folder.file("a.png"), "--report", folder.file("r.json")}, {.signal = later, .hold_input_open = true});
+        // Asked for once the program has read the first byte: it waits for the next one.
+        const auto now = [&]() { return std::optional(signal); };
+        const Outcome outcome = run({"render", "-", "-o", folder.file("a.png"), "--report", folder.file("r.json")},
+                                    {.input = "{", .signal = now, .hold_input_open = true});
         INFO("signal " << signal << ": " << outcome.err);
         CHECK(outcome.code == 128 + signal);
         CHECK(folder.names() == std::vector<std::string>{"r.json"});

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include <fcntl.h>
+#include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -31,11 +32,17 @@ namespace {
     ::_exit(126);
 }
 
-int wait_for(pid_t child, const RunSettings& settings) {
+/// Whether what was written to a pipe has been read. `input` is its reading end, or below 0.
+bool input_taken(int input) {
+    int left = 0;
+    return input < 0 || (::ioctl(input, FIONREAD, &left) == 0 && left == 0);
+}
+
+int wait_for(pid_t child, const RunSettings& settings, int held_input) {
     int status = 0;
     bool sent = false;
     while (::waitpid(child, &status, settings.signal && !sent ? WNOHANG : 0) == 0) {
-        if (const auto signal = settings.signal()) {
+        if (const auto signal = input_taken(held_input) ? settings.signal() : std::nullopt) {
             ::kill(child, *signal);
             sent = true;
         }
@@ -50,7 +57,10 @@ Outcome run(const std::vector<std::string>& arguments, const RunSettings& settin
     const TemporaryFolder folder;
     write_contents(folder.file("in"), settings.input);
     int pipe_ends[2] = {-1, -1};
-    if (settings.hold_input_open) REQUIRE(::pipe2(pipe_ends, O_CLOEXEC) == 0);
+    if (settings.hold_input_open) {
+        REQUIRE(::pipe2(pipe_ends, O_CLOEXEC) == 0);
+        REQUIRE(::write(pipe_ends[1], settings.input.data(), settings.input.size()) == static_cast<ssize_t>(settings.input.size()));
+    }
     const int streams[3] = {settings.hold_input_open ? pipe_ends[0] : ::open(folder.file("in").c_str(), O_RDONLY | O_CLOEXEC),
                             ::open(folder.file("out").c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600),
                             ::open(folder.file("err").c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600)};
@@ -64,7 +74,7 @@ Outcome run(const std::vector<std::string>& arguments, const RunSettings& settin
     REQUIRE(child >= 0);
     if (child == 0) become_program(argv, settings, streams);
     Outcome outcome;
-    outcome.code = wait_for(child, settings);
+    outcome.code = wait_for(child, settings, pipe_ends[0]);
     for (const int fd : {streams[0], streams[1], streams[2], pipe_ends[1]})
         if (fd >= 0) ::close(fd);
     outcome.out = contents(folder.file("out"));

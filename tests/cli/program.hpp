@@ -22,7 +22,7 @@ struct RunSettings {
     std::optional<int> closed{};                                     ///< a standard stream that is closed
     /// Called again and again while the program runs; a number is a signal to send, once.
     std::function<std::optional<int>()> signal{};
-    bool hold_input_open = false;  ///< standard input does not end
+    bool hold_input_open = false;  ///< standard input does not end; signals are asked for once `input` has been read
 };
 
 [[nodiscard]] Outcome run(const std::vector<std::string>& arguments, const RunSettings& settings = {});
