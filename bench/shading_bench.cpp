@@ -11,15 +11,18 @@
 
 namespace halflit::bench {
 
-// Defined in kernels/bare_<isa>.cpp and kernels/shade_avx2_fma.cpp.
-extern const BareKernels bare_kernels_scalar, bare_kernels_sse2, bare_kernels_sse41, bare_kernels_avx2, bare_kernels_avx512,
-    bare_kernels_neon64, bare_kernels_avx2_fma;
+HALFLIT_DECLARE_TABLES(BareKernels, bare_kernels)
+#ifdef HALFLIT_FUSED
+extern const BareKernels bare_kernels_avx2_fma;
+#endif
 
 }  // namespace halflit::bench
 
+#ifdef HALFLIT_FUSED
 namespace halflit::shading {
 extern const ShadeKernels shade_kernels_avx2_fma;
 }
+#endif
 
 namespace halflit::bench {
 namespace {
@@ -39,7 +42,7 @@ std::vector<Column> columns() {
     for (const shading::Isa isa : shading::built_isas())
         if (shading::isa_available(isa))
             all.push_back({std::string(shading::isa_name(isa)), &bare_kernels(isa), &shading::shade_kernels(isa)});
-#ifdef HALFLIT_HAVE_AVX2
+#ifdef HALFLIT_FUSED
     if (shading::isa_available(shading::Isa::avx2) && __builtin_cpu_supports("fma"))
         all.push_back({kFused, &bare_kernels_avx2_fma, &shading::shade_kernels_avx2_fma});
 #endif

@@ -1,10 +1,10 @@
 #include "raster/debug_view.hpp"
 
-#include "raster/detail/binning.hpp"
-#include "raster/detail/executor.hpp"
-#include "raster/detail/fp_environment.hpp"
-#include "raster/detail/geometry.hpp"
-#include "raster/detail/tile_renderer.hpp"
+#include "raster/passes/binning.hpp"
+#include "raster/passes/executor.hpp"
+#include "raster/passes/fp_environment.hpp"
+#include "raster/passes/geometry.hpp"
+#include "raster/passes/tile_renderer.hpp"
 
 namespace halflit::raster {
 

@@ -1,12 +1,12 @@
 #include "raster/renderer.hpp"
 
-#include "raster/detail/binning.hpp"
-#include "raster/detail/executor.hpp"
-#include "raster/detail/fp_environment.hpp"
-#include "raster/detail/geometry.hpp"
-#include "raster/detail/shading_rate.hpp"
-#include "raster/detail/tile_renderer.hpp"
-#include "raster/detail/shadow_map.hpp"
+#include "raster/passes/binning.hpp"
+#include "raster/passes/executor.hpp"
+#include "raster/passes/fp_environment.hpp"
+#include "raster/passes/geometry.hpp"
+#include "raster/passes/shading_rate.hpp"
+#include "raster/passes/tile_renderer.hpp"
+#include "raster/passes/shadow_map.hpp"
 
 #include <algorithm>
 #include <atomic>

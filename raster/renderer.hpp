@@ -1,12 +1,12 @@
 // The public entry: a scene and a camera in, pixels out.
 #pragma once
 
-#include "raster/camera.hpp"
+#include "raster/view/camera.hpp"
 #include "raster/framebuffer.hpp"
-#include "raster/scene.hpp"
+#include "raster/scene/scene.hpp"
 #include "raster/work_counts.hpp"
 #include "shading/kernels/isa.hpp"
-#include "shading/plan.hpp"
+#include "shading/plan/plan.hpp"
 #include "shading/result.hpp"
 
 #include <cstddef>

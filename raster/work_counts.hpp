@@ -1,7 +1,7 @@
 // How much work shading was, in lanes: what the plan promises not to do can be seen not to be done.
 #pragma once
 
-#include "shading/plan.hpp"
+#include "shading/plan/plan.hpp"
 
 #include <array>
 #include <bit>

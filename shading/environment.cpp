@@ -3,7 +3,7 @@
 #include "sh/sun.hpp"
 #include "sh/trig.hpp"
 #include "sh/zonal.hpp"
-#include "shading/code_bounds.hpp"
+#include "shading/budget/code_bounds.hpp"
 #include "shading/material.hpp"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "sh/order.hpp"
 #include "sh/project.hpp"
 #include "sh/rotate.hpp"
-#include "shading/environment_plan.hpp"
+#include "shading/plan/environment_plan.hpp"
 #include "shading/light.hpp"
 
 #include <memory>

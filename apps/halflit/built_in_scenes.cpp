@@ -1,8 +1,8 @@
 #include "apps/halflit/built_in_scenes.hpp"
 
 #include "apps/halflit/values.hpp"
-#include "raster/lights_scene.hpp"
-#include "raster/shapes.hpp"
+#include "raster/built_in/hall_of_lamps.hpp"
+#include "raster/built_in/shapes.hpp"
 #include "sh/trig.hpp"
 
 #include <string>

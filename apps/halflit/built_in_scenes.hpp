@@ -1,7 +1,7 @@
 // Scenes that need no file.
 #pragma once
 
-#include "raster/scene.hpp"
+#include "raster/scene/scene.hpp"
 #include "shading/result.hpp"
 
 #include <optional>

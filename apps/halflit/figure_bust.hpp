@@ -1,7 +1,7 @@
 // A head and shoulders made by code: a form with brow, nose, lips and ears, for figures whose point a sphere does not show.
 #pragma once
 
-#include "raster/mesh.hpp"
+#include "raster/scene/mesh.hpp"
 
 namespace halflit::cli {
 

@@ -1,7 +1,7 @@
 // Two shapes of highlight: the mirrored light against the half vector.
 #include "apps/halflit/figure_entries.hpp"
 #include "apps/halflit/figure_studio.hpp"
-#include "raster/shapes.hpp"
+#include "raster/built_in/shapes.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // How often light is evaluated, and where it comes from.
 #include "apps/halflit/figure_entries.hpp"
 #include "apps/halflit/figure_studio.hpp"
-#include "raster/shapes.hpp"
+#include "raster/built_in/shapes.hpp"
 
 #include <fmt/format.h>
 

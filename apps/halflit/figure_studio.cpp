@@ -1,7 +1,7 @@
 #include "apps/halflit/figure_studio.hpp"
 
 #include "apps/halflit/figure_bust.hpp"
-#include "raster/shapes.hpp"
+#include "raster/built_in/shapes.hpp"
 
 namespace halflit::cli {
 

@@ -1,7 +1,7 @@
 // What shadow maps do to light that wraps: three bodies, three modes, five wraps, and the light measured across the terminator.
 #include "apps/halflit/figure_entries.hpp"
 #include "apps/halflit/figure_studio.hpp"
-#include "raster/shapes.hpp"
+#include "raster/built_in/shapes.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include "apps/halflit/stopwatch.hpp"
 #include "apps/io/environment.hpp"
 #include "apps/io/image_writer.hpp"
-#include "raster/exposure.hpp"
+#include "raster/scene/exposure.hpp"
 #include "sh/trig.hpp"
 #include "shading/environment.hpp"
 

@@ -1,7 +1,7 @@
 // What users read instead of the plan's numbers.
 #pragma once
 
-#include "shading/plan.hpp"
+#include "shading/plan/plan.hpp"
 
 #include <cstddef>
 #include <string_view>

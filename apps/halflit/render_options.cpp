@@ -1,7 +1,7 @@
 #include "apps/halflit/render_options.hpp"
 
 #include "apps/halflit/cli_support.hpp"
-#include "raster/exposure.hpp"
+#include "raster/scene/exposure.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include "apps/halflit/values.hpp"
 #include "apps/io/gltf_loader.hpp"
 #include "apps/io/lobe_name.hpp"
-#include "raster/camera.hpp"
+#include "raster/view/camera.hpp"
 #include "raster/renderer.hpp"
 
 #include <optional>

@@ -4,7 +4,7 @@
 #include "apps/halflit/plan_names.hpp"
 #include "apps/halflit/run_report.hpp"
 #include "raster/debug_view.hpp"
-#include "shading/plan.hpp"
+#include "shading/plan/plan.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include "apps/halflit/render_options.hpp"
 #include "apps/io/gltf_loader.hpp"
-#include "raster/scene.hpp"
+#include "raster/scene/scene.hpp"
 #include "shading/result.hpp"
 
 #include <optional>

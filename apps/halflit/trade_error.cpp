@@ -1,7 +1,7 @@
 #include "apps/halflit/trade_error.hpp"
 
 #include "sh/config.hpp"
-#include "shading/reference.hpp"
+#include "shading/reference/reference.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "apps/io/file_access.hpp"
-#include "raster/scene.hpp"
+#include "raster/scene/scene.hpp"
 #include "shading/result.hpp"
 
 #include <cstddef>

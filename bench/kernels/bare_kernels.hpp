@@ -1,9 +1,9 @@
 // The insides of the shading kernels, called on their own, and the arithmetic peak to compare them with.
 #pragma once
 
-#include "shading/fragment_block.hpp"
+#include "shading/kernels/fragment_block.hpp"
 #include "shading/kernels/shade_kernels.hpp"
-#include "shading/plan.hpp"
+#include "shading/plan/plan.hpp"
 
 namespace halflit::bench {
 

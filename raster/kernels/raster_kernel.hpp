@@ -1,5 +1,4 @@
-// The rasterizer's kernels for one instruction set: a kernel file defines HALFLIT_ISA (and HALFLIT_ARCH), includes this, and names
-// its table with HALFLIT_DEFINE_RASTER_KERNELS.
+// The rasterizer's kernels: one source, compiled once for each instruction set.
 #pragma once
 
 #include "raster/kernels/raster_kernels.hpp"
@@ -19,8 +18,8 @@ HALFLIT_INLINE const ScreenVertex& vertex_of(const TriangleSource& source, std::
 #include "raster/kernels/rasterize.hpp"
 #include "raster/kernels/transform.hpp"
 
-#define HALFLIT_DEFINE_RASTER_KERNELS(name)                                                              \
-    namespace halflit::raster {                                                                          \
-    extern const RasterKernels name;                                                                     \
-    const RasterKernels name = {transform, vertex_records, rasterize, cover, draw_covered, interpolate}; \
-    }
+namespace halflit::raster {
+#define HALFLIT_RASTER_KERNELS HALFLIT_CONCAT(raster_kernels_, HALFLIT_ISA)
+extern const RasterKernels HALFLIT_RASTER_KERNELS;
+const RasterKernels HALFLIT_RASTER_KERNELS = {transform, vertex_records, rasterize, cover, draw_covered, interpolate};
+}  // namespace halflit::raster

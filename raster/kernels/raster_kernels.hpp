@@ -5,7 +5,7 @@
 // centre of pixel (i, j) is (256 i, 256 j).
 #pragma once
 
-#include "shading/fragment_block.hpp"
+#include "shading/kernels/fragment_block.hpp"
 #include "shading/kernels/isa.hpp"
 
 #include <cstdint>

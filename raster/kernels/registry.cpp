@@ -4,7 +4,7 @@
 
 namespace halflit::raster {
 
-extern const RasterKernels raster_kernels_scalar, raster_kernels_sse2, raster_kernels_sse41, raster_kernels_avx2, raster_kernels_avx512, raster_kernels_neon64;
+HALFLIT_DECLARE_TABLES(RasterKernels, raster_kernels)
 
 const RasterKernels& raster_kernels(shading::Isa isa) {
     HALFLIT_RETURN_TABLE_OF(isa, raster_kernels)

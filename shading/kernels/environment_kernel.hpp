@@ -1,7 +1,7 @@
 // Environment light at a normal: spherical harmonics of 1 to 10 bands, as polynomials in its components.
 #pragma once
 
-#include "shading/environment_plan.hpp"
+#include "shading/plan/environment_plan.hpp"
 #include "shading/kernels/vector.hpp"
 
 namespace halflit {

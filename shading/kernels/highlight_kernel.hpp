@@ -3,7 +3,7 @@
 
 #include "shading/kernels/pow.hpp"
 #include "shading/kernels/vector.hpp"
-#include "shading/plan.hpp"
+#include "shading/plan/plan.hpp"
 
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {

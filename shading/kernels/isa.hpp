@@ -9,7 +9,11 @@
 
 namespace halflit::shading {
 
-enum class Isa : std::uint8_t { scalar, sse2, sse41, avx2, avx512, neon64 };
+enum class Isa : std::uint8_t {
+#define HALFLIT_SET(set, ...) set,
+#include "shading/kernels/isa_list.def"
+#undef HALFLIT_SET
+};
 
 /// "scalar", "sse2", "sse4.1", "avx2", "avx512", "neon64".
 [[nodiscard]] std::string_view isa_name(Isa isa);

@@ -5,7 +5,7 @@
 #include "shading/kernels/lobe_kernel.hpp"
 #include "shading/kernels/shadow_kernel.hpp"
 #include "shading/kernels/vector.hpp"
-#include "shading/plan.hpp"
+#include "shading/plan/plan.hpp"
 
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {

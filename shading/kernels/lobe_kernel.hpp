@@ -2,7 +2,7 @@
 #pragma once
 
 #include "shading/kernels/pow.hpp"
-#include "shading/plan.hpp"
+#include "shading/plan/plan.hpp"
 
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {

@@ -2,7 +2,7 @@
 // minimax in relative error, rounded to float32; each table states what it approximates and how well.
 #pragma once
 
-#include "shading/accuracy.hpp"
+#include "shading/plan/accuracy.hpp"
 #include "shading/kernels/simd.hpp"
 
 namespace halflit {

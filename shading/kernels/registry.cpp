@@ -7,30 +7,12 @@
 
 namespace halflit::shading {
 
-// Defined in shade_<isa>.cpp.
-extern const ShadeKernels shade_kernels_scalar, shade_kernels_sse2, shade_kernels_sse41, shade_kernels_avx2, shade_kernels_avx512,
-    shade_kernels_neon64;
+HALFLIT_DECLARE_TABLES(ShadeKernels, shade_kernels)
 
 namespace {
 
-constexpr Isa kBuiltIsas[] = {
-    Isa::scalar,
-#ifdef HALFLIT_HAVE_SSE2
-    Isa::sse2,
-#endif
-#ifdef HALFLIT_HAVE_SSE41
-    Isa::sse41,
-#endif
-#ifdef HALFLIT_HAVE_AVX2
-    Isa::avx2,
-#endif
-#ifdef HALFLIT_HAVE_AVX512
-    Isa::avx512,
-#endif
-#ifdef HALFLIT_HAVE_NEON64
-    Isa::neon64,
-#endif
-};
+#define HALFLIT_LIST(set, ...) Isa::set,
+constexpr Isa kBuiltIsas[] = {HALFLIT_FOR_BUILT_ISAS(HALFLIT_LIST, 0)};
 
 bool built(Isa isa) {
     for (const Isa b : kBuiltIsas)
@@ -52,18 +34,11 @@ Result<Isa> named_isa(std::string_view name, const std::string& source) {
 
 std::string_view isa_name(Isa isa) {
     switch (isa) {
-        case Isa::scalar:
-            return "scalar";
-        case Isa::sse2:
-            return "sse2";
-        case Isa::sse41:
-            return "sse4.1";
-        case Isa::avx2:
-            return "avx2";
-        case Isa::avx512:
-            return "avx512";
-        case Isa::neon64:
-            return "neon64";
+#define HALFLIT_SET(set, name, ...) \
+    case Isa::set:                  \
+        return name;
+#include "shading/kernels/isa_list.def"
+#undef HALFLIT_SET
     }
     return "unknown";
 }
@@ -74,19 +49,18 @@ bool isa_available(Isa isa) {
     if (!built(isa)) return false;
 #if defined(__x86_64__)
     __builtin_cpu_init();
-    switch (isa) {
-        case Isa::sse41:
-            return __builtin_cpu_supports("sse4.1") != 0;
-        case Isa::avx2:
-            return __builtin_cpu_supports("avx2") != 0;
-        case Isa::avx512:
-            return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx2") != 0;
-        default:
-            return true;
-    }
+#define HALFLIT_CPU_HAS(feature) (__builtin_cpu_supports(feature) != 0)
 #else
-    return true;
+#define HALFLIT_CPU_HAS(feature) false
 #endif
+    switch (isa) {
+#define HALFLIT_SET(set, name, arch, processor, flags, condition, has) \
+    case Isa::set:                                                     \
+        return has;
+#include "shading/kernels/isa_list.def"
+#undef HALFLIT_SET
+    }
+    return false;
 }
 
 Result<Isa> default_isa() {

@@ -1,4 +1,4 @@
-// The shading kernel: one source, compiled by shade_<isa>.cpp for each instruction set.
+// The shading kernel: one source, compiled once for each instruction set.
 #pragma once
 
 #include "shading/kernels/color_kernel.hpp"

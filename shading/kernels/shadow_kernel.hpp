@@ -6,7 +6,7 @@
 #pragma once
 
 #include "shading/kernels/vector.hpp"
-#include "shading/plan.hpp"
+#include "shading/plan/plan.hpp"
 
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {

@@ -5,9 +5,9 @@
 // gives a bit for bit, so leaving out taps whose weights are zero for all lanes changes nothing.
 #pragma once
 
-#include "shading/fragment_block.hpp"
+#include "shading/kernels/fragment_block.hpp"
 #include "shading/kernels/pow.hpp"
-#include "shading/plan.hpp"
+#include "shading/plan/plan.hpp"
 
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {

@@ -1,5 +1,5 @@
 // Tangents made here against those that models bring, which other tools made: MikkTSpace's rules, as far as the tool kept to them.
-#include "raster/tangent_space.hpp"
+#include "raster/scene/tangent_space.hpp"
 #include "tests/io/gltf_builder.hpp"
 #include "tests/support/assets.hpp"
 #include "tests/support/skip.hpp"

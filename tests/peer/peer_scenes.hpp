@@ -2,7 +2,7 @@
 // the peer gets the clip coordinates that halflit's vertex stage makes of them.
 #pragma once
 
-#include "raster/scene.hpp"
+#include "raster/scene/scene.hpp"
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 // The tiers as whole pictures: how far display and fast are from exact.
 #include "raster/renderer.hpp"
-#include "shading/reference.hpp"
+#include "shading/reference/reference.hpp"
 #include "tests/raster/random_trial.hpp"
 #include "tests/raster/test_scenes.hpp"
 

@@ -1,6 +1,6 @@
-#include "raster/camera.hpp"
-#include "raster/scene.hpp"
-#include "raster/shapes.hpp"
+#include "raster/view/camera.hpp"
+#include "raster/scene/scene.hpp"
+#include "raster/built_in/shapes.hpp"
 #include "sh/trig.hpp"
 
 #include <catch2/catch.hpp>

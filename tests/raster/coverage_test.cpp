@@ -1,6 +1,6 @@
 // The visibility kernels of every instruction set against the brute-force reference: no pixel may differ.
 #include "raster/kernels/raster_kernels.hpp"
-#include "raster/reference.hpp"
+#include "reference.hpp"
 #include "tests/raster/kernel_fixture.hpp"
 #include "tests/raster/random_triangles.hpp"
 #include "tests/support/isas.hpp"

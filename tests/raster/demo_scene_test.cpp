@@ -1,5 +1,5 @@
 #include "raster/framebuffer.hpp"
-#include "raster/scene.hpp"
+#include "raster/scene/scene.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // Errors promised beforehand, and measured afterwards against the float64 reference.
-#include "shading/reference.hpp"
+#include "shading/reference/reference.hpp"
 #include "tests/raster/random_trial.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "raster/exposure.hpp"
+#include "raster/scene/exposure.hpp"
 
 #include <catch2/catch.hpp>
 

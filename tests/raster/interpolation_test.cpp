@@ -1,6 +1,6 @@
 // Depth and attributes of the kernels against float64, and the two ways of interpolating against each other.
 #include "raster/kernels/raster_kernels.hpp"
-#include "raster/reference.hpp"
+#include "reference.hpp"
 #include "sh/vec3.hpp"
 #include "tests/raster/kernel_fixture.hpp"
 #include "tests/raster/random_triangles.hpp"

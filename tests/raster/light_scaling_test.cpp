@@ -1,5 +1,5 @@
 // What many lights cost: those that reach a block of fragments, not those that there are.
-#include "raster/lights_scene.hpp"
+#include "raster/built_in/hall_of_lamps.hpp"
 #include "raster/renderer.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "raster/mesh_normals.hpp"
+#include "raster/scene/mesh_normals.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,10 +1,10 @@
 // Random scenes that errors are promised for: lobes, lights, skies, normal maps.
 #pragma once
 
-#include "raster/camera.hpp"
+#include "raster/view/camera.hpp"
 #include "raster/renderer.hpp"
-#include "raster/shapes.hpp"
-#include "raster/tangent_space.hpp"
+#include "raster/built_in/shapes.hpp"
+#include "raster/scene/tangent_space.hpp"
 #include "shading/environment.hpp"
 
 #include <cmath>

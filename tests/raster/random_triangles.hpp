@@ -2,7 +2,7 @@
 #pragma once
 
 #include "raster/kernels/raster_kernels.hpp"
-#include "raster/reference.hpp"
+#include "reference.hpp"
 #include "tests/support/random.hpp"
 
 #include <algorithm>

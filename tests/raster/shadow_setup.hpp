@@ -2,7 +2,7 @@
 #pragma once
 
 #include "raster/renderer.hpp"
-#include "raster/shapes.hpp"
+#include "raster/built_in/shapes.hpp"
 #include "tests/support/cameras.hpp"
 
 #include <catch2/catch.hpp>

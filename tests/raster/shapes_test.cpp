@@ -1,4 +1,4 @@
-#include "raster/shapes.hpp"
+#include "raster/built_in/shapes.hpp"
 
 #include "sh/trig.hpp"
 

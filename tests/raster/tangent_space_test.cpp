@@ -1,6 +1,6 @@
-#include "raster/tangent_space.hpp"
+#include "raster/scene/tangent_space.hpp"
 
-#include "raster/mesh_normals.hpp"
+#include "raster/scene/mesh_normals.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,7 @@
 #include "tests/raster/test_scenes.hpp"
 
-#include "raster/shapes.hpp"
-#include "raster/tangent_space.hpp"
+#include "raster/built_in/shapes.hpp"
+#include "raster/scene/tangent_space.hpp"
 #include "tests/support/cameras.hpp"
 #include "tests/support/random.hpp"
 

@@ -1,7 +1,7 @@
 // Scenes made by code that together use all that the renderer can do. Each brings its camera.
 #pragma once
 
-#include "raster/scene.hpp"
+#include "raster/scene/scene.hpp"
 
 #include <string>
 #include <utility>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "raster/debug_view.hpp"
-#include "raster/reference.hpp"
+#include "reference.hpp"
 
 #include <algorithm>
 #include <cmath>

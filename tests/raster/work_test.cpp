@@ -1,8 +1,8 @@
 // What a frame's shading did, counted: a square that fills the picture has as many fragments as the picture has pixels, so every count has
 // a closed form.
 #include "raster/renderer.hpp"
-#include "raster/shapes.hpp"
-#include "raster/tangent_space.hpp"
+#include "raster/built_in/shapes.hpp"
+#include "raster/scene/tangent_space.hpp"
 #include "shading/environment.hpp"
 #include "tests/raster/test_scenes.hpp"
 #include "tests/support/cameras.hpp"

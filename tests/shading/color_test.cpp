@@ -1,7 +1,7 @@
 // Linear light to codes.
 #include "floats.hpp"
 #include "shading/kernels/shade_kernels.hpp"
-#include "shading/reference.hpp"
+#include "shading/reference/reference.hpp"
 
 #include <catch2/catch.hpp>
 

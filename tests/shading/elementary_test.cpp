@@ -1,7 +1,7 @@
 // Every operation that kernels use, on each instruction set against scalar, and the elementary functions against long double.
 #include "elementary/elementary.hpp"
 #include "floats.hpp"
-#include "shading/accuracy.hpp"
+#include "shading/plan/accuracy.hpp"
 #include "tests/support/all_cores.hpp"
 #include "tests/support/skip.hpp"
 

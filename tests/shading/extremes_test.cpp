@@ -5,7 +5,7 @@
 #include "lobe_curve/lobe_curve.hpp"
 #include "shading/environment.hpp"
 #include "shading/kernels/shade_kernels.hpp"
-#include "shading/plan.hpp"
+#include "shading/plan/plan.hpp"
 #include "tests/support/isas.hpp"
 
 #include <catch2/catch.hpp>

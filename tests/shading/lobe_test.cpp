@@ -1,8 +1,8 @@
 // The wrap family against its closed forms, through the shading kernel: one white material, one directional light of colour 1.
 #include "floats.hpp"
 #include "shading/kernels/shade_kernels.hpp"
-#include "shading/plan.hpp"
-#include "shading/reference.hpp"
+#include "shading/plan/plan.hpp"
+#include "shading/reference/reference.hpp"
 
 #include <catch2/catch.hpp>
 

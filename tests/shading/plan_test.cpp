@@ -1,5 +1,5 @@
 // The frame plan asks for what a material needs, and for nothing else.
-#include "shading/plan.hpp"
+#include "shading/plan/plan.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,9 +1,9 @@
 // Powers as curves made for one exponent: never off by more than their fits say, on every instruction set.
-#include "shading/power_fit.hpp"
+#include "shading/budget/power_fit.hpp"
 
 #include "floats.hpp"
 #include "lobe_curve/lobe_curve.hpp"
-#include "shading/reference.hpp"
+#include "shading/reference/reference.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "floats.hpp"
-#include "shading/plan.hpp"
-#include "shading/power_fit.hpp"
-#include "shading/reference.hpp"
+#include "shading/plan/plan.hpp"
+#include "shading/budget/power_fit.hpp"
+#include "shading/reference/reference.hpp"
 
 #include <vector>
 

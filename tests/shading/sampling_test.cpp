@@ -1,8 +1,8 @@
 // Texture sampling through the kernel, with an unlit material: texel centres, wrap modes, filters, levels.
 #include "floats.hpp"
 #include "shading/kernels/shade_kernels.hpp"
-#include "shading/plan.hpp"
-#include "shading/reference.hpp"
+#include "shading/plan/plan.hpp"
+#include "shading/reference/reference.hpp"
 
 #include <catch2/catch.hpp>
 

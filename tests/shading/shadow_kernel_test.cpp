@@ -2,7 +2,7 @@
 // boundaries, and the float64 meaning of the sums.
 #include "random_case.hpp"
 #include "shading/kernels/shade_kernels.hpp"
-#include "shading/reference_shadow.hpp"
+#include "shading/reference/shadow.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,9 +1,9 @@
 // What a texture's channels range over, and what filtering them in float32 is off by: never more than the bound.
-#include "shading/texture_bounds.hpp"
+#include "shading/budget/texture_bounds.hpp"
 
 #include "floats.hpp"
 #include "shading/kernels/shade_kernels.hpp"
-#include "shading/reference.hpp"
+#include "shading/reference/reference.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,7 @@
 // Cameras for tests.
 #pragma once
 
-#include "raster/camera.hpp"
+#include "raster/view/camera.hpp"
 
 #include <cmath>
 

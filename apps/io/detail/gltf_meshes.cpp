@@ -1,8 +1,8 @@
 #include "apps/io/detail/gltf_meshes.hpp"
 
 #include "apps/io/detail/gltf_skin.hpp"
-#include "raster/mesh_normals.hpp"
-#include "raster/tangent_space.hpp"
+#include "raster/scene/mesh_normals.hpp"
+#include "raster/scene/tangent_space.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include "apps/io/detail/gltf_nodes.hpp"
 #include "apps/io/detail/gltf_primitive.hpp"
-#include "raster/scene.hpp"
+#include "raster/scene/scene.hpp"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/io/detail/gltf_nodes.hpp"
-#include "raster/scene.hpp"
+#include "raster/scene/scene.hpp"
 
 namespace halflit::io::detail {
 

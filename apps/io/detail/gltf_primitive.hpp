@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/io/detail/gltf_accessor.hpp"
-#include "raster/mesh.hpp"
+#include "raster/scene/mesh.hpp"
 
 #include <map>
 #include <optional>

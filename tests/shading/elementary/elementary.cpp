@@ -4,7 +4,7 @@
 
 namespace halflit::testing {
 
-extern const Elementary elementary_scalar, elementary_sse2, elementary_sse41, elementary_avx2, elementary_avx512, elementary_neon64;
+HALFLIT_DECLARE_TABLES(Elementary, elementary)
 
 const Elementary& elementary(shading::Isa isa) {
     HALFLIT_RETURN_TABLE_OF(isa, elementary)

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "shading/kernels/isa.hpp"
-#include "shading/plan.hpp"
+#include "shading/plan/plan.hpp"
 
 namespace halflit::testing {
 

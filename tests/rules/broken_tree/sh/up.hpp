@@ -1,2 +1,2 @@
 // Sample for the layering test: points right.
-#include "shading/plan.hpp"
+#include "shading/plan/plan.hpp"

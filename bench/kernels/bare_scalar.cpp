@@ -1,2 +1,0 @@
-#define HALFLIT_ISA scalar
-#include "bench/kernels/bare_kernel.hpp"

@@ -1,0 +1,70 @@
+// From visible pixels to full shading blocks: pixels are packed densely, one open list for each material of a tile, and a list is
+// shaded when it has kBlockSize of them. Runs of pixels of one triangle stay neighbours in a list, so interpolation
+// serves them by broadcast; the packing itself cannot change a value.
+#pragma once
+
+#include "raster/passes/frame.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace halflit::raster {
+
+/// Fragments of one material, at most a block.
+struct FragmentList {
+    int material = 0;
+    int count = 0;
+    alignas(64) std::uint32_t id[shading::kBlockSize];  ///< triangle
+    alignas(64) std::int32_t x_px[shading::kBlockSize], y_px[shading::kBlockSize];
+    std::uint16_t at[shading::kBlockSize];      ///< y * kTileStride + x in the tile
+    std::uint8_t samples[shading::kBlockSize];  ///< bit s: sample s shows this fragment
+
+    void push(std::uint32_t triangle, int x, int y, int index, unsigned sample_bits) {
+        id[count] = triangle;
+        x_px[count] = x;
+        y_px[count] = y;
+        at[count] = static_cast<std::uint16_t>(index);
+        samples[count] = static_cast<std::uint8_t>(sample_bits);
+        ++count;
+    }
+    [[nodiscard]] bool full() const { return count == shading::kBlockSize; }
+};
+
+/// The open lists of a tile, found by material; lists are reused from tile to tile.
+class FragmentQueue {
+public:
+    /// Forgets all lists; `materials` is the number of materials of the frame.
+    void begin(std::size_t materials) {
+        if (slot_.size() != materials || ++epoch_ == 0) {
+            slot_.assign(materials, {});
+            epoch_ = 1;
+        }
+        used_ = 0;
+    }
+    FragmentList& of(int material) {
+        Slot& s = slot_[static_cast<std::size_t>(material)];
+        if (s.epoch != epoch_) {
+            if (used_ == lists_.size()) lists_.push_back(std::make_unique<FragmentList>());
+            s = {epoch_, static_cast<std::uint32_t>(used_++)};
+            lists_[s.list]->material = material;
+            lists_[s.list]->count = 0;
+        }
+        return *lists_[s.list];
+    }
+    [[nodiscard]] std::size_t size() const { return used_; }
+    FragmentList& operator[](std::size_t i) { return *lists_[i]; }
+
+private:
+    struct Slot {
+        std::uint32_t epoch = 0, list = 0;
+    };
+    std::vector<Slot> slot_;
+    std::vector<std::unique_ptr<FragmentList>> lists_;
+    std::size_t used_ = 0;
+    std::uint32_t epoch_ = 0;
+};
+
+/// Fills the block's attribute rows for a list. The list is padded with copies of its last fragment.
+void interpolate(const Frame& frame, FragmentList& list, shading::FragmentBlock& block);
+
+}  // namespace halflit::raster

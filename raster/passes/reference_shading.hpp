@@ -1,0 +1,40 @@
+// Shading of visible fragments by the float64 reference instead of the kernels: the truth that errors are measured against.
+#pragma once
+
+#include "raster/scene/scene.hpp"
+#include "shading/kernels/shade_kernels.hpp"
+#include "shading/reference/irradiance.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace halflit::raster {
+
+class ReferenceShading {
+public:
+    /// For a frame of `scene` as `plan` has it. Keeps the environments' irradiance while scene and lobes stay the same.
+    Result<void> build(const Scene& scene, const shading::FramePlan& plan, const shading::PlanOptions& options,
+                       std::vector<shading::QuadMask> available);
+
+    /// Writes the colour rows of lanes [0, count). Visibility of lights is the kernels' own.
+    void shade(const shading::ShadeKernels& kernels, const shading::FramePlan& plan, int material, shading::FragmentBlock& block,
+               int count) const;
+
+private:
+    /// Light from all around for the materials of one lobe, and what they mirror.
+    struct Around {
+        const shading::Environment* environment;
+        shading::Lobe lobe;
+        std::shared_ptr<const shading::reference::Irradiance> light;
+    };
+    std::shared_ptr<const shading::reference::Irradiance> diffuse(const Scene& scene, const shading::Lobe& lobe);
+
+    const Scene* scene_ = nullptr;
+    shading::reference::Frame frame_;
+    std::vector<shading::QuadMask> available_;
+    std::vector<Around> known_;
+    std::vector<std::shared_ptr<const shading::reference::Irradiance>> diffuse_, mirrored_;  ///< for each material
+    shading::Material no_material_;
+};
+
+}  // namespace halflit::raster

@@ -1,0 +1,122 @@
+#include "raster/passes/shading_rate.hpp"
+
+#include "raster/passes/count_work.hpp"
+
+#include <algorithm>
+#include <mutex>
+
+namespace halflit::raster {
+namespace {
+
+using shading::FragmentBlock;
+using shading::kBlockSize;
+
+constexpr int kLightRows = 6;
+
+/// Copies a vertex record into lane `l`.
+void load_lane(FragmentBlock& block, int l, const float* record, shading::QuadMask quads) {
+    for (int q = 0; q < shading::kQuadCount; ++q) {
+        if ((quads & (1u << q)) == 0) continue;
+        for (int j = 0; j < 4; ++j) block.lane[4 * q + j][l] = *record++;
+    }
+}
+
+/// Texture footprints are not known away from the pixels: the finest level is read. Lanes past `count` repeat the last one.
+void finish_lanes(FragmentBlock& block, int count) {
+    for (int row = shading::kDu0Dx; row <= shading::kDv1Dy; ++row)
+        for (float& v : block.lane[row]) v = 0.0f;
+    for (auto& row : block.lane)
+        for (int l = count; l < kBlockSize; ++l) row[l] = row[count - 1];
+}
+
+Vec3f row3(const FragmentBlock& block, int row, int l) { return {block.lane[row][l], block.lane[row + 1][l], block.lane[row + 2][l]}; }
+
+const float* vertex_record(const Frame& frame, std::uint32_t id, const TriangleRecord& triangle, int k) {
+    const std::uint32_t v = triangle.vertex[k];
+    if (v & kClipVertex)
+        return frame.clip_records[id >> frame.local_bits] + static_cast<std::size_t>(v & ~kClipVertex) * shading::kVertexFloats;
+    const std::size_t draw = triangle.draw_and_back >> 1;
+    return frame.draw_records[draw].base + static_cast<std::int64_t>(v) * frame.draws[draw].stride;
+}
+
+/// One lane a triangle: the mean of its vertices, with the normal of its plane on the side of the viewer.
+void load_triangle(const Frame& frame, std::uint32_t id, shading::QuadMask quads, FragmentBlock& block, int l) {
+    const TriangleRecord& triangle = frame.record(id);
+    const float* v[3];
+    for (int k = 0; k < 3; ++k) v[k] = vertex_record(frame, id, triangle, k);
+    float mean[shading::kVertexFloats];
+    const int stride = frame.draws[triangle.draw_and_back >> 1].stride;
+    for (int j = 0; j < stride; ++j) mean[j] = ((v[0][j] + v[1][j]) + v[2][j]) * (1.0f / 3.0f);
+    load_lane(block, l, mean, quads);
+    const Vec3f p0{v[0][0], v[0][1], v[0][2]}, p1{v[1][0], v[1][1], v[1][2]}, p2{v[2][0], v[2][1], v[2][2]};
+    // Records run clockwise as seen on the screen.
+    const Vec3f mean_normal = row3(block, shading::kNormalX, l);
+    const Vec3f normal = normalize_or(cross(p2 - p0, p1 - p0), mean_normal);
+    block.lane[shading::kNormalX][l] = normal.x;
+    block.lane[shading::kNormalY][l] = normal.y;
+    block.lane[shading::kNormalZ][l] = normal.z;
+    block.lane[shading::kFacing][l] = 1.0f;
+}
+
+}  // namespace
+
+WorkCounts light_vertices(Frame& frame, Executor& executor) {
+    struct Group {
+        const Draw* draw;
+        std::int64_t first;  // in the draw
+        int count;
+    };
+    std::vector<Group> groups;
+    for (const Draw& draw : frame.draws) {
+        if ((frame.plan.materials[static_cast<std::size_t>(draw.material)].stages & shading::kStagePrelit) == 0) continue;
+        const auto vertices = static_cast<std::int64_t>(draw.mesh->positions.size());
+        for (std::int64_t v = 0; v < vertices; v += kVertexGroup)
+            if (frame.group_used.data()[(draw.vertex_base + v) / kVertexGroup])
+                groups.push_back({&draw, v, static_cast<int>(vertices - v < kVertexGroup ? vertices - v : kVertexGroup)});
+    }
+    constexpr int kGroupsPerTask = 16;
+    std::mutex mutex;
+    WorkCounts work;
+    executor.run(static_cast<int>((groups.size() + kGroupsPerTask - 1) / kGroupsPerTask), [&](int task) {
+        FragmentBlock block{};
+        WorkCounts of_task;
+        const std::size_t end = std::min(groups.size(), static_cast<std::size_t>(task + 1) * kGroupsPerTask);
+        for (std::size_t g = static_cast<std::size_t>(task) * kGroupsPerTask; g < end; ++g) {
+            const Group& group = groups[g];
+            const shading::MaterialPlan& plan = frame.plan.materials[static_cast<std::size_t>(group.draw->material)];
+            float* records = frame.records.data() + group.draw->record_base + group.first * group.draw->stride;
+            for (int l = 0; l < group.count; ++l) {
+                load_lane(block, l, records + l * group.draw->stride, plan.quads);
+                // A vertex has no face: two-sided surfaces are lit on the side that is towards the viewer.
+                const Vec3f to_eye =
+                    frame.plan.orthographic ? frame.plan.view_direction_ws * -1.0f : frame.plan.eye_ws - row3(block, shading::kPosX, l);
+                block.lane[shading::kFacing][l] = dot(row3(block, shading::kNormalX, l), to_eye) < 0.0f ? -1.0f : 1.0f;
+            }
+            finish_lanes(block, group.count);
+            frame.shade->light(frame.plan, plan, shading::all_lights(frame.plan), block, group.count);
+            count_prelighting(of_task, frame.plan, plan, group.count);
+            for (int l = 0; l < group.count; ++l)
+                for (int j = 0; j < kLightRows; ++j) records[l * group.draw->stride + j] = block.lane[j][l];
+        }
+        const std::lock_guard lock(mutex);
+        work += of_task;
+    });
+    return work;
+}
+
+void light_triangles(const Frame& frame, const FragmentList& list, FragmentBlock& block, WorkCounts& work) {
+    const shading::MaterialPlan& plan = frame.plan.materials[static_cast<std::size_t>(list.material)];
+    FragmentBlock triangles{};
+    int of_lane[kBlockSize], count = 0;
+    for (int l = 0; l < list.count; ++l) {
+        if (l == 0 || list.id[l] != list.id[l - 1]) load_triangle(frame, list.id[l], plan.quads, triangles, count++);
+        of_lane[l] = count - 1;
+    }
+    finish_lanes(triangles, count);
+    frame.shade->light(frame.plan, plan, shading::all_lights(frame.plan), triangles, count);
+    count_prelighting(work, frame.plan, plan, count);
+    for (int l = 0; l < kBlockSize; ++l)
+        for (int j = 0; j < kLightRows; ++j) block.lane[j][l] = triangles.lane[j][of_lane[l < list.count ? l : list.count - 1]];
+}
+
+}  // namespace halflit::raster

@@ -1,0 +1,62 @@
+#include "raster/scene/exposure.hpp"
+
+#include <algorithm>
+
+namespace halflit::raster {
+namespace {
+
+constexpr float kSkyShare = 0.10f, kGroundShare = 0.05f;  // dark sides stay readable, and clearly dark
+
+Vec3d to_double(Vec3f v) { return {v.x, v.y, v.z}; }
+
+Vec3d level(const Scene& scene, const Bounds& bounds) {
+    const Vec3d center = bounds.empty ? Vec3d{} : to_double(bounds.center());
+    const double radius = bounds.empty ? 0.0 : static_cast<double>(bounds.radius());
+    Vec3d sum{};
+    for (const shading::Light& light : scene.lights) {
+        double share = 1.0;
+        if (light.type != shading::LightType::directional) {
+            const double distance = length(to_double(light.position_ws) - center);
+            if (light.range > 0.0f && distance - radius >= static_cast<double>(light.range)) continue;
+            // The floor keeps a lamp inside the scene, next to its centre, from being taken for the light of everything.
+            const double effective = std::max({distance, radius / 2, 1e-4});
+            share = 1.0 / (effective * effective);
+        }
+        sum = sum + to_double(light.color_linear) * share;
+    }
+    return sum;
+}
+
+}  // namespace
+
+Vec3f light_level(const Scene& scene, const Bounds& bounds) {
+    const Vec3d sum = level(scene, bounds);
+    return {static_cast<float>(sum.x), static_cast<float>(sum.y), static_cast<float>(sum.z)};
+}
+
+float auto_exposure(const Scene& scene, const Bounds& bounds) {
+    const double luminance = dot(level(scene, bounds), Vec3d{0.2126, 0.7152, 0.0722});  // Rec. 709
+    // Outside of this, the factor or its product with the light would leave the range of float.
+    if (!(luminance > 1e-18 && luminance < 1e18)) return 1.0f;
+    return static_cast<float>(1.0 / luminance);
+}
+
+shading::Ambient soft_ambient(const Scene& scene, const Bounds& bounds) {
+    const Vec3f sum = light_level(scene, bounds);
+    if (!(dot(sum, sum) < 1e36f)) return {};  // NaN, infinite, or beyond what can be squared
+    return {sum * kSkyShare, sum * kGroundShare};
+}
+
+float exposure_factor(float ev) {
+    const double x = std::clamp(static_cast<double>(ev), -64.0, 64.0);
+    const int whole = static_cast<int>(x < 0 ? x - 0.5 : x + 0.5);
+    // 2^f = e^(f ln 2) by its Taylor series; |f ln 2| <= 0.35, so the first dropped term is below 1e-16.
+    const double r = (x - static_cast<double>(whole)) * 0.693147180559945309417;  // ln 2
+    double power = 1.0;
+    for (int k = 12; k >= 1; --k) power = 1.0 + r * power / static_cast<double>(k);
+    for (int i = 0; i < whole; ++i) power *= 2.0;
+    for (int i = 0; i > whole; --i) power *= 0.5;
+    return static_cast<float>(power);
+}
+
+}  // namespace halflit::raster

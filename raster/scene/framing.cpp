@@ -1,0 +1,122 @@
+#include "raster/view/view_math.hpp"
+#include "raster/scene/scene.hpp"
+
+namespace halflit::raster {
+namespace {
+
+constexpr double kFrameMargin = 0.08;    // share of the half picture that stays free on the tighter side
+constexpr double kMaxCoordinate = 1e36;  // bounds are cut here so that the camera's place is a finite float
+
+struct Axes {
+    Vec3d right, up, back;  // camera x, y, z in world space
+};
+
+/// The viewer on a sphere around the origin: no special case at the poles, and past them the view turns over.
+Axes orbit_axes(const ViewSettings& view) {
+    const SinCos az = sin_cos(finite(view.azimuth_deg) ? view.azimuth_deg * (kPi / 180.0) : 0.0);
+    const SinCos el = sin_cos(finite(view.elevation_deg) ? view.elevation_deg * (kPi / 180.0) : 0.0);
+    return {{az.cos, 0.0, -az.sin}, {-el.sin * az.sin, el.cos, -el.sin * az.cos}, {az.sin * el.cos, el.sin, az.cos * el.cos}};
+}
+
+/// Finite, not empty, and not smaller than what float coordinates at that place can resolve.
+struct Box {
+    Vec3d center, half;
+};
+
+Box usable_box(const Bounds& bounds) {
+    if (bounds.empty) return {{0, 0, 0}, {0.5, 0.5, 0.5}};
+    const auto low = [](float a) { return clamped(a, -kMaxCoordinate, kMaxCoordinate); };
+    const Vec3d a{low(bounds.min.x), low(bounds.min.y), low(bounds.min.z)}, b{low(bounds.max.x), low(bounds.max.y), low(bounds.max.z)};
+    Box box{(a + b) * 0.5, (b - a) * 0.5};
+    if (!(length(box.half) > 1e-6 * length(box.center))) {
+        const double least = length(box.half) > 0.0 || length(box.center) > 0.0 ? larger(1e-6 * length(box.center), 1e-30) : 0.5;
+        box.half = {larger(box.half.x, least), larger(box.half.y, least), larger(box.half.z, least)};
+    }
+    return box;
+}
+
+/// The nearest camera in a given direction that sees all of a set of points. It stands at origin + right ox + up oy + back d; a
+/// point (x, y, z) in those axes is inside when |x - ox| <= tan_x (d - z), i.e. ox lies in [x + tan_x z - tan_x d, x - tan_x z +
+/// tan_x d]: the smallest d leaves one ox for all points, the middle of what is left. Likewise for y.
+class ViewFit {
+public:
+    ViewFit(Vec3d origin, float aspect, const ViewSettings& view)
+        : view_(view),
+          origin_(origin),
+          axes_(orbit_axes(view)),
+          tan_y_(half_angle_tangent(usable_fov(static_cast<float>(view.fov_y_deg * (kPi / 180.0))))),
+          inner_x_(tan_y_ * usable_aspect(aspect) * (1.0 - kFrameMargin)),
+          inner_y_(tan_y_ * (1.0 - kFrameMargin)) {}
+
+    /// A point relative to the origin.
+    void add(Vec3d p) {
+        const double x = dot(p, axes_.right), y = dot(p, axes_.up), z = dot(p, axes_.back);
+        x_ = {larger(x_.low, x + inner_x_ * z), -larger(-x_.high, -(x - inner_x_ * z))};
+        y_ = {larger(y_.low, y + inner_y_ * z), -larger(-y_.high, -(y - inner_y_ * z))};
+        front_ = larger(front_, z);
+    }
+
+    /// `radius`: the size of the set, for points that are seen edge on.
+    [[nodiscard]] Camera camera(double radius) const {
+        const double fit = larger((x_.low - x_.high) / (2.0 * inner_x_), (y_.low - y_.high) / (2.0 * inner_y_));
+        const double distance = larger(fit, front_ + 1e-3 * radius);
+        const Vec3d eye =
+            ((origin_ + axes_.right * (0.5 * (x_.low + x_.high))) + axes_.up * (0.5 * (y_.low + y_.high))) + axes_.back * distance;
+
+        // Zoom is the lens, not the place: nothing comes nearer, and the tangent scales exactly.
+        const double zoom = finite(view_.zoom) && view_.zoom > 0.0f ? view_.zoom : 1.0;
+        const auto column = [](Vec3d v, float w) {
+            return Vec4f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), w};
+        };
+        Camera camera;
+        camera.world_from_camera = {{column(axes_.right, 0), column(axes_.up, 0), column(axes_.back, 0), column(eye, 1)}};
+        camera.fov_y_rad = static_cast<float>(clamped(2.0 * arc_tangent(tan_y_ / zoom), kMinFov, kMaxFov));
+        // Half way to the nearest corner at least; what lies outside the bounds in front of that is not part of the scene.
+        camera.near_z = static_cast<float>(larger(0.5 * (distance - front_), 1e-4 * distance));
+        camera.far_z = 0.0f;
+        return camera;
+    }
+
+private:
+    struct Slab {
+        double low = -1e300, high = 1e300;
+    };
+    ViewSettings view_;
+    Vec3d origin_;
+    Axes axes_;
+    double tan_y_, inner_x_, inner_y_;
+    Slab x_, y_;
+    double front_ = -1e300;  // the nearest point, along `back`
+};
+
+}  // namespace
+
+Camera frame_bounds(const Bounds& bounds, float aspect, const ViewSettings& view) {
+    const Box box = usable_box(bounds);
+    ViewFit fit(box.center, aspect, view);
+    for (int corner = 0; corner < 8; ++corner)
+        fit.add({corner & 1 ? box.half.x : -box.half.x, corner & 2 ? box.half.y : -box.half.y, corner & 4 ? box.half.z : -box.half.z});
+    return fit.camera(length(box.half));
+}
+
+Camera frame_scene(const Scene& scene, float aspect, const ViewSettings& view) {
+    const Bounds bounds = scene_bounds(scene);
+    const Box box = usable_box(bounds);
+    if (bounds.empty || !(bounds.radius() > 1e-5 * length(box.center)) || !(bounds.radius() < kMaxCoordinate))
+        return frame_bounds(bounds, aspect, view);
+    ViewFit fit(box.center, aspect, view);
+    for (const Instance& instance : scene.instances) {
+        if (instance.mesh < 0 || static_cast<std::size_t>(instance.mesh) >= scene.meshes.size()) continue;
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        std::vector<bool> used(mesh.positions.size());
+        for (const std::uint32_t index : mesh.indices)
+            if (index < used.size()) used[index] = true;
+        for (std::size_t v = 0; v < used.size(); ++v) {
+            const Vec3f p = transform_point(instance.world_from_object, mesh.positions[v]);
+            if (used[v] && finite(p.x) && finite(p.y) && finite(p.z)) fit.add(Vec3d{p.x, p.y, p.z} - box.center);
+        }
+    }
+    return fit.camera(length(box.half));
+}
+
+}  // namespace halflit::raster

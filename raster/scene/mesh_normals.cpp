@@ -1,0 +1,45 @@
+#include "raster/scene/mesh_normals.hpp"
+
+#include <cstddef>
+#include <utility>
+
+namespace halflit::raster {
+
+namespace {
+
+template <class T>
+void unshare(std::vector<T>& values, const std::vector<std::uint32_t>& indices) {
+    if (values.empty()) return;
+    std::vector<T> spread;
+    spread.reserve(indices.size());
+    for (const std::uint32_t index : indices) spread.push_back(values[index]);
+    values = std::move(spread);
+}
+
+Vec3d to_double(Vec3f v) { return {v.x, v.y, v.z}; }
+
+/// In double: the squares of any finite float edge stay finite and above zero.
+Vec3f triangle_normal(Vec3f a, Vec3f b, Vec3f c) {
+    const Vec3d n = cross(to_double(b) - to_double(a), to_double(c) - to_double(a));
+    const double len = length(n);
+    if (!(len > 0.0) || !(len < 1e300)) return {0, 0, 1};
+    return {static_cast<float>(n.x / len), static_cast<float>(n.y / len), static_cast<float>(n.z / len)};
+}
+
+}  // namespace
+
+void generate_flat_normals(Mesh& mesh) {
+    unshare(mesh.positions, mesh.indices);
+    unshare(mesh.uv0, mesh.indices);
+    unshare(mesh.uv1, mesh.indices);
+    unshare(mesh.colors, mesh.indices);
+    mesh.tangents = {};
+    mesh.normals.assign(mesh.positions.size(), Vec3f{0, 0, 1});
+    for (std::size_t i = 0; i + 2 < mesh.positions.size(); i += 3) {
+        const Vec3f n = triangle_normal(mesh.positions[i], mesh.positions[i + 1], mesh.positions[i + 2]);
+        mesh.normals[i] = mesh.normals[i + 1] = mesh.normals[i + 2] = n;
+    }
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) mesh.indices[i] = static_cast<std::uint32_t>(i);
+}
+
+}  // namespace halflit::raster

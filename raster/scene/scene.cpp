@@ -1,0 +1,45 @@
+#include "raster/scene/scene.hpp"
+
+namespace halflit::raster {
+
+namespace {
+
+/// Which vertices a triangle of the mesh uses: files often share one vertex array between many meshes.
+std::vector<bool> used_vertices(const Mesh& mesh) {
+    std::vector<bool> used(mesh.positions.size(), false);
+    for (const std::uint32_t index : mesh.indices)
+        if (index < used.size()) used[index] = true;
+    return used;
+}
+
+}  // namespace
+
+Bounds scene_bounds(const Scene& scene) {
+    Bounds bounds;
+    std::vector<std::vector<bool>> used(scene.meshes.size());
+    for (const Instance& instance : scene.instances) {
+        if (instance.mesh < 0 || static_cast<std::size_t>(instance.mesh) >= scene.meshes.size()) continue;
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        std::vector<bool>& mask = used[static_cast<std::size_t>(instance.mesh)];
+        if (mask.empty()) mask = used_vertices(mesh);
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+            if (mask[i]) bounds.add(transform_point(instance.world_from_object, mesh.positions[i]));
+    }
+    return bounds;
+}
+
+void add_default_lights(Scene& scene, const Camera& camera) {
+    // In camera space the key comes from the left, above and behind the viewer: form is modelled from the side without
+    // hiding it in the dark.
+    const Vec3f travels_vs{0.45f, -0.60f, -0.66f};
+    shading::Light key;
+    key.type = shading::LightType::directional;
+    key.direction_ws = normalize_or(transform_vector(camera.world_from_camera, travels_vs), {0, -1, 0});
+    // A white Lambert surface that faces the key reaches 0.82 of the display's white, and about 1 with the ambient.
+    key.color_linear = {0.84f, 0.82f, 0.78f};
+    scene.lights.push_back(key);
+    scene.ambient.sky_linear = {0.23f, 0.25f, 0.28f};
+    scene.ambient.ground_linear = {0.13f, 0.12f, 0.105f};
+}
+
+}  // namespace halflit::raster

@@ -1,0 +1,108 @@
+#include "raster/view/camera.hpp"
+
+#include "raster/view/view_math.hpp"
+
+#include <limits>
+
+namespace halflit::raster {
+
+namespace {
+
+/// Half extents of the view: tangents for a perspective camera, lengths for an orthographic one.
+struct HalfView {
+    double x, y;
+};
+
+/// The picture shows at least what the camera asks for: of the two extents one is as asked, the other at least so.
+HalfView widen_to(HalfView asked, double aspect) {
+    if (asked.x < asked.y * aspect) return {asked.y * aspect, asked.y};
+    return {asked.x, asked.x / aspect};
+}
+
+HalfView half_view(const Camera& camera, double aspect) {
+    HalfView asked{};
+    if (camera.orthographic) {
+        asked.x = finite(camera.half_width) ? magnitude(camera.half_width) : 0.0;
+        asked.y = finite(camera.half_height) ? magnitude(camera.half_height) : 0.0;
+        if (asked.y == 0.0) asked.y = asked.x == 0.0 ? 1.0 : asked.x / aspect;
+        if (asked.x == 0.0) asked.x = asked.y * aspect;
+    } else {
+        asked.y = half_angle_tangent(usable_fov(camera.fov_y_rad));
+        asked.x = asked.y * (camera.aspect > 0.0f && finite(camera.aspect) ? usable_aspect(camera.aspect) : aspect);
+    }
+    return widen_to(asked, aspect);
+}
+
+/// Rows 2 and 3 of the projection: clip z = z_scale * z_vs + z_offset.
+struct DepthMap {
+    double z_scale, z_offset;
+};
+
+DepthMap perspective_depth(const Camera& camera) {
+    const bool has_far = finite(camera.far_z) && camera.far_z > 0.0f;
+    double near_z = camera.near_z;
+    if (!finite(camera.near_z) || !(camera.near_z > 0.0f)) near_z = has_far ? clamped(camera.far_z * 1e-3, 1e-6, 0.1) : 0.1;
+    const double far_z = camera.far_z;
+    if (!has_far || !(far_z > near_z)) return {0.0, near_z};
+    return {near_z / (far_z - near_z), near_z * far_z / (far_z - near_z)};
+}
+
+DepthMap orthographic_depth(const Camera& camera, HalfView half) {
+    const double near_z = finite(camera.near_z) ? camera.near_z : 0.0;
+    double far_z = camera.far_z;
+    // Without a usable far limit: a thousand views deep, and more than the rounding of `near`.
+    if (!finite(camera.far_z) || !(far_z > near_z)) far_z = near_z + 1000.0 * larger(half.y, 1e-3 * magnitude(near_z));
+    return {1.0 / (far_z - near_z), far_z / (far_z - near_z)};
+}
+
+}  // namespace
+
+void Bounds::add(Vec3f p) {
+    if (!finite(p.x) || !finite(p.y) || !finite(p.z)) return;
+    if (empty) {
+        min = max = p;
+        empty = false;
+        return;
+    }
+    min = {p.x < min.x ? p.x : min.x, p.y < min.y ? p.y : min.y, p.z < min.z ? p.z : min.z};
+    max = {p.x > max.x ? p.x : max.x, p.y > max.y ? p.y : max.y, p.z > max.z ? p.z : max.z};
+}
+
+Vec3f Bounds::center() const {
+    const Vec3d a{min.x, min.y, min.z}, b{max.x, max.y, max.z};
+    const Vec3d c = (a + b) * 0.5;
+    return {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)};
+}
+
+float Bounds::radius() const {
+    const Vec3d a{min.x, min.y, min.z}, b{max.x, max.y, max.z};
+    return static_cast<float>(clamped(0.5 * length(b - a), 0.0, std::numeric_limits<float>::max()));
+}
+
+Mat4 clip_from_world(const Camera& camera, float picture_aspect) {
+    const HalfView half = half_view(camera, usable_aspect(picture_aspect));
+    const DepthMap depth = camera.orthographic ? orthographic_depth(camera, half) : perspective_depth(camera);
+
+    // Inverse of the rigid placing and the product with the projection, in double and rounded once.
+    const Mat4& m = camera.world_from_camera;
+    const Vec3d axis[3] = {{m.c[0].x, m.c[0].y, m.c[0].z}, {m.c[1].x, m.c[1].y, m.c[1].z}, {m.c[2].x, m.c[2].y, m.c[2].z}};
+    const Vec3d eye{m.c[3].x, m.c[3].y, m.c[3].z};
+    const auto clip_column = [&](double x_vs, double y_vs, double z_vs, double one) {
+        const double w = camera.orthographic ? one : -z_vs;
+        return Vec4f{static_cast<float>(x_vs / half.x), static_cast<float>(y_vs / half.y),
+                     static_cast<float>(depth.z_scale * z_vs + depth.z_offset * one), static_cast<float>(w)};
+    };
+    return {{clip_column(axis[0].x, axis[1].x, axis[2].x, 0.0), clip_column(axis[0].y, axis[1].y, axis[2].y, 0.0),
+             clip_column(axis[0].z, axis[1].z, axis[2].z, 0.0),
+             clip_column(-dot(axis[0], eye), -dot(axis[1], eye), -dot(axis[2], eye), 1.0)}};
+}
+
+ViewRays view_rays(const Camera& camera, float picture_aspect) {
+    const Mat4& m = camera.world_from_camera;
+    const auto axis = [&](int i) { return Vec3d{m.c[i].x, m.c[i].y, m.c[i].z}; };
+    if (camera.orthographic) return {axis(2) * -1.0, {}, {}};
+    const HalfView half = half_view(camera, usable_aspect(picture_aspect));
+    return {axis(2) * -1.0, axis(0) * half.x, axis(1) * half.y};
+}
+
+}  // namespace halflit::raster

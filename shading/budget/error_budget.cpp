@@ -1,0 +1,301 @@
+#include "shading/budget/error_budget.hpp"
+
+#include "sh/power.hpp"
+#include "shading/budget/code_bounds.hpp"
+#include "shading/budget/power_fit.hpp"
+#include "shading/budget/texture_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+namespace halflit::shading {
+namespace {
+
+/// Of N.L for a normal from three interpolated floats.
+constexpr double kCosineError = 4e-7;
+/// What a mapped normal's length is taken for where its z may be less: shorter ones come of texels that point away from each other.
+constexpr double kShortestNormal = 0.1;
+/// Of the products and sums that follow, relative.
+constexpr double kProductError = 1e-5;
+
+/// What the material makes of light, at most.
+struct Surface {
+    double albedo, reflectance;     ///< diffuse with the lobe's scale; F0
+    double exponent, normalization; ///< of the sharpest highlight
+    double cosine_error;
+    double roughness_error;  ///< relative, where a texture gives it
+    double base_color_error, metallic_error, occlusion_error, emissive_error;  ///< of a texture's value
+    bool highlight;
+};
+
+Surface surface_of(const FramePlan& plan, const MaterialPlan& material, const SceneFacts& facts) {
+    const auto has = [&](Stage stage) { return (material.stages & stage) != 0; };
+    Surface s{};
+    const double color = std::max({material.base_color[0], material.base_color[1], material.base_color[2]}) *
+                         (has(kStageVertexColor) ? facts.vertex_color : 1.0);
+    s.albedo = color;
+    s.highlight = has(kStageSpecular) && has(kStageLights);
+    s.reflectance = material.metallic > 0.0f ? std::max(0.04, color) : 0.04;
+    const auto filtered = [&](const TexturePlan& texture, std::initializer_list<int> channels) {
+        double error = 0.0;
+        for (const int c : channels) error = std::max(error, filter_error(texture, c, facts.largest_uv));
+        return error;
+    };
+    double roughness = material.roughness;
+    if (has(kStageMetallicRoughnessTexture)) {
+        roughness *= least_value(material.metallic_roughness_texture, 1);
+        s.roughness_error = filtered(material.metallic_roughness_texture, {1}) * static_cast<double>(material.roughness) / std::max(roughness, 0.07);
+        s.metallic_error = filtered(material.metallic_roughness_texture, {2});
+    }
+    if (has(kStageBaseColorTexture)) s.base_color_error = filtered(material.base_color_texture, {0, 1, 2});
+    if (has(kStageOcclusionTexture)) s.occlusion_error = filtered(material.occlusion_texture, {0});
+    if (has(kStageEmissiveTexture)) s.emissive_error = filtered(material.emissive_texture, {0, 1, 2});
+    s.exponent = highlight_exponent(roughness);
+    s.normalization = plan.normalize_highlight ? (s.exponent + 8.0) / 8.0 : 1.0;
+    s.cosine_error = kCosineError;
+    if (has(kStageNormalMap)) {
+        // Three components in [-1, 1], each off by twice its channel, of a vector that is no shorter than its z.
+        const double z = 2.0 * least_value(material.normal_texture, 2) - 1.0;
+        s.cosine_error += 2.0 * 1.7320508 * filtered(material.normal_texture, {0, 1, 2}) * std::max(1.0, std::fabs(double{material.normal_scale})) /
+                          std::max(z, kShortestNormal);
+    }
+    return s;
+}
+
+/// All that reaches a surface at most, in units of display white.
+struct Arriving {
+    double sum = 0, largest = 0;  ///< of the lights' colours times strengths
+    double cone_error = 0;        ///< of the spots' cosines, in units of their cones
+    int count = 0, local = 0;
+};
+
+Arriving arriving(const FramePlan& plan, double exposure, const SceneFacts& facts) {
+    Arriving a;
+    for (std::size_t i = 0; i < plan.lights.size(); ++i) {
+        const LightPlan& light = plan.lights[i];
+        const double most = light.brightness * facts.light_strength[i] * exposure;
+        a.sum += most;
+        a.largest = std::max(a.largest, most);
+        ++a.count;
+        a.local += light.type != LightType::directional ? 1 : 0;
+        if (light.type != LightType::spot) continue;
+        a.cone_error = std::max(a.cone_error, 2e-7 * light.cone_scale);
+    }
+    return a;
+}
+
+double rounding_codes(const MaterialPlan& material, const FramePlan& plan, const Surface& s, const Arriving& light, double exposure) {
+    const auto has = [&](Stage stage) { return (material.stages & stage) != 0; };
+    const double n = material.lobe.power_minus_one + 1.0, scale = material.lobe.scale;
+    double codes = codes_of_relative(kProductError + 1.5e-7 * (has(kStageLights) ? n + light.count : 0.0));
+    double around = 0.0;  // ambient light
+    if (has(kStageAmbient)) {
+        const Vec3f sky = plan.ambient.sky_linear, ground = plan.ambient.ground_linear;
+        around = std::max({sky.x, sky.y, sky.z, ground.x, ground.y, ground.z}) * exposure;
+        if (has(kStageEnvironment)) {
+            const EnvironmentPlan& environment = plan.environments[static_cast<std::size_t>(material.environment)];
+            around = 0.0;
+            for (const float* channel : {environment.red, environment.green, environment.blue}) {
+                double most = 0.0;
+                for (int l = 0; l < environment.bands; ++l) {
+                    double squares = 0.0;
+                    for (int i = l * l; i < (l + 1) * (l + 1); ++i) squares += static_cast<double>(channel[i]) * channel[i];
+                    most += std::sqrt(squares * (2 * l + 1) * 0.079577471545947668);  // 1 / (4 pi)
+                }
+                around = std::max(around, most * exposure);
+            }
+            codes += codes_of_absolute(3e-7 * around) * (s.highlight ? 2.0 : 1.0);
+            if (has(kStageNormalMap)) codes += codes_of_absolute(4.0 * s.cosine_error * around);
+        } else {
+            codes += codes_of_absolute(s.cosine_error * around * std::max(s.albedo, 1.0));
+        }
+    }
+    if (has(kStageLights)) {
+        codes += codes_of_edge(s.albedo * scale * light.sum, n, s.cosine_error / (1.0 + material.lobe.wrap));
+        if (light.local > 0) codes += codes_of_edge(s.albedo * scale * light.sum, 1.0, 3e-7);  // the end of the range
+        if (light.cone_error > 0) codes += codes_of_edge(s.albedo * scale * light.sum, 2.0, light.cone_error);
+    }
+    if (s.highlight) {
+        const double turning = plan.highlight == Highlight::phong ? 2.0 : 1.0;
+        double constant = 0.0, linear = 3e-7;
+        if (has(kStageMetallicRoughnessTexture)) constant = linear = 4.0 * s.roughness_error;  // alpha^4, in the exponent and in its norm
+        codes += codes_of_highlight(s.reflectance * s.normalization * light.largest, light.count, constant, linear,
+                                    turning * std::sqrt(2.0 * s.exponent) * s.cosine_error);
+    }
+    const double lit = has(kStageUnlit) ? exposure : light.sum * std::max(1.0, scale) + around;
+    if (has(kStageBaseColorTexture)) codes += codes_of_absolute(s.base_color_error * s.albedo * lit);
+    if (has(kStageMetallicRoughnessTexture)) codes += codes_of_absolute(2.0 * s.metallic_error * s.albedo * lit);
+    if (has(kStageOcclusionTexture)) codes += codes_of_absolute(s.occlusion_error * around);
+    if (has(kStageEmissiveTexture))
+        codes += codes_of_absolute(s.emissive_error * exposure * std::max({material.emissive[0], material.emissive[1], material.emissive[2]}));
+    return std::min(codes, 255.0);
+}
+
+double lobe_tier_codes(const LobePlan& lobe, PowTier tier) {
+    if (lobe.path != LobePath::general || lobe.power_minus_one >= kSharpPowerMinusOne || tier == PowTier::exact) return 0.0;
+    const PowErrors errors = pow_errors(tier);
+    const double a = std::fabs(static_cast<double>(lobe.power_minus_one));
+    return codes_of_relative(0.5 * 0.69314718055994531 * a * errors.log2 + errors.exp2 + 4e-6);
+}
+
+double highlight_tier_codes(const Surface& s, const Arriving& light, PowTier tier) {
+    if (!s.highlight || tier == PowTier::exact) return 0.0;
+    const PowErrors errors = pow_errors(tier);
+    return codes_of_highlight(s.reflectance * s.normalization * light.largest, light.count, errors.exp2, errors.log2, 0.0);
+}
+
+double environment_codes(const FramePlan& plan, const MaterialPlan& material) {
+    double codes = 0.0;
+    for (const int index : {material.environment, material.mirrored_environment})
+        if (index >= 0) codes += plan.environments[static_cast<std::size_t>(index)].bound_codes;
+    return codes;
+}
+
+template <class Codes>
+PowTier cheapest_tier(double budget, const Codes& codes) {
+    for (const PowTier tier : {PowTier::fast, PowTier::display})
+        if (codes(tier) <= budget) return tier;
+    return PowTier::exact;
+}
+
+/// Fits are made once for lobes of one power under about as much light.
+class LobeFits {
+public:
+    const LobeFit& fit(double n, double amplitude) {
+        // The next quarter of a power of two; more light is off by more, so that is a bound for less.
+        const double held = amplitude > 1e-30 && amplitude < 1e6 ? exp2_of(std::ceil(4.0 * log2_of(amplitude)) / 4.0) : 0.0;
+        for (const Entry& entry : entries_)
+            if (entry.n == n && entry.amplitude == held) return entry.fit;
+        return entries_.emplace_back(Entry{n, held, fit_lobe(n, held)}).fit;
+    }
+
+private:
+    struct Entry {
+        double n, amplitude;
+        LobeFit fit;
+    };
+    std::vector<Entry> entries_;
+};
+
+/// The cheapest way to t^n within `budget` codes; what it costs of them.
+double spend_on_lobe(MaterialPlan& material, const Surface& s, const Arriving& light, double budget, LobeFits& fits) {
+    LobePlan& lobe = material.lobe;
+    if (lobe.path != LobePath::general || lobe.power_minus_one >= kSharpPowerMinusOne) return 0.0;
+    const LobeFit& fit = fits.fit(static_cast<double>(lobe.power_minus_one) + 1.0, s.albedo * static_cast<double>(lobe.scale) * light.sum);
+    if (fit.codes <= budget) {
+        lobe.path = LobePath::curve;
+        std::copy_n(fit.c, kLobeCurveTerms, lobe.curve);
+        return fit.codes;
+    }
+    lobe.tier = cheapest_tier(budget, [&](PowTier tier) { return lobe_tier_codes(lobe, tier); });
+    return lobe_tier_codes(lobe, lobe.tier);
+}
+
+/// Whether highlights are below the threshold at 45 degrees from their middle: if not, looking costs more than it saves.
+bool highlights_end(const FramePlan& plan, const Surface& s, double largest, double threshold) {
+    const double z = 0.25 * s.exponent * (plan.highlight == Highlight::phong ? 0.25 : 1.0), z2 = z * z, z4 = z2 * z2;
+    return 40320.0 * largest * s.normalization <= threshold * z4 * z4;
+}
+
+/// The cheapest way to highlights within `budget` codes; adds to the bound what it costs of them.
+void spend_on_highlights(const FramePlan& plan, MaterialPlan& material, const Surface& s, const Arriving& light, double exposure, double budget,
+                         ErrorBound& bound) {
+    // Highlights below this, before the reflectance, are not seen in `codes` codes.
+    const auto threshold_of = [&](double codes) { return codes / (kSlopeAtBlack * exposure * s.reflectance * light.count); };
+    if ((material.stages & kStageMetallicRoughnessTexture) == 0) {
+        const double half_exponent = s.exponent * (plan.highlight == Highlight::phong ? 0.125 : 0.5);
+        const double share = threshold_of(0.5 * budget) / (light.largest / exposure * s.normalization);
+        const HighlightFit fit = fit_highlight(half_exponent, share < 1.0 ? power_of(share, 1.0 / half_exponent) : 1.0);
+        const double codes = fit.codes(s.reflectance * s.normalization * light.largest, light.count);
+        if (codes <= 0.48 * budget) {
+            material.highlight_curve = fit.curve;
+            bound.highlights = codes;
+            bound.left_out += 0.5 * budget;
+            return;
+        }
+    }
+    material.highlight_tier = cheapest_tier(0.5 * budget, [&](PowTier tier) { return highlight_tier_codes(s, light, tier); });
+    bound.highlights = highlight_tier_codes(s, light, material.highlight_tier);
+    const double spent = 0.98 * (budget - bound.highlights), threshold = threshold_of(spent);
+    if (highlights_end(plan, s, light.largest / exposure, threshold)) {
+        material.highlight_threshold = static_cast<float>(std::min(1e30, threshold));
+        bound.left_out += spent;
+    }
+}
+
+/// The squared distance from which on `brightness` times strength is below `least`; 0: none, or beyond the range.
+double reach_squared(const LightPlan& light, double least) {
+    const double range = light.inv_range_squared > 0.0f ? 1.0 / light.inv_range_squared : 0.0;
+    double low = light.min_distance_squared, high = std::max(low, light.brightness / least);
+    if (range > 0.0) high = std::min(high, range);
+    const auto strength = [&](double d2) {
+        const double in_range = d2 * light.inv_range_squared;
+        return light.brightness * std::max(0.0, 1.0 - in_range * in_range) / d2;
+    };
+    if (range == 0.0) return high < 1e36 ? high * 1.001 : 0.0;
+    if (strength(low) <= least) return low;
+    for (int i = 0; i < 50; ++i) {
+        const double middle = 0.5 * (low + high);
+        (strength(middle) > least ? low : high) = middle;
+    }
+    return high * 1.001 < range ? high * 1.001 : 0.0;
+}
+
+}  // namespace
+
+void spend_error_budget(FramePlan& plan, double budget_codes, double exposure, const SceneFacts& facts) {
+    HALFLIT_ASSERT(facts.light_strength.size() == plan.lights.size());
+    const Arriving light = arriving(plan, exposure, facts);
+    ErrorBound worst;
+
+    // The parts that nothing can change, and what the poorest material has left for the lights' reach, which is one for all.
+    std::vector<Surface> surfaces;
+    std::vector<double> rounding, fixed;
+    double poorest = budget_codes, most_reflected = 0.0;
+    for (const MaterialPlan& material : plan.materials) {
+        const Surface& s = surfaces.emplace_back(surface_of(plan, material, facts));
+        rounding.push_back(rounding_codes(material, plan, s, light, exposure));
+        fixed.push_back(rounding.back() + environment_codes(plan, material));
+        if (!facts.drawn[rounding.size() - 1]) continue;
+        poorest = std::min(poorest, budget_codes - fixed.back());
+        most_reflected = std::max(most_reflected, s.albedo * material.lobe.scale + (s.highlight ? s.reflectance * s.normalization : 0.0));
+    }
+    double reach_codes = 0.0;
+    if (light.local > 0 && poorest > 0.0 && most_reflected > 0.0) {
+        const double codes = 0.25 * poorest, least = codes / (kSlopeAtBlack * exposure * most_reflected * light.local);
+        for (std::size_t i = 0; i < plan.lights.size(); ++i) {
+            LightPlan& one = plan.lights[i];
+            if (one.type == LightType::directional) continue;
+            const double reach = reach_squared(one, least);
+            // One that ends beyond all there is would be compared with every fragment for nothing.
+            one.reach_squared = reach < facts.light_farthest_squared[i] ? static_cast<float>(reach) : 0.0f;
+            if (one.reach_squared > 0.0f) reach_codes = codes;
+        }
+    }
+
+    LobeFits fits;
+    for (std::size_t i = 0; i < plan.materials.size(); ++i) {
+        if (!facts.drawn[i]) continue;
+        MaterialPlan& material = plan.materials[i];
+        const Surface& s = surfaces[i];
+        ErrorBound bound;
+        bound.rounding = rounding[i];
+        bound.environment = fixed[i] - rounding[i];
+        bound.left_out = reach_codes;
+        double left = budget_codes - fixed[i] - reach_codes;
+        if (left > 0.0) {
+            bound.lobes = spend_on_lobe(material, s, light, 0.4 * left, fits);
+            left -= bound.lobes;
+            if (s.highlight && light.count > 0) spend_on_highlights(plan, material, s, light, exposure, left, bound);
+        }
+        bound.codes = bound.rounding + bound.lobes + bound.highlights + bound.environment + bound.left_out;
+        if (bound.codes > worst.codes) worst = bound;
+    }
+    worst.codes = std::min(worst.codes, 255.0);
+    worst.budget = budget_codes;
+    worst.within = worst.codes <= budget_codes;
+    plan.error = worst;
+}
+
+}  // namespace halflit::shading

@@ -1,0 +1,243 @@
+#include "shading/budget/power_fit.hpp"
+
+#include "shading/budget/code_bounds.hpp"
+
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace halflit::shading {
+namespace {
+
+constexpr int kTerms = kLobeCurveTerms;
+/// Of one operation in float32, relative.
+constexpr double kRounding = 6e-8;
+
+/// Solves the N equations whose rows are `a`, the right side in column N.
+template <int N>
+std::array<double, N> solve(std::array<std::array<double, N + 1>, N> a) {
+    for (std::size_t k = 0; k < N; ++k) {
+        std::size_t pivot = k;
+        for (std::size_t i = k + 1; i < N; ++i)
+            if (std::fabs(a[i][k]) > std::fabs(a[pivot][k])) pivot = i;
+        std::swap(a[k], a[pivot]);
+        for (std::size_t i = k + 1; i < N; ++i) {
+            const double factor = a[i][k] / a[k][k];
+            for (std::size_t j = k; j <= N; ++j) a[i][j] -= factor * a[k][j];
+        }
+    }
+    std::array<double, N> x{};
+    for (std::size_t k = N; k-- > 0;) {
+        double sum = a[k][N];
+        for (std::size_t j = k + 1; j < N; ++j) sum -= a[k][j] * x[j];
+        x[k] = sum / a[k][k];
+    }
+    return x;
+}
+
+// ---- lobes ---------------------------------------------------------------------------------------------------------
+
+struct Sample {
+    double u;       ///< sqrt(t)
+    double value;   ///< t^n
+    double weight;  ///< codes for an error of 1
+};
+
+/// Close together near 0, where the curve bends most and codes are nearest to each other: u = (i / kSamples)^2.
+constexpr std::size_t kSamples = 256;
+
+std::vector<Sample> samples_of(double n, double amplitude) {
+    std::vector<Sample> samples(kSamples);
+    for (std::size_t i = 0; i < kSamples; ++i) {
+        Sample& s = samples[i];
+        const double root = static_cast<double>(i + 1) / kSamples;
+        s.u = root * root;
+        s.value = power_of(s.u, 2.0 * n);
+        s.weight = amplitude * code_slope(amplitude * s.value);
+    }
+    return samples;
+}
+
+template <class Coefficients>
+double fitted(const Coefficients& c, double u) {
+    double sum = 0.0;
+    for (std::size_t k = kTerms; k-- > 0;) sum = sum * u + static_cast<double>(c[k]);
+    return u * u * sum;
+}
+
+/// Remez's exchange on the samples.
+std::array<double, kTerms> least_largest_error(const std::vector<Sample>& samples) {
+    constexpr std::size_t kPoints = kTerms + 1;
+    std::array<std::size_t, kPoints> at;
+    for (std::size_t j = 0; j < kPoints; ++j)
+        at[j] = static_cast<std::size_t>((1.0 - std::sqrt(1.0 - static_cast<double>(j + 1) / kPoints)) * (kSamples - 1));
+    std::array<double, kTerms> c{};
+    for (int step = 0; step < 12; ++step) {
+        std::array<std::array<double, kPoints + 1>, kPoints> equations;
+        for (std::size_t j = 0; j < kPoints; ++j) {
+            const Sample& s = samples[at[j]];
+            double basis = s.u * s.u;
+            for (std::size_t k = 0; k < kTerms; ++k, basis *= s.u) equations[j][k] = basis * s.weight;
+            equations[j][kTerms] = j % 2 == 0 ? 1.0 : -1.0;
+            equations[j][kPoints] = s.value * s.weight;
+        }
+        const auto solution = solve<static_cast<int>(kPoints)>(equations);
+        std::copy_n(solution.begin(), kTerms, c.begin());
+        // The largest error of each run of one sign.
+        std::vector<std::size_t> peaks;
+        std::vector<double> errors(samples.size());
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            errors[i] = (fitted(c, samples[i].u) - samples[i].value) * samples[i].weight;
+            if (peaks.empty() || (errors[i] > 0.0) != (errors[peaks.back()] > 0.0))
+                peaks.push_back(i);
+            else if (std::fabs(errors[i]) > std::fabs(errors[peaks.back()]))
+                peaks.back() = i;
+        }
+        if (peaks.size() < kPoints) break;
+        while (peaks.size() > kPoints)
+            peaks.erase(std::fabs(errors[peaks.front()]) < std::fabs(errors[peaks.back()]) ? peaks.begin() : peaks.end() - 1);
+        double largest = 0.0;
+        for (const std::size_t peak : peaks) largest = std::max(largest, std::fabs(errors[peak]));
+        std::copy_n(peaks.begin(), kPoints, at.begin());
+        if (largest <= 1.02 * std::fabs(solution[kTerms])) break;
+    }
+    return c;
+}
+
+struct Point {
+    double x, y;
+};
+
+/// The least concave function from (0, 0) that does not fall and is nowhere below the points, which come with x ascending.
+std::vector<Point> concave_majorant(const std::vector<Point>& points) {
+    std::vector<Point> hull{{0.0, 0.0}};
+    for (const Point& p : points) {
+        if (p.y <= hull.back().y) continue;
+        while (hull.size() > 1) {
+            const Point& a = hull[hull.size() - 2];
+            const Point& b = hull.back();
+            if ((b.y - a.y) * (p.x - b.x) > (p.y - b.y) * (b.x - a.x)) break;
+            hull.pop_back();
+        }
+        hull.push_back(p);
+    }
+    return hull;
+}
+
+double at(const std::vector<Point>& hull, double x) {
+    for (std::size_t i = 1; i < hull.size(); ++i)
+        if (x <= hull[i].x) return hull[i - 1].y + (x - hull[i - 1].x) * (hull[i].y - hull[i - 1].y) / (hull[i].x - hull[i - 1].x);
+    return hull.back().y;
+}
+
+// ---- highlights ----------------------------------------------------------------------------------------------------
+
+constexpr std::size_t kDegree = 3;
+
+}  // namespace
+
+LobeFit fit_lobe(double n, double amplitude) {
+    LobeFit fit{};
+    fit.codes = 255.0;
+    if (!(n >= 1.0 && n <= 64.0 && amplitude > 0.0 && amplitude < 1e6)) return fit;
+    const std::vector<Sample> samples = samples_of(n, amplitude);
+    const std::array<double, kTerms> c = least_largest_error(samples);
+    for (std::size_t k = 0; k < kTerms; ++k) fit.c[k] = static_cast<float>(c[k]);
+
+    // |error| as a function of t^n: of lights together it is no more than that of one with all their amplitude, where it is concave.
+    std::vector<Point> errors;
+    double before = 0.0, last = 0.0, value_before = samples.front().value;
+    for (const Sample& s : samples) {
+        // Of the error: its second derivative here, and no more than that anywhere on the way from the sample before.
+        double size = 0.0, fit_bend = 0.0, fit_bends = 0.0, fit_twist = 0.0, power = 1.0;
+        for (std::size_t k = 0; k < kTerms; ++k, power *= s.u) {
+            const double term = static_cast<double>(fit.c[k]) * power, twice = static_cast<double>((k + 2) * (k + 1));
+            size += std::fabs(term);
+            fit_bend += twice * term;
+            fit_bends += twice * std::fabs(term);
+            fit_twist += twice * static_cast<double>(k) * std::fabs(term) / s.u;
+        }
+        const double true_bend = 2.0 * n * (2.0 * n - 1.0) * s.value / (s.u * s.u), step = s.u - before;
+        double bend = true_bend + fit_bends;
+        if (before > 0.0) {
+            const double true_twist = true_bend * (2.0 * n - 2.0) / s.u * (n < 1.5 ? s.u / before : 1.0);  // u^(2n-3) at its largest
+            bend = std::min(bend, std::fabs(true_bend - fit_bend) + step * (true_twist + fit_twist));
+        }
+        // Between two samples: an eighth of the second derivative times the squared step more than at the worse of them.
+        const double error = std::fabs(fitted(fit.c, s.u) - s.value) + s.u * s.u * size * (2 * kTerms) * kRounding;
+        errors.push_back({value_before, std::max(error, last) + 0.125 * bend * step * step});
+        before = s.u, last = error, value_before = s.value;
+    }
+    const std::vector<Point> majorant = concave_majorant(errors);
+    const double below_the_first = codes_of_absolute(amplitude * errors.front().y);
+    const double codes = largest_on_curve([&](const CurvePoint& on) { return on.slope * amplitude * at(majorant, on.v / amplitude); });
+    fit.codes = std::min(255.0, codes + below_the_first);
+    return fit;
+}
+
+HighlightFit fit_highlight(double half_exponent, double least) {
+    HighlightFit fit{};
+    double power = half_exponent, times = 1.0;
+    for (fit.curve.squarings = 0; power >= 2.0; ++fit.curve.squarings, power *= 0.5) times *= 2.0;
+    // Through Chebyshev's nodes: Newton's divided differences, and from them the powers of x.
+    constexpr double kChebyshev[kDegree + 1] = {-0.92387953251128674, -0.38268343236508977, 0.38268343236508977, 0.92387953251128674};
+    const double middle = 0.5 * (1.0 + least), half = 0.5 * (1.0 - least);
+    double x[kDegree + 1], difference[kDegree + 1], c[kDegree + 1] = {};
+    for (std::size_t i = 0; i <= kDegree; ++i) {
+        x[i] = middle + half * kChebyshev[i];
+        difference[i] = power_of(x[i], power);
+    }
+    for (std::size_t k = 1; k <= kDegree; ++k)
+        for (std::size_t i = kDegree; i >= k; --i) difference[i] = (difference[i] - difference[i - 1]) / (x[i] - x[i - k]);
+    for (std::size_t k = kDegree + 1; k-- > 0;) {
+        for (std::size_t i = kDegree; i > 0; --i) c[i] = c[i - 1] - x[k] * c[i];
+        c[0] = difference[k] - x[k] * c[0];
+    }
+    double size = 0.0;
+    for (std::size_t i = 0; i <= kDegree; ++i) {
+        fit.curve.c[i] = static_cast<float>(c[i]);
+        size += std::fabs(c[i]);
+    }
+    fit.curve.least = static_cast<float>(least);
+    fit.rounding = times * 2.0 * kRounding + half_exponent * 20.0 * kRounding;
+    fit.least_root = power_of(least, power);
+    fit.root_error = 1e30;
+    if (!(least > 1e-6 && least < 1.0)) return fit;
+    // Sampled, closer together where x^power bends most; between two samples the second derivative bounds what is missed.
+    constexpr int kSteps = 64;
+    const auto error_at = [&](double at) {
+        const double p = ((fit.curve.c[3] * at + fit.curve.c[2]) * at + fit.curve.c[1]) * at + fit.curve.c[0];
+        return std::fabs(p - power_of(at, power));
+    };
+    double before = least, error_before = error_at(least), largest = 0.0;
+    for (int i = 1; i <= kSteps; ++i) {
+        const double at = i == kSteps ? 1.0 : power_of(least, 1.0 - static_cast<double>(i) / kSteps), step = at - before, error = error_at(at);
+        const double bend = std::fabs(power * (power - 1.0)) * power_of(before, std::min(0.0, power - 2.0)) + std::fabs(2.0 * c[2]) + std::fabs(6.0 * c[3]);
+        largest = std::max(largest, std::max(error, error_before) + 0.125 * bend * step * step);
+        before = at, error_before = error;
+    }
+    fit.root_error = largest + 8.0 * kRounding * size;
+    return fit;
+}
+
+double HighlightFit::relative_error(double share) const {
+    // (r + e)^m against r^m, r the root: m e / r of it, and the rest of (1 + e / r)^m that is not straight.
+    const double m = static_cast<double>(std::int64_t{1} << std::max(0, curve.squarings));
+    const double root = std::max(least_root, power_of(share, 1.0 / m)), bent = m * root_error / root;
+    if (!(root > 0.0 && bent < 0.5)) return 1e30;
+    return rounding + (m > 1.0 ? bent * (1.0 + bent) : bent);
+}
+
+double HighlightFit::codes(double peak, int count) const {
+    const double top = peak * count;
+    if (!(top > 0.0)) return 0.0;
+    if (relative_error(0.0) > 1.0) return 255.0;
+    // v times the relative error is v^(1 - 1/m) and v^(1 - 2/m), and below the cut straight: concave, so that lights add up.
+    return std::min(255.0, largest_on_curve([&](const CurvePoint& at) {
+                        const double v = std::min(at.v, top);
+                        return at.slope * v * relative_error(v / top);
+                    }));
+}
+
+}  // namespace halflit::shading

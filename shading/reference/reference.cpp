@@ -1,0 +1,223 @@
+#include "shading/reference/reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halflit::shading::reference {
+namespace {
+
+Vec3d to_double(Vec3f v) { return {v.x, v.y, v.z}; }
+Vec3d scale(Vec3d v, double s) { return {v.x * s, v.y * s, v.z * s}; }
+Vec3d unit(Vec3d v) {
+    const double length = std::hypot(v.x, v.y, v.z);
+    return length > 0 ? scale(v, 1.0 / length) : v;
+}
+Vec3d row3(const FragmentBlock& block, int row, int lane) {
+    return {block.lane[row][lane], block.lane[row + 1][lane], block.lane[row + 2][lane]};
+}
+Rgba mix(const Rgba& a, const Rgba& b, double t) {
+    return {a.r + t * (b.r - a.r), a.g + t * (b.g - a.g), a.b + t * (b.b - a.b), a.a + t * (b.a - a.a)};
+}
+
+/// The texel that index i of the endless picture shows.
+int wrapped(long long i, int size, Wrap mode) {
+    const auto modulo = [](long long value, long long period) { return ((value % period) + period) % period; };
+    switch (mode) {
+        case Wrap::repeat:
+            return static_cast<int>(modulo(i, size));
+        case Wrap::mirror: {
+            const long long m = modulo(i, 2LL * size);
+            return static_cast<int>(m < size ? m : 2LL * size - 1 - m);
+        }
+        case Wrap::clamp:
+            break;
+    }
+    return static_cast<int>(std::clamp<long long>(i, 0, size - 1));
+}
+
+Rgba texel(const Texture& texture, const TextureLevel& level, const Sampler& sampler, long long x, long long y) {
+    const std::int64_t at =
+        level.offset + std::int64_t{wrapped(y, level.height, sampler.wrap_v)} * level.width + wrapped(x, level.width, sampler.wrap_u);
+    const std::uint16_t* c = texture.data().data() + 4 * at;
+    return {c[0] / 65535.0, c[1] / 65535.0, c[2] / 65535.0, c[3] / 65535.0};
+}
+
+Rgba sample_level(const Texture& texture, const TextureLevel& level, const Sampler& sampler, Filter filter, double u, double v) {
+    const double x = u * level.width, y = v * level.height;
+    if (filter == Filter::nearest)
+        return texel(texture, level, sampler, static_cast<long long>(std::floor(x)), static_cast<long long>(std::floor(y)));
+    const double x0 = std::floor(x - 0.5), y0 = std::floor(y - 0.5);
+    const auto i = static_cast<long long>(x0), j = static_cast<long long>(y0);
+    const Rgba upper = mix(texel(texture, level, sampler, i, j), texel(texture, level, sampler, i + 1, j), x - 0.5 - x0);
+    const Rgba lower = mix(texel(texture, level, sampler, i, j + 1), texel(texture, level, sampler, i + 1, j + 1), x - 0.5 - x0);
+    return mix(upper, lower, y - 0.5 - y0);
+}
+
+/// A material's texture at a lane; `fallback` where it is not used.
+Rgba material_texture(const Frame& frame, const TextureUse& use, QuadMask available, const FragmentBlock& block, int lane,
+                      const Rgba& fallback) {
+    if (use.texture < 0 || static_cast<std::size_t>(use.texture) >= frame.textures.size()) return fallback;
+    const Texture& texture = frame.textures[static_cast<std::size_t>(use.texture)];
+    if (texture.levels().empty()) return fallback;
+    double u = block.lane[use.uv_set == 1 ? kU1 : kU0][lane], v = block.lane[use.uv_set == 1 ? kV1 : kV0][lane];
+    double lod = level_of_detail(texture, use, block, lane);
+    if (use.uv_set == 1 && (available & 16u) == 0) u = v = 0, lod = -100;
+    const double tu = double{use.row_u.x} * u + double{use.row_u.y} * v + double{use.row_u.z};
+    const double tv = double{use.row_v.x} * u + double{use.row_v.y} * v + double{use.row_v.z};
+    return sample(texture, use.sampler, tu, tv, lod);
+}
+
+struct Surface {
+    Vec3d base, normal, albedo, f0, to_eye;
+    double roughness, occlusion;
+};
+
+/// Unit direction and strength of a light at a point.
+struct Arrival {
+    Vec3d direction;
+    double strength;
+};
+Arrival arrival(const Light& light, Vec3d position) {
+    const Vec3d travel = unit(to_double(light.direction_ws));
+    if (light.type == LightType::directional) return {scale(travel, -1), 1.0};
+    const Vec3d offset = to_double(light.position_ws) - position;
+    const double distance = std::hypot(offset.x, offset.y, offset.z);
+    const Vec3d direction = unit(offset);
+    const double radius = std::max(1e-4, double{light.source_radius});
+    double strength = 1.0 / std::max(distance * distance, radius * radius);
+    if (light.range > 0) strength *= std::clamp(1.0 - std::pow(distance / double{light.range}, 4.0), 0.0, 1.0);
+    if (light.type == LightType::spot) {
+        const double cosine = -dot(direction, travel);
+        const double outer = std::cos(double{light.outer_cone_rad});
+        const double inner = std::cos(std::min(double{light.inner_cone_rad}, double{light.outer_cone_rad}));
+        const double cone = inner > outer ? std::clamp((cosine - outer) / (inner - outer), 0.0, 1.0) : (cosine > outer ? 1.0 : 0.0);
+        strength *= cone * cone;
+        if (light.cone_power > 0) strength *= std::pow(std::max(cosine, 0.0), double{light.cone_power});
+    }
+    return {direction, strength};
+}
+
+Vec3d hemisphere(const Ambient& ambient, double up) {
+    const Vec3d sky = to_double(ambient.sky_linear), ground = to_double(ambient.ground_linear);
+    return ground + scale(sky - ground, 0.5 * (1.0 + up));
+}
+
+double environment_share(double f0, double roughness, double n_dot_v) {
+    return f0 + (std::max(1.0 - roughness, f0) - f0) * std::pow(1.0 - std::clamp(n_dot_v, 0.0, 1.0), 5.0);
+}
+
+Vec3d shading_normal(const Frame& frame, const Material& material, QuadMask available, const FragmentBlock& block, int lane) {
+    Vec3d normal = unit(row3(block, kNormalX, lane));
+    if (material.normal_texture.used() && (available & 4u) != 0) {
+        const Rgba c = material_texture(frame, material.normal_texture, available, block, lane, {0.5, 0.5, 1, 1});
+        const Vec3d tangent = unit(row3(block, kTangentX, lane));
+        const Vec3d bitangent = scale(cross(normal, tangent), block.lane[kTangentW][lane]);
+        const double strength = material.normal_scale;
+        normal = unit(scale(tangent, (2 * c.r - 1) * strength) + scale(bitangent, (2 * c.g - 1) * strength) + scale(normal, 2 * c.b - 1));
+    }
+    return material.double_sided ? scale(normal, block.lane[kFacing][lane]) : normal;
+}
+
+Vec3d lit(const Frame& frame, const Material& material, const Surface& surface, Vec3d position, const Surroundings& around) {
+    const bool specular = frame.options.highlight != Highlight::none;
+    const Lobe& lobe = lobe_of(material, frame.options);
+    const double alpha = std::pow(std::max(surface.roughness, 0.07), 2.0), s = 2.0 / (alpha * alpha) - 2.0;
+    Vec3d sum{};
+    for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+        const Light& light = frame.lights[i];
+        const Arrival at = arrival(light, position);
+        const double n_dot_l = dot(surface.normal, at.direction);
+        const Hidden hidden = around.hidden.empty() ? Hidden{} : around.hidden[i];
+        Vec3d reflected = scale(surface.albedo, shadowed_lobe(lobe, n_dot_l, hidden, frame.shadow_mode));
+        if (specular && n_dot_l > 0) {
+            const bool phong = frame.options.highlight == Highlight::phong;
+            const Vec3d mirrored = scale(surface.normal, 2 * n_dot_l) - at.direction;
+            const double cosine = phong ? dot(surface.to_eye, unit(mirrored)) : dot(surface.normal, unit(at.direction + surface.to_eye));
+            const double factor = frame.options.normalize_highlight ? (s + 8) / 8 : 1.0;
+            if (cosine > 0)
+                reflected = reflected + scale(surface.f0, factor * std::pow(std::min(cosine, 1.0), phong ? s / 4 : s) * n_dot_l * (1.0 - hidden.hard));
+        }
+        sum = sum + scale(reflected * to_double(light.color_linear), at.strength);
+    }
+    const bool environment = around.diffuse != nullptr && around.mirrored != nullptr;
+    Vec3d ambient = surface.albedo * (environment ? around.diffuse->at(surface.normal) : hemisphere(frame.ambient, surface.normal.y));
+    if (specular) {
+        const double n_dot_v = dot(surface.normal, surface.to_eye), roughness = std::max(surface.roughness, 0.07);
+        const Vec3d mirrored = scale(surface.normal, 2 * n_dot_v) - surface.to_eye;
+        const Vec3d share{environment_share(surface.f0.x, roughness, n_dot_v), environment_share(surface.f0.y, roughness, n_dot_v),
+                          environment_share(surface.f0.z, roughness, n_dot_v)};
+        ambient = ambient + share * (environment ? around.mirrored->at(mirrored) : hemisphere(frame.ambient, mirrored.y));
+    }
+    return sum + scale(ambient, surface.occlusion);
+}
+
+}  // namespace
+
+double lobe_value(const Lobe& lobe, double x) {
+    const double w = lobe.wrap, n = lobe.power;
+    if (!(x > -w)) return 0.0;
+    const double scale = lobe.normalize ? (n + 1) / (2 * (1 + w)) : 1.0;
+    return scale * std::pow(std::min((x + w) / (1 + w), 1.0), n);
+}
+
+Rgba sample(const Texture& texture, const Sampler& sampler, double u, double v, double lod) {
+    const auto levels = texture.levels();
+    const bool magnified = lod <= 0;
+    const Filter filter = magnified ? sampler.mag : sampler.min;
+    const double last = static_cast<double>(levels.size() - 1);
+    if (sampler.mip == MipFilter::none || magnified) return sample_level(texture, levels[0], sampler, filter, u, v);
+    const double held = std::clamp(lod, 0.0, last);
+    if (sampler.mip == MipFilter::nearest)
+        return sample_level(texture, levels[static_cast<std::size_t>(std::nearbyint(held))], sampler, filter, u, v);
+    const auto low = static_cast<std::size_t>(held), high = std::min(low + 1, levels.size() - 1);
+    return mix(sample_level(texture, levels[low], sampler, filter, u, v), sample_level(texture, levels[high], sampler, filter, u, v),
+               held - static_cast<double>(low));
+}
+
+double level_of_detail(const Texture& texture, const TextureUse& use, const FragmentBlock& block, int lane) {
+    const int first = use.uv_set == 1 ? kDu1Dx : kDu0Dx;
+    const auto length = [&](int at) {
+        const double du = block.lane[at][lane], dv = block.lane[at + 1][lane];
+        return std::hypot((double{use.row_u.x} * du + double{use.row_u.y} * dv) * texture.width(),
+                          (double{use.row_v.x} * du + double{use.row_v.y} * dv) * texture.height());
+    };
+    return std::log2(std::max(length(first), length(first + 2)));
+}
+
+Rgba shade(const Frame& frame, const Material& material, QuadMask available, const FragmentBlock& block, int lane,
+           const Surroundings& around) {
+    const Rgba white{1, 1, 1, 1};
+    Rgba base = material_texture(frame, material.base_color_texture, available, block, lane, white);
+    base = {base.r * material.base_color.x, base.g * material.base_color.y, base.b * material.base_color.z, base.a * material.base_color.w};
+    if ((available & 8u) != 0)
+        base = {base.r * block.lane[kColorR][lane], base.g * block.lane[kColorG][lane], base.b * block.lane[kColorB][lane],
+                base.a * block.lane[kColorA][lane]};
+    const double alpha = material.alpha_mode == AlphaMode::blend ? std::clamp(base.a, 0.0, 1.0) : 1.0;
+    if (material.unlit) return {base.r, base.g, base.b, alpha};
+
+    const Rgba mr = material_texture(frame, material.metallic_roughness_texture, available, block, lane, white);
+    const Rgba occlusion = material_texture(frame, material.occlusion_texture, available, block, lane, white);
+    const Rgba glow = material_texture(frame, material.emissive_texture, available, block, lane, white);
+    const Vec3d position = row3(block, kPosX, lane);
+    Surface surface{};
+    surface.base = {base.r, base.g, base.b};
+    surface.normal = shading_normal(frame, material, available, block, lane);
+    surface.roughness = material.roughness * mr.g;
+    surface.occlusion = 1.0 + double{material.occlusion_strength} * (occlusion.r - 1.0);
+    surface.to_eye = frame.orthographic ? scale(to_double(frame.view_direction_ws), -1) : unit(to_double(frame.eye_ws) - position);
+    surface.albedo = surface.base;
+    if (frame.options.highlight != Highlight::none) {
+        const double metallic = material.metallic * mr.b;
+        surface.albedo = scale(surface.base, (1 - metallic) * 0.96);
+        surface.f0 = scale(surface.base, metallic) + scale({1, 1, 1}, 0.04 * (1 - metallic));
+    }
+    const Vec3d color = lit(frame, material, surface, position, around) + to_double(material.emissive) * Vec3d{glow.r, glow.g, glow.b};
+    return {color.x, color.y, color.z, alpha};
+}
+
+double srgb_code(double linear) {
+    const double x = std::clamp(linear, 0.0, 1.0);
+    return 255.0 * (x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055);
+}
+
+}  // namespace halflit::shading::reference

@@ -1,0 +1,64 @@
+// The meaning of the shading kernels: the same model in float64, written the plain way, from what the user gave rather than from the
+// plan, with the C library's functions. Slow, and not the same bits everywhere: for tests and for measuring error.
+#pragma once
+
+#include "shading/kernels/fragment_block.hpp"
+#include "shading/light.hpp"
+#include "shading/material.hpp"
+#include "shading/plan/plan.hpp"
+#include "shading/reference/shadow.hpp"
+#include "shading/texture.hpp"
+
+#include <span>
+
+namespace halflit::shading::reference {
+
+struct Rgba {
+    double r = 0, g = 0, b = 0, a = 0;
+};
+
+/// Light from all around that reaches a direction, channel by channel.
+class Irradiance {
+public:
+    virtual ~Irradiance() = default;
+    [[nodiscard]] virtual Vec3d at(Vec3d normal) const = 0;
+};
+
+/// All that a frame's fragments share.
+struct Frame {
+    std::span<const Texture> textures;
+    std::span<const Light> lights;
+    Ambient ambient;
+    PlanOptions options;
+    Vec3f eye_ws{0, 0, 0};
+    Vec3f view_direction_ws{0, 0, -1};  ///< used when orthographic
+    bool orthographic = false;
+    ShadowMode shadow_mode = ShadowMode::off;
+};
+
+/// What belongs to one fragment besides its block's rows.
+struct Surroundings {
+    /// For each light, what shadows hide of it; empty: nothing.
+    std::span<const Hidden> hidden;
+    /// Instead of the two-colour ambient light, where both are given: of a normal, and of the mirrored view.
+    const Irradiance* diffuse = nullptr;
+    const Irradiance* mirrored = nullptr;
+};
+
+/// f(x; w, n) with its scale, by std::pow.
+[[nodiscard]] double lobe_value(const Lobe& lobe, double x);
+
+/// The texture's value at (u, v), before any transform, with a footprint of 2^lod texels of level 0.
+[[nodiscard]] Rgba sample(const Texture& texture, const Sampler& sampler, double u, double v, double lod);
+
+/// log2 of the longer side of the footprint that the kDu.. rows of `uv_set` describe, in texels of level 0.
+[[nodiscard]] double level_of_detail(const Texture& texture, const TextureUse& use, const FragmentBlock& block, int lane);
+
+/// The colour and alpha of one lane. `available` as in make_frame_plan.
+[[nodiscard]] Rgba shade(const Frame& frame, const Material& material, QuadMask available, const FragmentBlock& block, int lane,
+                         const Surroundings& around = {});
+
+/// The sRGB curve times 255, not rounded; x is clamped to [0, 1].
+[[nodiscard]] double srgb_code(double linear);
+
+}  // namespace halflit::shading::reference

@@ -1,0 +1,102 @@
+#include "shading/reference/shadow.hpp"
+
+#include "shading/reference/reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halflit::shading::reference {
+namespace {
+
+/// A point in a map: texel coordinates, distance along the map's axis, which of its six faces.
+struct MapPoint {
+    double u = 0, v = 0, distance = 0;
+    int face = 0;
+    bool inside = false;
+    double margin = 0;  ///< distance to the rim or to the next face, world units
+};
+
+double apply(const float (&row)[4], Vec3d p) { return double{row[0]} * p.x + double{row[1]} * p.y + double{row[2]} * p.z + double{row[3]}; }
+
+MapPoint cube_point(const ShadowMapPlan& map, Vec3d p) {
+    const double offset[3] = {p.x - double{map.origin[0]}, p.y - double{map.origin[1]}, p.z - double{map.origin[2]}};
+    int axis = 0;
+    for (int i = 1; i < 3; ++i)
+        if (std::fabs(offset[i]) > std::fabs(offset[axis])) axis = i;
+    const double along_u = offset[(axis + 1) % 3], along_v = offset[(axis + 2) % 3];
+    MapPoint at;
+    at.distance = std::fabs(offset[axis]);
+    at.inside = at.distance > 0;
+    if (!at.inside) return at;
+    const double sign = offset[axis] < 0 ? -1 : 1, half = 0.5 * (map.size - 2 * kShadowBorder);
+    at.face = 2 * axis + (sign < 0 ? 1 : 0);
+    at.u = along_u / at.distance * half + 0.5 * map.size;
+    at.v = sign * along_v / at.distance * half + 0.5 * map.size;
+    at.margin = at.distance - std::max(std::fabs(along_u), std::fabs(along_v));
+    return at;
+}
+
+MapPoint map_point(const ShadowMapPlan& map, Vec3d p) {
+    if (map.kind == ShadowMapPlan::Kind::cube) return cube_point(map, p);
+    MapPoint at{apply(map.rows[0], p), apply(map.rows[1], p), apply(map.rows[2], p), 0, true, 0};
+    double texel = map.texel_size;
+    if (map.kind == ShadowMapPlan::Kind::perspective) {
+        if (!(at.distance > 0)) return {0, 0, at.distance, 0, false, -at.distance};
+        at.u /= at.distance;
+        at.v /= at.distance;
+        texel *= at.distance;
+    }
+    const double rim = std::min({at.u, at.v, map.size - at.u, map.size - at.v});
+    at.inside = rim > 0;
+    at.margin = std::fabs(rim) * texel;
+    return at;
+}
+
+/// Weight of the texel whose centre is at `centre` in a box three texels wide around `at`, one side.
+double box_weight(double centre, double at) { return std::clamp(2.0 - std::fabs(centre - at), 0.0, 1.0) / 3.0; }
+
+/// What is left of wrapped light u of the way to where none is: T(u) = (1-u)^2 (1 + 2u) between 0 and 1, 1 below, 0 above.
+double fade(double u) {
+    const double t = std::clamp(u, 0.0, 1.0);
+    return (1 - t) * (1 - t) * (1 + 2 * t);
+}
+
+}  // namespace
+
+Hidden hidden_share(const ShadowMapPlan& map, Vec3d position, Vec3d surface_normal, Vec3d to_light, const MaterialPlan& material,
+                    ShadowMode mode) {
+    if (mode == ShadowMode::off) return {};
+    const double cosine = dot(surface_normal, to_light), sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+    double texel = map.texel_size;
+    if (map.kind != ShadowMapPlan::Kind::orthographic) texel *= map_point(map, position).distance;
+    const MapPoint at = map_point(map, position + surface_normal * (double{kShadowNormalOffset} * texel * sine));
+    Hidden hidden{0, 0, at.margin};
+    if (!at.inside) return hidden;
+    const double receiver = at.distance - double{kShadowDepthBias} * texel - double{kShadowRelativeBias} * at.distance;
+    const bool fades = mode == ShadowMode::soft_split && material.shadow_fade_scale > 0;
+    // What a body that turns away from the light is thick itself, as a share of d0, does not count.
+    const double own = std::clamp(-cosine * double{material.shadow_turn_scale}, 0.0, double{kOwnThickness});
+    // Near the rim the box stays inside the map.
+    const double u = std::clamp(at.u, 2.0, map.size - 2.0), v = std::clamp(at.v, 2.0, map.size - 2.0);
+    const float* texels = map.distance + static_cast<std::size_t>(at.face) * static_cast<std::size_t>(map.size * map.size);
+    const int first_i = static_cast<int>(std::floor(u - 1.5)), first_j = static_cast<int>(std::floor(v - 1.5));
+    for (int j = std::max(first_j, 0); j < std::min(first_j + 4, map.size); ++j) {
+        for (int i = std::max(first_i, 0); i < std::min(first_i + 4, map.size); ++i) {
+            const double weight = box_weight(i + 0.5, u) * box_weight(j + 0.5, v);
+            const double behind = receiver - double{texels[j * map.size + i]};
+            hidden.margin = std::min(hidden.margin, std::fabs(behind));
+            if (!(behind > 0)) continue;
+            hidden.hard += weight;
+            hidden.soft += weight * (fades ? 1 - fade((behind * double{material.shadow_fade_scale} - own) / (1 - own)) : 1.0);
+        }
+    }
+    return hidden;
+}
+
+double shadowed_lobe(const Lobe& lobe, double x, const Hidden& hidden, ShadowMode mode) {
+    const double f = lobe_value(lobe, x), scale = double{lobe.scale()};
+    const double core = mode == ShadowMode::soft_split ? std::min(f, scale * std::max(0.0, x)) : f;
+    return f - hidden.hard * core - hidden.soft * (f - core);
+}
+
+}  // namespace halflit::shading::reference

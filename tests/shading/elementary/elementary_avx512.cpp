@@ -1,3 +1,0 @@
-#define HALFLIT_ISA avx512
-#define HALFLIT_ARCH avx512f
-#include "elementary_kernel.hpp"

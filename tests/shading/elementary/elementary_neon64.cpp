@@ -1,3 +1,0 @@
-#define HALFLIT_ISA neon64
-#define HALFLIT_ARCH neon64
-#include "elementary_kernel.hpp"

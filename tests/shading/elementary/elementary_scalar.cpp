@@ -1,2 +1,0 @@
-#define HALFLIT_ISA scalar
-#include "elementary_kernel.hpp"

@@ -1,2 +1,0 @@
-#define HALFLIT_ISA scalar
-#include "lobe_curve_kernel.hpp"
