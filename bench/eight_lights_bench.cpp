@@ -71,14 +71,14 @@ std::vector<shading::FragmentBlock> floor_blocks() {
 
 struct Way {
     std::string name;
-    shading::FramePlan plan;
+    shading::ShadingPlan plan;
     double shortest = 1e30;  ///< ns a fragment
 };
 
-std::string described(const shading::FramePlan& plan) {
+std::string described(const shading::ShadingPlan& plan) {
     const shading::MaterialPlan& material = plan.materials.front();
     std::string text = material.lobe.path == shading::LobePath::curve ? "curve" : material.lobe.path == shading::LobePath::general ? "power" : "simple";
-    text += material.highlight_curve.squarings >= 0 ? ", highlight curve" : ", highlight power";
+    text += material.specular_curve.squarings >= 0 ? ", highlight curve" : ", highlight power";
     return text;
 }
 

@@ -59,7 +59,7 @@ void repeat(benchmark::State& state, const shading::FragmentBlock& block, const 
     }
 }
 
-void run(benchmark::State& state, const Column& column, const Row& row, const shading::FramePlan& frame) {
+void run(benchmark::State& state, const Column& column, const Row& row, const shading::ShadingPlan& frame) {
     shading::FragmentBlock block = filled_block();
     const int count = shading::kBlockSize;
     const shading::MaterialPlan none{};
@@ -69,7 +69,7 @@ void run(benchmark::State& state, const Column& column, const Row& row, const sh
     const auto shade = [&] { column.shade->shade(frame, material, shading::all_lights(frame), block, count); };
     switch (row.work) {
         case Work::sum:
-            return row.highlight ? repeat(state, block, [&] { column.bare->sum_with_highlight(frame, material, block); })
+            return row.specular ? repeat(state, block, [&] { column.bare->sum_with_specular(frame, material, block); })
                                  : repeat(state, block, [&] { column.bare->sum(frame, material, block); });
         case Work::environment:
             return repeat(state, block, [&] { column.bare->environment(frame, material, block); });

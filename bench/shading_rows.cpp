@@ -9,7 +9,7 @@
 namespace halflit::bench {
 namespace {
 
-using shading::Highlight;
+using shading::SpecularModel;
 using shading::LightType;
 using shading::Lobe;
 using shading::LobePath;
@@ -80,7 +80,7 @@ Operations light_operations(LightType type) {
     return {n_dot_l + colour + local + cone, 2, 1};
 }
 
-Operations highlight_operations(LightType type) {
+Operations specular_operations(LightType type) {
     const int terms = kVector + kDot + kCross + 2 * kDot;  // H, N.H, N x H, both squares
     const int strength = type == LightType::directional ? 0 : 1;
     return {terms + 3 + kPowerOfCosine + 1 + 2 * kVector + strength, 1, 0};
@@ -115,44 +115,44 @@ const shading::Environment& some_environment() {
     return environment;
 }
 
-shading::FramePlan plan(const shading::Material& material, const std::vector<shading::Light>& lights, bool highlight, int order = 0,
+shading::ShadingPlan plan(const shading::Material& material, const std::vector<shading::Light>& lights, bool specular, int order = 0,
                         std::span<const shading::Texture> textures = {}) {
-    const shading::QuadMask all = ((1u << shading::kQuadCount) - 1u) & ~(1u << 3);  // everything but a vertex colour
-    const shading::QuadMask quads[] = {all, all};
+    const shading::SlotMask all = ((1u << shading::kSlotCount) - 1u) & ~(1u << 3);  // everything but a vertex colour
+    const shading::SlotMask slots[] = {all, all};
     shading::PlanOptions options;
-    options.highlight = highlight ? Highlight::blinn : Highlight::none;
+    options.specular = specular ? SpecularModel::blinn : SpecularModel::none;
     options.environment_order.fixed = order;
     shading::EnvironmentPlans plans(some_environment());
-    shading::FramePlan frame = make_frame_plan({&material, 1}, textures, quads, lights, {}, options, order > 0 ? &plans : nullptr);
+    shading::ShadingPlan frame = plan_shading({&material, 1}, textures, slots, lights, {}, options, order > 0 ? &plans : nullptr);
     frame.eye_ws = {0.2f, 0.3f, 6.0f};
     return frame;
 }
 
 void add_light_rows(std::vector<Row>& rows, Work work) {
-    for (const bool highlight : {false, true})
+    for (const bool specular : {false, true})
         for (const auto& [type_name, type] : kTypes)
             for (const NamedLobe& lobe : kLobes) {
                 shading::Material material;
                 material.lobe = lobe.lobe;
                 material.roughness = 0.4f;
                 Row row;
-                row.name = std::string(type_name) + ", " + lobe.name + (highlight ? ", Blinn" : "");
+                row.name = std::string(type_name) + ", " + lobe.name + (specular ? ", Blinn" : "");
                 row.work = work;
-                row.highlight = highlight;
+                row.specular = specular;
                 for (const int count : {1, 4, 16}) {
                     row.lights.push_back(count);
-                    row.frames.push_back(plan(material, some_lights(type, count), highlight));
+                    row.frames.push_back(plan(material, some_lights(type, count), specular));
                 }
                 const shading::LobePlan& planned = row.frames[0].materials[0].lobe;
-                // The highlight adds the same to every lobe; three of them show it.
-                if (highlight && planned.path != LobePath::linear && planned.path != LobePath::square && planned.path != LobePath::general)
+                // The specular adds the same to every lobe; three of them show it.
+                if (specular && planned.path != LobePath::linear && planned.path != LobePath::square && planned.path != LobePath::general)
                     continue;
-                if (highlight && planned.path == LobePath::linear && planned.wrap > 0.0f) continue;
+                if (specular && planned.path == LobePath::linear && planned.wrap > 0.0f) continue;
                 if (work == Work::sum) {
                     row.operations = light_operations(type) + lobe_operations(planned);
-                    if (highlight) row.operations = row.operations + highlight_operations(type);
+                    if (specular) row.operations = row.operations + specular_operations(type);
                 }
-                row.largest_price = highlight || planned.path == LobePath::general ? 0.35 : 0.12;
+                row.largest_price = specular || planned.path == LobePath::general ? 0.35 : 0.12;
                 row.least_gain = 7.0;
                 rows.push_back(std::move(row));
             }

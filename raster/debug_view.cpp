@@ -8,7 +8,7 @@
 
 namespace halflit::raster {
 
-Result<shading::FramePlan> frame_plan(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height) {
+Result<shading::ShadingPlan> frame_plan(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height) {
     const FpEnvironment environment;
     Frame frame;
     if (auto ok = prepare_frame(frame, scene, camera, settings, {width, height, nullptr, nullptr}); !ok)

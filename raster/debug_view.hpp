@@ -18,7 +18,7 @@ struct VisibilityView {
 [[nodiscard]] Result<VisibilityView> visibility(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height);
 
 /// What a frame would compute: stages, lobes and orders of each material, lights, and what an error budget was spent on.
-[[nodiscard]] Result<shading::FramePlan> frame_plan(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height);
+[[nodiscard]] Result<shading::ShadingPlan> frame_plan(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height);
 
 /// The triangle numbers alone.
 [[nodiscard]] Result<std::vector<std::uint32_t>> triangle_ids(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height);

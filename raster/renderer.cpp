@@ -33,17 +33,17 @@ private:
 
 /// Of the materials that something is drawn with, in the plan's order.
 std::vector<EnvironmentUse> environment_uses(const Frame& frame) {
-    enum : unsigned { kDiffuse = 1, kMirrored = 2 };
+    enum : unsigned { kDiffuse = 1, kSpecular = 2 };
     std::vector<unsigned> uses(frame.plan.environments.size(), 0);
     for (const Draw& draw : frame.draws) {
         const shading::MaterialPlan& material = frame.plan.materials[static_cast<std::size_t>(draw.material)];
         if (material.environment >= 0) uses[static_cast<std::size_t>(material.environment)] |= kDiffuse;
-        if (material.mirrored_environment >= 0) uses[static_cast<std::size_t>(material.mirrored_environment)] |= kMirrored;
+        if (material.specular_environment >= 0) uses[static_cast<std::size_t>(material.specular_environment)] |= kSpecular;
     }
     std::vector<EnvironmentUse> out;
     for (std::size_t i = 0; i < uses.size(); ++i) {
         const shading::EnvironmentPlan& plan = frame.plan.environments[i];
-        if (uses[i] != 0) out.push_back({plan.bands, plan.bound, plan.within, uses[i] == kMirrored});
+        if (uses[i] != 0) out.push_back({plan.bands, plan.bound, plan.within, uses[i] == kSpecular});
     }
     return out;
 }

@@ -50,7 +50,7 @@ struct EnvironmentUse {
     int bands = 0;          ///< of spherical harmonics, 1..10
     double bound = 0;       ///< no normal's light is off by more, white surface, worst channel, before exposure
     bool within = true;     ///< whether that times the exposure is within the tolerance
-    bool mirrored = false;  ///< what surfaces mirror, which may be off by twice the tolerance; otherwise diffuse light
+    bool specular = false;  ///< what surfaces reflect like mirrors, which may be off by twice the tolerance; otherwise diffuse light
 };
 
 /// What a frame did. Times in milliseconds of wall clock.

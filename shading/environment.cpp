@@ -12,9 +12,9 @@
 namespace halflit::shading {
 namespace {
 
-/// The polynomial in z that belongs to the real (part = +1) or imaginary (-1) part of (x + iy)^m, nested about kNodes: divided
+/// The polynomial in z that belongs to the real (part = +1) or imaginary (-1) part of (x + iy)^m, in Newton form about kNodes: divided
 /// differences of its values there.
-std::array<double, sh::kMaxBands> nested_about_nodes(const float* coefficients, int bands, int m, int part) {
+std::array<double, sh::kMaxBands> newton_form_about_nodes(const float* coefficients, int bands, int m, int part) {
     const sh::detail::BasisTable& table = sh::detail::kBasisTable;
     std::array<double, sh::kMaxBands> a{};
     const int degree = bands - 1 - m;
@@ -72,8 +72,8 @@ std::array<double, sh::kMaxBands> bounds_in_codes(const Environment& environment
 
 }  // namespace
 
-sh::WrapLobe mirrored_lobe(float roughness) {
-    const double power = std::max(1.0, highlight_exponent(static_cast<double>(roughness)) * 0.25);
+sh::WrapLobe specular_environment_lobe(float roughness) {
+    const double power = std::max(1.0, specular_exponent(static_cast<double>(roughness)) * 0.25);
     return {0.0, power, 0.5 * (power + 1.0)};
 }
 
@@ -112,14 +112,14 @@ Environment make_environment(const sh::EquirectView& image, const EnvironmentOpt
     return environment;
 }
 
-void nest_coefficients(EnvironmentPlan& plan) {
-    float* next = plan.nested;
+void make_newton_form(EnvironmentPlan& plan) {
+    float* next = plan.newton;
     for (int m = 0; m < plan.bands; ++m) {
         std::array<double, sh::kMaxBands> a[2][3];
         const int parts = m > 0 ? 2 : 1;
         for (int part = 0; part < parts; ++part)
             for (int channel = 0; channel < 3; ++channel)
-                a[part][channel] = nested_about_nodes(channel == 0   ? plan.red
+                a[part][channel] = newton_form_about_nodes(channel == 0   ? plan.red
                                                       : channel == 1 ? plan.green
                                                                      : plan.blue,
                                                       plan.bands, m, 1 - 2 * part);
@@ -154,7 +154,7 @@ EnvironmentPlan plan_environment(const Environment& environment, const sh::WrapL
     std::copy(product.r.begin(), product.r.end(), plan.red);
     std::copy(product.g.begin(), product.g.end(), plan.green);
     std::copy(product.b.begin(), product.b.end(), plan.blue);
-    nest_coefficients(plan);
+    make_newton_form(plan);
     return plan;
 }
 

@@ -37,7 +37,7 @@ struct EnvironmentOptions {
 
 /// What a rough surface mirrors: a cosine power about the mirrored view, with a quarter of the highlight's exponent, because
 /// the mirrored direction turns twice as fast as the half vector. Normalised.
-[[nodiscard]] sh::WrapLobe mirrored_lobe(float roughness);
+[[nodiscard]] sh::WrapLobe specular_environment_lobe(float roughness);
 
 [[nodiscard]] Environment make_environment(const sh::EquirectView& image, const EnvironmentOptions& options = {});
 
@@ -64,7 +64,7 @@ private:
     std::vector<Entry> entries_;
 };
 
-/// Makes `nested` from the series' coefficients.
-void nest_coefficients(EnvironmentPlan& plan);
+/// Makes `newton` from the series' coefficients.
+void make_newton_form(EnvironmentPlan& plan);
 
 }  // namespace halflit::shading

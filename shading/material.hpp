@@ -13,7 +13,7 @@ namespace halflit::shading {
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
 /// Exponent s of (N.H)^s for a roughness, which is held to 0.07 and above: 2 / roughness^4 - 2.
-[[nodiscard]] constexpr double highlight_exponent(double roughness) {
+[[nodiscard]] constexpr double specular_exponent(double roughness) {
     const double held = roughness > 0.07 ? roughness : 0.07, alpha = held * held;
     return 2.0 / (alpha * alpha) - 2.0;
 }

@@ -10,7 +10,7 @@
 namespace halflit::cli {
 namespace {
 
-using shading::Highlight;
+using shading::SpecularModel;
 
 constexpr float kRoughness = 0.35f;
 
@@ -20,20 +20,20 @@ shading::Material lacquer() {
     return material;
 }
 
-Shot ball_shot(Highlight highlight) {
+Shot ball_shot(SpecularModel specular) {
     Shot shot = empty_shot();
     add_object(shot, raster::make_sphere(1.0f, 128, 64), lacquer());
     shot.camera = front_camera(1.08f);
     shot.scene.lights = {light_from({0.5f, 0.6f, 0.8f}, 1.5f)};
     shot.scene.ambient = {{0.1f, 0.1f, 0.11f}, {0.05f, 0.05f, 0.05f}};
-    shot.settings.shading.highlight = highlight;
+    shot.settings.shading.specular = specular;
     shot.width = shot.height = 520;
     return shot;
 }
 
 /// A floor to the horizon, the eye 1 above it, the light low in front.
-Shot floor_shot(Highlight highlight) {
-    Shot shot = ball_shot(highlight);
+Shot floor_shot(SpecularModel specular) {
+    Shot shot = ball_shot(specular);
     shot.scene.meshes = {raster::make_plane(60.0f, 60)};
     shot.scene.meshes[0].material = 0;
     shot.scene.lights = {light_from({0, 0.22f, -1}, 1.5f)};
@@ -48,7 +48,7 @@ Shot floor_shot(Highlight highlight) {
 /// Brightness over the angle by which the normal leaves the half vector, when the eye looks into the mirrored light at an incidence of
 /// `incidence_deg`: in the plane of eye and light, or across it.
 PlotSeries shape(std::string name, bool phong, bool across, double incidence_deg) {
-    const double s = shading::highlight_exponent(static_cast<double>(kRoughness)), cos_i = std::cos(incidence_deg * kPi / 180.0);
+    const double s = shading::specular_exponent(static_cast<double>(kRoughness)), cos_i = std::cos(incidence_deg * kPi / 180.0);
     PlotSeries series{.name = std::move(name), .points = {}, .color = phong ? "#d55e00" : "#0072b2", .dash = phong ? "" : "6 3"};
     for (int i = -120; i <= 120; ++i) {
         const double degrees = i / 4.0, c = std::cos(degrees * kPi / 180.0);
@@ -65,8 +65,8 @@ Result<Figure> make_highlights_figure() {
     constexpr double kIncidence = 75;
     PictureGrid grid{.columns = {"Phong", "Blinn"}, .rows = {"ball", "floor, light\nlow in front"}, .width = 260};
     auto pictures = take_grid(std::move(grid), [](std::size_t row, std::size_t column) {
-        const Highlight highlight = column == 0 ? Highlight::phong : Highlight::blinn;
-        return row == 0 ? ball_shot(highlight) : floor_shot(highlight);
+        const SpecularModel specular = column == 0 ? SpecularModel::phong : SpecularModel::blinn;
+        return row == 0 ? ball_shot(specular) : floor_shot(specular);
     });
     if (!pictures) return tl::unexpected(pictures.error());
     PlotRow plots;
@@ -84,7 +84,7 @@ Result<Figure> make_highlights_figure() {
                                          "not do. On the ball the two are alike; "
                                          "at grazing angles Blinn's highlight grows long, as on a wet road, while Phong's stays round. One "
                                          "directional light of strength 1.5.",
-                                         static_cast<double>(kRoughness), shading::highlight_exponent(static_cast<double>(kRoughness))),
+                                         static_cast<double>(kRoughness), shading::specular_exponent(static_cast<double>(kRoughness))),
                   .parts = {std::move(*pictures), std::move(plots)}};
 }
 

@@ -23,7 +23,7 @@ Shot coarse_sphere(shading::ShadingRate rate, bool glossy) {
     shot.scene.lights = {light_from({0.55f, 0.62f, 0.75f}, 0.9f)};
     shot.scene.ambient = {{0.05f, 0.055f, 0.07f}, {0.03f, 0.03f, 0.03f}};
     shot.settings.shading.rate = rate;
-    if (glossy) shot.settings.shading.highlight = shading::Highlight::blinn;
+    if (glossy) shot.settings.shading.specular = shading::SpecularModel::blinn;
     shot.width = shot.height = 480;
     return shot;
 }

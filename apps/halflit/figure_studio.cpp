@@ -9,7 +9,7 @@ Shot empty_shot() {
     Shot shot;
     shot.settings.samples = 8;
     shot.settings.background_linear = {0.035f, 0.04f, 0.05f, 1.0f};
-    shot.settings.shading.highlight = shading::Highlight::none;
+    shot.settings.shading.specular = shading::SpecularModel::none;
     shot.settings.shadows = shading::ShadowMode::off;
     return shot;
 }

@@ -126,8 +126,8 @@ Result<void> choose_settings(raster::Settings& settings, const RenderOptions& op
     settings.background_environment = options.background_environment;
     settings.shading.override_lobe = lobe->has_value();
     settings.shading.lobe = lobe->value_or(shading::Lobe{});
-    settings.shading.highlight = options.highlight;
-    settings.shading.normalize_highlight = options.normalize_highlight;
+    settings.shading.specular = options.specular;
+    settings.shading.normalize_specular = options.normalize_specular;
     settings.shading.rate = options.rate;
     settings.shading.accuracy = options.accuracy;
     settings.shading.max_error_codes = options.max_error_codes;

@@ -37,8 +37,8 @@ constexpr std::string_view tier_name(shading::PowTier tier) {
 }
 
 /// How a material's highlights are computed.
-constexpr std::string_view highlight_power_name(const shading::MaterialPlan& plan) {
-    return plan.highlight_curve.squarings >= 0 ? "curve" : tier_name(plan.highlight_tier);
+constexpr std::string_view specular_power_name(const shading::MaterialPlan& plan) {
+    return plan.specular_curve.squarings >= 0 ? "curve" : tier_name(plan.specular_tier);
 }
 
 constexpr std::string_view lobe_path_name(shading::LobePath path) {

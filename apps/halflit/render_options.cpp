@@ -183,12 +183,12 @@ void add_surface_flags(CLI::App& app, RenderOptions& o) {
     app.add_flag_callback(
            "--normalize", [&o] { o.lobe.normalize = true; }, "Scale the lobe to reflect as much light as Lambert's")
         ->group(kGroup);
-    using shading::Highlight;
+    using shading::SpecularModel;
     add_value(app, "--specular", "none|phong|blinn", "Highlights (default blinn)",
-              named<Highlight>(o.highlight, {{"none", Highlight::none}, {"phong", Highlight::phong}, {"blinn", Highlight::blinn}}))
+              named<SpecularModel>(o.specular, {{"none", SpecularModel::none}, {"phong", SpecularModel::phong}, {"blinn", SpecularModel::blinn}}))
         ->group(kGroup);
     add_value(app, "--specular-normalize", "on|off", "Make sharper highlights brighter (default on)",
-              named<bool>(o.normalize_highlight, {{"on", true}, {"off", false}}))
+              named<bool>(o.normalize_specular, {{"on", true}, {"off", false}}))
         ->group(kGroup);
     using shading::ShadingRate;
     add_value(app, "--shading", "RATE", "Light once a triangle, vertex or pixel: flat, gouraud or pixel (default pixel)",

@@ -31,8 +31,8 @@ struct RenderOptions {
 
     std::optional<std::string> lobe_name;
     io::LobeParameters lobe;
-    shading::Highlight highlight = shading::Highlight::blinn;
-    bool normalize_highlight = true;
+    shading::SpecularModel specular = shading::SpecularModel::blinn;
+    bool normalize_specular = true;
     shading::Accuracy accuracy = shading::Accuracy::exact;
     double max_error_codes = 0.0;
     shading::TextureDetail texture_detail = shading::TextureDetail::full;

@@ -64,7 +64,7 @@ void add_frame(Json& report, const Frame& frame, const raster::RenderReport& ren
     if (frame.source.scene.environment != nullptr) {
         Json uses = Json::array();
         for (const raster::EnvironmentUse& use : rendered.environment) {
-            Json one{{"light", use.mirrored ? "mirrored" : "diffuse"}};
+            Json one{{"light", use.specular ? "specular" : "diffuse"}};
             one.update(environment_use_json(use, frame.settings));
             uses.push_back(std::move(one));
         }
@@ -82,7 +82,7 @@ Json error_bound_json(const shading::ErrorBound& error) {
             {"parts",
              {{"rounding", error.rounding},
               {"lobes", error.lobes},
-              {"highlights", error.highlights},
+              {"specular", error.specular},
               {"environment", error.environment},
               {"left_out", error.left_out}}}};
 }
@@ -96,7 +96,7 @@ Json environment_use_json(const raster::EnvironmentUse& use, const raster::Setti
     return {{"order", use.bands},
             {"bound_linear", use.bound},
             {"bound_of_white", use.bound * static_cast<double>(settings.exposure)},
-            {"tolerance_of_white", settings.shading.environment_order.tolerance * (use.mirrored ? 2.0 : 1.0)},
+            {"tolerance_of_white", settings.shading.environment_order.tolerance * (use.specular ? 2.0 : 1.0)},
             {"within", use.within}};
 }
 

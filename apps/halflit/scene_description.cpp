@@ -89,26 +89,26 @@ Json lights_json(const raster::Scene& scene) {
     return lights;
 }
 
-Json environment_json(const shading::FramePlan& frame, int index, bool mirrored, const raster::Settings& settings) {
+Json environment_json(const shading::ShadingPlan& frame, int index, bool specular, const raster::Settings& settings) {
     const shading::EnvironmentPlan& plan = frame.environments[static_cast<std::size_t>(index)];
-    return environment_use_json({plan.bands, plan.bound, plan.within, mirrored}, settings);
+    return environment_use_json({plan.bands, plan.bound, plan.within, specular}, settings);
 }
 
 /// What an error budget was spent on.
-Json savings_json(const shading::FramePlan& frame, const shading::MaterialPlan& plan) {
+Json savings_json(const shading::ShadingPlan& frame, const shading::MaterialPlan& plan) {
     const bool power = plan.lobe.path == shading::LobePath::general, curve = plan.lobe.path == shading::LobePath::curve;
     Json savings{{"lobe_power", power ? tier_name(plan.lobe.tier) : curve ? "curve" : "not needed"}};
     if ((plan.stages & shading::kStageSpecular) != 0) {
-        savings["highlight_power"] = highlight_power_name(plan);
-        savings["highlights_left_out_below"] = number(plan.highlight_threshold);
+        savings["specular_power"] = specular_power_name(plan);
+        savings["specular_left_out_below"] = number(plan.specular_threshold);
     }
     std::size_t limited = 0;
-    for (const shading::LightPlan& light : frame.lights) limited += light.reach_squared > 0.0f ? 1 : 0;
-    savings["lights_with_a_reach"] = limited;
+    for (const shading::LightPlan& light : frame.lights) limited += light.cutoff_squared > 0.0f ? 1 : 0;
+    savings["lights_with_a_cutoff_radius"] = limited;
     return savings;
 }
 
-Json material_json(const shading::Material& source, const shading::FramePlan& frame, const shading::MaterialPlan& plan,
+Json material_json(const shading::Material& source, const shading::ShadingPlan& frame, const shading::MaterialPlan& plan,
                    const raster::Settings& settings) {
     const shading::PlanOptions& options = settings.shading;
     Json needed = Json::array(), not_needed = Json::array();
@@ -123,8 +123,8 @@ Json material_json(const shading::Material& source, const shading::FramePlan& fr
                             {"computed_as", lobe_path_name(plan.lobe.path)}};
     }
     if (plan.environment >= 0) material["environment"] = environment_json(frame, plan.environment, false, settings);
-    if (plan.mirrored_environment >= 0)
-        material["mirrored_environment"] = environment_json(frame, plan.mirrored_environment, true, settings);
+    if (plan.specular_environment >= 0)
+        material["specular_environment"] = environment_json(frame, plan.specular_environment, true, settings);
     if (frame.error.budget > 0.0) material["savings"] = savings_json(frame, plan);
     material["requires"] = std::move(needed);
     material["does_without"] = std::move(not_needed);
@@ -132,7 +132,7 @@ Json material_json(const shading::Material& source, const shading::FramePlan& fr
 }
 
 /// What is left of the lights: black ones and those that are not numbers are not computed.
-Json planned_lights_json(const shading::FramePlan& plan) {
+Json planned_lights_json(const shading::ShadingPlan& plan) {
     std::size_t count[std::size(kLightTypeNames)] = {};
     for (const shading::LightPlan& light : plan.lights) ++count[static_cast<std::size_t>(light.type)];
     Json lights = Json::object();
@@ -140,7 +140,7 @@ Json planned_lights_json(const shading::FramePlan& plan) {
     return lights;
 }
 
-Json materials_json(const Frame& frame, const shading::FramePlan& plan) {
+Json materials_json(const Frame& frame, const shading::ShadingPlan& plan) {
     const raster::Scene& scene = frame.source.scene;
     std::vector<bool> used(scene.materials.size() + 1, false);
     for (const raster::Instance& instance : scene.instances) {
@@ -192,7 +192,7 @@ Result<Json> describe_scene(const Frame& frame) {
     description["ambient"] = {{"sky", vector_json(scene.ambient.sky_linear)}, {"ground", vector_json(scene.ambient.ground_linear)}};
     const auto planned = raster::frame_plan(scene, frame.camera, frame.settings, frame.width, frame.height);
     if (!planned) return tl::unexpected(planned.error());
-    const shading::FramePlan& plan = *planned;
+    const shading::ShadingPlan& plan = *planned;
     if (plan.error.budget > 0.0) description["error_bound"] = error_bound_json(plan.error);
     description["lights_computed"] = planned_lights_json(plan);
     description["shadows"] = shadow_mode_name(frame.settings.shadows);

@@ -100,7 +100,7 @@ Result<void> TradeBench::describe(TradeRow& row) {
     const auto plan = raster::frame_plan(scene, frame_.camera, settings_, frame_.width, frame_.height);
     if (!plan) return tl::unexpected(plan.error());
     const std::vector<bool> drawn = drawn_materials(scene);
-    shading::PowTier highlight = shading::PowTier::exact;
+    shading::PowTier tier = shading::PowTier::exact;
     int powers = 0;
     for (std::size_t i = 0; i < drawn.size(); ++i) {
         const shading::MaterialPlan& material = plan->materials[i];
@@ -112,12 +112,12 @@ Result<void> TradeBench::describe(TradeRow& row) {
         }
         if ((material.stages & shading::kStageSpecular) == 0) continue;
         // With a budget materials may differ: the most exact one is named, and a curve only where all have one.
-        if (material.highlight_curve.squarings >= 0) {
-            if (row.highlight_tier.empty()) row.highlight_tier = highlight_power_name(material);
+        if (material.specular_curve.squarings >= 0) {
+            if (row.specular_tier.empty()) row.specular_tier = specular_power_name(material);
             continue;
         }
-        highlight = powers++ == 0 ? material.highlight_tier : std::min(highlight, material.highlight_tier);
-        row.highlight_tier = tier_name(highlight);
+        tier = powers++ == 0 ? material.specular_tier : std::min(tier, material.specular_tier);
+        row.specular_tier = tier_name(tier);
     }
     return {};
 }

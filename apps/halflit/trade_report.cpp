@@ -33,7 +33,7 @@ Json row_json(const TradeRow& row, const TradeSpace& space) {
               {"shadows", shadow_mode_name(choice.shadows)},
               {"shadow_size", choice.shadow_size},
               {"lobes_computed_as", row.lobe_paths},
-              {"highlight_power", row.highlight_tier.empty() ? Json(nullptr) : Json(row.highlight_tier)},
+              {"specular_power", row.specular_tier.empty() ? Json(nullptr) : Json(row.specular_tier)},
               {"frames", row.frames},
               {"ms", row.ms},
               {"ratio", row.ratio},

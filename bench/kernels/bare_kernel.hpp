@@ -21,7 +21,7 @@ HALFLIT_INLINE void store_color(shading::FragmentBlock& block, int lane, V3 v) {
 }
 
 template <bool kHighlight>
-static void bare_sum(const shading::FramePlan& frame, const shading::MaterialPlan& material, shading::FragmentBlock& block) {
+static void bare_sum(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, shading::FragmentBlock& block) {
     const int count = static_cast<int>(frame.lights.size());
     for (int lane = 0; lane < shading::kBlockSize; lane += kWidth) {
         const V3 normal = row3(block, shading::kNormalX, lane);
@@ -29,7 +29,7 @@ static void bare_sum(const shading::FramePlan& frame, const shading::MaterialPla
         if constexpr (kHighlight) to_eye = row3(block, shading::kTangentX, lane);
         const V3 position = row3(block, shading::kPosX, lane);
         const ShadowReceiver receiver{frame, position, normal, {}};
-        const HighlightShape shape{frame.highlight, material.highlight_tier, 0.0f, material.highlight_curve, F(bench::kHalfExponent), F(1.0f)};
+        const SpecularShape shape{frame.specular, material.specular_tier, 0.0f, material.specular_curve, F(bench::kHalfExponent), F(1.0f)};
         const LightSums sums =
             sum_lights<kHighlight>(frame.lights.data(), count, material.lobe, receiver, position, normal, to_eye, shape);
         store_color(block, lane, sums.diffuse);
@@ -37,12 +37,12 @@ static void bare_sum(const shading::FramePlan& frame, const shading::MaterialPla
     }
 }
 
-static void bare_environment(const shading::FramePlan& frame, const shading::MaterialPlan&, shading::FragmentBlock& block) {
+static void bare_environment(const shading::ShadingPlan& frame, const shading::MaterialPlan&, shading::FragmentBlock& block) {
     for (int lane = 0; lane < shading::kBlockSize; lane += kWidth)
         store_color(block, lane, environment_light(frame.environments.front(), row3(block, shading::kNormalX, lane)));
 }
 
-static void bare_peak(const shading::FramePlan&, const shading::MaterialPlan&, shading::FragmentBlock& block) {
+static void bare_peak(const shading::ShadingPlan&, const shading::MaterialPlan&, shading::FragmentBlock& block) {
     const F factor = load(&block.lane[shading::kPosX][0]), term = load(&block.lane[shading::kPosY][0]);
     for (int lane = 0; lane < shading::kBlockSize; lane += kWidth) {
         F chain[bench::kPeakChains];

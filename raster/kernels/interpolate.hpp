@@ -20,7 +20,7 @@ HALFLIT_INLINE const TriangleRecord& record_of(const TriangleTable& table, std::
 /// Vertex positions and 1/w of kWidth triangles.
 struct TriangleLanes {
     I x[3], y[3];
-    F rhw[3];
+    F inv_w[3];
 };
 
 struct Barycentrics {
@@ -37,9 +37,9 @@ HALFLIT_INLINE Barycentrics barycentrics(const TriangleLanes& t, I px, I py, boo
         dx[k] = to_float(t.x[k] - cx);
         dy[k] = to_float(t.y[k] - cy);
     }
-    const F w0 = positive_cross(dx[1], dy[1], dx[2], dy[2]) * t.rhw[0];
-    const F w1 = positive_cross(dx[2], dy[2], dx[0], dy[0]) * t.rhw[1];
-    const F w2 = positive_cross(dx[0], dy[0], dx[1], dy[1]) * t.rhw[2];
+    const F w0 = positive_cross(dx[1], dy[1], dx[2], dy[2]) * t.inv_w[0];
+    const F w1 = positive_cross(dx[2], dy[2], dx[0], dy[0]) * t.inv_w[1];
+    const F w2 = positive_cross(dx[0], dy[0], dx[1], dy[1]) * t.inv_w[2];
     const F sum = (w0 + w1) + w2;
     const F inv = sel(sum > F(0.0f), vdiv(F(1.0f), sum), F(0.0f));
     Barycentrics b;
@@ -50,8 +50,8 @@ HALFLIT_INLINE Barycentrics barycentrics(const TriangleLanes& t, I px, I py, boo
     F gx[3], gy[3];
     for (int k = 0; k < 3; ++k) {
         const int p = (k + 1) % 3, q = (k + 2) % 3;
-        gx[k] = ((dy[p] - dy[q]) * F(256.0f)) * t.rhw[k];
-        gy[k] = ((dx[q] - dx[p]) * F(256.0f)) * t.rhw[k];
+        gx[k] = ((dy[p] - dy[q]) * F(256.0f)) * t.inv_w[k];
+        gy[k] = ((dx[q] - dx[p]) * F(256.0f)) * t.inv_w[k];
     }
     const F sum_dx = (gx[0] + gx[1]) + gx[2], sum_dy = (gy[0] + gy[1]) + gy[2];
     b.db1_dx = (gx[1] - b.b1 * sum_dx) * inv;
@@ -88,13 +88,13 @@ HALFLIT_INLINE void interpolate_one(const InterpolateArgs& args, shading::Fragme
         const ScreenVertex& v = vertex_of(source, record.vertex[k]);
         t.x[k] = I(v.x);
         t.y[k] = I(v.y);
-        t.rhw[k] = F(v.rhw);
+        t.inv_w[k] = F(v.inv_w);
     }
     const Barycentrics b = barycentrics(t, load(args.x_px + at), load(args.y_px + at), args.gradients);
     const VertexRecords records = vertex_records_of(args, id, record);
     int offset = 0;
-    for (int q = 0; q < shading::kQuadCount; ++q) {
-        if (!(args.quads & (1u << q))) continue;
+    for (int q = 0; q < shading::kSlotCount; ++q) {
+        if (!(args.slots & (1u << q))) continue;
         for (int j = 0; j < 4; ++j) {
             const float v0 = records.v[0][offset + j];
             const F d1(records.v[1][offset + j] - v0), d2(records.v[2][offset + j] - v0);
@@ -144,7 +144,7 @@ HALFLIT_INLINE void offset_many(const InterpolateArgs& args, const VertexRecords
 HALFLIT_INLINE void interpolate_many(const InterpolateArgs& args, shading::FragmentBlock& block, int at) {
     constexpr int kLanes = kWidth < 4 ? 4 : kWidth;
     alignas(64) std::int32_t x[3][kLanes], y[3][kLanes];
-    alignas(64) float rhw[3][kLanes];
+    alignas(64) float inv_w[3][kLanes];
     VertexRecords records[kWidth];
     for (int l = 0; l < kWidth; ++l) {
         const std::uint32_t id = args.ids[at + l];
@@ -154,7 +154,7 @@ HALFLIT_INLINE void interpolate_many(const InterpolateArgs& args, shading::Fragm
             const ScreenVertex& v = vertex_of(source, record.vertex[k]);
             x[k][l] = v.x;
             y[k][l] = v.y;
-            rhw[k][l] = v.rhw;
+            inv_w[k][l] = v.inv_w;
         }
         records[l] = vertex_records_of(args, id, record);
         if (args.facing) block.lane[shading::kFacing][at + l] = (record.draw_and_back & 1u) ? -1.0f : 1.0f;
@@ -163,7 +163,7 @@ HALFLIT_INLINE void interpolate_many(const InterpolateArgs& args, shading::Fragm
     for (int k = 0; k < 3; ++k) {
         t.x[k] = load(x[k]);
         t.y[k] = load(y[k]);
-        t.rhw[k] = load(rhw[k]);
+        t.inv_w[k] = load(inv_w[k]);
     }
     const Barycentrics b = barycentrics(t, load(args.x_px + at), load(args.y_px + at), args.gradients);
     alignas(64) float b1[kLanes], b2[kLanes], db1_dx[kLanes], db1_dy[kLanes], db2_dx[kLanes], db2_dy[kLanes];
@@ -177,8 +177,8 @@ HALFLIT_INLINE void interpolate_many(const InterpolateArgs& args, shading::Fragm
     }
     constexpr int kGroup = kWidth < 4 ? kWidth : 4;
     int offset = 0;
-    for (int q = 0; q < shading::kQuadCount; ++q) {
-        if (!(args.quads & (1u << q))) continue;
+    for (int q = 0; q < shading::kSlotCount; ++q) {
+        if (!(args.slots & (1u << q))) continue;
         const int uv_row = q == 1 ? 2 : q == 4 ? 0 : -1;
         for (int g = 0; g < kWidth; g += kGroup) {
             Q value[4], slope[4] = {};

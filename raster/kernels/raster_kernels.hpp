@@ -16,7 +16,7 @@ namespace halflit::raster {
 struct alignas(16) ScreenVertex {
     std::int32_t x, y;  ///< 24.8 fixed point, see above
     float z;            ///< depth: 1 at the near plane, 0 at the far plane or infinity
-    float rhw;          ///< 1 / clip w
+    float inv_w;          ///< 1 / clip w
 };
 
 /// Why a triangle with this vertex may need more than plain set-up.
@@ -52,16 +52,16 @@ struct TransformArgs {
     std::uint8_t* outcodes;
 };
 
-/// Vertex records for shading: per vertex the quads named by `quads`, four floats each, in quad order.
+/// Vertex records for shading: per vertex the slots named by `slots`, four floats each, in slot order.
 struct VertexRecordArgs {
     const float *positions, *normals, *tangents, *uv0, *uv1, *colors;  ///< packed; null: a default is written
     std::int64_t begin, end;
-    shading::QuadMask quads;
+    shading::SlotMask slots;
     float world_from_object[16];
     float normal_from_object[12];  ///< three columns of four, the fourth entry unused
     float tangent_sign;            ///< -1 when the transform mirrors
     float* records;                ///< of vertex 0
-    int stride;                    ///< floats a record: 4 * number of quads
+    int stride;                    ///< floats a record: 4 * number of slots
 };
 
 /// One triangle in a tile's list, counter-clockwise in y-down fixed point (positive area).
@@ -124,12 +124,12 @@ struct DrawRecords {
 struct InterpolateArgs {
     TriangleTable triangles;
     const DrawRecords* draws;
-    const float* const* clip_records;  ///< per chunk; records of clip vertices, kVertexFloats floats apart, quads packed as in `base`
-    shading::QuadMask quads;
+    const float* const* clip_records;  ///< per chunk; records of clip vertices, kVertexFloats floats apart, slots packed as in `base`
+    shading::SlotMask slots;
     int stride;
     bool gradients;  ///< fill the kDu.. rows
     bool facing;     ///< fill kFacing
-    bool shadow_offset;  ///< fill the kShadowX.. rows; needs quads 0 and 1
+    bool shadow_offset;  ///< fill the kShadowX.. rows; needs slots 0 and 1
     int count;       ///< fragments; ids and positions are padded to a multiple of 16 with copies of the last one
     const std::uint32_t* ids;
     const std::int32_t *x_px, *y_px;

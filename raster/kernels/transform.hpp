@@ -15,7 +15,7 @@ HALFLIT_INLINE F transform_row(const float* m, int r, F x, F y, F z) {
 HALFLIT_INLINE I outcode_bit(M m, std::int32_t bit) { return sel(m, I(bit), I(0)); }
 
 /// kWidth vertices from packed xyz at `p` (3 * kWidth floats are read).
-/// The window rule is that of the common software rasterizers: rhw = 1/w by division, ndc = clip * rhw, window = ndc * half + half with
+/// The window rule is that of the common software rasterizers: inv_w = 1/w by division, ndc = clip * inv_w, window = ndc * half + half with
 /// two roundings, snapped to nearest even at 8 sub-pixel bits.
 HALFLIT_INLINE void transform_vector(const TransformArgs& args, const float* p, ScreenVertex* screen, std::int32_t* outcode) {
     const I at = iota_i() + iota_i() + iota_i();
@@ -36,14 +36,14 @@ HALFLIT_INLINE void transform_vector(const TransformArgs& args, const float* p, 
 
     // Lanes that will be clipped get 0, so that no conversion is out of range.
     const M plain = finite & in_guard & (cw > F(0.0f));
-    const F rhw = vdiv(F(1.0f), sel(plain, cw, F(1.0f)));
+    const F inv_w = vdiv(F(1.0f), sel(plain, cw, F(1.0f)));
     const F half_w(args.viewport.half_width), half_h(args.viewport.half_height);
-    const F win_x = (cx * rhw) * half_w + half_w;
-    const F win_y = vneg(cy * rhw) * half_h + half_h;
+    const F win_x = (cx * inv_w) * half_w + half_w;
+    const F win_y = vneg(cy * inv_w) * half_h + half_h;
     const I fx = round_even(sel(plain, (win_x - F(0.5f)) * F(256.0f), F(0.0f)));
     const I fy = round_even(sel(plain, (win_y - F(0.5f)) * F(256.0f), F(0.0f)));
     store(outcode, code);
-    store4(reinterpret_cast<float*>(screen), from_bits(fx), from_bits(fy), cz * rhw, rhw);
+    store4(reinterpret_cast<float*>(screen), from_bits(fx), from_bits(fy), cz * inv_w, inv_w);
 }
 
 inline void transform(const TransformArgs& args) {
@@ -72,8 +72,8 @@ inline void vertex_records(const VertexRecordArgs& args) {
     const Q n0 = q_load(n), n1 = q_load(n + 4), n2 = q_load(n + 8);
     for (std::int64_t v = args.begin; v < args.end; ++v) {
         float* out = args.records + v * args.stride;
-        // Quads 0 and 1 are written as position, then normal over the fourth entry, then the texture coordinates.
-        if (args.quads & 1u) {
+        // Slots 0 and 1 are written as position, then normal over the fourth entry, then the texture coordinates.
+        if (args.slots & 1u) {
             const float* p = args.positions + 3 * v;
             q_store(out, q_add(q_mad(w2, q_set(p[2]), q_mad(w1, q_set(p[1]), q_mul(w0, q_set(p[0])))), w3));
         }
@@ -82,18 +82,18 @@ inline void vertex_records(const VertexRecordArgs& args) {
             const float* p = args.normals + 3 * v;
             q_store(normal, q_mad(n2, q_set(p[2]), q_mad(n1, q_set(p[1]), q_mul(n0, q_set(p[0])))));
         }
-        if (args.quads & 1u) {
+        if (args.slots & 1u) {
             out[3] = normal[0];
             out += 4;
         }
-        if (args.quads & 2u) {
+        if (args.slots & 2u) {
             out[0] = normal[1];
             out[1] = normal[2];
             out[2] = args.uv0 ? args.uv0[2 * v] : 0.0f;
             out[3] = args.uv0 ? args.uv0[2 * v + 1] : 0.0f;
             out += 4;
         }
-        if (args.quads & 4u) {
+        if (args.slots & 4u) {
             if (args.tangents) {
                 const float* t = args.tangents + 4 * v;
                 q_store(out, q_mad(w2, q_set(t[2]), q_mad(w1, q_set(t[1]), q_mul(w0, q_set(t[0])))));
@@ -104,11 +104,11 @@ inline void vertex_records(const VertexRecordArgs& args) {
             }
             out += 4;
         }
-        if (args.quads & 8u) {
+        if (args.slots & 8u) {
             q_store(out, args.colors ? q_load(args.colors + 4 * v) : q_set(1.0f));
             out += 4;
         }
-        if (args.quads & 16u) {
+        if (args.slots & 16u) {
             out[0] = args.uv1 ? args.uv1[2 * v] : 0.0f;
             out[1] = args.uv1 ? args.uv1[2 * v + 1] : 0.0f;
             out[2] = out[3] = 0.0f;

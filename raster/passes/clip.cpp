@@ -62,11 +62,11 @@ int clip_triangle(const float (&clip)[3][4], unsigned codes, const Viewport& vie
 }
 
 ScreenVertex project(const double (&clip)[4], const Viewport& viewport) {
-    const double rhw = 1.0 / clip[3];
-    const double x = clip[0] * rhw * viewport.half_width + viewport.half_width;
-    const double y = -(clip[1] * rhw) * viewport.half_height + viewport.half_height;
+    const double inv_w = 1.0 / clip[3];
+    const double x = clip[0] * inv_w * viewport.half_width + viewport.half_width;
+    const double y = -(clip[1] * inv_w) * viewport.half_height + viewport.half_height;
     return {static_cast<std::int32_t>(__builtin_lrint((x - 0.5) * 256.0)), static_cast<std::int32_t>(__builtin_lrint((y - 0.5) * 256.0)),
-            static_cast<float>(clip[2] * rhw), static_cast<float>(rhw)};
+            static_cast<float>(clip[2] * inv_w), static_cast<float>(inv_w)};
 }
 
 }  // namespace halflit::raster

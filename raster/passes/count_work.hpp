@@ -34,7 +34,7 @@ inline void count_lights(WorkCounts& work, const shading::MaterialPlan& plan, sh
 }
 
 /// Of a call of ShadeKernels::light with all of the frame's lights.
-inline void count_prelighting(WorkCounts& work, const shading::FramePlan& frame, const shading::MaterialPlan& plan, int lanes) {
+inline void count_prelighting(WorkCounts& work, const shading::ShadingPlan& frame, const shading::MaterialPlan& plan, int lanes) {
     count_stages(work, plan.stages & kLightStages, lanes);
     count_lights(work, plan, shading::all_lights(frame), lanes);
 }

@@ -14,8 +14,8 @@ void interpolate(const Frame& frame, FragmentList& list, shading::FragmentBlock&
     args.triangles = frame.table();
     args.draws = frame.draw_records.data();
     args.clip_records = frame.clip_records.data();
-    args.quads = plan.quads;
-    args.stride = 4 * __builtin_popcount(plan.quads);
+    args.slots = plan.slots;
+    args.stride = 4 * __builtin_popcount(plan.slots);
     args.gradients = (plan.stages & shading::kStageGradients) != 0;
     args.facing = plan.double_sided;
     args.shadow_offset =

@@ -21,7 +21,7 @@ namespace halflit::raster {
 /// One instance of one mesh.
 struct Draw {
     const Mesh* mesh = nullptr;
-    int material = 0;                ///< index into FramePlan::materials
+    int material = 0;                ///< index into ShadingPlan::materials
     std::int64_t vertex_base = 0;    ///< first vertex in the frame's arrays
     std::int64_t triangle_base = 0;  ///< first triangle in submission order
     std::int64_t record_base = 0;    ///< first float in the frame's vertex records
@@ -88,7 +88,7 @@ struct Frame {
     bool depth_only = false;      ///< for shadow maps: no light is planned, and back faces count whatever the materials say
     bool keep_submitted = false;  ///< fill Chunk::submitted
 
-    shading::FramePlan plan;
+    shading::ShadingPlan plan;
     shading::EnvironmentPlans environment_plans;  ///< kept from frame to frame
     ReferenceShading reference;  ///< used with Accuracy::reference
     LightCuller lights;

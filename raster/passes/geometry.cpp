@@ -35,12 +35,12 @@ bool finite(const Mat4& m) {
     return true;
 }
 
-shading::QuadMask quads_of(const Mesh& mesh) {
-    shading::QuadMask quads = 1u | 2u;
-    if (!mesh.tangents.empty()) quads |= 4u;
-    if (!mesh.colors.empty()) quads |= 8u;
-    if (!mesh.uv1.empty()) quads |= 16u;
-    return quads;
+shading::SlotMask slots_of(const Mesh& mesh) {
+    shading::SlotMask slots = 1u | 2u;
+    if (!mesh.tangents.empty()) slots |= 4u;
+    if (!mesh.colors.empty()) slots |= 8u;
+    if (!mesh.uv1.empty()) slots |= 16u;
+    return slots;
 }
 
 Result<void> check_mesh(const Mesh& mesh, std::size_t index, std::size_t material_count) {
@@ -117,7 +117,7 @@ void add_draws(Frame& frame, const Scene& scene, const Mat4& clip_from_world_mat
             !frame.depth_only && (mesh.material < 0 || !scene.materials[static_cast<std::size_t>(mesh.material)].double_sided);
         draw.mask = plan.alpha_mode == shading::AlphaMode::mask;
         draw.blend = plan.alpha_mode == shading::AlphaMode::blend;
-        draw.stride = 4 * std::popcount(plan.quads);
+        draw.stride = 4 * std::popcount(plan.slots);
         draw.vertex_base = frame.vertex_count;
         draw.triangle_base = frame.triangle_count;
         draw.record_base = frame.record_floats;
@@ -162,7 +162,7 @@ VertexRecordArgs record_args(const Frame& frame, const Draw& draw, float* record
     args.uv0 = floats(mesh.uv0);
     args.uv1 = floats(mesh.uv1);
     args.colors = floats(mesh.colors);
-    args.quads = frame.plan.materials[static_cast<std::size_t>(draw.material)].quads;
+    args.slots = frame.plan.materials[static_cast<std::size_t>(draw.material)].slots;
     std::memcpy(args.world_from_object, draw.world_from_object.c, sizeof args.world_from_object);
     const NormalMatrix normal = normal_matrix(draw.world_from_object);
     for (int j = 0; j < 3; ++j) {
@@ -209,17 +209,17 @@ Result<void> prepare_frame(Frame& frame, const Scene& scene, const Camera& camer
     frame.raster = &raster_kernels(*settings.isa);
     frame.shade = &shading::shade_kernels(*settings.isa);
 
-    std::vector<shading::QuadMask> quads(scene.materials.size() + 1, 1u | 2u);
+    std::vector<shading::SlotMask> slots(scene.materials.size() + 1, 1u | 2u);
     for (const Mesh& mesh : scene.meshes)
-        quads[mesh.material >= 0 ? static_cast<std::size_t>(mesh.material) : scene.materials.size()] |= quads_of(mesh);
+        slots[mesh.material >= 0 ? static_cast<std::size_t>(mesh.material) : scene.materials.size()] |= slots_of(mesh);
     shading::PlanOptions plan_options = settings.shading;
     plan_options.environment_order.exposure = static_cast<double>(settings.exposure);
     const bool budget = settings.shading.max_error_codes > 0.0 && !frame.depth_only;
     if (budget) plan_options.environment_order.codes = settings.shading.max_error_codes * (0.5 * shading::kEnvironmentShare);
     if (scene.environment != nullptr) frame.environment_plans.use(scene.environment);
     // Depth alone takes no light: what remains of a plan is what an alpha test reads.
-    frame.plan = frame.depth_only ? shading::make_frame_plan(scene.materials, scene.textures, quads, {}, {}, plan_options)
-                                  : shading::make_frame_plan(scene.materials, scene.textures, quads, scene.lights, scene.ambient,
+    frame.plan = frame.depth_only ? shading::plan_shading(scene.materials, scene.textures, slots, {}, {}, plan_options)
+                                  : shading::plan_shading(scene.materials, scene.textures, slots, scene.lights, scene.ambient,
                                                              plan_options, scene.environment != nullptr ? &frame.environment_plans : nullptr);
     const Vec4f back = camera.world_from_camera.c[2], eye = camera.world_from_camera.c[3];
     frame.plan.eye_ws = {eye.x, eye.y, eye.z};
@@ -239,7 +239,7 @@ Result<void> prepare_frame(Frame& frame, const Scene& scene, const Camera& camer
         shading::spend_error_budget(frame.plan, settings.shading.max_error_codes, static_cast<double>(settings.exposure), scene_facts(frame));
     frame.lights.build(frame.plan);
     if (settings.shading.accuracy == shading::Accuracy::reference && !frame.depth_only)
-        if (auto ok = frame.reference.build(scene, frame.plan, plan_options, quads); !ok) return ok;
+        if (auto ok = frame.reference.build(scene, frame.plan, plan_options, slots); !ok) return ok;
     if (frame.vertex_count >= static_cast<std::int64_t>(kClipVertex)) return fail(ErrorCode::limit, "more than 2^31 vertices");
     if (frame.triangle_count >= (std::int64_t{1} << 28)) return fail(ErrorCode::limit, "more than 2^28 triangles");
     return {};

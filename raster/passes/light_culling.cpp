@@ -14,7 +14,7 @@ constexpr double kMargin = 1.0 + 1e-4;
 
 /// Squared distance from which on the light is zero; 0: none.
 double end_squared(const LightPlan& light) {
-    const double range = light.inv_range_squared > 0.0f ? 1.0 / light.inv_range_squared : 0.0, reach = light.reach_squared;
+    const double range = light.inv_range_squared > 0.0f ? 1.0 / light.inv_range_squared : 0.0, reach = light.cutoff_squared;
     return range > 0.0 && reach > 0.0 ? std::min(range, reach) : std::max(range, reach);
 }
 
@@ -62,7 +62,7 @@ bool zero_in(const LightPlan& light, const double (&low)[3], const double (&high
 
 }  // namespace
 
-void LightCuller::build(const shading::FramePlan& plan) {
+void LightCuller::build(const shading::ShadingPlan& plan) {
     plan_ = &plan;
     ranged_.clear();
     groups_.clear();

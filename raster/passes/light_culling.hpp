@@ -19,7 +19,7 @@ struct LightSelection {
 class LightCuller {
 public:
     /// Sorts the lights of a frame that have a range into groups of neighbours.
-    void build(const shading::FramePlan& plan);
+    void build(const shading::ShadingPlan& plan);
 
     /// The lights for `count` fragments, from their world positions; `scratch` holds the list where it is not the whole.
     [[nodiscard]] shading::LightList select(const shading::FragmentBlock& block, int count, LightSelection& scratch) const;
@@ -33,7 +33,7 @@ private:
         std::size_t first, end;
     };
 
-    const shading::FramePlan* plan_ = nullptr;
+    const shading::ShadingPlan* plan_ = nullptr;
     std::vector<std::uint32_t> ranged_;  ///< lights with a range, in groups
     std::vector<Group> groups_;
     std::vector<std::uint32_t> always_;  ///< the lights without a range, in list order

@@ -14,8 +14,8 @@ std::shared_ptr<const reference::Irradiance> ReferenceShading::diffuse(const Sce
     return known_.back().light;
 }
 
-Result<void> ReferenceShading::build(const Scene& scene, const shading::FramePlan& plan, const shading::PlanOptions& options,
-                                     std::vector<shading::QuadMask> available) {
+Result<void> ReferenceShading::build(const Scene& scene, const shading::ShadingPlan& plan, const shading::PlanOptions& options,
+                                     std::vector<shading::SlotMask> available) {
     if (scene.environment != nullptr && scene.environment->lit_rgb.empty())
         return fail(ErrorCode::usage, "accuracy reference: the environment was made without keep_light");
     scene_ = &scene;
@@ -23,17 +23,17 @@ Result<void> ReferenceShading::build(const Scene& scene, const shading::FramePla
     frame_ = {scene.textures, scene.lights, scene.ambient, options, plan.eye_ws, plan.view_direction_ws, plan.orthographic, plan.shadow_mode};
     std::erase_if(known_, [&](const Around& a) { return a.environment != scene.environment.get(); });
     diffuse_.assign(plan.materials.size(), nullptr);
-    mirrored_.assign(plan.materials.size(), nullptr);
+    specular_.assign(plan.materials.size(), nullptr);
     if (scene.environment == nullptr) return {};
     for (std::size_t i = 0; i < plan.materials.size(); ++i) {
         const shading::Material& material = i < scene.materials.size() ? scene.materials[i] : no_material_;
         diffuse_[i] = diffuse(scene, shading::lobe_of(material, options));
-        mirrored_[i] = std::make_shared<reference::BandIrradiance>(*scene.environment, shading::mirrored_lobe(plan.materials[i].roughness));
+        specular_[i] = std::make_shared<reference::BandIrradiance>(*scene.environment, shading::specular_environment_lobe(plan.materials[i].roughness));
     }
     return {};
 }
 
-void ReferenceShading::shade(const shading::ShadeKernels& kernels, const shading::FramePlan& plan, int material,
+void ReferenceShading::shade(const shading::ShadeKernels& kernels, const shading::ShadingPlan& plan, int material,
                              shading::FragmentBlock& block, int count) const {
     const auto index = static_cast<std::size_t>(material);
     const shading::MaterialPlan& material_plan = plan.materials[index];
@@ -51,7 +51,7 @@ void ReferenceShading::shade(const shading::ShadeKernels& kernels, const shading
     }
     reference::Surroundings around;
     around.diffuse = diffuse_[index].get();
-    around.mirrored = mirrored_[index].get();
+    around.specular = specular_[index].get();
     reference::Frame frame = frame_;
     frame.shadow_mode = plan.shadow_mode;
     for (int lane = 0; lane < count; ++lane) {

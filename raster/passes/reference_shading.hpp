@@ -13,11 +13,11 @@ namespace halflit::raster {
 class ReferenceShading {
 public:
     /// For a frame of `scene` as `plan` has it. Keeps the environments' irradiance while scene and lobes stay the same.
-    Result<void> build(const Scene& scene, const shading::FramePlan& plan, const shading::PlanOptions& options,
-                       std::vector<shading::QuadMask> available);
+    Result<void> build(const Scene& scene, const shading::ShadingPlan& plan, const shading::PlanOptions& options,
+                       std::vector<shading::SlotMask> available);
 
     /// Writes the colour rows of lanes [0, count). Visibility of lights is the kernels' own.
-    void shade(const shading::ShadeKernels& kernels, const shading::FramePlan& plan, int material, shading::FragmentBlock& block,
+    void shade(const shading::ShadeKernels& kernels, const shading::ShadingPlan& plan, int material, shading::FragmentBlock& block,
                int count) const;
 
 private:
@@ -31,9 +31,9 @@ private:
 
     const Scene* scene_ = nullptr;
     shading::reference::Frame frame_;
-    std::vector<shading::QuadMask> available_;
+    std::vector<shading::SlotMask> available_;
     std::vector<Around> known_;
-    std::vector<std::shared_ptr<const shading::reference::Irradiance>> diffuse_, mirrored_;  ///< for each material
+    std::vector<std::shared_ptr<const shading::reference::Irradiance>> diffuse_, specular_;  ///< for each material
     shading::Material no_material_;
 };
 

@@ -152,21 +152,21 @@ shading::SceneFacts scene_facts(const Frame& frame) {
     const auto local = [](const shading::LightPlan& light) { return light.type != shading::LightType::directional; };
     const bool any_local = std::any_of(frame.plan.lights.begin(), frame.plan.lights.end(), local);
     if (!any_local) {
-        facts.light_strength.assign(frame.plan.lights.size(), 1.0);
+        facts.light_attenuation.assign(frame.plan.lights.size(), 1.0);
         facts.light_farthest_squared.assign(frame.plan.lights.size(), 0.0);
         return facts;
     }
     const Surfaces surfaces(frame);
     for (const shading::LightPlan& light : frame.plan.lights) {
         if (!local(light)) {
-            facts.light_strength.push_back(1.0);
+            facts.light_attenuation.push_back(1.0);
             facts.light_farthest_squared.push_back(0.0);
             continue;
         }
         // A little nearer than found: positions are rounded to float on their way to the screen.
         const Vec3d position{light.position[0], light.position[1], light.position[2]};
         const double nearest = surfaces.nearest_squared(position) * 0.999;
-        facts.light_strength.push_back(1.0 / std::max(nearest, static_cast<double>(light.min_distance_squared)));
+        facts.light_attenuation.push_back(1.0 / std::max(nearest, static_cast<double>(light.min_distance_squared)));
         facts.light_farthest_squared.push_back(surfaces.farthest_squared(position) * 1.001);
     }
     return facts;

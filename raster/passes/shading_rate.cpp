@@ -14,9 +14,9 @@ using shading::kBlockSize;
 constexpr int kLightRows = 6;
 
 /// Copies a vertex record into lane `l`.
-void load_lane(FragmentBlock& block, int l, const float* record, shading::QuadMask quads) {
-    for (int q = 0; q < shading::kQuadCount; ++q) {
-        if ((quads & (1u << q)) == 0) continue;
+void load_lane(FragmentBlock& block, int l, const float* record, shading::SlotMask slots) {
+    for (int q = 0; q < shading::kSlotCount; ++q) {
+        if ((slots & (1u << q)) == 0) continue;
         for (int j = 0; j < 4; ++j) block.lane[4 * q + j][l] = *record++;
     }
 }
@@ -40,14 +40,14 @@ const float* vertex_record(const Frame& frame, std::uint32_t id, const TriangleR
 }
 
 /// One lane a triangle: the mean of its vertices, with the normal of its plane on the side of the viewer.
-void load_triangle(const Frame& frame, std::uint32_t id, shading::QuadMask quads, FragmentBlock& block, int l) {
+void load_triangle(const Frame& frame, std::uint32_t id, shading::SlotMask slots, FragmentBlock& block, int l) {
     const TriangleRecord& triangle = frame.record(id);
     const float* v[3];
     for (int k = 0; k < 3; ++k) v[k] = vertex_record(frame, id, triangle, k);
     float mean[shading::kVertexFloats];
     const int stride = frame.draws[triangle.draw_and_back >> 1].stride;
     for (int j = 0; j < stride; ++j) mean[j] = ((v[0][j] + v[1][j]) + v[2][j]) * (1.0f / 3.0f);
-    load_lane(block, l, mean, quads);
+    load_lane(block, l, mean, slots);
     const Vec3f p0{v[0][0], v[0][1], v[0][2]}, p1{v[1][0], v[1][1], v[1][2]}, p2{v[2][0], v[2][1], v[2][2]};
     // Records run clockwise as seen on the screen.
     const Vec3f mean_normal = row3(block, shading::kNormalX, l);
@@ -86,7 +86,7 @@ WorkCounts light_vertices(Frame& frame, Executor& executor) {
             const shading::MaterialPlan& plan = frame.plan.materials[static_cast<std::size_t>(group.draw->material)];
             float* records = frame.records.data() + group.draw->record_base + group.first * group.draw->stride;
             for (int l = 0; l < group.count; ++l) {
-                load_lane(block, l, records + l * group.draw->stride, plan.quads);
+                load_lane(block, l, records + l * group.draw->stride, plan.slots);
                 // A vertex has no face: two-sided surfaces are lit on the side that is towards the viewer.
                 const Vec3f to_eye =
                     frame.plan.orthographic ? frame.plan.view_direction_ws * -1.0f : frame.plan.eye_ws - row3(block, shading::kPosX, l);
@@ -109,7 +109,7 @@ void light_triangles(const Frame& frame, const FragmentList& list, FragmentBlock
     FragmentBlock triangles{};
     int of_lane[kBlockSize], count = 0;
     for (int l = 0; l < list.count; ++l) {
-        if (l == 0 || list.id[l] != list.id[l - 1]) load_triangle(frame, list.id[l], plan.quads, triangles, count++);
+        if (l == 0 || list.id[l] != list.id[l - 1]) load_triangle(frame, list.id[l], plan.slots, triangles, count++);
         of_lane[l] = count - 1;
     }
     finish_lanes(triangles, count);

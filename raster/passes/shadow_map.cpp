@@ -80,7 +80,7 @@ bool is_cube(const LightPlan& light) {
 int size_of(const LightPlan& light, int side) { return is_cube(light) ? side / 2 : side; }
 
 /// Texels of all maps, `side` being the size of those that are not a cube's.
-std::size_t texel_count(const shading::FramePlan& plan, const Bounds& bounds, int side) {
+std::size_t texel_count(const shading::ShadingPlan& plan, const Bounds& bounds, int side) {
     std::size_t count = 0;
     for (const LightPlan& light : plan.lights) {
         if (!reaches(light, bounds)) continue;
@@ -160,7 +160,7 @@ Result<void> ShadowMaps::draw_face(const Scene& scene, const Camera& camera, int
     return {};
 }
 
-Result<void> ShadowMaps::draw(const Scene& scene, const Settings& settings, Executor& executor, shading::FramePlan& plan) {
+Result<void> ShadowMaps::draw(const Scene& scene, const Settings& settings, Executor& executor, shading::ShadingPlan& plan) {
     plan.shadow_maps.clear();
     warning_.clear();
     int side = settings.shadow_size;

@@ -21,7 +21,7 @@ public:
     /// Draws a map for every light of `plan` that casts, and enters the maps into the plan. Directional maps are fitted to the
     /// scene, spots to their cone, point lights get six faces. All are halved in size until they fit Settings::shadow_memory_limit.
     /// The maps live until the next call.
-    Result<void> draw(const Scene& scene, const Settings& settings, Executor& executor, shading::FramePlan& plan);
+    Result<void> draw(const Scene& scene, const Settings& settings, Executor& executor, shading::ShadingPlan& plan);
 
     /// What the last call had to make smaller; empty when nothing.
     [[nodiscard]] const std::string& warning() const { return warning_; }

@@ -44,7 +44,7 @@ double codes_of_edge(double amplitude, double n, double t_error) {
     return std::min(codes, 255.0);
 }
 
-double codes_of_highlight(double peak, int count, double constant, double linear, double root) {
+double codes_of_specular(double peak, int count, double constant, double linear, double root) {
     const double top = peak * count;
     if (!(top > 0.0)) return 0.0;
     const double log2_top = log2_of(std::max(top, 1e-300));

@@ -46,6 +46,6 @@ double largest_on_curve(const Function& f) {
 
 /// Highlights v = K e^-z whose logarithm is off by `constant` + `linear` z + `root` sqrt(z). `count` of them together are off by no more
 /// than one of `count` times the peak (concavity, and Cauchy and Schwarz's inequality for the root).
-[[nodiscard]] double codes_of_highlight(double peak, int count, double constant, double linear, double root);
+[[nodiscard]] double codes_of_specular(double peak, int count, double constant, double linear, double root);
 
 }  // namespace halflit::shading

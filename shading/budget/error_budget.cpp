@@ -26,16 +26,16 @@ struct Surface {
     double cosine_error;
     double roughness_error;  ///< relative, where a texture gives it
     double base_color_error, metallic_error, occlusion_error, emissive_error;  ///< of a texture's value
-    bool highlight;
+    bool specular;
 };
 
-Surface surface_of(const FramePlan& plan, const MaterialPlan& material, const SceneFacts& facts) {
+Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const SceneFacts& facts) {
     const auto has = [&](Stage stage) { return (material.stages & stage) != 0; };
     Surface s{};
     const double color = std::max({material.base_color[0], material.base_color[1], material.base_color[2]}) *
                          (has(kStageVertexColor) ? facts.vertex_color : 1.0);
     s.albedo = color;
-    s.highlight = has(kStageSpecular) && has(kStageLights);
+    s.specular = has(kStageSpecular) && has(kStageLights);
     s.reflectance = material.metallic > 0.0f ? std::max(0.04, color) : 0.04;
     const auto filtered = [&](const TexturePlan& texture, std::initializer_list<int> channels) {
         double error = 0.0;
@@ -51,8 +51,8 @@ Surface surface_of(const FramePlan& plan, const MaterialPlan& material, const Sc
     if (has(kStageBaseColorTexture)) s.base_color_error = filtered(material.base_color_texture, {0, 1, 2});
     if (has(kStageOcclusionTexture)) s.occlusion_error = filtered(material.occlusion_texture, {0});
     if (has(kStageEmissiveTexture)) s.emissive_error = filtered(material.emissive_texture, {0, 1, 2});
-    s.exponent = highlight_exponent(roughness);
-    s.normalization = plan.normalize_highlight ? (s.exponent + 8.0) / 8.0 : 1.0;
+    s.exponent = specular_exponent(roughness);
+    s.normalization = plan.normalize_specular ? (s.exponent + 8.0) / 8.0 : 1.0;
     s.cosine_error = kCosineError;
     if (has(kStageNormalMap)) {
         // Three components in [-1, 1], each off by twice its channel, of a vector that is no shorter than its z.
@@ -70,11 +70,11 @@ struct Arriving {
     int count = 0, local = 0;
 };
 
-Arriving arriving(const FramePlan& plan, double exposure, const SceneFacts& facts) {
+Arriving arriving(const ShadingPlan& plan, double exposure, const SceneFacts& facts) {
     Arriving a;
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
         const LightPlan& light = plan.lights[i];
-        const double most = light.brightness * facts.light_strength[i] * exposure;
+        const double most = light.brightness * facts.light_attenuation[i] * exposure;
         a.sum += most;
         a.largest = std::max(a.largest, most);
         ++a.count;
@@ -85,7 +85,7 @@ Arriving arriving(const FramePlan& plan, double exposure, const SceneFacts& fact
     return a;
 }
 
-double rounding_codes(const MaterialPlan& material, const FramePlan& plan, const Surface& s, const Arriving& light, double exposure) {
+double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, const Surface& s, const Arriving& light, double exposure) {
     const auto has = [&](Stage stage) { return (material.stages & stage) != 0; };
     const double n = material.lobe.power_minus_one + 1.0, scale = material.lobe.scale;
     double codes = codes_of_relative(kProductError + 1.5e-7 * (has(kStageLights) ? n + light.count : 0.0));
@@ -105,7 +105,7 @@ double rounding_codes(const MaterialPlan& material, const FramePlan& plan, const
                 }
                 around = std::max(around, most * exposure);
             }
-            codes += codes_of_absolute(3e-7 * around) * (s.highlight ? 2.0 : 1.0);
+            codes += codes_of_absolute(3e-7 * around) * (s.specular ? 2.0 : 1.0);
             if (has(kStageNormalMap)) codes += codes_of_absolute(4.0 * s.cosine_error * around);
         } else {
             codes += codes_of_absolute(s.cosine_error * around * std::max(s.albedo, 1.0));
@@ -116,11 +116,11 @@ double rounding_codes(const MaterialPlan& material, const FramePlan& plan, const
         if (light.local > 0) codes += codes_of_edge(s.albedo * scale * light.sum, 1.0, 3e-7);  // the end of the range
         if (light.cone_error > 0) codes += codes_of_edge(s.albedo * scale * light.sum, 2.0, light.cone_error);
     }
-    if (s.highlight) {
-        const double turning = plan.highlight == Highlight::phong ? 2.0 : 1.0;
+    if (s.specular) {
+        const double turning = plan.specular == SpecularModel::phong ? 2.0 : 1.0;
         double constant = 0.0, linear = 3e-7;
         if (has(kStageMetallicRoughnessTexture)) constant = linear = 4.0 * s.roughness_error;  // alpha^4, in the exponent and in its norm
-        codes += codes_of_highlight(s.reflectance * s.normalization * light.largest, light.count, constant, linear,
+        codes += codes_of_specular(s.reflectance * s.normalization * light.largest, light.count, constant, linear,
                                     turning * std::sqrt(2.0 * s.exponent) * s.cosine_error);
     }
     const double lit = has(kStageUnlit) ? exposure : light.sum * std::max(1.0, scale) + around;
@@ -139,15 +139,15 @@ double lobe_tier_codes(const LobePlan& lobe, PowTier tier) {
     return codes_of_relative(0.5 * 0.69314718055994531 * a * errors.log2 + errors.exp2 + 4e-6);
 }
 
-double highlight_tier_codes(const Surface& s, const Arriving& light, PowTier tier) {
-    if (!s.highlight || tier == PowTier::exact) return 0.0;
+double specular_tier_codes(const Surface& s, const Arriving& light, PowTier tier) {
+    if (!s.specular || tier == PowTier::exact) return 0.0;
     const PowErrors errors = pow_errors(tier);
-    return codes_of_highlight(s.reflectance * s.normalization * light.largest, light.count, errors.exp2, errors.log2, 0.0);
+    return codes_of_specular(s.reflectance * s.normalization * light.largest, light.count, errors.exp2, errors.log2, 0.0);
 }
 
-double environment_codes(const FramePlan& plan, const MaterialPlan& material) {
+double environment_codes(const ShadingPlan& plan, const MaterialPlan& material) {
     double codes = 0.0;
-    for (const int index : {material.environment, material.mirrored_environment})
+    for (const int index : {material.environment, material.specular_environment})
         if (index >= 0) codes += plan.environments[static_cast<std::size_t>(index)].bound_codes;
     return codes;
 }
@@ -193,39 +193,39 @@ double spend_on_lobe(MaterialPlan& material, const Surface& s, const Arriving& l
 }
 
 /// Whether highlights are below the threshold at 45 degrees from their middle: if not, looking costs more than it saves.
-bool highlights_end(const FramePlan& plan, const Surface& s, double largest, double threshold) {
-    const double z = 0.25 * s.exponent * (plan.highlight == Highlight::phong ? 0.25 : 1.0), z2 = z * z, z4 = z2 * z2;
+bool specular_ends(const ShadingPlan& plan, const Surface& s, double largest, double threshold) {
+    const double z = 0.25 * s.exponent * (plan.specular == SpecularModel::phong ? 0.25 : 1.0), z2 = z * z, z4 = z2 * z2;
     return 40320.0 * largest * s.normalization <= threshold * z4 * z4;
 }
 
 /// The cheapest way to highlights within `budget` codes; adds to the bound what it costs of them.
-void spend_on_highlights(const FramePlan& plan, MaterialPlan& material, const Surface& s, const Arriving& light, double exposure, double budget,
+void spend_on_specular(const ShadingPlan& plan, MaterialPlan& material, const Surface& s, const Arriving& light, double exposure, double budget,
                          ErrorBound& bound) {
     // Highlights below this, before the reflectance, are not seen in `codes` codes.
     const auto threshold_of = [&](double codes) { return codes / (kSlopeAtBlack * exposure * s.reflectance * light.count); };
     if ((material.stages & kStageMetallicRoughnessTexture) == 0) {
-        const double half_exponent = s.exponent * (plan.highlight == Highlight::phong ? 0.125 : 0.5);
+        const double half_exponent = s.exponent * (plan.specular == SpecularModel::phong ? 0.125 : 0.5);
         const double share = threshold_of(0.5 * budget) / (light.largest / exposure * s.normalization);
-        const HighlightFit fit = fit_highlight(half_exponent, share < 1.0 ? power_of(share, 1.0 / half_exponent) : 1.0);
+        const SpecularFit fit = fit_specular(half_exponent, share < 1.0 ? power_of(share, 1.0 / half_exponent) : 1.0);
         const double codes = fit.codes(s.reflectance * s.normalization * light.largest, light.count);
         if (codes <= 0.48 * budget) {
-            material.highlight_curve = fit.curve;
-            bound.highlights = codes;
+            material.specular_curve = fit.curve;
+            bound.specular = codes;
             bound.left_out += 0.5 * budget;
             return;
         }
     }
-    material.highlight_tier = cheapest_tier(0.5 * budget, [&](PowTier tier) { return highlight_tier_codes(s, light, tier); });
-    bound.highlights = highlight_tier_codes(s, light, material.highlight_tier);
-    const double spent = 0.98 * (budget - bound.highlights), threshold = threshold_of(spent);
-    if (highlights_end(plan, s, light.largest / exposure, threshold)) {
-        material.highlight_threshold = static_cast<float>(std::min(1e30, threshold));
+    material.specular_tier = cheapest_tier(0.5 * budget, [&](PowTier tier) { return specular_tier_codes(s, light, tier); });
+    bound.specular = specular_tier_codes(s, light, material.specular_tier);
+    const double spent = 0.98 * (budget - bound.specular), threshold = threshold_of(spent);
+    if (specular_ends(plan, s, light.largest / exposure, threshold)) {
+        material.specular_threshold = static_cast<float>(std::min(1e30, threshold));
         bound.left_out += spent;
     }
 }
 
 /// The squared distance from which on `brightness` times strength is below `least`; 0: none, or beyond the range.
-double reach_squared(const LightPlan& light, double least) {
+double cutoff_squared(const LightPlan& light, double least) {
     const double range = light.inv_range_squared > 0.0f ? 1.0 / light.inv_range_squared : 0.0;
     double low = light.min_distance_squared, high = std::max(low, light.brightness / least);
     if (range > 0.0) high = std::min(high, range);
@@ -244,8 +244,8 @@ double reach_squared(const LightPlan& light, double least) {
 
 }  // namespace
 
-void spend_error_budget(FramePlan& plan, double budget_codes, double exposure, const SceneFacts& facts) {
-    HALFLIT_ASSERT(facts.light_strength.size() == plan.lights.size());
+void spend_error_budget(ShadingPlan& plan, double budget_codes, double exposure, const SceneFacts& facts) {
+    HALFLIT_ASSERT(facts.light_attenuation.size() == plan.lights.size());
     const Arriving light = arriving(plan, exposure, facts);
     ErrorBound worst;
 
@@ -259,18 +259,18 @@ void spend_error_budget(FramePlan& plan, double budget_codes, double exposure, c
         fixed.push_back(rounding.back() + environment_codes(plan, material));
         if (!facts.drawn[rounding.size() - 1]) continue;
         poorest = std::min(poorest, budget_codes - fixed.back());
-        most_reflected = std::max(most_reflected, s.albedo * material.lobe.scale + (s.highlight ? s.reflectance * s.normalization : 0.0));
+        most_reflected = std::max(most_reflected, s.albedo * material.lobe.scale + (s.specular ? s.reflectance * s.normalization : 0.0));
     }
-    double reach_codes = 0.0;
+    double cutoff_codes = 0.0;
     if (light.local > 0 && poorest > 0.0 && most_reflected > 0.0) {
         const double codes = 0.25 * poorest, least = codes / (kSlopeAtBlack * exposure * most_reflected * light.local);
         for (std::size_t i = 0; i < plan.lights.size(); ++i) {
             LightPlan& one = plan.lights[i];
             if (one.type == LightType::directional) continue;
-            const double reach = reach_squared(one, least);
+            const double reach = cutoff_squared(one, least);
             // One that ends beyond all there is would be compared with every fragment for nothing.
-            one.reach_squared = reach < facts.light_farthest_squared[i] ? static_cast<float>(reach) : 0.0f;
-            if (one.reach_squared > 0.0f) reach_codes = codes;
+            one.cutoff_squared = reach < facts.light_farthest_squared[i] ? static_cast<float>(reach) : 0.0f;
+            if (one.cutoff_squared > 0.0f) cutoff_codes = codes;
         }
     }
 
@@ -282,14 +282,14 @@ void spend_error_budget(FramePlan& plan, double budget_codes, double exposure, c
         ErrorBound bound;
         bound.rounding = rounding[i];
         bound.environment = fixed[i] - rounding[i];
-        bound.left_out = reach_codes;
-        double left = budget_codes - fixed[i] - reach_codes;
+        bound.left_out = cutoff_codes;
+        double left = budget_codes - fixed[i] - cutoff_codes;
         if (left > 0.0) {
             bound.lobes = spend_on_lobe(material, s, light, 0.4 * left, fits);
             left -= bound.lobes;
-            if (s.highlight && light.count > 0) spend_on_highlights(plan, material, s, light, exposure, left, bound);
+            if (s.specular && light.count > 0) spend_on_specular(plan, material, s, light, exposure, left, bound);
         }
-        bound.codes = bound.rounding + bound.lobes + bound.highlights + bound.environment + bound.left_out;
+        bound.codes = bound.rounding + bound.lobes + bound.specular + bound.environment + bound.left_out;
         if (bound.codes > worst.codes) worst = bound;
     }
     worst.codes = std::min(worst.codes, 255.0);

@@ -9,7 +9,7 @@ namespace halflit::shading {
 
 /// What the shading model cannot know of a scene.
 struct SceneFacts {
-    std::vector<double> light_strength;  ///< for each of the plan's lights: no surface gets more of it, times its colour; directional: 1
+    std::vector<double> light_attenuation;  ///< for each of the plan's lights: no surface gets more of it, times its colour; directional: 1
     std::vector<double> light_farthest_squared;  ///< likewise: no surface is farther from it, squared
     std::vector<bool> drawn;             ///< for each of the plan's materials: something is made of it
     double vertex_color = 1.0;           ///< the largest channel of all vertex colours
@@ -22,6 +22,6 @@ inline constexpr double kEnvironmentShare = 0.3;
 /// Takes the cheapest polynomials, reaches and thresholds whose bounds, with those of float32 itself and of the bands, stay below
 /// `budget_codes` for each material, and writes plan.error. Shadows count as the same for all; so do the pixel's visible surfaces. Light
 /// once a vertex or a triangle is not bounded.
-void spend_error_budget(FramePlan& plan, double budget_codes, double exposure, const SceneFacts& facts);
+void spend_error_budget(ShadingPlan& plan, double budget_codes, double exposure, const SceneFacts& facts);
 
 }  // namespace halflit::shading

@@ -176,8 +176,8 @@ LobeFit fit_lobe(double n, double amplitude) {
     return fit;
 }
 
-HighlightFit fit_highlight(double half_exponent, double least) {
-    HighlightFit fit{};
+SpecularFit fit_specular(double half_exponent, double least) {
+    SpecularFit fit{};
     double power = half_exponent, times = 1.0;
     for (fit.curve.squarings = 0; power >= 2.0; ++fit.curve.squarings, power *= 0.5) times *= 2.0;
     // Through Chebyshev's nodes: Newton's divided differences, and from them the powers of x.
@@ -221,7 +221,7 @@ HighlightFit fit_highlight(double half_exponent, double least) {
     return fit;
 }
 
-double HighlightFit::relative_error(double share) const {
+double SpecularFit::relative_error(double share) const {
     // (r + e)^m against r^m, r the root: m e / r of it, and the rest of (1 + e / r)^m that is not straight.
     const double m = static_cast<double>(std::int64_t{1} << std::max(0, curve.squarings));
     const double root = std::max(least_root, power_of(share, 1.0 / m)), bent = m * root_error / root;
@@ -229,7 +229,7 @@ double HighlightFit::relative_error(double share) const {
     return rounding + (m > 1.0 ? bent * (1.0 + bent) : bent);
 }
 
-double HighlightFit::codes(double peak, int count) const {
+double SpecularFit::codes(double peak, int count) const {
     const double top = peak * count;
     if (!(top > 0.0)) return 0.0;
     if (relative_error(0.0) > 1.0) return 255.0;

@@ -16,8 +16,8 @@ struct LobeFit {
 [[nodiscard]] LobeFit fit_lobe(double n, double amplitude);
 
 /// x^h for x in [least, 1] as p(x)^(2^squarings), p of degree three.
-struct HighlightFit {
-    HighlightCurve curve;
+struct SpecularFit {
+    SpecularCurve curve;
     double rounding;      ///< relative error of the kernel's rounding, x's own included
     double root_error;    ///< of p as the 2^squarings-th root of x^h
     double least_root;    ///< the least that this root is
@@ -26,6 +26,6 @@ struct HighlightFit {
     /// In 8-bit codes, for `count` lights that are `peak` at most: by concavity no more than one of `count` times the peak.
     [[nodiscard]] double codes(double peak, int count) const;
 };
-[[nodiscard]] HighlightFit fit_highlight(double half_exponent, double least);
+[[nodiscard]] SpecularFit fit_specular(double half_exponent, double least);
 
 }  // namespace halflit::shading

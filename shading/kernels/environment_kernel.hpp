@@ -10,12 +10,12 @@ inline namespace HALFLIT_ISA_NAMESPACE {
 HALFLIT_INLINE V3 mad(V3 a, F b, V3 c) { return {mad(a.x, b, c.x), mad(a.y, b, c.y), mad(a.z, b, c.z)}; }
 HALFLIT_INLINE V3 three(const float* v) { return {F(v[0]), F(v[1]), F(v[2])}; }
 
-/// The nested form of EnvironmentPlan. Below 0, where the series rings, is 0.
-HALFLIT_INLINE V3 nested_environment(const shading::EnvironmentPlan& plan, int bands, V3 normal) {
+/// EnvironmentPlan::newton. Below 0, where the series rings, is 0.
+HALFLIT_INLINE V3 newton_environment(const shading::EnvironmentPlan& plan, int bands, V3 normal) {
     F from_node[sh::kMaxBands];
 #pragma GCC unroll 16
     for (int k = 0; k + 1 < bands; ++k) from_node[k] = normal.z - F(shading::kNodes[k]);
-    const float* a = plan.nested;
+    const float* a = plan.newton;
     V3 sum = three(a);
     a += 3;
 #pragma GCC unroll 16
@@ -45,19 +45,19 @@ HALFLIT_INLINE V3 nested_environment(const shading::EnvironmentPlan& plan, int b
     const V3 normal{x, y, z};
     switch (plan.bands) {
         case 1:
-            return nested_environment(plan, 1, normal);
+            return newton_environment(plan, 1, normal);
         case 2:
-            return nested_environment(plan, 2, normal);
+            return newton_environment(plan, 2, normal);
         case 3:
-            return nested_environment(plan, 3, normal);
+            return newton_environment(plan, 3, normal);
         case 4:
-            return nested_environment(plan, 4, normal);
+            return newton_environment(plan, 4, normal);
         case 5:
-            return nested_environment(plan, 5, normal);
+            return newton_environment(plan, 5, normal);
         case 6:
-            return nested_environment(plan, 6, normal);
+            return newton_environment(plan, 6, normal);
         default:
-            return nested_environment(plan, plan.bands, normal);
+            return newton_environment(plan, plan.bands, normal);
     }
 }
 HALFLIT_INLINE V3 environment_light(const shading::EnvironmentPlan& plan, V3 normal) {

@@ -1,7 +1,7 @@
-// Direct light: for each light its direction and strength at a fragment, and the sums of lobes and highlights over all of them.
+// Direct light: for each light its direction and attenuation at a fragment, and the sums of lobes and highlights over all of them.
 #pragma once
 
-#include "shading/kernels/highlight_kernel.hpp"
+#include "shading/kernels/specular_kernel.hpp"
 #include "shading/kernels/lobe_kernel.hpp"
 #include "shading/kernels/shadow_kernel.hpp"
 #include "shading/kernels/vector.hpp"
@@ -15,38 +15,38 @@ struct LightSums {
     V3 diffuse{F(0.0f), F(0.0f), F(0.0f)}, specular{F(0.0f), F(0.0f), F(0.0f)};
 };
 
-/// Unit direction to a point or spot light, and its strength there: the inverse square of the distance, the window that takes it to
+/// Unit direction to a point or spot light, and its attenuation there: the inverse square of the distance, the window that takes it to
 /// zero at `range`, and the cone.
 struct LocalLight {
     V3 direction;
-    F strength;
+    F attenuation;
 };
 HALFLIT_INLINE LocalLight local_light(const shading::LightPlan& light, V3 position) {
     const V3 offset = broadcast(light.position) - position;
     const F distance_squared = dot(offset, offset);
-    // Below 1e-18 the direction has no meaning and fades to zero; an infinite distance gives strength 0.
+    // Below 1e-18 the direction has no meaning and fades to zero; an infinite distance gives attenuation 0.
     const F in_range = distance_squared * F(light.inv_range_squared);
     const F window = vmax(F(1.0f) - in_range * in_range, F(0.0f));
     const V3 direction = offset * vdiv(F(1.0f), vsqrt(vmax(distance_squared, F(1e-36f))));
-    F strength = vdiv(window, vmax(distance_squared, F(light.min_distance_squared)));
-    if (light.reach_squared > 0.0f) strength = sel(distance_squared < F(light.reach_squared), strength, F(0.0f));
+    F attenuation = vdiv(window, vmax(distance_squared, F(light.min_distance_squared)));
+    if (light.cutoff_squared > 0.0f) attenuation = sel(distance_squared < F(light.cutoff_squared), attenuation, F(0.0f));
     if (light.type == shading::LightType::spot) {
         // 1 - cos of the angle to the axis, as |L - A|^2 / 2: right to the last digits for narrow cones, where a difference of cosines
         // has none left. The subtraction from the cutoff is exact near the rim.
         const V3 off_axis = direction - broadcast(light.to_light);
         const F versine = F(0.5f) * dot(off_axis, off_axis);
         const F cone = clamp((F(light.cone_cutoff) - versine) * F(light.cone_scale), F(0.0f), F(1.0f));
-        strength = strength * (cone * cone);
+        attenuation = attenuation * (cone * cone);
         if (light.half_cone_power > 0.0f) {
             const F cosine = F(1.0f) - versine, sine_squared = versine * (F(2.0f) - versine);
             const F power = power_of_cosine(shading::PowTier::exact, cosine * cosine, sine_squared, F(light.half_cone_power));
-            strength = strength * sel(cosine > F(0.0f), power, F(0.0f));
+            attenuation = attenuation * sel(cosine > F(0.0f), power, F(0.0f));
         }
     }
-    return {direction, strength};
+    return {direction, attenuation};
 }
 
-/// A directional light's strength is 1: times that is exact.
+/// A directional light's attenuation is 1: times that is exact.
 HALFLIT_INLINE LocalLight arrival(const shading::LightPlan& light, V3 position) {
     LocalLight at{broadcast(light.to_light), F(1.0f)};
     if (light.type != shading::LightType::directional) at = local_light(light, position);
@@ -55,7 +55,7 @@ HALFLIT_INLINE LocalLight arrival(const shading::LightPlan& light, V3 position) 
 
 /// What shadows need of a fragment.
 struct ShadowReceiver {
-    const shading::FramePlan& frame;
+    const shading::ShadingPlan& frame;
     V3 position;        ///< where shadows are looked up
     V3 surface_normal;  ///< before the normal map
     ShadowFade fade;    ///< of the material
@@ -67,12 +67,12 @@ struct ShadowReceiver {
 template <bool kSpecular>
 HALFLIT_INLINE void cast_shadow(const ShadowReceiver& receiver, const shading::LightPlan& light, const LocalLight& at, F n_dot_l,
                                 F& diffuse, F& specular) {
-    M lit = (diffuse * at.strength) > F(0.0f);
-    if constexpr (kSpecular) lit = lit | ((specular * at.strength) > F(0.0f));
+    M lit = (diffuse * at.attenuation) > F(0.0f);
+    if constexpr (kSpecular) lit = lit | ((specular * at.attenuation) > F(0.0f));
     if (!any(lit)) return;  // nothing to hide
     const bool split = receiver.frame.shadow_mode == shading::ShadowMode::soft_split;
     const bool soft = split && receiver.fade.scale > 0.0f;
-    const Hidden hidden = hidden_share(receiver.frame.shadow_maps[light.shadow_map], receiver.position, receiver.surface_normal,
+    const HiddenShares hidden = hidden_share(receiver.frame.shadow_maps[light.shadow_map], receiver.position, receiver.surface_normal,
                                        at.direction, receiver.fade, soft);
     const F core = split ? vmin(diffuse, vmax(n_dot_l, F(0.0f))) : diffuse;
     const F excess = diffuse - core;
@@ -82,8 +82,8 @@ HALFLIT_INLINE void cast_shadow(const ShadowReceiver& receiver, const shading::L
 
 /// One loop over the lights. Without highlights and shadows a light is so little work that the loop must hold nothing else: in one that
 /// holds every path, GCC keeps the sums in memory, and each light waits for the store of the one before. With them it makes no difference.
-template <bool kSpecular, bool kShadows, class LobeValue, class HighlightValue>
-HALFLIT_INLINE LightSums sum_lights_by(const LobeValue& lobe_value_at, const HighlightValue& highlight_value_at,
+template <bool kSpecular, bool kShadows, class LobeValue, class SpecularValue>
+HALFLIT_INLINE LightSums sum_lights_by(const LobeValue& lobe_value_at, const SpecularValue& specular_value_at,
                                        const shading::LightPlan* lights, int count, const ShadowReceiver& receiver, V3 position, V3 normal) {
     LightSums sums;
     for (int i = 0; i < count; ++i) {
@@ -93,13 +93,13 @@ HALFLIT_INLINE LightSums sum_lights_by(const LobeValue& lobe_value_at, const Hig
         if (local) at = local_light(light, position);
         const F n_dot_l = dot(normal, at.direction);
         F diffuse = lobe_value_at(n_dot_l), specular(0.0f);
-        if constexpr (kSpecular) specular = highlight_value_at(at.direction, n_dot_l, at.strength * F(light.brightness));
+        if constexpr (kSpecular) specular = specular_value_at(at.direction, n_dot_l, at.attenuation * F(light.brightness));
         if constexpr (kShadows) {
             if (light.shadow_map >= 0) cast_shadow<kSpecular>(receiver, light, at, n_dot_l, diffuse, specular);
         }
         const V3 color = broadcast(light.color);
-        sums.diffuse = sums.diffuse + color * (local ? diffuse * at.strength : diffuse);
-        if constexpr (kSpecular) sums.specular = sums.specular + color * (local ? specular * at.strength : specular);
+        sums.diffuse = sums.diffuse + color * (local ? diffuse * at.attenuation : diffuse);
+        if constexpr (kSpecular) sums.specular = sums.specular + color * (local ? specular * at.attenuation : specular);
     }
     return sums;
 }
@@ -115,19 +115,19 @@ HALFLIT_INLINE LightSums sum_lights_by_power(const shading::LobePlan& lobe, cons
         const LocalLight at = arrival(lights[i], position), next_at = arrival(lights[i + 1], position);
         const F x = dot(normal, at.direction), next_x = dot(normal, next_at.direction);
         const F value = general_lobe_value<kTier>(lobe, x), next_value = general_lobe_value<kTier>(lobe, next_x);
-        sums.diffuse = sums.diffuse + broadcast(lights[i].color) * (value * at.strength);
-        sums.diffuse = sums.diffuse + broadcast(lights[i + 1].color) * (next_value * next_at.strength);
+        sums.diffuse = sums.diffuse + broadcast(lights[i].color) * (value * at.attenuation);
+        sums.diffuse = sums.diffuse + broadcast(lights[i + 1].color) * (next_value * next_at.attenuation);
     }
     if (i < count) {
         const LocalLight at = arrival(lights[i], position);
-        sums.diffuse = sums.diffuse + broadcast(lights[i].color) * (general_lobe_value<kTier>(lobe, dot(normal, at.direction)) * at.strength);
+        sums.diffuse = sums.diffuse + broadcast(lights[i].color) * (general_lobe_value<kTier>(lobe, dot(normal, at.direction)) * at.attenuation);
     }
     return sums;
 }
 
 template <bool kSpecular>
 HALFLIT_INLINE LightSums sum_lights(const shading::LightPlan* lights, int count, const shading::LobePlan& lobe,
-                                    const ShadowReceiver& receiver, V3 position, V3 normal, V3 to_eye, const HighlightShape& shape) {
+                                    const ShadowReceiver& receiver, V3 position, V3 normal, V3 to_eye, const SpecularShape& shape) {
     using shading::LobePath, shading::PowTier;
     const auto sum = [&]<bool kShadows>(const auto& value, const auto& highlight) __attribute__((always_inline)) {
         return sum_lights_by<kSpecular, kShadows>(value, highlight, lights, count, receiver, position, normal);
@@ -136,23 +136,23 @@ HALFLIT_INLINE LightSums sum_lights(const shading::LightPlan* lights, int count,
     const auto simple = [&](F x) __attribute__((always_inline)) { return simple_lobe_value(lobe, x); };
     const auto sharp = [&](F x) __attribute__((always_inline)) { return sharp_lobe_value(lobe, x); };
     const auto curve = [&](F x) __attribute__((always_inline)) { return curve_lobe_value(lobe, x); };
-    const auto curve_highlight = [&](V3 to_light, F n_dot_l, F) __attribute__((always_inline)) {
-        return curve_highlight_value(shape, normal, to_eye, to_light, n_dot_l);
+    const auto curve_specular = [&](V3 to_light, F n_dot_l, F) __attribute__((always_inline)) {
+        return curve_specular_value(shape, normal, to_eye, to_light, n_dot_l);
     };
-    const auto any_highlight = [&](V3 to_light, F n_dot_l, F brightness) __attribute__((always_inline)) {
-        if (shape.curve.squarings >= 0) return curve_highlight_value(shape, normal, to_eye, to_light, n_dot_l);
-        return highlight_value(shape, normal, to_eye, to_light, n_dot_l, brightness);
+    const auto any_specular = [&](V3 to_light, F n_dot_l, F brightness) __attribute__((always_inline)) {
+        if (shape.curve.squarings >= 0) return curve_specular_value(shape, normal, to_eye, to_light, n_dot_l);
+        return specular_value(shape, normal, to_eye, to_light, n_dot_l, brightness);
     };
     const bool shadows = !receiver.frame.shadow_maps.empty();
     if constexpr (kSpecular) {
         if (!shadows && shape.curve.squarings >= 0) {
-            if (lobe.path == LobePath::curve) return sum.template operator()<false>(curve, curve_highlight);
-            return sum.template operator()<false>(any_lobe, curve_highlight);
+            if (lobe.path == LobePath::curve) return sum.template operator()<false>(curve, curve_specular);
+            return sum.template operator()<false>(any_lobe, curve_specular);
         }
     } else if (!shadows) {
-        if (lobe.path == LobePath::curve) return sum.template operator()<false>(curve, any_highlight);
-        if (lobe.path != LobePath::general) return sum.template operator()<false>(simple, any_highlight);
-        if (lobe.power_minus_one >= shading::kSharpPowerMinusOne) return sum.template operator()<false>(sharp, any_highlight);
+        if (lobe.path == LobePath::curve) return sum.template operator()<false>(curve, any_specular);
+        if (lobe.path != LobePath::general) return sum.template operator()<false>(simple, any_specular);
+        if (lobe.power_minus_one >= shading::kSharpPowerMinusOne) return sum.template operator()<false>(sharp, any_specular);
         switch (lobe.tier) {
             case PowTier::exact:
                 return sum_lights_by_power<PowTier::exact>(lobe, lights, count, position, normal);
@@ -162,7 +162,7 @@ HALFLIT_INLINE LightSums sum_lights(const shading::LightPlan* lights, int count,
                 return sum_lights_by_power<PowTier::fast>(lobe, lights, count, position, normal);
         }
     }
-    return sum.template operator()<true>(any_lobe, any_highlight);
+    return sum.template operator()<true>(any_lobe, any_specular);
 }
 
 }  // namespace HALFLIT_ISA_NAMESPACE

@@ -23,11 +23,11 @@ HALFLIT_INLINE V3 hemisphere(const shading::Ambient& ambient, F up) {
     return lerp(ground, broadcast(ambient.sky_linear), F(0.5f) * (F(1.0f) + up));
 }
 
-/// Share of the mirrored surroundings: F0 head on, rising at grazing angles towards 1 - roughness (Schlick's fifth power).
+/// Share of the reflected surroundings: F0 head on, rising at grazing angles towards 1 - roughness (Schlick's fifth power).
 HALFLIT_INLINE F environment_reflectance(F f0, F roughness, F grazing) { return mad(vmax(F(1.0f) - roughness, f0) - f0, grazing, f0); }
 
 /// Where shadows are looked up for a fragment.
-HALFLIT_INLINE V3 looked_up(const shading::FramePlan& frame, const shading::FragmentBlock& block, int lane) {
+HALFLIT_INLINE V3 looked_up(const shading::ShadingPlan& frame, const shading::FragmentBlock& block, int lane) {
     const V3 position = row3(block, shading::kPosX, lane);
     return frame.shadow_offset ? position + row3(block, shading::kShadowX, lane) : position;
 }
@@ -36,12 +36,12 @@ HALFLIT_INLINE V3 looked_up(const shading::FramePlan& frame, const shading::Frag
 struct IncidentLight {
     V3 diffuse;            ///< through the lobe, its scale included
     V3 specular;           ///< the highlight, before the reflectance
-    V3 ambient, mirrored;  ///< of the surroundings towards the normal, and towards the mirrored view; times occlusion
+    V3 ambient, specular_ambient;  ///< of the surroundings towards the normal, and towards the reflected view; times occlusion
     F metallic, roughness, grazing;
 };
 
 template <bool kSpecular>
-HALFLIT_INLINE IncidentLight incident_light(const shading::FramePlan& frame, const shading::MaterialPlan& material,
+HALFLIT_INLINE IncidentLight incident_light(const shading::ShadingPlan& frame, const shading::MaterialPlan& material,
                                             shading::LightList lights, const shading::FragmentBlock& block, int lane) {
     const V3 zero{F(0.0f), F(0.0f), F(0.0f)};
     const V3 position = row3(block, shading::kPosX, lane);
@@ -50,13 +50,13 @@ HALFLIT_INLINE IncidentLight incident_light(const shading::FramePlan& frame, con
     const Reflectance surface = reflectance(material, block, lane);
     IncidentLight light{zero, zero, zero, zero, surface.metallic, F(1.0f), F(0.0f)};
     V3 to_eye = zero;
-    HighlightShape shape{frame.highlight, material.highlight_tier, material.highlight_threshold, material.highlight_curve, F(0.0f), F(1.0f)};
+    SpecularShape shape{frame.specular, material.specular_tier, material.specular_threshold, material.specular_curve, F(0.0f), F(1.0f)};
     if constexpr (kSpecular) {
         to_eye = view_vector(frame, position);
         light.roughness = vmax(surface.roughness, F(kMinRoughness));
         const F alpha = light.roughness * light.roughness;
         shape.half_exponent = vdiv(F(1.0f), alpha * alpha) - F(1.0f);                                       // s = 2 / alpha^2 - 2
-        if (frame.normalize_highlight) shape.normalization = mad(F(0.25f), shape.half_exponent, F(1.0f));  // (s + 8) / 8
+        if (frame.normalize_specular) shape.normalization = mad(F(0.25f), shape.half_exponent, F(1.0f));  // (s + 8) / 8
     }
     if (has(material, shading::kStageLights)) {
         const ShadowReceiver receiver{frame, looked_up(frame, block, lane), facing.surface, {material.shadow_fade_scale, material.shadow_turn_scale}};
@@ -76,11 +76,11 @@ HALFLIT_INLINE IncidentLight incident_light(const shading::FramePlan& frame, con
             const F away = F(1.0f) - clamp(n_dot_v, F(0.0f), F(1.0f));
             const F away2 = away * away;
             light.grazing = (away2 * away2) * away;
-            const V3 mirrored{mad(twice, normal.x, F(0.0f) - to_eye.x), mad(twice, normal.y, F(0.0f) - to_eye.y),
+            const V3 reflection{mad(twice, normal.x, F(0.0f) - to_eye.x), mad(twice, normal.y, F(0.0f) - to_eye.y),
                               mad(twice, normal.z, F(0.0f) - to_eye.z)};
-            light.mirrored =
-                (environment ? environment_light(frame.environments[static_cast<std::size_t>(material.mirrored_environment)], mirrored)
-                             : hemisphere(frame.ambient, mirrored.y)) *
+            light.specular_ambient =
+                (environment ? environment_light(frame.environments[static_cast<std::size_t>(material.specular_environment)], reflection)
+                             : hemisphere(frame.ambient, reflection.y)) *
                 surface.occlusion;
         }
     }
@@ -107,7 +107,7 @@ HALFLIT_INLINE V3 reflected(const shading::MaterialPlan& material, const Inciden
             const V3 share{environment_reflectance(f0.x, light.roughness, light.grazing),
                            environment_reflectance(f0.y, light.roughness, light.grazing),
                            environment_reflectance(f0.z, light.roughness, light.grazing)};
-            color = color + share * light.mirrored;
+            color = color + share * light.specular_ambient;
         }
     }
     return color;
@@ -123,7 +123,7 @@ HALFLIT_INLINE V3 emitted(const shading::MaterialPlan& material, const shading::
 }
 
 template <bool kSpecular>
-HALFLIT_INLINE void shade_block(const shading::FramePlan& frame, const shading::MaterialPlan& material, shading::LightList lights,
+HALFLIT_INLINE void shade_block(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, shading::LightList lights,
                                 shading::FragmentBlock& block, int count) {
     for (int lane = 0; lane < count; lane += kWidth) {
         const Sample base = base_color(material, block, lane);
@@ -145,9 +145,9 @@ HALFLIT_INLINE void shade_block(const shading::FramePlan& frame, const shading::
     }
 }
 
-/// The reflected colour is affine in the base colour but for a clamp in the mirrored share, so black and white tell all.
+/// The reflected colour is affine in the base colour but for a clamp in the specular share, so black and white tell all.
 template <bool kSpecular>
-HALFLIT_INLINE void light_block(const shading::FramePlan& frame, const shading::MaterialPlan& material, shading::LightList lights,
+HALFLIT_INLINE void light_block(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, shading::LightList lights,
                                 shading::FragmentBlock& block, int count) {
     for (int lane = 0; lane < count; lane += kWidth) {
         const IncidentLight light = incident_light<kSpecular>(frame, material, lights, block, lane);
@@ -163,7 +163,7 @@ HALFLIT_INLINE void light_block(const shading::FramePlan& frame, const shading::
     }
 }
 
-static void shade(const shading::FramePlan& frame, const shading::MaterialPlan& material, shading::LightList lights,
+static void shade(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, shading::LightList lights,
                   shading::FragmentBlock& block, int count) {
     if (has(material, shading::kStageSpecular) && !has(material, shading::kStagePrelit))
         shade_block<true>(frame, material, lights, block, count);
@@ -171,7 +171,7 @@ static void shade(const shading::FramePlan& frame, const shading::MaterialPlan& 
         shade_block<false>(frame, material, lights, block, count);
 }
 
-static void light(const shading::FramePlan& frame, const shading::MaterialPlan& material, shading::LightList lights,
+static void light(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, shading::LightList lights,
                   shading::FragmentBlock& block, int count) {
     if (has(material, shading::kStageSpecular))
         light_block<true>(frame, material, lights, block, count);
@@ -179,13 +179,13 @@ static void light(const shading::FramePlan& frame, const shading::MaterialPlan& 
         light_block<false>(frame, material, lights, block, count);
 }
 
-static void hidden(const shading::FramePlan& frame, const shading::MaterialPlan& material, const shading::LightPlan& light,
+static void hidden(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, const shading::LightPlan& light,
                    const shading::FragmentBlock& block, int count, float* core, float* excess) {
     const ShadowFade fade{material.shadow_fade_scale, material.shadow_turn_scale};
     const bool soft = frame.shadow_mode == shading::ShadowMode::soft_split && fade.scale > 0.0f;
     for (int lane = 0; lane < count; lane += kWidth) {
         const V3 position = row3(block, shading::kPosX, lane), surface = normals(material, block, lane).surface;
-        const Hidden share = hidden_share(frame.shadow_maps[light.shadow_map], looked_up(frame, block, lane), surface,
+        const HiddenShares share = hidden_share(frame.shadow_maps[light.shadow_map], looked_up(frame, block, lane), surface,
                                           arrival(light, position).direction, fade, soft);
         store(core + lane, share.hard);
         store(excess + lane, share.soft);

@@ -14,21 +14,21 @@ struct LightList {
     const LightPlan* lights = nullptr;
     int count = 0;
 };
-[[nodiscard]] inline LightList all_lights(const FramePlan& frame) { return {frame.lights.data(), static_cast<int>(frame.lights.size())}; }
+[[nodiscard]] inline LightList all_lights(const ShadingPlan& frame) { return {frame.lights.data(), static_cast<int>(frame.lights.size())}; }
 
 struct ShadeKernels {
     /// Runs the stages of `material` over lanes [0, count) of the block, and writes red, green, blue, alpha there.
     /// count in [1, kBlockSize]; lanes from count up to the next multiple of the SIMD width are read (they must hold
-    /// finite copies of a real lane) and written. Needs rows of the plan's quads, kFacing when double sided, gradients, kShadowX..
+    /// finite copies of a real lane) and written. Needs rows of the plan's slots, kFacing when double sided, gradients, kShadowX..
     /// when the frame's shadows are looked up off the position.
-    void (*shade)(const FramePlan& frame, const MaterialPlan& material, LightList lights, FragmentBlock& block, int count);
+    void (*shade)(const ShadingPlan& frame, const MaterialPlan& material, LightList lights, FragmentBlock& block, int count);
 
     /// Light alone, for shading rates below one a pixel: with base colour b the lit colour is b X + Y. X goes to the rows kPosX..
     /// kPosZ, Y to kNormalX..kNormalZ, from where `shade` takes them when the material's plan has kStagePrelit.
-    void (*light)(const FramePlan& frame, const MaterialPlan& material, LightList lights, FragmentBlock& block, int count);
+    void (*light)(const ShadingPlan& frame, const MaterialPlan& material, LightList lights, FragmentBlock& block, int count);
 
     /// What a light's shadow map hides of the core and of the excess (shadow.hpp), for lanes [0, count), in [0, 1].
-    void (*hidden)(const FramePlan& frame, const MaterialPlan& material, const LightPlan& light, const FragmentBlock& block, int count,
+    void (*hidden)(const ShadingPlan& frame, const MaterialPlan& material, const LightPlan& light, const FragmentBlock& block, int count,
                    float* core, float* excess);
 
     /// Only the alpha channel that MASK compares and BLEND uses: base colour alpha * texture alpha * vertex alpha.

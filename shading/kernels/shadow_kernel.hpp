@@ -11,8 +11,8 @@
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
-/// Hidden shares in [0, 1]: of light that a hard shadow cuts off, and of light that fades with the distance of the blocker.
-struct Hidden {
+/// HiddenShares shares in [0, 1]: of light that a hard shadow cuts off, and of light that fades with the distance of the blocker.
+struct HiddenShares {
     F hard, soft;
 };
 
@@ -71,7 +71,7 @@ HALFLIT_INLINE F faded(F v) {
 }
 
 /// `normal`: of the surface, unit.
-HALFLIT_INLINE Hidden hidden_share(const shading::ShadowMapPlan& map, V3 position, V3 normal, V3 to_light, ShadowFade fade, bool soft) {
+HALFLIT_INLINE HiddenShares hidden_share(const shading::ShadowMapPlan& map, V3 position, V3 normal, V3 to_light, ShadowFade fade, bool soft) {
     const F cosine = dot(normal, to_light);
     const F sine = vsqrt(vmax(F(1.0f) - cosine * cosine, F(0.0f)));
     F texel(map.texel_size);
@@ -105,7 +105,7 @@ HALFLIT_INLINE Hidden hidden_share(const shading::ShadowMapPlan& map, V3 positio
         if (soft) soft_row[j] = (gone[1] + gone[2]) + mad(fu, gone[3] - gone[0], gone[0]);
     }
     const F ninth(1.0f / 9.0f), none(0.0f);
-    Hidden hidden;
+    HiddenShares hidden;
     hidden.hard = sel(at.inside, ((hard_row[1] + hard_row[2]) + mad(fv, hard_row[3] - hard_row[0], hard_row[0])) * ninth, none);
     hidden.soft = hidden.hard;
     if (soft) hidden.soft = sel(at.inside, ((soft_row[1] + soft_row[2]) + mad(fv, soft_row[3] - soft_row[0], soft_row[0])) * ninth, none);

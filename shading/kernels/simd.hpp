@@ -222,7 +222,7 @@ HALFLIT_INLINE F vfloor(F x) {
 /// max(lo, min(x, hi)); NaN gives lo.
 HALFLIT_INLINE F clamp(F x, F lo, F hi) { return vmin(vmax(x, lo), hi); }
 
-// ---- Q: one record of four floats (a vertex quad, a texel), 128 bits wide on every set --------------------------
+// ---- Q: one record of four floats (an attribute slot of a vertex, a texel), 128 bits wide on every set --------------------------
 
 #if !defined(HALFLIT_ARCH)
 

@@ -68,7 +68,7 @@ HALFLIT_INLINE Reflectance reflectance(const shading::MaterialPlan& material, co
 }
 
 /// Unit vector from the surface to the viewer.
-HALFLIT_INLINE V3 view_vector(const shading::FramePlan& frame, V3 position) {
+HALFLIT_INLINE V3 view_vector(const shading::ShadingPlan& frame, V3 position) {
     if (frame.orthographic) return V3{F(0.0f), F(0.0f), F(0.0f)} - broadcast(frame.view_direction_ws);
     return normalize_any(broadcast(frame.eye_ws) - position);
 }

@@ -14,9 +14,9 @@ struct EnvironmentPlan {
     float red[sh::kMaxCoefficients]{}, green[sh::kMaxCoefficients]{}, blue[sh::kMaxCoefficients]{};
 
     /// The same sum as the kernels read it. With N = (x, y, z) it is a polynomial in z for each part of each power (x + iy)^m, of degree
-    /// bands - 1 - m, nested about kNodes: ((a[k] (z - node[k-1]) + a[k-1]) (z - node[k-2]) + ..) + a[0]. Coefficients in the order of use:
+    /// bands - 1 - m, in Newton form about kNodes: ((a[k] (z - node[k-1]) + a[k-1]) (z - node[k-2]) + ..) + a[0]. Coefficients in the order of use:
     /// m ascending, the degree descending; of each, red, green, blue of the real part and then, from m = 1 on, of the imaginary part.
-    alignas(64) float nested[3 * sh::kMaxCoefficients]{};
+    alignas(64) float newton[3 * sh::kMaxCoefficients]{};
 };
 
 /// About 0 alone (Horner's rule) the coefficients of ten bands are hundreds of times larger than the sum, which costs as many digits. These

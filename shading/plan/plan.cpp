@@ -10,8 +10,8 @@
 namespace halflit::shading {
 namespace {
 
-constexpr QuadMask quad(int index) { return 1u << index; }
-constexpr QuadMask kNormalAndUv0Quads = quad(0) | quad(1), kTangentQuad = quad(2), kColorQuad = quad(3);
+constexpr SlotMask slot(int index) { return 1u << index; }
+constexpr SlotMask kNormalAndUv0Slots = slot(0) | slot(1), kTangentSlot = slot(2), kColorSlot = slot(3);
 
 bool finite(float x) { return x - x == 0.0f; }
 bool finite(Vec3f v) { return finite(v.x) && finite(v.y) && finite(v.z); }
@@ -22,7 +22,7 @@ float clamp_or_low(float x, float lo, float hi) { return x > lo ? (x < hi ? x : 
 
 // ---- textures ------------------------------------------------------------------------------------------------------
 
-TexturePlan plan_texture(const TextureUse& use, std::span<const Texture> textures, QuadMask available, TextureDetail detail) {
+TexturePlan plan_texture(const TextureUse& use, std::span<const Texture> textures, SlotMask available, TextureDetail detail) {
     TexturePlan plan{};
     if (use.texture < 0 || static_cast<std::size_t>(use.texture) >= textures.size()) return plan;
     const Texture& texture = textures[static_cast<std::size_t>(use.texture)];
@@ -37,7 +37,7 @@ TexturePlan plan_texture(const TextureUse& use, std::span<const Texture> texture
     }
     plan.uv_set = use.uv_set == 1 ? 1 : 0;
     Vec3f row_u = use.row_u, row_v = use.row_v;
-    if (plan.uv_set == 1 && (available & quad(4)) == 0) {
+    if (plan.uv_set == 1 && (available & slot(4)) == 0) {
         // No primitive brings this set: it reads as (0, 0), which the transform moves.
         plan.uv_set = 0;
         row_u = {0, 0, row_u.z};
@@ -151,23 +151,23 @@ void plan_as_parallel_if_far(const Light& light, LightPlan& plan) {
     const double distance_squared = dot(p, p);
     if (plan.type == LightType::directional || distance_squared < kFar * kFar) return;
     const Vec3d to_light = p * (1.0 / __builtin_sqrt(distance_squared));
-    double strength = 1.0 / distance_squared;
+    double attenuation = 1.0 / distance_squared;
     if (light.range > 0.0f && finite(light.range)) {
         const double in_range = distance_squared / (static_cast<double>(light.range) * static_cast<double>(light.range));
-        strength *= std::max(0.0, 1.0 - in_range * in_range);
+        attenuation *= std::max(0.0, 1.0 - in_range * in_range);
     }
     if (plan.type == LightType::spot) {
         const Vec3d off_axis = to_light - Vec3d{plan.to_light[0], plan.to_light[1], plan.to_light[2]};
         const double off = 0.5 * dot(off_axis, off_axis);  // 1 - cos of the angle to the axis
         const double cone = std::clamp((static_cast<double>(plan.cone_cutoff) - off) * static_cast<double>(plan.cone_scale), 0.0, 1.0);
-        strength *= cone * cone;
-        if (plan.half_cone_power > 0.0f) strength *= power_of(1.0 - off, 2.0 * static_cast<double>(plan.half_cone_power));
+        attenuation *= cone * cone;
+        if (plan.half_cone_power > 0.0f) attenuation *= power_of(1.0 - off, 2.0 * static_cast<double>(plan.half_cone_power));
     }
     plan.type = LightType::directional;
     plan.to_light[0] = static_cast<float>(to_light.x), plan.to_light[1] = static_cast<float>(to_light.y);
     plan.to_light[2] = static_cast<float>(to_light.z);
     const auto arriving = [&](float channel) {
-        const double value = static_cast<double>(channel) * strength;
+        const double value = static_cast<double>(channel) * attenuation;
         return value > 1e-37 ? static_cast<float>(value) : 0.0f;  // denormals are slow
     };
     for (float& channel : plan.color) channel = arriving(channel);
@@ -180,22 +180,22 @@ struct FrameFacts {
     bool lights, ambient, specular;
 };
 
-QuadMask quads_of(const MaterialPlan& plan, bool lit) {
-    QuadMask quads = lit ? kNormalAndUv0Quads : 0u;
-    if ((plan.stages & kStageNormalMap) != 0) quads |= kTangentQuad;
-    if ((plan.stages & kStageVertexColor) != 0) quads |= kColorQuad;
+SlotMask slots_of(const MaterialPlan& plan, bool lit) {
+    SlotMask slots = lit ? kNormalAndUv0Slots : 0u;
+    if ((plan.stages & kStageNormalMap) != 0) slots |= kTangentSlot;
+    if ((plan.stages & kStageVertexColor) != 0) slots |= kColorSlot;
     const auto add = [&](Stage stage, const TexturePlan& texture) {
-        if ((plan.stages & stage) != 0) quads |= texture.uv_set == 1 ? quad(4) : quad(1);
+        if ((plan.stages & stage) != 0) slots |= texture.uv_set == 1 ? slot(4) : slot(1);
     };
     add(kStageBaseColorTexture, plan.base_color_texture);
     add(kStageMetallicRoughnessTexture, plan.metallic_roughness_texture);
     add(kStageNormalMap, plan.normal_texture);
     add(kStageOcclusionTexture, plan.occlusion_texture);
     add(kStageEmissiveTexture, plan.emissive_texture);
-    return quads;
+    return slots;
 }
 
-MaterialPlan plan_material(const Material& material, std::span<const Texture> textures, QuadMask available, const FrameFacts& frame,
+MaterialPlan plan_material(const Material& material, std::span<const Texture> textures, SlotMask available, const FrameFacts& frame,
                            const PlanOptions& options) {
     MaterialPlan plan;
     plan.base_color[0] = material.base_color.x, plan.base_color[1] = material.base_color.y;
@@ -207,8 +207,8 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
     plan.occlusion_strength = clamp_or_low(material.occlusion_strength, 0.0f, 1.0f);
     plan.alpha_mode = material.alpha_mode;
     plan.alpha_cutoff = material.alpha_cutoff;
-    plan.highlight_tier = tier_of(options.accuracy);
-    plan.lobe = plan_lobe(lobe_of(material, options), plan.highlight_tier);
+    plan.specular_tier = tier_of(options.accuracy);
+    plan.lobe = plan_lobe(lobe_of(material, options), plan.specular_tier);
 
     const bool lit = !material.unlit && (frame.lights || frame.ambient);
     plan.double_sided = material.double_sided && lit;
@@ -230,16 +230,16 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
     use_texture(base_color_seen, kStageBaseColorTexture, material.base_color_texture, plan.base_color_texture);
     use_texture(lit && frame.specular, kStageMetallicRoughnessTexture, material.metallic_roughness_texture,
                 plan.metallic_roughness_texture);
-    use_texture(lit && (available & kTangentQuad) != 0, kStageNormalMap, material.normal_texture, plan.normal_texture);
+    use_texture(lit && (available & kTangentSlot) != 0, kStageNormalMap, material.normal_texture, plan.normal_texture);
     use_texture(lit && frame.ambient && plan.occlusion_strength > 0.0f, kStageOcclusionTexture, material.occlusion_texture,
                 plan.occlusion_texture);
     use_texture(!material.unlit && !zero(material.emissive), kStageEmissiveTexture, material.emissive_texture, plan.emissive_texture);
     if (gradients) plan.stages |= kStageGradients;
-    if (base_color_seen && (available & kColorQuad) != 0) plan.stages |= kStageVertexColor;
+    if (base_color_seen && (available & kColorSlot) != 0) plan.stages |= kStageVertexColor;
     plan.occlusion_is_metallic_roughness = (plan.stages & kStageOcclusionTexture) != 0 &&
                                            (plan.stages & kStageMetallicRoughnessTexture) != 0 &&
                                            same_fetch(plan.occlusion_texture, plan.metallic_roughness_texture);
-    plan.quads = quads_of(plan, lit);
+    plan.slots = slots_of(plan, lit);
     return plan;
 }
 
@@ -256,12 +256,12 @@ public:
     }
 
     /// A stand-in for reflections, so twice the error is allowed.
-    int mirrored(float roughness) {
+    int specular(float roughness) {
         EnvironmentOrder order = order_;
         order.tolerance *= 2.0;
         order.codes *= 0.5;
         order.ten_bands_are_all = true;
-        return find(mirrored_lobe(roughness), order);
+        return find(specular_environment_lobe(roughness), order);
     }
 
 private:
@@ -281,11 +281,11 @@ private:
 
 }  // namespace
 
-FramePlan make_frame_plan(std::span<const Material> materials, std::span<const Texture> textures, std::span<const QuadMask> available_quads,
+ShadingPlan plan_shading(std::span<const Material> materials, std::span<const Texture> textures, std::span<const SlotMask> available_slots,
                           std::span<const Light> lights, const Ambient& ambient, const PlanOptions& options,
                           EnvironmentPlans* environment) {
-    HALFLIT_ASSERT(available_quads.size() == materials.size() + 1);
-    FramePlan plan;
+    HALFLIT_ASSERT(available_slots.size() == materials.size() + 1);
+    ShadingPlan plan;
     for (std::size_t i = 0; i < lights.size(); ++i) {
         if (!contributes(lights[i])) continue;
         plan.lights.push_back(plan_light(lights[i]));
@@ -294,13 +294,13 @@ FramePlan make_frame_plan(std::span<const Material> materials, std::span<const T
     }
     plan.ambient = ambient;
     const FrameFacts facts{!plan.lights.empty(), environment != nullptr || !zero(ambient.sky_linear) || !zero(ambient.ground_linear),
-                           options.highlight != Highlight::none};
-    plan.highlight = options.highlight;
-    plan.normalize_highlight = options.normalize_highlight;
+                           options.specular != SpecularModel::none};
+    plan.specular = options.specular;
+    plan.normalize_specular = options.normalize_specular;
     plan.materials.reserve(materials.size() + 1);
     for (std::size_t i = 0; i <= materials.size(); ++i)
         plan.materials.push_back(
-            plan_material(i < materials.size() ? materials[i] : Material{}, textures, available_quads[i], facts, options));
+            plan_material(i < materials.size() ? materials[i] : Material{}, textures, available_slots[i], facts, options));
     if (environment == nullptr) return plan;
     EnvironmentPlanner planner(*environment, options.environment_order, plan.environments);
     for (MaterialPlan& material : plan.materials) {
@@ -311,7 +311,7 @@ FramePlan make_frame_plan(std::span<const Material> materials, std::span<const T
     // Last: roughness 1 mirrors with Lambert's lobe, and a Lambert surface must not get the larger error that mirrors are allowed.
     for (MaterialPlan& material : plan.materials)
         if ((material.stages & kStageEnvironment) != 0 && (material.stages & kStageSpecular) != 0)
-            material.mirrored_environment = planner.mirrored(material.roughness);
+            material.specular_environment = planner.specular(material.roughness);
     return plan;
 }
 

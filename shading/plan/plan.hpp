@@ -49,7 +49,7 @@ struct LobePlan {
 };
 
 /// (cos^2)^(s/2) as p(cos^2) squared so many times, p(x) = ((c[3] x + c[2]) x + c[1]) x + c[0] (power_fit.hpp).
-struct HighlightCurve {
+struct SpecularCurve {
     std::int32_t squarings = -1;  ///< -1: none, the power is taken by log2 and exp2
     float c[4] = {};
     float least = 1;  ///< of cos^2; where it is smaller there is no highlight
@@ -75,7 +75,7 @@ enum Stage : std::uint32_t {
 
 struct MaterialPlan {
     std::uint32_t stages = 0;
-    QuadMask quads = 0;  ///< vertex quads that raster interpolates
+    SlotMask slots = 0;  ///< vertex slots that raster interpolates
     float base_color[4] = {1, 1, 1, 1};
     float metallic = 0, roughness = 1;
     float emissive[3] = {0, 0, 0};
@@ -84,15 +84,15 @@ struct MaterialPlan {
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
     LobePlan lobe;
-    PowTier highlight_tier = PowTier::exact;
+    PowTier specular_tier = PowTier::exact;
     /// A light's highlight, before the reflectance, is left out where it is surely below this; 0: only where it is exactly 0.
-    float highlight_threshold = 0;
-    HighlightCurve highlight_curve;
+    float specular_threshold = 0;
+    SpecularCurve specular_curve;
     /// 1 / d0: wrapped light is gone where its blocker is d0 away; 0: no wrapped light.
     float shadow_fade_scale = 0;
     /// Times -N.L: the share of d0 that a body which turns away from the light by N.L is thick, and that it does not shade itself by.
     float shadow_turn_scale = 0;
-    int environment = -1, mirrored_environment = -1;  ///< indices into FramePlan::environments
+    int environment = -1, specular_environment = -1;  ///< indices into ShadingPlan::environments
     bool occlusion_is_metallic_roughness = false;  ///< both read the same texels the same way: one fetch serves both
     TexturePlan base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;
 };
@@ -107,27 +107,27 @@ struct LightPlan {
     float inv_range_squared;     ///< 1 / range^2; 0: no limit
     float min_distance_squared;  ///< source radius squared
     float cone_cutoff;           ///< spot: 1 - cos(outer angle)
-    std::int32_t shadow_map = -1;  ///< index into FramePlan::shadow_maps; -1: casts no shadow
+    std::int32_t shadow_map = -1;  ///< index into ShadingPlan::shadow_maps; -1: casts no shadow
     float cone_scale;            ///< spot: 1 / (cos(inner) - cos(outer)); see kernels/light_kernel.hpp
     float half_cone_power;       ///< spot: half the power of the cosine; 0: none
-    float reach_squared;         ///< point, spot: left out from this distance on, squared; 0: no limit but the range
+    float cutoff_squared;         ///< point, spot: left out from this distance on, squared; 0: no limit but the range
     float brightness;            ///< the largest channel of the colour
 };
 
 /// Shape of the highlight. Phong looks at the mirrored light, Blinn at the half vector; both with the exponent that gives the same
 /// width, four times larger for Blinn.
-enum class Highlight : std::uint8_t { none, phong, blinn };
+enum class SpecularModel : std::uint8_t { none, phong, blinn };
 
 /// Everything about the frame that shading needs, the same for all fragments.
-struct FramePlan {
+struct ShadingPlan {
     std::vector<MaterialPlan> materials;  ///< index = index of Scene material; one more at the end for "no material"
     std::vector<LightPlan> lights;        ///< in list order: sums keep it; black lights and those not finite are left out
     std::vector<ShadowMapPlan> shadow_maps;
     std::vector<EnvironmentPlan> environments;  ///< one for each lobe that meets the environment
     ShadowMode shadow_mode = ShadowMode::off;
     bool shadow_offset = false;  ///< shadows are looked up off the position: raster fills the kShadowX.. rows
-    Highlight highlight = Highlight::blinn;
-    bool normalize_highlight = true;
+    SpecularModel specular = SpecularModel::blinn;
+    bool normalize_specular = true;
     Ambient ambient;
     Vec3f eye_ws{0, 0, 0};              ///< perspective: camera position
     Vec3f view_direction_ws{0, 0, -1};  ///< orthographic: the way the camera looks, unit
@@ -156,8 +156,8 @@ struct PlanOptions {
     ShadingRate rate = ShadingRate::pixel;
     bool override_lobe = false;  ///< use `lobe` for all materials that do not bring their own
     Lobe lobe;
-    Highlight highlight = Highlight::blinn;  ///< none: no specular stage, albedo is the base colour itself
-    bool normalize_highlight = true;         ///< times (s + 8) / 8, so that sharper highlights are brighter; off: a peak of 1 for every exponent
+    SpecularModel specular = SpecularModel::blinn;  ///< none: no specular stage, albedo is the base colour itself
+    bool normalize_specular = true;         ///< times (s + 8) / 8, so that sharper highlights are brighter; off: a peak of 1 for every exponent
     EnvironmentOrder environment_order;
     Accuracy accuracy = Accuracy::exact;
     double max_error_codes = 0.0;  ///< 0: as `accuracy` says; otherwise the cheapest whose bound is below this (error_budget.hpp)
@@ -170,9 +170,9 @@ struct PlanOptions {
 }
 
 /// Materials without vertex data that they ask for (texture coordinates, colours, tangents) must be planned without it:
-/// `available_quads[i]` is the union of what the primitives of material i bring.
-[[nodiscard]] FramePlan make_frame_plan(std::span<const Material> materials, std::span<const Texture> textures,
-                                        std::span<const QuadMask> available_quads, std::span<const Light> lights, const Ambient& ambient,
+/// `available_slots[i]` is the union of what the primitives of material i bring.
+[[nodiscard]] ShadingPlan plan_shading(std::span<const Material> materials, std::span<const Texture> textures,
+                                        std::span<const SlotMask> available_slots, std::span<const Light> lights, const Ambient& ambient,
                                         const PlanOptions& options, EnvironmentPlans* environment = nullptr);
 
 }  // namespace halflit::shading

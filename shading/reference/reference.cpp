@@ -54,7 +54,7 @@ Rgba sample_level(const Texture& texture, const TextureLevel& level, const Sampl
 }
 
 /// A material's texture at a lane; `fallback` where it is not used.
-Rgba material_texture(const Frame& frame, const TextureUse& use, QuadMask available, const FragmentBlock& block, int lane,
+Rgba material_texture(const Frame& frame, const TextureUse& use, SlotMask available, const FragmentBlock& block, int lane,
                       const Rgba& fallback) {
     if (use.texture < 0 || static_cast<std::size_t>(use.texture) >= frame.textures.size()) return fallback;
     const Texture& texture = frame.textures[static_cast<std::size_t>(use.texture)];
@@ -72,10 +72,10 @@ struct Surface {
     double roughness, occlusion;
 };
 
-/// Unit direction and strength of a light at a point.
+/// Unit direction and attenuation of a light at a point.
 struct Arrival {
     Vec3d direction;
-    double strength;
+    double attenuation;
 };
 Arrival arrival(const Light& light, Vec3d position) {
     const Vec3d travel = unit(to_double(light.direction_ws));
@@ -84,17 +84,17 @@ Arrival arrival(const Light& light, Vec3d position) {
     const double distance = std::hypot(offset.x, offset.y, offset.z);
     const Vec3d direction = unit(offset);
     const double radius = std::max(1e-4, double{light.source_radius});
-    double strength = 1.0 / std::max(distance * distance, radius * radius);
-    if (light.range > 0) strength *= std::clamp(1.0 - std::pow(distance / double{light.range}, 4.0), 0.0, 1.0);
+    double attenuation = 1.0 / std::max(distance * distance, radius * radius);
+    if (light.range > 0) attenuation *= std::clamp(1.0 - std::pow(distance / double{light.range}, 4.0), 0.0, 1.0);
     if (light.type == LightType::spot) {
         const double cosine = -dot(direction, travel);
         const double outer = std::cos(double{light.outer_cone_rad});
         const double inner = std::cos(std::min(double{light.inner_cone_rad}, double{light.outer_cone_rad}));
         const double cone = inner > outer ? std::clamp((cosine - outer) / (inner - outer), 0.0, 1.0) : (cosine > outer ? 1.0 : 0.0);
-        strength *= cone * cone;
-        if (light.cone_power > 0) strength *= std::pow(std::max(cosine, 0.0), double{light.cone_power});
+        attenuation *= cone * cone;
+        if (light.cone_power > 0) attenuation *= std::pow(std::max(cosine, 0.0), double{light.cone_power});
     }
-    return {direction, strength};
+    return {direction, attenuation};
 }
 
 Vec3d hemisphere(const Ambient& ambient, double up) {
@@ -106,7 +106,7 @@ double environment_share(double f0, double roughness, double n_dot_v) {
     return f0 + (std::max(1.0 - roughness, f0) - f0) * std::pow(1.0 - std::clamp(n_dot_v, 0.0, 1.0), 5.0);
 }
 
-Vec3d shading_normal(const Frame& frame, const Material& material, QuadMask available, const FragmentBlock& block, int lane) {
+Vec3d shading_normal(const Frame& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane) {
     Vec3d normal = unit(row3(block, kNormalX, lane));
     if (material.normal_texture.used() && (available & 4u) != 0) {
         const Rgba c = material_texture(frame, material.normal_texture, available, block, lane, {0.5, 0.5, 1, 1});
@@ -119,7 +119,7 @@ Vec3d shading_normal(const Frame& frame, const Material& material, QuadMask avai
 }
 
 Vec3d lit(const Frame& frame, const Material& material, const Surface& surface, Vec3d position, const Surroundings& around) {
-    const bool specular = frame.options.highlight != Highlight::none;
+    const bool specular = frame.options.specular != SpecularModel::none;
     const Lobe& lobe = lobe_of(material, frame.options);
     const double alpha = std::pow(std::max(surface.roughness, 0.07), 2.0), s = 2.0 / (alpha * alpha) - 2.0;
     Vec3d sum{};
@@ -130,23 +130,23 @@ Vec3d lit(const Frame& frame, const Material& material, const Surface& surface, 
         const Hidden hidden = around.hidden.empty() ? Hidden{} : around.hidden[i];
         Vec3d reflected = scale(surface.albedo, shadowed_lobe(lobe, n_dot_l, hidden, frame.shadow_mode));
         if (specular && n_dot_l > 0) {
-            const bool phong = frame.options.highlight == Highlight::phong;
-            const Vec3d mirrored = scale(surface.normal, 2 * n_dot_l) - at.direction;
-            const double cosine = phong ? dot(surface.to_eye, unit(mirrored)) : dot(surface.normal, unit(at.direction + surface.to_eye));
-            const double factor = frame.options.normalize_highlight ? (s + 8) / 8 : 1.0;
+            const bool phong = frame.options.specular == SpecularModel::phong;
+            const Vec3d reflection = scale(surface.normal, 2 * n_dot_l) - at.direction;
+            const double cosine = phong ? dot(surface.to_eye, unit(reflection)) : dot(surface.normal, unit(at.direction + surface.to_eye));
+            const double factor = frame.options.normalize_specular ? (s + 8) / 8 : 1.0;
             if (cosine > 0)
                 reflected = reflected + scale(surface.f0, factor * std::pow(std::min(cosine, 1.0), phong ? s / 4 : s) * n_dot_l * (1.0 - hidden.hard));
         }
-        sum = sum + scale(reflected * to_double(light.color_linear), at.strength);
+        sum = sum + scale(reflected * to_double(light.color_linear), at.attenuation);
     }
-    const bool environment = around.diffuse != nullptr && around.mirrored != nullptr;
+    const bool environment = around.diffuse != nullptr && around.specular != nullptr;
     Vec3d ambient = surface.albedo * (environment ? around.diffuse->at(surface.normal) : hemisphere(frame.ambient, surface.normal.y));
     if (specular) {
         const double n_dot_v = dot(surface.normal, surface.to_eye), roughness = std::max(surface.roughness, 0.07);
-        const Vec3d mirrored = scale(surface.normal, 2 * n_dot_v) - surface.to_eye;
+        const Vec3d reflection = scale(surface.normal, 2 * n_dot_v) - surface.to_eye;
         const Vec3d share{environment_share(surface.f0.x, roughness, n_dot_v), environment_share(surface.f0.y, roughness, n_dot_v),
                           environment_share(surface.f0.z, roughness, n_dot_v)};
-        ambient = ambient + share * (environment ? around.mirrored->at(mirrored) : hemisphere(frame.ambient, mirrored.y));
+        ambient = ambient + share * (environment ? around.specular->at(reflection) : hemisphere(frame.ambient, reflection.y));
     }
     return sum + scale(ambient, surface.occlusion);
 }
@@ -184,7 +184,7 @@ double level_of_detail(const Texture& texture, const TextureUse& use, const Frag
     return std::log2(std::max(length(first), length(first + 2)));
 }
 
-Rgba shade(const Frame& frame, const Material& material, QuadMask available, const FragmentBlock& block, int lane,
+Rgba shade(const Frame& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
            const Surroundings& around) {
     const Rgba white{1, 1, 1, 1};
     Rgba base = material_texture(frame, material.base_color_texture, available, block, lane, white);
@@ -206,7 +206,7 @@ Rgba shade(const Frame& frame, const Material& material, QuadMask available, con
     surface.occlusion = 1.0 + double{material.occlusion_strength} * (occlusion.r - 1.0);
     surface.to_eye = frame.orthographic ? scale(to_double(frame.view_direction_ws), -1) : unit(to_double(frame.eye_ws) - position);
     surface.albedo = surface.base;
-    if (frame.options.highlight != Highlight::none) {
+    if (frame.options.specular != SpecularModel::none) {
         const double metallic = material.metallic * mr.b;
         surface.albedo = scale(surface.base, (1 - metallic) * 0.96);
         surface.f0 = scale(surface.base, metallic) + scale({1, 1, 1}, 0.04 * (1 - metallic));

@@ -40,9 +40,9 @@ struct Frame {
 struct Surroundings {
     /// For each light, what shadows hide of it; empty: nothing.
     std::span<const Hidden> hidden;
-    /// Instead of the two-colour ambient light, where both are given: of a normal, and of the mirrored view.
+    /// Instead of the two-colour ambient light, where both are given: of a normal, and of the reflected view.
     const Irradiance* diffuse = nullptr;
-    const Irradiance* mirrored = nullptr;
+    const Irradiance* specular = nullptr;
 };
 
 /// f(x; w, n) with its scale, by std::pow.
@@ -54,8 +54,8 @@ struct Surroundings {
 /// log2 of the longer side of the footprint that the kDu.. rows of `uv_set` describe, in texels of level 0.
 [[nodiscard]] double level_of_detail(const Texture& texture, const TextureUse& use, const FragmentBlock& block, int lane);
 
-/// The colour and alpha of one lane. `available` as in make_frame_plan.
-[[nodiscard]] Rgba shade(const Frame& frame, const Material& material, QuadMask available, const FragmentBlock& block, int lane,
+/// The colour and alpha of one lane. `available` as in plan_shading.
+[[nodiscard]] Rgba shade(const Frame& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
                          const Surroundings& around = {});
 
 /// The sRGB curve times 255, not rounded; x is clamped to [0, 1].

@@ -140,10 +140,10 @@ TEST_CASE("report: an environment's orders and bounds, as info has them", "[cli]
     const auto both = environment_of({});
     const auto info = json_of(run({"info", "sphere:500", "--env", "sky", "--json"}).out)["materials"][0];
     REQUIRE(both.size() == 2);
-    CHECK(both[1]["light"] == "mirrored");
+    CHECK(both[1]["light"] == "specular");
     CHECK(info["environment"]["order"] == both[0]["order"]);
     CHECK(info["environment"]["bound_linear"] == both[0]["bound_linear"]);
-    CHECK(info["mirrored_environment"]["order"] == both[1]["order"]);
+    CHECK(info["specular_environment"]["order"] == both[1]["order"]);
     CHECK(info["requires"].dump().find("environment") != std::string::npos);
     CHECK(json_of(run({"info", "sphere:500", "--json"}).out)["materials"][0].count("environment") == 0);
 }

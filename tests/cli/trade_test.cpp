@@ -101,7 +101,7 @@ TEST_CASE("trade: page, table and report are complete, and tell of the same rows
                                 "shadows",
                                 "shadow_size",
                                 "lobes_computed_as",
-                                "highlight_power",
+                                "specular_power",
                                 "frames",
                                 "ms",
                                 "ratio",

@@ -18,8 +18,8 @@ std::int64_t snapped(float ndc, int size, Viewport viewport) {
 }
 
 Corner corner_of(Vec4f clip, int width, int height, Viewport viewport) {
-    const float rhw = 1.0f / clip.w;
-    return {snapped(clip.x * rhw, width, viewport), snapped(-(clip.y * rhw), height, viewport)};
+    const float inv_w = 1.0f / clip.w;
+    return {snapped(clip.x * inv_w, width, viewport), snapped(-(clip.y * inv_w), height, viewport)};
 }
 
 /// Twice the area of (a, b, p): positive for p to the right of a -> b as seen with y down, where a clockwise triangle has its inside.

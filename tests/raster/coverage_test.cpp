@@ -214,7 +214,7 @@ TEST_CASE("coverage: triangles that share edges cover every sample once", "[rast
         const SamplePattern pattern = standard_samples(round % 4 == 0 ? 4 : 1);
         const Place place(random, tile);
         const RasterKernels& kernels = raster_kernels(isas[static_cast<std::size_t>(round) % isas.size()]);
-        // A grid of quads with shaken corners (less than a quarter cell, so that none turns over) and random diagonals; from cells below a
+        // A grid of slots with shaken corners (less than a quarter cell, so that none turns over) and random diagonals; from cells below a
         // pixel to larger than the tile; some of it exactly on pixel centres.
         const std::int64_t cell = random.chance(0.3) ? 256 * random.integer(1, 8) : random.integer(40, 256 * 24);
         const std::int64_t shake = random.chance(0.3) ? 0 : cell / 4 - 1;

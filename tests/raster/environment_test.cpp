@@ -44,7 +44,7 @@ struct Patches {
 
     std::vector<Vec3d> drawn(int order, RenderReport* report = nullptr) const {
         Settings settings;
-        settings.shading.highlight = shading::Highlight::none;
+        settings.shading.specular = shading::SpecularModel::none;
         settings.shading.environment_order.fixed = order;
         std::vector<float> rgba(4 * kSide * kSide);
         const auto done = render(scene, camera_flat(), settings, {kSide, kSide, nullptr, rgba.data()});
@@ -113,16 +113,16 @@ TEST_CASE("environment: Valve's lobe takes three bands, and nothing above them i
     CHECK(report.environment[0].bands == 3);
     CHECK(report.environment[0].bound == 0.0);
     CHECK(report.environment[0].within);
-    CHECK_FALSE(report.environment[0].mirrored);
+    CHECK_FALSE(report.environment[0].specular);
     // What the plan has above its bands is not read: not-a-number there would spread.
     shading::EnvironmentPlan plan = shading::plan_environment(*environment, {1.0, 2.0, 1.0}, {});
-    shading::FramePlan frame;
+    shading::ShadingPlan frame;
     for (int i = 9; i < sh::kMaxCoefficients; ++i) {
         CHECK(plan.red[i] == 0.0f);
     }
     for (int i = 3 * 9; i < 3 * sh::kMaxCoefficients; ++i) {
-        CHECK(plan.nested[i] == 0.0f);
-        plan.nested[i] = std::numeric_limits<float>::quiet_NaN();
+        CHECK(plan.newton[i] == 0.0f);
+        plan.newton[i] = std::numeric_limits<float>::quiet_NaN();
     }
     frame.environments.push_back(plan);
     shading::MaterialPlan material;
@@ -197,7 +197,7 @@ TEST_CASE("environment: a scene that turns with its environment keeps its light,
     materials[2].lobe = shading::Lobe::valve();
     for (shading::Material& material : materials) material.metallic = 0, material.roughness = 1;
     materials[3].metallic = 0.5f, materials[3].roughness = 0.6f;
-    const std::vector<shading::QuadMask> quads(materials.size() + 1, 3u);
+    const std::vector<shading::SlotMask> slots(materials.size() + 1, 3u);
     const auto normals = random_normals(shading::kBlockSize, 24), places = random_normals(shading::kBlockSize, 25);
     const Vec3d eye{0.4, 1.1, 3.0};
     double worst_of_all = 0;
@@ -210,7 +210,7 @@ TEST_CASE("environment: a scene that turns with its environment keeps its light,
             const auto shaded = [&](const shading::Environment& environment, const sh::Rotation& by, std::size_t material,
                                     shading::Isa isa) {
                 shading::EnvironmentPlans plans(environment);
-                auto plan = shading::make_frame_plan(materials, {}, quads, environment.suns, {}, options, &plans);
+                auto plan = shading::plan_shading(materials, {}, slots, environment.suns, {}, options, &plans);
                 const auto narrow = [](Vec3d v) {
                     return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
                 };
@@ -247,7 +247,7 @@ TEST_CASE("environment: a scene that turns with its environment keeps its light,
     CHECK(worst_of_all > 0);
 }
 
-TEST_CASE("environment: nested polynomials keep the digits of the series, at every order", "[raster][environment]") {
+TEST_CASE("environment: polynomials in Newton form keep the digits of the series, at every order", "[raster][environment]") {
     // Bands of equal size, the worst case: a real lobe weakens the upper ones. Poles and equator are the ends of the polynomials.
     auto normals = random_normals(61, 52);
     normals.push_back({0, 0, 1});
@@ -257,12 +257,12 @@ TEST_CASE("environment: nested polynomials keep the digits of the series, at eve
     for (int order = 1; order <= sh::kMaxBands; ++order) {
         double worst = 0;
         for (int round = 0; round < 50; ++round) {
-            shading::FramePlan frame;
+            shading::ShadingPlan frame;
             shading::EnvironmentPlan plan;
             plan.bands = order;
             for (int i = 0; i < sh::coefficient_count(order); ++i)
                 plan.red[i] = random.real32(-1, 1), plan.green[i] = random.real32(-1, 1), plan.blue[i] = random.real32(-1, 1);
-            shading::nest_coefficients(plan);
+            shading::make_newton_form(plan);
             frame.environments.push_back(plan);
             shading::MaterialPlan material;
             material.stages = shading::kStageAmbient | shading::kStageEnvironment;
@@ -290,13 +290,13 @@ TEST_CASE("environment: every instruction set gives the same bits at every order
     shading::Material material;
     material.metallic = 0.3f;
     material.roughness = 0.4f;
-    const shading::QuadMask quads[] = {3u, 3u};
+    const shading::SlotMask slots[] = {3u, 3u};
     Random random(32);
     for (int order = 1; order <= sh::kMaxBands; ++order) {
         shading::PlanOptions options;
         options.environment_order.fixed = order;
         shading::EnvironmentPlans plans(*environment);
-        const auto plan = shading::make_frame_plan({&material, 1}, {}, quads, environment->suns, {}, options, &plans);
+        const auto plan = shading::plan_shading({&material, 1}, {}, slots, environment->suns, {}, options, &plans);
         REQUIRE(plan.environments.front().bands == order);
         for (int round = 0; round < 20; ++round) {
             shading::FragmentBlock input{};

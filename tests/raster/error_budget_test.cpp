@@ -57,7 +57,7 @@ TEST_CASE("error budget: no random scene is off by more than was promised, nor b
         const double measured = largest_codes(picture, truth);
         const shading::ErrorBound& error = picture.report.error;
         INFO("seed " << seed << ", budget " << budget << ", bound " << error.codes << " = rounding " << error.rounding << " + lobes " << error.lobes
-                     << " + highlights " << error.highlights << " + environment " << error.environment << " + left out " << error.left_out
+                     << " + specular " << error.specular << " + environment " << error.environment << " + left out " << error.left_out
                      << ", measured " << measured << ", lights " << trial.scene.lights.size());
         CHECK(error.budget == budget);
         CHECK(error.within == (error.codes <= budget));

@@ -372,7 +372,7 @@ TEST_CASE("frame: a mirrored placing keeps its outside outside and its light", "
     light.direction_ws = {0, 0, -1};
     b.scene.lights.push_back(light);
     Settings settings;
-    settings.shading.highlight = shading::Highlight::none;
+    settings.shading.specular = shading::SpecularModel::none;
     const Picture right = draw(b.scene, settings);
     b.scene.instances[0].world_from_object = scaling({-1, 1, 1});
     const Picture left = draw(b.scene, settings);

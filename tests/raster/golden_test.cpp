@@ -43,7 +43,7 @@ std::vector<Variant> variants() {
     add("hard-shadows-wrapped").shadows = shading::ShadowMode::hard;
     all.back().settings.shading.override_lobe = true;
     all.back().settings.shading.lobe = shading::Lobe::sloan(0.3f);
-    add("matte").shading.highlight = shading::Highlight::none;
+    add("matte").shading.specular = shading::SpecularModel::none;
     add("fast").shading.accuracy = shading::Accuracy::fast;
     all.back().settings.shading.override_lobe = true;
     all.back().settings.shading.lobe = shading::Lobe::sloan(0.3f);

@@ -21,7 +21,7 @@ using halflit::test::available_isas;
 namespace {
 
 constexpr int kWidth = 1920, kHeight = 1080;
-constexpr shading::QuadMask kAllQuads = 31;
+constexpr shading::SlotMask kAllSlots = 31;
 constexpr int kFloats = shading::kVertexFloats;
 
 /// Triangles with attributes, and points on them.
@@ -29,22 +29,22 @@ struct Fragments {
     TriangleList list;
     std::vector<FixedTriangle> fixed;
     std::vector<float> attributes;  ///< kFloats a vertex
-    std::vector<std::array<float, 3>> z, rhw;
+    std::vector<std::array<float, 3>> z, inv_w;
     std::vector<std::uint32_t> id;  ///< of each fragment
     std::vector<std::int32_t> x, y;
 
     void add_triangle(Random& random, const FixedTriangle& t, double most_w_ratio) {
         // 1/w spread over the corners; z = near / w, as a perspective camera makes it.
-        const double far_rhw = random.real(0.01, 0.5);
+        const double far_inv_w = random.real(0.01, 0.5);
         std::array<float, 3> r, depth;
         for (std::size_t k = 0; k < 3; ++k) {
-            r[k] = static_cast<float>(far_rhw * std::exp(random.real(0, std::log(most_w_ratio))));
+            r[k] = static_cast<float>(far_inv_w * std::exp(random.real(0, std::log(most_w_ratio))));
             depth[k] = r[k] * 0.01f;
         }
         list.add(t, {depth[0], depth[1], depth[2]}, {r[0], r[1], r[2]});
         fixed.push_back(t);
         z.push_back(depth);
-        rhw.push_back(r);
+        inv_w.push_back(r);
         for (int i = 0; i < 3 * kFloats; ++i) attributes.push_back(random.real32(-1, 1));
     }
     /// Up to `most` random pixels whose centre the last triangle covers.
@@ -71,7 +71,7 @@ struct Fragments {
     [[nodiscard]] reference::HomogeneousTriangle shape(std::uint32_t t) const {
         double clip[3][4];
         for (std::size_t k = 0; k < 3; ++k) {
-            const double w = 1.0 / static_cast<double>(rhw[t][k]);
+            const double w = 1.0 / static_cast<double>(inv_w[t][k]);
             const double px = static_cast<double>(fixed[t].corner[k].x) / 256 + 0.5,
                          py = static_cast<double>(fixed[t].corner[k].y) / 256 + 0.5;
             clip[k][0] = (2 * px / kWidth - 1) * w;
@@ -89,12 +89,12 @@ struct Fragments {
         return (w * w + h * h) / std::abs(static_cast<double>(doubled_area(fixed[t])));
     }
     [[nodiscard]] double w_ratio(std::uint32_t t) const {
-        return static_cast<double>(*std::max_element(rhw[t].begin(), rhw[t].end()) / *std::min_element(rhw[t].begin(), rhw[t].end()));
+        return static_cast<double>(*std::max_element(inv_w[t].begin(), inv_w[t].end()) / *std::min_element(inv_w[t].begin(), inv_w[t].end()));
     }
 };
 
 /// Runs the kernel over fragments [first, first + count) in blocks.
-void interpolate(shading::Isa isa, const Fragments& f, int first, int count, shading::QuadMask quads, shading::FragmentBlock& block) {
+void interpolate(shading::Isa isa, const Fragments& f, int first, int count, shading::SlotMask slots, shading::FragmentBlock& block) {
     const TriangleSource source = f.list.source();
     const DrawRecords draw{f.attributes.data()};
     const float* no_clip_records = nullptr;
@@ -111,11 +111,11 @@ void interpolate(shading::Isa isa, const Fragments& f, int first, int count, sha
     args.triangles = {&source, 24};
     args.draws = &draw;
     args.clip_records = &no_clip_records;
-    args.quads = quads;
+    args.slots = slots;
     args.stride = kFloats;
     args.gradients = true;
     args.facing = true;
-    args.shadow_offset = (quads & 3u) == 3u;
+    args.shadow_offset = (slots & 3u) == 3u;
     args.count = padded;
     args.ids = ids;
     args.x_px = x;
@@ -136,7 +136,7 @@ Errors measure(const Fragments& f) {
     const shading::Isa isa = available_isas().back();
     for (int first = 0; first < f.count(); first += shading::kBlockSize) {
         const int count = std::min(shading::kBlockSize, f.count() - first);
-        interpolate(isa, f, first, count, kAllQuads, *block);
+        interpolate(isa, f, first, count, kAllSlots, *block);
         for (int l = 0; l < count; ++l) {
             const auto at = static_cast<std::size_t>(first + l);
             const std::uint32_t t = f.id[at];
@@ -204,7 +204,7 @@ Fragments random_fragments(std::uint64_t seed, int triangles, double size_px, do
     return f;
 }
 
-/// Rows that the kernel fills when all quads, gradients and facing are asked for.
+/// Rows that the kernel fills when all slots, gradients and facing are asked for.
 bool same_rows(const shading::FragmentBlock& a, int lane_a, const shading::FragmentBlock& b, int lane_b) {
     bool same = true;
     for (int row = 0; row < shading::kInputRows; ++row)
@@ -273,7 +273,7 @@ TEST_CASE("interpolation: at the corners the attributes are the corners', and ne
     double worst_corner = 0, worst_range = 0;
     for (int first = 0; first < f.count(); first += 64) {
         const int count = std::min(64, f.count() - first);
-        interpolate(available_isas().back(), f, first, count, kAllQuads, *block);
+        interpolate(available_isas().back(), f, first, count, kAllSlots, *block);
         for (int l = 0; l < count; ++l) {
             const int at = first + l;
             const std::uint32_t t = f.id[static_cast<std::size_t>(at)];
@@ -309,12 +309,12 @@ TEST_CASE("interpolation: one triangle or many in a vector, and every instructio
         for (int first = 0; first < mixed.count(); first += 64) {
             const int count = std::min(64, mixed.count() - first);
             for (const shading::Isa isa : available_isas()) {
-                interpolate(isa, mixed, first, count, kAllQuads, *together);
+                interpolate(isa, mixed, first, count, kAllSlots, *together);
                 for (int l = 0; l < count; ++l) {
                     // A list of one fragment is padded with copies of it: the path for one triangle.
-                    interpolate(shading::Isa::scalar, mixed, first + l, 1, kAllQuads, *alone);
+                    interpolate(shading::Isa::scalar, mixed, first + l, 1, kAllSlots, *alone);
                     differing += !same_rows(*together, l, *alone, 0);
-                    interpolate(isa, mixed, first + l, 1, kAllQuads, *alone);
+                    interpolate(isa, mixed, first + l, 1, kAllSlots, *alone);
                     differing += !same_rows(*together, l, *alone, 0);
                     ++compared;
                 }
@@ -332,7 +332,7 @@ TEST_CASE("interpolation: shadows are looked up on the planes of the vertices, b
     int moved = 0, compared = 0;
     for (int first = 0; first < f.count(); first += shading::kBlockSize) {
         const int count = std::min(shading::kBlockSize, f.count() - first);
-        interpolate(available_isas().back(), f, first, count, kAllQuads, *block);
+        interpolate(available_isas().back(), f, first, count, kAllSlots, *block);
         for (int l = 0; l < count; ++l) {
             const auto at = static_cast<std::size_t>(first + l);
             const auto corner = [&](std::uint32_t k, int row) {
@@ -358,28 +358,28 @@ TEST_CASE("interpolation: shadows are looked up on the planes of the vertices, b
     CHECK(moved > 500);
 }
 
-TEST_CASE("interpolation: any choice of quads gives the rows that all quads give", "[raster][interpolation]") {
+TEST_CASE("interpolation: any choice of slots gives the rows that all slots give", "[raster][interpolation]") {
     const Fragments f = random_fragments(28, 100, 60, 0, 50, 30);
     const auto all = std::make_unique<shading::FragmentBlock>(), some = std::make_unique<shading::FragmentBlock>();
     int differing = 0;
-    for (shading::QuadMask quads = 1; quads < 32; ++quads) {
-        // Records hold the chosen quads one after the other.
+    for (shading::SlotMask slots = 1; slots < 32; ++slots) {
+        // Records hold the chosen slots one after the other.
         Fragments packed = f;
         for (std::size_t v = 0; v < 3 * f.fixed.size(); ++v) {
             std::size_t to = 0;
-            for (std::size_t q = 0; q < shading::kQuadCount; ++q)
-                if (quads & (1u << q))
+            for (std::size_t q = 0; q < shading::kSlotCount; ++q)
+                if (slots & (1u << q))
                     for (std::size_t j = 0; j < 4; ++j) packed.attributes[v * kFloats + to++] = f.attributes[v * kFloats + 4 * q + j];
         }
         for (const shading::Isa isa : available_isas()) {
-            interpolate(isa, f, 0, 64, kAllQuads, *all);
-            interpolate(isa, packed, 0, 64, quads, *some);
-            for (int q = 0; q < shading::kQuadCount; ++q)
-                if (quads & (1u << q))
+            interpolate(isa, f, 0, 64, kAllSlots, *all);
+            interpolate(isa, packed, 0, 64, slots, *some);
+            for (int q = 0; q < shading::kSlotCount; ++q)
+                if (slots & (1u << q))
                     for (int row = 4 * q; row < 4 * q + 4; ++row)
                         for (int l = 0; l < 64; ++l) differing += all->lane[row][l] != some->lane[row][l];
             for (int row = shading::kDu0Dx; row < shading::kFacing; ++row) {
-                if (!(quads & (row < shading::kDu1Dx ? 2u : 16u))) continue;
+                if (!(slots & (row < shading::kDu1Dx ? 2u : 16u))) continue;
                 for (int l = 0; l < 64; ++l) differing += all->lane[row][l] != some->lane[row][l];
             }
         }

@@ -41,11 +41,11 @@ public:
         records_.clear();
         vertices_.clear();
     }
-    /// The triangle must have area; z and rhw belong to its corners in their order.
-    void add(const reference::FixedTriangle& t, const float (&z)[3], const float (&rhw)[3] = {1, 1, 1}) {
+    /// The triangle must have area; z and inv_w belong to its corners in their order.
+    void add(const reference::FixedTriangle& t, const float (&z)[3], const float (&inv_w)[3] = {1, 1, 1}) {
         const auto first = static_cast<std::uint32_t>(vertices_.size());
         for (int k = 0; k < 3; ++k)
-            vertices_.push_back({static_cast<std::int32_t>(t.corner[k].x), static_cast<std::int32_t>(t.corner[k].y), z[k], rhw[k]});
+            vertices_.push_back({static_cast<std::int32_t>(t.corner[k].x), static_cast<std::int32_t>(t.corner[k].y), z[k], inv_w[k]});
         TriangleRecord r{{first, first + 1, first + 2}, 0};
         if (doubled_area(t) < 0) std::swap(r.vertex[1], r.vertex[2]);
         records_.push_back(r);

@@ -131,7 +131,7 @@ inline Trial random_trial(std::uint32_t seed) {
         scene.ambient = {make.color(0.4f), make.color(0.2f)};
     }
     t.camera = frame_scene(scene, static_cast<float>(kTrialWidth) / kTrialHeight, {});
-    t.settings.shading.highlight = static_cast<shading::Highlight>(make.below(3));
+    t.settings.shading.specular = static_cast<shading::SpecularModel>(make.below(3));
     t.settings.shadows = make.below(4) == 0 ? shading::ShadowMode::soft_split : shading::ShadowMode::off;
     t.settings.shadow_size = 128;
     t.settings.background_linear = {0, 0, 0, 1};

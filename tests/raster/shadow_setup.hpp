@@ -29,7 +29,7 @@ struct ShadowSetup {
         scene.materials.push_back(clay);
         scene.lights.push_back({});
         scene.lights[0].direction_ws = {-1, 0, 0};
-        settings.shading.highlight = shading::Highlight::none;
+        settings.shading.specular = shading::SpecularModel::none;
         settings.shadows = mode;
         camera = camera_flat(static_cast<float>(kHeight) / kWidth);
         camera.half_width = 1.0f;

@@ -85,7 +85,7 @@ TEST_CASE("tangents: on a sphere they point east, within the size of a facet", "
 }
 
 TEST_CASE("tangents: a mirrored seam splits its vertices, a plain one does not", "[raster]") {
-    Mesh mesh;  // two quads side by side; u runs away from the common edge on both
+    Mesh mesh;  // two slots side by side; u runs away from the common edge on both
     mesh.positions = {{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {-1, 1, 0}, {0, 1, 0}, {1, 1, 0}};
     mesh.normals.assign(6, Vec3f{0, 0, 1});
     mesh.uv0 = {{1, 1}, {0, 1}, {1, 1}, {1, 0}, {0, 0}, {1, 0}};

@@ -94,7 +94,7 @@ TEST_CASE("work: an unlit material runs no light, no shadow look-up and no stage
 
 TEST_CASE("work: each light is evaluated once a fragment, and only the kinds that there are", "[raster][work]") {
     Square square;
-    square.settings.shading.highlight = shading::Highlight::none;
+    square.settings.shading.specular = shading::SpecularModel::none;
     square.add_light(LightType::directional);
     square.add_light(LightType::directional);
     WorkCounts work = square.work();
@@ -153,13 +153,13 @@ TEST_CASE("work: an environment is a stage of ambient light", "[raster][work]") 
     Square square;
     const std::vector<float> rgb(3 * 8 * 4, 0.5f);
     square.scene.environment = std::make_shared<shading::Environment>(shading::make_environment({8, 4, rgb}, {}));
-    square.settings.shading.highlight = shading::Highlight::none;
+    square.settings.shading.specular = shading::SpecularModel::none;
     check_stages(square.work(), shading::kStageAmbient | shading::kStageEnvironment);
 }
 
 TEST_CASE("work: Gouraud lights the vertices, flat shading the triangles, both leave fragments alone", "[raster][work]") {
     Square square;
-    square.settings.shading.highlight = shading::Highlight::none;
+    square.settings.shading.specular = shading::SpecularModel::none;
     square.settings.shadow_size = 64;
     square.settings.shadows = shading::ShadowMode::hard;
     square.add_light(LightType::point);

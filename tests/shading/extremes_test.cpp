@@ -37,11 +37,11 @@ struct Shot {
     Material material;
     Light light;
     PlanOptions options;
-    FramePlan plan;
+    ShadingPlan plan;
 
     void make_plan() {
-        const std::vector<QuadMask> available{3u, 3u};
-        plan = make_frame_plan(std::span(&material, 1), {}, available, std::span(&light, 1), {}, options);
+        const std::vector<SlotMask> available{3u, 3u};
+        plan = plan_shading(std::span(&material, 1), {}, available, std::span(&light, 1), {}, options);
         plan.orthographic = true;
         plan.view_direction_ws = {0, 0, -1};
     }
@@ -55,7 +55,7 @@ struct Shot {
 
 Shot matte() {
     Shot shot;
-    shot.options.highlight = Highlight::none;
+    shot.options.specular = SpecularModel::none;
     return shot;
 }
 
@@ -329,9 +329,9 @@ TEST_CASE("extremes: light from all around is as good at the poles of its basis 
     environment.radiance.c[0] = {40, 40, 40};  // so that no sum is below 0
     Shot shot = matte();
     shot.options.environment_order.fixed = sh::kMaxBands;
-    const std::vector<QuadMask> available{3u, 3u};
+    const std::vector<SlotMask> available{3u, 3u};
     EnvironmentPlans plans(environment);
-    shot.plan = make_frame_plan(std::span(&shot.material, 1), {}, available, {}, {}, shot.options, &plans);
+    shot.plan = plan_shading(std::span(&shot.material, 1), {}, available, {}, {}, shot.options, &plans);
     REQUIRE(shot.plan.environments.size() == 1);
     REQUIRE(shot.plan.environments[0].bands == sh::kMaxBands);
     const sh::BandFactors bands = sh::zonal_bands({0.0, 1.0, 1.0});

@@ -28,11 +28,11 @@ TEST_CASE("kernels: shade agrees with the float64 reference for every kind of sc
         material.lobe.power = std::max(material.lobe.power, 1.0f);
         c.options.lobe.power = std::max(c.options.lobe.power, 1.0f);
         material.roughness = std::max(material.roughness, 0.2f);  // exponents up to 1250: beyond, a normal's last bit shows
-        const FramePlan old = c.plan;
-        c.plan = make_frame_plan(c.materials, c.textures, c.available, c.lights, c.ambient, c.options);
+        const ShadingPlan old = c.plan;
+        c.plan = plan_shading(c.materials, c.textures, c.available, c.lights, c.ambient, c.options);
         c.plan.eye_ws = old.eye_ws, c.plan.view_direction_ws = old.view_direction_ws, c.plan.orthographic = old.orthographic;
         const reference::Frame frame = reference_frame(c);
-        const double bound = c.options.highlight == Highlight::phong ? 1e-4 : 5e-5;  // the mirrored light turns twice as fast as the normal
+        const double bound = c.options.specular == SpecularModel::phong ? 1e-4 : 5e-5;  // the mirrored light turns twice as fast as the normal
         FragmentBlock block{};
         fill_block(make, block, false);
         shade_kernels(Isa::scalar).shade(c.plan, c.plan.materials[0], all_lights(c.plan), block, kBlockSize);
@@ -54,14 +54,14 @@ TEST_CASE("kernels: shade agrees with the float64 reference for every kind of sc
 }
 
 TEST_CASE("kernels: a highlight at the sharpest roughness agrees with the reference to 2e-4 of its peak", "[shading][reference]") {
-    const Highlight highlight = GENERATE(Highlight::blinn, Highlight::phong);
+    const SpecularModel highlight = GENERATE(SpecularModel::blinn, SpecularModel::phong);
     PlanOptions options;
-    options.highlight = highlight;
+    options.specular = highlight;
     Material material;
     material.metallic = 1.0f, material.roughness = 0.0f;
     const Light light{.direction_ws = {0, 0, -1}};
-    const std::vector<QuadMask> available{3u, 3u};
-    FramePlan plan = make_frame_plan(std::span(&material, 1), {}, available, std::span(&light, 1), {}, options);
+    const std::vector<SlotMask> available{3u, 3u};
+    ShadingPlan plan = plan_shading(std::span(&material, 1), {}, available, std::span(&light, 1), {}, options);
     plan.orthographic = true;
     reference::Frame frame{{}, std::span(&light, 1), {}, options, {}, {0, 0, -1}, true};
     FragmentBlock block{};
@@ -84,12 +84,12 @@ TEST_CASE("kernels: Phong with a quarter of Blinn's exponent has the same peak a
     Material material;
     material.metallic = 1.0f, material.roughness = 0.3f;  // s = 2 / 0.09^2 - 2 = 244.9
     const Light light{.direction_ws = {0, 0, -1}};
-    const std::vector<QuadMask> available{3u, 3u};
+    const std::vector<SlotMask> available{3u, 3u};
     FragmentBlock blocks[2]{};
     for (int i = 0; i < 2; ++i) {
         PlanOptions options;
-        options.highlight = i == 0 ? Highlight::blinn : Highlight::phong;
-        FramePlan plan = make_frame_plan(std::span(&material, 1), {}, available, std::span(&light, 1), {}, options);
+        options.specular = i == 0 ? SpecularModel::blinn : SpecularModel::phong;
+        ShadingPlan plan = plan_shading(std::span(&material, 1), {}, available, std::span(&light, 1), {}, options);
         plan.orthographic = true;
         for (int lane = 0; lane < kBlockSize; ++lane) {
             const double angle = 0.15 * lane / kBlockSize;
@@ -109,11 +109,11 @@ TEST_CASE("kernels: no highlight where the light is behind the surface, whatever
     Material material;
     material.metallic = 1.0f, material.roughness = 0.8f, material.lobe = Lobe::valve();
     const Light light{.direction_ws = {0, 0, -1}};
-    const std::vector<QuadMask> available{3u, 3u};
-    const Highlight highlight = GENERATE(Highlight::blinn, Highlight::phong);
+    const std::vector<SlotMask> available{3u, 3u};
+    const SpecularModel highlight = GENERATE(SpecularModel::blinn, SpecularModel::phong);
     PlanOptions options;
-    options.highlight = highlight;
-    FramePlan plan = make_frame_plan(std::span(&material, 1), {}, available, std::span(&light, 1), {}, options);
+    options.specular = highlight;
+    ShadingPlan plan = plan_shading(std::span(&material, 1), {}, available, std::span(&light, 1), {}, options);
     plan.orthographic = true;
     plan.view_direction_ws = {-1, 0, 0};
     FragmentBlock block{};
@@ -133,10 +133,10 @@ TEST_CASE("kernels: a spot's cosine power falls off as cos(angle)^power inside t
     light.inner_cone_rad = 1.4f, light.outer_cone_rad = 1.45f;
     const float power = GENERATE(1.0f, 7.5f, 64.0f, 20000.0f);
     light.cone_power = power;
-    const std::vector<QuadMask> available{3u, 3u};
+    const std::vector<SlotMask> available{3u, 3u};
     PlanOptions options;
-    options.highlight = Highlight::none;
-    const FramePlan plan = make_frame_plan(std::span(&material, 1), {}, available, std::span(&light, 1), {}, options);
+    options.specular = SpecularModel::none;
+    const ShadingPlan plan = plan_shading(std::span(&material, 1), {}, available, std::span(&light, 1), {}, options);
     FragmentBlock block{};
     for (int lane = 0; lane < kBlockSize; ++lane) {
         const double angle = 1.35 * lane / kBlockSize / std::sqrt(static_cast<double>(power));

@@ -18,8 +18,8 @@ LobePlan plan_of(const Lobe& lobe) {
     Material material;
     material.lobe = lobe;
     const Light light;
-    const std::vector<QuadMask> available{3u, 3u};
-    return make_frame_plan(std::span(&material, 1), {}, available, std::span(&light, 1), {}, {}).materials[0].lobe;
+    const std::vector<SlotMask> available{3u, 3u};
+    return plan_shading(std::span(&material, 1), {}, available, std::span(&light, 1), {}, {}).materials[0].lobe;
 }
 
 std::vector<Lobe> many_lobes() {

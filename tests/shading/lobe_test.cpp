@@ -23,10 +23,10 @@ Curve curve_of(const Lobe& lobe) {
     material.metallic = 0;
     material.lobe = lobe;
     const Light light{.direction_ws = {-1, 0, 0}};
-    const std::vector<QuadMask> available{3u, 3u};
+    const std::vector<SlotMask> available{3u, 3u};
     PlanOptions options;
-    options.highlight = Highlight::none;
-    const FramePlan plan = make_frame_plan(std::span(&material, 1), {}, available, std::span(&light, 1), {}, options);
+    options.specular = SpecularModel::none;
+    const ShadingPlan plan = plan_shading(std::span(&material, 1), {}, available, std::span(&light, 1), {}, options);
     FragmentBlock block{};
     Curve curve{};
     for (int i = 0; i < kBlockSize; ++i) {

@@ -10,7 +10,7 @@ using namespace halflit::shading;
 
 namespace {
 
-constexpr QuadMask kAll = 31u, kPlain = 3u;
+constexpr SlotMask kAll = 31u, kPlain = 3u;
 
 Texture tiny(int side) {
     return Texture::from_rgba8(std::vector<std::uint8_t>(static_cast<std::size_t>(side * side * 4), 128), side, side, ColorSpace::srgb)
@@ -21,10 +21,10 @@ struct Scene {
     std::vector<Material> materials{Material{}};
     std::vector<Texture> textures{tiny(4), tiny(1)};
     std::vector<Light> lights{Light{}};
-    std::vector<QuadMask> available{kAll, kPlain};
+    std::vector<SlotMask> available{kAll, kPlain};
     Ambient ambient;
     PlanOptions options;
-    [[nodiscard]] FramePlan plan() const { return make_frame_plan(materials, textures, available, lights, ambient, options); }
+    [[nodiscard]] ShadingPlan plan() const { return plan_shading(materials, textures, available, lights, ambient, options); }
     [[nodiscard]] MaterialPlan first() const { return plan().materials[0]; }
 };
 
@@ -34,7 +34,7 @@ TEST_CASE("plan: one entry a material, and the default material at the end", "[s
     Scene scene;
     scene.materials = {Material{}, Material{}, Material{}};
     scene.available = {kAll, kAll, kAll, kPlain};
-    const FramePlan plan = scene.plan();
+    const ShadingPlan plan = scene.plan();
     REQUIRE(plan.materials.size() == 4);
     CHECK(plan.materials[3].metallic == 1.0f);
     CHECK(plan.materials[3].roughness == 1.0f);
@@ -45,20 +45,20 @@ TEST_CASE("plan: an unlit material without texture needs no attribute at all", "
     Scene scene;
     scene.materials[0].unlit = true;
     scene.available[0] = kPlain;
-    CHECK(scene.first().quads == 0u);
+    CHECK(scene.first().slots == 0u);
     CHECK(scene.first().stages == kStageUnlit);
 }
 
 TEST_CASE("plan: a lit material needs position and normal, tangents only for a normal map", "[shading][plan]") {
     Scene scene;
     scene.available[0] = kPlain | 4u;
-    CHECK(scene.first().quads == kPlain);
+    CHECK(scene.first().slots == kPlain);
     scene.materials[0].normal_texture.texture = 0;
-    CHECK(scene.first().quads == (kPlain | 4u));
+    CHECK(scene.first().slots == (kPlain | 4u));
     CHECK((scene.first().stages & kStageNormalMap) != 0);
     scene.available[0] = kPlain;  // no primitive brings tangents
     CHECK((scene.first().stages & kStageNormalMap) == 0);
-    CHECK(scene.first().quads == kPlain);
+    CHECK(scene.first().slots == kPlain);
 }
 
 TEST_CASE("plan: vertex colours and the second coordinate set only where they exist and are used", "[shading][plan]") {
@@ -67,13 +67,13 @@ TEST_CASE("plan: vertex colours and the second coordinate set only where they ex
     CHECK((scene.first().stages & kStageVertexColor) == 0);
     scene.available[0] = kPlain | 8u;
     CHECK((scene.first().stages & kStageVertexColor) != 0);
-    CHECK(scene.first().quads == (kPlain | 8u));
+    CHECK(scene.first().slots == (kPlain | 8u));
     scene.materials[0].base_color_texture.texture = 0;
     scene.materials[0].base_color_texture.uv_set = 1;
     scene.available[0] = kPlain | 16u;
-    CHECK(scene.first().quads == (kPlain | 16u));
+    CHECK(scene.first().slots == (kPlain | 16u));
     scene.available[0] = kPlain;  // the set is missing: read as (0, 0)
-    CHECK(scene.first().quads == kPlain);
+    CHECK(scene.first().slots == kPlain);
     CHECK(scene.first().base_color_texture.uv_set == 0);
     CHECK(scene.first().base_color_texture.row_u[0] == 0.0f);
 }
@@ -86,7 +86,7 @@ TEST_CASE("plan: without light a material only emits", "[shading][plan]") {
     CHECK(scene.first().stages == 0u);
     scene.materials[0].emissive_texture.texture = 1;  // one level, one filter: no gradients
     CHECK(scene.first().stages == kStageEmissiveTexture);
-    CHECK(scene.first().quads == 2u);
+    CHECK(scene.first().slots == 2u);
     scene.materials[0].alpha_mode = AlphaMode::mask;  // alpha still decides what is drawn
     CHECK((scene.first().stages & kStageBaseColorTexture) != 0);
 }
@@ -98,7 +98,7 @@ TEST_CASE("plan: a texture nobody sees is not fetched", "[shading][plan]") {
     scene.materials[0].metallic_roughness_texture.texture = 0;
     CHECK((scene.first().stages & (kStageEmissiveTexture | kStageOcclusionTexture)) == 0);
     CHECK((scene.first().stages & kStageMetallicRoughnessTexture) != 0);
-    scene.options.highlight = Highlight::none;
+    scene.options.specular = SpecularModel::none;
     CHECK((scene.first().stages & (kStageMetallicRoughnessTexture | kStageSpecular)) == 0);
     scene.ambient.sky_linear = {0.1f, 0.1f, 0.1f};
     CHECK((scene.first().stages & (kStageOcclusionTexture | kStageAmbient)) == (kStageOcclusionTexture | kStageAmbient));
@@ -165,7 +165,7 @@ TEST_CASE("plan: lights keep their order, black ones and those that are not numb
     broken.position_ws.x = std::numeric_limits<float>::quiet_NaN();
     blue.color_linear = {0, 0, 1};
     scene.lights = {red, black, broken, blue};
-    const FramePlan plan = scene.plan();
+    const ShadingPlan plan = scene.plan();
     REQUIRE(plan.lights.size() == 2);
     CHECK(plan.lights[0].color[0] == 1.0f);
     CHECK(plan.lights[1].color[2] == 1.0f);

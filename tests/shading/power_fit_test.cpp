@@ -85,17 +85,17 @@ TEST_CASE("curves: a lobe of half-integer power is a polynomial, and other fits 
 }
 
 TEST_CASE("curves: a highlight without a range or without an exponent is not promised", "[shading][pow][curve]") {
-    CHECK(fit_highlight(16.0, 1.0).codes(1.0, 1) == 255.0);
-    CHECK(fit_highlight(16.0, 0.0).codes(1.0, 1) == 255.0);
-    CHECK(fit_highlight(0.0, 0.0).codes(1.0, 1) == 255.0);
-    CHECK(fit_highlight(0.0, 0.5).codes(1.0, 1) < 0.01);  // x^0 is 1
+    CHECK(fit_specular(16.0, 1.0).codes(1.0, 1) == 255.0);
+    CHECK(fit_specular(16.0, 0.0).codes(1.0, 1) == 255.0);
+    CHECK(fit_specular(0.0, 0.0).codes(1.0, 1) == 255.0);
+    CHECK(fit_specular(0.0, 0.5).codes(1.0, 1) < 0.01);  // x^0 is 1
 }
 
 TEST_CASE("curves: highlights are off by no more than their fits say", "[shading][pow][curve]") {
     for (const double half_exponent : {0.7, 1.0, 3.3, 8.0, 16.0, 24.5, 65.3, 131.0, 700.0, 5000.0})
         for (const double cut : {0.3, 1e-2, 1e-4, 1e-6}) {
             const double least = std::pow(cut, 1.0 / half_exponent);
-            const HighlightFit fit = fit_highlight(half_exponent, least);
+            const SpecularFit fit = fit_specular(half_exponent, least);
             double worst = -255.0;
             for (int i = 0; i <= 2000; ++i) {
                 const auto x = static_cast<float>(least + (1.0 - least) * i / 2000.0);

@@ -142,10 +142,10 @@ struct Case {
     std::vector<shading::Texture> textures;
     std::vector<shading::Material> materials;
     std::vector<shading::Light> lights;
-    std::vector<shading::QuadMask> available;
+    std::vector<shading::SlotMask> available;
     shading::Ambient ambient;
     shading::PlanOptions options;
-    shading::FramePlan plan;
+    shading::ShadingPlan plan;
 };
 
 inline Case make_case(FloatMaker& make, bool smooth_textures) {
@@ -157,12 +157,12 @@ inline Case make_case(FloatMaker& make, bool smooth_textures) {
     for (std::uint32_t i = 0; i < light_count; ++i) c.lights.push_back(make_light(make));
     if (make.below(2) == 0)
         c.ambient = {{make.ordinary(0, 1), make.ordinary(0, 1), make.ordinary(0, 1)}, {0.2f, make.ordinary(0, 1), 0.0f}};
-    c.options.highlight = static_cast<Highlight>(make.below(3));
-    c.options.normalize_highlight = make.below(4) != 0;
+    c.options.specular = static_cast<SpecularModel>(make.below(3));
+    c.options.normalize_specular = make.below(4) != 0;
     c.options.override_lobe = make.below(4) == 0;
     c.options.lobe = make_lobe(make);
     c.available = {3u | (make.below(8) << 2), 3u};
-    c.plan = make_frame_plan(c.materials, c.textures, c.available, c.lights, c.ambient, c.options);
+    c.plan = plan_shading(c.materials, c.textures, c.available, c.lights, c.ambient, c.options);
     c.plan.eye_ws = {make.ordinary(-4, 4), make.ordinary(-4, 4), 5.0f};
     c.plan.view_direction_ws = {0.6f, 0.0f, -0.8f};
     c.plan.orthographic = make.below(3) == 0;
@@ -173,7 +173,7 @@ inline Case make_case(FloatMaker& make, bool smooth_textures) {
 inline void shorten(FloatMaker& make, Case& c) {
     using namespace shading;
     for (MaterialPlan& material : c.plan.materials) {
-        material.lobe.tier = material.highlight_tier = static_cast<PowTier>(make.below(3));
+        material.lobe.tier = material.specular_tier = static_cast<PowTier>(make.below(3));
         if (material.lobe.path == LobePath::general && material.lobe.power_minus_one > 0.0f && make.below(2) == 0) {
             const LobeFit fit = fit_lobe(static_cast<double>(material.lobe.power_minus_one) + 1.0, 2.0);
             material.lobe.path = LobePath::curve;
@@ -181,12 +181,12 @@ inline void shorten(FloatMaker& make, Case& c) {
         }
         const float share = make.ordinary(0, 1);
         if (make.below(2) == 0)
-            material.highlight_curve = fit_highlight(static_cast<double>(make.ordinary(1, 200)), static_cast<double>(share)).curve;
+            material.specular_curve = fit_specular(static_cast<double>(make.ordinary(1, 200)), static_cast<double>(share)).curve;
         else if (make.below(2) == 0)
-            material.highlight_threshold = share;
+            material.specular_threshold = share;
     }
     for (LightPlan& light : c.plan.lights)
-        if (light.type != LightType::directional && make.below(3) == 0) light.reach_squared = make.ordinary(0, 9);
+        if (light.type != LightType::directional && make.below(3) == 0) light.cutoff_squared = make.ordinary(0, 9);
 }
 
 /// The reference's view of a case; valid while the case stays where it is.

@@ -31,8 +31,8 @@ std::vector<reference::Rgba> sample_all(const Texture& texture, const TextureUse
     material.unlit = true;
     material.alpha_mode = AlphaMode::blend;
     material.base_color_texture = use;
-    const std::vector<QuadMask> available{3u, 3u};
-    const FramePlan plan = make_frame_plan(std::span(&material, 1), std::span(&texture, 1), available, {}, {}, {});
+    const std::vector<SlotMask> available{3u, 3u};
+    const ShadingPlan plan = plan_shading(std::span(&material, 1), std::span(&texture, 1), available, {}, {}, {});
     FragmentBlock block{};
     for (std::size_t i = 0; i < points.size(); ++i) {
         block.lane[kU0][i] = points[i].u;

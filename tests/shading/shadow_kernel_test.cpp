@@ -22,7 +22,7 @@ struct Setup {
     std::vector<float> texels = std::vector<float>(std::size_t{6} * kSize * kSize, kNoBlocker);
     Material material;
     Light light;
-    FramePlan plan;
+    ShadingPlan plan;
 
     Setup(ShadowMapPlan::Kind kind, const Lobe& lobe, ShadowMode mode, bool specular = false) {
         material.metallic = 0;
@@ -35,10 +35,10 @@ struct Setup {
             light.outer_cone_rad = 1.5f;
             light.inner_cone_rad = 1.4f;
         }
-        const std::vector<QuadMask> available{3u, 3u};
+        const std::vector<SlotMask> available{3u, 3u};
         PlanOptions options;
-        options.highlight = specular ? Highlight::blinn : Highlight::none;
-        plan = make_frame_plan(std::span(&material, 1), {}, available, std::span(&light, 1), {}, options);
+        options.specular = specular ? SpecularModel::blinn : SpecularModel::none;
+        plan = plan_shading(std::span(&material, 1), {}, available, std::span(&light, 1), {}, options);
         plan.shadow_mode = mode;
         plan.orthographic = true;
         plan.materials[0].shadow_fade_scale = lobe.wrap > 0 ? 0.5f : 0.0f;
@@ -281,7 +281,7 @@ TEST_CASE("shadow kernel: shares agree with the float64 reference off the places
         const FragmentBlock input = block;
         setup.shade(Isa::scalar, block);
         PlanOptions options;
-        options.highlight = Highlight::none;
+        options.specular = SpecularModel::none;
         const reference::Frame frame{{}, std::span(&setup.light, 1), {}, options, {}, {0, 0, -1}, true};
         for (int lane = 0; lane < kBlockSize; ++lane) {
             const auto at = [&](int row) { return double{input.lane[row][lane]}; };

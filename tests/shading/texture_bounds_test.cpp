@@ -70,8 +70,8 @@ TEST_CASE("texture bounds: no filtered channel is off by more than its bound", "
                 use.sampler.wrap_u = use.sampler.wrap_v = static_cast<Wrap>(mode % 3);
                 use.sampler.mip = mode / 3 % 2 == 0 ? MipFilter::none : MipFilter::linear;
                 if (mode / 6 == 1) use.row_u = {0.7f, 1.9f, 0.3f}, use.row_v = {-1.9f, 0.7f, -0.1f};
-                const std::vector<QuadMask> available{3u, 3u};
-                const FramePlan plan = make_frame_plan(std::span(&material, 1), std::span(&texture, 1), available, {}, {}, {});
+                const std::vector<SlotMask> available{3u, 3u};
+                const ShadingPlan plan = plan_shading(std::span(&material, 1), std::span(&texture, 1), available, {}, {}, {});
                 const TexturePlan& planned = plan.materials[0].base_color_texture;
                 constexpr float kLargest = 2.5f;
                 for (int round = 0; round < 20; ++round) {

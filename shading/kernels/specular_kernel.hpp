@@ -9,25 +9,25 @@ namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
 /// How a material makes highlights, as its plan has it.
-struct HighlightShape {
-    shading::Highlight kind;
+struct SpecularShape {
+    shading::SpecularModel kind;
     shading::PowTier tier;
     float threshold;  ///< see MaterialPlan
-    const shading::HighlightCurve& curve;
+    const shading::SpecularCurve& curve;
     F half_exponent;
     F normalization;
 };
 
 /// The cosine between two directions: `axis` is a unit vector, `turning` is not. H = L + V and the mirrored light R = 2 (N.L) N - L are
 /// not normalised. R turns twice as fast as H, so a quarter of the exponent gives a highlight of the same width.
-struct HighlightAngle {
+struct SpecularAngle {
     V3 axis, turning;
     F cosine;   ///< axis . turning
     F squared;  ///< |turning|^2
 };
-HALFLIT_INLINE HighlightAngle highlight_angle(const HighlightShape& shape, V3 normal, V3 to_eye, V3 to_light, F n_dot_l) {
+HALFLIT_INLINE SpecularAngle specular_angle(const SpecularShape& shape, V3 normal, V3 to_eye, V3 to_light, F n_dot_l) {
     V3 axis = normal, turning = to_light + to_eye;
-    if (shape.kind == shading::Highlight::phong) {
+    if (shape.kind == shading::SpecularModel::phong) {
         const F twice = n_dot_l + n_dot_l;
         axis = to_eye;
         turning = {mad(twice, normal.x, F(0.0f) - to_light.x), mad(twice, normal.y, F(0.0f) - to_light.y),
@@ -38,11 +38,11 @@ HALFLIT_INLINE HighlightAngle highlight_angle(const HighlightShape& shape, V3 no
 
 /// (N.H)^s (N.L) or (V.R)^(s/4) (N.L) where both cosines are positive, else 0: wrapped light makes no highlight. The squared sine,
 /// |N x H|^2 / |H|^2, keeps its digits where the cosine is nearly 1.
-HALFLIT_INLINE F highlight_value(const HighlightShape& shape, V3 normal, V3 to_eye, V3 to_light, F n_dot_l, F brightness) {
-    const HighlightAngle at = highlight_angle(shape, normal, to_eye, to_light, n_dot_l);
+HALFLIT_INLINE F specular_value(const SpecularShape& shape, V3 normal, V3 to_eye, V3 to_light, F n_dot_l, F brightness) {
+    const SpecularAngle at = specular_angle(shape, normal, to_eye, to_light, n_dot_l);
     const F cosine = at.cosine, squared = at.squared;
     F half_exponent = shape.half_exponent;
-    if (shape.kind == shading::Highlight::phong) half_exponent = half_exponent * F(0.25f);
+    if (shape.kind == shading::SpecularModel::phong) half_exponent = half_exponent * F(0.25f);
     M shines = vmin(n_dot_l, cosine) > F(0.0f);
     if (shape.threshold > 0.0f) {
         // cos^s <= e^-z <= 8! / z^8 with z = s/2 sin^2: too little to be seen, and known before any division or logarithm.
@@ -57,11 +57,11 @@ HALFLIT_INLINE F highlight_value(const HighlightShape& shape, V3 normal, V3 to_e
     return sel(shines, n_dot_l * power, F(0.0f));
 }
 
-/// The same by MaterialPlan::highlight_curve: 0 where cos^2 is less than its least, and there nothing is computed when that is so for
+/// The same by MaterialPlan::specular_curve: 0 where cos^2 is less than its least, and there nothing is computed when that is so for
 /// all lanes. A lane that is 0 anyway is held at the least, so that its squares do not become denormals, which are slow.
-HALFLIT_INLINE F curve_highlight_value(const HighlightShape& shape, V3 normal, V3 to_eye, V3 to_light, F n_dot_l) {
-    const shading::HighlightCurve& curve = shape.curve;
-    const HighlightAngle at = highlight_angle(shape, normal, to_eye, to_light, n_dot_l);
+HALFLIT_INLINE F curve_specular_value(const SpecularShape& shape, V3 normal, V3 to_eye, V3 to_light, F n_dot_l) {
+    const shading::SpecularCurve& curve = shape.curve;
+    const SpecularAngle at = specular_angle(shape, normal, to_eye, to_light, n_dot_l);
     const F cosine_squared = at.cosine * at.cosine;
     const M shines = (vmin(n_dot_l, at.cosine) > F(0.0f)) & (cosine_squared > F(curve.least) * at.squared);
     if (!any(shines)) return F(0.0f);
