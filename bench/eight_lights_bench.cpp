@@ -4,7 +4,7 @@
 //     halflit_eight_lights_bench [SLICES [POWER [ROUGHNESS]]]      400 slices, t^1.3, highlights of exponent 32
 #include "raster/debug_view.hpp"
 #include "raster/built_in/shapes.hpp"
-#include "shading/kernels/isa.hpp"
+#include "shading/isa.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 
 #include <algorithm>

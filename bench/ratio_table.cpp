@@ -1,6 +1,6 @@
 #include "bench/ratio_table.hpp"
 
-#include "shading/kernels/fragment_block.hpp"
+#include "shading/fragment_block.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,7 +1,9 @@
 // Views of what the rasterizer decided before any shading: for tests, tools and curious people.
 #pragma once
 
-#include "raster/renderer.hpp"
+#include "raster/scene/scene.hpp"
+#include "raster/settings.hpp"
+#include "raster/view/camera.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -16,9 +18,6 @@ struct VisibilityView {
 };
 
 [[nodiscard]] Result<VisibilityView> visibility(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height);
-
-/// What a frame would compute: stages, lobes and orders of each material, lights, and what an error budget was spent on.
-[[nodiscard]] Result<shading::ShadingPlan> frame_plan(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height);
 
 /// The triangle numbers alone.
 [[nodiscard]] Result<std::vector<std::uint32_t>> triangle_ids(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height);

@@ -1,141 +1,134 @@
 #include "raster/renderer.hpp"
 
-#include "raster/passes/binning.hpp"
-#include "raster/passes/executor.hpp"
-#include "raster/passes/fp_environment.hpp"
-#include "raster/passes/geometry.hpp"
+#include "raster/detail/fp_environment.hpp"
+#include "raster/detail/stopwatch.hpp"
+#include "raster/frame_plan.hpp"
+#include "raster/passes/picture_tile.hpp"
 #include "raster/passes/shading_rate.hpp"
-#include "raster/passes/tile_renderer.hpp"
-#include "raster/passes/shadow_map.hpp"
+#include "raster/passes/shadow_maps.hpp"
 
-#include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <mutex>
 #include <new>
+#include <optional>
+#include <string>
 
 namespace halflit::raster {
 namespace {
 
-class Stopwatch {
-public:
-    /// Milliseconds since the last call.
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
-        last_ = now;
-        return ms;
-    }
+/// What a plan was made from.
+struct PlanKey {
+    SceneRevision scene;
+    Camera camera;
+    Settings settings;
+    int width, height;
 
-private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+    [[nodiscard]] bool same(const PlanKey& other) const {
+        return scene == other.scene && camera == other.camera && same_plan(settings, other.settings) && width == other.width &&
+               height == other.height;
+    }
 };
 
-/// Of the materials that something is drawn with, in the plan's order.
-std::vector<EnvironmentUse> environment_uses(const Frame& frame) {
-    enum : unsigned { kDiffuse = 1, kSpecular = 2 };
-    std::vector<unsigned> uses(frame.plan.environments.size(), 0);
-    for (const Draw& draw : frame.draws) {
-        const shading::MaterialPlan& material = frame.plan.materials[static_cast<std::size_t>(draw.material)];
-        if (material.environment >= 0) uses[static_cast<std::size_t>(material.environment)] |= kDiffuse;
-        if (material.specular_environment >= 0) uses[static_cast<std::size_t>(material.specular_environment)] |= kSpecular;
-    }
-    std::vector<EnvironmentUse> out;
-    for (std::size_t i = 0; i < uses.size(); ++i) {
-        const shading::EnvironmentPlan& plan = frame.plan.environments[i];
-        if (uses[i] != 0) out.push_back({plan.bands, plan.bound, plan.within, uses[i] == kSpecular});
-    }
-    return out;
-}
-
-/// Of the materials that light meets, each warning once.
-void add_lobe_warnings(const Frame& frame, std::vector<std::string>& warnings) {
-    const shading::PlanOptions& options = frame.settings->shading;
-    const shading::Material without;
-    for (const Draw& draw : frame.draws) {
-        const auto index = static_cast<std::size_t>(draw.material);
-        if ((frame.plan.materials[index].stages & (shading::kStageLights | shading::kStageEnvironment)) == 0) continue;
-        const bool listed = index < frame.scene->materials.size();
-        std::string warning = shading::lobe_warning(shading::lobe_of(listed ? frame.scene->materials[index] : without, options));
-        if (!warning.empty() && std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
-            warnings.push_back(std::move(warning));
-    }
+void add_counts(const ViewGeometry& geometry, const TileCounts& tiles, RenderReport& report) {
+    report.triangles_submitted = geometry.scene().triangle_count();
+    report.triangles_drawn = geometry.triangles_drawn();
+    report.triangles_not_finite = geometry.triangles_not_finite();
+    report.pixels_visible = tiles.pixels_visible;
+    report.fragments_shaded = tiles.fragments_shaded;
+    report.nan_pixels = tiles.nan_pixels;
+    report.work += tiles.work;
+    if (report.triangles_not_finite > 0)
+        report.warnings.push_back(std::to_string(report.triangles_not_finite) + " triangles dropped: a vertex is NaN or infinite");
+    if (report.nan_pixels > 0)
+        report.warnings.push_back(std::to_string(report.nan_pixels) + " fragments came out as NaN and were written as 0");
 }
 
 }  // namespace
 
 struct Renderer::Impl {
-    Frame frame;
     Executor executor;
-    Pool<TileScratch> scratch;
+    FramePlanMemory plan_memory;
+    std::optional<PlanKey> plan_key;
+    FramePlan plan;
     ShadowMaps shadow_maps;
+    ViewGeometry geometry;
+    VertexRecords records;
+    ReferenceShading reference;
+    Pool<TileScratch> scratch;
 
-    Result<RenderReport> render(const Scene& scene, const Camera& camera, const Settings& asked, const FramebufferView& target) {
-        const FpEnvironment environment;
-        Settings settings = asked;
-        if (settings.shading.accuracy == shading::Accuracy::reference) {
-            // What the cheaper ways are measured against: light at every pixel, textures as their samplers say.
-            settings.shading.rate = shading::ShadingRate::pixel;
-            settings.shading.texture_detail = shading::TextureDetail::full;
-            settings.shading.max_error_codes = 0.0;
-        }
-        Stopwatch total, watch;
-        RenderReport report;
-        if (auto ok = prepare_frame(frame, scene, camera, settings, target); !ok) return tl::unexpected<Error>(ok.error());
-        executor.configure(settings.threads, settings.parallel_for);
-        report.ms.plan = watch.lap();
-        if (auto ok = shadow_maps.draw(scene, settings, executor, frame.plan); !ok) return tl::unexpected<Error>(ok.error());
-        set_shadow_fades(frame);
-        report.ms.shadows = watch.lap();
-        transform_vertices(frame, executor);
-        report.ms.transform = watch.lap();
-        bin_triangles(frame, executor);
-        report.ms.bin = watch.lap();
-        make_vertex_records(frame, executor);
-        if (settings.shading.rate == shading::ShadingRate::gouraud) report.work = light_vertices(frame, executor);
-        make_clip_records(frame, executor);
-        report.ms.transform += watch.lap();
+    Result<void> make_plan(const PreparedScene& scene, const Camera& camera, const Settings& settings, const FramebufferView& target) {
+        PlanKey key{scene.revision(), camera, settings, target.width, target.height};
+        key.settings.parallel_for = {};  // the host's, for this call
+        key.settings.cancelled = nullptr;
+        if (plan_key && plan_key->same(key)) return {};
+        plan_key.reset();
+        auto made = plan_frame(scene, camera, settings, target.width, target.height, plan_memory,
+                               [this](std::size_t texel_count) { return shadow_maps.reserve(texel_count); });
+        if (!made) return tl::unexpected<Error>(made.error());
+        plan = std::move(*made);
+        plan_key = std::move(key);
+        return {};
+    }
 
+    /// All tiles of the picture, or none where the caller says stop.
+    Result<TileCounts> draw_tiles(const PicturePass& pass, const std::function<bool()>* cancelled) {
         std::mutex counting;
         TileCounts sum;
         std::atomic<bool> stopped{false};
-        executor.run(frame.tiles_x * frame.tiles_y, [&](int tile) {
+        executor.run(plan.picture.tile_count(), [&](int tile) {
             if (stopped.load(std::memory_order_relaxed)) return;
-            if (settings.cancelled && (*settings.cancelled)()) {
+            if (cancelled != nullptr && (*cancelled)()) {
                 stopped = true;
                 return;
             }
-            typename Pool<TileScratch>::Loan loan(scratch);
-            const TileCounts counts = TileRenderer(frame, tile, *loan).render();
+            Pool<TileScratch>::Loan loan(scratch);
+            const TileCounts counts = PictureTile(pass, tile, *loan).draw();
             const std::lock_guard lock(counting);
             sum += counts;
         });
         if (stopped) return fail(ErrorCode::negative_result, "stopped on request");
+        return sum;
+    }
+
+    Result<RenderReport> render(const PreparedScene& scene, const Camera& camera, const Settings& settings, const FramebufferView& target,
+                                RenderReport report) {
+        Stopwatch watch;
+        if (auto ok = make_plan(scene, camera, settings, target); !ok) return tl::unexpected<Error>(ok.error());
+        const RasterKernels& raster = raster_kernels(*settings.isa);
+        const shading::ShadeKernels& shade = shading::shade_kernels(*settings.isa);
+        executor.configure(settings.threads, settings.parallel_for);
+        if (plan.reference)
+            if (auto ok = reference.build(scene, plan.shading, settings.shading); !ok) return tl::unexpected<Error>(ok.error());
+        report.ms.plan = watch.lap();
+
+        if (auto ok = shadow_maps.draw(scene, plan, raster, shade, executor); !ok) return tl::unexpected<Error>(ok.error());
+        report.ms.shadows = watch.lap();
+
+        if (auto ok = geometry.make(scene, plan.picture, raster, executor); !ok) return tl::unexpected<Error>(ok.error());
+        report.ms.cull = geometry.times_ms().cull;
+        report.ms.transform = geometry.times_ms().transform;
+        report.ms.bin = geometry.times_ms().bin;
+        watch.lap();
+
+        records.make(geometry, plan.shading.materials, raster, executor);
+        if (plan.rate == shading::ShadingRate::gouraud) report.work = light_vertices(geometry, records, plan.shading, shade, executor);
+        report.ms.transform += watch.lap();
+
+        const PicturePass pass{{geometry, records, plan.shading.materials, raster, shade, plan.shading.shadow_offset},
+                               plan, target, plan.reference ? &reference : nullptr};
+        const auto tiles = draw_tiles(pass, settings.cancelled);
+        if (!tiles) return tl::unexpected<Error>(tiles.error());
         report.ms.tiles = watch.lap();
 
         report.threads = executor.threads();
         report.isa = *settings.isa;
-        report.triangles_submitted = static_cast<std::uint64_t>(frame.triangle_count);
-        for (std::size_t i = 0; i < frame.chunk_count; ++i) {
-            report.triangles_drawn += frame.chunks[i]->records.size();
-            report.triangles_not_finite += frame.chunks[i]->not_finite;
-        }
-        report.pixels_visible = sum.pixels_visible;
-        report.fragments_shaded = sum.fragments_shaded;
-        report.nan_pixels = sum.nan_pixels;
-        report.work += sum.work;
-        report.environment = environment_uses(frame);
-        report.error = frame.plan.error;
-        add_lobe_warnings(frame, report.warnings);
-        if (std::string halved = shadow_maps.warning(); !halved.empty()) report.warnings.push_back(std::move(halved));
-        if (report.triangles_not_finite > 0)
-            report.warnings.push_back(std::to_string(report.triangles_not_finite) + " triangles dropped: a vertex is NaN or infinite");
-        if (report.nan_pixels > 0)
-            report.warnings.push_back(std::to_string(report.nan_pixels) + " fragments came out as NaN and were written as 0");
+        report.environment = plan.environment_uses;
+        report.error = plan.shading.error;
+        report.warnings.insert(report.warnings.end(), plan.warnings.begin(), plan.warnings.end());
+        add_counts(geometry, *tiles, report);
         // A part of a picture may well be empty; a whole one is rarely meant to be.
         const bool whole_picture = settings.region.width == 0;
         if (report.triangles_submitted == 0 || (whole_picture && report.triangles_drawn == 0)) report.warnings.emplace_back("nothing to draw");
-        report.total_ms = total.lap();
         return report;
     }
 };
@@ -145,14 +138,47 @@ Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
-Result<RenderReport> Renderer::render(const Scene& scene, const Camera& camera, const Settings& settings, const FramebufferView& target) {
+void Renderer::forget_frames() {
+    impl_->plan_key.reset();
+    impl_->plan_memory.light_distances.clear();
+    impl_->shadow_maps.forget();
+    impl_->geometry.forget();
+    impl_->records.changed();
+}
+
+namespace {
+
+/// No exception leaves the library.
+template <class Body>
+Result<RenderReport> guarded(const Body& body) {
+    const FpEnvironment environment;
     try {
-        return impl_->render(scene, camera, settings, target);
+        Stopwatch total;
+        Result<RenderReport> report = body();
+        if (report) report->total_ms = total.lap();
+        return report;
     } catch (const std::bad_alloc&) {
         return fail(ErrorCode::limit, "out of memory while rendering");
     } catch (const std::exception& e) {
         return fail(ErrorCode::internal, e.what());
     }
+}
+
+}  // namespace
+
+Result<RenderReport> Renderer::render(const PreparedScene& scene, const Camera& camera, const Settings& settings, const FramebufferView& target) {
+    return guarded([&] { return impl_->render(scene, camera, settings, target, {}); });
+}
+
+Result<RenderReport> Renderer::render(const Scene& scene, const Camera& camera, const Settings& settings, const FramebufferView& target) {
+    return guarded([&]() -> Result<RenderReport> {
+        Stopwatch watch;
+        RenderReport report;
+        const auto prepared = PreparedScene::make(scene, {settings.threads, settings.parallel_for});
+        if (!prepared) return tl::unexpected<Error>(prepared.error());
+        report.ms.prepare = watch.lap();
+        return impl_->render(*prepared, camera, settings, target, std::move(report));
+    });
 }
 
 Result<RenderReport> render(const Scene& scene, const Camera& camera, const Settings& settings, const FramebufferView& target) {

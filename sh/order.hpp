@@ -31,6 +31,8 @@ struct OrderBounds {
 /// The values of an environment's bands on a grid, made once for all lobes: 5 MB, 20 ms.
 class BandGrid {
 public:
+    /// Of darkness; holds nothing.
+    BandGrid() = default;
     explicit BandGrid(const Projection& environment);
 
     /// Never above order_bounds() of the norms, and usually half of it.

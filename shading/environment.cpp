@@ -2,76 +2,11 @@
 
 #include "sh/sun.hpp"
 #include "sh/trig.hpp"
-#include "sh/zonal.hpp"
-#include "shading/budget/code_bounds.hpp"
 #include "shading/material.hpp"
 
 #include <algorithm>
-#include <array>
 
 namespace halflit::shading {
-namespace {
-
-/// The polynomial in z that belongs to the real (part = +1) or imaginary (-1) part of (x + iy)^m, in Newton form about kNodes: divided
-/// differences of its values there.
-std::array<double, sh::kMaxBands> newton_form_about_nodes(const float* coefficients, int bands, int m, int part) {
-    const sh::detail::BasisTable& table = sh::detail::kBasisTable;
-    std::array<double, sh::kMaxBands> a{};
-    const int degree = bands - 1 - m;
-    for (int j = 0; j <= degree; ++j) {
-        double before = 0.0, q = table.diagonal[m];
-        for (int l = m; l < bands; ++l) {
-            a[j] += static_cast<double>(coefficients[sh::coefficient_index(l, part * m)]) * q;
-            if (l + 1 == bands) break;
-            const double next = (static_cast<double>(kNodes[j]) * q) * table.up[l + 1][m] - before * table.back[l + 1][m];
-            before = q;
-            q = next;
-        }
-    }
-    for (int k = 1; k <= degree; ++k)
-        for (int j = degree; j >= k; --j) a[j] = (a[j] - a[j - 1]) / (static_cast<double>(kNodes[j]) - static_cast<double>(kNodes[j - k]));
-    return a;
-}
-
-/// What leaving out bands costs in codes, for 1..10 bands: a dark surface shows an absolute error most, and where the light is nowhere
-/// dark the relative error is the smaller bound, whatever the surface's colour and whatever other light is added.
-std::array<double, sh::kMaxBands> bounds_in_codes(const Environment& environment, const sh::WrapLobe& lobe, const sh::OrderBounds& bounds,
-                                                  const EnvironmentOrder& order) {
-    constexpr int kRows = 64, kColumns = 128;
-    // Degree 9 and a point of the grid within 0.035 rad: at its minimum a function of that degree is lower than on the grid by at most
-    // half of 81 times 0.035^2, 0.05, of its largest value.
-    constexpr double kBetweenPoints = 0.05;
-    const sh::PreconvolvedSh light = sh::convolve(environment.radiance, sh::zonal_bands(lobe), sh::kMaxBands);
-    double least[3] = {1e300, 1e300, 1e300}, most[3] = {0, 0, 0};
-    for (int row = 0; row < kRows; ++row) {
-        const SinCos polar = sin_cos(kPi * (row + 0.5) / kRows);
-        for (int column = 0; column < kColumns; ++column) {
-            const SinCos around = sin_cos(2.0 * kPi * column / kColumns);
-            const Vec3d value = sh::evaluate(light, Vec3d{polar.sin * around.cos, polar.sin * around.sin, polar.cos});
-            const double sum[3] = {value.x, value.y, value.z};
-            for (int c = 0; c < 3; ++c) {
-                least[c] = std::min(least[c], sum[c]);
-                most[c] = std::max(most[c], sum[c]);
-            }
-        }
-    }
-    const Vec3d rest = order.ten_bands_are_all ? Vec3d{0, 0, 0} : bounds.by_order[sh::kMaxBands - 1];
-    std::array<double, sh::kMaxBands> codes{};
-    for (std::size_t n = 0; n < sh::kMaxBands; ++n) {
-        if (n + 1 == sh::kMaxBands && order.ten_bands_are_all) break;
-        const Vec3d bound = bounds.by_order[n];
-        const double b[3] = {bound.x, bound.y, bound.z}, r[3] = {rest.x, rest.y, rest.z};
-        for (int c = 0; c < 3; ++c) {
-            const double floor = least[c] - kBetweenPoints * most[c] - r[c];
-            const double relative = floor > b[c] ? codes_of_relative(b[c] / (floor - b[c])) : 255.0;
-            codes[n] = std::max(codes[n], std::min(codes_of_absolute(b[c] * order.exposure), relative));
-        }
-    }
-    return codes;
-}
-
-}  // namespace
-
 sh::WrapLobe specular_environment_lobe(float roughness) {
     const double power = std::max(1.0, specular_exponent(static_cast<double>(roughness)) * 0.25);
     return {0.0, power, 0.5 * (power + 1.0)};
@@ -110,66 +45,6 @@ Environment make_environment(const sh::EquirectView& image, const EnvironmentOpt
         environment.suns.push_back(light);
     }
     return environment;
-}
-
-void make_newton_form(EnvironmentPlan& plan) {
-    float* next = plan.newton;
-    for (int m = 0; m < plan.bands; ++m) {
-        std::array<double, sh::kMaxBands> a[2][3];
-        const int parts = m > 0 ? 2 : 1;
-        for (int part = 0; part < parts; ++part)
-            for (int channel = 0; channel < 3; ++channel)
-                a[part][channel] = newton_form_about_nodes(channel == 0   ? plan.red
-                                                      : channel == 1 ? plan.green
-                                                                     : plan.blue,
-                                                      plan.bands, m, 1 - 2 * part);
-        for (int k = plan.bands - 1 - m; k >= 0; --k)
-            for (int part = 0; part < parts; ++part)
-                for (int channel = 0; channel < 3; ++channel) *next++ = static_cast<float>(a[part][channel][static_cast<std::size_t>(k)]);
-    }
-}
-
-EnvironmentPlan plan_environment(const Environment& environment, const sh::WrapLobe& lobe, const EnvironmentOrder& order) {
-    const sh::OrderBounds bounds = environment.grid.order_bounds(sh::lobe_spectrum(lobe));
-    EnvironmentPlan plan;
-    std::array<double, sh::kMaxBands> codes{};
-    if (order.codes > 0) codes = bounds_in_codes(environment, lobe, bounds, order);
-    if (order.codes > 0 && order.fixed == 0) {
-        plan.bands = 1;
-        while (plan.bands < sh::kMaxBands && codes[static_cast<std::size_t>(plan.bands - 1)] > order.codes) ++plan.bands;
-        plan.bound = sh::largest(bounds.by_order[static_cast<std::size_t>(plan.bands - 1)]);
-        plan.within = codes[static_cast<std::size_t>(plan.bands - 1)] <= order.codes;
-    } else if (order.fixed > 0) {
-        plan.bands = std::min(order.fixed, sh::kMaxBands);
-        plan.bound = sh::largest(bounds.by_order[static_cast<std::size_t>(plan.bands - 1)]);
-        plan.within = plan.bound <= order.tolerance * (1.0 / order.exposure);
-    } else {
-        const sh::OrderChoice choice = sh::pick_order(bounds, order.tolerance, 1.0 / order.exposure);
-        plan.bands = choice.order;
-        plan.bound = choice.bound;
-        plan.within = choice.within;
-    }
-    plan.bound_codes = codes[static_cast<std::size_t>(plan.bands - 1)];
-    const sh::PreconvolvedSh product = sh::convolve(environment.radiance, sh::zonal_bands(lobe), plan.bands);
-    std::copy(product.r.begin(), product.r.end(), plan.red);
-    std::copy(product.g.begin(), product.g.end(), plan.green);
-    std::copy(product.b.begin(), product.b.end(), plan.blue);
-    make_newton_form(plan);
-    return plan;
-}
-
-void EnvironmentPlans::use(std::shared_ptr<const Environment> environment) {
-    if (environment == environment_) return;
-    entries_.clear();
-    environment_ = std::move(environment);
-}
-
-EnvironmentPlan EnvironmentPlans::plan(const sh::WrapLobe& lobe, const EnvironmentOrder& order) {
-    constexpr std::size_t kMostEntries = 256;  // a scene whose lobes change all the time must not fill the memory
-    for (const Entry& entry : entries_)
-        if (entry.lobe == lobe && entry.order == order) return entry.plan;
-    if (entries_.size() == kMostEntries) entries_.clear();
-    return entries_.emplace_back(Entry{lobe, order, plan_environment(*environment_, lobe, order)}).plan;
 }
 
 }  // namespace halflit::shading

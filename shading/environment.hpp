@@ -5,7 +5,6 @@
 #include "sh/order.hpp"
 #include "sh/project.hpp"
 #include "sh/rotate.hpp"
-#include "shading/plan/environment_plan.hpp"
 #include "shading/light.hpp"
 
 #include <memory>
@@ -17,7 +16,7 @@ namespace halflit::shading {
 /// their own: whoever lights a scene with this adds them to the scene's lights.
 struct Environment {
     sh::RadianceSh radiance;  ///< turned as the scene wants it
-    sh::BandGrid grid{sh::Projection()};
+    sh::BandGrid grid;
     std::vector<Light> suns;  ///< directional, colour premultiplied by 1/pi
     /// The image itself, suns and all, as it came, and how it is to be turned: what is seen behind a scene. Empty unless kept.
     std::vector<float> rgb;
@@ -40,31 +39,5 @@ struct EnvironmentOptions {
 [[nodiscard]] sh::WrapLobe specular_environment_lobe(float roughness);
 
 [[nodiscard]] Environment make_environment(const sh::EquirectView& image, const EnvironmentOptions& options = {});
-
-/// Bands by the stable recurrence, order by the bound.
-[[nodiscard]] EnvironmentPlan plan_environment(const Environment& environment, const sh::WrapLobe& lobe, const EnvironmentOrder& order);
-
-/// The plans of one environment, kept from frame to frame: searching its bands for their largest error takes milliseconds.
-class EnvironmentPlans {
-public:
-    EnvironmentPlans() = default;
-    /// The environment must live as long.
-    explicit EnvironmentPlans(const Environment& environment) : environment_(std::shared_ptr<void>(), &environment) {}
-    /// For the plans that follow. Those of another environment are forgotten.
-    void use(std::shared_ptr<const Environment> environment);
-    [[nodiscard]] EnvironmentPlan plan(const sh::WrapLobe& lobe, const EnvironmentOrder& order);
-
-private:
-    struct Entry {
-        sh::WrapLobe lobe;
-        EnvironmentOrder order;
-        EnvironmentPlan plan;
-    };
-    std::shared_ptr<const Environment> environment_;
-    std::vector<Entry> entries_;
-};
-
-/// Makes `newton` from the series' coefficients.
-void make_newton_form(EnvironmentPlan& plan);
 
 }  // namespace halflit::shading

@@ -1,7 +1,7 @@
 // halflit bench: how long a frame takes, from a scene in memory to codes in memory.
 #include "apps/halflit/cli_support.hpp"
 #include "apps/halflit/commands.hpp"
-#include "apps/halflit/frame.hpp"
+#include "apps/halflit/render_job.hpp"
 #include "apps/halflit/messages.hpp"
 #include "apps/halflit/run_report.hpp"
 #include "apps/halflit/stopwatch.hpp"
@@ -21,7 +21,7 @@ constexpr PictureSize kUsualSize{1920, 1080};
 
 struct BenchOptions : RenderOptions {
     int frames = 10;
-    bool json = false;
+    bool keep = false, json = false;
 };
 
 double median(std::vector<double> values) {
@@ -35,13 +35,15 @@ struct Measured {
     raster::RenderReport fastest;  ///< its stages are what is reported
 };
 
-/// One Renderer for all frames: what it keeps between them is part of what is measured. The first frame is counted like the others.
-Result<Measured> measure(const Frame& frame, int frames, raster::Image& image) {
+/// One Renderer for all frames, whose memory is warm from the second one on. Every frame is drawn whole, as if the scene had moved, unless
+/// `keep`: then frames after the first use again what did not change, which for a scene at rest is all but the tiles.
+Result<Measured> measure(const RenderJob& job, int frames, bool keep, raster::Image& image) {
     Measured measured;
     raster::Renderer renderer;
     for (int i = 0; i < frames; ++i) {
+        if (!keep) renderer.forget_frames();
         const Stopwatch watch;
-        const auto rendered = renderer.render(frame.source.scene, frame.camera, frame.settings, view_of(image));
+        const auto rendered = renderer.render(*job.prepared, job.camera, job.settings, view_of(image));
         const double ms = watch.ms();
         if (!rendered) return tl::unexpected(rendered.error());
         if (measured.ms.empty() || ms < *std::min_element(measured.ms.begin(), measured.ms.end())) measured.fastest = *rendered;
@@ -56,20 +58,20 @@ std::string table(const Json& report) {
     text +=
         fmt::format("  min     {:10.3f} ms\n  median  {:10.3f} ms\n", report["min_ms"].get<double>(), report["median_ms"].get<double>());
     for (const auto& [stage, ms] : report["stages"].items()) text += fmt::format("    {:<10}{:6.3f} ms\n", stage, ms.get<double>());
-    text += fmt::format("  load    {:10.3f} ms\n  encode  {:10.3f} ms (PNG)\n", report["load_ms"].get<double>(),
-                        report["encode_ms"].get<double>());
+    text += fmt::format("  load    {:10.3f} ms\n  prepare {:10.3f} ms\n  encode  {:10.3f} ms (PNG)\n", report["load_ms"].get<double>(),
+                        report["prepare_ms"].get<double>(), report["encode_ms"].get<double>());
     return text;
 }
 
 Result<int> run_bench(const BenchOptions& options) {
-    const auto frame = make_frame(options, kUsualSize);
-    if (!frame) return tl::unexpected(frame.error());
-    raster::Image image = make_image(*frame, false);
-    const auto measured = measure(*frame, options.frames, image);
+    const auto job = make_render_job(options, kUsualSize);
+    if (!job) return tl::unexpected(job.error());
+    raster::Image image = make_image(*job, false);
+    const auto measured = measure(*job, options.frames, options.keep, image);
     if (!measured) return tl::unexpected(measured.error());
-    for (const std::string& warning : frame->warnings) print_warning(warning);
+    for (const std::string& warning : job->warnings) print_warning(warning);
 
-    const raster::Image picture = cropped(std::move(image), frame->settings.region);
+    const raster::Image picture = cropped(std::move(image), job->settings.region);
     const Stopwatch encoding;
     const auto bytes = io::encode_image(picture, io::OutputFormat::png);
     if (!bytes) return tl::unexpected(bytes.error());
@@ -80,7 +82,7 @@ Result<int> run_bench(const BenchOptions& options) {
     report["frames"] = options.frames;
     report["min_ms"] = *std::min_element(measured->ms.begin(), measured->ms.end());
     report["median_ms"] = median(measured->ms);
-    add_frame(report, *frame, measured->fastest, picture);
+    add_frame(report, *job, measured->fastest, picture);
     report["encode_ms"] = encode_ms;
     const std::string text = options.json ? to_text(report) : table(report);
     if (const auto written = io::write_file("-", {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}); !written)
@@ -101,6 +103,7 @@ Command add_bench_command(CLI::App& root) {
         options->frames = static_cast<int>(*frames);
         return {};
     })->group(kGroup);
+    app->add_flag("--keep", options->keep, "Let frames use again what the one before made: a scene at rest")->group(kGroup);
     app->add_flag("--json", options->json, "As one JSON object")->group(kGroup);
     return {app, [options] { return run_bench(*options); }};
 }

@@ -1,7 +1,7 @@
 // halflit info: what is in a scene, and what drawing it requires.
 #include "apps/halflit/cli_support.hpp"
 #include "apps/halflit/commands.hpp"
-#include "apps/halflit/frame.hpp"
+#include "apps/halflit/render_job.hpp"
 #include "apps/halflit/messages.hpp"
 #include "apps/halflit/run_report.hpp"
 #include "apps/halflit/scene_description.hpp"
@@ -19,10 +19,10 @@ struct InfoOptions : RenderOptions {
 };
 
 Result<int> run_info(const InfoOptions& options) {
-    const auto frame = make_frame(options, kUsualSize);
-    if (!frame) return tl::unexpected(frame.error());
-    for (const std::string& warning : frame->warnings) print_warning(warning);
-    const auto described = describe_scene(*frame);
+    const auto job = make_render_job(options, kUsualSize);
+    if (!job) return tl::unexpected(job.error());
+    for (const std::string& warning : job->warnings) print_warning(warning);
+    const auto described = describe_scene(*job);
     if (!described) return tl::unexpected(described.error());
     const Json& description = *described;
     const std::string text = options.json ? to_text(description) : description_text(description);

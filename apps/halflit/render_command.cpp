@@ -1,7 +1,7 @@
 // halflit render: a scene to a picture.
 #include "apps/halflit/cli_support.hpp"
 #include "apps/halflit/commands.hpp"
-#include "apps/halflit/frame.hpp"
+#include "apps/halflit/render_job.hpp"
 #include "apps/halflit/interrupt.hpp"
 #include "apps/halflit/messages.hpp"
 #include "apps/halflit/run_report.hpp"
@@ -61,22 +61,22 @@ Result<void> render_and_write(const RenderCommandOptions& options, Json& report)
     const auto format = io::output_format_of(options.output);
     if (!format) return tl::unexpected(format.error());
     if (const auto checked = check_paths(options); !checked) return checked;
-    auto frame = make_frame(options, kUsualSize);
-    if (!frame) return tl::unexpected(frame.error());
-    raster::Image image = make_image(*frame, io::is_linear(*format));
-    const auto rendered = raster::render(frame->source.scene, frame->camera, frame->settings, view_of(image));
+    auto job = make_render_job(options, kUsualSize);
+    if (!job) return tl::unexpected(job.error());
+    raster::Image image = make_image(*job, io::is_linear(*format));
+    const auto rendered = raster::Renderer().render(*job->prepared, job->camera, job->settings, view_of(image));
     if (!rendered) return tl::unexpected(rendered.error());
-    for (const auto& warnings : {frame->warnings, rendered->warnings})
+    for (const auto& warnings : {job->warnings, rendered->warnings})
         for (const std::string& warning : warnings) print_warning(warning);
 
-    const raster::Image picture = cropped(std::move(image), frame->settings.region);
+    const raster::Image picture = cropped(std::move(image), job->settings.region);
     const Stopwatch encoding;
     const auto bytes = io::encode_image(picture, *format);
     if (!bytes) return tl::unexpected(bytes.error());
     const double encode_ms = encoding.ms();
     if (const auto written = io::write_file(options.output, *bytes); !written) return written;
     if (options.output != "-") print_note("wrote " + options.output);
-    add_frame(report, *frame, *rendered, picture);
+    add_frame(report, *job, *rendered, picture);
     report["encode_ms"] = encode_ms;
     return {};
 }

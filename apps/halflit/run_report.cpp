@@ -40,18 +40,19 @@ Json error_report(int code, const std::string& message) {
     return report;
 }
 
-void add_frame(Json& report, const Frame& frame, const raster::RenderReport& rendered, const raster::Image& picture) {
-    report["size"] = {frame.width, frame.height};
-    const raster::Region& region = frame.settings.region;
+void add_frame(Json& report, const RenderJob& job, const raster::RenderReport& rendered, const raster::Image& picture) {
+    report["size"] = {job.width, job.height};
+    const raster::Region& region = job.settings.region;
     report["region"] = {region.x, region.y, region.width, region.height};
     report["pixel_hash"] = fmt::format("{:016x}", raster::pixel_hash(picture.rgba8));
     report["isa"] = shading::isa_name(rendered.isa);
     report["threads"] = rendered.threads;
-    report["samples"] = frame.settings.samples;
-    report["exposure"] = frame.settings.exposure;
-    report["accuracy"] = accuracy_name(frame.settings.shading.accuracy);
+    report["samples"] = job.settings.samples;
+    report["exposure"] = job.settings.exposure;
+    report["accuracy"] = accuracy_name(job.settings.shading.accuracy);
     if (rendered.error.budget > 0.0) report["error_bound"] = error_bound_json(rendered.error);
-    report["load_ms"] = frame.load_ms;
+    report["load_ms"] = job.load_ms;
+    report["prepare_ms"] = job.prepare_ms;
     report["render_ms"] = rendered.total_ms;
     report["stages"] = stages_ms(rendered);
     report["triangles_submitted"] = rendered.triangles_submitted;
@@ -61,16 +62,16 @@ void add_frame(Json& report, const Frame& frame, const raster::RenderReport& ren
     report["fragments_shaded"] = rendered.fragments_shaded;
     report["nan_pixels"] = rendered.nan_pixels;
     report["lanes"] = work_json(rendered.work);
-    if (frame.source.scene.environment != nullptr) {
+    if (job.scene().environment != nullptr) {
         Json uses = Json::array();
         for (const raster::EnvironmentUse& use : rendered.environment) {
             Json one{{"light", use.specular ? "specular" : "diffuse"}};
-            one.update(environment_use_json(use, frame.settings));
+            one.update(environment_use_json(use, job.settings));
             uses.push_back(std::move(one));
         }
         report["environment"] = std::move(uses);
     }
-    report["warnings"] = frame.warnings;
+    report["warnings"] = job.warnings;
     for (const std::string& warning : rendered.warnings) report["warnings"].push_back(warning);
     report["peak_memory_bytes"] = peak_memory();
 }
@@ -89,7 +90,7 @@ Json error_bound_json(const shading::ErrorBound& error) {
 
 Json stages_ms(const raster::RenderReport& rendered) {
     const auto& ms = rendered.ms;
-    return {{"plan", ms.plan}, {"shadows", ms.shadows}, {"transform", ms.transform}, {"bin", ms.bin}, {"tiles", ms.tiles}};
+    return {{"plan", ms.plan}, {"shadows", ms.shadows}, {"cull", ms.cull}, {"transform", ms.transform}, {"bin", ms.bin}, {"tiles", ms.tiles}};
 }
 
 Json environment_use_json(const raster::EnvironmentUse& use, const raster::Settings& settings) {

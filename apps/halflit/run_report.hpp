@@ -1,7 +1,7 @@
 // The report: one JSON object about one run, for scripts. It is written when a run fails, too.
 #pragma once
 
-#include "apps/halflit/frame.hpp"
+#include "apps/halflit/render_job.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json error_report(int code, const std::string& message);
 
 /// Adds what was drawn and what it took: size, hash, instruction set, threads, times, counts, warnings, peak memory.
-void add_frame(Json& report, const Frame& frame, const raster::RenderReport& rendered, const raster::Image& picture);
+void add_frame(Json& report, const RenderJob& job, const raster::RenderReport& rendered, const raster::Image& picture);
 
 /// {"budget_codes", "bound_codes", "within", "parts"}: what --max-error asked for and what is promised.
 [[nodiscard]] Json error_bound_json(const shading::ErrorBound& error);

@@ -3,8 +3,7 @@
 #include "apps/halflit/messages.hpp"
 #include "apps/halflit/plan_names.hpp"
 #include "apps/halflit/run_report.hpp"
-#include "raster/debug_view.hpp"
-#include "shading/plan/plan.hpp"
+#include "raster/frame_plan.hpp"
 
 #include <fmt/format.h>
 
@@ -140,20 +139,28 @@ Json planned_lights_json(const shading::ShadingPlan& plan) {
     return lights;
 }
 
-Json materials_json(const Frame& frame, const shading::ShadingPlan& plan) {
-    const raster::Scene& scene = frame.source.scene;
-    std::vector<bool> used(scene.materials.size() + 1, false);
-    for (const raster::Instance& instance : scene.instances) {
-        const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
-        used[material >= 0 ? static_cast<std::size_t>(material) : scene.materials.size()] = true;
+/// The maps that the frame draws: one a light that casts, with the faces that see something.
+Json shadows_json(const raster::FramePlan& frame, const raster::Settings& settings) {
+    constexpr std::string_view kKinds[] = {"orthographic", "perspective", "cube"};
+    Json maps = Json::array();
+    std::size_t view = 0;
+    for (const shading::ShadowMapPlan& map : frame.shading.shadow_maps) {
+        const std::size_t faces = map.kind == shading::ShadowMapPlan::Kind::cube ? 6 : 1;
+        std::size_t drawn = 0;
+        for (std::size_t i = 0; i < faces; ++i) drawn += frame.shadow_views[view++].sees_scene ? 1 : 0;
+        maps.push_back({{"kind", kKinds[static_cast<std::size_t>(map.kind)]}, {"texels", map.size}, {"faces_drawn", drawn}});
     }
+    return {{"mode", shadow_mode_name(settings.shadows)}, {"maps", std::move(maps)}};
+}
+
+Json materials_json(const RenderJob& job, const shading::ShadingPlan& plan) {
+    const raster::PreparedScene& scene = *job.prepared;
+    const std::vector<bool>& used = scene.drawn_materials();
     Json materials = Json::array();
-    shading::Material without;
-    without.name = "(none)";
     for (std::size_t i = 0; i < used.size(); ++i)
         if (used[i]) {
-            const shading::Material& material = i < scene.materials.size() ? scene.materials[i] : without;
-            materials.push_back(material_json(material, plan, plan.materials[i], frame.settings));
+            materials.push_back(material_json(scene.material(i), plan, plan.materials[i], job.settings));
+            if (i == scene.scene().materials.size()) materials.back()["name"] = "(none)";
         }
     return materials;
 }
@@ -176,28 +183,28 @@ void append_lines(std::string& text, const std::string& label, const Json& value
 
 }  // namespace
 
-Result<Json> describe_scene(const Frame& frame) {
-    const raster::Scene& scene = frame.source.scene;
-    Json description{{"scene", frame.source.name}};
-    if (frame.source.file) description["file"] = file_json(*frame.source.file);
+Result<Json> describe_scene(const RenderJob& job) {
+    const raster::Scene& scene = job.scene();
+    Json description{{"scene", job.source.name}};
+    if (job.source.file) description["file"] = file_json(*job.source.file);
     description["drawn"] = counts_json(scene);
-    const raster::Bounds bounds = raster::scene_bounds(scene);
+    const raster::Bounds& bounds = job.prepared->bounds();
     description["bounds"] = bounds.empty ? Json(nullptr) : Json{{"min", vector_json(bounds.min)}, {"max", vector_json(bounds.max)}};
     Json cameras = Json::array();
     for (const raster::Camera& camera : scene.cameras) cameras.push_back(camera.name);
     description["cameras"] = std::move(cameras);
-    description["size"] = {frame.width, frame.height};
-    description["exposure"] = number(frame.settings.exposure);
+    description["size"] = {job.width, job.height};
+    description["exposure"] = number(job.settings.exposure);
     description["lights"] = lights_json(scene);
     description["ambient"] = {{"sky", vector_json(scene.ambient.sky_linear)}, {"ground", vector_json(scene.ambient.ground_linear)}};
-    const auto planned = raster::frame_plan(scene, frame.camera, frame.settings, frame.width, frame.height);
-    if (!planned) return tl::unexpected(planned.error());
-    const shading::ShadingPlan& plan = *planned;
+    const auto frame = raster::plan_frame(*job.prepared, job.camera, job.settings, job.width, job.height);
+    if (!frame) return tl::unexpected(frame.error());
+    const shading::ShadingPlan& plan = frame->shading;
     if (plan.error.budget > 0.0) description["error_bound"] = error_bound_json(plan.error);
     description["lights_computed"] = planned_lights_json(plan);
-    description["shadows"] = shadow_mode_name(frame.settings.shadows);
-    description["materials"] = materials_json(frame, plan);
-    description["warnings"] = frame.warnings;
+    description["shadows"] = shadows_json(*frame, job.settings);
+    description["materials"] = materials_json(job, plan);
+    description["warnings"] = job.warnings;
     return description;
 }
 

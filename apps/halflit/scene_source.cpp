@@ -45,10 +45,11 @@ Result<SceneSource> load_scene(const RenderOptions& options) {
     const std::string name = options.scene.empty() ? "demo" : options.scene;
     auto built_in = built_in_scene(name);
     if (!built_in) return tl::unexpected(built_in.error());
-    if (*built_in) return SceneSource{name, std::move(**built_in), std::nullopt, {}};
+    if (*built_in) return SceneSource{name, std::make_unique<raster::Scene>(std::move(**built_in)), std::nullopt, {}};
     auto loaded = load_model(options);
     if (!loaded) return tl::unexpected(loaded.error());
-    return SceneSource{name == "-" ? kStandardInput : name, std::move(loaded->scene), std::move(loaded->info), std::move(loaded->warnings)};
+    return SceneSource{name == "-" ? kStandardInput : name, std::make_unique<raster::Scene>(std::move(loaded->scene)), std::move(loaded->info),
+                       std::move(loaded->warnings)};
 }
 
 }  // namespace halflit::cli

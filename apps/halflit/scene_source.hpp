@@ -6,6 +6,7 @@
 #include "raster/scene/scene.hpp"
 #include "shading/result.hpp"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,7 +15,7 @@ namespace halflit::cli {
 
 struct SceneSource {
     std::string name;  ///< for people: the path, "standard input", or the built-in name
-    raster::Scene scene;
+    std::unique_ptr<raster::Scene> scene;  ///< stays where it is while the source moves
     std::optional<io::SceneInfo> file;  ///< of a file or standard input, whose lights are in their author's unit
     std::vector<std::string> warnings;
 };

@@ -2,7 +2,7 @@
 
 #include "apps/halflit/plan_names.hpp"
 #include "apps/halflit/stopwatch.hpp"
-#include "raster/debug_view.hpp"
+#include "raster/frame_plan.hpp"
 
 #include <fmt/format.h>
 
@@ -15,16 +15,6 @@ double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     const std::size_t middle = values.size() / 2;
     return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
-}
-
-/// Of the materials that something is made of.
-std::vector<bool> drawn_materials(const raster::Scene& scene) {
-    std::vector<bool> drawn(scene.materials.size() + 1, false);
-    for (const raster::Instance& instance : scene.instances) {
-        const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
-        drawn[material >= 0 ? static_cast<std::size_t>(material) : scene.materials.size()] = true;
-    }
-    return drawn;
 }
 
 template <class T>
@@ -51,39 +41,41 @@ void mark_front(std::vector<TradeRow>& rows) {
     for (std::size_t i = 0; i < front.size(); ++i) front[i]->number = static_cast<int>(i) + 1;
 }
 
-TradeBench::TradeBench(Frame frame, TradeSpace space, int frames)
-    : frame_(std::move(frame)),
+TradeBench::TradeBench(RenderJob job, TradeSpace space, int frames)
+    : job_(std::move(job)),
       space_(std::move(space)),
       frames_(frames),
-      settings_(frame_.settings),
-      own_materials_(frame_.source.scene.materials),
-      timed_(make_image(frame_, false)) {}
+      settings_(job_.settings),
+      own_materials_(job_.scene().materials),
+      timed_(make_image(job_, false)) {}
 
-void TradeBench::choose(const TradeChoice& choice) {
+Result<void> TradeBench::choose(const TradeChoice& choice) {
     apply_choice(settings_, choice);
-    if (choice.lobe == lobe_) return;
+    if (choice.lobe == lobe_) return {};
     lobe_ = choice.lobe;
-    frame_.source.scene.materials = own_materials_;
-    settings_.shading.override_lobe = lobe_ || frame_.settings.shading.override_lobe;
-    settings_.shading.lobe = lobe_ ? space_.lobes[*lobe_].lobe : frame_.settings.shading.lobe;
+    job_.scene().materials = own_materials_;
+    settings_.shading.override_lobe = lobe_ || job_.settings.shading.override_lobe;
+    settings_.shading.lobe = lobe_ ? space_.lobes[*lobe_].lobe : job_.settings.shading.lobe;
     if (lobe_)
-        for (shading::Material& material : frame_.source.scene.materials) material.has_own_lobe = false;
+        for (shading::Material& material : job_.scene().materials) material.has_own_lobe = false;
+    return job_.prepared->update({.materials = true});
 }
 
 Result<raster::Image> TradeBench::draw(const TradeChoice& choice) {
-    choose(choice);
-    raster::Image image = make_image(frame_, true);
-    auto drawn = renderer_.render(frame_.source.scene, frame_.camera, settings_, view_of(image));
+    if (const auto chosen = choose(choice); !chosen) return tl::unexpected(chosen.error());
+    raster::Image image = make_image(job_, true);
+    auto drawn = renderer_.render(*job_.prepared, job_.camera, settings_, view_of(image));
     if (!drawn) return tl::unexpected(drawn.error());
     drawn_ = std::move(*drawn);
     return cropped(std::move(image), settings_.region);
 }
 
 Result<TradeBench::Times> TradeBench::time_of(raster::Renderer& renderer, const TradeChoice& choice) {
-    choose(choice);
+    if (const auto chosen = choose(choice); !chosen) return tl::unexpected(chosen.error());
+    renderer.forget_frames();  // whole frames, as when the scene moves
     const Stopwatch watch;
     const CpuStopwatch cpu_watch;
-    const auto rendered = renderer.render(frame_.source.scene, frame_.camera, settings_, view_of(timed_));
+    const auto rendered = renderer.render(*job_.prepared, job_.camera, settings_, view_of(timed_));
     const Times times{watch.ms(), cpu_watch.ms()};
     if (!rendered) return tl::unexpected(rendered.error());
     return times;
@@ -96,14 +88,13 @@ Result<void> TradeBench::describe(TradeRow& row) {
     for (const raster::EnvironmentUse& use : drawn_.environment) add_once(row.orders, use.bands);
     std::sort(row.orders.begin(), row.orders.end());
     if (row.choice.accuracy == shading::Accuracy::reference) return {};
-    const raster::Scene& scene = frame_.source.scene;
-    const auto plan = raster::frame_plan(scene, frame_.camera, settings_, frame_.width, frame_.height);
-    if (!plan) return tl::unexpected(plan.error());
-    const std::vector<bool> drawn = drawn_materials(scene);
+    const auto frame = raster::plan_frame(*job_.prepared, job_.camera, settings_, job_.width, job_.height);
+    if (!frame) return tl::unexpected(frame.error());
+    const std::vector<bool>& drawn = job_.prepared->drawn_materials();
     shading::PowTier tier = shading::PowTier::exact;
     int powers = 0;
     for (std::size_t i = 0; i < drawn.size(); ++i) {
-        const shading::MaterialPlan& material = plan->materials[i];
+        const shading::MaterialPlan& material = frame->shading.materials[i];
         if (!drawn[i]) continue;
         if ((material.stages & (shading::kStageLights | shading::kStageEnvironment)) != 0) {
             std::string path(lobe_path_name(material.lobe.path));
@@ -137,8 +128,8 @@ Result<TradeRow> TradeBench::measure_reference(std::optional<std::size_t> lobe) 
     settings_.background_environment = false;
     settings_.background_linear = {0, 0, 0, 0};
     const auto coverage = draw(space_.exact());
-    settings_.background_environment = frame_.settings.background_environment;
-    settings_.background_linear = frame_.settings.background_linear;
+    settings_.background_environment = job_.settings.background_environment;
+    settings_.background_linear = job_.settings.background_linear;
     if (!coverage) return tl::unexpected(coverage.error());
     references_.emplace_back(*picture, *coverage);
     pictures_.push_back(std::move(*picture));

@@ -1,7 +1,7 @@
 // Draws a frame in many ways, and says of each what it took and what it is off by.
 #pragma once
 
-#include "apps/halflit/frame.hpp"
+#include "apps/halflit/render_job.hpp"
 #include "apps/halflit/trade_error.hpp"
 #include "apps/halflit/trade_grid.hpp"
 
@@ -38,8 +38,8 @@ void mark_front(std::vector<TradeRow>& rows);
 /// What was drawn, and what it looks like.
 class TradeBench {
 public:
-    /// The frame must have been made for reference accuracy, so that its environment kept its light.
-    TradeBench(Frame frame, TradeSpace space, int frames);
+    /// The job must have been made for reference accuracy, so that its environment kept its light.
+    TradeBench(RenderJob job, TradeSpace space, int frames);
 
     /// `steps_done` counts up to `steps` of about equal length.
     using Progress = std::function<void(std::size_t steps_done, std::size_t steps)>;
@@ -47,18 +47,18 @@ public:
     /// The references first, one for each lobe, then the choices in order; the front is marked.
     Result<std::vector<TradeRow>> measure(const std::vector<TradeChoice>& choices, const Progress& progress);
 
-    /// With linear floats; the frame's region.
+    /// With linear floats; the job's region.
     Result<raster::Image> draw(const TradeChoice& choice);
     [[nodiscard]] const TradeReference& reference(std::optional<std::size_t> lobe) const { return references_[lobe ? *lobe + 1 : 0]; }
     [[nodiscard]] const raster::Image& reference_picture(std::optional<std::size_t> lobe) const { return pictures_[lobe ? *lobe + 1 : 0]; }
 
-    [[nodiscard]] const Frame& frame() const { return frame_; }
+    [[nodiscard]] const RenderJob& job() const { return job_; }
     [[nodiscard]] const TradeSpace& space() const { return space_; }
     /// Of exact alone, over all of its frames.
     [[nodiscard]] double exact_ms() const { return exact_ms_; }
 
 private:
-    void choose(const TradeChoice& choice);
+    Result<void> choose(const TradeChoice& choice);
     Result<TradeRow> measure_reference(std::optional<std::size_t> lobe);
     Result<TradeRow> measure_choice(const TradeChoice& choice);
     struct Times {
@@ -67,7 +67,7 @@ private:
     Result<Times> time_of(raster::Renderer& renderer, const TradeChoice& choice);
     Result<void> describe(TradeRow& row);
 
-    Frame frame_;
+    RenderJob job_;
     TradeSpace space_;
     int frames_;
     raster::Settings settings_;

@@ -22,8 +22,8 @@ struct TradeOptions : RenderOptions {
     bool quick = false, all = false, progress = false;
 };
 
-TradeSpace space_of(const Frame& frame, const TradeOptions& options) {
-    const raster::Scene& scene = frame.source.scene;
+TradeSpace space_of(const RenderJob& job, const TradeOptions& options) {
+    const raster::Scene& scene = job.scene();
     TradeSpace space{.shadows = options.shadows, .shadow_size = options.shadow_size, .lobes = options.lobes};
     space.environment = scene.environment != nullptr;
     space.textures = !scene.textures.empty();
@@ -46,14 +46,14 @@ Result<void> write_all(const std::vector<TradeRow>& rows, TradeBench& bench, con
 
 Result<int> run_trade(TradeOptions options) {
     options.accuracy = shading::Accuracy::reference;  // the environment keeps its light for it
-    auto frame = make_frame(options, kUsualSize);
-    if (!frame) return tl::unexpected(frame.error());
+    auto job = make_render_job(options, kUsualSize);
+    if (!job) return tl::unexpected(job.error());
     if (const auto folder = make_folder(options.folder); !folder) return tl::unexpected(folder.error());
-    for (const std::string& warning : frame->warnings) print_warning(warning);
-    const TradeSpace space = space_of(*frame, options);
+    for (const std::string& warning : job->warnings) print_warning(warning);
+    const TradeSpace space = space_of(*job, options);
     const TradeExtent extent = options.quick ? TradeExtent::quick : options.all ? TradeExtent::all : TradeExtent::usual;
 
-    TradeBench bench(std::move(*frame), space, options.frames);
+    TradeBench bench(std::move(*job), space, options.frames);
     const auto rows = [&] {
         ProgressLine line(options.progress);
         return bench.measure(trade_choices(space, extent), [&](std::size_t done, std::size_t all) { line.show(done, all); });

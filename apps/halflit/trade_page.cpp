@@ -173,16 +173,16 @@ Result<std::string> all_pictures(const std::vector<TradeRow>& rows, TradeBench& 
 }  // namespace
 
 Result<std::string> trade_page(const std::vector<TradeRow>& rows, TradeBench& bench) {
-    const Frame& frame = bench.frame();
+    const RenderJob& job = bench.job();
     const TradeRow& exact = exact_row(rows, bench.space());
-    std::string html = fmt::format(kHead, xml_escaped(frame.source.name));
+    std::string html = fmt::format(kHead, xml_escaped(job.source.name));
     html += fmt::format(
         "<p>{}x{} pixels, {} samples a pixel, {} of them drawn to; exact takes {:.2f} ms. Times are medians of {} frames, each drawn in "
         "turn "
         "with one of exact, and are given as parts of exact's time; exact against itself gave {:.2f} to {:.2f}. Errors are in 8-bit sRGB "
         "codes "
         "before rounding, of the worst channel of a pixel, from the float64 reference.</p>\n",
-        frame.width, frame.height, frame.settings.samples, bench.reference(std::nullopt).pixels_drawn(), bench.exact_ms(), exact.frames,
+        job.width, job.height, job.settings.samples, bench.reference(std::nullopt).pixels_drawn(), bench.exact_ms(), exact.frames,
         exact.ratio_min, exact.ratio_max);
     for (std::size_t i = 0; i <= bench.space().lobes.size(); ++i) {
         const auto lobe = i == 0 ? std::nullopt : std::optional(i - 1);

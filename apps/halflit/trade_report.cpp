@@ -77,17 +77,17 @@ std::string trade_csv(const std::vector<TradeRow>& rows, const TradeSpace& space
 }
 
 Json trade_json(const std::vector<TradeRow>& rows, const TradeBench& bench) {
-    const Frame& frame = bench.frame();
+    const RenderJob& job = bench.job();
     const TradeRow& exact = exact_row(rows, bench.space());
     Json report = report_head();
-    report["scene"] = frame.source.name;
-    report["size"] = {frame.width, frame.height};
-    report["samples"] = frame.settings.samples;
-    report["isa"] = frame.settings.isa ? shading::isa_name(*frame.settings.isa) : "";
+    report["scene"] = job.source.name;
+    report["size"] = {job.width, job.height};
+    report["samples"] = job.settings.samples;
+    report["isa"] = job.settings.isa ? shading::isa_name(*job.settings.isa) : "";
     report["pixels_drawn"] = bench.reference(std::nullopt).pixels_drawn();
     report["exact_ms"] = bench.exact_ms();
     report["noise"] = {exact.ratio_min, exact.ratio_max};
-    report["warnings"] = frame.warnings;
+    report["warnings"] = job.warnings;
     report["rows"] = Json::array();
     for (const TradeRow& row : rows) report["rows"].push_back(row_json(row, bench.space()));
     return report;
@@ -95,7 +95,7 @@ Json trade_json(const std::vector<TradeRow>& rows, const TradeBench& bench) {
 
 std::string trade_summary(const std::vector<TradeRow>& rows, const TradeBench& bench) {
     std::string text = fmt::format("{} at {}x{}, {} samples: exact takes {:.2f} ms, noise {:.2f} to {:.2f} times that\n",
-                                   bench.frame().source.name, bench.frame().width, bench.frame().height, bench.frame().settings.samples,
+                                   bench.job().source.name, bench.job().width, bench.job().height, bench.job().settings.samples,
                                    bench.exact_ms(), exact_row(rows, bench.space()).ratio_min, exact_row(rows, bench.space()).ratio_max);
     text += "off by at most   costs   chosen by (99.9 % of the pixels, 8-bit codes)\n";
     for (const double codes : kAllowances)

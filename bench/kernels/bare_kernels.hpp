@@ -1,7 +1,7 @@
 // The insides of the shading kernels, called on their own, and the arithmetic peak to compare them with.
 #pragma once
 
-#include "shading/kernels/fragment_block.hpp"
+#include "shading/fragment_block.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 #include "shading/plan/plan.hpp"
 

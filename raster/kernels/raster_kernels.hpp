@@ -5,8 +5,8 @@
 // centre of pixel (i, j) is (256 i, 256 j).
 #pragma once
 
-#include "shading/kernels/fragment_block.hpp"
-#include "shading/kernels/isa.hpp"
+#include "shading/fragment_block.hpp"
+#include "shading/isa.hpp"
 
 #include <cstdint>
 
@@ -36,6 +36,7 @@ inline constexpr std::uint8_t kRejectWhenAll = kLeft | kRight | kTop | kBottom |
 struct Viewport {
     float half_width = 0, half_height = 0;
     float guard_x = 0, guard_y = 0;  ///< |clip x| <= guard_x * w stays inside the guard band
+    friend bool operator==(const Viewport&, const Viewport&) = default;
 };
 
 /// Half the width of the guard band around the middle of the picture, in pixels. Edge coefficients of triangles inside it
@@ -82,6 +83,7 @@ inline constexpr int kTilePixels = kTileStride * kMaxTileSize;
 struct SamplePattern {
     int count = 1;
     std::int16_t x[kMaxSamples] = {}, y[kMaxSamples] = {};
+    friend bool operator==(const SamplePattern&, const SamplePattern&) = default;
 };
 
 /// Depth and visible triangle of every sample of a tile; pixel (x, y) of the tile is at y * kTileStride + x.

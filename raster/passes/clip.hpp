@@ -1,7 +1,7 @@
 // Clipping in homogeneous coordinates, for the few triangles that cross the near plane or leave the guard band.
 #pragma once
 
-#include "raster/passes/frame.hpp"
+#include "raster/kernels/raster_kernels.hpp"
 
 namespace halflit::raster {
 

@@ -3,9 +3,10 @@
 // serves them by broadcast; the packing itself cannot change a value.
 #pragma once
 
-#include "raster/passes/frame.hpp"
+#include "shading/fragment_block.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace halflit::raster {
@@ -63,8 +64,5 @@ private:
     std::size_t used_ = 0;
     std::uint32_t epoch_ = 0;
 };
-
-/// Fills the block's attribute rows for a list. The list is padded with copies of its last fragment.
-void interpolate(const Frame& frame, FragmentList& list, shading::FragmentBlock& block);
 
 }  // namespace halflit::raster

@@ -14,11 +14,11 @@ constexpr double kMargin = 1.0 + 1e-4;
 
 /// Squared distance from which on the light is zero; 0: none.
 double end_squared(const LightPlan& light) {
-    const double range = light.inv_range_squared > 0.0f ? 1.0 / light.inv_range_squared : 0.0, reach = light.cutoff_squared;
-    return range > 0.0 && reach > 0.0 ? std::min(range, reach) : std::max(range, reach);
+    const double range = light.inv_range_squared > 0.0f ? 1.0 / light.inv_range_squared : 0.0, cutoff = light.cutoff_squared;
+    return range > 0.0 && cutoff > 0.0 ? std::min(range, cutoff) : std::max(range, cutoff);
 }
 
-double reach_of(const LightPlan& light) { return kMargin * __builtin_sqrt(end_squared(light)); }
+double cutoff_radius(const LightPlan& light) { return kMargin * __builtin_sqrt(end_squared(light)); }
 
 /// Ten bits of each coordinate, interleaved: neighbours in space are mostly neighbours in this order.
 std::uint32_t morton(const LightPlan& light, const double (&low)[3], const double (&scale)[3]) {
@@ -62,16 +62,13 @@ bool zero_in(const LightPlan& light, const double (&low)[3], const double (&high
 
 }  // namespace
 
-void LightCuller::build(const shading::ShadingPlan& plan) {
-    plan_ = &plan;
-    ranged_.clear();
-    groups_.clear();
-    always_.clear();
+LightCuller::LightCuller(std::span<const LightPlan> lights) {
     double low[3] = {1e300, 1e300, 1e300}, high[3] = {-1e300, -1e300, -1e300};
-    for (std::uint32_t i = 0; i < plan.lights.size(); ++i) {
-        const LightPlan& light = plan.lights[i];
+    for (std::uint32_t i = 0; i < lights.size(); ++i) {
+        const LightPlan& light = lights[i];
         if (light.type == shading::LightType::directional || end_squared(light) == 0.0) {
             always_.push_back(i);
+            any_spot_ |= light.type == shading::LightType::spot;
             continue;
         }
         ranged_.push_back(i);
@@ -83,26 +80,26 @@ void LightCuller::build(const shading::ShadingPlan& plan) {
     double scale[3];
     for (int axis = 0; axis < 3; ++axis) scale[axis] = high[axis] > low[axis] ? 1023.0 / (high[axis] - low[axis]) : 0.0;
     std::stable_sort(ranged_.begin(), ranged_.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return morton(plan.lights[a], low, scale) < morton(plan.lights[b], low, scale);
+        return morton(lights[a], low, scale) < morton(lights[b], low, scale);
     });
     for (std::size_t first = 0; first < ranged_.size(); first += kGroupSize) {
         Group group{{{3e38f, 3e38f, 3e38f}, {-3e38f, -3e38f, -3e38f}}, first, std::min(first + kGroupSize, ranged_.size())};
         for (std::size_t k = group.first; k < group.end; ++k) {
-            const LightPlan& light = plan.lights[ranged_[k]];
-            const double reach = reach_of(light);
+            const LightPlan& light = lights[ranged_[k]];
+            const double radius = cutoff_radius(light);
             for (int axis = 0; axis < 3; ++axis) {
-                group.reach.min[axis] = std::min(group.reach.min[axis], static_cast<float>(std::max(light.position[axis] - reach, -3e38)));
-                group.reach.max[axis] = std::max(group.reach.max[axis], static_cast<float>(std::min(light.position[axis] + reach, 3e38)));
+                group.extent.min[axis] = std::min(group.extent.min[axis], static_cast<float>(std::max(light.position[axis] - radius, -3e38)));
+                group.extent.max[axis] = std::max(group.extent.max[axis], static_cast<float>(std::min(light.position[axis] + radius, 3e38)));
             }
         }
         groups_.push_back(group);
     }
 }
 
-shading::LightList LightCuller::select(const shading::FragmentBlock& block, int count, LightSelection& scratch) const {
-    bool any_spot = false;
-    for (const std::uint32_t i : always_) any_spot |= plan_->lights[i].type == shading::LightType::spot;
-    if (ranged_.empty() && !any_spot) return shading::all_lights(*plan_);
+shading::LightList LightCuller::select(std::span<const LightPlan> lights, const shading::FragmentBlock& block, int count,
+                                       LightSelection& scratch) const {
+    const shading::LightList all{lights.data(), static_cast<int>(lights.size())};
+    if (ranged_.empty() && !any_spot_) return all;
     double low[3], high[3];
     for (int axis = 0; axis < 3; ++axis) {
         const float* p = block.lane[shading::kPosX + axis];
@@ -111,25 +108,25 @@ shading::LightList LightCuller::select(const shading::FragmentBlock& block, int 
             least = p[l] < least ? p[l] : least;
             most = p[l] > most ? p[l] : most;
         }
-        if (!(most - least < 3e38f)) return shading::all_lights(*plan_);  // not finite
+        if (!(most - least < 3e38f)) return all;  // not finite
         low[axis] = least;
         high[axis] = most;
     }
     std::vector<std::uint32_t>& kept = scratch.index;
     kept.clear();
     for (const std::uint32_t i : always_)
-        if (plan_->lights[i].type != shading::LightType::spot || !zero_in(plan_->lights[i], low, high)) kept.push_back(i);
+        if (lights[i].type != shading::LightType::spot || !zero_in(lights[i], low, high)) kept.push_back(i);
     for (const Group& group : groups_) {
         bool apart = false;
-        for (int axis = 0; axis < 3; ++axis) apart |= group.reach.min[axis] > high[axis] || group.reach.max[axis] < low[axis];
+        for (int axis = 0; axis < 3; ++axis) apart |= group.extent.min[axis] > high[axis] || group.extent.max[axis] < low[axis];
         if (apart) continue;
         for (std::size_t k = group.first; k < group.end; ++k)
-            if (!zero_in(plan_->lights[ranged_[k]], low, high)) kept.push_back(ranged_[k]);
+            if (!zero_in(lights[ranged_[k]], low, high)) kept.push_back(ranged_[k]);
     }
-    if (kept.size() == plan_->lights.size()) return shading::all_lights(*plan_);
+    if (kept.size() == lights.size()) return all;
     std::sort(kept.begin(), kept.end());
     scratch.lights.clear();
-    for (const std::uint32_t i : kept) scratch.lights.push_back(plan_->lights[i]);
+    for (const std::uint32_t i : kept) scratch.lights.push_back(lights[i]);
     return {scratch.lights.data(), static_cast<int>(scratch.lights.size())};
 }
 

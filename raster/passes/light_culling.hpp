@@ -2,10 +2,11 @@
 // exactly zero at every fragment, so the sums keep their bits whatever the blocks are.
 #pragma once
 
-#include "shading/kernels/fragment_block.hpp"
+#include "shading/fragment_block.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace halflit::raster {
@@ -18,25 +19,27 @@ struct LightSelection {
 
 class LightCuller {
 public:
-    /// Sorts the lights of a frame that have a range into groups of neighbours.
-    void build(const shading::ShadingPlan& plan);
+    LightCuller() = default;
+    /// Sorts the lights that have a range into groups of neighbours.
+    explicit LightCuller(std::span<const shading::LightPlan> lights);
 
-    /// The lights for `count` fragments, from their world positions; `scratch` holds the list where it is not the whole.
-    [[nodiscard]] shading::LightList select(const shading::FragmentBlock& block, int count, LightSelection& scratch) const;
+    /// Those of the same lights that `count` fragments need, from their world positions; `scratch` holds the list where it is not the whole.
+    [[nodiscard]] shading::LightList select(std::span<const shading::LightPlan> lights, const shading::FragmentBlock& block, int count,
+                                            LightSelection& scratch) const;
 
 private:
     struct Box {
         float min[3], max[3];
     };
     struct Group {
-        Box reach;  ///< of all its lights
+        Box extent;  ///< of all its lights
         std::size_t first, end;
     };
 
-    const shading::ShadingPlan* plan_ = nullptr;
     std::vector<std::uint32_t> ranged_;  ///< lights with a range, in groups
     std::vector<Group> groups_;
     std::vector<std::uint32_t> always_;  ///< the lights without a range, in list order
+    bool any_spot_ = false;              ///< among these
 };
 
 }  // namespace halflit::raster

@@ -1,7 +1,7 @@
 // Shading of visible fragments by the float64 reference instead of the kernels: the truth that errors are measured against.
 #pragma once
 
-#include "raster/scene/scene.hpp"
+#include "raster/scene/prepared_scene.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 #include "shading/reference/irradiance.hpp"
 
@@ -12,9 +12,8 @@ namespace halflit::raster {
 
 class ReferenceShading {
 public:
-    /// For a frame of `scene` as `plan` has it. Keeps the environments' irradiance while scene and lobes stay the same.
-    Result<void> build(const Scene& scene, const shading::ShadingPlan& plan, const shading::PlanOptions& options,
-                       std::vector<shading::SlotMask> available);
+    /// For a frame of `scene` as `plan` has it. Keeps the environments' irradiance while environment and lobes stay the same.
+    Result<void> build(const PreparedScene& scene, const shading::ShadingPlan& plan, const shading::PlanOptions& options);
 
     /// Writes the colour rows of lanes [0, count). Visibility of lights is the kernels' own.
     void shade(const shading::ShadeKernels& kernels, const shading::ShadingPlan& plan, int material, shading::FragmentBlock& block,
@@ -29,12 +28,10 @@ private:
     };
     std::shared_ptr<const shading::reference::Irradiance> diffuse(const Scene& scene, const shading::Lobe& lobe);
 
-    const Scene* scene_ = nullptr;
+    const PreparedScene* scene_ = nullptr;
     shading::reference::Frame frame_;
-    std::vector<shading::SlotMask> available_;
     std::vector<Around> known_;
     std::vector<std::shared_ptr<const shading::reference::Irradiance>> diffuse_, specular_;  ///< for each material
-    shading::Material no_material_;
 };
 
 }  // namespace halflit::raster

@@ -31,21 +31,21 @@ void finish_lanes(FragmentBlock& block, int count) {
 
 Vec3f row3(const FragmentBlock& block, int row, int l) { return {block.lane[row][l], block.lane[row + 1][l], block.lane[row + 2][l]}; }
 
-const float* vertex_record(const Frame& frame, std::uint32_t id, const TriangleRecord& triangle, int k) {
+const float* vertex_record(const TilePass& pass, std::uint32_t id, const TriangleRecord& triangle, int k) {
     const std::uint32_t v = triangle.vertex[k];
     if (v & kClipVertex)
-        return frame.clip_records[id >> frame.local_bits] + static_cast<std::size_t>(v & ~kClipVertex) * shading::kVertexFloats;
+        return pass.records.clip_records()[pass.geometry.chunk_of(id)] + static_cast<std::size_t>(v & ~kClipVertex) * shading::kVertexFloats;
     const std::size_t draw = triangle.draw_and_back >> 1;
-    return frame.draw_records[draw].base + static_cast<std::int64_t>(v) * frame.draws[draw].stride;
+    return pass.records.draws()[draw].base + static_cast<std::int64_t>(v) * pass.records.stride(draw);
 }
 
 /// One lane a triangle: the mean of its vertices, with the normal of its plane on the side of the viewer.
-void load_triangle(const Frame& frame, std::uint32_t id, shading::SlotMask slots, FragmentBlock& block, int l) {
-    const TriangleRecord& triangle = frame.record(id);
+void load_triangle(const TilePass& pass, std::uint32_t id, shading::SlotMask slots, FragmentBlock& block, int l) {
+    const TriangleRecord& triangle = pass.geometry.record(id);
     const float* v[3];
-    for (int k = 0; k < 3; ++k) v[k] = vertex_record(frame, id, triangle, k);
+    for (int k = 0; k < 3; ++k) v[k] = vertex_record(pass, id, triangle, k);
     float mean[shading::kVertexFloats];
-    const int stride = frame.draws[triangle.draw_and_back >> 1].stride;
+    const int stride = pass.records.stride(triangle.draw_and_back >> 1);
     for (int j = 0; j < stride; ++j) mean[j] = ((v[0][j] + v[1][j]) + v[2][j]) * (1.0f / 3.0f);
     load_lane(block, l, mean, slots);
     const Vec3f p0{v[0][0], v[0][1], v[0][2]}, p1{v[1][0], v[1][1], v[1][2]}, p2{v[2][0], v[2][1], v[2][2]};
@@ -60,21 +60,28 @@ void load_triangle(const Frame& frame, std::uint32_t id, shading::SlotMask slots
 
 }  // namespace
 
-WorkCounts light_vertices(Frame& frame, Executor& executor) {
+WorkCounts light_vertices(const ViewGeometry& geometry, VertexRecords& records, const shading::ShadingPlan& plan,
+                          const shading::ShadeKernels& kernels, Executor& executor) {
     struct Group {
-        const Draw* draw;
-        std::int64_t first;  // in the draw
+        std::size_t draw;
+        std::int64_t first;  // vertex of the draw
         int count;
     };
+    const auto material_of = [&](std::size_t draw) -> const shading::MaterialPlan& {
+        return plan.materials[static_cast<std::size_t>(geometry.draws()[draw].material)];
+    };
     std::vector<Group> groups;
-    for (const Draw& draw : frame.draws) {
-        if ((frame.plan.materials[static_cast<std::size_t>(draw.material)].stages & shading::kStagePrelit) == 0) continue;
-        const auto vertices = static_cast<std::int64_t>(draw.mesh->positions.size());
-        for (std::int64_t v = 0; v < vertices; v += kVertexGroup)
-            if (frame.group_used.data()[(draw.vertex_base + v) / kVertexGroup])
-                groups.push_back({&draw, v, static_cast<int>(vertices - v < kVertexGroup ? vertices - v : kVertexGroup)});
+    for (std::size_t d = 0; d < geometry.draws().size(); ++d) {
+        const Draw& draw = geometry.draws()[d];
+        if ((material_of(d).stages & shading::kStagePrelit) == 0) continue;
+        for (std::int64_t g = 0; g < draw.group_count(); ++g)
+            if (geometry.group_is_drawn(draw.group_base + g)) {
+                const std::int64_t first = g * kVertexGroup;
+                groups.push_back({d, first, static_cast<int>(std::min<std::int64_t>(kVertexGroup, draw.vertex_count() - first))});
+            }
     }
-    constexpr int kGroupsPerTask = 16;
+    records.changed();
+    constexpr std::size_t kGroupsPerTask = 16;
     std::mutex mutex;
     WorkCounts work;
     executor.run(static_cast<int>((groups.size() + kGroupsPerTask - 1) / kGroupsPerTask), [&](int task) {
@@ -83,38 +90,38 @@ WorkCounts light_vertices(Frame& frame, Executor& executor) {
         const std::size_t end = std::min(groups.size(), static_cast<std::size_t>(task + 1) * kGroupsPerTask);
         for (std::size_t g = static_cast<std::size_t>(task) * kGroupsPerTask; g < end; ++g) {
             const Group& group = groups[g];
-            const shading::MaterialPlan& plan = frame.plan.materials[static_cast<std::size_t>(group.draw->material)];
-            float* records = frame.records.data() + group.draw->record_base + group.first * group.draw->stride;
+            const shading::MaterialPlan& material = material_of(group.draw);
             for (int l = 0; l < group.count; ++l) {
-                load_lane(block, l, records + l * group.draw->stride, plan.slots);
+                load_lane(block, l, records.record(group.draw, group.first + l), material.slots);
                 // A vertex has no face: two-sided surfaces are lit on the side that is towards the viewer.
-                const Vec3f to_eye =
-                    frame.plan.orthographic ? frame.plan.view_direction_ws * -1.0f : frame.plan.eye_ws - row3(block, shading::kPosX, l);
+                const Vec3f to_eye = plan.orthographic ? plan.view_direction_ws * -1.0f : plan.eye_ws - row3(block, shading::kPosX, l);
                 block.lane[shading::kFacing][l] = dot(row3(block, shading::kNormalX, l), to_eye) < 0.0f ? -1.0f : 1.0f;
             }
             finish_lanes(block, group.count);
-            frame.shade->light(frame.plan, plan, shading::all_lights(frame.plan), block, group.count);
-            count_prelighting(of_task, frame.plan, plan, group.count);
+            kernels.light(plan, material, shading::all_lights(plan), block, group.count);
+            count_prelighting(of_task, plan, material, group.count);
             for (int l = 0; l < group.count; ++l)
-                for (int j = 0; j < kLightRows; ++j) records[l * group.draw->stride + j] = block.lane[j][l];
+                for (int j = 0; j < kLightRows; ++j) records.record(group.draw, group.first + l)[j] = block.lane[j][l];
         }
         const std::lock_guard lock(mutex);
         work += of_task;
     });
+    records.make_clip_records(geometry, executor);
     return work;
 }
 
-void light_triangles(const Frame& frame, const FragmentList& list, FragmentBlock& block, WorkCounts& work) {
-    const shading::MaterialPlan& plan = frame.plan.materials[static_cast<std::size_t>(list.material)];
+void light_triangles(const TilePass& pass, const shading::ShadingPlan& plan, const FragmentList& list, FragmentBlock& block,
+                     WorkCounts& work) {
+    const shading::MaterialPlan& material = plan.materials[static_cast<std::size_t>(list.material)];
     FragmentBlock triangles{};
     int of_lane[kBlockSize], count = 0;
     for (int l = 0; l < list.count; ++l) {
-        if (l == 0 || list.id[l] != list.id[l - 1]) load_triangle(frame, list.id[l], plan.slots, triangles, count++);
+        if (l == 0 || list.id[l] != list.id[l - 1]) load_triangle(pass, list.id[l], material.slots, triangles, count++);
         of_lane[l] = count - 1;
     }
     finish_lanes(triangles, count);
-    frame.shade->light(frame.plan, plan, shading::all_lights(frame.plan), triangles, count);
-    count_prelighting(work, frame.plan, plan, count);
+    pass.shade.light(plan, material, shading::all_lights(plan), triangles, count);
+    count_prelighting(work, plan, material, count);
     for (int l = 0; l < kBlockSize; ++l)
         for (int j = 0; j < kLightRows; ++j) block.lane[j][l] = triangles.lane[j][of_lane[l < list.count ? l : list.count - 1]];
 }

@@ -3,16 +3,16 @@
 // normal, which nobody needs any more.
 #pragma once
 
-#include "raster/passes/executor.hpp"
-#include "raster/passes/fragment_queue.hpp"
-#include "raster/passes/frame.hpp"
+#include "raster/passes/tile.hpp"
 
 namespace halflit::raster {
 
 /// Gouraud: replaces position and normal in the vertex records that are in use. Returns the work that was.
-WorkCounts light_vertices(Frame& frame, Executor& executor);
+WorkCounts light_vertices(const ViewGeometry& geometry, VertexRecords& records, const shading::ShadingPlan& plan,
+                          const shading::ShadeKernels& kernels, Executor& executor);
 
 /// Flat: replaces the position and normal rows of a block by the light of each fragment's triangle.
-void light_triangles(const Frame& frame, const FragmentList& list, shading::FragmentBlock& block, WorkCounts& work);
+void light_triangles(const TilePass& pass, const shading::ShadingPlan& plan, const FragmentList& list, shading::FragmentBlock& block,
+                     WorkCounts& work);
 
 }  // namespace halflit::raster

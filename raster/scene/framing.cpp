@@ -1,4 +1,4 @@
-#include "raster/view/view_math.hpp"
+#include "raster/detail/view_math.hpp"
 #include "raster/scene/scene.hpp"
 
 namespace halflit::raster {
@@ -99,8 +99,9 @@ Camera frame_bounds(const Bounds& bounds, float aspect, const ViewSettings& view
     return fit.camera(length(box.half));
 }
 
-Camera frame_scene(const Scene& scene, float aspect, const ViewSettings& view) {
-    const Bounds bounds = scene_bounds(scene);
+Camera frame_scene(const Scene& scene, float aspect, const ViewSettings& view) { return frame_scene(scene, scene_bounds(scene), aspect, view); }
+
+Camera frame_scene(const Scene& scene, const Bounds& bounds, float aspect, const ViewSettings& view) {
     const Box box = usable_box(bounds);
     if (bounds.empty || !(bounds.radius() > 1e-5 * length(box.center)) || !(bounds.radius() < kMaxCoordinate))
         return frame_bounds(bounds, aspect, view);

@@ -29,6 +29,8 @@ struct Scene {
 
 /// The camera of frame_bounds, but fitted to the vertices themselves: tight and centred for any shape.
 [[nodiscard]] Camera frame_scene(const Scene& scene, float aspect, const ViewSettings& view);
+/// The same where scene_bounds is known.
+[[nodiscard]] Camera frame_scene(const Scene& scene, const Bounds& bounds, float aspect, const ViewSettings& view);
 
 /// A pleasant light for a scene that brings none: a key light over the viewer's left shoulder and a sky and ground ambient.
 void add_default_lights(Scene& scene, const Camera& camera);

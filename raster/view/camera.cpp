@@ -1,8 +1,6 @@
 #include "raster/view/camera.hpp"
 
-#include "raster/view/view_math.hpp"
-
-#include <limits>
+#include "raster/detail/view_math.hpp"
 
 namespace halflit::raster {
 
@@ -56,28 +54,6 @@ DepthMap orthographic_depth(const Camera& camera, HalfView half) {
 }
 
 }  // namespace
-
-void Bounds::add(Vec3f p) {
-    if (!finite(p.x) || !finite(p.y) || !finite(p.z)) return;
-    if (empty) {
-        min = max = p;
-        empty = false;
-        return;
-    }
-    min = {p.x < min.x ? p.x : min.x, p.y < min.y ? p.y : min.y, p.z < min.z ? p.z : min.z};
-    max = {p.x > max.x ? p.x : max.x, p.y > max.y ? p.y : max.y, p.z > max.z ? p.z : max.z};
-}
-
-Vec3f Bounds::center() const {
-    const Vec3d a{min.x, min.y, min.z}, b{max.x, max.y, max.z};
-    const Vec3d c = (a + b) * 0.5;
-    return {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)};
-}
-
-float Bounds::radius() const {
-    const Vec3d a{min.x, min.y, min.z}, b{max.x, max.y, max.z};
-    return static_cast<float>(clamped(0.5 * length(b - a), 0.0, std::numeric_limits<float>::max()));
-}
 
 Mat4 clip_from_world(const Camera& camera, float picture_aspect) {
     const HalfView half = half_view(camera, usable_aspect(picture_aspect));

@@ -1,6 +1,7 @@
 // Cameras. A camera sits at the origin of its own space, looks along -z, with +x to the right and +y up (glTF).
 #pragma once
 
+#include "raster/scene/bounds.hpp"
 #include "sh/mat4.hpp"
 #include "sh/vec3.hpp"
 
@@ -18,14 +19,7 @@ struct Camera {
     float half_width = 0.0f;
     float near_z = 0.1f;           ///< > 0 for perspective
     float far_z = 0.0f;            ///< > near_z; 0: no far limit (perspective only)
-};
-
-struct Bounds {
-    Vec3f min{0, 0, 0}, max{0, 0, 0};
-    bool empty = true;
-    void add(Vec3f p);
-    [[nodiscard]] Vec3f center() const;
-    [[nodiscard]] float radius() const;   ///< half the diagonal
+    friend bool operator==(const Camera&, const Camera&) = default;
 };
 
 /// How a view is framed when no camera is given. Angles in degrees.

@@ -1,7 +1,7 @@
 #include "shading/budget/error_budget.hpp"
 
 #include "sh/power.hpp"
-#include "shading/budget/code_bounds.hpp"
+#include "shading/model/code_bounds.hpp"
 #include "shading/budget/power_fit.hpp"
 #include "shading/budget/texture_bounds.hpp"
 
@@ -159,30 +159,11 @@ PowTier cheapest_tier(double budget, const Codes& codes) {
     return PowTier::exact;
 }
 
-/// Fits are made once for lobes of one power under about as much light.
-class LobeFits {
-public:
-    const LobeFit& fit(double n, double amplitude) {
-        // The next quarter of a power of two; more light is off by more, so that is a bound for less.
-        const double held = amplitude > 1e-30 && amplitude < 1e6 ? exp2_of(std::ceil(4.0 * log2_of(amplitude)) / 4.0) : 0.0;
-        for (const Entry& entry : entries_)
-            if (entry.n == n && entry.amplitude == held) return entry.fit;
-        return entries_.emplace_back(Entry{n, held, fit_lobe(n, held)}).fit;
-    }
-
-private:
-    struct Entry {
-        double n, amplitude;
-        LobeFit fit;
-    };
-    std::vector<Entry> entries_;
-};
-
 /// The cheapest way to t^n within `budget` codes; what it costs of them.
-double spend_on_lobe(MaterialPlan& material, const Surface& s, const Arriving& light, double budget, LobeFits& fits) {
+double spend_on_lobe(MaterialPlan& material, const Surface& s, const Arriving& light, double budget, PowerFits& fits) {
     LobePlan& lobe = material.lobe;
     if (lobe.path != LobePath::general || lobe.power_minus_one >= kSharpPowerMinusOne) return 0.0;
-    const LobeFit& fit = fits.fit(static_cast<double>(lobe.power_minus_one) + 1.0, s.albedo * static_cast<double>(lobe.scale) * light.sum);
+    const LobeFit& fit = fits.lobe(static_cast<double>(lobe.power_minus_one) + 1.0, s.albedo * static_cast<double>(lobe.scale) * light.sum);
     if (fit.codes <= budget) {
         lobe.path = LobePath::curve;
         std::copy_n(fit.c, kLobeCurveTerms, lobe.curve);
@@ -200,24 +181,24 @@ bool specular_ends(const ShadingPlan& plan, const Surface& s, double largest, do
 
 /// The cheapest way to highlights within `budget` codes; adds to the bound what it costs of them.
 void spend_on_specular(const ShadingPlan& plan, MaterialPlan& material, const Surface& s, const Arriving& light, double exposure, double budget,
-                         ErrorBound& bound) {
+                       PowerFits& fits, ErrorBound& bound) {
     // Highlights below this, before the reflectance, are not seen in `codes` codes.
     const auto threshold_of = [&](double codes) { return codes / (kSlopeAtBlack * exposure * s.reflectance * light.count); };
     if ((material.stages & kStageMetallicRoughnessTexture) == 0) {
         const double half_exponent = s.exponent * (plan.specular == SpecularModel::phong ? 0.125 : 0.5);
-        const double share = threshold_of(0.5 * budget) / (light.largest / exposure * s.normalization);
-        const SpecularFit fit = fit_specular(half_exponent, share < 1.0 ? power_of(share, 1.0 / half_exponent) : 1.0);
+        const double share = threshold_of(kBudgetShares.specular_cut * budget) / (light.largest / exposure * s.normalization);
+        const SpecularFit& fit = fits.specular(half_exponent, share < 1.0 ? power_of(share, 1.0 / half_exponent) : 1.0);
         const double codes = fit.codes(s.reflectance * s.normalization * light.largest, light.count);
-        if (codes <= 0.48 * budget) {
+        if (codes <= kBudgetShares.specular_curve * budget) {
             material.specular_curve = fit.curve;
             bound.specular = codes;
-            bound.left_out += 0.5 * budget;
+            bound.left_out += kBudgetShares.specular_cut * budget;
             return;
         }
     }
-    material.specular_tier = cheapest_tier(0.5 * budget, [&](PowTier tier) { return specular_tier_codes(s, light, tier); });
+    material.specular_tier = cheapest_tier(kBudgetShares.specular_power * budget, [&](PowTier tier) { return specular_tier_codes(s, light, tier); });
     bound.specular = specular_tier_codes(s, light, material.specular_tier);
-    const double spent = 0.98 * (budget - bound.specular), threshold = threshold_of(spent);
+    const double spent = kBudgetShares.specular_left_out * (budget - bound.specular), threshold = threshold_of(spent);
     if (specular_ends(plan, s, light.largest / exposure, threshold)) {
         material.specular_threshold = static_cast<float>(std::min(1e30, threshold));
         bound.left_out += spent;
@@ -244,7 +225,7 @@ double cutoff_squared(const LightPlan& light, double least) {
 
 }  // namespace
 
-void spend_error_budget(ShadingPlan& plan, double budget_codes, double exposure, const SceneFacts& facts) {
+void spend_error_budget(ShadingPlan& plan, double budget_codes, double exposure, const SceneFacts& facts, PowerFits& fits) {
     HALFLIT_ASSERT(facts.light_attenuation.size() == plan.lights.size());
     const Arriving light = arriving(plan, exposure, facts);
     ErrorBound worst;
@@ -263,18 +244,17 @@ void spend_error_budget(ShadingPlan& plan, double budget_codes, double exposure,
     }
     double cutoff_codes = 0.0;
     if (light.local > 0 && poorest > 0.0 && most_reflected > 0.0) {
-        const double codes = 0.25 * poorest, least = codes / (kSlopeAtBlack * exposure * most_reflected * light.local);
+        const double codes = kBudgetShares.cutoff * poorest, least = codes / (kSlopeAtBlack * exposure * most_reflected * light.local);
         for (std::size_t i = 0; i < plan.lights.size(); ++i) {
             LightPlan& one = plan.lights[i];
             if (one.type == LightType::directional) continue;
-            const double reach = cutoff_squared(one, least);
+            const double cutoff = cutoff_squared(one, least);
             // One that ends beyond all there is would be compared with every fragment for nothing.
-            one.cutoff_squared = reach < facts.light_farthest_squared[i] ? static_cast<float>(reach) : 0.0f;
+            one.cutoff_squared = cutoff < facts.light_farthest_squared[i] ? static_cast<float>(cutoff) : 0.0f;
             if (one.cutoff_squared > 0.0f) cutoff_codes = codes;
         }
     }
 
-    LobeFits fits;
     for (std::size_t i = 0; i < plan.materials.size(); ++i) {
         if (!facts.drawn[i]) continue;
         MaterialPlan& material = plan.materials[i];
@@ -285,9 +265,9 @@ void spend_error_budget(ShadingPlan& plan, double budget_codes, double exposure,
         bound.left_out = cutoff_codes;
         double left = budget_codes - fixed[i] - cutoff_codes;
         if (left > 0.0) {
-            bound.lobes = spend_on_lobe(material, s, light, 0.4 * left, fits);
+            bound.lobes = spend_on_lobe(material, s, light, kBudgetShares.lobe * left, fits);
             left -= bound.lobes;
-            if (s.specular && light.count > 0) spend_on_specular(plan, material, s, light, exposure, left, bound);
+            if (s.specular && light.count > 0) spend_on_specular(plan, material, s, light, exposure, left, fits, bound);
         }
         bound.codes = bound.rounding + bound.lobes + bound.specular + bound.environment + bound.left_out;
         if (bound.codes > worst.codes) worst = bound;

@@ -1,6 +1,6 @@
 #include "shading/budget/power_fit.hpp"
 
-#include "shading/budget/code_bounds.hpp"
+#include "shading/model/code_bounds.hpp"
 
 #include <array>
 #include <cmath>
@@ -238,6 +238,33 @@ double SpecularFit::codes(double peak, int count) const {
                         const double v = std::min(at.v, top);
                         return at.slope * v * relative_error(v / top);
                     }));
+}
+
+namespace {
+
+/// A scene whose light changes all the time must not fill the memory. A deque: what was handed out stays where it is while others come.
+template <class Entries, class Same, class Make>
+auto& find_or_make(Entries& entries, const Same& same, const Make& make) {
+    constexpr std::size_t kMostEntries = 1024;
+    for (auto& entry : entries)
+        if (same(entry)) return entry.fit;
+    if (entries.size() == kMostEntries) entries.clear();
+    return entries.emplace_back(make()).fit;
+}
+
+}  // namespace
+
+const LobeFit& PowerFits::lobe(double n, double amplitude) {
+    // The next quarter of a power of two; more light is off by more, so that is a bound for less.
+    const double held = amplitude > 1e-30 && amplitude < 1e6 ? exp2_of(std::ceil(4.0 * log2_of(amplitude)) / 4.0) : 0.0;
+    return find_or_make(
+        lobes_, [&](const LobeEntry& e) { return e.n == n && e.amplitude == held; }, [&] { return LobeEntry{n, held, fit_lobe(n, held)}; });
+}
+
+const SpecularFit& PowerFits::specular(double half_exponent, double least) {
+    return find_or_make(
+        speculars_, [&](const SpecularEntry& e) { return e.half_exponent == half_exponent && e.least == least; },
+        [&] { return SpecularEntry{half_exponent, least, fit_specular(half_exponent, least)}; });
 }
 
 }  // namespace halflit::shading

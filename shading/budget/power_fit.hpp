@@ -4,6 +4,8 @@
 
 #include "shading/plan/plan.hpp"
 
+#include <deque>
+
 namespace halflit::shading {
 
 /// t^n in [0, 1] as t (c[0] + c[1] u + c[2] u^2 + ..), u = sqrt(t), kLobeCurveTerms terms: the polynomial that keeps the largest error in
@@ -27,5 +29,25 @@ struct SpecularFit {
     [[nodiscard]] double codes(double peak, int count) const;
 };
 [[nodiscard]] SpecularFit fit_specular(double half_exponent, double least);
+
+/// Fits kept from frame to frame: a lobe's takes some 50 us, a highlight's 10.
+class PowerFits {
+public:
+    /// For lobes of one power under about as much light.
+    [[nodiscard]] const LobeFit& lobe(double n, double amplitude);
+    [[nodiscard]] const SpecularFit& specular(double half_exponent, double least);
+
+private:
+    struct LobeEntry {
+        double n, amplitude;
+        LobeFit fit;
+    };
+    struct SpecularEntry {
+        double half_exponent, least;
+        SpecularFit fit;
+    };
+    std::deque<LobeEntry> lobes_;
+    std::deque<SpecularEntry> speculars_;
+};
 
 }  // namespace halflit::shading

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "shading/kernels/built_isas.hpp"
-#include "shading/kernels/isa.hpp"
+#include "shading/isa.hpp"
 
 /// Declares NAME_scalar and its twins, which the kernels' objects define.
 #define HALFLIT_DECLARE_TABLE(set, type, name) extern const type name##_##set;

@@ -1,4 +1,4 @@
-#include "shading/kernels/isa.hpp"
+#include "shading/isa.hpp"
 #include "shading/kernels/isa_select.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 

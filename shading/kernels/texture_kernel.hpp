@@ -5,7 +5,7 @@
 // gives a bit for bit, so leaving out taps whose weights are zero for all lanes changes nothing.
 #pragma once
 
-#include "shading/kernels/fragment_block.hpp"
+#include "shading/fragment_block.hpp"
 #include "shading/kernels/pow.hpp"
 #include "shading/plan/plan.hpp"
 

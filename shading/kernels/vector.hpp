@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sh/vec3.hpp"
-#include "shading/kernels/fragment_block.hpp"
+#include "shading/fragment_block.hpp"
 #include "shading/kernels/simd.hpp"
 
 namespace halflit {

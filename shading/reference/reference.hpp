@@ -2,7 +2,7 @@
 // plan, with the C library's functions. Slow, and not the same bits everywhere: for tests and for measuring error.
 #pragma once
 
-#include "shading/kernels/fragment_block.hpp"
+#include "shading/fragment_block.hpp"
 #include "shading/light.hpp"
 #include "shading/material.hpp"
 #include "shading/plan/plan.hpp"

@@ -37,7 +37,7 @@ foreach(layer IN LISTS layers)
             if(line MATCHES "^ *#include \"(bench|tests)/")
                 list(APPEND failures "${file}: include points out of the layers: ${line}")
             endif()
-            if(file STREQUAL "raster/passes/fp_environment.hpp")
+            if(file STREQUAL "raster/detail/fp_environment.hpp")
                 # The one place that sets the processor's floating-point control register.
                 string(REGEX REPLACE "_mm_[gs]etcsr|immintrin" "" line "${line}")
             endif()

@@ -1,7 +1,7 @@
 // Floats for tests: ordinary ones, every kind of special one, and comparison by bits.
 #pragma once
 
-#include "shading/kernels/isa.hpp"
+#include "shading/isa.hpp"
 
 #include <bit>
 #include <cmath>

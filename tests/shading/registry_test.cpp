@@ -1,5 +1,5 @@
 // Listing, choosing and forcing instruction sets.
-#include "shading/kernels/isa.hpp"
+#include "shading/isa.hpp"
 
 #include "tests/support/skip.hpp"
 

@@ -1,7 +1,7 @@
 // The instruction sets to test.
 #pragma once
 
-#include "shading/kernels/isa.hpp"
+#include "shading/isa.hpp"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 // compare the sets with each other and with the C library.
 #pragma once
 
-#include "shading/kernels/isa.hpp"
+#include "shading/isa.hpp"
 
 #include <cstdint>
 

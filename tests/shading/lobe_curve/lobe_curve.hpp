@@ -1,7 +1,7 @@
 // The lobe as the kernels compute it, for any x = N.L instead of a normal and a light, on each instruction set.
 #pragma once
 
-#include "shading/kernels/isa.hpp"
+#include "shading/isa.hpp"
 #include "shading/plan/plan.hpp"
 
 namespace halflit::testing {

@@ -1,0 +1,101 @@
+#include "raster/detail/executor.hpp"
+
+#include "raster/detail/fp_environment.hpp"
+
+#ifdef HALFLIT_ONETBB
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#else
+#include <atomic>
+#include <system_error>
+#include <thread>
+#endif
+
+#include <algorithm>
+#include <exception>
+
+namespace halflit::raster {
+namespace {
+
+/// Runs `loop(task)` where `loop` may call the task on threads across which an exception must not pass; rethrows the first one here.
+template <class Loop>
+void run_catching(const Loop& loop, const std::function<void(int)>& task) {
+    std::exception_ptr failure;
+    std::mutex mutex;
+    loop([&](int i) {
+        try {
+            task(i);
+        } catch (...) {
+            const std::lock_guard lock(mutex);
+            if (!failure) failure = std::current_exception();
+        }
+    });
+    if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace
+
+#ifdef HALFLIT_ONETBB
+
+struct Executor::Arena {
+    explicit Arena(int thread_count) : arena(thread_count) {}
+    static int all_threads() { return static_cast<int>(tbb::this_task_arena::max_concurrency()); }
+    void run(int count, const std::function<void(int)>& task) {
+        arena.execute([&] { tbb::parallel_for(0, count, task, tbb::simple_partitioner()); });
+    }
+    tbb::task_arena arena;
+};
+
+#else
+
+/// Threads that live for one loop: some ten microseconds a loop more than oneTBB, which keeps its threads.
+struct Executor::Arena {
+    explicit Arena(int thread_count) : threads(thread_count) {}
+    static int all_threads() { return static_cast<int>(std::thread::hardware_concurrency()); }
+    void run(int count, const std::function<void(int)>& task) {
+        std::atomic<int> next{0};
+        const auto work = [&] {
+            for (int i = next++; i < count; i = next++) task(i);
+        };
+        run_catching(
+            [&](const std::function<void(int)>& part) {
+                std::vector<std::jthread> others;
+                try {
+                    for (int i = 1; i < std::min(threads, count); ++i) others.emplace_back(part, i);
+                } catch (const std::system_error&) {
+                    // No more threads to be had: those that run, and this one, do all the work.
+                }
+                part(0);
+            },
+            [&](int) { work(); });
+    }
+    int threads;
+};
+
+#endif
+
+Executor::Executor() = default;
+Executor::~Executor() = default;
+
+void Executor::configure(int threads, const ParallelFor& hook) {
+    hook_ = hook;
+    const int wanted = threads > 0 ? threads : std::max(Arena::all_threads(), 1);
+    if (arena_ && wanted == threads_) return;
+    threads_ = wanted;
+    arena_ = threads_ > 1 ? std::make_unique<Arena>(threads_) : nullptr;
+}
+
+void Executor::run(int count, const std::function<void(int)>& body) {
+    const std::function<void(int)> task = [&](int i) {
+        const FpEnvironment environment;
+        body(i);
+    };
+    if (hook_)
+        run_catching([&](const std::function<void(int)>& caught) { hook_(count, caught); }, task);
+    else if (arena_ && count > 1)
+        arena_->run(count, task);
+    else
+        for (int i = 0; i < count; ++i) task(i);
+}
+
+}  // namespace halflit::raster

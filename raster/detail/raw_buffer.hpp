@@ -1,0 +1,30 @@
+// Working memory.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+namespace halflit::raster {
+
+/// A buffer that is not initialised when it grows, and keeps nothing of what it held.
+template <class T>
+class RawBuffer {
+public:
+    T* reserve(std::size_t count) {
+        if (count > capacity_) {
+            data_.reset();
+            data_ = std::make_unique_for_overwrite<T[]>(count);
+            capacity_ = count;
+        }
+        return data_.get();
+    }
+    [[nodiscard]] T* data() { return data_.get(); }
+    [[nodiscard]] const T* data() const { return data_.get(); }
+    [[nodiscard]] std::size_t capacity() const { return capacity_; }
+
+private:
+    std::unique_ptr<T[]> data_;
+    std::size_t capacity_ = 0;
+};
+
+}  // namespace halflit::raster

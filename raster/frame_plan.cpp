@@ -1,0 +1,181 @@
+#include "raster/frame_plan.hpp"
+
+#include "raster/detail/fp_environment.hpp"
+#include "raster/detail/view_math.hpp"
+#include "raster/scene/surface_distance.hpp"
+
+#include <algorithm>
+
+namespace halflit::raster {
+namespace {
+
+using shading::Accuracy, shading::LightPlan, shading::MaterialPlan;
+
+/// What the cheaper ways are measured against: light at every pixel, textures as their samplers say.
+shading::PlanOptions effective(shading::PlanOptions options) {
+    if (options.accuracy != Accuracy::reference) return options;
+    options.rate = shading::ShadingRate::pixel;
+    options.texture_detail = shading::TextureDetail::full;
+    options.max_error_codes = 0.0;
+    return options;
+}
+
+Result<void> check_settings(const Settings& settings, int width, int height) {
+    if (width < 1 || height < 1) return fail(ErrorCode::usage, "the picture has no pixels");
+    if (width > 2 * kGuardBandPx || height > 2 * kGuardBandPx)
+        return fail(ErrorCode::limit, "a picture of " + std::to_string(width) + " x " + std::to_string(height) + " pixels, at most " +
+                                          std::to_string(2 * kGuardBandPx) + " on a side are supported");
+    if (settings.samples != 1 && settings.samples != 4 && settings.samples != 8)
+        return fail(ErrorCode::usage, "samples: " + std::to_string(settings.samples) + ", expected 1, 4 or 8");
+    if (settings.tile_size != 16 && settings.tile_size != 32 && settings.tile_size != 64)
+        return fail(ErrorCode::usage, "tile size: " + std::to_string(settings.tile_size) + ", expected 16, 32 or 64");
+    if (!(settings.exposure > 0.0f && settings.exposure < 3e38f)) return fail(ErrorCode::usage, "the exposure is not a positive number");
+    if (auto ok = shading::check_options(settings.shading); !ok) return ok;
+    const Region& r = settings.region;
+    if (r.width != 0 && (r.x < 0 || r.y < 0 || r.width < 1 || r.height < 1 || r.width > width - r.x || r.height > height - r.y))
+        return fail(ErrorCode::usage, "the region is not inside the picture");
+    if (!settings.isa) return tl::unexpected<Error>(settings.isa.error());
+    if (!shading::isa_available(*settings.isa))
+        return fail(ErrorCode::usage, "this CPU does not run the instruction set " + std::string(shading::isa_name(*settings.isa)));
+    return {};
+}
+
+bool all_finite(const Mat4& m) {
+    for (const Vec4f& c : m.c)
+        for (const float e : {c.x, c.y, c.z, c.w})
+            if (!(e > -3e38f && e < 3e38f)) return false;
+    return true;
+}
+
+shading::Viewer viewer_of(const Camera& camera) {
+    const Vec4f back = camera.world_from_camera.c[2], eye = camera.world_from_camera.c[3];
+    return {{eye.x, eye.y, eye.z}, normalize_or({-back.x, -back.y, -back.z}, {0, 0, -1}), camera.orthographic};
+}
+
+/// What an error budget has to know of a scene: how close its surfaces come to its lights, how bright vertex colours are.
+shading::SceneFacts scene_facts(const PreparedScene& scene, std::span<const LightPlan> lights, FramePlanMemory& memory) {
+    shading::SceneFacts facts;
+    facts.drawn = scene.drawn_materials();
+    facts.largest_uv = scene.largest_uv();
+    facts.vertex_color = scene.largest_color();
+    if (memory.geometry_revision != scene.revision().geometry) memory.light_distances.clear();
+    memory.geometry_revision = scene.revision().geometry;
+    constexpr std::size_t kMostDistances = 4096;  // lights that move all the time must not fill the memory
+    if (memory.light_distances.size() > kMostDistances) memory.light_distances.clear();
+    for (const LightPlan& light : lights) {
+        if (light.type == shading::LightType::directional) {
+            facts.light_attenuation.push_back(1.0);
+            facts.light_farthest_squared.push_back(0.0);
+            continue;
+        }
+        const Vec3d position{light.position[0], light.position[1], light.position[2]};
+        const auto same = [&](const auto& known) { return known.first == position; };
+        auto known = std::find_if(memory.light_distances.begin(), memory.light_distances.end(), same);
+        if (known == memory.light_distances.end())
+            known = memory.light_distances.insert(known, {position, nearest_surface_squared(scene, position)});
+        // A little nearer than found: positions are rounded to float on their way to the screen.
+        facts.light_attenuation.push_back(1.0 / std::max(0.999 * known->second, static_cast<double>(light.min_distance_squared)));
+        facts.light_farthest_squared.push_back(1.001 * farthest_surface_squared(scene, position));
+    }
+    return facts;
+}
+
+/// Of the materials that something is drawn with, in the plan's order.
+std::vector<EnvironmentUse> environment_uses(const PreparedScene& scene, const shading::ShadingPlan& plan) {
+    enum : unsigned { kDiffuse = 1, kSpecular = 2 };
+    std::vector<unsigned> uses(plan.environments.size(), 0);
+    for (std::size_t i = 0; i < plan.materials.size(); ++i) {
+        if (!scene.drawn_materials()[i]) continue;
+        if (plan.materials[i].environment >= 0) uses[static_cast<std::size_t>(plan.materials[i].environment)] |= kDiffuse;
+        if (plan.materials[i].specular_environment >= 0) uses[static_cast<std::size_t>(plan.materials[i].specular_environment)] |= kSpecular;
+    }
+    std::vector<EnvironmentUse> out;
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+        const shading::EnvironmentPlan& environment = plan.environments[i];
+        if (uses[i] != 0) out.push_back({environment.bands, environment.bound, environment.within, uses[i] == kSpecular});
+    }
+    return out;
+}
+
+/// Of the lobes of materials that are drawn and that light meets, each warning once.
+void add_lobe_warnings(const PreparedScene& scene, const shading::ShadingPlan& plan, const shading::PlanOptions& options,
+                       std::vector<std::string>& warnings) {
+    for (std::size_t i = 0; i < plan.materials.size(); ++i) {
+        if (!scene.drawn_materials()[i] || (plan.materials[i].stages & (shading::kStageLights | shading::kStageEnvironment)) == 0) continue;
+        std::string warning = shading::lobe_warning(shading::lobe_of(scene.material(i), options));
+        if (!warning.empty() && std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(std::move(warning));
+    }
+}
+
+/// What an alpha test in a shadow map reads of the materials; empty where none has a mask.
+std::vector<MaterialPlan> plan_casters(const PreparedScene& scene, const shading::PlanOptions& options) {
+    std::vector<MaterialPlan> casters;
+    for (std::size_t i = 0; i < scene.drawn_materials().size(); ++i) {
+        const shading::Material& material = scene.material(i);
+        if (!scene.drawn_materials()[i] || material.alpha_mode != shading::AlphaMode::mask) continue;
+        casters.resize(scene.drawn_materials().size());
+        casters[i] = plan_material(material, scene.scene().textures, scene.available_slots()[i], {}, options);
+    }
+    return casters;
+}
+
+}  // namespace
+
+Result<FramePlan> plan_frame(const PreparedScene& prepared, const Camera& camera, const Settings& settings, int width, int height,
+                             FramePlanMemory& memory, const ReserveTexels& reserve_texels) {
+    const FpEnvironment fp_environment;
+    if (auto ok = check_settings(settings, width, height); !ok) return tl::unexpected<Error>(ok.error());
+    const Scene& scene = prepared.scene();
+    const shading::PlanOptions options = effective(settings.shading);
+    const std::vector<LightPlan> lights = shading::plan_lights(scene.lights);
+
+    FramePlan plan;
+    plan.picture = make_view(camera, width, height, settings.region, settings.tile_size, settings.samples);
+    auto shadows = plan_shadow_views(lights, prepared.bounds(), settings);
+    if (!shadows) return tl::unexpected<Error>(shadows.error());
+    bool finite_views = all_finite(plan.picture.clip_from_world);
+    for (const ShadowView& face : shadows->views) finite_views &= !face.sees_scene || all_finite(face.view.clip_from_world);
+    if (!finite_views) return fail(ErrorCode::bad_input, "the camera's matrix is not finite");
+    plan.shadow_views = std::move(shadows->views);
+    if (reserve_texels && shadows->texel_count > 0) {
+        const float* texels = reserve_texels(shadows->texel_count);
+        for (std::size_t i = 0; i < shadows->maps.size(); ++i) shadows->maps[i].distance = texels + shadows->first_texel[i];
+    }
+
+    shading::SceneFacts facts;
+    const bool budget = options.max_error_codes > 0.0;
+    if (budget) facts = scene_facts(prepared, lights, memory);
+    plan.shading = shading::plan_shading(
+        {.materials = scene.materials,
+         .textures = scene.textures,
+         .available_slots = prepared.available_slots(),
+         .lights = scene.lights,
+         .ambient = scene.ambient,
+         .options = options,
+         .environment = scene.environment,
+         .exposure = static_cast<double>(settings.exposure),
+         .viewer = viewer_of(camera),
+         .shadows = {settings.shadows, settings.shadow_terminator_offset, std::move(shadows->maps), std::move(shadows->map_of_light),
+                     prepared.object_radii(), static_cast<double>(settings.shadow_fade)},
+         .facts = budget ? &facts : nullptr},
+        memory.shading);
+    if (!plan.shadow_views.empty()) plan.casters = plan_casters(prepared, options);
+    plan.light_culler = LightCuller(plan.shading.lights);
+    if (settings.background_environment && scene.environment != nullptr && !scene.environment->rgb.empty())
+        plan.background = Background(*scene.environment, camera, width, height, settings.exposure);
+    plan.background_linear = settings.background_linear;
+    plan.exposure = settings.exposure;
+    plan.rate = options.rate;
+    plan.reference = options.accuracy == Accuracy::reference;
+    plan.environment_uses = environment_uses(prepared, plan.shading);
+    add_lobe_warnings(prepared, plan.shading, options, plan.warnings);
+    if (!shadows->warning.empty()) plan.warnings.push_back(std::move(shadows->warning));
+    return plan;
+}
+
+Result<FramePlan> plan_frame(const PreparedScene& scene, const Camera& camera, const Settings& settings, int width, int height) {
+    FramePlanMemory memory;
+    return plan_frame(scene, camera, settings, width, height, memory, {});
+}
+
+}  // namespace halflit::raster

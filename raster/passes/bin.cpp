@@ -1,0 +1,223 @@
+// The bin pass: triangle set-up and the tiles' lists. Back faces, triangles without area and those that touch no pixel of the region end
+// here; the few that cross the near plane or leave the guard band are clipped; each tile's list names its triangles in submission order.
+#include "raster/passes/clip.hpp"
+#include "raster/passes/view_geometry.hpp"
+#include "raster/view/culling.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+
+namespace halflit::raster {
+namespace {
+
+/// What binning reads of a view, and the marks that it leaves: which vertex groups drawn triangles read.
+struct BinInput {
+    const PreparedScene& scene;
+    const View& view;
+    std::span<const Draw> draws;
+    const ScreenVertex* screen;
+    const std::uint8_t* outcodes;
+    std::uint8_t* groups_drawn;
+};
+
+class ChunkBuilder {
+public:
+    ChunkBuilder(const BinInput& input, Chunk& chunk, std::vector<std::int64_t>* numbers) : in_(input), chunk_(chunk), numbers_(numbers) {
+        const SamplePattern& samples = in_.view.samples;
+        for (int s = 0; s < samples.count; ++s) {
+            sample_min_x_ = std::min<int>(sample_min_x_, samples.x[s]);
+            sample_max_x_ = std::max<int>(sample_max_x_, samples.x[s]);
+            sample_min_y_ = std::min<int>(sample_min_y_, samples.y[s]);
+            sample_max_y_ = std::max<int>(sample_max_y_, samples.y[s]);
+        }
+        tile_shift_ = std::countr_zero(static_cast<unsigned>(in_.view.tile_size));
+    }
+
+    void build() {
+        chunk_.records.clear();
+        chunk_.clip_screen.clear();
+        chunk_.clip_vertices.clear();
+        chunk_.pairs.clear();
+        chunk_.not_finite = 0;
+        if (numbers_ != nullptr) numbers_->clear();
+        for (const TriangleRun& run : chunk_.runs) add_triangles(run);
+        sort_by_tile();
+    }
+
+private:
+    /// A triangle on its way: its draw, and its vertices as the mesh numbers them.
+    struct Source {
+        const Draw& draw;
+        std::uint32_t draw_index;
+        const std::uint32_t* vertex;
+        std::uint32_t triangle;  ///< of the mesh
+    };
+
+    void add_triangles(const TriangleRun& run) {
+        const Draw& draw = in_.draws[run.draw];
+        const std::uint32_t* index = draw.mesh->indices.data() + std::size_t{3} * run.first;
+        const auto base = static_cast<std::uint32_t>(draw.vertex_base);
+        for (std::uint32_t t = run.first; t < run.end; ++t, index += 3) {
+            const std::uint32_t v[3] = {base + index[0], base + index[1], base + index[2]};
+            const unsigned c0 = in_.outcodes[v[0]], c1 = in_.outcodes[v[1]], c2 = in_.outcodes[v[2]];
+            if ((c0 & c1 & c2 & kRejectWhenAll) != 0) continue;
+            const unsigned any = c0 | c1 | c2;
+            const Source source{draw, run.draw, index, t};
+            if ((any & (kNear | kGuard | kNotFinite)) == 0) {
+                add(v, in_.screen[v[0]], in_.screen[v[1]], in_.screen[v[2]], source);
+            } else if (any & kNotFinite) {
+                ++chunk_.not_finite;
+            } else {
+                add_clipped(v, any, source);
+            }
+        }
+    }
+
+    void add_clipped(const std::uint32_t (&v)[3], unsigned codes, const Source& source) {
+        const Mat4 m = multiply_in_double(in_.view.clip_from_world, in_.scene.scene().instances[source.draw.instance].world_from_object);
+        float clip[3][4];
+        for (int k = 0; k < 3; ++k) {
+            const Vec3f p = source.draw.mesh->positions[source.vertex[k]];
+            const Vec4f c = ((m.c[0] * p.x + m.c[1] * p.y) + m.c[2] * p.z) + m.c[3];
+            clip[k][0] = c.x;
+            clip[k][1] = c.y;
+            clip[k][2] = c.z;
+            clip[k][3] = c.w;
+        }
+        PolygonVertex polygon[kMaxPolygon];
+        const int n = clip_triangle(clip, codes, in_.view.viewport, polygon);
+        if (n == 0) return;
+        const std::size_t records_before = chunk_.records.size(), corners_before = chunk_.clip_vertices.size();
+        std::uint32_t corner[kMaxPolygon];
+        ScreenVertex screen[kMaxPolygon];
+        for (int k = 0; k < n; ++k) {
+            if (polygon[k].corner >= 0) {
+                corner[k] = v[polygon[k].corner];
+                screen[k] = in_.screen[corner[k]];
+                continue;
+            }
+            corner[k] = kClipVertex + static_cast<std::uint32_t>(chunk_.clip_vertices.size());
+            screen[k] = project(polygon[k].clip, in_.view.viewport);
+            chunk_.clip_screen.push_back(screen[k]);
+            ClipVertex made{{v[0], v[1], v[2]}, source.draw_index, {}};
+            for (int i = 0; i < 3; ++i) made.weight[i] = static_cast<float>(polygon[k].weight[i]);
+            chunk_.clip_vertices.push_back(made);
+        }
+        for (int k = 2; k < n; ++k) {
+            const std::uint32_t piece[3] = {corner[0], corner[k - 1], corner[k]};
+            add(piece, screen[0], screen[k - 1], screen[k], source);
+        }
+        // Corners that no drawn piece uses must not stay: they would be made from parents whose records nobody made.
+        if (chunk_.records.size() == records_before) {
+            chunk_.clip_vertices.resize(corners_before);
+            chunk_.clip_screen.resize(corners_before);
+        }
+    }
+
+    /// Culls, records and bins a triangle or a piece of one; v: its corners in the view's arrays, or clip vertices.
+    void add(const std::uint32_t (&v)[3], const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, const Source& source) {
+        const int least_x = std::min({a.x, b.x, c.x}), most_x = std::max({a.x, b.x, c.x});
+        const int least_y = std::min({a.y, b.y, c.y}), most_y = std::max({a.y, b.y, c.y});
+        const Region& r = in_.view.region;
+        const int x0 = std::max((least_x - sample_max_x_ + 255) >> 8, r.x), x1 = std::min((most_x - sample_min_x_) >> 8, r.x + r.width - 1);
+        const int y0 = std::max((least_y - sample_max_y_ + 255) >> 8, r.y),
+                  y1 = std::min((most_y - sample_min_y_) >> 8, r.y + r.height - 1);
+        if (x0 > x1 || y0 > y1) return;
+
+        const std::int64_t area = static_cast<std::int64_t>(b.x - a.x) * (c.y - a.y) - static_cast<std::int64_t>(c.x - a.x) * (b.y - a.y);
+        if (area == 0) return;
+        // y points down here: a counter-clockwise triangle has negative area.
+        const bool back = (area > 0) != source.draw.mirrored;
+        if (back && source.draw.cull_back) return;
+        const bool swap = area < 0;
+        if (x0 == x1 && y0 == y1 && in_.view.samples.count == 1 && !covers(a, swap ? c : b, swap ? b : c, x0 * 256, y0 * 256)) return;
+
+        const auto record = static_cast<std::uint32_t>(chunk_.records.size());
+        chunk_.records.push_back({{v[0], swap ? v[2] : v[1], swap ? v[1] : v[2]}, source.draw_index * 2 + (back ? 1u : 0u)});
+        if (numbers_ != nullptr) numbers_->push_back(source.draw.triangle_base + source.triangle);
+        for (int k = 0; k < 3; ++k)
+            std::atomic_ref(in_.groups_drawn[source.draw.group_base + source.vertex[k] / kVertexGroup]).store(1, std::memory_order_relaxed);
+
+        const int tx0 = (x0 - r.x) >> tile_shift_, tx1 = (x1 - r.x) >> tile_shift_, ty0 = (y0 - r.y) >> tile_shift_,
+                  ty1 = (y1 - r.y) >> tile_shift_;
+        if (tx0 == tx1 || ty0 == ty1) {
+            for (int ty = ty0; ty <= ty1; ++ty)
+                for (int tx = tx0; tx <= tx1; ++tx) push(ty * in_.view.tiles_x + tx, record);
+        } else {
+            push_touched_tiles(a, swap ? c : b, swap ? b : c, tx0, ty0, tx1, ty1, record);
+        }
+    }
+
+    /// The sample at (x, y) in fixed point, by the top-left rule; a, b, c with positive area.
+    static bool covers(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, std::int32_t x, std::int32_t y) {
+        const auto inside = [x, y](const ScreenVertex& p, const ScreenVertex& q) {
+            const std::int32_t ea = p.y - q.y, eb = q.x - p.x;
+            const std::int64_t e = static_cast<std::int64_t>(ea) * (x - p.x) + static_cast<std::int64_t>(eb) * (y - p.y);
+            return e > 0 || (e == 0 && (ea > 0 || (ea == 0 && eb > 0)));
+        };
+        return inside(a, b) && inside(b, c) && inside(c, a);
+    }
+
+    /// Tiles of a block that no edge has wholly outside.
+    void push_touched_tiles(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, int tx0, int ty0, int tx1, int ty1,
+                            std::uint32_t record) {
+        const ScreenVertex* corner[4] = {&a, &b, &c, &a};
+        const std::int64_t span = 256 * in_.view.tile_size;
+        for (int ty = ty0; ty <= ty1; ++ty) {
+            for (int tx = tx0; tx <= tx1; ++tx) {
+                // The tile with half a pixel around it holds all of its samples.
+                const std::int64_t left = 256 * (in_.view.region.x + static_cast<std::int64_t>(tx) * in_.view.tile_size) - 128;
+                const std::int64_t top = 256 * (in_.view.region.y + static_cast<std::int64_t>(ty) * in_.view.tile_size) - 128;
+                bool outside = false;
+                for (int k = 0; k < 3; ++k) {
+                    const ScreenVertex &p = *corner[k], &q = *corner[k + 1];
+                    const std::int64_t ea = p.y - q.y, eb = q.x - p.x;
+                    const std::int64_t x = ea > 0 ? left + span : left, y = eb > 0 ? top + span : top;
+                    outside |= ea * (x - p.x) + eb * (y - p.y) < 0;
+                }
+                if (!outside) push(ty * in_.view.tiles_x + tx, record);
+            }
+        }
+    }
+
+    void push(int tile, std::uint32_t record) { chunk_.pairs.push_back(static_cast<std::uint64_t>(tile) << 32 | record); }
+
+    /// A counting sort: stable, so each tile keeps submission order.
+    void sort_by_tile() {
+        const auto tiles = static_cast<std::size_t>(in_.view.tiles_x) * static_cast<std::size_t>(in_.view.tiles_y);
+        chunk_.tile_begin.assign(tiles + 1, 0);
+        chunk_.tile_list.resize(chunk_.pairs.size());
+        for (const std::uint64_t p : chunk_.pairs) ++chunk_.tile_begin[(p >> 32) + 1];
+        for (std::size_t t = 0; t < tiles; ++t) chunk_.tile_begin[t + 1] += chunk_.tile_begin[t];
+        for (const std::uint64_t p : chunk_.pairs) chunk_.tile_list[chunk_.tile_begin[p >> 32]++] = static_cast<std::uint32_t>(p);
+        // Each entry now holds the end of its tile; shift back to the beginnings.
+        for (std::size_t t = tiles; t > 0; --t) chunk_.tile_begin[t] = chunk_.tile_begin[t - 1];
+        chunk_.tile_begin[0] = 0;
+    }
+
+    const BinInput& in_;
+    Chunk& chunk_;
+    std::vector<std::int64_t>* numbers_;
+    int sample_min_x_ = 0, sample_max_x_ = 0, sample_min_y_ = 0, sample_max_y_ = 0;
+    int tile_shift_ = 6;
+};
+
+}  // namespace
+
+void ViewGeometry::bin(Executor& executor, SubmissionNumbers* numbers) {
+    const BinInput input{*scene_, view_, draws_, screen_.data(), outcodes_.data(), groups_drawn_.data()};
+    if (numbers != nullptr) numbers->assign(chunk_count_, {});
+    executor.run(static_cast<int>(chunk_count_), [&](int i) {
+        const auto index = static_cast<std::size_t>(i);
+        ChunkBuilder(input, *chunks_[index], numbers != nullptr ? &(*numbers)[index] : nullptr).build();
+    });
+    std::int64_t most = 0;
+    for (const std::unique_ptr<Chunk>& chunk : chunks()) most = std::max(most, static_cast<std::int64_t>(chunk->records.size()));
+    local_bits_ = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(most)));
+    sources_.clear();
+    for (std::size_t i = 0; i < chunk_count_; ++i)
+        sources_.push_back({chunks_[i]->records.data(), screen_.data(), chunks_[i]->clip_screen.data(), static_cast<std::uint32_t>(i << local_bits_)});
+}
+
+}  // namespace halflit::raster

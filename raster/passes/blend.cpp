@@ -1,0 +1,22 @@
+// The blend pass: transparent triangles in submission order, each over what lies behind it.
+#include "raster/passes/picture_tile.hpp"
+
+namespace halflit::raster {
+
+void PictureTile::blend_layers() {
+    const ViewGeometry& geometry = pass_.view.geometry;
+    if (!geometry.has(shading::AlphaMode::blend)) return;
+    const auto chunks = geometry.chunks();
+    for (std::size_t c = 0; c < chunks.size(); ++c) {
+        for (const std::uint32_t record : chunks[c]->tile(tile_)) {
+            if (geometry.draw_of(chunks[c]->records[record]).alpha_mode != shading::AlphaMode::blend) continue;
+            const CoverBox box = collect_covered(pass_.view, rect_, c, record, scratch_, [&](FragmentList& list) {
+                shade(list);
+                write_samples(list, true);
+            });
+            clear_coverage(scratch_, box);
+        }
+    }
+}
+
+}  // namespace halflit::raster

@@ -1,0 +1,137 @@
+// The cull pass: instances first, then the clusters of those that remain.
+#include "raster/passes/view_geometry.hpp"
+#include "raster/view/culling.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+
+namespace halflit::raster {
+namespace {
+
+constexpr std::size_t kInstancesPerTask = 1024;
+constexpr std::int64_t kLeastClusters = 16, kMostChunks = 128;  ///< of a chunk; of a view
+
+Culler culler_of(const View& view, const Mat4& world_from_object, bool back_faces) {
+    return {view, multiply_in_double(view.clip_from_world, world_from_object), determinant3(world_from_object) < 0.0, back_faces};
+}
+
+Culler::Verdict verdict_on(const Culler& culler, const Bounds& bounds) {
+    const float min[3] = {bounds.min.x, bounds.min.y, bounds.min.z}, max[3] = {bounds.max.x, bounds.max.y, bounds.max.z};
+    return culler.box(min, max);
+}
+
+/// Culls the clusters of one chunk.
+class ChunkCuller {
+public:
+    ChunkCuller(const PreparedScene& scene, const View& view, Chunk& chunk, std::uint8_t* groups_seen)
+        : scene_(scene), view_(view), chunk_(chunk), groups_seen_(groups_seen) {}
+
+    void cull(const std::vector<Draw>& draws) {
+        chunk_.runs.clear();
+        auto draw = std::upper_bound(draws.begin(), draws.end(), chunk_.first_cluster,
+                                     [](std::int64_t cluster, const Draw& d) { return cluster < d.cluster_base; }) -
+                    1;
+        for (std::int64_t c = chunk_.first_cluster; c < chunk_.end_cluster; ++draw) {
+            const std::int64_t end = std::min(chunk_.end_cluster, draw->cluster_base + static_cast<std::int64_t>(draw->prepared->cluster_count()));
+            cull(*draw, static_cast<std::uint32_t>(draw - draws.begin()), static_cast<std::size_t>(c - draw->cluster_base),
+                 static_cast<std::size_t>(end - draw->cluster_base));
+            c = end;
+        }
+    }
+
+private:
+    void cull(const Draw& draw, std::uint32_t number, std::size_t begin, std::size_t end) {
+        const PreparedMesh& mesh = *draw.prepared;
+        const Culler culler = culler_of(view_, scene_.scene().instances[draw.instance].world_from_object, draw.cull_back);
+        const bool test_boxes = mesh.cluster_count() > 1 && verdict_on(culler, mesh.bounds) != Culler::Verdict::inside;
+        for (std::size_t c = begin; c < end; ++c) {
+            const Cluster& cluster = mesh.clusters[c];
+            if (cluster.finite) {  // others are counted, triangle by triangle
+                if (test_boxes && culler.box(cluster.min, cluster.max) == Culler::Verdict::outside) continue;
+                if (culler.faces_away(cluster)) continue;
+            }
+            keep(draw, number, c);
+        }
+    }
+
+    void keep(const Draw& draw, std::uint32_t number, std::size_t cluster) {
+        const auto first = static_cast<std::uint32_t>(cluster * kClusterTriangles);
+        const auto end = static_cast<std::uint32_t>(std::min<std::size_t>(first + std::size_t{kClusterTriangles}, draw.mesh->indices.size() / 3));
+        if (!chunk_.runs.empty() && chunk_.runs.back().draw == number && chunk_.runs.back().end == first)
+            chunk_.runs.back().end = end;
+        else
+            chunk_.runs.push_back({number, first, end});
+        for (const std::uint32_t group : draw.prepared->groups_of(cluster))
+            std::atomic_ref(groups_seen_[draw.group_base + group]).store(1, std::memory_order_relaxed);
+    }
+
+    const PreparedScene& scene_;
+    const View& view_;
+    Chunk& chunk_;
+    std::uint8_t* groups_seen_;
+};
+
+}  // namespace
+
+void ViewGeometry::list_draws(Executor& executor) {
+    const std::vector<Instance>& instances = scene_->scene().instances;
+    // Where the view holds all there is, no instance needs a look.
+    const bool all = verdict_on(Culler(view_, view_.clip_from_world, false, false), scene_->bounds()) == Culler::Verdict::inside;
+    std::uint8_t* seen = nullptr;
+    if (!all) {
+        seen = seen_.reserve(instances.size());
+        executor.run(static_cast<int>((instances.size() + kInstancesPerTask - 1) / kInstancesPerTask), [&](int task) {
+            const std::size_t begin = static_cast<std::size_t>(task) * kInstancesPerTask;
+            for (std::size_t i = begin; i < std::min(begin + kInstancesPerTask, instances.size()); ++i) {
+                const PreparedMesh& mesh = scene_->mesh(instances[i].mesh);
+                seen[i] = !mesh.finite || verdict_on(culler_of(view_, instances[i].world_from_object, false), mesh.bounds) != Culler::Verdict::outside;
+            }
+        });
+    }
+    draws_.clear();
+    std::fill(std::begin(has_mode_), std::end(has_mode_), false);
+    vertex_count_ = group_count_ = cluster_count_ = triangle_count_ = 0;
+    std::int64_t triangle_base = 0;
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        const Mesh& mesh = scene_->scene().meshes[static_cast<std::size_t>(instances[i].mesh)];
+        const auto triangles = static_cast<std::int64_t>(mesh.indices.size() / 3);
+        triangle_base += triangles;
+        if (triangles == 0 || (seen != nullptr && seen[i] == 0)) continue;
+        Draw& draw = draws_.emplace_back();
+        draw.mesh = &mesh;
+        draw.prepared = &scene_->mesh(instances[i].mesh);
+        draw.instance = static_cast<std::uint32_t>(i);
+        draw.material = static_cast<std::int32_t>(scene_->material_of(mesh));
+        draw.vertex_base = vertex_count_;
+        draw.group_base = group_count_;
+        draw.cluster_base = cluster_count_;
+        draw.triangle_base = triangle_base - triangles;
+        draw.mirrored = determinant3(instances[i].world_from_object) < 0.0;
+        const shading::Material& material = scene_->material(scene_->material_of(mesh));
+        draw.cull_back = view_.cull_back_faces && !material.double_sided;
+        draw.alpha_mode = material.alpha_mode;
+        has_mode_[static_cast<std::size_t>(draw.alpha_mode)] = true;
+        triangle_count_ += triangles;
+        vertex_count_ += draw.vertex_count();
+        group_count_ += draw.group_count();
+        cluster_count_ += static_cast<std::int64_t>(draw.prepared->cluster_count());
+    }
+}
+
+void ViewGeometry::cull_clusters(Executor& executor) {
+    const auto groups = static_cast<std::size_t>(group_count_);
+    std::memset(groups_seen_.reserve(groups + 1), 0, groups + 1);
+    std::memset(groups_drawn_.reserve(groups + 1), 0, groups + 1);
+    const std::int64_t size = std::max(kLeastClusters, (cluster_count_ + kMostChunks - 1) / kMostChunks);
+    chunk_count_ = static_cast<std::size_t>((cluster_count_ + size - 1) / size);
+    while (chunks_.size() < chunk_count_) chunks_.push_back(std::make_unique<Chunk>());
+    executor.run(static_cast<int>(chunk_count_), [&](int i) {
+        Chunk& chunk = *chunks_[static_cast<std::size_t>(i)];
+        chunk.first_cluster = i * size;
+        chunk.end_cluster = std::min(chunk.first_cluster + size, cluster_count_);
+        ChunkCuller(*scene_, view_, chunk, groups_seen_.data()).cull(draws_);
+    });
+}
+
+}  // namespace halflit::raster

@@ -1,0 +1,55 @@
+// One tile of the picture, from triangle lists to pixels: visibility first, then every visible pixel is shaded once, then transparent
+// triangles in submission order, then the framebuffer.
+#pragma once
+
+#include "raster/frame_plan.hpp"
+#include "raster/framebuffer.hpp"
+#include "raster/passes/reference_shading.hpp"
+#include "raster/passes/tile.hpp"
+
+namespace halflit::raster {
+
+/// The picture as its tiles read it.
+struct PicturePass {
+    TilePass view;
+    const FramePlan& plan;
+    FramebufferView target;
+    const ReferenceShading* reference;  ///< instead of the kernels; null: none
+};
+
+class PictureTile {
+public:
+    PictureTile(const PicturePass& pass, int tile, TileScratch& scratch)
+        : pass_(pass), plan_(pass.plan), tile_(tile), rect_(plan_.picture.tile_rect(tile)), samples_(plan_.picture.samples.count), scratch_(scratch) {}
+
+    TileCounts draw();
+
+private:
+    // shade.cpp
+    void shade_visible();
+    void shade(FragmentList& list);  ///< to the colour rows of the scratch's block
+    // blend.cpp
+    void blend_layers();
+    // resolve.cpp
+    void clear();             ///< the background behind everything, of a tile that has triangles
+    void fill_background();   ///< the picture of a tile that has none
+    void fill_samples();      ///< every sample with the environment behind its pixel
+    void write(const FragmentList& list);  ///< the scratch's block, to the framebuffer or to its samples
+    void write_samples(const FragmentList& list, bool blend);
+    void resolve();
+    [[nodiscard]] float* sample_color(int s) { return scratch_.color.data() + static_cast<std::size_t>(s) * 4 * kTilePixels; }
+    [[nodiscard]] std::size_t pixel_offset(int x_px, int y_px) const {
+        return static_cast<std::size_t>(y_px) * static_cast<std::size_t>(pass_.target.width) + static_cast<std::size_t>(x_px);
+    }
+
+    const PicturePass& pass_;
+    const FramePlan& plan_;
+    int tile_;
+    TileRect rect_;
+    int samples_;
+    TileScratch& scratch_;
+    TileCounts counts_;
+    bool direct_ = true;  ///< one opaque sample a pixel: shaded colours go straight to the framebuffer
+};
+
+}  // namespace halflit::raster

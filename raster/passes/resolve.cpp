@@ -1,0 +1,149 @@
+// From shaded fragments to the caller's pixels: samples, the background, the mean of a pixel's samples, exposure and sRGB codes.
+#include "raster/passes/picture_tile.hpp"
+
+#include <cstring>
+
+namespace halflit::raster {
+namespace {
+
+/// NaN to 0; everything else as it is.
+float number_or_zero(float x) { return x == x ? x : 0.0f; }
+
+Vec4f number_or_zero(Vec4f v) { return {number_or_zero(v.x), number_or_zero(v.y), number_or_zero(v.z), number_or_zero(v.w)}; }
+
+/// What a pixel shows: the mean of its samples, `sum` of light times alpha and of alpha, no longer multiplied by alpha. Samples may hold
+/// infinities, whose sums and quotients may be NaN.
+Vec4f resolved(const float (&sum)[4], float weight) {
+    const float alpha = sum[3] * weight;
+    if (!(alpha > 0.0f)) return {0, 0, 0, number_or_zero(alpha)};
+    return number_or_zero(Vec4f{sum[0] * weight / alpha, sum[1] * weight / alpha, sum[2] * weight / alpha, alpha});
+}
+
+}  // namespace
+
+void PictureTile::clear() {
+    if (direct_) {
+        fill_background();
+        return;
+    }
+    float* color = scratch_.color.reserve(static_cast<std::size_t>(samples_) * 4 * kTilePixels);
+    const Vec4f b = number_or_zero(plan_.background_linear);
+    const float back[4] = {b.x * b.w, b.y * b.w, b.z * b.w, b.w};
+    for (int i = 0; i < samples_ * kTilePixels; ++i) std::memcpy(color + 4 * i, back, sizeof back);
+    if (plan_.background) fill_samples();
+}
+
+void PictureTile::write(const FragmentList& list) {
+    if (!direct_) {
+        write_samples(list, false);
+        return;
+    }
+    const shading::FragmentBlock& block = scratch_.block;
+    const FramebufferView& target = pass_.target;
+    const float exposure = plan_.exposure;
+    if (target.rgba8) {
+        alignas(64) std::uint32_t code[shading::kBlockSize];
+        pass_.view.shade.encode_srgb8(block.red, block.green, block.blue, block.alpha, exposure, code, list.count);
+        for (int l = 0; l < list.count; ++l) std::memcpy(target.rgba8 + 4 * pixel_offset(list.x_px[l], list.y_px[l]), &code[l], 4);
+    }
+    if (target.rgba_linear) {
+        for (int l = 0; l < list.count; ++l) {
+            float* p = target.rgba_linear + 4 * pixel_offset(list.x_px[l], list.y_px[l]);
+            p[0] = number_or_zero(block.red[l] * exposure);
+            p[1] = number_or_zero(block.green[l] * exposure);
+            p[2] = number_or_zero(block.blue[l] * exposure);
+            p[3] = number_or_zero(block.alpha[l]);
+        }
+    }
+}
+
+void PictureTile::write_samples(const FragmentList& list, bool blend) {
+    const shading::FragmentBlock& block = scratch_.block;
+    const float exposure = plan_.exposure;
+    for (int l = 0; l < list.count; ++l) {
+        const float a = number_or_zero(block.alpha[l]);
+        const float source[4] = {number_or_zero(block.red[l] * exposure) * a, number_or_zero(block.green[l] * exposure) * a,
+                                 number_or_zero(block.blue[l] * exposure) * a, a};
+        for (unsigned samples = list.samples[l]; samples != 0; samples &= samples - 1) {
+            float* p = sample_color(__builtin_ctz(samples)) + 4 * list.at[l];
+            const float keep = blend ? 1.0f - a : 0.0f;
+            for (int i = 0; i < 4; ++i) p[i] = blend ? source[i] + p[i] * keep : source[i];
+        }
+    }
+}
+
+void PictureTile::fill_samples() {
+    for (int y = 0; y < rect_.height; ++y)
+        for (int x = 0; x < rect_.width; ++x) {
+            const Vec4f b = number_or_zero(plan_.background.at(rect_.x + x, rect_.y + y));
+            for (int s = 0; s < samples_; ++s) std::memcpy(sample_color(s) + 4 * (y * kTileStride + x), &b, sizeof b);
+        }
+}
+
+void PictureTile::fill_background() {
+    if (plan_.background) {
+        // By way of samples, so that an empty tile rounds as an empty pixel beside a triangle does.
+        scratch_.color.reserve(static_cast<std::size_t>(samples_) * 4 * kTilePixels);
+        fill_samples();
+        resolve();
+        return;
+    }
+    Vec4f b = number_or_zero(plan_.background_linear);
+    if (!direct_) {
+        // A tile that nothing touches must round as an empty pixel beside a triangle does, or pixels would depend on the tile size.
+        float sum[4] = {0, 0, 0, 0};
+        const float back[4] = {b.x * b.w, b.y * b.w, b.z * b.w, b.w};
+        for (int s = 0; s < samples_; ++s)
+            for (int i = 0; i < 4; ++i) sum[i] += back[i];
+        b = resolved(sum, 1.0f / static_cast<float>(samples_));
+    }
+    const FramebufferView& target = pass_.target;
+    if (target.rgba8) {
+        alignas(64) float red[16], green[16], blue[16], alpha[16];
+        for (int l = 0; l < 16; ++l) {
+            red[l] = b.x;
+            green[l] = b.y;
+            blue[l] = b.z;
+            alpha[l] = b.w;
+        }
+        std::uint32_t code[16];
+        pass_.view.shade.encode_srgb8(red, green, blue, alpha, 1.0f, code, 1);
+        for (int y = 0; y < rect_.height; ++y)
+            for (int x = 0; x < rect_.width; ++x) std::memcpy(target.rgba8 + 4 * pixel_offset(rect_.x + x, rect_.y + y), &code[0], 4);
+    }
+    if (target.rgba_linear) {
+        const float back[4] = {b.x, b.y, b.z, b.w};
+        for (int y = 0; y < rect_.height; ++y)
+            for (int x = 0; x < rect_.width; ++x) std::memcpy(target.rgba_linear + 4 * pixel_offset(rect_.x + x, rect_.y + y), back, sizeof back);
+    }
+}
+
+void PictureTile::resolve() {
+    const FramebufferView& target = pass_.target;
+    const float weight = 1.0f / static_cast<float>(samples_);
+    alignas(64) float row[4][kTileStride] = {};
+    alignas(64) std::uint32_t code[kTileStride];
+    for (int y = 0; y < rect_.height; ++y) {
+        for (int x = 0; x < rect_.width; ++x) {
+            float sum[4] = {0, 0, 0, 0};
+            for (int s = 0; s < samples_; ++s)
+                for (int i = 0; i < 4; ++i) sum[i] += sample_color(s)[4 * (y * kTileStride + x) + i];
+            const Vec4f pixel = resolved(sum, weight);
+            row[0][x] = pixel.x;
+            row[1][x] = pixel.y;
+            row[2][x] = pixel.z;
+            row[3][x] = pixel.w;
+        }
+        const std::size_t first = pixel_offset(rect_.x, rect_.y + y);
+        if (target.rgba8) {
+            pass_.view.shade.encode_srgb8(row[0], row[1], row[2], row[3], 1.0f, code, rect_.width);
+            std::memcpy(target.rgba8 + 4 * first, code, 4 * static_cast<std::size_t>(rect_.width));
+        }
+        if (target.rgba_linear)
+            for (int x = 0; x < rect_.width; ++x)
+                for (int i = 0; i < 4; ++i)
+                    target.rgba_linear[4 * (first + static_cast<std::size_t>(x)) + static_cast<std::size_t>(i)] = row[i][x];
+    }
+}
+
+}  // namespace halflit::raster

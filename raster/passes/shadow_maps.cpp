@@ -1,0 +1,59 @@
+#include "raster/passes/shadow_maps.hpp"
+
+#include <algorithm>
+
+namespace halflit::raster {
+
+float* ShadowMaps::reserve(std::size_t texel_count) {
+    if (texel_count > texels_.capacity()) drawn_.clear();
+    return texels_.reserve(texel_count);
+}
+
+Result<void> ShadowMaps::draw_face(const PreparedScene& scene, const FramePlan& plan, const ShadowView& face, const RasterKernels& raster,
+                                   const shading::ShadeKernels& shade, Executor& executor) {
+    const auto size = static_cast<std::size_t>(face.view.region.width);
+    float* distance = texels_.data() + face.first_texel;
+    if (!face.sees_scene) {
+        std::fill_n(distance, size * size, shading::kNoBlocker);
+        return {};
+    }
+    if (auto ok = geometry_.make(scene, face.view, raster, executor); !ok) return ok;
+    // An alpha test reads attributes.
+    const bool masks = geometry_.has(shading::AlphaMode::mask);
+    if (masks) records_.make(geometry_, plan.casters, raster, executor);
+    const TilePass pass{geometry_, records_, plan.casters, raster, shade};
+    executor.run(face.view.tile_count(), [&](int tile) {
+        Pool<TileScratch>::Loan scratch(scratch_);
+        TileCounts ignored;
+        draw_visibility(pass, tile, *scratch, ignored);
+        const TileRect rect = face.view.tile_rect(tile);
+        for (int y = 0; y < rect.height; ++y) {
+            const float* depth = scratch->buffers.depth[0] + y * kTileStride;
+            float* out = distance + static_cast<std::size_t>(rect.y + y) * size + static_cast<std::size_t>(rect.x);
+            for (int x = 0; x < rect.width; ++x) {
+                const float z = depth[x];
+                const float d = face.perspective ? face.near_z / z : face.far_z - z * (face.far_z - face.near_z);
+                out[x] = z > 0.0f && d < shading::kNoBlocker ? d : shading::kNoBlocker;
+            }
+        }
+    });
+    return {};
+}
+
+Result<void> ShadowMaps::draw(const PreparedScene& scene, const FramePlan& plan, const RasterKernels& raster, const shading::ShadeKernels& shade,
+                              Executor& executor) {
+    const SceneRevision revision{scene.revision().geometry, scene.revision().materials, 0};
+    if (revision != revision_) drawn_.clear();
+    revision_ = revision;
+    std::vector<ShadowView> drawn;
+    drawn.swap(drawn_);  // empty until all are there
+    for (std::size_t i = 0; i < plan.shadow_views.size(); ++i) {
+        const ShadowView& face = plan.shadow_views[i];
+        if (i < drawn.size() && drawn[i] == face) continue;
+        if (auto ok = draw_face(scene, plan, face, raster, shade, executor); !ok) return ok;
+    }
+    drawn_ = plan.shadow_views;
+    return {};
+}
+
+}  // namespace halflit::raster

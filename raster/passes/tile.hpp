@@ -1,0 +1,78 @@
+// What the passes over tiles read and write: a tile is drawn by one task, and all of its data fits the cache next to the core.
+#pragma once
+
+#include "raster/passes/fragment_queue.hpp"
+#include "raster/passes/light_culling.hpp"
+#include "raster/passes/vertex_records.hpp"
+#include "raster/work_counts.hpp"
+#include "shading/kernels/shade_kernels.hpp"
+
+namespace halflit::raster {
+
+/// A view as its tiles read it.
+struct TilePass {
+    const ViewGeometry& geometry;
+    const VertexRecords& records;  ///< unused where no material has a mask and nothing is shaded
+    std::span<const shading::MaterialPlan> materials;
+    const RasterKernels& raster;
+    const shading::ShadeKernels& shade;
+    bool shadow_offset = false;    ///< fragments bring where shadows are looked up
+};
+
+/// What tiles report; summed over the view.
+struct TileCounts {
+    std::uint64_t pixels_visible = 0, fragments_shaded = 0, nan_pixels = 0;
+    WorkCounts work;
+
+    TileCounts& operator+=(const TileCounts& other) {
+        pixels_visible += other.pixels_visible;
+        fragments_shaded += other.fragments_shaded;
+        nan_pixels += other.nan_pixels;
+        work += other.work;
+        return *this;
+    }
+};
+
+/// The working memory of one task.
+struct TileScratch {
+    TileBuffers buffers{};
+    FragmentQueue queue;
+    FragmentList list;  ///< of the triangle at hand: alpha test, blending
+    shading::FragmentBlock block;
+    LightSelection lights;
+    /// Linear light times alpha, and alpha, of every sample; used only where samples or layers are combined.
+    RawBuffer<float> color;
+};
+
+/// Fills the attribute rows of the scratch's block for a list. The list is padded with copies of its last fragment.
+void interpolate(const TilePass& pass, FragmentList& list, shading::FragmentBlock& block);
+
+/// Visibility: afterwards the buffers hold depth and triangle of each sample. Opaque triangles, and of masked ones what their alpha test
+/// leaves; blended ones are left out.
+void draw_visibility(const TilePass& pass, int tile, TileScratch& scratch, TileCounts& counts);
+
+/// The samples of one triangle that are nearer than the tile's depth, as lists of fragments: calls flush(list) for each. Whoever is done
+/// with the triangle says clear_coverage.
+template <class Flush>
+CoverBox collect_covered(const TilePass& pass, const TileRect& rect, std::size_t chunk, std::uint32_t record, TileScratch& scratch, const Flush& flush) {
+    const TriangleSource& source = pass.geometry.source(chunk);
+    const CoverBox box = pass.raster.cover(rect, pass.geometry.view().samples, scratch.buffers, source, record);
+    FragmentList& list = scratch.list;
+    list.material = pass.geometry.draw_of(source.records[record]).material;
+    list.count = 0;
+    for (int y = box.y0; y <= box.y1; ++y) {
+        for (int x = box.x0; x <= box.x1; ++x) {
+            const int at = y * kTileStride + x;
+            if (scratch.buffers.coverage[at] == 0) continue;
+            list.push(source.id_base + record, rect.x + x, rect.y + y, at, scratch.buffers.coverage[at]);
+            if (!list.full()) continue;
+            flush(list);
+            list.count = 0;
+        }
+    }
+    if (list.count > 0) flush(list);
+    return box;
+}
+void clear_coverage(TileScratch& scratch, const CoverBox& box);
+
+}  // namespace halflit::raster

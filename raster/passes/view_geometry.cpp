@@ -1,0 +1,52 @@
+#include "raster/passes/view_geometry.hpp"
+
+#include "raster/detail/stopwatch.hpp"
+
+#include <algorithm>
+
+namespace halflit::raster {
+
+Result<void> ViewGeometry::make(const PreparedScene& scene, const View& view, const RasterKernels& kernels, Executor& executor,
+                                SubmissionNumbers* numbers) {
+    // Materials decide which faces are drawn and how; lights nothing.
+    const SceneRevision revision{scene.revision().geometry, scene.revision().materials, 0};
+    times_ms_ = {};
+    if (revision == revision_ && view == view_ && numbers == nullptr) {
+        scene_ = &scene;
+        return {};
+    }
+    scene_ = &scene;
+    view_ = view;
+    revision_ = {};  // until all is done
+    ++version_;
+    Stopwatch watch;
+    list_draws(executor);
+    if (vertex_count_ >= static_cast<std::int64_t>(kClipVertex)) return fail(ErrorCode::limit, "more than 2^31 vertices in view");
+    if (triangle_count_ >= (std::int64_t{1} << 28)) return fail(ErrorCode::limit, "more than 2^28 triangles in view");
+    cull_clusters(executor);
+    times_ms_.cull = watch.lap();
+    transform(kernels, executor);
+    times_ms_.transform = watch.lap();
+    bin(executor, numbers);
+    times_ms_.bin = watch.lap();
+    revision_ = revision;
+    return {};
+}
+
+bool ViewGeometry::tile_is_empty(int tile) const {
+    return std::all_of(chunks().begin(), chunks().end(), [&](const std::unique_ptr<Chunk>& chunk) { return chunk->tile(tile).empty(); });
+}
+
+std::uint64_t ViewGeometry::triangles_drawn() const {
+    std::uint64_t sum = 0;
+    for (const std::unique_ptr<Chunk>& chunk : chunks()) sum += chunk->records.size();
+    return sum;
+}
+
+std::uint64_t ViewGeometry::triangles_not_finite() const {
+    std::uint64_t sum = 0;
+    for (const std::unique_ptr<Chunk>& chunk : chunks()) sum += chunk->not_finite;
+    return sum;
+}
+
+}  // namespace halflit::raster

@@ -1,0 +1,133 @@
+// The geometry of one view: which instances and clusters it may see, their vertices in its window, and each tile's triangles. Made by four
+// passes, each of which reads a PreparedScene and a View and knows nothing of light:
+//     cull -> transform -> bin (set-up and tile lists)
+// It is kept from frame to frame, so that a view of a scene in which nothing moved is not made again, and a steady frame allocates nothing.
+#pragma once
+
+#include "raster/detail/executor.hpp"
+#include "raster/detail/raw_buffer.hpp"
+#include "raster/kernels/raster_kernels.hpp"
+#include "raster/scene/prepared_scene.hpp"
+#include "raster/view/view.hpp"
+#include "shading/material.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace halflit::raster {
+
+/// One instance that the view may see.
+struct Draw {
+    const Mesh* mesh = nullptr;
+    const PreparedMesh* prepared = nullptr;
+    std::uint32_t instance = 0;
+    std::int32_t material = 0;     ///< as PreparedScene counts them
+    std::int64_t vertex_base = 0;  ///< of its first vertex, in the view's arrays
+    std::int64_t group_base = 0;   ///< of its first vertex group
+    std::int64_t cluster_base = 0; ///< of its first cluster, over all draws
+    std::int64_t triangle_base = 0;  ///< of its first triangle in submission order, over all instances of the scene
+    bool mirrored = false, cull_back = true;
+    shading::AlphaMode alpha_mode = shading::AlphaMode::opaque;
+
+    [[nodiscard]] std::int64_t vertex_count() const { return static_cast<std::int64_t>(mesh->positions.size()); }
+    [[nodiscard]] std::int64_t group_count() const { return (vertex_count() + kVertexGroup - 1) / kVertexGroup; }
+};
+
+/// Consecutive triangles of one draw.
+struct TriangleRun {
+    std::uint32_t draw;
+    std::uint32_t first, end;  ///< triangles of the mesh
+};
+
+/// A vertex made by clipping: weights of the three vertices of the triangle that it came from.
+struct ClipVertex {
+    std::uint32_t parent[3];
+    std::uint32_t draw;
+    float weight[3];
+};
+
+/// A part of the triangles, consecutive in submission order: culled and set up by one task, into its own lists.
+struct Chunk {
+    std::int64_t first_cluster = 0, end_cluster = 0;  ///< as Draw::cluster_base counts
+    std::vector<TriangleRun> runs;                    ///< what culling left
+    std::vector<TriangleRecord> records;
+    std::vector<ScreenVertex> clip_screen;
+    std::vector<ClipVertex> clip_vertices;
+    std::vector<std::uint64_t> pairs;       ///< tile << 32 | record, in submission order; scratch
+    std::vector<std::uint32_t> tile_begin;  ///< per tile: first entry of tile_list; one more at the end
+    std::vector<std::uint32_t> tile_list;
+    std::uint64_t not_finite = 0;           ///< triangles dropped for a NaN or infinite vertex
+
+    [[nodiscard]] std::span<const std::uint32_t> tile(int number) const {
+        const auto t = static_cast<std::size_t>(number);
+        return std::span(tile_list).subspan(tile_begin[t], tile_begin[t + 1] - tile_begin[t]);
+    }
+};
+
+/// For debug views: the submission number of each record of each chunk.
+using SubmissionNumbers = std::vector<std::vector<std::int64_t>>;
+
+class ViewGeometry {
+public:
+    /// Runs the passes, unless scene and view are those of the last call. Fails where there are more vertices than can be numbered.
+    /// `numbers`: filled where it is not null.
+    Result<void> make(const PreparedScene& scene, const View& view, const RasterKernels& kernels, Executor& executor,
+                      SubmissionNumbers* numbers = nullptr);
+    /// The next make() makes all anew.
+    void forget() { revision_ = {}; }
+
+    /// Milliseconds of wall clock of the last call.
+    struct Times {
+        double cull = 0, transform = 0, bin = 0;
+    };
+    [[nodiscard]] const Times& times_ms() const { return times_ms_; }
+    /// Changes whenever make() did something.
+    [[nodiscard]] std::uint64_t version() const { return version_; }
+
+    [[nodiscard]] const View& view() const { return view_; }
+    [[nodiscard]] const PreparedScene& scene() const { return *scene_; }
+    [[nodiscard]] std::span<const Draw> draws() const { return draws_; }
+    [[nodiscard]] std::span<const std::unique_ptr<Chunk>> chunks() const { return std::span(chunks_).first(chunk_count_); }
+    [[nodiscard]] bool has(shading::AlphaMode mode) const { return has_mode_[static_cast<std::size_t>(mode)]; }
+    /// What the kernels read of a chunk's triangles.
+    [[nodiscard]] const TriangleSource& source(std::size_t chunk) const { return sources_[chunk]; }
+    [[nodiscard]] TriangleTable table() const { return {sources_.data(), local_bits_}; }
+    [[nodiscard]] std::size_t chunk_of(std::uint32_t id) const { return id >> local_bits_; }
+    [[nodiscard]] const TriangleRecord& record(std::uint32_t id) const { return sources_[chunk_of(id)].records[id & ((1u << local_bits_) - 1u)]; }
+    [[nodiscard]] const Draw& draw_of(const TriangleRecord& record) const { return draws_[record.draw_and_back >> 1]; }
+    [[nodiscard]] bool tile_is_empty(int tile) const;
+
+    /// Per vertex group: whether a drawn triangle reads it.
+    [[nodiscard]] bool group_is_drawn(std::int64_t group) const { return groups_drawn_.data()[group] != 0; }
+    [[nodiscard]] std::int64_t vertex_count() const { return vertex_count_; }
+    [[nodiscard]] std::uint64_t triangles_drawn() const;
+    [[nodiscard]] std::uint64_t triangles_not_finite() const;
+
+private:
+    void list_draws(Executor& executor);
+    void cull_clusters(Executor& executor);
+    void transform(const RasterKernels& kernels, Executor& executor);
+    void bin(Executor& executor, SubmissionNumbers* numbers);
+
+    const PreparedScene* scene_ = nullptr;
+    SceneRevision revision_;
+    View view_;
+    std::uint64_t version_ = 0;
+    Times times_ms_;
+
+    std::vector<Draw> draws_;
+    bool has_mode_[3] = {};
+    std::int64_t vertex_count_ = 0, group_count_ = 0, cluster_count_ = 0, triangle_count_ = 0;
+    RawBuffer<std::uint8_t> seen_;                         ///< per instance; scratch
+    RawBuffer<std::uint8_t> groups_seen_, groups_drawn_;
+    RawBuffer<ScreenVertex> screen_;
+    RawBuffer<std::uint8_t> outcodes_;
+    std::vector<std::unique_ptr<Chunk>> chunks_;
+    std::size_t chunk_count_ = 0;
+    int local_bits_ = 0;
+    std::vector<TriangleSource> sources_;
+};
+
+}  // namespace halflit::raster

@@ -1,0 +1,94 @@
+// Which triangle each sample of a tile shows.
+#include "raster/passes/count_work.hpp"
+#include "raster/passes/tile.hpp"
+
+#include <cstring>
+
+namespace halflit::raster {
+namespace {
+
+using shading::AlphaMode;
+
+/// One triangle of a masked material: the samples that its alpha test leaves.
+void draw_masked(const TilePass& pass, const TileRect& rect, std::size_t chunk, std::uint32_t record, TileScratch& scratch, TileCounts& counts) {
+    bool any = false;
+    const CoverBox box = collect_covered(pass, rect, chunk, record, scratch, [&](FragmentList& list) {
+        const shading::MaterialPlan& material = pass.materials[static_cast<std::size_t>(list.material)];
+        interpolate(pass, list, scratch.block);
+        pass.shade.alpha(material, scratch.block, list.count);
+        count_alpha_test(counts.work, material, list.count);
+        for (int l = 0; l < list.count; ++l) {
+            if (scratch.block.alpha[l] >= material.alpha_cutoff)
+                any = true;
+            else
+                scratch.buffers.coverage[list.at[l]] = 0;
+        }
+    });
+    if (any) pass.raster.draw_covered(rect, pass.geometry.view().samples, scratch.buffers, pass.geometry.source(chunk), record);
+    clear_coverage(scratch, box);
+}
+
+}  // namespace
+
+void interpolate(const TilePass& pass, FragmentList& list, shading::FragmentBlock& block) {
+    const int last = list.count - 1, padded = (list.count + 15) & ~15;
+    for (int l = list.count; l < padded; ++l) {
+        list.id[l] = list.id[last];
+        list.x_px[l] = list.x_px[last];
+        list.y_px[l] = list.y_px[last];
+    }
+    const shading::MaterialPlan& material = pass.materials[static_cast<std::size_t>(list.material)];
+    InterpolateArgs args{};
+    args.triangles = pass.geometry.table();
+    args.draws = pass.records.draws();
+    args.clip_records = pass.records.clip_records();
+    args.slots = material.slots;
+    args.stride = 4 * __builtin_popcount(material.slots);
+    args.gradients = (material.stages & shading::kStageGradients) != 0;
+    args.facing = material.double_sided;
+    args.shadow_offset = pass.shadow_offset && (material.stages & (shading::kStageLights | shading::kStagePrelit)) == shading::kStageLights;
+    args.count = padded;
+    args.ids = list.id;
+    args.x_px = list.x_px;
+    args.y_px = list.y_px;
+    pass.raster.interpolate(args, block);
+}
+
+void clear_coverage(TileScratch& scratch, const CoverBox& box) {
+    for (int y = box.y0; y <= box.y1; ++y)
+        std::memset(scratch.buffers.coverage + y * kTileStride + box.x0, 0, static_cast<std::size_t>(box.x1 - box.x0 + 1));
+}
+
+void draw_visibility(const TilePass& pass, int tile, TileScratch& scratch, TileCounts& counts) {
+    const ViewGeometry& geometry = pass.geometry;
+    const SamplePattern& samples = geometry.view().samples;
+    const TileRect rect = geometry.view().tile_rect(tile);
+    TileBuffers& buffers = scratch.buffers;
+    const std::size_t used = static_cast<std::size_t>(rect.height) * kTileStride;
+    for (int s = 0; s < samples.count; ++s) {
+        std::memset(buffers.depth[s], 0, used * sizeof(float));
+        std::memset(buffers.triangle[s], 0xff, used * sizeof(std::uint32_t));
+    }
+    const bool all_opaque = !geometry.has(AlphaMode::mask) && !geometry.has(AlphaMode::blend);
+    const auto chunks = geometry.chunks();
+    for (std::size_t c = 0; c < chunks.size(); ++c) {
+        const std::span<const std::uint32_t> list = chunks[c]->tile(tile);
+        if (list.empty()) continue;
+        const TriangleSource& source = geometry.source(c);
+        if (all_opaque) {
+            pass.raster.rasterize(rect, samples, buffers, source, list.data(), static_cast<int>(list.size()));
+            continue;
+        }
+        // Runs of opaque triangles go to the kernel as one list; masked ones are tested one by one.
+        const auto mode = [&](std::size_t i) { return geometry.draw_of(source.records[list[i]]).alpha_mode; };
+        for (std::size_t i = 0; i < list.size();) {
+            std::size_t run = i;
+            while (run < list.size() && mode(run) == AlphaMode::opaque) ++run;
+            if (run > i) pass.raster.rasterize(rect, samples, buffers, source, list.data() + i, static_cast<int>(run - i));
+            if (run < list.size() && mode(run) == AlphaMode::mask) draw_masked(pass, rect, c, list[run], scratch, counts);
+            i = run + 1;
+        }
+    }
+}
+
+}  // namespace halflit::raster

@@ -1,0 +1,266 @@
+#include "raster/scene/prepared_mesh.hpp"
+
+#include "raster/detail/executor.hpp"
+#include "raster/detail/view_math.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+
+namespace halflit::raster {
+namespace {
+
+constexpr std::size_t kClustersPerTask = 64;
+
+/// Normals are computed in float32: off by less than this where the angle at a corner is not below kThinnest (sine).
+constexpr float kNormalError = 2e-3f, kThinnest = 1e-3f;
+
+/// Corners of a cluster's triangles, as arrays, so that the compiler takes several triangles at a time.
+struct Corners {
+    alignas(64) float x[3][kClusterTriangles], y[3][kClusterTriangles], z[3][kClusterTriangles];
+};
+
+/// Unit normals and altitudes, likewise. `same` is not 0 where two vertices lie at one place.
+struct Shapes {
+    alignas(64) float x[kClusterTriangles], y[kClusterTriangles], z[kClusterTriangles];
+    alignas(64) float altitude[kClusterTriangles], thinness[kClusterTriangles];
+    alignas(64) std::int32_t same[kClusterTriangles];
+};
+
+bool all_finite(Vec3f p) { return finite(p.x) && finite(p.y) && finite(p.z); }
+
+void measure(const Corners& at, std::uint32_t count, Shapes& out) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const float ax = at.x[1][i] - at.x[0][i], ay = at.y[1][i] - at.y[0][i], az = at.z[1][i] - at.z[0][i];
+        const float bx = at.x[2][i] - at.x[0][i], by = at.y[2][i] - at.y[0][i], bz = at.z[2][i] - at.z[0][i];
+        const float cx = at.x[2][i] - at.x[1][i], cy = at.y[2][i] - at.y[1][i], cz = at.z[2][i] - at.z[1][i];
+        const float nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
+        const float aa = ax * ax + ay * ay + az * az, bb = bx * bx + by * by + bz * bz, cc = cx * cx + cy * cy + cz * cz;
+        const float area = __builtin_sqrtf(nx * nx + ny * ny + nz * nz);
+        float longest = aa > bb ? aa : bb;
+        longest = longest > cc ? longest : cc;
+        const float over_area = 1.0f / (area > 1e-37f ? area : 1e-37f);
+        out.x[i] = nx * over_area, out.y[i] = ny * over_area, out.z[i] = nz * over_area;
+        out.altitude[i] = area / (__builtin_sqrtf(longest) + 1e-37f);
+        // The sine of the angle at the first corner; 0 where squares come near float32's limits.
+        out.thinness[i] = area > 1e-17f && area < 1e17f ? area / (__builtin_sqrtf(aa) * __builtin_sqrtf(bb)) : 0.0f;
+        const bool ab = ax == 0.0f && ay == 0.0f && az == 0.0f, ac = bx == 0.0f && by == 0.0f && bz == 0.0f;
+        const bool bc = cx == 0.0f && cy == 0.0f && cz == 0.0f;
+        out.same[i] = (ab || ac || bc) ? -1 : 0;
+    }
+}
+
+/// The cone around the mean normal, and the least altitude.
+void set_cone(const Shapes& shapes, std::uint32_t count, Cluster& cluster) {
+    cluster.cone_sine = 2.0f;
+    cluster.cone_cosine = -1.0f;
+    cluster.cone_axis[0] = cluster.cone_axis[1] = cluster.cone_axis[2] = 0.0f;
+    cluster.least_altitude = 0.0f;
+    Vec3d sum{};
+    float altitude = 3e38f, thinness = 1.0f;
+    bool any = false;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (shapes.same[i] != 0) continue;
+        any = true;
+        sum = sum + Vec3d{shapes.x[i], shapes.y[i], shapes.z[i]};
+        altitude = std::min(altitude, shapes.altitude[i]);
+        thinness = std::min(thinness, shapes.thinness[i]);
+    }
+    const double size = length(sum);
+    // Not finite and zero areas fail these comparisons.
+    if (!any || !(size > 1e-3) || !(size < 1e6) || !(thinness > kThinnest)) return;
+    const Vec3f axis{static_cast<float>(sum.x / size), static_cast<float>(sum.y / size), static_cast<float>(sum.z / size)};
+    float cosine = 1.0f;
+    for (std::uint32_t i = 0; i < count; ++i)
+        if (shapes.same[i] == 0) cosine = std::min(cosine, dot(axis, Vec3f{shapes.x[i], shapes.y[i], shapes.z[i]}));
+    cosine -= kNormalError;
+    if (!(cosine > 0.0f)) return;
+    cluster.cone_axis[0] = axis.x, cluster.cone_axis[1] = axis.y, cluster.cone_axis[2] = axis.z;
+    cluster.cone_cosine = cosine;
+    cluster.cone_sine = __builtin_sqrtf(std::max(0.0f, 1.0f - cosine * cosine)) * 1.0001f;
+    cluster.least_altitude = altitude * 0.999f;
+}
+
+/// One run of clusters, by one task.
+class ClusterRun {
+public:
+    explicit ClusterRun(const Mesh& mesh)
+        : mesh_(mesh), stamp_((mesh.positions.size() + kVertexGroup - 1) / kVertexGroup, 0) {}
+
+    /// False where an index is out of range. Groups are numbered from the run's first one on.
+    bool build(std::size_t begin, std::size_t end, Cluster* clusters) {
+        for (std::size_t c = begin; c < end; ++c)
+            if (!build(c, clusters[c])) return false;
+        return true;
+    }
+    [[nodiscard]] const std::vector<std::uint32_t>& groups() const { return groups_; }
+
+private:
+    bool build(std::size_t number, Cluster& cluster) {
+        const std::size_t first = number * kClusterTriangles;
+        const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(kClusterTriangles, mesh_.indices.size() / 3 - first));
+        const std::uint32_t* index = mesh_.indices.data() + 3 * first;
+        std::uint32_t largest = 0;
+        for (std::uint32_t i = 0; i < 3 * count; ++i) largest = std::max(largest, index[i]);
+        if (largest >= mesh_.positions.size()) return false;
+        const auto mark = static_cast<std::uint32_t>(number + 1);
+        cluster.first_group = static_cast<std::uint32_t>(groups_.size());
+        Bounds box;
+        cluster.finite = true;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                const std::uint32_t v = index[3 * i + k];
+                const Vec3f p = mesh_.positions[v];
+                corners_.x[k][i] = p.x, corners_.y[k][i] = p.y, corners_.z[k][i] = p.z;
+                box.add(p);
+                cluster.finite &= all_finite(p);
+                if (stamp_[v / kVertexGroup] == mark) continue;
+                stamp_[v / kVertexGroup] = mark;
+                groups_.push_back(v / kVertexGroup);
+            }
+        }
+        if (box.empty) box.min = {1, 1, 1}, box.max = {-1, -1, -1};
+        cluster.min[0] = box.min.x, cluster.min[1] = box.min.y, cluster.min[2] = box.min.z;
+        cluster.max[0] = box.max.x, cluster.max[1] = box.max.y, cluster.max[2] = box.max.z;
+        measure(corners_, count, shapes_);
+        set_cone(shapes_, count, cluster);
+        return true;
+    }
+
+    const Mesh& mesh_;
+    std::vector<std::uint32_t> stamp_;  // the cluster that last read each group
+    std::vector<std::uint32_t> groups_;
+    Corners corners_;
+    Shapes shapes_;
+};
+
+/// The largest magnitude; what is not a number is left out.
+template <class T, class Components>
+float largest_of(const std::vector<T>& values, float least, const Components& components) {
+    float largest = least;
+    for (const T& value : values) {
+        const float magnitude = components(value);
+        largest = magnitude > largest ? magnitude : largest;
+    }
+    return largest;
+}
+
+const char* what_is_wrong(const Mesh& mesh) {
+    const std::size_t n = mesh.positions.size();
+    if (mesh.indices.size() % 3 != 0) return "the number of indices is not a multiple of three";
+    const auto fits = [n](std::size_t size) { return size == 0 || size == n; };
+    if (!fits(mesh.normals.size()) || !fits(mesh.tangents.size()) || !fits(mesh.uv0.size()) || !fits(mesh.uv1.size()) ||
+        !fits(mesh.colors.size()))
+        return "an attribute array is not as long as the positions";
+    return nullptr;
+}
+
+/// False where nothing in the box can change the bounds.
+bool may_grow(const Bounds& b, const PlacedBox& box) {
+    return b.empty || !(box.low[0] > b.min.x && box.low[1] > b.min.y && box.low[2] > b.min.z && box.high[0] < b.max.x &&
+                        box.high[1] < b.max.y && box.high[2] < b.max.z);
+}
+
+}  // namespace
+
+PlacedBox::PlacedBox(const float (&min)[3], const float (&max)[3], const Mat4& m) {
+    const Vec4f* c = m.c;
+    const double rows[3][4] = {{c[0].x, c[1].x, c[2].x, c[3].x}, {c[0].y, c[1].y, c[2].y, c[3].y}, {c[0].z, c[1].z, c[2].z, c[3].z}};
+    for (int axis = 0; axis < 3; ++axis) {
+        double middle = rows[axis][3], half = 0.0, size = magnitude(rows[axis][3]);
+        for (int k = 0; k < 3; ++k) {
+            const double a = min[k], b = max[k];
+            middle += rows[axis][k] * (0.5 * (a + b));
+            half += magnitude(rows[axis][k]) * (0.5 * (b - a));
+            size += magnitude(rows[axis][k]) * larger(magnitude(a), magnitude(b));
+        }
+        const double margin = half + 1e-6 * size;
+        low[axis] = middle - margin;
+        high[axis] = middle + margin;
+    }
+}
+
+double PlacedBox::distance_squared(Vec3d p) const {
+    const double at[3] = {p.x, p.y, p.z};
+    double sum = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double d = larger(0.0, larger(low[axis] - at[axis], at[axis] - high[axis]));
+        sum += d * d;
+    }
+    return sum;
+}
+
+Bounds placed_bounds(const Mesh& mesh, const PreparedMesh& prepared, const Mat4& world_from_object) {
+    Bounds bounds;
+    const auto look_into = [&](std::size_t cluster) {
+        const std::size_t begin = 3 * cluster * kClusterTriangles, end = std::min(begin + std::size_t{3} * kClusterTriangles, mesh.indices.size());
+        for (std::size_t i = begin; i < end; ++i) bounds.add(transform_point(world_from_object, mesh.positions[mesh.indices[i]]));
+    };
+    const std::size_t count = prepared.cluster_count();
+    if (count <= 8) {
+        for (std::size_t c = 0; c < count; ++c) look_into(c);
+        return bounds;
+    }
+    // The clusters that go farthest in each direction first: what they hold rules most others out.
+    std::vector<PlacedBox> boxes;
+    boxes.reserve(count);
+    std::size_t farthest[6] = {};
+    for (std::size_t c = 0; c < count; ++c) {
+        boxes.emplace_back(prepared.clusters[c].min, prepared.clusters[c].max, world_from_object);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (boxes[c].low[axis] < boxes[farthest[axis]].low[axis]) farthest[axis] = c;
+            if (boxes[c].high[axis] > boxes[farthest[axis + 3]].high[axis]) farthest[axis + 3] = c;
+        }
+    }
+    for (const std::size_t c : farthest) look_into(c);
+    for (std::size_t c = 0; c < count; ++c)
+        if (may_grow(bounds, boxes[c])) look_into(c);
+    return bounds;
+}
+
+Result<PreparedMesh> prepare_mesh(const Mesh& mesh, Executor& executor) {
+    if (const char* wrong = what_is_wrong(mesh)) return fail(ErrorCode::bad_input, wrong);
+    PreparedMesh prepared;
+    for (const std::vector<Vec2f>* set : {&mesh.uv0, &mesh.uv1})
+        prepared.largest_uv = largest_of(*set, prepared.largest_uv, [](Vec2f uv) { return static_cast<float>(std::max(magnitude(uv.x), magnitude(uv.y))); });
+    prepared.largest_color = largest_of(mesh.colors, 1.0f, [](Vec4f c) { return std::max({c.x, c.y, c.z}); });
+    if (mesh.indices.empty()) return prepared;
+
+    const std::size_t count = (mesh.indices.size() / 3 + kClusterTriangles - 1) / kClusterTriangles;
+    prepared.clusters.resize(count + 1);
+    const std::size_t tasks = (count + kClustersPerTask - 1) / kClustersPerTask;
+    std::vector<std::vector<std::uint32_t>> groups(tasks);
+    std::atomic<bool> out_of_range{false};
+    executor.run(static_cast<int>(tasks), [&](int task) {
+        const std::size_t begin = static_cast<std::size_t>(task) * kClustersPerTask;
+        ClusterRun run(mesh);
+        if (!run.build(begin, std::min(begin + kClustersPerTask, count), prepared.clusters.data())) out_of_range = true;
+        groups[static_cast<std::size_t>(task)] = run.groups();
+    });
+    if (out_of_range) return fail(ErrorCode::bad_input, "an index is not below the number of vertices");
+
+    std::size_t group_count = 0;
+    for (const auto& list : groups) group_count += list.size();
+    prepared.vertex_groups.reserve(group_count);
+    for (std::size_t task = 0; task < tasks; ++task) {
+        const auto base = static_cast<std::uint32_t>(prepared.vertex_groups.size());
+        for (std::size_t c = task * kClustersPerTask; c < std::min((task + 1) * kClustersPerTask, count); ++c)
+            prepared.clusters[c].first_group += base;
+        prepared.vertex_groups.insert(prepared.vertex_groups.end(), groups[task].begin(), groups[task].end());
+    }
+    prepared.clusters[count] = {};
+    prepared.clusters[count].first_group = static_cast<std::uint32_t>(prepared.vertex_groups.size());
+    prepared.superclusters.resize((count + kSuperclusterSize - 1) / kSuperclusterSize);
+    for (std::size_t c = 0; c < count; ++c) {
+        const Cluster& cluster = prepared.clusters[c];
+        prepared.finite &= cluster.finite;
+        if (cluster.min[0] > cluster.max[0]) continue;
+        Bounds& box = prepared.superclusters[c / kSuperclusterSize];
+        box.add(Vec3f{cluster.min[0], cluster.min[1], cluster.min[2]});
+        box.add(Vec3f{cluster.max[0], cluster.max[1], cluster.max[2]});
+    }
+    for (const Bounds& box : prepared.superclusters) prepared.bounds.include(box);
+    return prepared;
+}
+
+}  // namespace halflit::raster

@@ -1,0 +1,69 @@
+// What drawing needs to know of a mesh besides its arrays, found once: its box, and clusters of triangles that a view can leave out whole.
+#pragma once
+
+#include "raster/scene/bounds.hpp"
+#include "raster/scene/mesh.hpp"
+#include "shading/result.hpp"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace halflit::raster {
+
+class Executor;
+
+/// Triangles of a cluster: cluster c holds triangles [c * kClusterTriangles, (c + 1) * kClusterTriangles) of the mesh, in index order.
+inline constexpr std::uint32_t kClusterTriangles = 128;
+
+/// Vertices are transformed in groups of this many; a group belongs to one instance of one mesh.
+inline constexpr std::uint32_t kVertexGroup = 64;
+
+struct Cluster {
+    float min[3], max[3];  ///< object space: the box of its vertices
+    /// The normals of all triangles lie within the angle of this sine and cosine around the axis. Object space, unit. sine > 1: no such
+    /// angle below 90 degrees is known, or a triangle is too thin for one.
+    float cone_axis[3];
+    float cone_sine, cone_cosine;
+    /// Lower bound of every triangle's least altitude: twice its area over its longest edge, object units. Triangles with two vertices at
+    /// one place are left out: they cover nothing.
+    float least_altitude;
+    std::uint32_t first_group;  ///< of PreparedMesh::vertex_groups; the next cluster's is the end
+    bool finite;                ///< every vertex is finite
+};
+
+/// Clusters are looked at this many at a time first.
+inline constexpr std::size_t kSuperclusterSize = 32;
+
+struct PreparedMesh {
+    Bounds bounds;                            ///< object space, of the finite vertices that some triangle uses
+    std::vector<Cluster> clusters;            ///< one more at the end, for its first_group
+    std::vector<Bounds> superclusters;        ///< object space: of kSuperclusterSize clusters each, in order
+    std::vector<std::uint32_t> vertex_groups; ///< numbers of the groups that each cluster reads, cluster after cluster
+    float largest_uv = 0;                     ///< the largest magnitude of a texture coordinate
+    float largest_color = 1;                  ///< the largest red, green or blue of the vertex colours, at least 1
+    bool finite = true;                       ///< every used vertex is finite
+
+    [[nodiscard]] std::size_t cluster_count() const { return clusters.empty() ? 0 : clusters.size() - 1; }
+    [[nodiscard]] std::span<const std::uint32_t> groups_of(std::size_t cluster) const {
+        return std::span(vertex_groups).subspan(clusters[cluster].first_group, clusters[cluster + 1].first_group - clusters[cluster].first_group);
+    }
+};
+
+/// Checks a mesh and takes it apart. Fails with what is wrong: an index out of range, arrays that do not fit together.
+Result<PreparedMesh> prepare_mesh(const Mesh& mesh, Executor& executor);
+
+/// A box after a transform, in double, a little larger than float32's rounding can make what is inside.
+struct PlacedBox {
+    double low[3], high[3];
+    PlacedBox(const float (&min)[3], const float (&max)[3], const Mat4& world_from_object);
+    /// Squared distance from a point; 0 inside.
+    [[nodiscard]] double distance_squared(Vec3d p) const;
+};
+
+/// World-space box of the finite vertices that some triangle uses, each placed in float32 as the renderer places it. Looks only into
+/// clusters that may decide it.
+[[nodiscard]] Bounds placed_bounds(const Mesh& mesh, const PreparedMesh& prepared, const Mat4& world_from_object);
+
+}  // namespace halflit::raster

@@ -1,0 +1,143 @@
+#include "raster/scene/surface_distance.hpp"
+
+#include "raster/detail/view_math.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <utility>
+
+namespace halflit::raster {
+namespace {
+
+constexpr double kFar = std::numeric_limits<double>::max();
+
+double squared(Vec3d v) { return dot(v, v); }
+
+/// Squared distance from the origin to the segment from a to b.
+double segment_distance(Vec3d a, Vec3d b) {
+    const Vec3d along = b - a;
+    const double length = squared(along);
+    const double t = length > 0.0 ? std::clamp(-dot(a, along) / length, 0.0, 1.0) : 0.0;
+    return squared(a + along * t);
+}
+
+/// Squared distance from the origin to a triangle: to its plane where the foot lies inside, otherwise to an edge.
+double triangle_distance(Vec3d a, Vec3d b, Vec3d c) {
+    const Vec3d normal = cross(b - a, c - a);
+    const double area = squared(normal);
+    if (area > 0.0) {
+        const double sides[3] = {dot(cross(b - a, Vec3d{} - a), normal), dot(cross(c - b, Vec3d{} - b), normal),
+                                 dot(cross(a - c, Vec3d{} - c), normal)};
+        if (sides[0] >= 0.0 && sides[1] >= 0.0 && sides[2] >= 0.0) {
+            const double height = dot(a, normal);
+            return height * height / area;
+        }
+    }
+    return std::min({segment_distance(a, b), segment_distance(b, c), segment_distance(c, a)});
+}
+
+double box_distance(const Bounds& box, Vec3d p) {
+    const double low[3] = {box.min.x, box.min.y, box.min.z}, high[3] = {box.max.x, box.max.y, box.max.z}, at[3] = {p.x, p.y, p.z};
+    double sum = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double d = larger(0.0, larger(low[axis] - at[axis], at[axis] - high[axis]));
+        sum += d * d;
+    }
+    return sum;
+}
+
+/// Boxes by their distance, the nearest on top.
+using BoxHeap = std::vector<std::pair<double, std::size_t>>;
+
+/// Visits what may be nearer than the nearest found so far, the nearest box first.
+template <class Distance, class Visit>
+void visit_nearest_first(std::size_t count, double& nearest, BoxHeap& heap, const Distance& distance, const Visit& visit) {
+    heap.clear();
+    for (std::size_t i = 0; i < count; ++i)
+        if (const double d = distance(i); d < nearest) heap.emplace_back(d, i);
+    std::make_heap(heap.begin(), heap.end(), std::greater<>());
+    while (!heap.empty() && heap.front().first < nearest) {
+        const std::size_t i = heap.front().second;
+        std::pop_heap(heap.begin(), heap.end(), std::greater<>());
+        heap.pop_back();
+        visit(i);
+    }
+}
+
+class NearestSurface {
+public:
+    NearestSurface(const PreparedScene& scene, Vec3d point) : scene_(scene), point_(point) {}
+
+    double find() {
+        const auto bounds = scene_.instance_bounds();
+        BoxHeap heap;
+        visit_nearest_first(
+            bounds.size(), nearest_, heap, [&](std::size_t i) { return bounds[i].empty ? kFar : box_distance(bounds[i], point_); },
+            [&](std::size_t i) { look_into(scene_.scene().instances[i]); });
+        return nearest_;
+    }
+
+private:
+    void look_into(const Instance& instance) {
+        const PreparedMesh& prepared = scene_.mesh(instance.mesh);
+        const Mesh& mesh = scene_.scene().meshes[static_cast<std::size_t>(instance.mesh)];
+        const Mat4& m = instance.world_from_object;
+        BoxHeap superclusters, clusters;
+        visit_nearest_first(
+            prepared.superclusters.size(), nearest_, superclusters,
+            [&](std::size_t i) {
+                const Bounds& b = prepared.superclusters[i];
+                return b.empty ? kFar : distance_to({b.min.x, b.min.y, b.min.z}, {b.max.x, b.max.y, b.max.z}, m);
+            },
+            [&](std::size_t i) {
+                const std::size_t first = i * kSuperclusterSize, count = std::min(kSuperclusterSize, prepared.cluster_count() - first);
+                visit_nearest_first(
+                    count, nearest_, clusters,
+                    [&](std::size_t c) {
+                        const Cluster& cluster = prepared.clusters[first + c];
+                        return cluster.min[0] > cluster.max[0] ? kFar : PlacedBox(cluster.min, cluster.max, m).distance_squared(point_);
+                    },
+                    [&](std::size_t c) { look_into(mesh, first + c, m); });
+            });
+    }
+
+    void look_into(const Mesh& mesh, std::size_t cluster, const Mat4& m) {
+        const std::size_t begin = 3 * cluster * kClusterTriangles, end = std::min(begin + std::size_t{3} * kClusterTriangles, mesh.indices.size());
+        const auto vertex = [&](std::uint32_t index) {
+            const Vec3f p = mesh.positions[index];
+            const Vec4f* c = m.c;
+            return Vec3d{double{c[0].x} * p.x + double{c[1].x} * p.y + double{c[2].x} * p.z + double{c[3].x} - point_.x,
+                         double{c[0].y} * p.x + double{c[1].y} * p.y + double{c[2].y} * p.z + double{c[3].y} - point_.y,
+                         double{c[0].z} * p.x + double{c[1].z} * p.y + double{c[2].z} * p.z + double{c[3].z} - point_.z};
+        };
+        for (std::size_t i = begin; i < end; i += 3)
+            nearest_ = std::min(nearest_, triangle_distance(vertex(mesh.indices[i]), vertex(mesh.indices[i + 1]), vertex(mesh.indices[i + 2])));
+    }
+
+    [[nodiscard]] double distance_to(const float (&&min)[3], const float (&&max)[3], const Mat4& m) const {
+        return PlacedBox(min, max, m).distance_squared(point_);
+    }
+
+    const PreparedScene& scene_;
+    Vec3d point_;
+    double nearest_ = kFar;
+};
+
+}  // namespace
+
+double nearest_surface_squared(const PreparedScene& scene, Vec3d point) { return NearestSurface(scene, point).find(); }
+
+double farthest_surface_squared(const PreparedScene& scene, Vec3d point) {
+    const Bounds& box = scene.bounds();
+    if (box.empty) return 0.0;
+    const double low[3] = {box.min.x, box.min.y, box.min.z}, high[3] = {box.max.x, box.max.y, box.max.z}, at[3] = {point.x, point.y, point.z};
+    double sum = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double d = larger(magnitude(at[axis] - low[axis]), magnitude(high[axis] - at[axis]));
+        sum += d * d;
+    }
+    return sum;
+}
+
+}  // namespace halflit::raster

@@ -1,0 +1,228 @@
+#include "raster/view/shadow_views.hpp"
+
+#include "raster/detail/view_math.hpp"
+
+#include <algorithm>
+
+namespace halflit::raster {
+namespace {
+
+using shading::LightPlan;
+using shading::LightType;
+using shading::ShadowMapPlan;
+
+struct Axes {
+    Vec3d right, up, back;
+};
+
+Vec3d unit(Vec3d v) { return v * (1.0 / length(v)); }
+
+/// A camera's axes for looking along -back.
+Axes axes_for(Vec3d back) {
+    const double ay = back.y < 0 ? -back.y : back.y;
+    const Vec3d right = unit(cross(ay < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0}, back));
+    return {right, cross(back, right), back};
+}
+
+Camera camera_at(const Axes& axes, Vec3d eye) {
+    const auto column = [](Vec3d v, float w) {
+        return Vec4f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), w};
+    };
+    Camera camera;
+    camera.world_from_camera = {{column(axes.right, 0), column(axes.up, 0), column(axes.back, 0), column(eye, 1)}};
+    return camera;
+}
+
+Vec3d to_double(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
+
+void set_row(float (&row)[4], Vec3d direction, double offset) {
+    row[0] = static_cast<float>(direction.x);
+    row[1] = static_cast<float>(direction.y);
+    row[2] = static_cast<float>(direction.z);
+    row[3] = static_cast<float>(offset);
+}
+
+/// Rows for a camera: u and v in texels (times distance when perspective), and distance along the view.
+void set_rows(ShadowMapPlan& map, const Axes& axes, Vec3d eye, double half) {
+    const double s = 0.5 * map.size / half;
+    const Vec3d forward = axes.back * -1.0;
+    // The centre of the map, times distance in perspective.
+    const Vec3d middle = map.kind == ShadowMapPlan::Kind::perspective ? forward * (0.5 * map.size) : Vec3d{};
+    const double constant = map.kind == ShadowMapPlan::Kind::perspective ? 0.0 : 0.5 * map.size;
+    const Vec3d u = axes.right * s + middle, v = axes.up * -s + middle;
+    set_row(map.rows[0], u, constant - dot(u, eye));
+    set_row(map.rows[1], v, constant - dot(v, eye));
+    set_row(map.rows[2], forward, -dot(forward, eye));
+}
+
+/// Whether any light can fall on the scene from there.
+bool reaches(const LightPlan& light, const Bounds& bounds) {
+    if (light.type == LightType::directional || light.inv_range_squared == 0.0f) return true;
+    const Vec3f c = bounds.center();
+    const double distance = length(to_double(light.position) - Vec3d{c.x, c.y, c.z}) - bounds.radius();
+    return distance <= 0.0 || distance * distance * light.inv_range_squared < 1.0;
+}
+
+/// Tangent of a spot's outer angle; 0 when it is too wide for one map.
+double cone_tangent(const LightPlan& light) {
+    const double cosine = 1.0 - static_cast<double>(light.cone_cutoff);
+    return cosine < 0.25 ? 0.0 : __builtin_sqrt(std::max(0.0, 1.0 - cosine * cosine)) / cosine;
+}
+
+/// Whether it takes six maps.
+bool is_cube(const LightPlan& light) {
+    return light.type == LightType::point || (light.type == LightType::spot && cone_tangent(light) == 0.0);
+}
+
+int size_of(const LightPlan& light, int side) { return is_cube(light) ? side / 2 : side; }
+
+/// Texels of all maps, `side` being the size of those that are not a cube's.
+std::size_t texel_count(std::span<const LightPlan> lights, const Bounds& bounds, int side) {
+    std::size_t count = 0;
+    for (const LightPlan& light : lights) {
+        if (!reaches(light, bounds)) continue;
+        const auto size = static_cast<std::size_t>(size_of(light, side));
+        count += size * size * (is_cube(light) ? 6 : 1);
+    }
+    return count;
+}
+
+/// Whether a camera with a square field of view can see anything of a box: not when all corners are behind it or beyond one side.
+bool can_see(const Axes& axes, Vec3d eye, double half, const Bounds& bounds) {
+    int behind = 0, beyond[4] = {};
+    for (int k = 0; k < 8; ++k) {
+        const Vec3d p{k & 1 ? bounds.max.x : bounds.min.x, k & 2 ? bounds.max.y : bounds.min.y, k & 4 ? bounds.max.z : bounds.min.z};
+        const Vec3d q = p - eye;
+        const double x = dot(q, axes.right), y = dot(q, axes.up), width = -dot(q, axes.back) * half;
+        behind += width < 0.0;
+        beyond[0] += x > width, beyond[1] += -x > width, beyond[2] += y > width, beyond[3] += -y > width;
+    }
+    return behind < 8 && beyond[0] < 8 && beyond[1] < 8 && beyond[2] < 8 && beyond[3] < 8;
+}
+
+/// Plans the maps one after the other.
+class Planner {
+public:
+    Planner(const Bounds& bounds, int side, ShadowViews& out)
+        : bounds_(bounds), center_{bounds.center().x, bounds.center().y, bounds.center().z}, radius_(bounds.radius()), side_(side), out_(out) {}
+
+    void add(const LightPlan& light) {
+        ShadowMapPlan map;
+        map.size = size_of(light, side_);
+        out_.map_of_light.back() = static_cast<std::int32_t>(out_.maps.size());
+        out_.first_texel.push_back(out_.texel_count);
+        const double usable = static_cast<double>(map.size) / (map.size - 2 * shading::kShadowBorder);
+        if (light.type == LightType::directional)
+            add_directional(light, map, usable);
+        else if (is_cube(light))
+            add_cube(light, map, usable);
+        else
+            add_cone(light, map, usable);
+        out_.maps.push_back(map);
+    }
+
+private:
+    /// The box around the scene's box, seen along the light.
+    void add_directional(const LightPlan& light, ShadowMapPlan& map, double usable) {
+        const Axes axes = axes_for(unit(to_double(light.to_light)));
+        double half = 0.0, depth = 0.0;
+        for (int k = 0; k < 8; ++k) {
+            const Vec3f p{k & 1 ? bounds_.max.x : bounds_.min.x, k & 2 ? bounds_.max.y : bounds_.min.y, k & 4 ? bounds_.max.z : bounds_.min.z};
+            const Vec3d q = Vec3d{p.x, p.y, p.z} - center_;
+            const double x = dot(q, axes.right), y = dot(q, axes.up), z = dot(q, axes.back);
+            half = std::max({half, x, -x, y, -y});
+            depth = std::max({depth, z, -z});
+        }
+        half = std::max(half, 1e-3 * radius_) * usable;
+        depth = std::max(depth, 1e-3 * radius_) * 1.01;
+        const Vec3d eye = center_ + axes.back * depth;
+        Camera camera = camera_at(axes, eye);
+        camera.orthographic = true;
+        camera.half_width = camera.half_height = static_cast<float>(half);
+        camera.near_z = 0.0f;
+        camera.far_z = static_cast<float>(2.0 * depth);
+        map.kind = ShadowMapPlan::Kind::orthographic;
+        map.texel_size = static_cast<float>(2.0 * half / map.size);
+        set_rows(map, axes, eye, half);
+        add_view(map, camera, true);
+    }
+
+    void add_cone(const LightPlan& light, ShadowMapPlan& map, double usable) {
+        const Axes axes = axes_for(unit(to_double(light.to_light)));
+        const double half = cone_tangent(light) * usable;
+        const Vec3d eye = to_double(light.position);
+        Camera camera = camera_at(axes, eye);
+        camera.fov_y_rad = static_cast<float>(2.0 * arc_tangent(half));
+        camera.near_z = static_cast<float>(least_distance(light));
+        map.kind = ShadowMapPlan::Kind::perspective;
+        map.texel_size = static_cast<float>(2.0 * half / map.size);
+        set_rows(map, axes, eye, half);
+        add_view(map, camera, true);
+    }
+
+    void add_cube(const LightPlan& light, ShadowMapPlan& map, double usable) {
+        map.kind = ShadowMapPlan::Kind::cube;
+        map.texel_size = static_cast<float>(2.0 * usable / map.size);
+        for (int i = 0; i < 3; ++i) map.origin[i] = light.position[i];
+        for (int face = 0; face < 6; ++face) {
+            // Face 2 a looks along +axis a, face 2 a + 1 along -axis a; u follows axis a + 1, v axis a + 2 with the face's sign.
+            const double sign = (face & 1) ? -1.0 : 1.0;
+            const Vec3d e[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+            const int a = face / 2;
+            const Axes axes{e[(a + 1) % 3], e[(a + 2) % 3] * -sign, e[a] * -sign};
+            Camera camera = camera_at(axes, to_double(light.position));
+            camera.fov_y_rad = static_cast<float>(2.0 * arc_tangent(usable));
+            camera.near_z = static_cast<float>(least_distance(light));
+            add_view(map, camera, can_see(axes, to_double(light.position), usable, bounds_));
+        }
+    }
+
+    /// What stands closer than the source's own radius is taken for the lamp itself.
+    [[nodiscard]] double least_distance(const LightPlan& light) const {
+        return std::max({1e-4 * radius_, __builtin_sqrt(static_cast<double>(light.min_distance_squared)), 1e-30});
+    }
+
+    void add_view(const ShadowMapPlan& map, const Camera& camera, bool sees_scene) {
+        ShadowView& face = out_.views.emplace_back();
+        face.view = make_view(camera, map.size, map.size, {}, kMaxTileSize, 1);
+        face.view.cull_back_faces = false;
+        face.perspective = !camera.orthographic;
+        face.near_z = camera.near_z;
+        face.far_z = camera.far_z;
+        face.first_texel = out_.texel_count;
+        face.sees_scene = sees_scene;
+        out_.texel_count += static_cast<std::size_t>(map.size) * static_cast<std::size_t>(map.size);
+    }
+
+    const Bounds& bounds_;
+    Vec3d center_;
+    double radius_;
+    int side_;
+    ShadowViews& out_;
+};
+
+}  // namespace
+
+Result<ShadowViews> plan_shadow_views(std::span<const LightPlan> lights, const Bounds& bounds, const Settings& settings) {
+    ShadowViews out;
+    int side = settings.shadow_size;
+    if (side < 64 || side > 4096 || (side & (side - 1)) != 0)
+        return fail(ErrorCode::usage, "shadow size: " + std::to_string(side) + ", expected a power of two from 64 to 4096");
+    if (settings.shadows == shading::ShadowMode::off || lights.empty() || bounds.empty || !(bounds.radius() > 0.0f)) return out;
+    const std::size_t most = settings.shadow_memory_limit / sizeof(float);
+    while (side > 64 && texel_count(lights, bounds, side) > most) side /= 2;
+    if (texel_count(lights, bounds, side) > most)
+        return fail(ErrorCode::limit, "shadow maps of " + std::to_string(lights.size()) + " lights do not fit in " +
+                                          std::to_string(settings.shadow_memory_limit) + " bytes even at 64 texels a side");
+    if (side < settings.shadow_size)
+        out.warning = "shadow maps of " + std::to_string(side) + " texels a side instead of " + std::to_string(settings.shadow_size) +
+                      ", to stay within " + std::to_string(settings.shadow_memory_limit) + " bytes";
+    Planner planner(bounds, side, out);
+    for (const LightPlan& light : lights) {
+        out.map_of_light.push_back(-1);
+        if (reaches(light, bounds)) planner.add(light);
+    }
+    return out;
+}
+
+}  // namespace halflit::raster

@@ -1,0 +1,30 @@
+// A view: a camera, a window, and the tiles that the window is drawn in. The picture is one, each face of a shadow map is one.
+#pragma once
+
+#include "raster/kernels/raster_kernels.hpp"
+#include "raster/settings.hpp"
+#include "raster/view/camera.hpp"
+
+namespace halflit::raster {
+
+struct View {
+    Mat4 clip_from_world;
+    Viewport viewport;
+    Region region;  ///< the pixels that are drawn: inside the window, never empty
+    int tile_size = 64, tiles_x = 0, tiles_y = 0;
+    SamplePattern samples;
+    bool cull_back_faces = true;  ///< of meshes whose material is not double sided
+
+    [[nodiscard]] int tile_count() const { return tiles_x * tiles_y; }
+    [[nodiscard]] TileRect tile_rect(int tile) const {
+        const int x = region.x + (tile % tiles_x) * tile_size, y = region.y + (tile / tiles_x) * tile_size;
+        const int right = region.x + region.width, bottom = region.y + region.height;
+        return {x, y, right - x < tile_size ? right - x : tile_size, bottom - y < tile_size ? bottom - y : tile_size};
+    }
+    friend bool operator==(const View&, const View&) = default;
+};
+
+/// What a camera sees through a window of width x height pixels, of which only `region` is drawn. samples: 1, 4 or 8.
+[[nodiscard]] View make_view(const Camera& camera, int width, int height, const Region& region, int tile_size, int samples);
+
+}  // namespace halflit::raster

@@ -1,0 +1,86 @@
+#include "shading/plan/material_plan.hpp"
+
+#include "shading/model/numbers.hpp"
+
+namespace halflit::shading {
+namespace {
+
+PowTier tier_of(Accuracy accuracy) {
+    switch (accuracy) {
+        case Accuracy::reference:
+        case Accuracy::exact:
+            break;
+        case Accuracy::display:
+            return PowTier::display;
+        case Accuracy::fast:
+            return PowTier::fast;
+    }
+    return PowTier::exact;
+}
+
+SlotMask slots_of(const MaterialPlan& plan, bool lit) {
+    SlotMask slots = lit ? kPositionSlots : 0u;
+    if ((plan.stages & kStageNormalMap) != 0) slots |= kTangentSlot;
+    if ((plan.stages & kStageVertexColor) != 0) slots |= kColorSlot;
+    const auto add = [&](Stage stage, const TexturePlan& texture) {
+        if ((plan.stages & stage) != 0) slots |= texture.uv_set == 1 ? kUv1Slot : kUv0Slot;
+    };
+    add(kStageBaseColorTexture, plan.base_color_texture);
+    add(kStageMetallicRoughnessTexture, plan.metallic_roughness_texture);
+    add(kStageNormalMap, plan.normal_texture);
+    add(kStageOcclusionTexture, plan.occlusion_texture);
+    add(kStageEmissiveTexture, plan.emissive_texture);
+    return slots;
+}
+
+}  // namespace
+
+MaterialPlan plan_material(const Material& material, std::span<const Texture> textures, SlotMask available, const LightKinds& kinds,
+                           const PlanOptions& options) {
+    MaterialPlan plan;
+    plan.base_color[0] = material.base_color.x, plan.base_color[1] = material.base_color.y;
+    plan.base_color[2] = material.base_color.z, plan.base_color[3] = material.base_color.w;
+    plan.metallic = clamp_or_low(material.metallic, 0.0f, 1.0f);
+    plan.roughness = clamp_or_low(material.roughness, 0.0f, 1.0f);
+    plan.emissive[0] = material.emissive.x, plan.emissive[1] = material.emissive.y, plan.emissive[2] = material.emissive.z;
+    plan.normal_scale = material.normal_scale;
+    plan.occlusion_strength = clamp_or_low(material.occlusion_strength, 0.0f, 1.0f);
+    plan.alpha_mode = material.alpha_mode;
+    plan.alpha_cutoff = material.alpha_cutoff;
+    plan.specular_tier = tier_of(options.accuracy);
+    plan.lobe = plan_lobe(lobe_of(material, options), plan.specular_tier);
+
+    const bool lit = !material.unlit && (kinds.lights || kinds.ambient);
+    plan.double_sided = material.double_sided && lit;
+    if (material.unlit) plan.stages |= kStageUnlit;
+    if (lit && kinds.lights) plan.stages |= kStageLights;
+    if (lit && kinds.ambient) plan.stages |= kStageAmbient;
+    if (lit && kinds.specular) plan.stages |= kStageSpecular;
+    if (lit && options.rate != ShadingRate::pixel) plan.stages |= kStagePrelit;
+
+    bool gradients = false;
+    const auto use_texture = [&](bool wanted, Stage stage, const TextureUse& use, TexturePlan& target) {
+        if (!wanted) return;
+        target = plan_texture(use, textures, available, options.texture_detail);
+        if (target.data == nullptr) return;
+        plan.stages |= stage;
+        gradients = gradients || target.needs_lod;
+    };
+    const bool base_color_seen = lit || material.unlit || material.alpha_mode != AlphaMode::opaque;
+    use_texture(base_color_seen, kStageBaseColorTexture, material.base_color_texture, plan.base_color_texture);
+    use_texture(lit && kinds.specular, kStageMetallicRoughnessTexture, material.metallic_roughness_texture,
+                plan.metallic_roughness_texture);
+    use_texture(lit && (available & kTangentSlot) != 0, kStageNormalMap, material.normal_texture, plan.normal_texture);
+    use_texture(lit && kinds.ambient && plan.occlusion_strength > 0.0f, kStageOcclusionTexture, material.occlusion_texture,
+                plan.occlusion_texture);
+    use_texture(!material.unlit && !zero(material.emissive), kStageEmissiveTexture, material.emissive_texture, plan.emissive_texture);
+    if (gradients) plan.stages |= kStageGradients;
+    if (base_color_seen && (available & kColorSlot) != 0) plan.stages |= kStageVertexColor;
+    plan.occlusion_is_metallic_roughness = (plan.stages & kStageOcclusionTexture) != 0 &&
+                                           (plan.stages & kStageMetallicRoughnessTexture) != 0 &&
+                                           same_fetch(plan.occlusion_texture, plan.metallic_roughness_texture);
+    plan.slots = slots_of(plan, lit);
+    return plan;
+}
+
+}  // namespace halflit::shading

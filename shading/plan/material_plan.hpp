@@ -1,0 +1,73 @@
+// Materials as the kernels read them: stages, attribute slots, textures, lobe.
+#pragma once
+
+#include "shading/fragment_block.hpp"
+#include "shading/material.hpp"
+#include "shading/plan/lobe_plan.hpp"
+#include "shading/plan/options.hpp"
+#include "shading/plan/texture_plan.hpp"
+
+#include <cstdint>
+#include <span>
+
+namespace halflit::shading {
+
+/// (cos^2)^(s/2) as p(cos^2) squared so many times, p(x) = ((c[3] x + c[2]) x + c[1]) x + c[0] (power_fit.hpp).
+struct SpecularCurve {
+    std::int32_t squarings = -1;  ///< -1: none, the power is taken by log2 and exp2
+    float c[4] = {};
+    float least = 1;  ///< of cos^2; where it is smaller there is no highlight
+};
+
+/// Stages, one bit each; a block runs only those that its material's plan names.
+enum Stage : std::uint32_t {
+    kStageBaseColorTexture = 1u << 0,
+    kStageVertexColor = 1u << 1,
+    kStageNormalMap = 1u << 2,
+    kStageMetallicRoughnessTexture = 1u << 3,
+    kStageOcclusionTexture = 1u << 4,
+    kStageEmissiveTexture = 1u << 5,
+    kStageLights = 1u << 6,
+    kStageSpecular = 1u << 7,
+    kStageAmbient = 1u << 8,
+    kStageUnlit = 1u << 9,
+    kStageGradients = 1u << 10,  ///< some texture has mips: raster fills the kDu.. rows
+    kStagePrelit = 1u << 11,     ///< light comes in with the fragments: a shading rate below one a pixel
+    kStageEnvironment = 1u << 12,  ///< the ambient light is an environment's, in spherical harmonics
+    kStageCount = 13
+};
+
+struct MaterialPlan {
+    std::uint32_t stages = 0;
+    SlotMask slots = 0;  ///< vertex slots that raster interpolates
+    float base_color[4] = {1, 1, 1, 1};
+    float metallic = 0, roughness = 1;
+    float emissive[3] = {0, 0, 0};
+    float normal_scale = 1, occlusion_strength = 1;
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    float alpha_cutoff = 0.5f;
+    bool double_sided = false;
+    LobePlan lobe;
+    PowTier specular_tier = PowTier::exact;
+    /// A light's highlight, before the reflectance, is left out where it is surely below this; 0: only where it is exactly 0.
+    float specular_threshold = 0;
+    SpecularCurve specular_curve;
+    /// 1 / d0: wrapped light is gone where its blocker is d0 away; 0: no wrapped light.
+    float shadow_fade_scale = 0;
+    /// Times -N.L: the share of d0 that a body which turns away from the light by N.L is thick, and that it does not shade itself by.
+    float shadow_turn_scale = 0;
+    int environment = -1, specular_environment = -1;  ///< indices into ShadingPlan::environments
+    bool occlusion_is_metallic_roughness = false;  ///< both read the same texels the same way: one fetch serves both
+    TexturePlan base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;
+};
+
+/// What of the frame decides what a material needs.
+struct LightKinds {
+    bool lights = false, ambient = false, specular = false;
+};
+
+/// `available`: attribute slots that the material's meshes bring; what they do not bring is planned without.
+[[nodiscard]] MaterialPlan plan_material(const Material& material, std::span<const Texture> textures, SlotMask available, const LightKinds& kinds,
+                                         const PlanOptions& options);
+
+}  // namespace halflit::shading

@@ -1,0 +1,40 @@
+// Shadow maps as the kernels read them.
+#pragma once
+
+#include "shading/shadow_mode.hpp"
+
+#include <cstdint>
+
+namespace halflit::shading {
+
+/// Texels between the edge of what a map must show and the edge of the map. A receiver is looked up 3 texels off its surface, among
+/// texels up to 2 away; with less, look-ups at the rim are pushed back onto the outline of what they belong to, which then hides itself.
+inline constexpr int kShadowBorder = 6;
+
+/// A receiver is moved off its surface by this many texels times the sine of the light's angle: the far corner of the 4 x 4 texels that it
+/// is compared with is 2 sqrt 2 away, and a plane that falls away from the light by that much must not hide itself.
+inline constexpr float kShadowNormalOffset = 3.0f;
+/// And towards the light by this many texels and this share of the distance, for rounding.
+inline constexpr float kShadowDepthBias = 0.5f, kShadowRelativeBias = 4e-6f;
+
+/// Distances from a light to the nearest surface. Texel (i, j) is at j * size + i; its centre is at (i + 0.5, j + 0.5).
+struct ShadowMapPlan {
+    enum class Kind : std::uint8_t { orthographic, perspective, cube };
+
+    const float* distance = nullptr;  ///< world units along the map's axis, kNoBlocker where nothing is; a cube has six maps in a row
+    std::int32_t size = 0;            ///< texels on a side
+    Kind kind = Kind::orthographic;
+    /// Rows applied to (x, y, z, 1) in world space. Orthographic: u, v in texels, and distance. Perspective: u and v times
+    /// distance, and distance. Cube: unused.
+    float rows[3][4] = {};
+    float origin[3] = {};  ///< cube: the light
+    float texel_size = 0;  ///< world units; perspective and cube: at distance 1
+};
+
+inline constexpr float kNoBlocker = 3e38f;
+
+/// Where a sphere of radius R turns away from the light, x = N.L < 0, it is 2 R |x| thick towards it. d0 is 2 w R over this share, so that the
+/// thickness is less than d0 wherever a lobe of wrap w leaves light, |x| < w.
+inline constexpr float kOwnThickness = 8.0f / 9.0f;
+
+}  // namespace halflit::shading

@@ -1,0 +1,34 @@
+// Textures as the kernels read them.
+#pragma once
+
+#include "shading/fragment_block.hpp"
+#include "shading/plan/options.hpp"
+#include "shading/texture.hpp"
+
+#include <cstdint>
+#include <span>
+
+namespace halflit::shading {
+
+/// A texture as a kernel sees it. Texel (x, y) of level l: data + 4 * (offset[l] + y * width[l] + x).
+struct TexturePlan {
+    const std::uint16_t* data = nullptr;  ///< null: not used
+    const TextureRange* range = nullptr;  ///< for bounds alone
+    std::int32_t level_count = 0;
+    std::int32_t width[kMaxTextureLevels], height[kMaxTextureLevels], offset[kMaxTextureLevels];
+    float row_u[3], row_v[3];  ///< texture transform
+    std::int32_t uv_set = 0;
+    bool transform = false;  ///< row_u, row_v are not the identity
+    bool needs_lod = false;  ///< the kDu.. rows decide which level or which filter
+    Wrap wrap_u, wrap_v;
+    Filter mag, min;
+    MipFilter mip;
+};
+
+/// The plan of one use of a texture; without data where the material has none. `available`: attribute slots that the material's meshes bring.
+[[nodiscard]] TexturePlan plan_texture(const TextureUse& use, std::span<const Texture> textures, SlotMask available, TextureDetail detail);
+
+/// Whether both read the same texels in the same way, so that one fetch serves both.
+[[nodiscard]] bool same_fetch(const TexturePlan& a, const TexturePlan& b);
+
+}  // namespace halflit::shading

@@ -1,0 +1,124 @@
+#include "shading/planner.hpp"
+
+#include "shading/model/numbers.hpp"
+
+#include <algorithm>
+
+namespace halflit::shading {
+namespace {
+
+/// Distinct lobes of a frame, each convolved once.
+class EnvironmentPlanner {
+public:
+    EnvironmentPlanner(EnvironmentPlans& known, const EnvironmentOrder& order, std::vector<EnvironmentPlan>& plans)
+        : known_(known), order_(order), plans_(plans) {}
+
+    int diffuse(const LobePlan& lobe) {
+        return find({lobe.wrap, static_cast<double>(lobe.power_minus_one) + 1.0, lobe.scale}, order_);
+    }
+
+    /// A stand-in for reflections, so twice the error is allowed.
+    int specular(float roughness) {
+        EnvironmentOrder order = order_;
+        order.tolerance *= 2.0;
+        order.codes *= 0.5;
+        order.ten_bands_are_all = true;
+        return find(specular_environment_lobe(roughness), order);
+    }
+
+private:
+    int find(const sh::WrapLobe& lobe, const EnvironmentOrder& order) {
+        const auto planned = std::find(lobes_.begin(), lobes_.end(), lobe);
+        if (planned != lobes_.end()) return static_cast<int>(planned - lobes_.begin());
+        lobes_.push_back(lobe);
+        plans_.push_back(known_.plan(lobe, order));
+        return static_cast<int>(lobes_.size()) - 1;
+    }
+
+    EnvironmentPlans& known_;
+    EnvironmentOrder order_;
+    std::vector<EnvironmentPlan>& plans_;
+    std::vector<sh::WrapLobe> lobes_;
+};
+
+void plan_environments(const PlanInputs& inputs, PlanMemory& memory, ShadingPlan& plan) {
+    if (inputs.environment == nullptr) return;
+    EnvironmentOrder order = inputs.options.environment_order;
+    order.exposure = inputs.exposure;
+    if (inputs.options.max_error_codes > 0.0) order.codes = inputs.options.max_error_codes * kBudgetShares.each_environment();
+    memory.environments.use(inputs.environment);
+    EnvironmentPlanner planner(memory.environments, order, plan.environments);
+    for (MaterialPlan& material : plan.materials) {
+        if ((material.stages & kStageAmbient) == 0) continue;
+        material.stages |= kStageEnvironment;
+        material.environment = planner.diffuse(material.lobe);
+    }
+    // Last: roughness 1 reflects with Lambert's lobe, and a Lambert surface must not get the larger error that reflections are allowed.
+    for (MaterialPlan& material : plan.materials)
+        if ((material.stages & kStageEnvironment) != 0 && (material.stages & kStageSpecular) != 0)
+            material.specular_environment = planner.specular(material.roughness);
+}
+
+/// Over what distance wrapped light fades in a shadow: d0 = 9/8 * 2 w R for a lobe of wrap w on an object of radius R. Materials without wrap
+/// get none.
+void plan_shadows(const ShadowInputs& shadows, ShadingPlan& plan) {
+    plan.shadow_maps = shadows.maps;
+    for (std::size_t i = 0; i < std::min(plan.lights.size(), shadows.map_of_light.size()); ++i) plan.lights[i].shadow_map = shadows.map_of_light[i];
+    plan.shadow_mode = plan.shadow_maps.empty() ? ShadowMode::off : shadows.mode;
+    plan.shadow_offset = plan.shadow_mode != ShadowMode::off && shadows.terminator_offset;
+    if (plan.shadow_mode != ShadowMode::soft_split) return;
+    constexpr double kOwn = kOwnThickness;
+    for (std::size_t i = 0; i < plan.materials.size(); ++i) {
+        MaterialPlan& material = plan.materials[i];
+        const double wrap = material.lobe.wrap, radius = i < shadows.object_radius.size() ? shadows.object_radius[i] : 0.0;
+        if (!(wrap > 0.0)) continue;
+        const double fade = shadows.fade_distance > 0.0 ? shadows.fade_distance : 2.0 / kOwn * wrap * radius;
+        material.shadow_fade_scale = fade > 1e-30 ? static_cast<float>(1.0 / fade) : 0.0f;
+        material.shadow_turn_scale = static_cast<float>(kOwn / wrap);
+    }
+}
+
+}  // namespace
+
+Result<void> check_options(const PlanOptions& options) {
+    if (options.override_lobe)
+        if (const auto lobe = check_lobe(options.lobe); !lobe) return fail(ErrorCode::usage, "lobe: " + lobe.error().message);
+    if (!(options.max_error_codes > 0.0) || options.accuracy == Accuracy::reference) return {};
+    if (options.rate != ShadingRate::pixel) return fail(ErrorCode::usage, "max_error: expected the shading rate pixel, the error of other rates has no bound");
+    if (options.texture_detail != TextureDetail::full)
+        return fail(ErrorCode::usage, "max_error: expected the texture filter full, the error of others has no bound");
+    return {};
+}
+
+ShadingPlan plan_shading(const PlanInputs& inputs, PlanMemory& memory) {
+    HALFLIT_ASSERT(inputs.available_slots.size() == inputs.materials.size() + 1);
+    const PlanOptions& options = inputs.options;
+    ShadingPlan plan;
+    plan.lights = plan_lights(inputs.lights);
+    plan.ambient = inputs.ambient;
+    plan.specular = options.specular;
+    plan.normalize_specular = options.normalize_specular;
+    plan.eye_ws = inputs.viewer.eye_ws;
+    plan.view_direction_ws = inputs.viewer.view_direction_ws;
+    plan.orthographic = inputs.viewer.orthographic;
+
+    const bool ambient = inputs.environment != nullptr || !zero(inputs.ambient.sky_linear) || !zero(inputs.ambient.ground_linear);
+    const LightKinds kinds{!plan.lights.empty(), ambient, options.specular != SpecularModel::none};
+    const Material no_material;
+    plan.materials.reserve(inputs.available_slots.size());
+    for (std::size_t i = 0; i < inputs.available_slots.size(); ++i)
+        plan.materials.push_back(plan_material(i < inputs.materials.size() ? inputs.materials[i] : no_material, inputs.textures,
+                                               inputs.available_slots[i], kinds, options));
+    plan_environments(inputs, memory, plan);
+    plan_shadows(inputs.shadows, plan);
+    if (options.max_error_codes > 0.0 && inputs.facts != nullptr)
+        spend_error_budget(plan, options.max_error_codes, inputs.exposure, *inputs.facts, memory.fits);
+    return plan;
+}
+
+ShadingPlan plan_shading(const PlanInputs& inputs) {
+    PlanMemory memory;
+    return plan_shading(inputs, memory);
+}
+
+}  // namespace halflit::shading
