@@ -2,7 +2,7 @@
 // every instruction set that this processor has. The shortest of many short slices by turns.
 //
 //     halflit_eight_lights_bench [SLICES [POWER [ROUGHNESS]]]      400 slices, t^1.3, highlights of exponent 32
-#include "raster/debug_view.hpp"
+#include "raster/frame_plan.hpp"
 #include "raster/built_in/shapes.hpp"
 #include "shading/isa.hpp"
 #include "shading/kernels/shade_kernels.hpp"
@@ -89,18 +89,23 @@ int main(int argc, char** argv) {
     const float power = argc > 2 ? static_cast<float>(std::atof(argv[2])) : 1.3f;
     const float roughness = argc > 3 ? static_cast<float>(std::atof(argv[3])) : 0.4925f;
     const raster::Scene scene = eight_lamps(power, roughness);
+    const auto prepared = raster::PreparedScene::make(scene);
+    if (!prepared) {
+        std::fprintf(stderr, "%s\n", prepared.error().message.c_str());
+        return 1;
+    }
     std::vector<Way> ways;
     const auto add = [&](std::string name, shading::Accuracy accuracy, double codes) {
         raster::Settings settings;
         settings.shadows = shading::ShadowMode::off;
         settings.shading.accuracy = accuracy;
         settings.shading.max_error_codes = codes;
-        auto plan = raster::frame_plan(scene, scene.cameras.front(), settings, 1920, 1080);
+        const auto plan = raster::plan_frame(*prepared, scene.cameras.front(), settings, 1920, 1080);
         if (!plan) {
             std::fprintf(stderr, "%s\n", plan.error().message.c_str());
             std::exit(1);
         }
-        ways.push_back({std::move(name), std::move(*plan)});
+        ways.push_back({std::move(name), plan->shading});
     };
     add("exact", shading::Accuracy::exact, 0);
     add("display", shading::Accuracy::display, 0);

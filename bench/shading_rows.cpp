@@ -1,6 +1,7 @@
 #include "bench/shading_rows.hpp"
 
 #include "shading/environment.hpp"
+#include "shading/planner.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -122,8 +123,7 @@ shading::ShadingPlan plan(const shading::Material& material, const std::vector<s
     shading::PlanOptions options;
     options.specular = specular ? SpecularModel::blinn : SpecularModel::none;
     options.environment_order.fixed = order;
-    shading::EnvironmentPlans plans(some_environment());
-    shading::ShadingPlan frame = plan_shading({&material, 1}, textures, slots, lights, {}, options, order > 0 ? &plans : nullptr);
+    shading::ShadingPlan frame = plan_shading({{&material, 1}, textures, slots, lights, {}, options, order > 0 ? shading::borrowed(some_environment()) : nullptr});
     frame.eye_ws = {0.2f, 0.3f, 6.0f};
     return frame;
 }

@@ -38,6 +38,9 @@ struct EnvironmentOptions {
 /// the mirrored direction turns twice as fast as the half vector. Normalised.
 [[nodiscard]] sh::WrapLobe specular_environment_lobe(float roughness);
 
+/// An environment that the caller keeps alive.
+[[nodiscard]] inline std::shared_ptr<const Environment> borrowed(const Environment& environment) { return {std::shared_ptr<void>(), &environment}; }
+
 [[nodiscard]] Environment make_environment(const sh::EquirectView& image, const EnvironmentOptions& options = {});
 
 }  // namespace halflit::shading

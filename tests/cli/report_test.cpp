@@ -182,7 +182,8 @@ TEST_CASE("report: lanes say which stages ran for how many fragments, and info w
     for (const auto& stage : required) CHECK(lanes["stages"][stage.get<std::string>()] == fragments);
     for (const auto& stage : others) CHECK(lanes["stages"][stage.get<std::string>()] == 0);
     CHECK(info["lights_computed"] == nlohmann::json{{"directional", 1}, {"point", 1}, {"spot", 0}});
-    CHECK(info["shadows"] == "soft-split");
+    CHECK(info["shadows"]["mode"] == "soft-split");
+    CHECK(info["shadows"]["maps"].size() == 2);
 
     CHECK(report_of({"--shadows", "off"})["lanes"]["shadow_look_ups"] == 0);
     CHECK(report_of({"--specular", "none"})["lanes"]["stages"]["specular"] == 0);

@@ -1,5 +1,6 @@
 // Light from an environment, from the image to the pixel: against closed forms and brute force in double.
 #include "shading/environment.hpp"
+#include "shading/planner.hpp"
 #include "raster/renderer.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 #include "tests/sh/bound_check.hpp"
@@ -209,8 +210,7 @@ TEST_CASE("environment: a scene that turns with its environment keeps its light,
             options.environment_order.fixed = order;
             const auto shaded = [&](const shading::Environment& environment, const sh::Rotation& by, std::size_t material,
                                     shading::Isa isa) {
-                shading::EnvironmentPlans plans(environment);
-                auto plan = shading::plan_shading(materials, {}, slots, environment.suns, {}, options, &plans);
+                auto plan = shading::plan_shading({materials, {}, slots, environment.suns, {}, options, shading::borrowed(environment)});
                 const auto narrow = [](Vec3d v) {
                     return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
                 };
@@ -295,8 +295,7 @@ TEST_CASE("environment: every instruction set gives the same bits at every order
     for (int order = 1; order <= sh::kMaxBands; ++order) {
         shading::PlanOptions options;
         options.environment_order.fixed = order;
-        shading::EnvironmentPlans plans(*environment);
-        const auto plan = shading::plan_shading({&material, 1}, {}, slots, environment->suns, {}, options, &plans);
+        const auto plan = shading::plan_shading({{&material, 1}, {}, slots, environment->suns, {}, options, shading::borrowed(*environment)});
         REQUIRE(plan.environments.front().bands == order);
         for (int round = 0; round < 20; ++round) {
             shading::FragmentBlock input{};

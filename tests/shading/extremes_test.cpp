@@ -5,7 +5,7 @@
 #include "lobe_curve/lobe_curve.hpp"
 #include "shading/environment.hpp"
 #include "shading/kernels/shade_kernels.hpp"
-#include "shading/plan/plan.hpp"
+#include "shading/planner.hpp"
 #include "tests/support/isas.hpp"
 
 #include <catch2/catch.hpp>
@@ -41,7 +41,7 @@ struct Shot {
 
     void make_plan() {
         const std::vector<SlotMask> available{3u, 3u};
-        plan = plan_shading(std::span(&material, 1), {}, available, std::span(&light, 1), {}, options);
+        plan = plan_shading({std::span(&material, 1), {}, available, std::span(&light, 1), {}, options});
         plan.orthographic = true;
         plan.view_direction_ws = {0, 0, -1};
     }
@@ -330,8 +330,7 @@ TEST_CASE("extremes: light from all around is as good at the poles of its basis 
     Shot shot = matte();
     shot.options.environment_order.fixed = sh::kMaxBands;
     const std::vector<SlotMask> available{3u, 3u};
-    EnvironmentPlans plans(environment);
-    shot.plan = plan_shading(std::span(&shot.material, 1), {}, available, {}, {}, shot.options, &plans);
+    shot.plan = plan_shading({std::span(&shot.material, 1), {}, available, {}, {}, shot.options, borrowed(environment)});
     REQUIRE(shot.plan.environments.size() == 1);
     REQUIRE(shot.plan.environments[0].bands == sh::kMaxBands);
     const sh::BandFactors bands = sh::zonal_bands({0.0, 1.0, 1.0});

@@ -1,6 +1,7 @@
 // The kernel against the float64 reference.
 #include "random_case.hpp"
 #include "shading/kernels/shade_kernels.hpp"
+#include "shading/planner.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -29,7 +30,7 @@ TEST_CASE("kernels: shade agrees with the float64 reference for every kind of sc
         c.options.lobe.power = std::max(c.options.lobe.power, 1.0f);
         material.roughness = std::max(material.roughness, 0.2f);  // exponents up to 1250: beyond, a normal's last bit shows
         const ShadingPlan old = c.plan;
-        c.plan = plan_shading(c.materials, c.textures, c.available, c.lights, c.ambient, c.options);
+        c.plan = plan_shading({c.materials, c.textures, c.available, c.lights, c.ambient, c.options});
         c.plan.eye_ws = old.eye_ws, c.plan.view_direction_ws = old.view_direction_ws, c.plan.orthographic = old.orthographic;
         const reference::Frame frame = reference_frame(c);
         const double bound = c.options.specular == SpecularModel::phong ? 1e-4 : 5e-5;  // the mirrored light turns twice as fast as the normal
@@ -61,7 +62,7 @@ TEST_CASE("kernels: a highlight at the sharpest roughness agrees with the refere
     material.metallic = 1.0f, material.roughness = 0.0f;
     const Light light{.direction_ws = {0, 0, -1}};
     const std::vector<SlotMask> available{3u, 3u};
-    ShadingPlan plan = plan_shading(std::span(&material, 1), {}, available, std::span(&light, 1), {}, options);
+    ShadingPlan plan = plan_shading({std::span(&material, 1), {}, available, std::span(&light, 1), {}, options});
     plan.orthographic = true;
     reference::Frame frame{{}, std::span(&light, 1), {}, options, {}, {0, 0, -1}, true};
     FragmentBlock block{};
@@ -89,7 +90,7 @@ TEST_CASE("kernels: Phong with a quarter of Blinn's exponent has the same peak a
     for (int i = 0; i < 2; ++i) {
         PlanOptions options;
         options.specular = i == 0 ? SpecularModel::blinn : SpecularModel::phong;
-        ShadingPlan plan = plan_shading(std::span(&material, 1), {}, available, std::span(&light, 1), {}, options);
+        ShadingPlan plan = plan_shading({std::span(&material, 1), {}, available, std::span(&light, 1), {}, options});
         plan.orthographic = true;
         for (int lane = 0; lane < kBlockSize; ++lane) {
             const double angle = 0.15 * lane / kBlockSize;
@@ -113,7 +114,7 @@ TEST_CASE("kernels: no highlight where the light is behind the surface, whatever
     const SpecularModel highlight = GENERATE(SpecularModel::blinn, SpecularModel::phong);
     PlanOptions options;
     options.specular = highlight;
-    ShadingPlan plan = plan_shading(std::span(&material, 1), {}, available, std::span(&light, 1), {}, options);
+    ShadingPlan plan = plan_shading({std::span(&material, 1), {}, available, std::span(&light, 1), {}, options});
     plan.orthographic = true;
     plan.view_direction_ws = {-1, 0, 0};
     FragmentBlock block{};
@@ -136,7 +137,7 @@ TEST_CASE("kernels: a spot's cosine power falls off as cos(angle)^power inside t
     const std::vector<SlotMask> available{3u, 3u};
     PlanOptions options;
     options.specular = SpecularModel::none;
-    const ShadingPlan plan = plan_shading(std::span(&material, 1), {}, available, std::span(&light, 1), {}, options);
+    const ShadingPlan plan = plan_shading({std::span(&material, 1), {}, available, std::span(&light, 1), {}, options});
     FragmentBlock block{};
     for (int lane = 0; lane < kBlockSize; ++lane) {
         const double angle = 1.35 * lane / kBlockSize / std::sqrt(static_cast<double>(power));

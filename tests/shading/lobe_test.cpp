@@ -1,7 +1,7 @@
 // The wrap family against its closed forms, through the shading kernel: one white material, one directional light of colour 1.
 #include "floats.hpp"
 #include "shading/kernels/shade_kernels.hpp"
-#include "shading/plan/plan.hpp"
+#include "shading/planner.hpp"
 #include "shading/reference/reference.hpp"
 
 #include <catch2/catch.hpp>
@@ -26,7 +26,7 @@ Curve curve_of(const Lobe& lobe) {
     const std::vector<SlotMask> available{3u, 3u};
     PlanOptions options;
     options.specular = SpecularModel::none;
-    const ShadingPlan plan = plan_shading(std::span(&material, 1), {}, available, std::span(&light, 1), {}, options);
+    const ShadingPlan plan = plan_shading({std::span(&material, 1), {}, available, std::span(&light, 1), {}, options});
     FragmentBlock block{};
     Curve curve{};
     for (int i = 0; i < kBlockSize; ++i) {

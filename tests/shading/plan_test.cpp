@@ -1,5 +1,5 @@
 // The frame plan asks for what a material needs, and for nothing else.
-#include "shading/plan/plan.hpp"
+#include "shading/planner.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -24,7 +24,7 @@ struct Scene {
     std::vector<SlotMask> available{kAll, kPlain};
     Ambient ambient;
     PlanOptions options;
-    [[nodiscard]] ShadingPlan plan() const { return plan_shading(materials, textures, available, lights, ambient, options); }
+    [[nodiscard]] ShadingPlan plan() const { return plan_shading({materials, textures, available, lights, ambient, options}); }
     [[nodiscard]] MaterialPlan first() const { return plan().materials[0]; }
 };
 

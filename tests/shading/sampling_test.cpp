@@ -1,7 +1,7 @@
 // Texture sampling through the kernel, with an unlit material: texel centres, wrap modes, filters, levels.
 #include "floats.hpp"
 #include "shading/kernels/shade_kernels.hpp"
-#include "shading/plan/plan.hpp"
+#include "shading/planner.hpp"
 #include "shading/reference/reference.hpp"
 
 #include <catch2/catch.hpp>
@@ -32,7 +32,7 @@ std::vector<reference::Rgba> sample_all(const Texture& texture, const TextureUse
     material.alpha_mode = AlphaMode::blend;
     material.base_color_texture = use;
     const std::vector<SlotMask> available{3u, 3u};
-    const ShadingPlan plan = plan_shading(std::span(&material, 1), std::span(&texture, 1), available, {}, {}, {});
+    const ShadingPlan plan = plan_shading({std::span(&material, 1), std::span(&texture, 1), available, {}, {}, {}});
     FragmentBlock block{};
     for (std::size_t i = 0; i < points.size(); ++i) {
         block.lane[kU0][i] = points[i].u;

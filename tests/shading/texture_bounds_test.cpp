@@ -1,5 +1,6 @@
 // What a texture's channels range over, and what filtering them in float32 is off by: never more than the bound.
 #include "shading/budget/texture_bounds.hpp"
+#include "shading/planner.hpp"
 
 #include "floats.hpp"
 #include "shading/kernels/shade_kernels.hpp"
@@ -71,7 +72,7 @@ TEST_CASE("texture bounds: no filtered channel is off by more than its bound", "
                 use.sampler.mip = mode / 3 % 2 == 0 ? MipFilter::none : MipFilter::linear;
                 if (mode / 6 == 1) use.row_u = {0.7f, 1.9f, 0.3f}, use.row_v = {-1.9f, 0.7f, -0.1f};
                 const std::vector<SlotMask> available{3u, 3u};
-                const ShadingPlan plan = plan_shading(std::span(&material, 1), std::span(&texture, 1), available, {}, {}, {});
+                const ShadingPlan plan = plan_shading({std::span(&material, 1), std::span(&texture, 1), available, {}, {}, {}});
                 const TexturePlan& planned = plan.materials[0].base_color_texture;
                 constexpr float kLargest = 2.5f;
                 for (int round = 0; round < 20; ++round) {
