@@ -28,20 +28,6 @@ void relative_bands(const WrapLobe& lobe, std::span<double> g) {
 
 double band_zero(const WrapLobe& lobe) { return lobe.scale * 2.0 * (1.0 + lobe.wrap) / (lobe.power + 1.0); }
 
-/// 2^x for x <= 1, to about 1e-15, without the C library.
-double exp2_below_1(double x) {
-    if (!(x > -1000.0)) return 0.0;
-    double power = 1.0;
-    while (x < -0.5) {
-        x += 1.0;
-        power *= 0.5;
-    }
-    const double y = x * 0.69314718055994530942;  // ln 2
-    double sum = 1.0;
-    for (int k = 24; k >= 1; --k) sum = 1.0 + sum * y / k;
-    return power * sum;
-}
-
 /// The sum over all octaves past one whose sum is `octave`, when each is `ratio` times the one before; a quarter to spare, because
 /// bands oscillate within their octave.
 double octaves_after(double octave, double ratio) {
@@ -109,8 +95,8 @@ LobeSpectrum lobe_spectrum(const WrapLobe& lobe) {
             octave_sum += weight * size;
         }
     }
-    squares += octaves_after(octave_squares, exp2_below_1(-1.0 - 2.0 * lobe.power));
-    sum += octaves_after(octave_sum, exp2_below_1(0.5 - lobe.power));
+    squares += octaves_after(octave_squares, exp2_of(-1.0 - 2.0 * lobe.power));
+    sum += octaves_after(octave_sum, exp2_of(0.5 - lobe.power));
     out.tail_norm = size0 * __builtin_sqrt(squares);
     out.tail_sum = size0 * sum;
     const double scale = lobe.scale < 0 ? -lobe.scale : lobe.scale;

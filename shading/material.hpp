@@ -3,6 +3,8 @@
 
 #include "sh/vec3.hpp"
 #include "shading/lobe.hpp"
+#include "shading/model/constants.hpp"
+#include "shading/model/scalar.hpp"
 #include "shading/texture.hpp"
 
 #include <cstdint>
@@ -12,11 +14,11 @@ namespace halflit::shading {
 
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
-/// Exponent s of (N.H)^s for a roughness, which is held to 0.07 and above: 2 / roughness^4 - 2.
+/// Exponent s of (N.H)^s for a roughness, which is held to kMinRoughness and above: 2 / roughness^4 - 2.
 [[nodiscard]] constexpr double specular_exponent(double roughness) {
-    const double held = roughness > 0.07 ? roughness : 0.07, alpha = held * held;
-    return 2.0 / (alpha * alpha) - 2.0;
+    return 2.0 * half_specular_exponent(vmax(roughness, 0.07));
 }
+static_assert(0.07f == kMinRoughness);
 
 struct Material {
     std::string name;

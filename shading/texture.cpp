@@ -1,5 +1,7 @@
 #include "shading/texture.hpp"
 
+#include "shading/model/srgb.hpp"
+
 #include <algorithm>
 #include <array>
 #include <new>
@@ -8,23 +10,11 @@
 namespace halflit::shading {
 namespace {
 
-/// x^2.4 for x in (0, 1]: the twelfth power of the fifth root, which Newton's iteration finds with + - * / alone. The C library's pow
-/// may differ in the last bit between CPUs; this does not, and the compiler runs it.
-constexpr double power_2_4(double x) {
-    double root = 1.0;
-    for (int i = 0; i < 64; ++i) root = (4.0 * root + x / (root * root * root * root)) / 5.0;
-    const double cube = root * root * root;
-    const double sixth = cube * cube;
-    return sixth * sixth;
-}
-
 /// IEC 61966-2-1: 8-bit sRGB code to linear light in 16 bits, rounded to nearest (no code lies near a tie: texture_test).
 constexpr std::array<std::uint16_t, 256> make_decode_table() {
     std::array<std::uint16_t, 256> table{};
     for (int code = 0; code < 256; ++code) {
-        const double c = code / 255.0;
-        const double linear = c <= 0.04045 ? c / 12.92 : power_2_4((c + 0.055) / 1.055);
-        table[static_cast<std::size_t>(code)] = static_cast<std::uint16_t>(linear * 65535.0 + 0.5);
+        table[static_cast<std::size_t>(code)] = static_cast<std::uint16_t>(linear_from_srgb(code / 255.0) * 65535.0 + 0.5);
     }
     return table;
 }

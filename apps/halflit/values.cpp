@@ -1,6 +1,8 @@
 #include "apps/halflit/values.hpp"
 
 #include "sh/trig.hpp"
+#include "shading/model/constants.hpp"
+#include "shading/model/srgb.hpp"
 
 #include <fmt/format.h>
 
@@ -36,23 +38,7 @@ std::vector<std::string_view> split(std::string_view text, std::string_view sepa
     }
 }
 
-/// x^(1/5), x in [0.05, 1], by Newton from above, where every step comes closer; from 1 it takes at most 9.
-double fifth_root(double x) {
-    double y = 1.0;
-    for (int i = 0; i < 12; ++i) {
-        const double y4 = (y * y) * (y * y);
-        y = y - (y4 * y - x) / (5.0 * y4);
-    }
-    return y;
-}
-
-/// The sRGB transfer function of IEC 61966-2-1, x^2.4 written as x^2 (x^(1/5))^2 because the C library's pow is not the same everywhere.
-float linear_from_srgb8(int code) {
-    const double c = static_cast<double>(code) / 255.0;
-    if (c <= 0.04045) return static_cast<float>(c / 12.92);
-    const double x = (c + 0.055) / 1.055, root = fifth_root(x);
-    return static_cast<float>((x * x) * (root * root));
-}
+float linear_from_srgb8(int code) { return static_cast<float>(shading::linear_from_srgb(static_cast<double>(code) / 255.0)); }
 
 struct NamedColor {
     std::string_view name;
@@ -109,7 +95,7 @@ Result<void> set_light_key(shading::Light& light, float& intensity, std::string_
     if (key == "range" && placed) return store(light.range, parse_float(value, 0.0f, kMax));
     if (key == "radius" && placed) return store(light.source_radius, parse_float(value, 0.0f, kMax));
     if (key == "cone" && light.type == LightType::spot) return set_cone(light, value);
-    if (key == "power" && light.type == LightType::spot) return store(light.cone_power, parse_float(value, 0.0f, 1e5f));
+    if (key == "power" && light.type == LightType::spot) return store(light.cone_power, parse_float(value, 0.0f, shading::kMaxConePower));
     if (key == "intensity") return store(intensity, parse_float(value, 0.0f, 1e9f));
     if (key == "color") {
         const auto color = parse_color(value);

@@ -22,17 +22,6 @@ HALFLIT_INLINE double half_angle_tangent(double fov_rad) {
     return h.sin / h.cos;
 }
 
-/// atan(t), t >= 0: Newton on sin h - t cos h, which is proportional to sin(h - atan t). From pi/4 the error is at most pi/4,
-/// where the iteration u - tan u converges cubically: 0.785, 0.215, 3.4e-3, 1e-8, below 2^-52.
-HALFLIT_INLINE double arc_tangent(double t) {
-    double h = 0.25 * kPi;
-    for (int i = 0; i < 6; ++i) {
-        const SinCos a = sin_cos(h);
-        h = h - (a.sin - t * a.cos) / (a.cos + t * a.sin);
-    }
-    return h;
-}
-
 HALFLIT_INLINE double usable_aspect(float aspect) { return aspect > 0.0f && finite(aspect) ? clamped(aspect, 1e-6, 1e6) : 1.0; }
 
 HALFLIT_INLINE double usable_fov(float fov_rad) { return finite(fov_rad) ? clamped(fov_rad, kMinFov, kMaxFov) : 0.25 * kPi; }

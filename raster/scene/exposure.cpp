@@ -1,5 +1,7 @@
 #include "raster/scene/exposure.hpp"
 
+#include "sh/power.hpp"
+
 #include <algorithm>
 
 namespace halflit::raster {
@@ -47,16 +49,6 @@ shading::Ambient soft_ambient(const Scene& scene, const Bounds& bounds) {
     return {sum * kSkyShare, sum * kGroundShare};
 }
 
-float exposure_factor(float ev) {
-    const double x = std::clamp(static_cast<double>(ev), -64.0, 64.0);
-    const int whole = static_cast<int>(x < 0 ? x - 0.5 : x + 0.5);
-    // 2^f = e^(f ln 2) by its Taylor series; |f ln 2| <= 0.35, so the first dropped term is below 1e-16.
-    const double r = (x - static_cast<double>(whole)) * 0.693147180559945309417;  // ln 2
-    double power = 1.0;
-    for (int k = 12; k >= 1; --k) power = 1.0 + r * power / static_cast<double>(k);
-    for (int i = 0; i < whole; ++i) power *= 2.0;
-    for (int i = 0; i > whole; --i) power *= 0.5;
-    return static_cast<float>(power);
-}
+float exposure_factor(float ev) { return static_cast<float>(exp2_of(std::clamp(static_cast<double>(ev), -64.0, 64.0))); }
 
 }  // namespace halflit::raster

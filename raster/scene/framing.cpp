@@ -1,4 +1,5 @@
 #include "raster/detail/view_math.hpp"
+#include "sh/arc.hpp"
 #include "raster/scene/scene.hpp"
 
 namespace halflit::raster {

@@ -1,5 +1,7 @@
 #include "raster/scene/tangent_space.hpp"
 
+#include "sh/arc.hpp"
+
 #include "sh/config.hpp"
 
 #include <algorithm>
@@ -25,20 +27,10 @@ Vec3d unit_or_zero(Vec3d v) {
 }
 Vec3d project(Vec3d v, Vec3d unit_normal) { return unit_or_zero(v - unit_normal * dot(unit_normal, v)); }
 
-/// atan(x) for x >= 0 from + - * / and sqrt alone (the C library's may differ between machines). Two halvings of the angle bring x
-/// below 0.199, where the first dropped term, x^27 / 27, is below 1e-20.
-double arc_tangent(double x) {
-    for (int i = 0; i < 2; ++i) x = x / (1.0 + __builtin_sqrt(1.0 + x * x));
-    const double s = x * x;
-    double sum = 0.0;
-    for (int k = 12; k >= 0; --k) sum = sum * s + (k % 2 == 0 ? 1.0 : -1.0) / static_cast<double>(2 * k + 1);
-    return 4.0 * (x * sum);
-}
-
 /// The angle in [0, pi] between unit vectors with this cosine: 2 atan(sqrt((1 - c) / (1 + c))).
 double angle_of_cosine(double c) {
     if (!(c < 1.0)) return 0.0;
-    if (c <= -1.0) return 3.14159265358979323846;
+    if (c <= -1.0) return kPi;
     return 2.0 * arc_tangent(__builtin_sqrt((1.0 - c) / (1.0 + c)));
 }
 

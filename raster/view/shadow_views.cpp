@@ -1,6 +1,7 @@
 #include "raster/view/shadow_views.hpp"
 
 #include "raster/detail/view_math.hpp"
+#include "sh/arc.hpp"
 
 #include <algorithm>
 

@@ -36,7 +36,7 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
                          (has(kStageVertexColor) ? facts.vertex_color : 1.0);
     s.albedo = color;
     s.specular = has(kStageSpecular) && has(kStageLights);
-    s.reflectance = material.metallic > 0.0f ? std::max(0.04, color) : 0.04;
+    s.reflectance = material.metallic > 0.0f ? std::max(double{kDielectricReflectance}, color) : double{kDielectricReflectance};
     const auto filtered = [&](const TexturePlan& texture, std::initializer_list<int> channels) {
         double error = 0.0;
         for (const int c : channels) error = std::max(error, filter_error(texture, c, facts.largest_uv));
@@ -45,14 +45,14 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
     double roughness = material.roughness;
     if (has(kStageMetallicRoughnessTexture)) {
         roughness *= least_value(material.metallic_roughness_texture, 1);
-        s.roughness_error = filtered(material.metallic_roughness_texture, {1}) * static_cast<double>(material.roughness) / std::max(roughness, 0.07);
+        s.roughness_error = filtered(material.metallic_roughness_texture, {1}) * static_cast<double>(material.roughness) / std::max(roughness, double{kMinRoughness});
         s.metallic_error = filtered(material.metallic_roughness_texture, {2});
     }
     if (has(kStageBaseColorTexture)) s.base_color_error = filtered(material.base_color_texture, {0, 1, 2});
     if (has(kStageOcclusionTexture)) s.occlusion_error = filtered(material.occlusion_texture, {0});
     if (has(kStageEmissiveTexture)) s.emissive_error = filtered(material.emissive_texture, {0, 1, 2});
     s.exponent = specular_exponent(roughness);
-    s.normalization = plan.normalize_specular ? (s.exponent + 8.0) / 8.0 : 1.0;
+    s.normalization = plan.normalize_specular ? specular_normalization(0.5 * s.exponent) : 1.0;
     s.cosine_error = kCosineError;
     if (has(kStageNormalMap)) {
         // Three components in [-1, 1], each off by twice its channel, of a vector that is no shorter than its z.
@@ -210,15 +210,14 @@ double cutoff_squared(const LightPlan& light, double least) {
     const double range = light.inv_range_squared > 0.0f ? 1.0 / light.inv_range_squared : 0.0;
     double low = light.min_distance_squared, high = std::max(low, light.brightness / least);
     if (range > 0.0) high = std::min(high, range);
-    const auto strength = [&](double d2) {
-        const double in_range = d2 * light.inv_range_squared;
-        return light.brightness * std::max(0.0, 1.0 - in_range * in_range) / d2;
+    const auto arriving = [&](double d2) {
+        return light.brightness * range_window(d2 * static_cast<double>(light.inv_range_squared)) / d2;
     };
     if (range == 0.0) return high < 1e36 ? high * 1.001 : 0.0;
-    if (strength(low) <= least) return low;
+    if (arriving(low) <= least) return low;
     for (int i = 0; i < 50; ++i) {
         const double middle = 0.5 * (low + high);
-        (strength(middle) > least ? low : high) = middle;
+        (arriving(middle) > least ? low : high) = middle;
     }
     return high * 1.001 < range ? high * 1.001 : 0.0;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shading/kernels/pow.hpp"
+#include "shading/model/srgb.hpp"
 
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
@@ -16,7 +17,7 @@ inline constexpr float kSrgbByFourthRoot[] = {-0.0595466085f, 0.139604136f, 1.36
 /// The sRGB curve of IEC 61966-2-1: 1.055 x^(1/2.4) - 0.055, 12.92 x below 0.0031308. x in [0, 1]. The code that it rounds to is at
 /// most 0.501 from the exact value.
 HALFLIT_INLINE F srgb_curve(F x) {
-    return sel(x > F(0.0031308f), horner(kSrgbByFourthRoot, vsqrt(vsqrt(x))), F(12.92f) * x);
+    return sel(x > F(static_cast<float>(shading::kSrgbLinearEnd)), horner(kSrgbByFourthRoot, vsqrt(vsqrt(x))), F(12.92f) * x);
 }
 
 HALFLIT_INLINE I srgb8(F linear) { return unorm8(srgb_curve(clamp(linear, F(0.0f), F(1.0f)))); }

@@ -5,6 +5,7 @@
 #include "shading/kernels/lobe_kernel.hpp"
 #include "shading/kernels/shadow_kernel.hpp"
 #include "shading/kernels/vector.hpp"
+#include "shading/model/formulas.hpp"
 #include "shading/plan/plan.hpp"
 
 namespace halflit {
@@ -26,7 +27,7 @@ HALFLIT_INLINE LocalLight local_light(const shading::LightPlan& light, V3 positi
     const F distance_squared = dot(offset, offset);
     // Below 1e-18 the direction has no meaning and fades to zero; an infinite distance gives attenuation 0.
     const F in_range = distance_squared * F(light.inv_range_squared);
-    const F window = vmax(F(1.0f) - in_range * in_range, F(0.0f));
+    const F window = range_window(in_range);
     const V3 direction = offset * vdiv(F(1.0f), vsqrt(vmax(distance_squared, F(1e-36f))));
     F attenuation = vdiv(window, vmax(distance_squared, F(light.min_distance_squared)));
     if (light.cutoff_squared > 0.0f) attenuation = sel(distance_squared < F(light.cutoff_squared), attenuation, F(0.0f));

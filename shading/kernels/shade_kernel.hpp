@@ -6,14 +6,11 @@
 #include "shading/kernels/light_kernel.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 #include "shading/kernels/surface_kernel.hpp"
+#include "shading/model/constants.hpp"
+#include "shading/model/formulas.hpp"
 
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
-
-/// Reflectance of a dielectric seen straight on: index of refraction 1.5, as glTF fixes it.
-inline constexpr float kDielectricReflectance = 0.04f;
-/// Highlights do not get sharper than this: exponent 8.3e4, the widest cone that float32 normals still resolve.
-inline constexpr float kMinRoughness = 0.07f;
 
 HALFLIT_INLINE V3 lerp(V3 a, V3 b, F weight) { return a + (b - a) * weight; }
 
@@ -22,9 +19,6 @@ HALFLIT_INLINE V3 hemisphere(const shading::Ambient& ambient, F up) {
     const V3 ground = broadcast(ambient.ground_linear);
     return lerp(ground, broadcast(ambient.sky_linear), F(0.5f) * (F(1.0f) + up));
 }
-
-/// Share of the reflected surroundings: F0 head on, rising at grazing angles towards 1 - roughness (Schlick's fifth power).
-HALFLIT_INLINE F environment_reflectance(F f0, F roughness, F grazing) { return mad(vmax(F(1.0f) - roughness, f0) - f0, grazing, f0); }
 
 /// Where shadows are looked up for a fragment.
 HALFLIT_INLINE V3 looked_up(const shading::ShadingPlan& frame, const shading::FragmentBlock& block, int lane) {
@@ -53,10 +47,9 @@ HALFLIT_INLINE IncidentLight incident_light(const shading::ShadingPlan& frame, c
     SpecularShape shape{frame.specular, material.specular_tier, material.specular_threshold, material.specular_curve, F(0.0f), F(1.0f)};
     if constexpr (kSpecular) {
         to_eye = view_vector(frame, position);
-        light.roughness = vmax(surface.roughness, F(kMinRoughness));
-        const F alpha = light.roughness * light.roughness;
-        shape.half_exponent = vdiv(F(1.0f), alpha * alpha) - F(1.0f);                                       // s = 2 / alpha^2 - 2
-        if (frame.normalize_specular) shape.normalization = mad(F(0.25f), shape.half_exponent, F(1.0f));  // (s + 8) / 8
+        light.roughness = vmax(surface.roughness, F(shading::kMinRoughness));
+        shape.half_exponent = half_specular_exponent(light.roughness);
+        if (frame.normalize_specular) shape.normalization = specular_normalization(shape.half_exponent);
     }
     if (has(material, shading::kStageLights)) {
         const ShadowReceiver receiver{frame, looked_up(frame, block, lane), facing.surface, {material.shadow_fade_scale, material.shadow_turn_scale}};
@@ -92,9 +85,9 @@ template <bool kSpecular>
 HALFLIT_INLINE V3 reflected(const shading::MaterialPlan& material, const IncidentLight& light, V3 base) {
     V3 albedo = base, f0{F(0.0f), F(0.0f), F(0.0f)};
     if constexpr (kSpecular) {
-        const F dielectric(kDielectricReflectance);
+        const F dielectric(shading::kDielectricReflectance);
         f0 = lerp(V3{dielectric, dielectric, dielectric}, base, light.metallic);
-        albedo = base * ((F(1.0f) - light.metallic) * F(1.0f - kDielectricReflectance));
+        albedo = base * ((F(1.0f) - light.metallic) * F(1.0f - shading::kDielectricReflectance));
     }
     V3 color{F(0.0f), F(0.0f), F(0.0f)};
     if (has(material, shading::kStageLights)) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "sh/power.hpp"
+#include "shading/model/srgb.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +14,7 @@
 namespace halflit::shading {
 
 /// d code / d v for v up to kLinearEnd, where the curve leaves its straight part.
-inline constexpr double kSlopeAtBlack = 255.0 * 12.92, kLinearEnd = 0.0031308;
+inline constexpr double kSlopeAtBlack = 255.0 * 12.92, kLinearEnd = kSrgbLinearEnd;
 
 /// d code / d v for v > 0; beyond white as if the curve went on.
 [[nodiscard]] inline double code_slope(double v) {

@@ -2,7 +2,9 @@
 
 #include "sh/power.hpp"
 #include "sh/trig.hpp"
+#include "shading/model/constants.hpp"
 #include "shading/model/numbers.hpp"
+#include "shading/model/scalar.hpp"
 
 #include <algorithm>
 
@@ -30,7 +32,7 @@ LightPlan plan_light(const Light& light) {
     plan.to_light[0] = 0.0f - travel.x, plan.to_light[1] = 0.0f - travel.y, plan.to_light[2] = 0.0f - travel.z;
     const double range = light.range > 0.0f && finite(light.range) ? static_cast<double>(light.range) : 0.0;
     plan.inv_range_squared = range > 0.0 ? static_cast<float>(std::min(1.0 / (range * range), 1e38)) : 0.0f;
-    const float radius = clamp_or_low(light.source_radius, 1e-4f, 1e18f);
+    const float radius = clamp_or_low(light.source_radius, kMinSourceRadius, 1e18f);
     plan.min_distance_squared = radius * radius;
     const float outer = clamp_or_low(light.outer_cone_rad, 0.0f, static_cast<float>(kPi));
     const float inner = clamp_or_low(light.inner_cone_rad, 0.0f, outer);
@@ -38,7 +40,7 @@ LightPlan plan_light(const Light& light) {
     plan.cone_cutoff = static_cast<float>(cutoff);
     plan.cone_scale = static_cast<float>(1.0 / std::max(width, 1e-30));  // inner = outer: a step
     plan.brightness = std::max({light.color_linear.x, light.color_linear.y, light.color_linear.z});
-    plan.half_cone_power = 0.5f * clamp_or_low(light.cone_power, 0.0f, 1e5f);
+    plan.half_cone_power = 0.5f * clamp_or_low(light.cone_power, 0.0f, kMaxConePower);
     return plan;
 }
 
@@ -52,8 +54,7 @@ void plan_as_parallel_if_far(const Light& light, LightPlan& plan) {
     const Vec3d to_light = p * (1.0 / __builtin_sqrt(distance_squared));
     double attenuation = 1.0 / distance_squared;
     if (light.range > 0.0f && finite(light.range)) {
-        const double in_range = distance_squared / (static_cast<double>(light.range) * static_cast<double>(light.range));
-        attenuation *= std::max(0.0, 1.0 - in_range * in_range);
+        attenuation *= range_window(distance_squared / (static_cast<double>(light.range) * static_cast<double>(light.range)));
     }
     if (plan.type == LightType::spot) {
         const Vec3d off_axis = to_light - Vec3d{plan.to_light[0], plan.to_light[1], plan.to_light[2]};

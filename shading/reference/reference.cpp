@@ -1,10 +1,17 @@
 #include "shading/reference/reference.hpp"
 
+#include "shading/model/constants.hpp"
+#include "shading/model/srgb.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace halflit::shading::reference {
 namespace {
+
+/// As decimals, not as the floats next to them.
+constexpr double kHeldRoughness = 0.07, kDielectric = 0.04;
+static_assert(static_cast<float>(kHeldRoughness) == kMinRoughness && static_cast<float>(kDielectric) == kDielectricReflectance);
 
 Vec3d to_double(Vec3f v) { return {v.x, v.y, v.z}; }
 Vec3d scale(Vec3d v, double s) { return {v.x * s, v.y * s, v.z * s}; }
@@ -83,7 +90,7 @@ Arrival arrival(const Light& light, Vec3d position) {
     const Vec3d offset = to_double(light.position_ws) - position;
     const double distance = std::hypot(offset.x, offset.y, offset.z);
     const Vec3d direction = unit(offset);
-    const double radius = std::max(1e-4, double{light.source_radius});
+    const double radius = std::max(double{kMinSourceRadius}, double{light.source_radius});
     double attenuation = 1.0 / std::max(distance * distance, radius * radius);
     if (light.range > 0) attenuation *= std::clamp(1.0 - std::pow(distance / double{light.range}, 4.0), 0.0, 1.0);
     if (light.type == LightType::spot) {
@@ -121,7 +128,7 @@ Vec3d shading_normal(const Frame& frame, const Material& material, SlotMask avai
 Vec3d lit(const Frame& frame, const Material& material, const Surface& surface, Vec3d position, const Surroundings& around) {
     const bool specular = frame.options.specular != SpecularModel::none;
     const Lobe& lobe = lobe_of(material, frame.options);
-    const double alpha = std::pow(std::max(surface.roughness, 0.07), 2.0), s = 2.0 / (alpha * alpha) - 2.0;
+    const double alpha = std::pow(std::max(surface.roughness, kHeldRoughness), 2.0), s = 2.0 / (alpha * alpha) - 2.0;
     Vec3d sum{};
     for (std::size_t i = 0; i < frame.lights.size(); ++i) {
         const Light& light = frame.lights[i];
@@ -142,7 +149,7 @@ Vec3d lit(const Frame& frame, const Material& material, const Surface& surface, 
     const bool environment = around.diffuse != nullptr && around.specular != nullptr;
     Vec3d ambient = surface.albedo * (environment ? around.diffuse->at(surface.normal) : hemisphere(frame.ambient, surface.normal.y));
     if (specular) {
-        const double n_dot_v = dot(surface.normal, surface.to_eye), roughness = std::max(surface.roughness, 0.07);
+        const double n_dot_v = dot(surface.normal, surface.to_eye), roughness = std::max(surface.roughness, kHeldRoughness);
         const Vec3d reflection = scale(surface.normal, 2 * n_dot_v) - surface.to_eye;
         const Vec3d share{environment_share(surface.f0.x, roughness, n_dot_v), environment_share(surface.f0.y, roughness, n_dot_v),
                           environment_share(surface.f0.z, roughness, n_dot_v)};
@@ -208,8 +215,8 @@ Rgba shade(const Frame& frame, const Material& material, SlotMask available, con
     surface.albedo = surface.base;
     if (frame.options.specular != SpecularModel::none) {
         const double metallic = material.metallic * mr.b;
-        surface.albedo = scale(surface.base, (1 - metallic) * 0.96);
-        surface.f0 = scale(surface.base, metallic) + scale({1, 1, 1}, 0.04 * (1 - metallic));
+        surface.albedo = scale(surface.base, (1 - metallic) * (1 - kDielectric));
+        surface.f0 = scale(surface.base, metallic) + scale({1, 1, 1}, kDielectric * (1 - metallic));
     }
     const Vec3d color = lit(frame, material, surface, position, around) + to_double(material.emissive) * Vec3d{glow.r, glow.g, glow.b};
     return {color.x, color.y, color.z, alpha};
@@ -217,7 +224,7 @@ Rgba shade(const Frame& frame, const Material& material, SlotMask available, con
 
 double srgb_code(double linear) {
     const double x = std::clamp(linear, 0.0, 1.0);
-    return 255.0 * (x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055);
+    return 255.0 * (x <= kSrgbLinearEnd ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055);
 }
 
 }  // namespace halflit::shading::reference

@@ -1,0 +1,15 @@
+// Numbers of the shading model that more than one place needs.
+#pragma once
+
+namespace halflit::shading {
+
+/// Reflectance of a dielectric seen straight on: index of refraction 1.5, as glTF fixes it.
+inline constexpr float kDielectricReflectance = 0.04f;
+/// Roughness is held to this and above: exponent 8.3e4, the sharpest highlight that float32 normals still resolve.
+inline constexpr float kMinRoughness = 0.07f;
+/// Distance to a lamp is not taken below this, whatever its radius.
+inline constexpr float kMinSourceRadius = 1e-4f;
+/// The largest power of the cosine to a spot's axis.
+inline constexpr float kMaxConePower = 1e5f;
+
+}  // namespace halflit::shading
