@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace halflit::shading {
@@ -17,6 +18,9 @@ enum class Isa : std::uint8_t {
 
 /// "scalar", "sse2", "sse4.1", "avx2", "avx512", "neon64".
 [[nodiscard]] std::string_view isa_name(Isa isa);
+
+/// All of them, "scalar, sse2, .. or neon64", for messages.
+[[nodiscard]] std::string isa_names();
 
 /// Built into this binary, narrowest first.
 [[nodiscard]] std::span<const Isa> built_isas();

@@ -1,6 +1,7 @@
 #include "shading/lobe.hpp"
 
 #include <charconv>
+#include <iterator>
 
 namespace halflit::shading {
 namespace {
@@ -15,15 +16,31 @@ std::string text_of(float value) {
 }  // namespace
 
 Result<void> check_lobe(const Lobe& lobe) {
-    const auto refuse = [](const char* what, const char* range, float found, const char* why) {
-        return fail(ErrorCode::bad_input,
-                    std::string(what) + ": expected a number from " + range + ", found " + text_of(found) + (found == found ? why : ""));
+    const auto refuse = [](const char* what, float most, float found, const char* why) {
+        return fail(ErrorCode::bad_input, std::string(what) + ": expected a number from 0 to " + text_of(most) + ", found " + text_of(found) + why);
     };
-    if (!(lobe.wrap >= 0.0f)) return refuse("wrap", "0 to 1", lobe.wrap, "");
-    if (!(lobe.wrap <= 1.0f)) return refuse("wrap", "0 to 1", lobe.wrap, ": from 1 on light reaches everything, and the norm is another");
-    if (!(lobe.power >= 0.0f)) return refuse("power", "0 to 10000", lobe.power, ": below 0 the lobe grows without bound at its boundary");
-    if (!(lobe.power <= kMaxLobePower)) return refuse("power", "0 to 10000", lobe.power, "");
+    if (!(lobe.wrap >= 0.0f && lobe.wrap <= kMaxLobeWrap)) return refuse("wrap", kMaxLobeWrap, lobe.wrap, why_not_wrap(lobe.wrap));
+    if (!(lobe.power >= 0.0f && lobe.power <= kMaxLobePower)) return refuse("power", kMaxLobePower, lobe.power, why_not_power(lobe.power));
     return {};
+}
+
+const char* why_not_wrap(double wrap) {
+    return wrap > kMaxLobeWrap ? ": from 1 on light reaches everything, and the norm is another" : "";
+}
+
+const char* why_not_power(double power) { return power < 0 ? ": below 0 the lobe grows without bound at its boundary" : ""; }
+
+const NamedLobe* find_named_lobe(std::string_view name) {
+    for (const NamedLobe& lobe : kNamedLobes)
+        if (lobe.name == name) return &lobe;
+    return nullptr;
+}
+
+std::string lobe_names() {
+    std::string names;
+    for (std::size_t i = 0; i < std::size(kNamedLobes); ++i)
+        names += std::string(i == 0 ? "" : i + 1 == std::size(kNamedLobes) ? " or " : ", ") + std::string(kNamedLobes[i].name);
+    return names;
 }
 
 std::string lobe_warning(const Lobe& lobe) {

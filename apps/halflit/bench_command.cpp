@@ -95,7 +95,7 @@ Result<int> run_bench(const BenchOptions& options) {
 Command add_bench_command(CLI::App& root) {
     CLI::App* app = root.add_subcommand("bench", "Time the drawing of a scene, from memory to memory");
     const auto options = std::make_shared<BenchOptions>();
-    add_render_options(*app, *options, true);
+    add_render_options(*app, *options, true, kUsualSize);
     constexpr const char* kGroup = "Measurement";
     add_value(*app, "--frames", "N", "How often to draw (default 10)", [options](const std::string& text) -> Result<void> {
         const auto frames = parse_int(text, 1, 1000000);

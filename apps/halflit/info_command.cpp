@@ -36,7 +36,7 @@ Result<int> run_info(const InfoOptions& options) {
 Command add_info_command(CLI::App& root) {
     CLI::App* app = root.add_subcommand("info", "Say what is in a scene, and what drawing it requires");
     const auto options = std::make_shared<InfoOptions>();
-    add_render_options(*app, *options, true);
+    add_render_options(*app, *options, true, kUsualSize);
     app->add_flag("--json", options->json, "As one JSON object")->group("Output");
     return {app, [options] { return run_info(*options); }};
 }

@@ -1,6 +1,7 @@
 #include "apps/halflit/lobe_model.hpp"
 
 #include "apps/halflit/messages.hpp"
+#include "shading/lobe.hpp"
 
 #include <fmt/format.h>
 
@@ -24,48 +25,31 @@ Result<double> parse_double(std::string_view text, std::string_view expected) {
     return value;
 }
 
+/// A number from 0 to `most`; `why` says why another one is refused.
+Result<double> parse_parameter(const std::string& text, double most, const char* (*why)(double)) {
+    const std::string expected = fmt::format("a number from 0 to {:g}", most);
+    const auto value = parse_double(text, expected);
+    if (!value) return value;
+    if (!(*value >= 0 && *value <= most))
+        return fail(ErrorCode::usage, fmt::format("expected {}, found '{}'{}", expected, printable(text), why(*value)));
+    return *value == 0 ? 0.0 : *value;  // no -0
+}
+
 }  // namespace
 
-Result<double> parse_wrap(const std::string& text) {
-    auto value = parse_double(text, "a number from 0 to 1");
-    if (value && *value < 0) return fail(ErrorCode::usage, fmt::format("expected a number from 0 to 1, found '{}'", printable(text)));
-    if (value && *value > 1)
-        return fail(ErrorCode::usage,
-                    fmt::format("expected a number from 0 to 1, found '{}': from 1 on light reaches everything, and the norm is another",
-                                printable(text)));
-    if (value && *value == 0) value = 0.0;  // no -0
-    return value;
-}
+Result<double> parse_wrap(const std::string& text) { return parse_parameter(text, shading::kMaxLobeWrap, &shading::why_not_wrap); }
 
-Result<double> parse_power(const std::string& text) {
-    auto value = parse_double(text, "a number from 0 to 10000");
-    if (value && *value < 0)
-        return fail(ErrorCode::usage,
-                    fmt::format("expected a number from 0 to 10000, found '{}': below 0 the lobe grows without bound at its boundary",
-                                printable(text)));
-    if (value && *value > 10000)
-        return fail(ErrorCode::usage, fmt::format("expected a number from 0 to 10000, found '{}'", printable(text)));
-    if (value && *value == 0) value = 0.0;
-    return value;
-}
+Result<double> parse_power(const std::string& text) { return parse_parameter(text, shading::kMaxLobePower, &shading::why_not_power); }
 
 Result<LobeModel> make_lobe_model(const LobeModelOptions& options) {
-    const double wrap = options.wrap.value_or(0.5);
-    struct Named {
-        std::string_view name;
-        double wrap, power;
-        bool normalize;
-    };
-    const Named models[] = {{"lambert", 0.0, 1.0, false}, {"green", wrap, 1.0, false},        {"half-lambert", 1.0, 1.0, false},
-                            {"valve", 1.0, 2.0, false},   {"sloan", wrap, 1.0 + wrap, false}, {"mcauley", wrap, 1.0 + wrap, true}};
-    for (const Named& model : models) {
-        if (model.name != options.name) continue;
-        const double w = options.wrap.value_or(model.wrap), n = options.power.value_or(model.power);
-        const double scale = options.normalize.value_or(model.normalize) ? sh::normalizing_scale(w, n) : 1.0;
-        return LobeModel{options.name, {w, n, scale}};
-    }
-    return fail(ErrorCode::usage,
-                fmt::format("MODEL: expected lambert, green, half-lambert, valve, sloan or mcauley, found '{}'", printable(options.name)));
+    const shading::NamedLobe* model = shading::find_named_lobe(options.name);
+    if (model == nullptr)
+        return fail(ErrorCode::usage, fmt::format("MODEL: expected {}, found '{}'", shading::lobe_names(), printable(options.name)));
+    const double own_wrap = model->takes_wrap ? options.wrap.value_or(double{shading::kUsualWrap}) : double{model->wrap};
+    const double own_power = double{model->power} + double{model->power_per_wrap} * own_wrap;
+    const double w = options.wrap.value_or(own_wrap), n = options.power.value_or(own_power);
+    const double scale = options.normalize.value_or(model->normalize) ? sh::normalizing_scale(w, n) : 1.0;
+    return LobeModel{options.name, {w, n, scale}};
 }
 
 }  // namespace halflit::cli

@@ -26,10 +26,11 @@ inline constexpr std::string_view kStageNames[shading::kStageCount] = {"base col
 /// By shading::LightType.
 inline constexpr std::string_view kLightTypeNames[] = {"directional", "point", "spot"};
 
-constexpr std::string_view accuracy_name(shading::Accuracy accuracy) {
-    constexpr std::string_view kNames[] = {"reference", "exact", "display", "fast"};
-    return kNames[static_cast<std::size_t>(accuracy)];
-}
+inline constexpr std::string_view kAccuracyNames[] = {"reference", "exact", "display", "fast"};
+constexpr std::string_view accuracy_name(shading::Accuracy accuracy) { return kAccuracyNames[static_cast<std::size_t>(accuracy)]; }
+
+/// By shading::SpecularModel.
+inline constexpr std::string_view kSpecularNames[] = {"none", "phong", "blinn"};
 
 constexpr std::string_view tier_name(shading::PowTier tier) {
     constexpr std::string_view kNames[] = {"exact", "display", "fast"};
@@ -46,19 +47,13 @@ constexpr std::string_view lobe_path_name(shading::LobePath path) {
     return kNames[static_cast<std::size_t>(path)];
 }
 
-constexpr std::string_view rate_name(shading::ShadingRate rate) {
-    constexpr std::string_view kNames[] = {"flat", "gouraud", "pixel"};
-    return kNames[static_cast<std::size_t>(rate)];
-}
+inline constexpr std::string_view kRateNames[] = {"flat", "gouraud", "pixel"};
+constexpr std::string_view rate_name(shading::ShadingRate rate) { return kRateNames[static_cast<std::size_t>(rate)]; }
 
-constexpr std::string_view texture_detail_name(shading::TextureDetail detail) {
-    constexpr std::string_view kNames[] = {"full", "bilinear", "nearest"};
-    return kNames[static_cast<std::size_t>(detail)];
-}
+inline constexpr std::string_view kTextureDetailNames[] = {"full", "bilinear", "nearest"};
+constexpr std::string_view texture_detail_name(shading::TextureDetail detail) { return kTextureDetailNames[static_cast<std::size_t>(detail)]; }
 
-constexpr std::string_view shadow_mode_name(shading::ShadowMode mode) {
-    constexpr std::string_view kNames[] = {"off", "hard", "soft-split"};
-    return kNames[static_cast<std::size_t>(mode)];
-}
+inline constexpr std::string_view kShadowModeNames[] = {"off", "hard", "soft-split"};
+constexpr std::string_view shadow_mode_name(shading::ShadowMode mode) { return kShadowModeNames[static_cast<std::size_t>(mode)]; }
 
 }  // namespace halflit::cli

@@ -113,7 +113,7 @@ Result<int> run_render(RenderCommandOptions options) {
 Command add_render_command(CLI::App& root) {
     CLI::App* app = root.add_subcommand("render", "Draw a scene into a picture; without one, the demo scene");
     const auto options = std::make_shared<RenderCommandOptions>();
-    add_render_options(*app, *options, false);
+    add_render_options(*app, *options, false, kUsualSize);
     constexpr const char* kGroup = "Output";
     add_value(*app, "-o,--output", "FILE",
               "A .png, .jpg, .bmp, .tga or .hdr file, or - for PNG on standard output (default: SCENE's name.png)",

@@ -57,7 +57,7 @@ Result<void> choose_view(RenderJob& job, const RenderOptions& options, PictureSi
     job.height = size.height;
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
     job.camera = chosen != nullptr ? *chosen : raster::frame_scene(job.scene(), job.prepared->bounds(), aspect, options.view);
-    return check_size(size, options.region);
+    return check_size(size, options.settings.region);
 }
 
 /// Light from all around, in place of the ambient, and its suns. Pictures come in any unit: the exposure is chosen so that their mean
@@ -67,7 +67,7 @@ Result<float> add_environment(raster::Scene& scene, const RenderOptions& options
     if (!image) return tl::unexpected(image.error());
     auto environment = std::make_shared<shading::Environment>(
         shading::make_environment(image->view(), {options.environment_sun, static_cast<double>(options.environment_rotate_deg) * (kPi / 180.0),
-                                                 options.background_environment, options.accuracy == shading::Accuracy::reference}));
+                                                 options.settings.background_environment, options.settings.shading.accuracy == shading::Accuracy::reference}));
     scene.ambient = {};
     double level = 0.28209479177387814 * sh::luminance(environment->radiance.c[0]);  // Y_0: the mean radiance
     for (const shading::Light& sun : environment->suns) {
@@ -108,49 +108,33 @@ Result<void> choose_light(RenderJob& job, const RenderOptions& options, const ra
 }
 
 Result<void> choose_settings(raster::Settings& settings, const RenderOptions& options) {
-    if (options.max_error_codes > 0.0) {
-        if (options.accuracy != shading::Accuracy::exact) return fail(ErrorCode::usage, "--max-error: expected without --accuracy");
-        if (options.rate != shading::ShadingRate::pixel)
+    settings = options.settings;
+    const shading::PlanOptions& s = settings.shading;
+    if (s.max_error_codes > 0.0) {
+        if (s.accuracy != shading::Accuracy::exact) return fail(ErrorCode::usage, "--max-error: expected without --accuracy");
+        if (s.rate != shading::ShadingRate::pixel)
             return fail(ErrorCode::usage, "--max-error: expected --shading pixel, the error of other rates has no bound");
-        if (options.texture_detail != shading::TextureDetail::full)
+        if (s.texture_detail != shading::TextureDetail::full)
             return fail(ErrorCode::usage, "--max-error: expected --texture-filter full, the error of others has no bound");
     }
     const auto lobe = chosen_lobe(options);
     if (!lobe) return tl::unexpected(lobe.error());
-    settings.samples = options.samples;
-    settings.tile_size = options.tile_size;
-    settings.threads = options.threads;
-    if (options.isa) settings.isa = *options.isa;
     if (!settings.isa) return fail(ErrorCode::usage, settings.isa.error().message);
-    settings.background_linear = options.background_linear;
-    settings.background_environment = options.background_environment;
     settings.shading.override_lobe = lobe->has_value();
     settings.shading.lobe = lobe->value_or(shading::Lobe{});
-    settings.shading.specular = options.specular;
-    settings.shading.normalize_specular = options.normalize_specular;
-    settings.shading.rate = options.rate;
-    settings.shading.accuracy = options.accuracy;
-    settings.shading.max_error_codes = options.max_error_codes;
-    settings.shading.texture_detail = options.texture_detail;
-    settings.shading.environment_order.fixed = options.sh_order;
-    settings.shadows = options.shadows;
-    settings.shadow_size = options.shadow_size;
-    settings.shadow_fade = options.shadow_fade;
-    settings.shadow_memory_limit = static_cast<std::size_t>(options.shadow_memory_mib) << 20;
-    settings.shadow_terminator_offset = options.shadow_terminator;
     return {};
 }
 
 }  // namespace
 
 Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usual) {
-    if (options.background_environment && options.environment.empty())
+    if (options.settings.background_environment && options.environment.empty())
         return fail(ErrorCode::usage, "--background: expected --env with environment");
     if (options.camera && options.own_view)
         return fail(ErrorCode::usage,
                     "--camera: expected without --azimuth, --elevation, --zoom and --fov, which make a camera of their own");
     if (options.size)
-        if (const auto checked = check_size(*options.size, options.region); !checked) return tl::unexpected(checked.error());
+        if (const auto checked = check_size(*options.size, options.settings.region); !checked) return tl::unexpected(checked.error());
     RenderJob job;
     if (const auto chosen = choose_settings(job.settings, options); !chosen) return tl::unexpected(chosen.error());
 
@@ -172,7 +156,7 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
     if (const auto viewed = choose_view(job, options, usual); !viewed) return tl::unexpected(viewed.error());
     if (const auto lit = choose_light(job, options, bounds); !lit) return tl::unexpected(lit.error());
     if (const auto updated = job.prepared->update({.lights = true}); !updated) return tl::unexpected(updated.error());
-    job.settings.region = options.region.width > 0 ? options.region : raster::Region{0, 0, job.width, job.height};
+    job.settings.region = options.settings.region.width > 0 ? options.settings.region : raster::Region{0, 0, job.width, job.height};
     return job;
 }
 

@@ -1,6 +1,7 @@
 #include "apps/halflit/render_options.hpp"
 
 #include "apps/halflit/cli_support.hpp"
+#include "apps/halflit/plan_names.hpp"
 #include "raster/scene/exposure.hpp"
 
 #include <fmt/format.h>
@@ -10,7 +11,8 @@
 namespace halflit::cli {
 namespace {
 
-constexpr float kMax = std::numeric_limits<float>::max();
+constexpr std::string_view kOffOn[] = {"off", "on"};
+constexpr const char* kUsualBackground = "#3a3f47";
 
 /// One of a few whole numbers.
 ReadValue choice(int& target, std::initializer_list<int> allowed) {
@@ -25,37 +27,47 @@ ReadValue choice(int& target, std::initializer_list<int> allowed) {
     };
 }
 
-/// One of a few names.
-template <class T>
-ReadValue named(T& target, std::vector<std::pair<std::string, T>> names) {
-    return [&target, names = std::move(names)](const std::string& text) -> Result<void> {
-        std::string known;
-        for (const auto& [name, value] : names) {
-            if (name == text) {
-                target = value;
+/// One of a few names; the value is the name's place in the list.
+template <class T, std::size_t N>
+ReadValue named(T& target, const std::string_view (&names)[N]) {
+    return [&target, &names](const std::string& text) -> Result<void> {
+        for (std::size_t i = 0; i < N; ++i)
+            if (names[i] == text) {
+                target = static_cast<T>(i);
                 return {};
             }
-            known += (known.empty() ? "" : ", ") + name;
-        }
-        return fail(ErrorCode::usage, fmt::format("expected one of {}, found '{}'", known, text));
+        return fail(ErrorCode::usage, fmt::format("expected one of {}, found '{}'", fmt::join(names, ", "), text));
     };
 }
 
-void add_picture_flags(CLI::App& app, RenderOptions& o) {
+/// "a|b|c", the form of a flag that takes one of these.
+template <std::size_t N>
+std::string form_of(const std::string_view (&names)[N]) {
+    return fmt::format("{}", fmt::join(names, "|"));
+}
+
+template <class T, std::size_t N>
+std::string_view name_of(T value, const std::string_view (&names)[N]) {
+    return names[static_cast<std::size_t>(value)];
+}
+
+void add_picture_flags(CLI::App& app, RenderOptions& o, PictureSize usual) {
     constexpr const char* kGroup = "Picture";
-    add_value(app, "--size", "WxH", "Size in pixels (default 1280x720, or the shape of the file's camera)", [&o](const std::string& text) {
-        return assign(o.size, parse_size(text));
+    raster::Settings& s = o.settings;
+    add_value(app, "--size", "WxH", fmt::format("Size in pixels (default {}x{}, or the shape of the file's camera)", usual.width, usual.height),
+              [&o](const std::string& text) { return assign(o.size, parse_size(text)); })
+        ->group(kGroup);
+    add_value(app, "--region", "X,Y,W,H", "Draw and write only this part of the picture", [&s](const std::string& text) {
+        return assign(s.region, parse_region(text));
     })->group(kGroup);
-    add_value(app, "--region", "X,Y,W,H", "Draw and write only this part of the picture", [&o](const std::string& text) {
-        return assign(o.region, parse_region(text));
-    })->group(kGroup);
-    add_value(app, "--samples", "1|4|8", "Samples a pixel against jagged edges (default 4)", choice(o.samples, {1, 4, 8}))->group(kGroup);
+    add_value(app, "--samples", "1|4|8", fmt::format("Samples a pixel against jagged edges (default {})", s.samples), choice(s.samples, {1, 4, 8}))
+        ->group(kGroup);
     add_value(app, "--background", "COLOR|environment",
-              "transparent, #rgb, #rrggbb, #rrggbbaa or a name (default #3a3f47); environment: what --env names",
-              [&o](const std::string& text) -> Result<void> {
-                  o.background_environment = text == "environment";
-                  if (o.background_environment) return {};
-                  return assign(o.background_linear, parse_color(text));
+              fmt::format("transparent, #rgb, #rrggbb, #rrggbbaa or a name (default {}); environment: what --env names", kUsualBackground),
+              [&s](const std::string& text) -> Result<void> {
+                  s.background_environment = text == "environment";
+                  if (s.background_environment) return {};
+                  return assign(s.background_linear, parse_color(text));
               })
         ->group(kGroup);
     add_value(
@@ -82,12 +94,12 @@ void add_camera_flags(CLI::App& app, RenderOptions& o) {
             o.own_view = true;
             return assign(target, parse_float(text, min, max));
         };
-        add_value(app, name, form, help, read)->group(kGroup);
+        add_value(app, name, form, fmt::format("{} (default {})", help, target), read)->group(kGroup);
     };
-    view_flag("--azimuth", "DEG", "Frame the scene from this side: 0 is from +z, 90 from +x (default 35)", o.view.azimuth_deg, -3600, 3600);
-    view_flag("--elevation", "DEG", "... and from this height, -90 to 90 (default 20)", o.view.elevation_deg, -90, 90);
-    view_flag("--zoom", "N", "... that much larger (default 1)", o.view.zoom, 1e-3f, 1e3f);
-    view_flag("--fov", "DEG", "... with this vertical angle of view, 1 to 170 (default 35)", o.view.fov_y_deg, 1, 170);
+    view_flag("--azimuth", "DEG", "Frame the scene from this side: 0 is from +z, 90 from +x", o.view.azimuth_deg, -3600, 3600);
+    view_flag("--elevation", "DEG", "... and from this height, -90 to 90", o.view.elevation_deg, -90, 90);
+    view_flag("--zoom", "N", "... that much larger", o.view.zoom, 1e-3f, 1e3f);
+    view_flag("--fov", "DEG", "... with this vertical angle of view, 1 to 170", o.view.fov_y_deg, 1, 170);
 }
 
 void add_light_flags(CLI::App& app, RenderOptions& o) {
@@ -125,121 +137,120 @@ void add_environment_flags(CLI::App& app, RenderOptions& o) {
     add_value(app, "--env-rotate", "DEG", "Turn it about the vertical", [&o](const std::string& text) {
         return assign(o.environment_rotate_deg, parse_float(text, -3600.0f, 3600.0f));
     })->group(kGroup);
-    add_value(app, "--env-sun", "on|off", "Take suns out of it as lights of their own (default on)",
-              named<bool>(o.environment_sun, {{"on", true}, {"off", false}}))
+    add_value(app, "--env-sun", form_of(kOffOn),
+              fmt::format("Take suns out of it as lights of their own (default {})", name_of(o.environment_sun, kOffOn)),
+              named(o.environment_sun, kOffOn))
         ->group(kGroup);
-    add_value(app, "--sh-order", "auto|1..10", "Bands of spherical harmonics; auto: as many as half an 8-bit code asks for (default)",
-              [&o](const std::string& text) -> Result<void> {
-                  o.sh_order = 0;
+    int& order = o.settings.shading.environment_order.fixed;
+    add_value(app, "--sh-order", fmt::format("auto|1..{}", sh::kMaxBands),
+              "Bands of spherical harmonics; auto: as many as half an 8-bit code asks for (default)",
+              [&order](const std::string& text) -> Result<void> {
+                  order = 0;
                   if (text == "auto") return {};
-                  const auto order = parse_int(text, 1, sh::kMaxBands);
-                  if (!order) return fail(ErrorCode::usage, fmt::format("expected auto or 1 to {}, found '{}'", sh::kMaxBands, text));
-                  o.sh_order = static_cast<int>(*order);
+                  const auto bands = parse_int(text, 1, sh::kMaxBands);
+                  if (!bands) return fail(ErrorCode::usage, fmt::format("expected auto or 1 to {}, found '{}'", sh::kMaxBands, text));
+                  order = static_cast<int>(*bands);
                   return {};
               })
         ->group(kGroup);
 }
 
-void add_shadow_flags(CLI::App& app, RenderOptions& o) {
+void add_shadow_flags(CLI::App& app, raster::Settings& s) {
     constexpr const char* kGroup = "Shadows";
-    using shading::ShadowMode;
-    add_value(app, "--shadows", "MODE", "off, hard, or soft-split: wrapped light fades instead of being cut off (default)",
-              named<ShadowMode>(o.shadows, {{"off", ShadowMode::off}, {"hard", ShadowMode::hard}, {"soft-split", ShadowMode::soft_split}}))
+    constexpr std::size_t kMib = 1u << 20;
+    add_value(app, "--shadows", form_of(kShadowModeNames),
+              fmt::format("soft-split lets wrapped light fade instead of cutting it off (default {})", name_of(s.shadows, kShadowModeNames)),
+              named(s.shadows, kShadowModeNames))
         ->group(kGroup);
-    add_value(app, "--shadow-size", "N", "Side of a shadow map in texels, a power of two from 64 to 4096 (default 2048)",
-              choice(o.shadow_size, {64, 128, 256, 512, 1024, 2048, 4096}))
+    add_value(app, "--shadow-size", "N", fmt::format("Side of a shadow map in texels, a power of two from 64 to 4096 (default {})", s.shadow_size),
+              choice(s.shadow_size, {64, 128, 256, 512, 1024, 2048, 4096}))
         ->group(kGroup);
     add_value(app, "--shadow-fade", "D", "soft-split: blocker distance where wrapped light is gone (default: from object size and wrap)",
-              [&o](const std::string& text) { return assign(o.shadow_fade, parse_float(text, 1e-6f, 1e9f)); })
+              [&s](const std::string& text) { return assign(s.shadow_fade, parse_float(text, 1e-6f, 1e9f)); })
         ->group(kGroup);
-    add_value(app, "--shadow-memory", "MIB", "Halve shadow maps until all fit this many MiB, 1 to 65536 (default 256)",
-              [&o](const std::string& text) -> Result<void> {
+    add_value(app, "--shadow-memory", "MIB",
+              fmt::format("Halve shadow maps until all fit this many MiB, 1 to 65536 (default {})", s.shadow_memory_limit / kMib),
+              [&s](const std::string& text) -> Result<void> {
                   const auto mib = parse_int(text, 1, 65536);
                   if (!mib) return tl::unexpected(mib.error());
-                  o.shadow_memory_mib = static_cast<int>(*mib);
+                  s.shadow_memory_limit = static_cast<std::size_t>(*mib) * kMib;
                   return {};
               })
         ->group(kGroup);
-    add_value(app, "--shadow-terminator", "off|on",
-              "Look shadows of coarse meshes up on the smooth surface that their normals tell of (default off)",
-              named<bool>(o.shadow_terminator, {{"off", false}, {"on", true}}))
+    add_value(app, "--shadow-terminator", form_of(kOffOn),
+              fmt::format("Look shadows of coarse meshes up on the smooth surface given by the vertex normals (default {})",
+                          name_of(s.shadow_terminator_offset, kOffOn)),
+              named(s.shadow_terminator_offset, kOffOn))
         ->group(kGroup);
 }
 
 void add_surface_flags(CLI::App& app, RenderOptions& o) {
     constexpr const char* kGroup = "Surface";
-    add_value(app, "--lobe", "NAME", "Diffuse lobe: lambert, green, half-lambert, valve, sloan or mcauley (default lambert)",
-              [&o](const std::string& text) {
-                  o.lobe_name = text;
-                  return Result<void>();
-              })
-        ->group(kGroup);
-    add_value(app, "--wrap", "W", "How far the light reaches round, 0 to 1", [&o](const std::string& text) {
-        return assign(o.lobe.wrap, parse_float(text, 0.0f, 1.0f));
+    shading::PlanOptions& s = o.settings.shading;
+    add_value(app, "--lobe", "NAME", fmt::format("Diffuse lobe: {} (default lambert)", shading::lobe_names()), [&o](const std::string& text) {
+        o.lobe_name = text;
+        return Result<void>();
     })->group(kGroup);
-    add_value(app, "--power", "N", "Exponent of the lobe", [&o](const std::string& text) {
-        return assign(o.lobe.power, parse_float(text, 0.0f, 1e4f));
+    add_value(app, "--wrap", "W", fmt::format("How far the light reaches round, 0 to {}", shading::kMaxLobeWrap), [&o](const std::string& text) {
+        return assign(o.lobe.wrap, parse_float(text, 0.0f, shading::kMaxLobeWrap));
+    })->group(kGroup);
+    add_value(app, "--power", "N", fmt::format("Exponent of the lobe, 0 to {}", shading::kMaxLobePower), [&o](const std::string& text) {
+        return assign(o.lobe.power, parse_float(text, 0.0f, shading::kMaxLobePower));
     })->group(kGroup);
     app.add_flag_callback(
            "--normalize", [&o] { o.lobe.normalize = true; }, "Scale the lobe to reflect as much light as Lambert's")
         ->group(kGroup);
-    using shading::SpecularModel;
-    add_value(app, "--specular", "none|phong|blinn", "Highlights (default blinn)",
-              named<SpecularModel>(o.specular, {{"none", SpecularModel::none}, {"phong", SpecularModel::phong}, {"blinn", SpecularModel::blinn}}))
+    add_value(app, "--specular", form_of(kSpecularNames), fmt::format("Highlights (default {})", name_of(s.specular, kSpecularNames)),
+              named(s.specular, kSpecularNames))
         ->group(kGroup);
-    add_value(app, "--specular-normalize", "on|off", "Make sharper highlights brighter (default on)",
-              named<bool>(o.normalize_specular, {{"on", true}, {"off", false}}))
+    add_value(app, "--specular-normalize", form_of(kOffOn),
+              fmt::format("Make sharper highlights brighter (default {})", name_of(s.normalize_specular, kOffOn)), named(s.normalize_specular, kOffOn))
         ->group(kGroup);
-    using shading::ShadingRate;
-    add_value(app, "--shading", "RATE", "Light once a triangle, vertex or pixel: flat, gouraud or pixel (default pixel)",
-              named<ShadingRate>(o.rate, {{"flat", ShadingRate::flat}, {"gouraud", ShadingRate::gouraud}, {"pixel", ShadingRate::pixel}}))
+    add_value(app, "--shading", form_of(kRateNames), fmt::format("Light once a triangle, vertex or pixel (default {})", name_of(s.rate, kRateNames)),
+              named(s.rate, kRateNames))
         ->group(kGroup);
 }
 
-void add_accuracy_flags(CLI::App& app, RenderOptions& o) {
+void add_accuracy_flags(CLI::App& app, shading::PlanOptions& s) {
     constexpr const char* kGroup = "Accuracy";
-    using shading::Accuracy, shading::TextureDetail;
-    add_value(app, "--accuracy", "TIER", "reference (float64, slow), exact (default), display (within one 8-bit code of exact) or fast",
-              named<Accuracy>(o.accuracy, {{"reference", Accuracy::reference},
-                                           {"exact", Accuracy::exact},
-                                           {"display", Accuracy::display},
-                                           {"fast", Accuracy::fast}}))
+    add_value(app, "--accuracy", form_of(kAccuracyNames),
+              fmt::format("reference: float64, slow; display: within one 8-bit code of exact; fast: less (default {})", name_of(s.accuracy, kAccuracyNames)),
+              named(s.accuracy, kAccuracyNames))
         ->group(kGroup);
     add_value(app, "--max-error", "CODES", "Instead of a tier: the cheapest whose bound, in 8-bit codes, is below this, as 0.5",
-              [&o](const std::string& text) -> Result<void> {
+              [&s](const std::string& text) -> Result<void> {
                   const auto codes = parse_float(text, 1e-3f, 255.0f);
                   if (!codes) return tl::unexpected(codes.error());
-                  o.max_error_codes = static_cast<double>(*codes);
+                  s.max_error_codes = static_cast<double>(*codes);
                   return {};
               })
         ->group(kGroup);
-    add_value(app, "--texture-filter", "NAME", "full (default), bilinear: no blending of mip levels, or nearest",
-              named<TextureDetail>(o.texture_detail, {{"full", TextureDetail::full},
-                                                      {"bilinear", TextureDetail::bilinear},
-                                                      {"nearest", TextureDetail::nearest}}))
+    add_value(app, "--texture-filter", form_of(kTextureDetailNames),
+              fmt::format("bilinear: no blending of mip levels (default {})", name_of(s.texture_detail, kTextureDetailNames)),
+              named(s.texture_detail, kTextureDetailNames))
         ->group(kGroup);
 }
 
-void add_machine_flags(CLI::App& app, RenderOptions& o) {
+void add_machine_flags(CLI::App& app, raster::Settings& s) {
     constexpr const char* kGroup = "Speed (never changes a pixel)";
-    add_value(app, "--isa", "NAME", "Instruction set: auto, scalar, sse2, sse4.1, avx2, avx512 or neon64",
-              [&o](const std::string& text) -> Result<void> {
-                  const auto isa = shading::isa_by_name(text);
-                  if (isa) o.isa = *isa;
+    add_value(app, "--isa", "NAME", "Instruction set: auto, " + shading::isa_names(),
+              [&s](const std::string& text) -> Result<void> {
+                  s.isa = shading::isa_by_name(text);
                   constexpr std::string_view kPlace = "isa: ";  // said by the flag's own name
-                  if (!isa)
+                  if (!s.isa)
                       return fail(ErrorCode::usage,
-                                  isa.error().message.substr(isa.error().message.starts_with(kPlace) ? kPlace.size() : 0));
-                  return Result<void>();
+                                  s.isa.error().message.substr(s.isa.error().message.starts_with(kPlace) ? kPlace.size() : 0));
+                  return {};
               })
         ->group(kGroup);
-    add_value(app, "--threads", "N", "Threads, 0 for one a core (default)", [&o](const std::string& text) -> Result<void> {
+    add_value(app, "--threads", "N", "Threads, 0 for one a core (default)", [&s](const std::string& text) -> Result<void> {
         const auto threads = parse_int(text, 0, 1024);
         if (!threads) return tl::unexpected(threads.error());
-        o.threads = static_cast<int>(*threads);
+        s.threads = static_cast<int>(*threads);
         return {};
     })->group(kGroup);
-    add_value(app, "--tile", "N", "Side of a tile in pixels: 16, 32 or 64 (default 64)", choice(o.tile_size, {16, 32, 64}))->group(kGroup);
+    add_value(app, "--tile", "N", fmt::format("Side of a tile in pixels: 16, 32 or 64 (default {})", s.tile_size), choice(s.tile_size, {16, 32, 64}))
+        ->group(kGroup);
 }
 
 void add_file_flags(CLI::App& app, RenderOptions& o) {
@@ -287,21 +298,26 @@ Result<std::optional<shading::Lobe>> chosen_lobe(const RenderOptions& o) {
     return std::nullopt;
 }
 
-void add_render_options(CLI::App& app, RenderOptions& o, bool scene_required) {
-    o.samples = 4;
-    o.background_linear = *parse_color("#3a3f47");
+raster::Settings RenderOptions::usual_settings() {
+    raster::Settings settings;
+    settings.samples = 4;
+    settings.background_linear = *parse_color(kUsualBackground);
+    return settings;
+}
+
+void add_render_options(CLI::App& app, RenderOptions& o, bool scene_required, PictureSize usual) {
     CLI::Option* scene =
         app.add_option("SCENE", o.scene, "A .glb or .gltf file, - for standard input, or a built-in scene: demo, sphere:N (N triangles), lights:N (N lamps)");
     scene->type_name("");
     if (scene_required) scene->required();
-    add_picture_flags(app, o);
+    add_picture_flags(app, o, usual);
     add_camera_flags(app, o);
     add_light_flags(app, o);
     add_environment_flags(app, o);
-    add_shadow_flags(app, o);
+    add_shadow_flags(app, o.settings);
     add_surface_flags(app, o);
-    add_accuracy_flags(app, o);
-    add_machine_flags(app, o);
+    add_accuracy_flags(app, o.settings.shading);
+    add_machine_flags(app, o.settings);
     add_file_flags(app, o);
 }
 

@@ -24,7 +24,7 @@ struct TradeOptions : RenderOptions {
 
 TradeSpace space_of(const RenderJob& job, const TradeOptions& options) {
     const raster::Scene& scene = job.scene();
-    TradeSpace space{.shadows = options.shadows, .shadow_size = options.shadow_size, .lobes = options.lobes};
+    TradeSpace space{.shadows = options.settings.shadows, .shadow_size = options.settings.shadow_size, .lobes = options.lobes};
     space.environment = scene.environment != nullptr;
     space.textures = !scene.textures.empty();
     space.lights = !scene.lights.empty();
@@ -45,7 +45,7 @@ Result<void> write_all(const std::vector<TradeRow>& rows, TradeBench& bench, con
 }
 
 Result<int> run_trade(TradeOptions options) {
-    options.accuracy = shading::Accuracy::reference;  // the environment keeps its light for it
+    options.settings.shading.accuracy = shading::Accuracy::reference;  // the environment keeps its light for it
     auto job = make_render_job(options, kUsualSize);
     if (!job) return tl::unexpected(job.error());
     if (const auto folder = make_folder(options.folder); !folder) return tl::unexpected(folder.error());
@@ -70,7 +70,7 @@ Result<int> run_trade(TradeOptions options) {
 Command add_trade_command(CLI::App& root) {
     CLI::App* app = root.add_subcommand("trade", "Say what accuracy costs: time and error of a scene drawn in many ways");
     const auto options = std::make_shared<TradeOptions>();
-    add_render_options(*app, *options, true);
+    add_render_options(*app, *options, true, kUsualSize);
     // What is varied is not asked for.
     for (const char* varied : {"--accuracy", "--max-error", "--texture-filter", "--shading", "--sh-order"})
         app->remove_option(app->get_option(varied));

@@ -1,6 +1,6 @@
 #include "apps/io/environment.hpp"
 
-#include "apps/io/detail/text.hpp"
+#include "apps/io/text.hpp"
 #include "apps/io/file_access.hpp"
 #include "apps/io/rgbe_reader.hpp"
 
@@ -67,7 +67,7 @@ Result<Environment> read_environment(const std::string& path, const EnvironmentL
     const auto file = read_file(path, limits.max_file_bytes);
     if (!file) return tl::unexpected(file.error());
     auto image = decode_rgbe(*file, {limits.max_width, limits.max_height});
-    if (!image) return fail(image.error().code, detail::printable(path) + ": " + image.error().message);
+    if (!image) return fail(image.error().code, printable(path) + ": " + image.error().message);
     return Environment{image->width, image->height, std::move(image->rgb)};
 }
 

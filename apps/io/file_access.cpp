@@ -1,6 +1,6 @@
 #include "apps/io/file_access.hpp"
 
-#include "apps/io/detail/text.hpp"
+#include "apps/io/text.hpp"
 
 #include <fmt/format.h>
 
@@ -21,7 +21,6 @@ namespace halflit::io {
 
 namespace {
 
-using detail::printable;
 
 class Descriptor {
 public:

@@ -7,7 +7,7 @@
 #include "apps/io/detail/gltf_meshes.hpp"
 #include "apps/io/detail/gltf_nodes.hpp"
 #include "apps/io/detail/gltf_placed.hpp"
-#include "apps/io/detail/text.hpp"
+#include "apps/io/text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,29 +1,19 @@
 #include "apps/io/lobe_name.hpp"
 
-#include "apps/io/detail/text.hpp"
+#include "apps/io/text.hpp"
 
 #include <fmt/format.h>
 
 namespace halflit::io {
 
 Result<shading::Lobe> lobe_from_name(std::string_view name, const LobeParameters& parameters) {
-    const float wrap = parameters.wrap.value_or(0.5f);
+    const shading::NamedLobe* model = shading::find_named_lobe(name);
+    if (model == nullptr)
+        return fail(ErrorCode::bad_input, fmt::format("lobe: expected {}, found \"{}\"", shading::lobe_names(), printable(name, 40)));
     shading::Lobe lobe;
-    if (name == "lambert")
-        lobe = shading::Lobe::lambert();
-    else if (name == "green")
-        lobe = shading::Lobe::green(wrap);
-    else if (name == "half-lambert")
-        lobe = shading::Lobe::half_lambert();
-    else if (name == "valve")
-        lobe = shading::Lobe::valve();
-    else if (name == "sloan")
-        lobe = shading::Lobe::sloan(wrap);
-    else if (name == "mcauley")
-        lobe = shading::Lobe::mcauley(wrap, 1.0f + wrap);
-    else
-        return fail(ErrorCode::bad_input, fmt::format("lobe: expected lambert, green, half-lambert, valve, sloan or mcauley, found \"{}\"",
-                                                      detail::printable(name, 40)));
+    lobe.wrap = model->takes_wrap ? parameters.wrap.value_or(shading::kUsualWrap) : model->wrap;
+    lobe.power = model->power + model->power_per_wrap * lobe.wrap;
+    lobe.normalize = model->normalize;
     if (parameters.wrap) lobe.wrap = *parameters.wrap;
     if (parameters.power) lobe.power = *parameters.power;
     if (parameters.normalize) lobe.normalize = *parameters.normalize;

@@ -1,6 +1,6 @@
 #include "apps/io/rgbe_reader.hpp"
 
-#include "apps/io/detail/text.hpp"
+#include "apps/io/text.hpp"
 
 #include <fmt/format.h>
 
@@ -46,7 +46,7 @@ public:
     }
     [[nodiscard]] std::size_t position() const { return at_; }
     [[nodiscard]] tl::unexpected<Error> error(std::string_view expected, std::string_view found) const {
-        return refuse(fmt::format("line {}: expected {}, found \"{}\"", number_, expected, detail::printable(found, 60)));
+        return refuse(fmt::format("line {}: expected {}, found \"{}\"", number_, expected, printable(found, 60)));
     }
 
 private:

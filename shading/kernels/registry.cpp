@@ -43,6 +43,14 @@ std::string_view isa_name(Isa isa) {
     return "unknown";
 }
 
+std::string isa_names() {
+    std::string names;
+#define HALFLIT_SET(set, name, ...) names += (names.empty() ? "" : ", ") + std::string(name);
+#include "shading/kernels/isa_list.def"
+#undef HALFLIT_SET
+    return names.replace(names.rfind(", "), 2, " or ");
+}
+
 std::span<const Isa> built_isas() { return kBuiltIsas; }
 
 bool isa_available(Isa isa) {

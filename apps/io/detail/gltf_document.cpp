@@ -1,7 +1,7 @@
 #include "apps/io/detail/gltf_document.hpp"
 
 #include "apps/io/detail/glb_container.hpp"
-#include "apps/io/detail/text.hpp"
+#include "apps/io/text.hpp"
 #include "apps/io/detail/uri.hpp"
 
 #include <fmt/format.h>

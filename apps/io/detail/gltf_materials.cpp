@@ -1,6 +1,6 @@
 #include "apps/io/detail/gltf_materials.hpp"
 
-#include "apps/io/detail/text.hpp"
+#include "apps/io/text.hpp"
 #include "apps/io/lobe_name.hpp"
 #include "sh/trig.hpp"
 

@@ -1,6 +1,6 @@
 #include "apps/io/detail/gltf_placed.hpp"
 
-#include "apps/io/detail/text.hpp"
+#include "apps/io/text.hpp"
 #include "sh/trig.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "apps/io/detail/gltf_versions.hpp"
 #include "apps/io/detail/json_place.hpp"
-#include "apps/io/detail/text.hpp"
+#include "apps/io/text.hpp"
 #include "apps/io/detail/tinygltf.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "apps/io/detail/gltf_versions.hpp"
 
 #include "apps/io/detail/json_scan.hpp"
-#include "apps/io/detail/text.hpp"
+#include "apps/io/text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "apps/io/detail/json_place.hpp"
 
-#include "apps/io/detail/text.hpp"
+#include "apps/io/text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "apps/io/detail/json_scan.hpp"
 
-#include "apps/io/detail/text.hpp"
+#include "apps/io/text.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace halflit::io::detail {
+namespace halflit::io {
 
 /// Control characters, DEL, the C1 controls and bytes that are not UTF-8 become \xNN; at most `max_bytes` of the source are shown.
 [[nodiscard]] std::string printable(std::string_view text, std::size_t max_bytes = 200);
@@ -16,4 +16,4 @@ namespace halflit::io::detail {
 /// Offset of the first byte that is not UTF-8, or npos.
 [[nodiscard]] std::size_t find_invalid_utf8(std::string_view text);
 
-}  // namespace halflit::io::detail
+}  // namespace halflit::io

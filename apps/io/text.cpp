@@ -1,9 +1,9 @@
-#include "apps/io/detail/text.hpp"
+#include "apps/io/text.hpp"
 
 #include <cstdint>
 #include <cstring>
 
-namespace halflit::io::detail {
+namespace halflit::io {
 
 namespace {
 unsigned byte_at(std::string_view text, std::size_t at) { return at < text.size() ? static_cast<unsigned char>(text[at]) : 0u; }
@@ -67,4 +67,4 @@ std::string printable(std::string_view text, std::size_t max_bytes) {
     return out;
 }
 
-}  // namespace halflit::io::detail
+}  // namespace halflit::io
