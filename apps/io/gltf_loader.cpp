@@ -57,7 +57,7 @@ Result<LoadedScene> load_gltf_bytes(std::span<const std::byte> bytes, const std:
         return failed(failure.error.code, failure.error.message);
     } catch (const std::bad_alloc&) {
         return failed(ErrorCode::limit, "out of memory");
-    } catch (const std::exception& error) {  // tinygltf and its JSON parser
+    } catch (const std::exception& error) {  // a decoder's, or the standard library's
         return failed(ErrorCode::bad_input, printable(error.what()));
     }
 }

@@ -81,6 +81,36 @@ TEST_CASE("faults: values of a wrong type or size are refused at their path", "[
     check("\"attributes\":{\"POSITION\":0}", "\"mode\":4", "primitives[0]");
 }
 
+TEST_CASE("faults: lists of a wrong length, and objects without what their type needs", "[io]") {
+    const auto with = [](const std::string& rest) {
+        TriangleFile t;
+        t.rest = "," + rest;
+        return refusal(t.file());
+    };
+    const auto refused = [&](const std::string& rest, const std::string& path, const std::string& what) {
+        const Error error = with(rest);
+        INFO(rest << " gave " << error.message);
+        CHECK(error.code == ErrorCode::bad_input);
+        CHECK(error.message.find("test.glb: " + path + ": line 1, column ") == 0);
+        CHECK(error.message.find(what) != std::string::npos);
+    };
+    refused(R"("materials":[{"emissiveFactor":[1,1]}])", "materials[0].emissiveFactor", "expected 3 numbers, found 2");
+    refused(R"("materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,1,1]}}])", "materials[0].pbrMetallicRoughness.baseColorFactor",
+            "expected 4 numbers, found 3");
+    refused(R"("cameras":[{"type":"perspective"}])", "cameras[0]", "\"perspective\"");
+    refused(R"("cameras":[{"type":"orthographic","perspective":{"yfov":1,"znear":1}}])", "cameras[0]", "\"orthographic\"");
+    refused(R"("cameras":[{"type":"fisheye"}])", "cameras[0]", "\"fisheye\"");
+    refused(R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot"}]}})", "extensions.KHR_lights_punctual.lights[0]", "\"spot\"");
+    refused(R"("skins":[{}])", "skins[0]", "\"joints\"");
+    refused(R"("textures":[{"source":0}])", "textures[0].source", "the file has 0 images");
+    for (const char* sound :
+         {R"("extras":[1e300,12345678901234567890])", R"("materials":[{"extras":7},{"extras":["halflit"]}])",
+          R"("extensions":{"VENDOR_x":{"lights":5}})", R"("cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":1}}])"})
+        CHECK(with(sound).code == ErrorCode::negative_result);
+    CHECK(refusal(changed(TriangleFile(), "\"count\":3", "\"count\":3.0")).code == ErrorCode::negative_result);  // JSON Schema: an integer
+    CHECK(refusal(changed(TriangleFile(), "\"count\":3", "\"count\":0.3e1")).code == ErrorCode::negative_result);
+}
+
 TEST_CASE("faults: accessors and views that leave their buffer, in any arithmetic", "[io]") {
     const TriangleFile t;
     const auto code = [&](const std::string& from, const std::string& to) { return refusal(changed(t, from, to)).code; };

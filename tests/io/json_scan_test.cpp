@@ -13,7 +13,7 @@ using namespace halflit::io::detail;
 namespace {
 
 struct Nothing final : JsonVisitor {
-    void on_key(std::string_view, std::size_t) override {}
+    void on_key(const JsonValue&) override {}
     void on_begin(JsonType, std::size_t) override {}
     void on_end(std::size_t) override {}
     void on_value(const JsonValue&, std::size_t) override {}
@@ -22,7 +22,7 @@ struct Nothing final : JsonVisitor {
 struct Collect final : JsonVisitor {
     std::vector<std::string> keys, strings;
     std::vector<double> numbers;
-    void on_key(std::string_view key, std::size_t) override { keys.emplace_back(key); }
+    void on_key(const JsonValue& key) override { keys.emplace_back(key.text); }
     void on_begin(JsonType, std::size_t) override {}
     void on_end(std::size_t) override {}
     void on_value(const JsonValue& v, std::size_t) override {

@@ -44,24 +44,6 @@ Component component_of(int type, std::string_view where) {
     }
 }
 
-int components_of(int type) {
-    switch (type) {
-        case TINYGLTF_TYPE_VEC2:
-            return 2;
-        case TINYGLTF_TYPE_VEC3:
-            return 3;
-        case TINYGLTF_TYPE_VEC4:
-        case TINYGLTF_TYPE_MAT2:
-            return 4;
-        case TINYGLTF_TYPE_MAT3:
-            return 9;
-        case TINYGLTF_TYPE_MAT4:
-            return 16;
-        default:
-            return 1;
-    }
-}
-
 /// Refuses unless `count` elements of `size` bytes, `stride` apart, from `offset` on, lie within a view. All arguments are at most
 /// 2^53, stride at most 252: the sum stays below 2^62.
 void check_range(std::string_view where, std::uint64_t offset, std::uint64_t count, std::uint64_t stride, std::uint64_t size,
@@ -147,46 +129,45 @@ void Accessor::read_unsigned(std::size_t index, std::uint32_t* out) const {
         out[c] = at == nullptr ? 0u : to_unsigned(at + static_cast<std::size_t>(c) * size_of(component_), component_);
 }
 
-void Accessor::check(const Document& document, const tinygltf::Accessor& source) {
-    component_ = component_of(source.componentType, name_);
-    components_ = components_of(source.type);
+void Accessor::check(const Document& document, const file::Accessor& source) {
+    component_ = component_of(source.component_type, name_);
+    components_ = source.components;
     normalized_ = source.normalized;
     count_ = source.count;
     const std::uint64_t size = size_of(component_) * static_cast<std::uint64_t>(components_);
-    if (source.bufferView < 0) return;  // all zeros, apart from sparse values
-    const tinygltf::BufferView& view = document.model.bufferViews[static_cast<std::size_t>(source.bufferView)];
-    stride_ = view.byteStride == 0 ? size : view.byteStride;
+    if (source.buffer_view < 0) return;  // all zeros, apart from sparse values
+    const file::BufferView& view = document.file.buffer_views[static_cast<std::size_t>(source.buffer_view)];
+    stride_ = view.byte_stride == 0 ? size : static_cast<std::uint64_t>(view.byte_stride);
     if (stride_ < size)
-        refuse(name_,
-               fmt::format("bufferViews[{}].byteStride is {}, expected at least the element's {} bytes", source.bufferView, stride_, size));
-    check_range(name_, source.byteOffset, count_, stride_, size, view.byteLength);
-    if (count_ > 0) data_ = document.view_data(source.bufferView) + source.byteOffset;
+        refuse(name_, fmt::format("bufferViews[{}].byteStride is {}, expected at least the element's {} bytes", source.buffer_view, stride_,
+                                  size));
+    check_range(name_, source.byte_offset, count_, stride_, size, view.byte_length);
+    if (count_ > 0) data_ = document.view_data(source.buffer_view) + source.byte_offset;
 }
 
-void Accessor::check_sparse(Document& document, const tinygltf::Accessor& source) {
+void Accessor::check_sparse(Document& document, const file::Sparse& source) {
     const std::string where = name_ + ".sparse";
-    const auto sparse_count = static_cast<std::uint64_t>(source.sparse.count);
+    const auto sparse_count = static_cast<std::uint64_t>(source.count);
     if (sparse_count == 0) return;
     if (sparse_count > count_) refuse(where, fmt::format("count is {}, more than the accessor's {}", sparse_count, count_));
     if (count_ > 0xFFFFFFFFull)
         refuse(where, fmt::format("the accessor has {} elements, the limit is 4294967295", count_), ErrorCode::limit);
-    const Component index_type = component_of(source.sparse.indices.componentType, where + ".indices");
+    const Component index_type = component_of(source.index_component_type, where + ".indices");
     if (index_type != Component::u8 && index_type != Component::u16 && index_type != Component::u32)
-        refuse(where + ".indices",
-               fmt::format("componentType: expected 5121, 5123 or 5125, found {}", source.sparse.indices.componentType));
+        refuse(where + ".indices", fmt::format("componentType: expected 5121, 5123 or 5125, found {}", source.index_component_type));
 
-    const auto& views = document.model.bufferViews;
-    const auto& index_view = views[static_cast<std::size_t>(source.sparse.indices.bufferView)];
-    const auto& value_view = views[static_cast<std::size_t>(source.sparse.values.bufferView)];
+    const auto& views = document.file.buffer_views;
+    const auto& index_view = views[static_cast<std::size_t>(source.index_view)];
+    const auto& value_view = views[static_cast<std::size_t>(source.value_view)];
     const std::uint64_t size = size_of(component_) * static_cast<std::uint64_t>(components_), index_size = size_of(index_type);
-    const auto index_offset = static_cast<std::uint64_t>(source.sparse.indices.byteOffset),
-               value_offset = static_cast<std::uint64_t>(source.sparse.values.byteOffset);
-    check_range(where + ".indices", index_offset, sparse_count, index_size, index_size, index_view.byteLength);
-    check_range(where + ".values", value_offset, sparse_count, size, size, value_view.byteLength);
+    const auto index_offset = static_cast<std::uint64_t>(source.index_offset),
+               value_offset = static_cast<std::uint64_t>(source.value_offset);
+    check_range(where + ".indices", index_offset, sparse_count, index_size, index_size, index_view.byte_length);
+    check_range(where + ".values", value_offset, sparse_count, size, size, value_view.byte_length);
 
     document.geometry.take(sparse_count * sizeof(std::uint32_t));
     sparse_indices_.reserve(sparse_count);
-    const std::byte* indices = document.view_data(source.sparse.indices.bufferView) + index_offset;
+    const std::byte* indices = document.view_data(source.index_view) + index_offset;
     for (std::uint64_t i = 0; i < sparse_count; ++i) {
         const std::uint32_t index = to_unsigned(indices + i * index_size, index_type);
         if (index >= count_) refuse(where + ".indices", fmt::format("entry {} is {}, but the accessor has {} elements", i, index, count_));
@@ -194,16 +175,16 @@ void Accessor::check_sparse(Document& document, const tinygltf::Accessor& source
             refuse(where + ".indices", fmt::format("entry {} is {}, expected more than {} before it", i, index, sparse_indices_.back()));
         sparse_indices_.push_back(index);
     }
-    sparse_values_ = document.view_data(source.sparse.values.bufferView) + value_offset;
+    sparse_values_ = document.view_data(source.value_view) + value_offset;
 }
 
 std::vector<Accessor> check_accessors(Document& document) {
-    std::vector<Accessor> accessors(document.model.accessors.size());
+    std::vector<Accessor> accessors(document.file.accessors.size());
     for (std::size_t i = 0; i < accessors.size(); ++i) {
-        const tinygltf::Accessor& source = document.model.accessors[i];
+        const file::Accessor& source = document.file.accessors[i];
         accessors[i].name_ = fmt::format("accessors[{}]", i);
         accessors[i].check(document, source);
-        if (source.sparse.isSparse) accessors[i].check_sparse(document, source);
+        if (source.sparse >= 0) accessors[i].check_sparse(document, document.file.sparse[static_cast<std::size_t>(source.sparse)]);
     }
     return accessors;
 }

@@ -30,8 +30,8 @@ public:
 
 private:
     friend std::vector<Accessor> check_accessors(Document& document);
-    void check(const Document& document, const tinygltf::Accessor& source);
-    void check_sparse(Document& document, const tinygltf::Accessor& source);
+    void check(const Document& document, const file::Accessor& source);
+    void check_sparse(Document& document, const file::Sparse& source);
     [[nodiscard]] const std::byte* element(std::size_t index) const;  ///< null: zeros
 
     const std::byte* data_ = nullptr;

@@ -1,8 +1,8 @@
 #include "apps/io/detail/gltf_images.hpp"
 
-#include "apps/io/text.hpp"
 #include "apps/io/detail/uri.hpp"
 #include "apps/io/image_reader.hpp"
+#include "apps/io/text.hpp"
 
 #include <fmt/format.h>
 
@@ -26,8 +26,8 @@ shading::Texture checkerboard(shading::ColorSpace space) {
     return take(shading::Texture::from_rgba8(rgba, 8, 8, space), "magenta checkerboard");
 }
 
-std::string identity(const ImageEntry& entry) {
-    return entry.buffer_view >= 0 ? fmt::format("bufferView {}", entry.buffer_view) : std::string(entry.uri);
+std::string identity(const file::Image& entry) {
+    return entry.buffer_view >= 0 ? fmt::format("bufferView {}", entry.buffer_view) : std::string(entry.uri.value_or(""));
 }
 
 }  // namespace
@@ -36,33 +36,33 @@ ImageStore::ImageStore(Document& document, std::vector<shading::Texture>& textur
     : document_(document), textures_(textures), texture_memory_("the textures", document.options.limits.max_texture_bytes) {}
 
 shading::Texture ImageStore::make(int image, shading::ColorSpace space) {
-    const ImageEntry& entry = document_.json.images[static_cast<std::size_t>(image)];
+    const file::Image& entry = document_.file.images[static_cast<std::size_t>(image)];
     const LoadLimits& limits = document_.options.limits;
     std::string where = fmt::format("images[{}]", image);
     std::vector<std::byte> owned;
-    std::span<const std::byte> file;
+    std::span<const std::byte> bytes;
     if (entry.buffer_view >= 0) {
-        const tinygltf::BufferView& view = document_.model.bufferViews[static_cast<std::size_t>(entry.buffer_view)];
-        file = {document_.view_data(entry.buffer_view), view.byteLength};
-    } else if (entry.has_uri && is_data_uri(entry.uri)) {
-        owned = take(decode_data_uri(entry.uri, limits.max_file_bytes), where + ".uri");
-        file = owned;
-    } else if (entry.has_uri) {
-        owned = take(document_.folder.read(take(decode_file_uri(entry.uri), where + ".uri"), limits.max_file_bytes), where + ".uri");
-        file = owned;
-        where += fmt::format(".uri: \"{}\"", printable(entry.uri, 120));
+        const file::BufferView& view = document_.file.buffer_views[static_cast<std::size_t>(entry.buffer_view)];
+        bytes = {document_.view_data(entry.buffer_view), static_cast<std::size_t>(view.byte_length)};
+    } else if (entry.uri && is_data_uri(*entry.uri)) {
+        owned = take(decode_data_uri(*entry.uri, limits.max_file_bytes), where + ".uri");
+        bytes = owned;
+    } else if (entry.uri) {
+        owned = take(document_.folder.read(take(decode_file_uri(*entry.uri), where + ".uri"), limits.max_file_bytes), where + ".uri");
+        bytes = owned;
+        where += fmt::format(".uri: \"{}\"", printable(*entry.uri, 120));
     } else {
         refuse(where, "expected a uri or a bufferView, found neither");
     }
-    document_.encoded_images.take(file.size());
+    document_.encoded_images.take(bytes.size());
 
     const ImageLimits image_limits{limits.max_texture_side, limits.max_texture_pixels, limits.max_jpeg_scans};
-    const ImageHeader header = take(read_image_header(file, image_limits), where);
+    const ImageHeader header = take(read_image_header(bytes, image_limits), where);
     if (texture_bytes(header) > texture_memory_.left())
         refuse(where, fmt::format("the textures would take more than {} MB, which is the limit", limits.max_texture_bytes >> 20),
                ErrorCode::limit);
     const bool keep_16_bits = header.bits == 16 && space == shading::ColorSpace::linear;
-    const DecodedImage picture = take(decode_image(file, image_limits, keep_16_bits), where);
+    const DecodedImage picture = take(decode_image(bytes, image_limits, keep_16_bits), where);
     texture_memory_.take(texture_bytes(header));
     return take(keep_16_bits ? shading::Texture::from_rgba16(picture.rgba16, picture.width, picture.height)
                              : shading::Texture::from_rgba8(picture.rgba8, picture.width, picture.height, space),
@@ -71,7 +71,7 @@ shading::Texture ImageStore::make(int image, shading::ColorSpace space) {
 
 int ImageStore::texture_for(int image, shading::ColorSpace space) {
     const auto [found, is_new] =
-        made_.try_emplace({identity(document_.json.images[static_cast<std::size_t>(image)]), space}, static_cast<int>(textures_.size()));
+        made_.try_emplace({identity(document_.file.images[static_cast<std::size_t>(image)]), space}, static_cast<int>(textures_.size()));
     if (!is_new) return found->second;
     try {
         textures_.push_back(make(image, space));

@@ -1,7 +1,7 @@
 #include "apps/io/detail/gltf_materials.hpp"
 
-#include "apps/io/text.hpp"
 #include "apps/io/lobe_name.hpp"
+#include "apps/io/text.hpp"
 #include "sh/trig.hpp"
 
 #include <fmt/format.h>
@@ -16,50 +16,48 @@ using shading::ColorSpace;
 
 float clamp01(double value) { return static_cast<float>(std::clamp(value, 0.0, 1.0)); }
 
-const tinygltf::Value* member(const tinygltf::ExtensionMap& extensions, const char* extension, const char* key) {
-    const auto found = extensions.find(extension);
-    if (found == extensions.end() || !found->second.IsObject() || !found->second.Has(key)) return nullptr;
-    return &found->second.Get(key);
+constexpr double kMostScale = 1e6;  // beyond it, float texture coordinates have no fraction left
+
+/// values[index], or `otherwise` where the file says less.
+double number_at(const std::vector<double>& values, std::size_t index, double otherwise) {
+    return index < values.size() ? std::clamp(values[index], -kMostScale, kMostScale) : otherwise;
 }
 
-double number_at(const tinygltf::Value* array, std::size_t index, double otherwise) {
-    if (array == nullptr || !array->IsArray() || array->ArrayLen() <= index) return otherwise;
-    const tinygltf::Value& value = array->Get(static_cast<int>(index));
-    constexpr double kMost = 1e6;  // beyond it, float texture coordinates have no fraction left
-    return value.IsNumber() ? std::clamp(value.GetNumberAsDouble(), -kMost, kMost) : otherwise;
-}
+// glTF 2.0, sampler: codes of OpenGL.
+constexpr int kNearest = 9728, kLinear = 9729, kNearestMipmapNearest = 9984, kLinearMipmapNearest = 9985, kNearestMipmapLinear = 9986;
+constexpr int kClampToEdge = 33071, kMirroredRepeat = 33648, kRepeat = 10497;
 
 shading::Wrap wrap_of(Document& document, int code) {
-    if (code == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return shading::Wrap::clamp;
-    if (code == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) return shading::Wrap::mirror;
-    if (code != TINYGLTF_TEXTURE_WRAP_REPEAT) document.warn(fmt::format("samplers: unknown wrap mode {}, drawn as repeat", code));
+    if (code == kClampToEdge) return shading::Wrap::clamp;
+    if (code == kMirroredRepeat) return shading::Wrap::mirror;
+    if (code != kRepeat) document.warn(fmt::format("samplers: unknown wrap mode {}, drawn as repeat", code));
     return shading::Wrap::repeat;
 }
 
 shading::Sampler sampler_of(Document& document, int index) {
     shading::Sampler sampler;
     if (index < 0) return sampler;
-    const tinygltf::Sampler& source = document.model.samplers[static_cast<std::size_t>(index)];
-    sampler.wrap_u = wrap_of(document, source.wrapS);
-    sampler.wrap_v = wrap_of(document, source.wrapT);
-    sampler.mag = source.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST ? shading::Filter::nearest : shading::Filter::linear;
+    const file::Sampler& source = document.file.samplers[static_cast<std::size_t>(index)];
+    sampler.wrap_u = wrap_of(document, source.wrap_s);
+    sampler.wrap_v = wrap_of(document, source.wrap_t);
+    sampler.mag = source.mag_filter == kNearest ? shading::Filter::nearest : shading::Filter::linear;
     using enum shading::MipFilter;
-    switch (source.minFilter) {
-        case TINYGLTF_TEXTURE_FILTER_NEAREST:
+    switch (source.min_filter) {
+        case kNearest:
             sampler.min = shading::Filter::nearest;
             sampler.mip = none;
             break;
-        case TINYGLTF_TEXTURE_FILTER_LINEAR:
+        case kLinear:
             sampler.mip = none;
             break;
-        case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST:
+        case kNearestMipmapNearest:
             sampler.min = shading::Filter::nearest;
             sampler.mip = nearest;
             break;
-        case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST:
+        case kLinearMipmapNearest:
             sampler.mip = nearest;
             break;
-        case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR:
+        case kNearestMipmapLinear:
             sampler.min = shading::Filter::nearest;
             break;
         default:
@@ -70,18 +68,14 @@ shading::Sampler sampler_of(Document& document, int index) {
 
 /// KHR_texture_transform: uv' = T R S uv, with rows R = [cos sin; -sin cos]: counter-clockwise as seen, where v points down.
 /// differs: the shader in the extension's text, read column by column, has the transpose; its test model and its viewers have this one.
-void apply_transform(const tinygltf::ExtensionMap& extensions, shading::TextureUse& use, int& uv_set) {
-    constexpr const char* kName = "KHR_texture_transform";
-    if (extensions.count(kName) == 0) return;
-    const tinygltf::Value* offset = member(extensions, kName, "offset");
-    const tinygltf::Value* scale = member(extensions, kName, "scale");
-    const tinygltf::Value* rotation = member(extensions, kName, "rotation");
-    const tinygltf::Value* tex_coord = member(extensions, kName, "texCoord");
-    const double su = number_at(scale, 0, 1.0), sv = number_at(scale, 1, 1.0);
-    const SinCos angle = sin_cos(rotation != nullptr && rotation->IsNumber() ? rotation->GetNumberAsDouble() : 0.0);
-    use.row_u = {static_cast<float>(angle.cos * su), static_cast<float>(angle.sin * sv), static_cast<float>(number_at(offset, 0, 0.0))};
-    use.row_v = {static_cast<float>(-angle.sin * su), static_cast<float>(angle.cos * sv), static_cast<float>(number_at(offset, 1, 0.0))};
-    if (tex_coord != nullptr && tex_coord->IsInt()) uv_set = tex_coord->GetNumberAsInt();
+void apply_transform(const file::TextureTransform& source, shading::TextureUse& use, int& uv_set) {
+    const double su = number_at(source.scale, 0, 1.0), sv = number_at(source.scale, 1, 1.0);
+    const SinCos angle = sin_cos(source.rotation);
+    use.row_u = {static_cast<float>(angle.cos * su), static_cast<float>(angle.sin * sv),
+                 static_cast<float>(number_at(source.offset, 0, 0.0))};
+    use.row_v = {static_cast<float>(-angle.sin * su), static_cast<float>(angle.cos * sv),
+                 static_cast<float>(number_at(source.offset, 1, 0.0))};
+    if (source.tex_coord >= 0) uv_set = source.tex_coord;
 }
 
 class MaterialMaker {
@@ -89,54 +83,53 @@ public:
     MaterialMaker(Document& document, ImageStore& images) : document_(document), images_(images) {}
 
     shading::Material make(std::size_t index, bool with_textures) {
-        const tinygltf::Material& source = document_.model.materials[index];
+        const file::Material& source = document_.file.materials[index];
         where_ = fmt::format("materials[{}]", index);
         shading::Material material;
         material.name = source.name;
-        const auto& base = source.pbrMetallicRoughness.baseColorFactor;
-        material.base_color = {clamp01(base[0]), clamp01(base[1]), clamp01(base[2]), clamp01(base[3])};
-        material.metallic = clamp01(source.pbrMetallicRoughness.metallicFactor);
-        material.roughness = clamp01(source.pbrMetallicRoughness.roughnessFactor);
-        const tinygltf::Value* strength = member(source.extensions, "KHR_materials_emissive_strength", "emissiveStrength");
-        const double glow = strength != nullptr && strength->IsNumber() ? std::clamp(strength->GetNumberAsDouble(), 0.0, 1e18) : 1.0;
-        const auto emissive = [&](std::size_t c) { return static_cast<float>(std::clamp(source.emissiveFactor[c], 0.0, 1.0) * glow); };
+        const auto base = [&](std::size_t c) { return clamp01(number_at(source.base_color_factor, c, 1.0)); };
+        material.base_color = {base(0), base(1), base(2), base(3)};
+        material.metallic = clamp01(source.metallic_factor);
+        material.roughness = clamp01(source.roughness_factor);
+        const double glow = std::clamp(source.emissive_strength, 0.0, 1e18);
+        const auto emissive = [&](std::size_t c) {
+            return static_cast<float>(std::clamp(number_at(source.emissive_factor, c, 0.0), 0.0, 1.0) * glow);
+        };
         material.emissive = {emissive(0), emissive(1), emissive(2)};
-        material.normal_scale = static_cast<float>(std::clamp(source.normalTexture.scale, -1e6, 1e6));
-        material.occlusion_strength = clamp01(source.occlusionTexture.strength);
-        if (source.alphaMode == "MASK")
+        material.normal_scale = static_cast<float>(std::clamp(source.normal_texture.scale, -kMostScale, kMostScale));
+        material.occlusion_strength = clamp01(source.occlusion_texture.strength);
+        if (source.alpha_mode == "MASK")
             material.alpha_mode = shading::AlphaMode::mask;
-        else if (source.alphaMode == "BLEND")
+        else if (source.alpha_mode == "BLEND")
             material.alpha_mode = shading::AlphaMode::blend;
-        else if (source.alphaMode != "OPAQUE")
-            document_.warn(fmt::format("{}.alphaMode: \"{}\" is unknown, drawn as OPAQUE", where_, printable(source.alphaMode, 40)));
-        material.alpha_cutoff = static_cast<float>(std::clamp(source.alphaCutoff, 0.0, 1e6));
-        material.double_sided = source.doubleSided;
-        material.unlit = source.extensions.count("KHR_materials_unlit") != 0;
-        own_lobe(source.extras, material);
+        else if (source.alpha_mode != "OPAQUE")
+            document_.warn(fmt::format("{}.alphaMode: \"{}\" is unknown, drawn as OPAQUE", where_, printable(source.alpha_mode, 40)));
+        material.alpha_cutoff = static_cast<float>(std::clamp(source.alpha_cutoff, 0.0, 1e6));
+        material.double_sided = source.double_sided;
+        material.unlit = source.unlit;
+        if (source.own_lobe) own_lobe(*source.own_lobe, material);
         if (with_textures) {
-            material.base_color_texture =
-                use(source.pbrMetallicRoughness.baseColorTexture, "pbrMetallicRoughness.baseColorTexture", ColorSpace::srgb);
-            material.emissive_texture = use(source.emissiveTexture, "emissiveTexture", ColorSpace::srgb);
-            material.metallic_roughness_texture = use(source.pbrMetallicRoughness.metallicRoughnessTexture,
-                                                      "pbrMetallicRoughness.metallicRoughnessTexture", ColorSpace::linear);
-            material.normal_texture = use(source.normalTexture, "normalTexture", ColorSpace::linear);
-            material.occlusion_texture = use(source.occlusionTexture, "occlusionTexture", ColorSpace::linear);
+            material.base_color_texture = use(source.base_color_texture, "pbrMetallicRoughness.baseColorTexture", ColorSpace::srgb);
+            material.emissive_texture = use(source.emissive_texture, "emissiveTexture", ColorSpace::srgb);
+            material.metallic_roughness_texture =
+                use(source.metallic_roughness_texture, "pbrMetallicRoughness.metallicRoughnessTexture", ColorSpace::linear);
+            material.normal_texture = use(source.normal_texture, "normalTexture", ColorSpace::linear);
+            material.occlusion_texture = use(source.occlusion_texture, "occlusionTexture", ColorSpace::linear);
         }
         return material;
     }
 
 private:
-    template <class TextureInfo>
-    shading::TextureUse use(const TextureInfo& info, const char* key, ColorSpace space) {
+    shading::TextureUse use(const file::TexturePlace& info, const char* key, ColorSpace space) {
         shading::TextureUse use;
         if (info.index < 0) return use;
-        const tinygltf::Texture& texture = document_.model.textures[static_cast<std::size_t>(info.index)];
+        const file::Texture& texture = document_.file.textures[static_cast<std::size_t>(info.index)];
         if (texture.source < 0) {
             document_.warn(fmt::format("textures[{}]: has no picture that can be read (source), left out", info.index));
             return use;
         }
-        int uv_set = info.texCoord;
-        apply_transform(info.extensions, use, uv_set);
+        int uv_set = info.tex_coord;
+        if (info.transform) apply_transform(*info.transform, use, uv_set);
         if (uv_set > 1) {
             document_.warn(fmt::format("{}.{}: texCoord {} is not supported (0 and 1 are), left out", where_, key, uv_set));
             return use;
@@ -148,29 +141,9 @@ private:
     }
 
     /// extras.halflit = {"lobe": "sloan", "wrap": 0.5, "power": 1.5, "normalize": true}
-    void own_lobe(const tinygltf::Value& extras, shading::Material& material) const {
-        if (!extras.IsObject() || !extras.Has("halflit")) return;
-        const std::string where = where_ + ".extras.halflit";
-        const tinygltf::Value& own = extras.Get("halflit");
-        if (!own.IsObject()) refuse(where, "expected an object");
-        LobeParameters parameters;
-        std::string name;
-        for (const std::string& key : own.Keys()) {
-            const tinygltf::Value& value = own.Get(key);
-            if (key == "lobe" && value.IsString())
-                name = value.Get<std::string>();
-            else if (key == "wrap" && value.IsNumber())
-                parameters.wrap = static_cast<float>(value.GetNumberAsDouble());
-            else if (key == "power" && value.IsNumber())
-                parameters.power = static_cast<float>(value.GetNumberAsDouble());
-            else if (key == "normalize" && value.IsBool())
-                parameters.normalize = value.Get<bool>();
-            else
-                refuse(where, fmt::format("\"{}\": expected lobe (a string), wrap, power (numbers) and normalize (true or false)",
-                                          printable(key, 40)));
-        }
-        const auto lobe = lobe_from_name(name, parameters);
-        if (!lobe) refuse(where, lobe.error().message);
+    void own_lobe(const file::OwnLobe& own, shading::Material& material) const {
+        const auto lobe = lobe_from_name(own.name, own.parameters);
+        if (!lobe) refuse(where_ + ".extras.halflit", lobe.error().message);
         material.lobe = *lobe;
         material.has_own_lobe = true;
     }
@@ -185,8 +158,8 @@ private:
 std::vector<shading::Material> make_materials(Document& document, ImageStore& images, const std::vector<bool>& used) {
     MaterialMaker maker(document, images);
     std::vector<shading::Material> materials;
-    materials.reserve(document.model.materials.size());
-    for (std::size_t i = 0; i < document.model.materials.size(); ++i) materials.push_back(maker.make(i, used[i]));
+    materials.reserve(document.file.materials.size());
+    for (std::size_t i = 0; i < document.file.materials.size(); ++i) materials.push_back(maker.make(i, used[i]));
     return materials;
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <span>
 #include <tuple>
 
 namespace halflit::io::detail {
@@ -20,7 +21,7 @@ public:
 
     void run() {
         for (const int node : tree_.drawn)
-            if (document_.model.nodes[static_cast<std::size_t>(node)].mesh >= 0) place(static_cast<std::size_t>(node));
+            if (document_.file.nodes[static_cast<std::size_t>(node)].mesh >= 0) place(static_cast<std::size_t>(node));
         if (document_.info.point_and_line_primitives > 0)
             document_.warn(fmt::format("{} primitives are points or lines, which are not drawn", document_.info.point_and_line_primitives));
     }
@@ -33,9 +34,10 @@ private:
     using Key = std::tuple<int, int, std::vector<double>>;  // mesh, skin, morph weights
 
     void place(std::size_t index) {
-        const tinygltf::Node& node = document_.model.nodes[index];
-        const tinygltf::Mesh& mesh = document_.model.meshes[static_cast<std::size_t>(node.mesh)];
-        std::vector<double> weights = node.weights.empty() ? mesh.weights : node.weights;
+        const file::Node& node = document_.file.nodes[index];
+        const file::Mesh& mesh = document_.file.meshes[static_cast<std::size_t>(node.mesh)];
+        const auto own = std::span(document_.file.weights).subspan(node.weights.first, node.weights.count);
+        std::vector<double> weights = own.empty() ? mesh.weights : std::vector(own.begin(), own.end());
         while (!weights.empty() && weights.back() == 0.0) weights.pop_back();
         const auto [entry, is_new] = made_.try_emplace(Key{node.mesh, node.skin, std::move(weights)});
         if (is_new) entry->second = make(static_cast<std::size_t>(node.mesh), node.skin, std::get<2>(entry->first));
@@ -55,7 +57,7 @@ private:
 
     Made make(std::size_t mesh, int skin, const std::vector<double>& weights) {
         Made made;
-        const auto& primitives = document_.model.meshes[mesh].primitives;
+        const auto& primitives = document_.file.meshes[mesh].primitives;
         for (std::size_t p = 0; p < primitives.size(); ++p) {
             std::optional<ReadMesh> read = reader_.read(mesh, p, weights);
             if (!read) continue;
@@ -106,14 +108,13 @@ private:
 }  // namespace
 
 std::vector<bool> find_used_materials(const Document& document, const NodeTree& tree) {
-    std::vector<bool> used(document.model.materials.size(), false), seen(document.model.meshes.size(), false);
+    std::vector<bool> used(document.file.materials.size(), false), seen(document.file.meshes.size(), false);
     for (const int node : tree.drawn) {
-        const int mesh = document.model.nodes[static_cast<std::size_t>(node)].mesh;
+        const int mesh = document.file.nodes[static_cast<std::size_t>(node)].mesh;
         if (mesh < 0 || seen[static_cast<std::size_t>(mesh)]) continue;
         seen[static_cast<std::size_t>(mesh)] = true;
-        for (const tinygltf::Primitive& primitive : document.model.meshes[static_cast<std::size_t>(mesh)].primitives)
-            if (primitive.material >= 0 && primitive.mode >= TINYGLTF_MODE_TRIANGLES)
-                used[static_cast<std::size_t>(primitive.material)] = true;
+        for (const file::Primitive& primitive : document.file.meshes[static_cast<std::size_t>(mesh)].primitives)
+            if (primitive.material >= 0 && file::draws_triangles(primitive)) used[static_cast<std::size_t>(primitive.material)] = true;
     }
     return used;
 }

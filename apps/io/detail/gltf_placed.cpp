@@ -27,10 +27,10 @@ Mat4 rigid_part(const Affine& world) {
     return to_mat4({{cross(y, z), y, z, world.c[3]}});
 }
 
-bool set_projection(const tinygltf::Camera& source, raster::Camera& camera) {
+bool set_projection(const file::Camera& source, raster::Camera& camera) {
     const auto in = [](double value, double low, double high) { return value > low && value < high; };
     if (source.type == "orthographic") {
-        const tinygltf::OrthographicCamera& o = source.orthographic;
+        const file::Projection& o = *source.orthographic;
         const double width = o.xmag < 0 ? -o.xmag : o.xmag, height = o.ymag < 0 ? -o.ymag : o.ymag;
         if (!in(width, 0, 1e30) || !in(height, 0, 1e30) || !(o.znear >= 0 && o.znear < 1e30) || !in(o.zfar, o.znear, 1e30)) return false;
         camera.orthographic = true;
@@ -40,19 +40,19 @@ bool set_projection(const tinygltf::Camera& source, raster::Camera& camera) {
         camera.far_z = static_cast<float>(o.zfar);
         return true;
     }
-    const tinygltf::PerspectiveCamera& p = source.perspective;
+    const file::Projection& p = *source.perspective;
     if (!in(p.yfov, 0, 3.1415926) || !in(p.znear, 0, 1e30)) return false;
     if (p.zfar != 0 && !in(p.zfar, p.znear, 1e38)) return false;
-    if (p.aspectRatio != 0 && !in(p.aspectRatio, 0, 1e6)) return false;
+    if (p.aspect_ratio != 0 && !in(p.aspect_ratio, 0, 1e6)) return false;
     camera.fov_y_rad = static_cast<float>(p.yfov);
-    camera.aspect = static_cast<float>(p.aspectRatio);
+    camera.aspect = static_cast<float>(p.aspect_ratio);
     camera.near_z = static_cast<float>(p.znear);
     camera.far_z = static_cast<float>(p.zfar);
     return true;
 }
 
 /// KHR_lights_punctual gives lux (directional) and candela (point, spot); colours here are those over pi.
-std::optional<shading::Light> light_of(const tinygltf::Light& source) {
+std::optional<shading::Light> light_of(const file::Light& source) {
     shading::Light light;
     if (source.type == "point")
         light.type = shading::LightType::point;
@@ -67,8 +67,8 @@ std::optional<shading::Light> light_of(const tinygltf::Light& source) {
     light.color_linear = {channel(0), channel(1), channel(2)};
     if (light.type != shading::LightType::directional) light.range = static_cast<float>(std::clamp(source.range, 0.0, 1e18));
     if (light.type == shading::LightType::spot) {
-        light.outer_cone_rad = static_cast<float>(std::clamp(source.spot.outerConeAngle, 0.0, kPi / 2));
-        light.inner_cone_rad = std::min(static_cast<float>(std::clamp(source.spot.innerConeAngle, 0.0, kPi / 2)), light.outer_cone_rad);
+        light.outer_cone_rad = static_cast<float>(std::clamp(source.outer_cone_angle, 0.0, kPi / 2));
+        light.inner_cone_rad = std::min(static_cast<float>(std::clamp(source.inner_cone_angle, 0.0, kPi / 2)), light.outer_cone_rad);
     }
     return light;
 }
@@ -77,9 +77,9 @@ std::optional<shading::Light> light_of(const tinygltf::Light& source) {
 
 void place_cameras(Document& document, const NodeTree& tree, raster::Scene& scene) {
     for (const int n : tree.drawn) {
-        const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(n)];
+        const file::Node& node = document.file.nodes[static_cast<std::size_t>(n)];
         if (node.camera < 0) continue;
-        const tinygltf::Camera& source = document.model.cameras[static_cast<std::size_t>(node.camera)];
+        const file::Camera& source = document.file.cameras[static_cast<std::size_t>(node.camera)];
         raster::Camera camera;
         const Affine& world = tree.world_from_node[static_cast<std::size_t>(n)];
         if (!is_finite(world) || !set_projection(source, camera)) {
@@ -95,15 +95,13 @@ void place_cameras(Document& document, const NodeTree& tree, raster::Scene& scen
 
 void place_lights(Document& document, const NodeTree& tree, raster::Scene& scene) {
     for (const int n : tree.drawn) {
-        const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(n)];
-        const auto extension = node.extensions.find("KHR_lights_punctual");
-        if (extension == node.extensions.end() || !extension->second.Has("light")) continue;
-        const int index = extension->second.Get("light").GetNumberAsInt();
-        const tinygltf::Light& source = document.model.lights[static_cast<std::size_t>(index)];
+        const file::Node& node = document.file.nodes[static_cast<std::size_t>(n)];
+        if (node.light < 0) continue;
+        const file::Light& source = document.file.lights[static_cast<std::size_t>(node.light)];
         std::optional<shading::Light> light = light_of(source);
         const Affine& world = tree.world_from_node[static_cast<std::size_t>(n)];
         if (!light || !is_finite(world)) {
-            document.warn(!light ? fmt::format("lights[{}]: the type \"{}\" is unknown, left out", index, printable(source.type, 40))
+            document.warn(!light ? fmt::format("lights[{}]: the type \"{}\" is unknown, left out", node.light, printable(source.type, 40))
                                  : fmt::format("nodes[{}]: its transform is not finite, its light left out", n));
             continue;
         }

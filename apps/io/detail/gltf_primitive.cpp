@@ -57,13 +57,13 @@ std::vector<Vec4f> read_vec4(const Accessor& accessor, std::span<const std::uint
 }
 
 /// Strips and fans as triangles, the winding of the first kept throughout (glTF 2.0, 3.7.2.1).
-std::vector<std::uint32_t> as_triangles(int mode, std::vector<std::uint32_t> run) {
-    if (mode == TINYGLTF_MODE_TRIANGLES) return run;
+std::vector<std::uint32_t> as_triangles(file::Mode mode, std::vector<std::uint32_t> run) {
+    if (mode == file::Mode::triangles) return run;
     std::vector<std::uint32_t> out;
     if (run.size() < 3) return out;
     out.reserve(3 * (run.size() - 2));
     for (std::size_t i = 0; i + 2 < run.size(); ++i) {
-        if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
+        if (mode == file::Mode::triangle_fan)
             out.insert(out.end(), {run[i + 1], run[i + 2], run[0]});
         else
             out.insert(out.end(), {run[i], run[i + 1 + i % 2], run[i + 2 - i % 2]});
@@ -74,13 +74,13 @@ std::vector<std::uint32_t> as_triangles(int mode, std::vector<std::uint32_t> run
 }  // namespace
 
 PrimitiveReader::PrimitiveReader(Document& document, const std::vector<Accessor>& accessors)
-    : document_(document), accessors_(accessors), quantized_(document.json.uses("KHR_mesh_quantization")) {}
+    : document_(document), accessors_(accessors), quantized_(document.file.uses("KHR_mesh_quantization")) {}
 
-const Accessor* PrimitiveReader::attribute(const std::string& where, const std::map<std::string, int>& attributes,
-                                           const AttributeRule& rule, std::optional<std::size_t> count) const {
-    const auto found = attributes.find(rule.name);
-    if (found == attributes.end()) return nullptr;
-    const Accessor& accessor = accessors_[static_cast<std::size_t>(found->second)];
+const Accessor* PrimitiveReader::attribute(const std::string& where, const file::Attributes& attributes, const AttributeRule& rule,
+                                           std::optional<std::size_t> count) const {
+    const int found = file::find(attributes, rule.name);
+    if (found < 0) return nullptr;
+    const Accessor& accessor = accessors_[static_cast<std::size_t>(found)];
     if (accessor.components() < rule.min_components || accessor.components() > rule.max_components)
         refuse(where, fmt::format("{} ({}): expected {} components, found {}", rule.name, accessor.name(), rule.max_components,
                                   accessor.components()));
@@ -97,9 +97,10 @@ const Accessor* PrimitiveReader::attribute(const std::string& where, const std::
     return &accessor;
 }
 
-std::vector<std::uint32_t> PrimitiveReader::triangle_indices(const tinygltf::Primitive& primitive, const std::string& where,
+std::vector<std::uint32_t> PrimitiveReader::triangle_indices(const file::Primitive& primitive, const std::string& where,
                                                              std::size_t vertex_count) {
     const Accessor* accessor = primitive.indices < 0 ? nullptr : &accessors_[static_cast<std::size_t>(primitive.indices)];
+    const auto mode = static_cast<file::Mode>(primitive.mode);
     std::size_t count = vertex_count;
     if (accessor != nullptr) {
         const Component type = accessor->component();
@@ -108,9 +109,9 @@ std::vector<std::uint32_t> PrimitiveReader::triangle_indices(const tinygltf::Pri
                                                    accessor->name(), accessor->components(), static_cast<int>(type)));
         count = accessor->count();
     }
-    const std::size_t most = primitive.mode == TINYGLTF_MODE_TRIANGLES ? kMaxIndices : kMaxIndices / 3;
+    const std::size_t most = mode == file::Mode::triangles ? kMaxIndices : kMaxIndices / 3;
     if (count > most) refuse(where, fmt::format("{} indices, the limit is {}", count, most), ErrorCode::limit);
-    document_.geometry.take(std::uint64_t{count} * (primitive.mode == TINYGLTF_MODE_TRIANGLES ? 4 : 12));
+    document_.geometry.take(std::uint64_t{count} * (mode == file::Mode::triangles ? 4 : 12));
 
     std::vector<std::uint32_t> run(count);
     if (accessor == nullptr) {
@@ -127,12 +128,12 @@ std::vector<std::uint32_t> PrimitiveReader::triangle_indices(const tinygltf::Pri
             run[i] = 0xFFFFFFFFu;
         }
     }
-    if (primitive.mode == TINYGLTF_MODE_TRIANGLES && count % 3 != 0) {
+    if (mode == file::Mode::triangles && count % 3 != 0) {
         if (!document_.options.lenient) refuse(where, fmt::format("{} indices, expected a multiple of 3", count));
         document_.warn(fmt::format("{}: {} indices are not a multiple of 3, the last ones left out", where, count));
         run.resize(count - count % 3);
     }
-    std::vector<std::uint32_t> triangles = as_triangles(primitive.mode, std::move(run));
+    std::vector<std::uint32_t> triangles = as_triangles(mode, std::move(run));
     if (document_.options.lenient) {
         std::size_t kept = 0;
         for (std::size_t i = 0; i < triangles.size(); i += 3) {
@@ -175,7 +176,7 @@ std::vector<std::uint32_t> PrimitiveReader::gather_vertices(std::vector<std::uin
     return vertices;
 }
 
-void PrimitiveReader::morph(const tinygltf::Primitive& primitive, const std::string& where, std::size_t vertex_count,
+void PrimitiveReader::morph(const file::Primitive& primitive, const std::string& where, std::size_t vertex_count,
                             std::span<const double> weights, ReadMesh& out) const {
     for (std::size_t t = 0; t < std::min(primitive.targets.size(), weights.size()); ++t) {
         const auto weight = static_cast<float>(std::clamp(weights[t], -1e30, 1e30));
@@ -199,12 +200,12 @@ void PrimitiveReader::morph(const tinygltf::Primitive& primitive, const std::str
 }
 
 std::optional<ReadMesh> PrimitiveReader::read(std::size_t mesh_index, std::size_t primitive_index, std::span<const double> morph_weights) {
-    const tinygltf::Primitive& primitive = document_.model.meshes[mesh_index].primitives[primitive_index];
+    const file::Primitive& primitive = document_.file.meshes[mesh_index].primitives[primitive_index];
     ReadMesh out;
     out.where = fmt::format("meshes[{}].primitives[{}]", mesh_index, primitive_index);
-    if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
+    if (primitive.mode > static_cast<int>(file::Mode::triangle_fan))
         refuse(out.where + ".mode", fmt::format("expected 0 to 6, found {}", primitive.mode));
-    if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
+    if (!file::draws_triangles(primitive)) {
         ++document_.info.point_and_line_primitives;
         return std::nullopt;
     }
@@ -222,7 +223,7 @@ std::optional<ReadMesh> PrimitiveReader::read(std::size_t mesh_index, std::size_
     const Accessor* color = attribute(out.where, primitive.attributes, kColor, count);
 
     raster::Mesh& mesh = out.mesh;
-    mesh.name = document_.model.meshes[mesh_index].name;
+    mesh.name = document_.file.meshes[mesh_index].name;
     mesh.material = primitive.material;
     mesh.indices = triangle_indices(primitive, out.where, count);
     if (mesh.indices.empty()) {

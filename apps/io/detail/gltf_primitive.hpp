@@ -4,7 +4,6 @@
 #include "apps/io/detail/gltf_accessor.hpp"
 #include "raster/scene/mesh.hpp"
 
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -34,13 +33,13 @@ public:
     std::optional<ReadMesh> read(std::size_t mesh, std::size_t primitive, std::span<const double> morph_weights);
 
     /// Null where there is no such attribute. Throws where its type or its count does not fit.
-    [[nodiscard]] const Accessor* attribute(const std::string& where, const std::map<std::string, int>& attributes,
-                                            const AttributeRule& rule, std::optional<std::size_t> count) const;
+    [[nodiscard]] const Accessor* attribute(const std::string& where, const file::Attributes& attributes, const AttributeRule& rule,
+                                            std::optional<std::size_t> count) const;
 
 private:
-    std::vector<std::uint32_t> triangle_indices(const tinygltf::Primitive& primitive, const std::string& where, std::size_t vertex_count);
+    std::vector<std::uint32_t> triangle_indices(const file::Primitive& primitive, const std::string& where, std::size_t vertex_count);
     std::vector<std::uint32_t> gather_vertices(std::vector<std::uint32_t>& indices, std::size_t vertex_count);
-    void morph(const tinygltf::Primitive& primitive, const std::string& where, std::size_t vertex_count, std::span<const double> weights,
+    void morph(const file::Primitive& primitive, const std::string& where, std::size_t vertex_count, std::span<const double> weights,
                ReadMesh& out) const;
 
     Document& document_;

@@ -1,175 +1,23 @@
 #include "apps/io/detail/gltf_schema.hpp"
 
+#include "apps/io/detail/gltf_schema_rows.hpp"
+
 #include <deque>
 
 namespace halflit::io::detail {
 
 namespace {
 
-struct Row {
-    std::string_view path;  ///< '/' between keys; '#': each element of an array; '*': each member of an object; "!" at the end: required
-    Rule rule;
-    Target target{};
-    Capture capture = Capture::none;
-    bool dropped = false;
-};
-
-using enum Rule;
-constexpr Target kNone{};
-
-// Keys that are not here are not looked at, neither by this check nor by the loader.
-constexpr Row kRows[] = {
-    {"asset!", object},
-    {"asset/version!", string, kNone, Capture::version},
-    {"asset/minVersion", string, kNone, Capture::min_version},
-    {"asset/extras", any, kNone, Capture::none, true},
-    {"extensionsUsed/#", string, kNone, Capture::extension_used},
-    {"extensionsRequired/#", string, kNone, Capture::extension_required},
-    {"extras", any, kNone, Capture::none, true},
-    {"scene", index, Target::scenes},
-    {"scenes/#/nodes/#", index, Target::nodes},
-    {"scenes/#/extras", any, kNone, Capture::none, true},
-
-    {"buffers", array, kNone, Capture::none, true},
-    {"buffers/#", object, kNone, Capture::buffer},
-    {"buffers/#/uri", string, kNone, Capture::buffer_uri},
-    {"buffers/#/byteLength!", size, kNone, Capture::buffer_length},
-    {"images", array, kNone, Capture::none, true},
-    {"images/#", object, kNone, Capture::image},
-    {"images/#/uri", string, kNone, Capture::image_uri},
-    {"images/#/bufferView", index, Target::buffer_views, Capture::image_view},
-    {"animations", array, kNone, Capture::none, true},
-    {"animations/#", object, kNone, Capture::animation},
-
-    {"bufferViews/#/buffer!", index, Target::buffers},
-    {"bufferViews/#/byteOffset", size},
-    {"bufferViews/#/byteLength!", size},
-    {"bufferViews/#/byteStride", code},
-    {"bufferViews/#/extras", any, kNone, Capture::none, true},
-
-    {"accessors/#/bufferView", index, Target::buffer_views},
-    {"accessors/#/byteOffset", size},
-    {"accessors/#/componentType!", code},
-    {"accessors/#/normalized", boolean},
-    {"accessors/#/count!", size},
-    {"accessors/#/type!", string},
-    {"accessors/#/sparse/count!", code},
-    {"accessors/#/sparse/indices!", object},
-    {"accessors/#/sparse/indices/bufferView!", index, Target::buffer_views},
-    {"accessors/#/sparse/indices/byteOffset", code},
-    {"accessors/#/sparse/indices/componentType!", code},
-    {"accessors/#/sparse/values!", object},
-    {"accessors/#/sparse/values/bufferView!", index, Target::buffer_views},
-    {"accessors/#/sparse/values/byteOffset", code},
-    {"accessors/#/min", any, kNone, Capture::none, true},
-    {"accessors/#/max", any, kNone, Capture::none, true},
-    {"accessors/#/extras", any, kNone, Capture::none, true},
-
-    {"meshes/#/name", string},
-    {"meshes/#/weights/#", number},
-    {"meshes/#/extras", any, kNone, Capture::none, true},
-    {"meshes/#/primitives!", array},
-    {"meshes/#/primitives/#", object, kNone, Capture::primitive},
-    {"meshes/#/primitives/#/attributes!", object},
-    {"meshes/#/primitives/#/attributes/*", index, Target::accessors},
-    {"meshes/#/primitives/#/indices", index, Target::accessors},
-    {"meshes/#/primitives/#/material", index, Target::materials},
-    {"meshes/#/primitives/#/mode", code},
-    {"meshes/#/primitives/#/targets/#/*", index, Target::accessors},
-    {"meshes/#/primitives/#/extras", any, kNone, Capture::none, true},
-
-    {"nodes/#/name", string},
-    {"nodes/#/mesh", index, Target::meshes},
-    {"nodes/#/skin", index, Target::skins},
-    {"nodes/#/camera", index, Target::cameras},
-    {"nodes/#/children/#", index, Target::nodes},
-    {"nodes/#/matrix/#", number},
-    {"nodes/#/translation/#", number},
-    {"nodes/#/rotation/#", number},
-    {"nodes/#/scale/#", number},
-    {"nodes/#/weights/#", number},
-    {"nodes/#/extensions/KHR_lights_punctual/light!", index, Target::lights},
-    {"nodes/#/extras", any, kNone, Capture::none, true},
-
-    {"skins/#/joints!", array},
-    {"skins/#/joints/#", index, Target::nodes},
-    {"skins/#/inverseBindMatrices", index, Target::accessors},
-    {"skins/#/skeleton", index, Target::nodes},
-    {"skins/#/extras", any, kNone, Capture::none, true},
-
-    {"cameras/#/name", string},
-    {"cameras/#/type!", string},
-    {"cameras/#/perspective/yfov!", number},
-    {"cameras/#/perspective/znear!", number},
-    {"cameras/#/perspective/zfar", number},
-    {"cameras/#/perspective/aspectRatio", number},
-    {"cameras/#/orthographic/xmag!", number},
-    {"cameras/#/orthographic/ymag!", number},
-    {"cameras/#/orthographic/znear!", number},
-    {"cameras/#/orthographic/zfar!", number},
-    {"cameras/#/extras", any, kNone, Capture::none, true},
-
-    {"textures/#/source", index, Target::images},
-    {"textures/#/sampler", index, Target::samplers},
-    {"textures/#/extras", any, kNone, Capture::none, true},
-    {"samplers/#/magFilter", code},
-    {"samplers/#/minFilter", code},
-    {"samplers/#/wrapS", code},
-    {"samplers/#/wrapT", code},
-    {"samplers/#/extras", any, kNone, Capture::none, true},
-
-    {"materials/#/name", string},
-    {"materials/#/emissiveFactor/#", number},
-    {"materials/#/alphaMode", string},
-    {"materials/#/alphaCutoff", number},
-    {"materials/#/doubleSided", boolean},
-    {"materials/#/pbrMetallicRoughness/baseColorFactor/#", number},
-    {"materials/#/pbrMetallicRoughness/metallicFactor", number},
-    {"materials/#/pbrMetallicRoughness/roughnessFactor", number},
-    {"materials/#/extensions/KHR_materials_emissive_strength/emissiveStrength", number},
-
-    {"extensions/KHR_lights_punctual/lights!", array},
-    {"extensions/KHR_lights_punctual/lights/#/type!", string},
-    {"extensions/KHR_lights_punctual/lights/#/name", string},
-    {"extensions/KHR_lights_punctual/lights/#/color/#", number},
-    {"extensions/KHR_lights_punctual/lights/#/intensity", number},
-    {"extensions/KHR_lights_punctual/lights/#/range", number},
-    {"extensions/KHR_lights_punctual/lights/#/spot/innerConeAngle", number},
-    {"extensions/KHR_lights_punctual/lights/#/spot/outerConeAngle", number},
-    {"extensions/KHR_lights_punctual/lights/#/extras", any, kNone, Capture::none, true},
-};
-
-// Below each place of a texture in a material.
-constexpr std::string_view kTexturePlaces[] = {"materials/#/pbrMetallicRoughness/baseColorTexture",
-                                               "materials/#/pbrMetallicRoughness/metallicRoughnessTexture", "materials/#/normalTexture",
-                                               "materials/#/occlusionTexture", "materials/#/emissiveTexture"};
-constexpr Row kTextureRows[] = {
-    {"index!", index, Target::textures},
-    {"texCoord", code},
-    {"scale", number},
-    {"strength", number},
-    {"extensions/KHR_texture_transform/offset/#", number},
-    {"extensions/KHR_texture_transform/rotation", number},
-    {"extensions/KHR_texture_transform/scale/#", number},
-    {"extensions/KHR_texture_transform/texCoord", code},
-    {"extras", any, kNone, Capture::none, true},
-};
-
-constexpr std::pair<std::string_view, Target> kCounted[] = {
-    {"accessors", Target::accessors}, {"buffers", Target::buffers}, {"bufferViews", Target::buffer_views},
-    {"cameras", Target::cameras},     {"images", Target::images},   {"extensions/KHR_lights_punctual/lights", Target::lights},
-    {"materials", Target::materials}, {"meshes", Target::meshes},   {"nodes", Target::nodes},
-    {"samplers", Target::samplers},   {"scenes", Target::scenes},   {"skins", Target::skins},
-    {"textures", Target::textures}};
-
 class Schema {
 public:
     Schema() {
-        nodes_.emplace_back().rule = object;
-        for (const Row& row : kRows) apply(row, make(nodes_.front(), row.path));
-        for (const std::string_view place : kTexturePlaces)
-            for (const Row& row : kTextureRows) apply(row, make(make(nodes_.front(), place), row.path));
-        for (const auto& [path, target] : kCounted) make(nodes_.front(), path).counted_as = static_cast<int>(target);
+        nodes_.emplace_back().rule = Rule::object;
+        for (const SchemaRow& row : schema_rows()) apply(row, make(nodes_.front(), row.path));
+        for (const SchemaRow& row : texture_place_rows()) {
+            SchemaNode& place = make(nodes_.front(), row.path);
+            apply(row, place);
+            for (const SchemaRow& below : texture_rows()) apply(below, make(place, below.path));
+        }
         for (SchemaNode& node : nodes_)
             for (std::size_t i = 0; i < node.members.size(); ++i)
                 if (node.members[i].second->required) node.required_mask |= 1u << i;
@@ -177,11 +25,13 @@ public:
     [[nodiscard]] const SchemaNode& root() const { return nodes_.front(); }
 
 private:
-    static void apply(const Row& row, SchemaNode& node) {
-        if (row.rule != any) node.rule = row.rule;
+    static void apply(const SchemaRow& row, SchemaNode& node) {
+        node.rule = row.rule;
         node.target = row.target;
-        node.capture = row.capture;
-        node.dropped = row.dropped;
+        node.put = row.put;
+        node.end = row.end;
+        node.length = row.length;
+        node.closed = row.closed;
         node.required = row.path.back() == '!';
     }
 
@@ -192,7 +42,7 @@ private:
             const std::size_t slash = path.find('/');
             const std::string_view key = path.substr(0, slash);
             path = slash == std::string_view::npos ? std::string_view{} : path.substr(slash + 1);
-            node->rule = key == "#" ? array : object;
+            if (node->rule == Rule::any) node->rule = key == "#" ? Rule::array : Rule::object;
             node = key == "#" || key == "*" ? &child(node->every) : &member(*node, key);
         }
         return *node;
@@ -215,9 +65,43 @@ private:
 }  // namespace
 
 const char* name_of(Target target) {
-    static constexpr const char* kNames[kTargetCount] = {"accessors", "buffers", "bufferViews", "cameras", "images", "lights",  "materials",
-                                                         "meshes",    "nodes",   "samplers",    "scenes",  "skins",  "textures"};
+    static constexpr const char* kNames[] = {"",          "accessors", "buffers", "bufferViews", "cameras", "images", "lights",
+                                             "materials", "meshes",    "nodes",   "samplers",    "scenes",  "skins",  "textures"};
     return kNames[static_cast<int>(target)];
+}
+
+std::size_t count_of(Target target, const file::File& file) {
+    switch (target) {
+        case Target::none:
+            break;
+        case Target::accessors:
+            return file.accessors.size();
+        case Target::buffers:
+            return file.buffers.size();
+        case Target::buffer_views:
+            return file.buffer_views.size();
+        case Target::cameras:
+            return file.cameras.size();
+        case Target::images:
+            return file.images.size();
+        case Target::lights:
+            return file.lights.size();
+        case Target::materials:
+            return file.materials.size();
+        case Target::meshes:
+            return file.meshes.size();
+        case Target::nodes:
+            return file.nodes.size();
+        case Target::samplers:
+            return file.samplers.size();
+        case Target::scenes:
+            return file.scenes.size();
+        case Target::skins:
+            return file.skins.size();
+        case Target::textures:
+            return file.textures.size();
+    }
+    return 0;
 }
 
 int SchemaNode::find(std::string_view key) const {

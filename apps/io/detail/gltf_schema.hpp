@@ -1,8 +1,11 @@
 // The parts of the glTF 2.0 schema that this loader reads, as a tree over keys: what type a value must have, which numbers are
-// references and to what. tinygltf skips values of a wrong type and cuts integers to 32 bits; with this check neither can happen.
+// references and to what, and where each value goes in a file::File.
 #pragma once
 
-#include <array>
+#include "apps/io/detail/gltf_file.hpp"
+#include "apps/io/detail/json_scan.hpp"
+
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 #include <utility>
@@ -10,8 +13,11 @@
 
 namespace halflit::io::detail {
 
+class GltfFiller;
+
 /// Arrays that other parts refer to by index.
 enum class Target : std::uint8_t {
+    none,
     accessors,
     buffers,
     buffer_views,
@@ -26,12 +32,13 @@ enum class Target : std::uint8_t {
     skins,
     textures
 };
-inline constexpr int kTargetCount = 13;
 
 [[nodiscard]] const char* name_of(Target target);  ///< "accessors"
+[[nodiscard]] std::size_t count_of(Target target, const file::File& file);
 
 enum class Rule : std::uint8_t {
     any,
+    open,  ///< any, and its members are followed where it is an object
     object,
     array,
     string,
@@ -42,35 +49,32 @@ enum class Rule : std::uint8_t {
     index    ///< integer in [0, length of the target array)
 };
 
-/// A value whose text is wanted besides the check.
-enum class Capture : std::uint8_t {
-    none,
-    version,
-    min_version,
-    extension_used,
-    extension_required,
-    buffer,
-    buffer_uri,
-    buffer_length,
-    image,
-    image_uri,
-    image_view,
-    animation,
-    primitive
-};
+/// Takes a value, or the start or the end of an object or array (then `value` holds its type and its offset alone).
+using Action = void (*)(GltfFiller& filler, const JsonValue& value);
 
 struct SchemaNode {
     Rule rule = Rule::any;
-    Target target{};
-    Capture capture = Capture::none;
-    bool required = false;              ///< within its parent object
-    bool dropped = false;               ///< tinygltf does not get to see the value
-    int counted_as = -1;                ///< an array: its length is that of this Target
+    Target target = Target::none;
+    bool required = false;   ///< within its parent object
+    bool closed = false;     ///< an object: keys that are not in `members` are refused
+    std::size_t length = 0;  ///< an array: empty, or so many elements; 0: any
+    Action put = nullptr, end = nullptr;
     std::uint32_t required_mask = 0;    ///< of the children, by position
     const SchemaNode* every = nullptr;  ///< for each element, or each member with a free name
     std::vector<std::pair<std::string_view, const SchemaNode*>> members;
 
     [[nodiscard]] int find(std::string_view key) const;  ///< position in members, or -1
+};
+
+/// One line of the table from which the tree is made.
+struct SchemaRow {
+    std::string_view path;  ///< '/' between keys; '#': each element of an array; '*': each member of an object; "!" at the end: required
+    Rule rule;
+    Action put = nullptr;
+    Target target = Target::none;
+    Action end = nullptr;
+    std::size_t length = 0;
+    bool closed = false;
 };
 
 [[nodiscard]] const SchemaNode& gltf_schema();  ///< the root; made once

@@ -10,9 +10,10 @@ using enum Component;
 constexpr Component kFloat[] = {f32}, kUnsigned[] = {u8, u16};
 
 std::vector<Affine> joint_matrices(Document& document, const std::vector<Accessor>& accessors, const NodeTree& tree, int index) {
-    const tinygltf::Skin& skin = document.model.skins[static_cast<std::size_t>(index)];
+    const file::Skin& skin = document.file.skins[static_cast<std::size_t>(index)];
     const std::string where = fmt::format("skins[{}]", index);
-    const Accessor* inverse_bind = skin.inverseBindMatrices < 0 ? nullptr : &accessors[static_cast<std::size_t>(skin.inverseBindMatrices)];
+    const Accessor* inverse_bind =
+        skin.inverse_bind_matrices < 0 ? nullptr : &accessors[static_cast<std::size_t>(skin.inverse_bind_matrices)];
     if (inverse_bind != nullptr && (inverse_bind->components() != 16 || inverse_bind->component() != f32))
         refuse(where, fmt::format("inverseBindMatrices ({}): expected MAT4 of float", inverse_bind->name()));
     if (inverse_bind != nullptr && inverse_bind->count() < skin.joints.size())
@@ -41,7 +42,7 @@ struct Influences {
 }  // namespace
 
 bool apply_skin(Document& document, const std::vector<Accessor>& accessors, const PrimitiveReader& reader, const NodeTree& tree, int skin,
-                const tinygltf::Primitive& primitive, ReadMesh& read) {
+                const file::Primitive& primitive, ReadMesh& read) {
     std::vector<Influences> sets;
     for (int set = 0;; ++set) {
         const std::string joints = fmt::format("JOINTS_{}", set), weights = fmt::format("WEIGHTS_{}", set);
@@ -50,7 +51,7 @@ bool apply_skin(Document& document, const std::vector<Accessor>& accessors, cons
         const Accessor* weight_accessor =
             reader.attribute(read.where, primitive.attributes, {weights.c_str(), 4, 4, kFloat, kUnsigned, {}, {}}, std::nullopt);
         if (joint_accessor == nullptr || weight_accessor == nullptr) break;
-        const std::size_t count = accessors[static_cast<std::size_t>(primitive.attributes.at("POSITION"))].count();
+        const std::size_t count = accessors[static_cast<std::size_t>(file::find(primitive.attributes, "POSITION"))].count();
         if (joint_accessor->count() != count || weight_accessor->count() != count)
             refuse(read.where, fmt::format("{} and {}: expected {} elements as in POSITION, found {} and {}", joints, weights, count,
                                            joint_accessor->count(), weight_accessor->count()));

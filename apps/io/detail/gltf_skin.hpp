@@ -9,6 +9,6 @@ namespace halflit::io::detail {
 /// Moves a mesh by `skin`; the result lies in world space (glTF: the mesh's own node does not count). Leaves a mesh without joints
 /// as it is, and says so by false. Throws LoadFailure.
 bool apply_skin(Document& document, const std::vector<Accessor>& accessors, const PrimitiveReader& reader, const NodeTree& tree, int skin,
-                const tinygltf::Primitive& primitive, ReadMesh& read);
+                const file::Primitive& primitive, ReadMesh& read);
 
 }  // namespace halflit::io::detail

@@ -1,6 +1,6 @@
 #include "apps/io/detail/gltf_versions.hpp"
 
-#include "apps/io/detail/json_scan.hpp"
+#include "apps/io/detail/load_failure.hpp"
 #include "apps/io/text.hpp"
 
 #include <fmt/format.h>
@@ -32,23 +32,22 @@ std::optional<std::pair<int, int>> parse_version(std::string_view text) {
 
 }  // namespace
 
-void check_versions(std::string_view version_text, std::string_view min_version_text, const std::vector<std::string>& extensions_required) {
-    const auto refuse = [](std::string what) { throw JsonFault{ErrorCode::bad_input, std::string_view::npos, std::move(what)}; };
-    const auto version = parse_version(version_text);
-    if (!version) refuse(fmt::format("asset.version: expected \"2.0\", found \"{}\"", printable(version_text, 20)));
-    if (!min_version_text.empty()) {
-        const auto min_version = parse_version(min_version_text);
-        if (!min_version) refuse(fmt::format("asset.minVersion: expected \"2.0\", found \"{}\"", printable(min_version_text, 20)));
+void check_versions(const file::File& file) {
+    const auto version = parse_version(file.version);
+    if (!version) refuse("asset.version", fmt::format("expected \"2.0\", found \"{}\"", printable(file.version, 20)));
+    if (!file.min_version.empty()) {
+        const auto min_version = parse_version(file.min_version);
+        if (!min_version) refuse("asset.minVersion", fmt::format("expected \"2.0\", found \"{}\"", printable(file.min_version, 20)));
         if (*min_version > std::pair(2, 0))
-            refuse(fmt::format("asset.minVersion: the file needs glTF {}, expected at most 2.0", printable(min_version_text, 20)));
+            refuse("asset.minVersion", fmt::format("the file needs glTF {}, expected at most 2.0", printable(file.min_version, 20)));
     }
-    if (version->first != 2) refuse(fmt::format("asset.version: expected glTF 2, found \"{}\"", printable(version_text, 20)));
-    for (const std::string& name : extensions_required) {
+    if (version->first != 2) refuse("asset.version", fmt::format("expected glTF 2, found \"{}\"", printable(file.version, 20)));
+    for (const std::string_view name : file.extensions_required) {
         if (std::find(std::begin(kSupportedExtensions), std::end(kSupportedExtensions), name) != std::end(kSupportedExtensions)) continue;
         const char* hint = name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression"
                                ? " (compressed geometry; save the model without it)"
                                : "";
-        refuse(fmt::format("extensionsRequired: \"{}\" is not supported{}", printable(name, 80), hint));
+        refuse("extensionsRequired", fmt::format("\"{}\" is not supported{}", printable(name, 80), hint));
     }
 }
 

@@ -15,10 +15,10 @@ namespace {
 class PathFinder final : public JsonVisitor {
 public:
     explicit PathFinder(std::size_t offset) : wanted_(offset) {}
-    void on_key(std::string_view key, std::size_t offset) override {
-        if (offset > wanted_) throw JsonFault{};
-        levels_.back().key = key;
-        if (offset == wanted_) throw JsonFault{};
+    void on_key(const JsonValue& key) override {
+        if (key.offset > wanted_) throw JsonFault{};
+        levels_.back().key = key.text;
+        if (key.offset == wanted_) throw JsonFault{};
     }
     void on_begin(JsonType type, std::size_t offset) override {
         enter(offset);

@@ -77,11 +77,11 @@ private:
         if (top.object) {
             if (peek() != '"') unexpected("a key in double quotes");
             count_token();
-            const std::size_t offset = at_;
-            bool in_place = false;
-            const std::string_view key = string(in_place);
-            keys_.push_back({in_place ? key : std::string_view(decoded_.emplace_back(key)), offset});
-            visitor_.on_key(keys_.back().text, offset);
+            JsonValue key{.type = JsonType::string, .offset = at_};
+            key.text = string(key.in_place);
+            if (!key.in_place) key.text = decoded_.emplace_back(key.text);
+            keys_.push_back({key.text, key.offset});
+            visitor_.on_key(key);
             skip_space();
             if (peek() != ':') unexpected("':'");
             ++at_;
@@ -127,6 +127,7 @@ private:
             number(v);
         } else if (text_.substr(at_, 4) == "true" || text_.substr(at_, 5) == "false") {
             v.type = JsonType::boolean;
+            v.truth = c == 't';
             at_ += c == 't' ? 4 : 5;
         } else if (text_.substr(at_, 4) == "null") {
             at_ += 4;
@@ -173,7 +174,8 @@ private:
         constexpr std::int64_t kMaxExact = std::int64_t{1} << 53;
         std::int64_t whole = 0;
         if (v.type == JsonType::integer)
-            v.exact = std::from_chars(text_.data() + begin, text_.data() + at_, whole).ec == std::errc{} && whole <= kMaxExact && whole >= -kMaxExact;
+            v.exact = std::from_chars(text_.data() + begin, text_.data() + at_, whole).ec == std::errc{} && whole <= kMaxExact &&
+                      whole >= -kMaxExact;
     }
 
     unsigned hex4() {

@@ -11,7 +11,7 @@
 
 namespace halflit::io::detail {
 
-/// Thrown inside this folder only; gltf_precheck turns it into an Error with line, column and path.
+/// Thrown inside this folder only; read_gltf_json turns it into an Error with line, column and path.
 struct JsonFault {
     ErrorCode code = ErrorCode::bad_input;
     std::size_t offset = 0;  ///< bytes from the start of the text
@@ -24,10 +24,11 @@ enum class JsonType : std::uint8_t { object, array, string, integer, number, boo
 
 struct JsonValue {
     JsonType type = JsonType::null;
-    std::size_t offset = 0;  ///< of the first byte; a string begins at its quote
-    double number = 0;         ///< integer and number
-    bool exact = true;         ///< false for an integer beyond 2^53, which not every reader keeps
-    std::string_view text;   ///< string: decoded, valid during the call, and as long as the scanned text where `in_place`
+    std::size_t offset = 0;   ///< of the first byte; a string begins at its quote
+    double number = 0;        ///< integer and number
+    bool truth = false;       ///< boolean
+    bool exact = true;        ///< false for an integer beyond 2^53, which not every reader keeps
+    std::string_view text{};  ///< string: decoded, valid during the call, and as long as the scanned text where `in_place`
     bool in_place = false;
 };
 
@@ -35,7 +36,7 @@ struct JsonValue {
 class JsonVisitor {
 public:
     virtual ~JsonVisitor() = default;
-    virtual void on_key(std::string_view key, std::size_t offset) = 0;
+    virtual void on_key(const JsonValue& key) = 0;  ///< a string
     virtual void on_begin(JsonType object_or_array, std::size_t offset) = 0;
     virtual void on_end(std::size_t end_offset) = 0;  ///< one past the closing bracket
     virtual void on_value(const JsonValue& value, std::size_t end_offset) = 0;

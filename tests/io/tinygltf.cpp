@@ -2,4 +2,4 @@
 #include <fstream>  // tinygltf's writer needs it, and does not include it without its own file access
 
 #define TINYGLTF_IMPLEMENTATION
-#include "apps/io/detail/tinygltf.hpp"
+#include "tests/io/tinygltf.hpp"

@@ -1,0 +1,181 @@
+// What a glTF file says, as the loader needs it: one struct for each kind of object, named and defaulted as the glTF 2.0 schema has them.
+// An index of -1 means "not there". Filled by read_gltf_json, which has checked every type, range and index.
+#pragma once
+
+#include "apps/io/detail/gltf_transform.hpp"
+#include "apps/io/lobe_name.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace halflit::io::detail::file {
+
+enum class Mode : int { points = 0, triangles = 4, triangle_strip = 5, triangle_fan = 6 };
+
+struct Buffer {
+    std::optional<std::string_view> uri;
+    std::uint64_t byte_length = 0;
+};
+
+struct BufferView {
+    int buffer = -1;
+    int byte_stride = 0;  ///< 0: packed
+    std::uint64_t byte_offset = 0, byte_length = 0;
+};
+
+struct Sparse {
+    int count = 0;
+    int index_view = -1, index_offset = 0, index_component_type = 0;
+    int value_view = -1, value_offset = 0;
+};
+
+struct Accessor {
+    int buffer_view = -1;
+    int component_type = 0;
+    int components = 1;  ///< of an element: 1, 2, 3, 4, 9 or 16
+    int sparse = -1;     ///< into File::sparse
+    std::uint64_t byte_offset = 0, count = 0;
+    bool normalized = false;
+};
+
+/// Accessors by attribute name. A handful: a list is as quick as a map, and smaller.
+using Attributes = std::vector<std::pair<std::string_view, int>>;
+[[nodiscard]] int find(const Attributes& attributes, std::string_view name);  ///< -1: not there
+
+struct Primitive {
+    Attributes attributes;
+    std::vector<Attributes> targets;
+    int indices = -1, material = -1;
+    int mode = static_cast<int>(Mode::triangles);
+};
+
+[[nodiscard]] inline bool draws_triangles(const Primitive& primitive) { return primitive.mode >= static_cast<int>(Mode::triangles); }
+
+struct Mesh {
+    std::string_view name;
+    std::vector<Primitive> primitives;
+    std::vector<double> weights;
+};
+
+/// `count` entries of a shared array from `first` on.
+struct Run {
+    std::uint32_t first = 0, count = 0;
+};
+
+struct Node {
+    std::string_view name;
+    int mesh = -1, skin = -1, camera = -1, light = -1;
+    int transform = -1;  ///< into File::transforms; -1: none
+    Run children;        ///< of File::children
+    Run weights;         ///< of File::weights
+};
+
+struct Skin {
+    std::vector<int> joints;
+    int inverse_bind_matrices = -1;
+};
+
+struct Projection {
+    double yfov = 0, aspect_ratio = 0;  ///< perspective; aspect_ratio 0: the picture's
+    double xmag = 0, ymag = 0;          ///< orthographic
+    double znear = 0, zfar = 0;         ///< perspective, zfar 0: infinite
+};
+
+struct Camera {
+    std::string_view type, name;
+    std::optional<Projection> perspective, orthographic;
+};
+
+/// KHR_lights_punctual
+struct Light {
+    std::string_view type;
+    std::vector<double> color;
+    double intensity = 1, range = 0;  ///< range 0: infinite
+    bool has_spot = false;
+    double inner_cone_angle = 0, outer_cone_angle = 0.7853981634;
+};
+
+struct Image {
+    std::optional<std::string_view> uri;
+    int buffer_view = -1;
+};
+
+struct Sampler {
+    int mag_filter = -1, min_filter = -1;
+    int wrap_s = 10497, wrap_t = 10497;
+};
+
+struct Texture {
+    int source = -1, sampler = -1;
+};
+
+/// KHR_texture_transform
+struct TextureTransform {
+    std::vector<double> offset, scale;
+    double rotation = 0;
+    int tex_coord = -1;  ///< -1: the texture's own
+};
+
+struct TexturePlace {
+    int index = -1, tex_coord = 0;
+    double scale = 1;     ///< of a normal texture
+    double strength = 1;  ///< of an occlusion texture
+    std::optional<TextureTransform> transform;
+};
+
+/// extras.halflit, this project's own: the lobe of a material.
+struct OwnLobe {
+    std::string_view name;
+    LobeParameters parameters;
+};
+
+struct Material {
+    std::string_view name;
+    std::string_view alpha_mode = "OPAQUE";
+    std::vector<double> base_color_factor, emissive_factor;  ///< 4 and 3, or empty
+    double metallic_factor = 1, roughness_factor = 1, alpha_cutoff = 0.5;
+    double emissive_strength = 1;  ///< KHR_materials_emissive_strength
+    bool double_sided = false;
+    bool unlit = false;  ///< KHR_materials_unlit
+    TexturePlace base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;
+    std::optional<OwnLobe> own_lobe;
+};
+
+struct Scene {
+    std::vector<int> nodes;
+};
+
+struct File {
+    std::string_view version, min_version, generator;
+    std::vector<std::string_view> extensions_used, extensions_required;
+    std::vector<Buffer> buffers;
+    std::vector<BufferView> buffer_views;
+    std::vector<Accessor> accessors;
+    std::vector<Sparse> sparse;
+    std::vector<Mesh> meshes;
+    std::vector<Node> nodes;
+    std::vector<Affine> transforms;
+    std::vector<int> children;
+    std::vector<double> weights;
+    std::vector<Skin> skins;
+    std::vector<Camera> cameras;
+    std::vector<Light> lights;
+    std::vector<Image> images;
+    std::vector<Sampler> samplers;
+    std::vector<Texture> textures;
+    std::vector<Material> materials;
+    std::vector<Scene> scenes;
+    int scene = -1;
+    std::size_t animations = 0, primitives = 0, morph_targets = 0;
+    std::deque<std::string> texts;  ///< strings that held escapes; all others lie in the JSON text
+
+    [[nodiscard]] bool uses(std::string_view extension) const;
+};
+
+}  // namespace halflit::io::detail::file
