@@ -26,7 +26,7 @@ struct EnvOptions {
 
 /// All that is said about an environment.
 struct Description {
-    io::Environment environment;
+    io::EnvironmentImage environment;
     sh::Projection whole;
     sh::SunExtraction extraction;
     sh::LobeSpectrum lambert = sh::lobe_spectrum({0.0, 1.0, 1.0});
@@ -34,7 +34,7 @@ struct Description {
     float max = 0;
 };
 
-Description look_at(io::Environment environment) {
+Description look_at(io::EnvironmentImage environment) {
     sh::Projection whole(environment.view());
     sh::SunExtraction extraction = sh::extract_suns(environment.view(), whole);
     Description out;

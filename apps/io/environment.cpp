@@ -1,8 +1,8 @@
 #include "apps/io/environment.hpp"
 
-#include "apps/io/text.hpp"
 #include "apps/io/file_access.hpp"
 #include "apps/io/rgbe_reader.hpp"
+#include "apps/io/text.hpp"
 
 namespace halflit::io {
 namespace {
@@ -63,16 +63,16 @@ Vec3d sky_pixel(int x, int y, const Sun& sun) {
 
 }  // namespace
 
-Result<Environment> read_environment(const std::string& path, const EnvironmentLimits& limits) {
+Result<EnvironmentImage> read_environment(const std::string& path, const EnvironmentLimits& limits) {
     const auto file = read_file(path, limits.max_file_bytes);
     if (!file) return tl::unexpected(file.error());
     auto image = decode_rgbe(*file, {limits.max_width, limits.max_height});
     if (!image) return fail(image.error().code, printable(path) + ": " + image.error().message);
-    return Environment{image->width, image->height, std::move(image->rgb)};
+    return EnvironmentImage{image->width, image->height, std::move(image->rgb)};
 }
 
-Environment built_in_sky() {
-    Environment sky{kSkyWidth, kSkyHeight, {}};
+EnvironmentImage built_in_sky() {
+    EnvironmentImage sky{kSkyWidth, kSkyHeight, {}};
     sky.rgb.reserve(static_cast<std::size_t>(kSkyWidth) * kSkyHeight * 3);
     const Sun sun = make_sun();
     for (int y = 0; y < kSkyHeight; ++y)
@@ -83,7 +83,7 @@ Environment built_in_sky() {
     return sky;
 }
 
-Result<Environment> environment_by_name(const std::string& name, const EnvironmentLimits& limits) {
+Result<EnvironmentImage> environment_by_name(const std::string& name, const EnvironmentLimits& limits) {
     if (name == "sky") return built_in_sky();
     return read_environment(name, limits);
 }

@@ -11,7 +11,7 @@
 namespace halflit::io {
 
 /// Equirectangular, linear rgb radiance, finite and not negative.
-struct Environment {
+struct EnvironmentImage {
     int width = 0, height = 0;
     std::vector<float> rgb;  ///< three floats a pixel, row 0 on top
 
@@ -24,14 +24,14 @@ struct EnvironmentLimits {
 };
 
 /// A Radiance file (.hdr). Any aspect is accepted: the picture always covers the whole sphere. Values above 1e30 are clamped to it.
-[[nodiscard]] Result<Environment> read_environment(const std::string& path, const EnvironmentLimits& limits = {});
+[[nodiscard]] Result<EnvironmentImage> read_environment(const std::string& path, const EnvironmentLimits& limits = {});
 
 /// A clear day, 512 x 256: blue towards the zenith, pale at the horizon, ground of albedo 0.2 and a sun of 1.5 degrees radius, 40 degrees
 /// high, to the right of and behind a camera that looks along -z. A white surface that faces the sun reflects about 1 of it, and one that
 /// faces up about 0.4 of the sky. Made by + - * / and sqrt alone: the same bits everywhere.
-[[nodiscard]] Environment built_in_sky();
+[[nodiscard]] EnvironmentImage built_in_sky();
 
 /// "sky" is the built-in one; anything else is a file.
-[[nodiscard]] Result<Environment> environment_by_name(const std::string& name, const EnvironmentLimits& limits = {});
+[[nodiscard]] Result<EnvironmentImage> environment_by_name(const std::string& name, const EnvironmentLimits& limits = {});
 
 }  // namespace halflit::io

@@ -22,14 +22,16 @@ Result<void> ReferenceShading::build(const PreparedScene& prepared, const shadin
     if (scene.environment != nullptr && scene.environment->lit_rgb.empty())
         return fail(ErrorCode::usage, "accuracy reference: the environment was made without keep_light");
     scene_ = &prepared;
-    frame_ = {scene.textures, scene.lights, scene.ambient, options, plan.eye_ws, plan.view_direction_ws, plan.orthographic, plan.shadow_mode};
+    frame_ = {scene.textures, scene.lights,           scene.ambient,     options,
+              plan.eye_ws,    plan.view_direction_ws, plan.orthographic, plan.shadow_mode};
     std::erase_if(known_, [&](const Around& a) { return a.environment != scene.environment.get(); });
     diffuse_.assign(plan.materials.size(), nullptr);
     specular_.assign(plan.materials.size(), nullptr);
     if (scene.environment == nullptr) return {};
     for (std::size_t i = 0; i < plan.materials.size(); ++i) {
         diffuse_[i] = diffuse(scene, shading::lobe_of(prepared.material(i), options));
-        specular_[i] = std::make_shared<reference::BandIrradiance>(*scene.environment, shading::specular_environment_lobe(plan.materials[i].roughness));
+        specular_[i] = std::make_shared<reference::BandIrradiance>(*scene.environment,
+                                                                   shading::specular_environment_lobe(plan.materials[i].roughness));
     }
     return {};
 }
@@ -53,12 +55,12 @@ void ReferenceShading::shade(const shading::ShadeKernels& kernels, const shading
     reference::Surroundings around;
     around.diffuse = diffuse_[index].get();
     around.specular = specular_[index].get();
-    reference::Frame frame = frame_;
+    reference::FrameInputs frame = frame_;
     frame.shadow_mode = plan.shadow_mode;
     for (int lane = 0; lane < count; ++lane) {
-        if (!hidden.empty())
-            around.hidden = std::span(hidden).subspan(static_cast<std::size_t>(lane) * light_count, light_count);
-        const reference::Rgba color = reference::shade(frame, scene_->material(index), scene_->available_slots()[index], block, lane, around);
+        if (!hidden.empty()) around.hidden = std::span(hidden).subspan(static_cast<std::size_t>(lane) * light_count, light_count);
+        const reference::Rgba color =
+            reference::shade(frame, scene_->material(index), scene_->available_slots()[index], block, lane, around);
         block.red[lane] = static_cast<float>(color.r);
         block.green[lane] = static_cast<float>(color.g);
         block.blue[lane] = static_cast<float>(color.b);

@@ -29,7 +29,7 @@ private:
     std::shared_ptr<const shading::reference::Irradiance> diffuse(const Scene& scene, const shading::Lobe& lobe);
 
     const PreparedScene* scene_ = nullptr;
-    shading::reference::Frame frame_;
+    shading::reference::FrameInputs frame_;
     std::vector<Around> known_;
     std::vector<std::shared_ptr<const shading::reference::Irradiance>> diffuse_, specular_;  ///< for each material
 };

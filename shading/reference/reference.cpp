@@ -61,7 +61,7 @@ Rgba sample_level(const Texture& texture, const TextureLevel& level, const Sampl
 }
 
 /// A material's texture at a lane; `fallback` where it is not used.
-Rgba material_texture(const Frame& frame, const TextureUse& use, SlotMask available, const FragmentBlock& block, int lane,
+Rgba material_texture(const FrameInputs& frame, const TextureUse& use, SlotMask available, const FragmentBlock& block, int lane,
                       const Rgba& fallback) {
     if (use.texture < 0 || static_cast<std::size_t>(use.texture) >= frame.textures.size()) return fallback;
     const Texture& texture = frame.textures[static_cast<std::size_t>(use.texture)];
@@ -113,7 +113,7 @@ double environment_share(double f0, double roughness, double n_dot_v) {
     return f0 + (std::max(1.0 - roughness, f0) - f0) * std::pow(1.0 - std::clamp(n_dot_v, 0.0, 1.0), 5.0);
 }
 
-Vec3d shading_normal(const Frame& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane) {
+Vec3d shading_normal(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane) {
     Vec3d normal = unit(row3(block, kNormalX, lane));
     if (material.normal_texture.used() && (available & 4u) != 0) {
         const Rgba c = material_texture(frame, material.normal_texture, available, block, lane, {0.5, 0.5, 1, 1});
@@ -125,7 +125,7 @@ Vec3d shading_normal(const Frame& frame, const Material& material, SlotMask avai
     return material.double_sided ? scale(normal, block.lane[kFacing][lane]) : normal;
 }
 
-Vec3d lit(const Frame& frame, const Material& material, const Surface& surface, Vec3d position, const Surroundings& around) {
+Vec3d lit(const FrameInputs& frame, const Material& material, const Surface& surface, Vec3d position, const Surroundings& around) {
     const bool specular = frame.options.specular != SpecularModel::none;
     const Lobe& lobe = lobe_of(material, frame.options);
     const double alpha = std::pow(std::max(surface.roughness, kHeldRoughness), 2.0), s = 2.0 / (alpha * alpha) - 2.0;
@@ -142,7 +142,8 @@ Vec3d lit(const Frame& frame, const Material& material, const Surface& surface, 
             const double cosine = phong ? dot(surface.to_eye, unit(reflection)) : dot(surface.normal, unit(at.direction + surface.to_eye));
             const double factor = frame.options.normalize_specular ? (s + 8) / 8 : 1.0;
             if (cosine > 0)
-                reflected = reflected + scale(surface.f0, factor * std::pow(std::min(cosine, 1.0), phong ? s / 4 : s) * n_dot_l * (1.0 - hidden.hard));
+                reflected = reflected +
+                            scale(surface.f0, factor * std::pow(std::min(cosine, 1.0), phong ? s / 4 : s) * n_dot_l * (1.0 - hidden.hard));
         }
         sum = sum + scale(reflected * to_double(light.color_linear), at.attenuation);
     }
@@ -191,7 +192,7 @@ double level_of_detail(const Texture& texture, const TextureUse& use, const Frag
     return std::log2(std::max(length(first), length(first + 2)));
 }
 
-Rgba shade(const Frame& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
+Rgba shade(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
            const Surroundings& around) {
     const Rgba white{1, 1, 1, 1};
     Rgba base = material_texture(frame, material.base_color_texture, available, block, lane, white);

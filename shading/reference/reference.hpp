@@ -25,7 +25,7 @@ public:
 };
 
 /// All that a frame's fragments share.
-struct Frame {
+struct FrameInputs {
     std::span<const Texture> textures;
     std::span<const Light> lights;
     Ambient ambient;
@@ -55,7 +55,7 @@ struct Surroundings {
 [[nodiscard]] double level_of_detail(const Texture& texture, const TextureUse& use, const FragmentBlock& block, int lane);
 
 /// The colour and alpha of one lane. `available` as in plan_shading.
-[[nodiscard]] Rgba shade(const Frame& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
+[[nodiscard]] Rgba shade(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
                          const Surroundings& around = {});
 
 /// The sRGB curve times 255, not rounded; x is clamped to [0, 1].

@@ -18,7 +18,7 @@ namespace {
 
 const char* const kNames[] = {"kiara_1_dawn_1k.hdr", "studio_small_03_1k.hdr", "spiaggia_di_mondello_1k.hdr"};
 
-io::Environment load(const char* name) {
+io::EnvironmentImage load(const char* name) {
     const auto environment = io::read_environment((*asset_dir() / "environments" / name).string());
     REQUIRE(environment);
     return *environment;
@@ -29,7 +29,7 @@ bool have_environments() { return asset_dir() && std::filesystem::is_directory(*
 /// As it is and with its suns taken out at full size, averaged over blocks: patches of light again, whose integrals brute force can do.
 void check_environment_bounds(const char* name, int factor, int normal_count, Choices& as_is, Choices& without_suns) {
     INFO(name);
-    const io::Environment environment = load(name);
+    const io::EnvironmentImage environment = load(name);
     const auto normals = random_normals(normal_count, 81);
     check_bounds(downsampled(environment.view(), factor), normals, 1e-3, as_is);
     const SunExtraction found = extract_suns(environment.view(), Projection(environment.view()));
@@ -48,7 +48,7 @@ TEST_CASE("environment: the shared pictures have the mean radiance that an indep
     } known[] = {{{1.1, 0.7327, 1.125}, 102.5f}, {{1.968, 2.261, 2.549}, 3568.0f}, {{0.8122, 0.8459, 0.8772}, 7.27e4f}};
     for (std::size_t i = 0; i < 3; ++i) {
         INFO(kNames[i]);
-        const io::Environment environment = load(kNames[i]);
+        const io::EnvironmentImage environment = load(kNames[i]);
         CHECK(environment.width == 1024);
         CHECK(environment.height == 512);
         const Vec3d mean = Projection(environment.view()).mean();
@@ -75,7 +75,7 @@ TEST_CASE("environment: suns of the shared pictures keep all energy and lower th
     const std::size_t counts[] = {0, 1, 1};  // dawn without a sun; studio lamps; a sun above the sea
     for (std::size_t i = 0; i < 3; ++i) {
         INFO(kNames[i]);
-        const io::Environment environment = load(kNames[i]);
+        const io::EnvironmentImage environment = load(kNames[i]);
         const Projection full(environment.view());
         const SunExtraction found = extract_suns(environment.view(), full);
         CHECK((counts[i] == 0 ? found.suns.empty() : found.suns.size() >= counts[i]));
@@ -91,7 +91,7 @@ TEST_CASE("environment: suns of the shared pictures keep all energy and lower th
 }
 
 TEST_CASE("environment: the built-in sky is lit as it says", "[io][environment]") {
-    const io::Environment sky = io::built_in_sky();
+    const io::EnvironmentImage sky = io::built_in_sky();
     REQUIRE(sky.width == 512);
     REQUIRE(sky.height == 256);
     for (const float v : sky.rgb) REQUIRE((v >= 0 && v < 1e4f));

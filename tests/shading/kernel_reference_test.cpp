@@ -32,8 +32,9 @@ TEST_CASE("kernels: shade agrees with the float64 reference for every kind of sc
         const ShadingPlan old = c.plan;
         c.plan = plan_shading({c.materials, c.textures, c.available, c.lights, c.ambient, c.options});
         c.plan.eye_ws = old.eye_ws, c.plan.view_direction_ws = old.view_direction_ws, c.plan.orthographic = old.orthographic;
-        const reference::Frame frame = reference_frame(c);
-        const double bound = c.options.specular == SpecularModel::phong ? 1e-4 : 5e-5;  // the mirrored light turns twice as fast as the normal
+        const reference::FrameInputs frame = reference_frame(c);
+        const double bound =
+            c.options.specular == SpecularModel::phong ? 1e-4 : 5e-5;  // the mirrored light turns twice as fast as the normal
         FragmentBlock block{};
         fill_block(make, block, false);
         shade_kernels(Isa::scalar).shade(c.plan, c.plan.materials[0], all_lights(c.plan), block, kBlockSize);
@@ -64,7 +65,7 @@ TEST_CASE("kernels: a highlight at the sharpest roughness agrees with the refere
     const std::vector<SlotMask> available{3u, 3u};
     ShadingPlan plan = plan_shading({std::span(&material, 1), {}, available, std::span(&light, 1), {}, options});
     plan.orthographic = true;
-    reference::Frame frame{{}, std::span(&light, 1), {}, options, {}, {0, 0, -1}, true};
+    reference::FrameInputs frame{{}, std::span(&light, 1), {}, options, {}, {0, 0, -1}, true};
     FragmentBlock block{};
     for (int lane = 0; lane < kBlockSize; ++lane) {
         // Normals up to 1 degree from the half vector.

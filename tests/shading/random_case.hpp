@@ -2,8 +2,8 @@
 #pragma once
 
 #include "floats.hpp"
-#include "shading/planner.hpp"
 #include "shading/budget/power_fit.hpp"
+#include "shading/planner.hpp"
 #include "shading/reference/reference.hpp"
 
 #include <vector>
@@ -190,7 +190,7 @@ inline void shorten(FloatMaker& make, Case& c) {
 }
 
 /// The reference's view of a case; valid while the case stays where it is.
-inline shading::reference::Frame reference_frame(const Case& c) {
+inline shading::reference::FrameInputs reference_frame(const Case& c) {
     return {c.textures, c.lights, c.ambient, c.options, c.plan.eye_ws, c.plan.view_direction_ws, c.plan.orthographic};
 }
 

@@ -2,8 +2,8 @@
 // boundaries, and the float64 meaning of the sums.
 #include "random_case.hpp"
 #include "shading/kernels/shade_kernels.hpp"
-#include "shading/reference/shadow.hpp"
 #include "shading/planner.hpp"
+#include "shading/reference/shadow.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -283,7 +283,7 @@ TEST_CASE("shadow kernel: shares agree with the float64 reference off the places
         setup.shade(Isa::scalar, block);
         PlanOptions options;
         options.specular = SpecularModel::none;
-        const reference::Frame frame{{}, std::span(&setup.light, 1), {}, options, {}, {0, 0, -1}, true};
+        const reference::FrameInputs frame{{}, std::span(&setup.light, 1), {}, options, {}, {0, 0, -1}, true};
         for (int lane = 0; lane < kBlockSize; ++lane) {
             const auto at = [&](int row) { return double{input.lane[row][lane]}; };
             const Vec3d position{at(kPosX), at(kPosY), at(kPosZ)}, n{at(kNormalX), at(kNormalY), at(kNormalZ)};
