@@ -87,7 +87,8 @@ std::vector<EnvironmentUse> environment_uses(const PreparedScene& scene, const s
     for (std::size_t i = 0; i < plan.materials.size(); ++i) {
         if (!scene.drawn_materials()[i]) continue;
         if (plan.materials[i].environment >= 0) uses[static_cast<std::size_t>(plan.materials[i].environment)] |= kDiffuse;
-        if (plan.materials[i].specular_environment >= 0) uses[static_cast<std::size_t>(plan.materials[i].specular_environment)] |= kSpecular;
+        if (plan.materials[i].specular_environment >= 0)
+            uses[static_cast<std::size_t>(plan.materials[i].specular_environment)] |= kSpecular;
     }
     std::vector<EnvironmentUse> out;
     for (std::size_t i = 0; i < uses.size(); ++i) {
@@ -103,7 +104,8 @@ void add_lobe_warnings(const PreparedScene& scene, const shading::ShadingPlan& p
     for (std::size_t i = 0; i < plan.materials.size(); ++i) {
         if (!scene.drawn_materials()[i] || (plan.materials[i].stages & (shading::kStageLights | shading::kStageEnvironment)) == 0) continue;
         std::string warning = shading::lobe_warning(shading::lobe_of(scene.material(i), options));
-        if (!warning.empty() && std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(std::move(warning));
+        if (!warning.empty() && std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
+            warnings.push_back(std::move(warning));
     }
 }
 
@@ -122,7 +124,7 @@ std::vector<MaterialPlan> plan_casters(const PreparedScene& scene, const shading
 }  // namespace
 
 Result<FramePlan> plan_frame(const PreparedScene& prepared, const Camera& camera, const Settings& settings, int width, int height,
-                             FramePlanMemory& memory, const ReserveTexels& reserve_texels) {
+                             FramePlanMemory& memory) {
     const FpEnvironment fp_environment;
     if (auto ok = check_settings(settings, width, height); !ok) return tl::unexpected<Error>(ok.error());
     const Scene& scene = prepared.scene();
@@ -137,8 +139,8 @@ Result<FramePlan> plan_frame(const PreparedScene& prepared, const Camera& camera
     for (const ShadowView& face : shadows->views) finite_views &= !face.sees_scene || all_finite(face.view.clip_from_world);
     if (!finite_views) return fail(ErrorCode::bad_input, "the camera's matrix is not finite");
     plan.shadow_views = std::move(shadows->views);
-    if (reserve_texels && shadows->texel_count > 0) {
-        const float* texels = reserve_texels(shadows->texel_count);
+    if (memory.shadow_texels && shadows->texel_count > 0) {
+        const float* texels = memory.shadow_texels->reserve(shadows->texel_count);
         for (std::size_t i = 0; i < shadows->maps.size(); ++i) shadows->maps[i].distance = texels + shadows->first_texel[i];
     }
 
@@ -160,6 +162,7 @@ Result<FramePlan> plan_frame(const PreparedScene& prepared, const Camera& camera
          .facts = budget ? &facts : nullptr},
         memory.shading);
     if (!plan.shadow_views.empty()) plan.casters = plan_casters(prepared, options);
+    plan.caster_detail = options.texture_detail;
     plan.light_culler = LightCuller(plan.shading.lights);
     if (settings.background_environment && scene.environment != nullptr && !scene.environment->rgb.empty())
         plan.background = Background(*scene.environment, camera, width, height, settings.exposure);
@@ -175,7 +178,7 @@ Result<FramePlan> plan_frame(const PreparedScene& prepared, const Camera& camera
 
 Result<FramePlan> plan_frame(const PreparedScene& scene, const Camera& camera, const Settings& settings, int width, int height) {
     FramePlanMemory memory;
-    return plan_frame(scene, camera, settings, width, height, memory, {});
+    return plan_frame(scene, camera, settings, width, height, memory);
 }
 
 }  // namespace halflit::raster

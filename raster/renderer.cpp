@@ -56,14 +56,15 @@ struct Renderer::Impl {
     ReferenceShading reference;
     Pool<TileScratch> scratch;
 
+    Impl() { plan_memory.shadow_texels.emplace(); }
+
     Result<void> make_plan(const PreparedScene& scene, const Camera& camera, const Settings& settings, const FramebufferView& target) {
         PlanKey key{scene.revision(), camera, settings, target.width, target.height};
         key.settings.parallel_for = {};  // the host's, for this call
         key.settings.cancelled = nullptr;
         if (plan_key && plan_key->same(key)) return {};
         plan_key.reset();
-        auto made = plan_frame(scene, camera, settings, target.width, target.height, plan_memory,
-                               [this](std::size_t texel_count) { return shadow_maps.reserve(texel_count); });
+        auto made = plan_frame(scene, camera, settings, target.width, target.height, plan_memory);
         if (!made) return tl::unexpected<Error>(made.error());
         plan = std::move(*made);
         plan_key = std::move(key);
@@ -101,7 +102,8 @@ struct Renderer::Impl {
             if (auto ok = reference.build(scene, plan.shading, settings.shading); !ok) return tl::unexpected<Error>(ok.error());
         report.ms.plan = watch.lap();
 
-        if (auto ok = shadow_maps.draw(scene, plan, raster, shade, executor); !ok) return tl::unexpected<Error>(ok.error());
+        if (auto ok = shadow_maps.draw(scene, plan, *plan_memory.shadow_texels, raster, shade, executor); !ok)
+            return tl::unexpected<Error>(ok.error());
         report.ms.shadows = watch.lap();
 
         if (auto ok = geometry.make(scene, plan.picture, raster, executor); !ok) return tl::unexpected<Error>(ok.error());
@@ -115,7 +117,9 @@ struct Renderer::Impl {
         report.ms.transform += watch.lap();
 
         const PicturePass pass{{geometry, records, plan.shading.materials, raster, shade, plan.shading.shadow_offset},
-                               plan, target, plan.reference ? &reference : nullptr};
+                               plan,
+                               target,
+                               plan.reference ? &reference : nullptr};
         const auto tiles = draw_tiles(pass, settings.cancelled);
         if (!tiles) return tl::unexpected<Error>(tiles.error());
         report.ms.tiles = watch.lap();
@@ -128,7 +132,8 @@ struct Renderer::Impl {
         add_counts(geometry, *tiles, report);
         // A part of a picture may well be empty; a whole one is rarely meant to be.
         const bool whole_picture = settings.region.width == 0;
-        if (report.triangles_submitted == 0 || (whole_picture && report.triangles_drawn == 0)) report.warnings.emplace_back("nothing to draw");
+        if (report.triangles_submitted == 0 || (whole_picture && report.triangles_drawn == 0))
+            report.warnings.emplace_back("nothing to draw");
         return report;
     }
 };
@@ -166,7 +171,8 @@ Result<RenderReport> guarded(const Body& body) {
 
 }  // namespace
 
-Result<RenderReport> Renderer::render(const PreparedScene& scene, const Camera& camera, const Settings& settings, const FramebufferView& target) {
+Result<RenderReport> Renderer::render(const PreparedScene& scene, const Camera& camera, const Settings& settings,
+                                      const FramebufferView& target) {
     return guarded([&] { return impl_->render(scene, camera, settings, target, {}); });
 }
 

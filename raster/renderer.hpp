@@ -3,10 +3,10 @@
 
 #include "raster/framebuffer.hpp"
 #include "raster/report.hpp"
+#include "raster/scene/camera.hpp"
 #include "raster/scene/prepared_scene.hpp"
 #include "raster/scene/scene.hpp"
 #include "raster/settings.hpp"
-#include "raster/view/camera.hpp"
 
 #include <memory>
 

@@ -3,6 +3,7 @@
 #include "apps/io/gltf_loader.hpp"
 #include "apps/io/image_writer.hpp"
 #include "raster/renderer.hpp"
+#include "raster/scene/framing.hpp"
 
 #include <cstdio>
 

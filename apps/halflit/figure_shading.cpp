@@ -2,6 +2,7 @@
 #include "apps/halflit/figure_entries.hpp"
 #include "apps/halflit/figure_studio.hpp"
 #include "raster/built_in/shapes.hpp"
+#include "raster/scene/framing.hpp"
 
 #include <fmt/format.h>
 

@@ -4,6 +4,7 @@
 #include "apps/io/environment.hpp"
 #include "apps/io/image_writer.hpp"
 #include "raster/scene/exposure.hpp"
+#include "raster/scene/framing.hpp"
 #include "sh/trig.hpp"
 #include "shading/environment.hpp"
 
@@ -65,9 +66,9 @@ Result<void> choose_view(RenderJob& job, const RenderOptions& options, PictureSi
 Result<float> add_environment(raster::Scene& scene, const RenderOptions& options) {
     const auto image = io::environment_by_name(options.environment);
     if (!image) return tl::unexpected(image.error());
-    auto environment = std::make_shared<shading::Environment>(
-        shading::make_environment(image->view(), {options.environment_sun, static_cast<double>(options.environment_rotate_deg) * (kPi / 180.0),
-                                                 options.settings.background_environment, options.settings.shading.accuracy == shading::Accuracy::reference}));
+    auto environment = std::make_shared<shading::Environment>(shading::make_environment(
+        image->view(), {options.environment_sun, static_cast<double>(options.environment_rotate_deg) * (kPi / 180.0),
+                        options.settings.background_environment, options.settings.shading.accuracy == shading::Accuracy::reference}));
     scene.ambient = {};
     double level = 0.28209479177387814 * sh::luminance(environment->radiance.c[0]);  // Y_0: the mean radiance
     for (const shading::Light& sun : environment->suns) {

@@ -4,8 +4,8 @@
 #include "apps/halflit/values.hpp"
 #include "apps/io/gltf_loader.hpp"
 #include "apps/io/lobe_name.hpp"
+#include "raster/scene/framing.hpp"
 #include "raster/settings.hpp"
-#include "raster/view/camera.hpp"
 #include "shading/light.hpp"
 
 #include <optional>
@@ -46,8 +46,8 @@ struct RenderOptions {
 /// The lobe that the flags choose for materials that bring none; nothing when they choose none.
 [[nodiscard]] Result<std::optional<shading::Lobe>> chosen_lobe(const RenderOptions& options);
 
-/// Adds the flags to a sub-command; `options` must outlive it. `scene_required` says so of the SCENE argument. `usual`: the size of pictures
-/// whose shape nothing else decides.
+/// Adds the flags to a sub-command; `options` must outlive it. `scene_required` says so of the SCENE argument. `usual`: the size of
+/// pictures whose shape nothing else decides.
 void add_render_options(CLI::App& app, RenderOptions& options, bool scene_required, PictureSize usual);
 
 }  // namespace halflit::cli

@@ -4,6 +4,7 @@
 #include "apps/halflit/plan_names.hpp"
 #include "apps/halflit/run_report.hpp"
 #include "raster/frame_plan.hpp"
+#include "raster/scene/mesh_topology.hpp"
 
 #include <fmt/format.h>
 
@@ -58,22 +59,19 @@ Json file_json(const io::SceneInfo& file) {
 }
 
 Json counts_json(const raster::Scene& scene) {
-    std::uint64_t vertices = 0, stored = 0, drawn = 0;
+    std::uint64_t vertices = 0, stored = 0, drawn = 0, closed = 0;
     for (const raster::Mesh& mesh : scene.meshes) {
+        closed += raster::is_closed(mesh) ? 1 : 0;
         vertices += mesh.positions.size();
         stored += mesh.indices.size() / 3;
     }
     for (const raster::Instance& instance : scene.instances)
         drawn += scene.meshes[static_cast<std::size_t>(instance.mesh)].indices.size() / 3;
-    return {{"meshes", scene.meshes.size()},
-            {"instances", scene.instances.size()},
-            {"materials", scene.materials.size()},
-            {"textures", scene.textures.size()},
-            {"cameras", scene.cameras.size()},
-            {"lights", scene.lights.size()},
-            {"vertices", vertices},
-            {"triangles_stored", stored},
-            {"triangles_drawn", drawn}};
+    return {{"meshes", scene.meshes.size()},       {"closed_meshes", closed},
+            {"instances", scene.instances.size()}, {"materials", scene.materials.size()},
+            {"textures", scene.textures.size()},   {"cameras", scene.cameras.size()},
+            {"lights", scene.lights.size()},       {"vertices", vertices},
+            {"triangles_stored", stored},          {"triangles_drawn", drawn}};
 }
 
 Json lights_json(const raster::Scene& scene) {

@@ -1,7 +1,7 @@
 // Threads: oneTBB's, the standard library's where halflit is built without oneTBB, or the host's own loop.
 #pragma once
 
-#include "raster/renderer.hpp"
+#include "raster/parallel_for.hpp"
 
 #include <functional>
 #include <memory>

@@ -1,18 +1,14 @@
 #include "raster/passes/shadow_maps.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace halflit::raster {
 
-float* ShadowMaps::reserve(std::size_t texel_count) {
-    if (texel_count > texels_.capacity()) drawn_.clear();
-    return texels_.reserve(texel_count);
-}
-
-Result<void> ShadowMaps::draw_face(const PreparedScene& scene, const FramePlan& plan, const ShadowView& face, const RasterKernels& raster,
-                                   const shading::ShadeKernels& shade, Executor& executor) {
+Result<void> ShadowMaps::draw_face(const PreparedScene& scene, const FramePlan& plan, const ShadowView& face, float* texels,
+                                   const RasterKernels& raster, const shading::ShadeKernels& shade, Executor& executor) {
     const auto size = static_cast<std::size_t>(face.view.region.width);
-    float* distance = texels_.data() + face.first_texel;
+    float* distance = texels + face.first_texel;
     if (!face.sees_scene) {
         std::fill_n(distance, size * size, shading::kNoBlocker);
         return {};
@@ -40,19 +36,19 @@ Result<void> ShadowMaps::draw_face(const PreparedScene& scene, const FramePlan& 
     return {};
 }
 
-Result<void> ShadowMaps::draw(const PreparedScene& scene, const FramePlan& plan, const RasterKernels& raster, const shading::ShadeKernels& shade,
-                              Executor& executor) {
-    const SceneRevision revision{scene.revision().geometry, scene.revision().materials, 0};
-    if (revision != revision_) drawn_.clear();
-    revision_ = revision;
-    std::vector<ShadowView> drawn;
-    drawn.swap(drawn_);  // empty until all are there
+Result<void> ShadowMaps::draw(const PreparedScene& scene, const FramePlan& plan, RawBuffer<float>& texels, const RasterKernels& raster,
+                              const shading::ShadeKernels& shade, Executor& executor) {
+    const SceneRevision& revision = scene.revision();
+    Drawn before = std::exchange(drawn_, {});  // nothing, until all are there
+    if (before.capacity != texels.capacity() || before.geometry_revision != revision.geometry ||
+        before.materials_revision != revision.materials || before.caster_detail != plan.caster_detail)
+        before.views.clear();
     for (std::size_t i = 0; i < plan.shadow_views.size(); ++i) {
         const ShadowView& face = plan.shadow_views[i];
-        if (i < drawn.size() && drawn[i] == face) continue;
-        if (auto ok = draw_face(scene, plan, face, raster, shade, executor); !ok) return ok;
+        if (i < before.views.size() && before.views[i] == face) continue;
+        if (auto ok = draw_face(scene, plan, face, texels.data(), raster, shade, executor); !ok) return ok;
     }
-    drawn_ = plan.shadow_views;
+    drawn_ = {texels.capacity(), revision.geometry, revision.materials, plan.caster_detail, plan.shadow_views};
     return {};
 }
 

@@ -6,24 +6,28 @@
 
 namespace halflit::raster {
 
-/// Draws the maps of a plan. A map stays as it is while neither its view nor anything in the scene that casts has changed.
+/// Draws the maps of a plan to where its texels are. A map stays as it is while neither its view nor anything in the scene that casts has
+/// changed.
 class ShadowMaps {
 public:
-    /// Where the texels of a plan's maps will be; the plan points there.
-    [[nodiscard]] float* reserve(std::size_t texel_count);
     /// The next draw() draws all maps.
-    void forget() { drawn_.clear(); }
+    void forget() { drawn_ = {}; }
 
-    Result<void> draw(const PreparedScene& scene, const FramePlan& plan, const RasterKernels& raster, const shading::ShadeKernels& shade,
-                      Executor& executor);
+    Result<void> draw(const PreparedScene& scene, const FramePlan& plan, RawBuffer<float>& texels, const RasterKernels& raster,
+                      const shading::ShadeKernels& shade, Executor& executor);
 
 private:
-    Result<void> draw_face(const PreparedScene& scene, const FramePlan& plan, const ShadowView& face, const RasterKernels& raster,
-                           const shading::ShadeKernels& shade, Executor& executor);
+    /// What the texels hold, and of what.
+    struct Drawn {
+        std::size_t capacity = 0;  ///< of the texels' memory: grown memory has lost them
+        std::uint64_t geometry_revision = 0, materials_revision = 0;
+        shading::TextureDetail caster_detail = shading::TextureDetail::full;
+        std::vector<ShadowView> views;
+    };
+    Result<void> draw_face(const PreparedScene& scene, const FramePlan& plan, const ShadowView& face, float* texels,
+                           const RasterKernels& raster, const shading::ShadeKernels& shade, Executor& executor);
 
-    RawBuffer<float> texels_;
-    std::vector<ShadowView> drawn_;  ///< what the texels hold
-    SceneRevision revision_;         ///< of the scene that they show
+    Drawn drawn_;
     ViewGeometry geometry_;
     VertexRecords records_;
     Pool<TileScratch> scratch_;

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "raster/passes/fragment_queue.hpp"
-#include "raster/passes/light_culling.hpp"
 #include "raster/passes/vertex_records.hpp"
+#include "raster/view/light_culling.hpp"
 #include "raster/work_counts.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 
@@ -16,7 +16,7 @@ struct TilePass {
     std::span<const shading::MaterialPlan> materials;
     const RasterKernels& raster;
     const shading::ShadeKernels& shade;
-    bool shadow_offset = false;    ///< fragments bring where shadows are looked up
+    bool shadow_offset = false;  ///< fragments bring where shadows are looked up
 };
 
 /// What tiles report; summed over the view.
@@ -54,7 +54,8 @@ void draw_visibility(const TilePass& pass, int tile, TileScratch& scratch, TileC
 /// The samples of one triangle that are nearer than the tile's depth, as lists of fragments: calls flush(list) for each. Whoever is done
 /// with the triangle says clear_coverage.
 template <class Flush>
-CoverBox collect_covered(const TilePass& pass, const TileRect& rect, std::size_t chunk, std::uint32_t record, TileScratch& scratch, const Flush& flush) {
+CoverBox collect_covered(const TilePass& pass, const TileRect& rect, std::size_t chunk, std::uint32_t record, TileScratch& scratch,
+                         const Flush& flush) {
     const TriangleSource& source = pass.geometry.source(chunk);
     const CoverBox box = pass.raster.cover(rect, pass.geometry.view().samples, scratch.buffers, source, record);
     FragmentList& list = scratch.list;

@@ -1,6 +1,7 @@
+#include "raster/scene/framing.hpp"
+
 #include "raster/detail/view_math.hpp"
 #include "sh/arc.hpp"
-#include "raster/scene/scene.hpp"
 
 namespace halflit::raster {
 namespace {
@@ -100,7 +101,9 @@ Camera frame_bounds(const Bounds& bounds, float aspect, const ViewSettings& view
     return fit.camera(length(box.half));
 }
 
-Camera frame_scene(const Scene& scene, float aspect, const ViewSettings& view) { return frame_scene(scene, scene_bounds(scene), aspect, view); }
+Camera frame_scene(const Scene& scene, float aspect, const ViewSettings& view) {
+    return frame_scene(scene, scene_bounds(scene), aspect, view);
+}
 
 Camera frame_scene(const Scene& scene, const Bounds& bounds, float aspect, const ViewSettings& view) {
     const Box box = usable_box(bounds);

@@ -1,7 +1,8 @@
 // All that a picture is made of. Plain data that the caller owns; nothing in it refers to a file.
 #pragma once
 
-#include "raster/view/camera.hpp"
+#include "raster/scene/bounds.hpp"
+#include "raster/scene/camera.hpp"
 #include "raster/scene/mesh.hpp"
 #include "shading/environment.hpp"
 #include "shading/light.hpp"
@@ -15,22 +16,17 @@ namespace halflit::raster {
 
 struct Scene {
     std::vector<Mesh> meshes;
-    std::vector<Instance> instances;               ///< drawn in this order
+    std::vector<Instance> instances;  ///< drawn in this order
     std::vector<shading::Material> materials;
-    std::vector<shading::Texture> textures;        ///< shared by materials
-    std::vector<shading::Light> lights;            ///< summed in this order; empty: see default_lights
+    std::vector<shading::Texture> textures;  ///< shared by materials
+    std::vector<shading::Light> lights;      ///< summed in this order; empty: see default_lights
     shading::Ambient ambient;
     std::shared_ptr<const shading::Environment> environment;  ///< light from all around, in place of `ambient`; its suns stand in `lights`
-    std::vector<Camera> cameras;                   ///< empty: see frame_scene
+    std::vector<Camera> cameras;                              ///< empty: see frame_scene in framing.hpp
 };
 
 /// World-space bounds of everything drawn. Vertices that are not finite are left out.
 [[nodiscard]] Bounds scene_bounds(const Scene& scene);
-
-/// The camera of frame_bounds, but fitted to the vertices themselves: tight and centred for any shape.
-[[nodiscard]] Camera frame_scene(const Scene& scene, float aspect, const ViewSettings& view);
-/// The same where scene_bounds is known.
-[[nodiscard]] Camera frame_scene(const Scene& scene, const Bounds& bounds, float aspect, const ViewSettings& view);
 
 /// A pleasant light for a scene that brings none: a key light over the viewer's left shoulder and a sky and ground ambient.
 void add_default_lights(Scene& scene, const Camera& camera);

@@ -1,7 +1,7 @@
 // The environment behind the scene: what each pixel's view ray meets when nothing is drawn there.
 #pragma once
 
-#include "raster/view/camera.hpp"
+#include "raster/view/projection.hpp"
 #include "shading/environment.hpp"
 
 namespace halflit::raster {

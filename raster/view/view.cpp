@@ -1,5 +1,7 @@
 #include "raster/view/view.hpp"
 
+#include "raster/view/projection.hpp"
+
 namespace halflit::raster {
 namespace {
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "raster/kernels/raster_kernels.hpp"
+#include "raster/scene/camera.hpp"
 #include "raster/settings.hpp"
-#include "raster/view/camera.hpp"
 
 namespace halflit::raster {
 

@@ -1,5 +1,6 @@
 #include "peer_scenes.hpp"
 
+#include "raster/view/projection.hpp"
 #include "sh/trig.hpp"
 
 #include <random>

@@ -1,6 +1,6 @@
-#include "raster/view/camera.hpp"
-#include "raster/scene/scene.hpp"
 #include "raster/built_in/shapes.hpp"
+#include "raster/scene/framing.hpp"
+#include "raster/view/projection.hpp"
 #include "sh/trig.hpp"
 
 #include <catch2/catch.hpp>

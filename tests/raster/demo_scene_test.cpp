@@ -1,5 +1,6 @@
 #include "raster/framebuffer.hpp"
-#include "raster/scene/scene.hpp"
+#include "raster/scene/framing.hpp"
+#include "raster/view/projection.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,9 +1,9 @@
 // Random scenes that errors are promised for: lobes, lights, skies, normal maps.
 #pragma once
 
-#include "raster/view/camera.hpp"
-#include "raster/renderer.hpp"
 #include "raster/built_in/shapes.hpp"
+#include "raster/renderer.hpp"
+#include "raster/scene/framing.hpp"
 #include "raster/scene/tangent_space.hpp"
 #include "shading/environment.hpp"
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "raster/debug_view.hpp"
+#include "raster/view/projection.hpp"
 #include "reference.hpp"
 
 #include <algorithm>

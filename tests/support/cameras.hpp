@@ -1,7 +1,7 @@
 // Cameras for tests.
 #pragma once
 
-#include "raster/view/camera.hpp"
+#include "raster/scene/camera.hpp"
 
 #include <cmath>
 

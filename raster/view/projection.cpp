@@ -1,4 +1,4 @@
-#include "raster/view/camera.hpp"
+#include "raster/view/projection.hpp"
 
 #include "raster/detail/view_math.hpp"
 

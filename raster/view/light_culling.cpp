@@ -1,4 +1,4 @@
-#include "raster/passes/light_culling.hpp"
+#include "raster/view/light_culling.hpp"
 
 #include <algorithm>
 
@@ -79,17 +79,18 @@ LightCuller::LightCuller(std::span<const LightPlan> lights) {
     }
     double scale[3];
     for (int axis = 0; axis < 3; ++axis) scale[axis] = high[axis] > low[axis] ? 1023.0 / (high[axis] - low[axis]) : 0.0;
-    std::stable_sort(ranged_.begin(), ranged_.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return morton(lights[a], low, scale) < morton(lights[b], low, scale);
-    });
+    std::stable_sort(ranged_.begin(), ranged_.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return morton(lights[a], low, scale) < morton(lights[b], low, scale); });
     for (std::size_t first = 0; first < ranged_.size(); first += kGroupSize) {
         Group group{{{3e38f, 3e38f, 3e38f}, {-3e38f, -3e38f, -3e38f}}, first, std::min(first + kGroupSize, ranged_.size())};
         for (std::size_t k = group.first; k < group.end; ++k) {
             const LightPlan& light = lights[ranged_[k]];
             const double radius = cutoff_radius(light);
             for (int axis = 0; axis < 3; ++axis) {
-                group.extent.min[axis] = std::min(group.extent.min[axis], static_cast<float>(std::max(light.position[axis] - radius, -3e38)));
-                group.extent.max[axis] = std::max(group.extent.max[axis], static_cast<float>(std::min(light.position[axis] + radius, 3e38)));
+                group.extent.min[axis] =
+                    std::min(group.extent.min[axis], static_cast<float>(std::max(light.position[axis] - radius, -3e38)));
+                group.extent.max[axis] =
+                    std::max(group.extent.max[axis], static_cast<float>(std::min(light.position[axis] + radius, 3e38)));
             }
         }
         groups_.push_back(group);
