@@ -1,7 +1,20 @@
-# Rules about sources that no compiler checks: includes point left only, third-party types stay out of public headers, the vocabulary
+# Rules about sources that no compiler checks: includes point left only, among layers and among the rooms of a layer, third-party types stay out of public headers, the vocabulary
 # alone names xsimd and intrinsics, and kernels call nothing whose result depends on the machine.
 #   cmake -DROOT=source-tree -P layering.cmake
 set(layers sh shading raster apps)
+# The rooms of a layer, and what a file of each does not include.
+set(rooms
+    "shading/model/=shading/((plan|budget|reference|kernels)/|planner)"
+    "shading/plan/=shading/((budget|reference|kernels)/|planner)"
+    "shading/budget/=shading/((reference|kernels)/|planner)"
+    "shading/kernels/=shading/((budget|reference)/|planner)"
+    "shading/reference/=shading/((budget|kernels)/|planner)"
+    "raster/kernels/=raster/((scene|view|passes|built_in|detail)/|[a-z_]+.hpp)"
+    "raster/detail/=raster/((scene|view|passes|built_in|kernels)/|renderer|frame_plan)"
+    "raster/scene/=raster/((view|passes|built_in)/|renderer|frame_plan)"
+    "raster/view/=raster/((passes|built_in)/|renderer|frame_plan)"
+    "raster/passes/=raster/(built_in/|renderer)"
+    "raster/built_in/=raster/((view|passes|kernels)/|renderer|frame_plan)")
 set(failures "")
 set(file_count 0)
 
@@ -23,6 +36,13 @@ foreach(layer IN LISTS layers)
         set(in_vocabulary FALSE)
         set(in_kernel FALSE)
         set(public FALSE)
+        set(other_rooms "")
+        foreach(room IN LISTS rooms)
+            string(REGEX MATCH "^([^=]*)=(.*)$" ignored "${room}")
+            if(file MATCHES "^${CMAKE_MATCH_1}")
+                string(REGEX REPLACE "^[^=]*=" "" other_rooms "${room}")
+            endif()
+        endforeach()
         if(file MATCHES "^shading/kernels/simd[a-z_]*\\.hpp$")
             set(in_vocabulary TRUE)
         elseif(file MATCHES "^(shading|raster)/kernels/" AND NOT file MATCHES "/(registry\\.cpp|isa(_select)?\\.hpp)$")
@@ -33,6 +53,9 @@ foreach(layer IN LISTS layers)
         foreach(line IN LISTS lines)
             if(forbidden AND line MATCHES "^ *#include \"(${forbidden})/")
                 list(APPEND failures "${file}: include points right: ${line}")
+            endif()
+            if(other_rooms AND line MATCHES "^ *#include \"${other_rooms}")
+                list(APPEND failures "${file}: include points into a room to the right: ${line}")
             endif()
             if(line MATCHES "^ *#include \"(bench|tests)/")
                 list(APPEND failures "${file}: include points out of the layers: ${line}")
