@@ -6,11 +6,11 @@ namespace halflit::raster {
 
 namespace reference = shading::reference;
 
-std::shared_ptr<const reference::Irradiance> ReferenceShading::diffuse(const Scene& scene, const shading::Lobe& lobe) {
-    const auto same = [&](const Around& a) { return a.environment == scene.environment.get() && a.lobe == lobe; };
+std::shared_ptr<const reference::Irradiance> ReferenceShading::diffuse(const shading::Lobe& lobe) {
+    const auto same = [&](const Around& a) { return a.lobe == lobe; };
     const auto found = std::find_if(known_.begin(), known_.end(), same);
     if (found != known_.end()) return found->light;
-    known_.push_back({scene.environment.get(), lobe, std::make_shared<reference::DirectIrradiance>(*scene.environment, lobe)});
+    known_.push_back({lobe, std::make_shared<reference::DirectIrradiance>(*environment_, lobe)});
     return known_.back().light;
 }
 
@@ -24,12 +24,14 @@ Result<void> ReferenceShading::build(const PreparedScene& prepared, const shadin
     scene_ = &prepared;
     frame_ = {scene.textures, scene.lights,           scene.ambient,     options,
               plan.eye_ws,    plan.view_direction_ws, plan.orthographic, plan.shadow_mode};
-    std::erase_if(known_, [&](const Around& a) { return a.environment != scene.environment.get(); });
+    if (scene.environment != environment_ || prepared.revision().environment != environment_revision_) known_.clear();
+    environment_ = scene.environment;
+    environment_revision_ = prepared.revision().environment;
     diffuse_.assign(plan.materials.size(), nullptr);
     specular_.assign(plan.materials.size(), nullptr);
     if (scene.environment == nullptr) return {};
     for (std::size_t i = 0; i < plan.materials.size(); ++i) {
-        diffuse_[i] = diffuse(scene, shading::lobe_of(prepared.material(i), options));
+        diffuse_[i] = diffuse(shading::lobe_of(prepared.material(i), options));
         specular_[i] = std::make_shared<reference::BandIrradiance>(*scene.environment,
                                                                    shading::specular_environment_lobe(plan.materials[i].roughness));
     }

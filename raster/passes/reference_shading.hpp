@@ -20,16 +20,17 @@ public:
                int count) const;
 
 private:
-    /// Light from all around for the materials of one lobe, and what they mirror.
+    /// Light from all around for the materials of one lobe.
     struct Around {
-        const shading::Environment* environment;
         shading::Lobe lobe;
         std::shared_ptr<const shading::reference::Irradiance> light;
     };
-    std::shared_ptr<const shading::reference::Irradiance> diffuse(const Scene& scene, const shading::Lobe& lobe);
+    std::shared_ptr<const shading::reference::Irradiance> diffuse(const shading::Lobe& lobe);
 
     const PreparedScene* scene_ = nullptr;
     shading::reference::FrameInputs frame_;
+    std::shared_ptr<const shading::Environment> environment_;  ///< that of known_, in its revision
+    std::uint64_t environment_revision_ = 0;
     std::vector<Around> known_;
     std::vector<std::shared_ptr<const shading::reference::Irradiance>> diffuse_, specular_;  ///< for each material
 };

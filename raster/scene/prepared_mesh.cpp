@@ -174,7 +174,7 @@ PlacedBox::PlacedBox(const float (&min)[3], const float (&max)[3], const Mat4& m
             half += magnitude(rows[axis][k]) * (0.5 * (b - a));
             size += magnitude(rows[axis][k]) * larger(magnitude(a), magnitude(b));
         }
-        const double margin = half + 1e-6 * size;
+        const double margin = half + (1e-6 * size + 1e-44);  // below 1e-38 float32 rounds to multiples of 1.4e-45
         low[axis] = middle - margin;
         high[axis] = middle + margin;
     }

@@ -105,11 +105,8 @@ private:
     void look_into(const Mesh& mesh, std::size_t cluster, const Mat4& m) {
         const std::size_t begin = 3 * cluster * kClusterTriangles, end = std::min(begin + std::size_t{3} * kClusterTriangles, mesh.indices.size());
         const auto vertex = [&](std::uint32_t index) {
-            const Vec3f p = mesh.positions[index];
-            const Vec4f* c = m.c;
-            return Vec3d{double{c[0].x} * p.x + double{c[1].x} * p.y + double{c[2].x} * p.z + double{c[3].x} - point_.x,
-                         double{c[0].y} * p.x + double{c[1].y} * p.y + double{c[2].y} * p.z + double{c[3].y} - point_.y,
-                         double{c[0].z} * p.x + double{c[1].z} * p.y + double{c[2].z} * p.z + double{c[3].z} - point_.z};
+            const Vec3f p = transform_point(m, mesh.positions[index]);  // in float32, as it is drawn
+            return Vec3d{p.x - point_.x, p.y - point_.y, p.z - point_.z};
         };
         for (std::size_t i = begin; i < end; i += 3)
             nearest_ = std::min(nearest_, triangle_distance(vertex(mesh.indices[i]), vertex(mesh.indices[i + 1]), vertex(mesh.indices[i + 2])));

@@ -116,8 +116,9 @@ EnvironmentPlan plan_environment(const Environment& environment, const sh::WrapL
     return plan;
 }
 
-void EnvironmentPlans::use(std::shared_ptr<const Environment> environment) {
-    if (environment == environment_) return;
+void EnvironmentPlans::use(std::shared_ptr<const Environment> environment, std::uint64_t revision) {
+    if (environment == environment_ && revision == revision_) return;
+    revision_ = revision;
     entries_.clear();
     environment_ = std::move(environment);
 }

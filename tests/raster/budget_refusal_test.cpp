@@ -1,0 +1,98 @@
+// An error budget is refused with what has no bound, and accepted with all else.
+#include "raster/frame_plan.hpp"
+#include "raster/renderer.hpp"
+#include "raster/built_in/shapes.hpp"
+#include "tests/support/cameras.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace halflit;
+using namespace halflit::raster;
+using shading::Accuracy, shading::ShadingRate, shading::TextureDetail;
+
+namespace {
+
+constexpr ShadingRate kRates[] = {ShadingRate::flat, ShadingRate::gouraud, ShadingRate::pixel};
+constexpr TextureDetail kDetails[] = {TextureDetail::full, TextureDetail::bilinear, TextureDetail::nearest};
+constexpr double kBudgets[] = {1e-9, 0.1, 0.5, 2.0, 255.0};
+
+Scene lit_box() {
+    Scene scene;
+    scene.materials.resize(1);
+    scene.meshes.push_back(make_box({1, 1, 1}));
+    scene.meshes[0].material = 0;
+    scene.instances.push_back({0, {}});
+    scene.lights.resize(2);
+    scene.lights[1].type = shading::LightType::point;
+    scene.lights[1].position_ws = {2, 2, 2};
+    return scene;
+}
+
+Result<RenderReport> drawn(ShadingRate rate, TextureDetail detail, double budget, Accuracy accuracy = Accuracy::exact) {
+    const Scene scene = lit_box();
+    Settings settings;
+    settings.shadow_size = 64;
+    settings.shading.rate = rate;
+    settings.shading.texture_detail = detail;
+    settings.shading.max_error_codes = budget;
+    settings.shading.accuracy = accuracy;
+    std::vector<std::uint8_t> pixels(4 * 20 * 15, 0xCD);
+    const auto prepared = PreparedScene::make(scene);
+    REQUIRE(prepared);
+    const Camera camera = halflit::test::camera_at({2, 3, 4}, {0, 0, 0});
+    const auto report = render(scene, camera, settings, {20, 15, pixels.data(), nullptr});
+    CHECK(plan_frame(*prepared, camera, settings, 20, 15).has_value() == report.has_value());
+    CHECK(shading::check_options(settings.shading).has_value() == report.has_value());
+    CHECK((report.has_value() || pixels == std::vector<std::uint8_t>(pixels.size(), 0xCD)));
+    return report;
+}
+
+bool names(const Error& error, const char* word) { return error.message.find(word) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("budget: refused with light once a triangle or a vertex, and with coarse texture filters", "[raster][budget]") {
+    for (const ShadingRate rate : kRates)
+        for (const TextureDetail detail : kDetails)
+            for (const double budget : kBudgets) {
+                if (rate == ShadingRate::pixel && detail == TextureDetail::full) continue;
+                INFO("rate " << static_cast<int>(rate) << ", filter " << static_cast<int>(detail) << ", budget " << budget);
+                const auto report = drawn(rate, detail, budget);
+                REQUIRE_FALSE(report);
+                CHECK(report.error().code == ErrorCode::usage);
+                CHECK(report.error().message.find('\n') == std::string::npos);
+                CHECK(names(report.error(), "max_error"));
+                if (rate == ShadingRate::pixel) CHECK(names(report.error(), "texture filter"));
+                if (detail == TextureDetail::full) CHECK(names(report.error(), "shading rate"));
+            }
+}
+
+TEST_CASE("budget: accepted with light at every pixel and textures as their samplers say, whatever the accuracy", "[raster][budget]") {
+    for (const Accuracy accuracy : {Accuracy::exact, Accuracy::display, Accuracy::fast})
+        for (const double budget : kBudgets) {
+            const auto report = drawn(ShadingRate::pixel, TextureDetail::full, budget, accuracy);
+            INFO("accuracy " << static_cast<int>(accuracy) << ", budget " << budget << (report ? "" : ": " + report.error().message));
+            REQUIRE(report);
+            CHECK(report->error.budget == budget);
+            CHECK(report->error.codes > 0);
+            CHECK(report->error.within == (report->error.codes <= budget));
+        }
+}
+
+TEST_CASE("budget: none, and any rate and filter are accepted", "[raster][budget]") {
+    for (const ShadingRate rate : kRates)
+        for (const TextureDetail detail : kDetails) {
+            const auto report = drawn(rate, detail, 0.0);
+            REQUIRE(report);
+            CHECK(report->error.budget == 0);
+        }
+}
+
+TEST_CASE("budget: the reference draws at every pixel whatever is asked for, so it refuses nothing", "[raster][budget]") {
+    for (const ShadingRate rate : kRates)
+        for (const TextureDetail detail : kDetails) {
+            const auto report = drawn(rate, detail, 0.5, Accuracy::reference);
+            REQUIRE(report);
+            CHECK(report->error.budget == 0);  // nothing is left out
+        }
+}

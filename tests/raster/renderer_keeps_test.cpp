@@ -1,0 +1,170 @@
+// Single things that a Renderer keeps from frame to frame, each changed in a way that is easily missed.
+#include "raster/renderer.hpp"
+#include "tests/raster/test_scenes.hpp"
+#include "tests/support/random.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cstring>
+#include <new>
+
+using namespace halflit;
+using namespace halflit::raster;
+using namespace halflit::raster::test;
+
+namespace {
+
+constexpr int kWidth = 96, kHeight = 64;
+
+using Pixels = std::vector<float>;
+
+Pixels draw(Renderer& renderer, const PreparedScene& scene, const Camera& camera, const Settings& settings) {
+    Pixels pixels(std::size_t{4} * kWidth * kHeight);
+    const auto report = renderer.render(scene, camera, settings, {kWidth, kHeight, nullptr, pixels.data()});
+    INFO((report ? "" : report.error().message));
+    REQUIRE(report);
+    return pixels;
+}
+
+Pixels draw_anew(const Scene& scene, const Camera& camera, const Settings& settings) {
+    const auto prepared = PreparedScene::make(scene);
+    REQUIRE(prepared);
+    Renderer renderer;
+    return draw(renderer, *prepared, camera, settings);
+}
+
+int differing(const Pixels& a, const Pixels& b) {
+    int count = 0;
+    for (std::size_t i = 0; i < a.size(); i += 4) count += std::memcmp(&a[i], &b[i], 16) != 0;
+    return count;
+}
+
+Settings small_shadows() {
+    Settings settings;
+    settings.shadow_size = 128;
+    return settings;
+}
+
+shading::Environment sky(std::uint64_t seed) {
+    halflit::test::Random random(seed);
+    std::vector<float> rgb;
+    for (int i = 0; i < 3 * 16 * 8; ++i) rgb.push_back(random.real32(0, 0.6));
+    return shading::make_environment({16, 8, rgb}, {.extract_suns = false, .keep_light = true});
+}
+
+PreparedScene made(const Scene& scene) {
+    auto prepared = PreparedScene::make(scene);
+    REQUIRE(prepared);
+    return std::move(*prepared);
+}
+
+const SceneChanges kLights{{}, {}, false, true};
+const SceneChanges kEnvironment{{}, {}, false, false, true};
+
+}  // namespace
+
+TEST_CASE("renderer: the shadow of a masked surface follows the texture filter", "[raster][retention]") {
+    using shading::TextureDetail;
+    for (const NamedScene& s : {materials_scene(), layers_scene()}) {
+        const PreparedScene prepared = made(s.scene);
+        Renderer renderer;
+        for (const TextureDetail detail : {TextureDetail::full, TextureDetail::nearest, TextureDetail::bilinear, TextureDetail::full}) {
+            Settings settings = small_shadows();
+            settings.shading.texture_detail = detail;
+            INFO(s.name << ", filter " << static_cast<int>(detail));
+            CHECK(differing(draw(renderer, prepared, s.camera, settings), draw_anew(s.scene, s.camera, settings)) == 0);
+        }
+    }
+}
+
+TEST_CASE("renderer: an environment that changed where it lies, and was told", "[raster][retention]") {
+    NamedScene s = materials_scene();
+    shading::Environment environment = sky(1);
+    s.scene.environment = shading::borrowed(environment);
+    PreparedScene prepared = made(s.scene);
+    Renderer renderer;
+    const Pixels before = draw(renderer, prepared, s.camera, small_shadows());
+    environment = sky(2);
+    REQUIRE(prepared.update(kEnvironment));
+    const Pixels expected = draw_anew(s.scene, s.camera, small_shadows());
+    CHECK(differing(before, expected) > 1000);
+    CHECK(differing(draw(renderer, prepared, s.camera, small_shadows()), expected) == 0);
+}
+
+TEST_CASE("renderer: scenes one after the other whose environments lie at one place", "[raster][retention]") {
+    Renderer renderer;
+    for (const std::uint64_t seed : {1, 2, 3}) {
+        const shading::Environment environment = sky(seed);
+        NamedScene s = materials_scene();
+        s.scene.environment = shading::borrowed(environment);
+        INFO("sky " << seed);
+        CHECK(differing(draw(renderer, made(s.scene), s.camera, small_shadows()), draw_anew(s.scene, s.camera, small_shadows())) == 0);
+    }
+}
+
+TEST_CASE("renderer: reference accuracy after its environment was freed and another came to lie there", "[raster][retention]") {
+    alignas(shading::Environment) static std::byte place[sizeof(shading::Environment)];
+    int alive = 0;
+    const auto at_the_place = [&alive](std::uint64_t seed) {
+        REQUIRE(alive == 0);
+        ++alive;
+        return std::shared_ptr<const shading::Environment>(new (place) shading::Environment(sky(seed)), [&alive](const shading::Environment* e) {
+            e->~Environment();
+            --alive;
+        });
+    };
+    NamedScene s = materials_scene();
+    for (shading::Material& material : s.scene.materials) material.lobe = shading::Lobe::lambert();  // one integration for all: 0.5 s
+    Settings reference = small_shadows();
+    reference.shading.accuracy = shading::Accuracy::reference;
+    s.scene.environment = at_the_place(1);
+    PreparedScene prepared = made(s.scene);
+    Renderer renderer;
+    const Pixels before = draw(renderer, prepared, s.camera, reference);
+
+    s.scene.environment = std::make_shared<const shading::Environment>(sky(2));
+    REQUIRE(prepared.update(kEnvironment));
+    draw(renderer, prepared, s.camera, small_shadows());
+    if (alive == 0) s.scene.environment = at_the_place(3);  // otherwise the Renderer holds the first, and nothing can lie there
+    REQUIRE(prepared.update(kEnvironment));
+    const Pixels expected = draw_anew(s.scene, s.camera, reference);
+    CHECK(differing(before, expected) > 1000);
+    CHECK(differing(draw(renderer, prepared, s.camera, reference), expected) == 0);
+}
+
+TEST_CASE("renderer: light once a vertex leaves nothing behind", "[raster][retention]") {
+    for (const NamedScene& s : all_scenes()) {
+        const PreparedScene prepared = made(s.scene);
+        Renderer renderer;
+        using shading::ShadingRate;
+        for (const ShadingRate rate : {ShadingRate::gouraud, ShadingRate::pixel, ShadingRate::gouraud, ShadingRate::gouraud, ShadingRate::flat}) {
+            Settings settings = small_shadows();
+            settings.shading.rate = rate;
+            INFO(s.name << ", rate " << static_cast<int>(rate));
+            CHECK(differing(draw(renderer, prepared, s.camera, settings), draw_anew(s.scene, s.camera, settings)) == 0);
+        }
+    }
+}
+
+TEST_CASE("renderer: vertex attributes that only light asks for are there when light comes", "[raster][retention]") {
+    for (NamedScene s : all_scenes()) {
+        const Scene lit = s.scene;
+        s.scene.lights.clear();
+        s.scene.ambient = {};
+        s.scene.environment = nullptr;
+        PreparedScene prepared = made(s.scene);
+        Renderer renderer;
+        Settings settings = small_shadows();
+        settings.shadows = shading::ShadowMode::off;
+        INFO(s.name);
+        const Pixels dark = draw(renderer, prepared, s.camera, settings);
+        CHECK(differing(dark, draw_anew(s.scene, s.camera, settings)) == 0);
+        s.scene.lights = lit.lights;
+        REQUIRE(prepared.update(kLights));
+        const Pixels light = draw(renderer, prepared, s.camera, settings);
+        CHECK(differing(light, draw_anew(s.scene, s.camera, settings)) == 0);
+        s.scene.lights.clear();
+        REQUIRE(prepared.update(kLights));
+        CHECK(differing(draw(renderer, prepared, s.camera, settings), dark) == 0);
+    }
+}

@@ -1,0 +1,78 @@
+// What an environment holds in memory: nothing by default, and of an image no more than was asked for.
+#include "shading/environment.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <optional>
+#if defined(__GLIBC__) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 33)
+#include <malloc.h>
+#define HALFLIT_HAS_MALLINFO 1
+#endif
+
+#include "tests/support/skip.hpp"
+
+using namespace halflit;
+using namespace halflit::shading;
+
+namespace {
+
+/// Bytes in use of the heap, or nothing where the C library does not say. One thread.
+std::optional<std::int64_t> heap_bytes() {
+#if defined(HALFLIT_HAS_MALLINFO)
+    const struct mallinfo2 info = mallinfo2();
+    const auto bytes = static_cast<std::int64_t>(info.uordblks + info.hblkhd);
+    if (bytes > 0) return bytes;  // a sanitizer's allocator counts elsewhere
+#endif
+    return {};
+}
+
+Environment of_image(int width, int height, const EnvironmentOptions& options = {}) {
+    std::vector<float> rgb;
+    for (int i = 0; i < width * height; ++i) rgb.insert(rgb.end(), {0.5f, 0.4f, static_cast<float>(i % width) / static_cast<float>(width)});
+    return make_environment({width, height, rgb}, options);
+}
+
+}  // namespace
+
+TEST_CASE("environment: one that was not made holds nothing, and is dark", "[shading][environment]") {
+    const Environment none;
+    CHECK(none.suns.capacity() == 0);
+    CHECK(none.rgb.capacity() == 0);
+    CHECK(none.lit_rgb.capacity() == 0);
+    const sh::OrderBounds bounds = none.grid.order_bounds(sh::lobe_spectrum(sh::WrapLobe{}));
+    for (const Vec3d& bound : bounds.by_order) CHECK(bound == Vec3d{0, 0, 0});
+    CHECK(sizeof(Environment) < 16'384);
+}
+
+TEST_CASE("environment: a default one, and a default grid, allocate nothing", "[shading][environment]") {
+    if (!heap_bytes()) HALFLIT_SKIP("no count of the heap's bytes");
+    const std::int64_t before = *heap_bytes();
+    const Environment none;
+    const sh::BandGrid grid;
+    const Environment copy = none;
+    const std::int64_t after = *heap_bytes();
+    CHECK(after == before);
+    CHECK(copy.width == 0);
+}
+
+TEST_CASE("environment: of a small image it holds its bands' grid of 5 MB and little else", "[shading][environment]") {
+    if (!heap_bytes()) HALFLIT_SKIP("no count of the heap's bytes");
+    constexpr std::int64_t kGrid = 24 * 96 * 192 * sizeof(Vec3f), kLittle = 64 << 10;
+    const std::int64_t before = *heap_bytes();
+    std::optional<Environment> environment(of_image(32, 16));
+    const std::int64_t held = *heap_bytes() - before;
+    environment.reset();
+    INFO("held " << held);
+    CHECK(held <= kGrid + kLittle);
+    CHECK(*heap_bytes() - before <= kLittle);
+}
+
+TEST_CASE("environment: the image is kept where it is asked for, and nowhere else", "[shading][environment]") {
+    const Environment neither = of_image(32, 16), image = of_image(32, 16, {.keep_image = true}), light = of_image(32, 16, {.keep_light = true});
+    CHECK(neither.rgb.capacity() == 0);
+    CHECK(neither.lit_rgb.capacity() == 0);
+    CHECK(image.rgb.size() == 3 * 32 * 16);
+    CHECK(image.lit_rgb.capacity() == 0);
+    CHECK(light.rgb.capacity() == 0);
+    CHECK(light.lit_rgb.size() == 3 * 32 * 16);
+}
