@@ -2,8 +2,8 @@
 // every instruction set that this processor has. The shortest of many short slices by turns.
 //
 //     halflit_eight_lights_bench [SLICES [POWER [ROUGHNESS]]]      400 slices, t^1.3, highlights of exponent 32
-#include "raster/frame_plan.hpp"
 #include "raster/built_in/shapes.hpp"
+#include "raster/frame_plan.hpp"
 #include "shading/isa.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 
@@ -77,7 +77,9 @@ struct Way {
 
 std::string described(const shading::ShadingPlan& plan) {
     const shading::MaterialPlan& material = plan.materials.front();
-    std::string text = material.lobe.path == shading::LobePath::curve ? "curve" : material.lobe.path == shading::LobePath::general ? "power" : "simple";
+    std::string text = material.lobe.path == shading::LobePath::curve     ? "curve"
+                       : material.lobe.path == shading::LobePath::general ? "power"
+                                                                          : "simple";
     text += material.specular_curve.squarings >= 0 ? ", highlight curve" : ", highlight power";
     return text;
 }
@@ -110,7 +112,8 @@ int main(int argc, char** argv) {
     add("exact", shading::Accuracy::exact, 0);
     add("display", shading::Accuracy::display, 0);
     add("fast", shading::Accuracy::fast, 0);
-    for (const double codes : {0.1, 0.25, 0.5, 1.0, 2.0, 4.0}) add(std::to_string(codes).substr(0, 4) + " codes", shading::Accuracy::exact, codes);
+    for (const double codes : {0.1, 0.25, 0.5, 1.0, 2.0, 4.0})
+        add(std::to_string(codes).substr(0, 4) + " codes", shading::Accuracy::exact, codes);
 
     for (const shading::Isa isa : shading::built_isas()) {
         if (!shading::isa_available(isa)) continue;
@@ -121,15 +124,15 @@ int main(int argc, char** argv) {
             for (Way& way : ways) {
                 const auto start = std::chrono::steady_clock::now();
                 for (shading::FragmentBlock& block : blocks)
-                    kernels.shade(way.plan, way.plan.materials.front(), {way.plan.lights.data(), static_cast<int>(way.plan.lights.size())}, block,
-                                  shading::kBlockSize);
+                    kernels.shade(way.plan, way.plan.materials.front(), {way.plan.lights.data(), static_cast<int>(way.plan.lights.size())},
+                                  block, shading::kBlockSize);
                 const std::chrono::duration<double, std::nano> passed = std::chrono::steady_clock::now() - start;
                 way.shortest = std::min(way.shortest, passed.count() / static_cast<double>(blocks.size() * shading::kBlockSize));
             }
         std::printf("%s\n", std::string(shading::isa_name(isa)).c_str());
         for (const Way& way : ways)
-            std::printf("  %-10s %7.2f ns   %.2fx   bound %6.3f   %s\n", way.name.c_str(), way.shortest, ways.front().shortest / way.shortest,
-                        way.plan.error.codes, described(way.plan).c_str());
+            std::printf("  %-10s %7.2f ns   %.2fx   bound %6.3f   %s\n", way.name.c_str(), way.shortest,
+                        ways.front().shortest / way.shortest, way.plan.error.codes, described(way.plan).c_str());
     }
     return 0;
 }

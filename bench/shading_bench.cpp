@@ -33,9 +33,7 @@ struct Column {
     const shading::ShadeKernels* shade;
 };
 
-const BareKernels& bare_kernels(shading::Isa isa) {
-    HALFLIT_RETURN_TABLE_OF(isa, bare_kernels)
-}
+const BareKernels& bare_kernels(shading::Isa isa){HALFLIT_RETURN_TABLE_OF(isa, bare_kernels)}
 
 std::vector<Column> columns() {
     std::vector<Column> all;
@@ -70,7 +68,7 @@ void run(benchmark::State& state, const Column& column, const Row& row, const sh
     switch (row.work) {
         case Work::sum:
             return row.specular ? repeat(state, block, [&] { column.bare->sum_with_specular(frame, material, block); })
-                                 : repeat(state, block, [&] { column.bare->sum(frame, material, block); });
+                                : repeat(state, block, [&] { column.bare->sum(frame, material, block); });
         case Work::environment:
             return repeat(state, block, [&] { column.bare->environment(frame, material, block); });
         case Work::peak:

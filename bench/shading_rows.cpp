@@ -10,10 +10,10 @@
 namespace halflit::bench {
 namespace {
 
-using shading::SpecularModel;
 using shading::LightType;
 using shading::Lobe;
 using shading::LobePath;
+using shading::SpecularModel;
 
 /// Deterministic numbers in [-1, 1): a linear congruential generator's upper bits.
 class Numbers {
@@ -117,13 +117,14 @@ const shading::Environment& some_environment() {
 }
 
 shading::ShadingPlan plan(const shading::Material& material, const std::vector<shading::Light>& lights, bool specular, int order = 0,
-                        std::span<const shading::Texture> textures = {}) {
+                          std::span<const shading::Texture> textures = {}) {
     const shading::SlotMask all = ((1u << shading::kSlotCount) - 1u) & ~(1u << 3);  // everything but a vertex colour
     const shading::SlotMask slots[] = {all, all};
     shading::PlanOptions options;
     options.specular = specular ? SpecularModel::blinn : SpecularModel::none;
     options.environment_order.fixed = order;
-    shading::ShadingPlan frame = plan_shading({{&material, 1}, textures, slots, lights, {}, options, order > 0 ? shading::borrowed(some_environment()) : nullptr});
+    shading::ShadingPlan frame =
+        plan_shading({{&material, 1}, textures, slots, lights, {}, options, order > 0 ? shading::borrowed(some_environment()) : nullptr});
     frame.eye_ws = {0.2f, 0.3f, 6.0f};
     return frame;
 }

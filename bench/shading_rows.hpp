@@ -22,11 +22,11 @@ struct Row {
     std::string name;
     Work work = Work::sum;
     bool specular = false;
-    std::vector<int> lights;                 ///< for each variant; {0}: time is a fragment's, not a light's
+    std::vector<int> lights;                   ///< for each variant; {0}: time is a fragment's, not a light's
     std::vector<shading::ShadingPlan> frames;  ///< for each variant
-    Operations operations;                   ///< for a fragment, and a light where there are lights; zero: not counted
-    double largest_price = 0.0;              ///< of exactness, that is thought fair; 0: none is set
-    double least_gain = 0.0;                 ///< of AVX2 over scalar, with four lights or more
+    Operations operations;                     ///< for a fragment, and a light where there are lights; zero: not counted
+    double largest_price = 0.0;                ///< of exactness, that is thought fair; 0: none is set
+    double least_gain = 0.0;                   ///< of AVX2 over scalar, with four lights or more
 };
 
 /// Textures that the rows' plans point into are kept for the program's life.

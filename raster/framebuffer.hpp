@@ -9,9 +9,9 @@ namespace halflit::raster {
 
 /// Row 0 is the top row. Either pointer may be null: what is not asked for is not made.
 struct FramebufferView {
-    int width = 0, height = 0;         ///< of the whole picture, pixels
-    std::uint8_t* rgba8 = nullptr;     ///< sRGB codes, alpha linear and not premultiplied; width * height * 4
-    float* rgba_linear = nullptr;      ///< linear light after exposure, alpha not premultiplied; width * height * 4, 16-byte aligned
+    int width = 0, height = 0;      ///< of the whole picture, pixels
+    std::uint8_t* rgba8 = nullptr;  ///< sRGB codes, alpha linear and not premultiplied; width * height * 4
+    float* rgba_linear = nullptr;   ///< linear light after exposure, alpha not premultiplied; width * height * 4, 16-byte aligned
 };
 
 /// A picture with its own memory.

@@ -33,13 +33,13 @@ struct RenderReport {
     double total_ms = 0;
     int threads = 1;
     shading::Isa isa = shading::Isa::scalar;
-    std::uint64_t triangles_submitted = 0, triangles_drawn = 0;   ///< drawn: those that reached a tile's list
-    std::uint64_t triangles_not_finite = 0;                       ///< dropped for a NaN or infinite vertex
+    std::uint64_t triangles_submitted = 0, triangles_drawn = 0;  ///< drawn: those that reached a tile's list
+    std::uint64_t triangles_not_finite = 0;                      ///< dropped for a NaN or infinite vertex
     std::uint64_t pixels_visible = 0, fragments_shaded = 0;
-    std::uint64_t nan_pixels = 0;                                 ///< written as 0
-    WorkCounts work;                                              ///< of fragments_shaded, stage by stage
-    std::vector<EnvironmentUse> environment;                      ///< of the materials that are drawn, each lobe once
-    shading::ErrorBound error;                                    ///< with a budget: what was promised
+    std::uint64_t nan_pixels = 0;             ///< written as 0
+    WorkCounts work;                          ///< of fragments_shaded, stage by stage
+    std::vector<EnvironmentUse> environment;  ///< of the materials that are drawn, each lobe once
+    shading::ErrorBound error;                ///< with a budget: what was promised
     std::vector<std::string> warnings;
 };
 

@@ -19,20 +19,20 @@ struct Region {
 
 struct Settings {
     Region region{};
-    int samples = 1;                       ///< a pixel: 1, 4 or 8
-    int tile_size = 64;                    ///< 16, 32 or 64; changes speed, never a pixel
-    int threads = 0;                       ///< 0: one a core; changes speed, never a pixel
+    int samples = 1;                                    ///< a pixel: 1, 4 or 8
+    int tile_size = 64;                                 ///< 16, 32 or 64; changes speed, never a pixel
+    int threads = 0;                                    ///< 0: one a core; changes speed, never a pixel
     Result<shading::Isa> isa = shading::default_isa();  ///< changes speed, never a pixel
-    Vec4f background_linear{0, 0, 0, 0};   ///< linear colour, not premultiplied; w = 0 is transparent
-    bool background_environment = false;   ///< the scene's environment instead, where it kept its image
-    float exposure = 1.0f;                 ///< factor on all light, > 0
+    Vec4f background_linear{0, 0, 0, 0};                ///< linear colour, not premultiplied; w = 0 is transparent
+    bool background_environment = false;                ///< the scene's environment instead, where it kept its image
+    float exposure = 1.0f;                              ///< factor on all light, > 0
     shading::PlanOptions shading{};
     shading::ShadowMode shadows = shading::ShadowMode::soft_split;
-    int shadow_size = 2048;    ///< texels on a side of a shadow map, a power of two from 64 to 4096; a cube's faces have half
+    int shadow_size = 2048;  ///< texels on a side of a shadow map, a power of two from 64 to 4096; a cube's faces have half
     std::size_t shadow_memory_limit = std::size_t{256} << 20;  ///< bytes; shadow maps are halved in size until all fit
     float shadow_fade = 0.0f;  ///< soft_split: blocker distance where wrapped light is gone, world units; 0: from object size and wrap
-    bool shadow_terminator_offset = false;  ///< coarse meshes look shadows up where their normals' surface would be
-    ParallelFor parallel_for{};            ///< the hook for a host's own threads; empty: oneTBB
+    bool shadow_terminator_offset = false;             ///< coarse meshes look shadows up where their normals' surface would be
+    ParallelFor parallel_for{};                        ///< the hook for a host's own threads; empty: oneTBB
     const std::function<bool()>* cancelled = nullptr;  ///< asked at tile borders; true stops the frame with an error
 };
 

@@ -63,7 +63,8 @@ HALFLIT_INLINE Mat4 rotation(Vec4f q) {
     const float xx = q.x * x2, yy = q.y * y2, zz = q.z * z2;
     const float xy = q.x * y2, xz = q.x * z2, yz = q.y * z2;
     const float wx = q.w * x2, wy = q.w * y2, wz = q.w * z2;
-    return {{{1 - (yy + zz), xy + wz, xz - wy, 0}, {xy - wz, 1 - (xx + zz), yz + wx, 0}, {xz + wy, yz - wx, 1 - (xx + yy), 0}, {0, 0, 0, 1}}};
+    return {
+        {{1 - (yy + zz), xy + wz, xz - wy, 0}, {xy - wz, 1 - (xx + zz), yz + wx, 0}, {xz + wy, yz - wx, 1 - (xx + yy), 0}, {0, 0, 0, 1}}};
 }
 
 /// Inverse of a rigid transform (rotation and translation, no scale).

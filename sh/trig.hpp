@@ -50,10 +50,14 @@ HALFLIT_INLINE constexpr SinCos sin_cos(double x) {
     const double r = (x - static_cast<double>(k) * 1.57079632673412561417) - static_cast<double>(k) * 6.07710050650619224932e-11;
     const double s = detail::sin_core(r), c = detail::cos_core(r);
     switch (((k % 4) + 4) % 4) {
-        case 0: return {s, c};
-        case 1: return {c, -s};
-        case 2: return {-s, -c};
-        default: return {-c, s};
+        case 0:
+            return {s, c};
+        case 1:
+            return {c, -s};
+        case 2:
+            return {-s, -c};
+        default:
+            return {-c, s};
     }
 }
 

@@ -39,7 +39,9 @@ struct EnvironmentOptions {
 [[nodiscard]] sh::WrapLobe specular_environment_lobe(float roughness);
 
 /// An environment that the caller keeps alive.
-[[nodiscard]] inline std::shared_ptr<const Environment> borrowed(const Environment& environment) { return {std::shared_ptr<void>(), &environment}; }
+[[nodiscard]] inline std::shared_ptr<const Environment> borrowed(const Environment& environment) {
+    return {std::shared_ptr<void>(), &environment};
+}
 
 [[nodiscard]] Environment make_environment(const sh::EquirectView& image, const EnvironmentOptions& options = {});
 

@@ -12,14 +12,14 @@ enum class LightType : std::uint8_t { directional, point, spot };
 
 struct Light {
     LightType type = LightType::directional;
-    Vec3f color_linear{1, 1, 1};         ///< directional: irradiance/pi; point and spot: the same at distance 1
-    Vec3f position_ws{0, 0, 0};          ///< point, spot
-    Vec3f direction_ws{0, -1, 0};        ///< directional, spot: the way the light travels, unit length
-    float range = 0.0f;                  ///< point, spot: zero beyond this distance; 0 means no limit
-    float source_radius = 0.0f;          ///< point, spot: distance is not taken below this; 0 means 1e-4
-    float inner_cone_rad = 0.0f;         ///< spot: full intensity up to this angle from the axis
-    float outer_cone_rad = 0.785398163f; ///< spot: zero from this angle on, pi/4 by default
-    float cone_power = 0.0f;             ///< spot: times cos(angle to the axis)^cone_power, [CMSC]; 0 to 1e5, 0: the cone alone
+    Vec3f color_linear{1, 1, 1};          ///< directional: irradiance/pi; point and spot: the same at distance 1
+    Vec3f position_ws{0, 0, 0};           ///< point, spot
+    Vec3f direction_ws{0, -1, 0};         ///< directional, spot: the way the light travels, unit length
+    float range = 0.0f;                   ///< point, spot: zero beyond this distance; 0 means no limit
+    float source_radius = 0.0f;           ///< point, spot: distance is not taken below this; 0 means 1e-4
+    float inner_cone_rad = 0.0f;          ///< spot: full intensity up to this angle from the axis
+    float outer_cone_rad = 0.785398163f;  ///< spot: zero from this angle on, pi/4 by default
+    float cone_power = 0.0f;              ///< spot: times cos(angle to the axis)^cone_power, [CMSC]; 0 to 1e5, 0: the cone alone
 };
 
 /// Constant light from all around, split into an upper and a lower half: L(n) = ground + (sky - ground) (1 + n.y) / 2.

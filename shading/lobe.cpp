@@ -17,16 +17,15 @@ std::string text_of(float value) {
 
 Result<void> check_lobe(const Lobe& lobe) {
     const auto refuse = [](const char* what, float most, float found, const char* why) {
-        return fail(ErrorCode::bad_input, std::string(what) + ": expected a number from 0 to " + text_of(most) + ", found " + text_of(found) + why);
+        return fail(ErrorCode::bad_input,
+                    std::string(what) + ": expected a number from 0 to " + text_of(most) + ", found " + text_of(found) + why);
     };
     if (!(lobe.wrap >= 0.0f && lobe.wrap <= kMaxLobeWrap)) return refuse("wrap", kMaxLobeWrap, lobe.wrap, why_not_wrap(lobe.wrap));
     if (!(lobe.power >= 0.0f && lobe.power <= kMaxLobePower)) return refuse("power", kMaxLobePower, lobe.power, why_not_power(lobe.power));
     return {};
 }
 
-const char* why_not_wrap(double wrap) {
-    return wrap > kMaxLobeWrap ? ": from 1 on light reaches everything, and the norm is another" : "";
-}
+const char* why_not_wrap(double wrap) { return wrap > kMaxLobeWrap ? ": from 1 on light reaches everything, and the norm is another" : ""; }
 
 const char* why_not_power(double power) { return power < 0 ? ": below 0 the lobe grows without bound at its boundary" : ""; }
 

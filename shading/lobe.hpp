@@ -45,9 +45,9 @@ struct NamedLobe {
     float wrap, power, power_per_wrap;
     bool normalize;
 };
-inline constexpr NamedLobe kNamedLobes[] = {
-    {"lambert", false, 0, 1, 0, false}, {"green", true, 0, 1, 0, false}, {"half-lambert", false, 1, 1, 0, false},
-    {"valve", false, 1, 2, 0, false},   {"sloan", true, 0, 1, 1, false}, {"mcauley", true, 0, 1, 1, true}};
+inline constexpr NamedLobe kNamedLobes[] = {{"lambert", false, 0, 1, 0, false},      {"green", true, 0, 1, 0, false},
+                                            {"half-lambert", false, 1, 1, 0, false}, {"valve", false, 1, 2, 0, false},
+                                            {"sloan", true, 0, 1, 1, false},         {"mcauley", true, 0, 1, 1, true}};
 /// The wrap of a model that takes one, where the user names none.
 inline constexpr float kUsualWrap = 0.5f;
 

@@ -15,24 +15,22 @@ namespace halflit::shading {
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
 /// Exponent s of (N.H)^s for a roughness, which is held to kMinRoughness and above: 2 / roughness^4 - 2.
-[[nodiscard]] constexpr double specular_exponent(double roughness) {
-    return 2.0 * half_specular_exponent(vmax(roughness, 0.07));
-}
+[[nodiscard]] constexpr double specular_exponent(double roughness) { return 2.0 * half_specular_exponent(vmax(roughness, 0.07)); }
 static_assert(0.07f == kMinRoughness);
 
 struct Material {
     std::string name;
-    Vec4f base_color{1, 1, 1, 1};          ///< linear; w is alpha
+    Vec4f base_color{1, 1, 1, 1};  ///< linear; w is alpha
     float metallic = 1.0f, roughness = 1.0f;
-    Vec3f emissive{0, 0, 0};               ///< linear, KHR_materials_emissive_strength multiplied in
+    Vec3f emissive{0, 0, 0};  ///< linear, KHR_materials_emissive_strength multiplied in
     float normal_scale = 1.0f;
     float occlusion_strength = 1.0f;
     AlphaMode alpha_mode = AlphaMode::opaque;
-    float alpha_cutoff = 0.5f;             ///< mask: drawn where alpha >= cutoff
+    float alpha_cutoff = 0.5f;  ///< mask: drawn where alpha >= cutoff
     bool double_sided = false;
-    bool unlit = false;                    ///< colour is base_color (times texture and vertex colour), no light
-    Lobe lobe;                             ///< diffuse lobe
-    bool has_own_lobe = false;             ///< the file chose the lobe; a setting for all materials does not replace it
+    bool unlit = false;         ///< colour is base_color (times texture and vertex colour), no light
+    Lobe lobe;                  ///< diffuse lobe
+    bool has_own_lobe = false;  ///< the file chose the lobe; a setting for all materials does not replace it
 
     TextureUse base_color_texture;          ///< sRGB, alpha linear
     TextureUse metallic_roughness_texture;  ///< linear: G roughness, B metallic

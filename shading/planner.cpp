@@ -13,9 +13,7 @@ public:
     EnvironmentPlanner(EnvironmentPlans& known, const EnvironmentOrder& order, std::vector<EnvironmentPlan>& plans)
         : known_(known), order_(order), plans_(plans) {}
 
-    int diffuse(const LobePlan& lobe) {
-        return find({lobe.wrap, static_cast<double>(lobe.power_minus_one) + 1.0, lobe.scale}, order_);
-    }
+    int diffuse(const LobePlan& lobe) { return find({lobe.wrap, static_cast<double>(lobe.power_minus_one) + 1.0, lobe.scale}, order_); }
 
     /// A stand-in for reflections, so twice the error is allowed.
     int specular(float roughness) {
@@ -59,11 +57,12 @@ void plan_environments(const PlanInputs& inputs, PlanMemory& memory, ShadingPlan
             material.specular_environment = planner.specular(material.roughness);
 }
 
-/// Over what distance wrapped light fades in a shadow: d0 = 9/8 * 2 w R for a lobe of wrap w on an object of radius R. Materials without wrap
-/// get none.
+/// Over what distance wrapped light fades in a shadow: d0 = 9/8 * 2 w R for a lobe of wrap w on an object of radius R. Materials without
+/// wrap get none.
 void plan_shadows(const ShadowInputs& shadows, ShadingPlan& plan) {
     plan.shadow_maps = shadows.maps;
-    for (std::size_t i = 0; i < std::min(plan.lights.size(), shadows.map_of_light.size()); ++i) plan.lights[i].shadow_map = shadows.map_of_light[i];
+    for (std::size_t i = 0; i < std::min(plan.lights.size(), shadows.map_of_light.size()); ++i)
+        plan.lights[i].shadow_map = shadows.map_of_light[i];
     plan.shadow_mode = plan.shadow_maps.empty() ? ShadowMode::off : shadows.mode;
     plan.shadow_offset = plan.shadow_mode != ShadowMode::off && shadows.terminator_offset;
     if (plan.shadow_mode != ShadowMode::soft_split) return;
@@ -84,7 +83,8 @@ Result<void> check_options(const PlanOptions& options) {
     if (options.override_lobe)
         if (const auto lobe = check_lobe(options.lobe); !lobe) return fail(ErrorCode::usage, "lobe: " + lobe.error().message);
     if (!(options.max_error_codes > 0.0) || options.accuracy == Accuracy::reference) return {};
-    if (options.rate != ShadingRate::pixel) return fail(ErrorCode::usage, "max_error: expected the shading rate pixel, the error of other rates has no bound");
+    if (options.rate != ShadingRate::pixel)
+        return fail(ErrorCode::usage, "max_error: expected the shading rate pixel, the error of other rates has no bound");
     if (options.texture_detail != TextureDetail::full)
         return fail(ErrorCode::usage, "max_error: expected the texture filter full, the error of others has no bound");
     return {};

@@ -1,4 +1,5 @@
-// The one way to a ShadingPlan: from what users give, the viewer and the shadow maps to all that the kernels read, an error budget included.
+// The one way to a ShadingPlan: from what users give, the viewer and the shadow maps to all that the kernels read, an error budget
+// included.
 #pragma once
 
 #include "shading/budget/error_budget.hpp"
@@ -27,7 +28,7 @@ struct ShadowInputs {
     bool terminator_offset = false;
     std::vector<ShadowMapPlan> maps;
     std::vector<std::int32_t> map_of_light;  ///< for each of plan_lights(): index into `maps`, or -1; empty: none casts
-    std::span<const double> object_radius;     ///< for each material: of the largest object made of it, world units
+    std::span<const double> object_radius;   ///< for each material: of the largest object made of it, world units
     double fade_distance = 0;                ///< where wrapped light is gone behind a blocker; 0: from object size and wrap
 };
 
@@ -48,7 +49,7 @@ struct PlanInputs {
     PlanOptions options;
     std::shared_ptr<const Environment> environment = nullptr;
     std::uint64_t environment_revision = 0;  ///< another one for another image in the same place
-    double exposure = 1.0;  ///< display white is 1 / exposure
+    double exposure = 1.0;                   ///< display white is 1 / exposure
     Viewer viewer = {};
     ShadowInputs shadows = {};
     const SceneFacts* facts = nullptr;  ///< needed by an error budget, and by nothing else

@@ -76,7 +76,8 @@ TextureRange range_of(const std::uint16_t* data, const std::vector<TextureLevel>
     Lanes least, most{}, step{};
     least.fill(65535);
     const auto add_steps = [&](const std::uint16_t* a, const std::uint16_t* b, std::size_t values) {
-        accumulate(step, values, larger, [=](std::size_t i) { return static_cast<std::uint16_t>(larger(a[i], b[i]) - smaller(a[i], b[i])); });
+        accumulate(step, values, larger,
+                   [=](std::size_t i) { return static_cast<std::uint16_t>(larger(a[i], b[i]) - smaller(a[i], b[i])); });
     };
     for (const TextureLevel& level : levels) {
         const std::size_t row = std::size_t{4} * static_cast<std::size_t>(level.width), rows = static_cast<std::size_t>(level.height);

@@ -1,8 +1,8 @@
 // halflit bench: how long a frame takes, from a scene in memory to codes in memory.
 #include "apps/halflit/cli_support.hpp"
 #include "apps/halflit/commands.hpp"
-#include "apps/halflit/render_job.hpp"
 #include "apps/halflit/messages.hpp"
+#include "apps/halflit/render_job.hpp"
 #include "apps/halflit/run_report.hpp"
 #include "apps/halflit/stopwatch.hpp"
 #include "apps/io/atomic_file.hpp"

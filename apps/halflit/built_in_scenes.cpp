@@ -52,7 +52,8 @@ Result<std::optional<raster::Scene>> built_in_scene(std::string_view name) {
     if (name == "demo") return raster::demo_scene();
     if (name.starts_with(kLightsPrefix)) {
         const bool endless = name.ends_with(kEndless);
-        const std::string_view number = name.substr(kLightsPrefix.size(), name.size() - kLightsPrefix.size() - (endless ? kEndless.size() : 0));
+        const std::string_view number =
+            name.substr(kLightsPrefix.size(), name.size() - kLightsPrefix.size() - (endless ? kEndless.size() : 0));
         const auto lights = parse_int(number, 1, raster::kMostHallLights);
         if (!lights) return fail(ErrorCode::usage, std::string(name) + ": " + lights.error().message);
         return raster::lights_scene(static_cast<int>(*lights), !endless);

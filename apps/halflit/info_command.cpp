@@ -1,8 +1,8 @@
 // halflit info: what is in a scene, and what drawing it requires.
 #include "apps/halflit/cli_support.hpp"
 #include "apps/halflit/commands.hpp"
-#include "apps/halflit/render_job.hpp"
 #include "apps/halflit/messages.hpp"
+#include "apps/halflit/render_job.hpp"
 #include "apps/halflit/run_report.hpp"
 #include "apps/halflit/scene_description.hpp"
 #include "apps/io/atomic_file.hpp"

@@ -51,7 +51,9 @@ inline constexpr std::string_view kRateNames[] = {"flat", "gouraud", "pixel"};
 constexpr std::string_view rate_name(shading::ShadingRate rate) { return kRateNames[static_cast<std::size_t>(rate)]; }
 
 inline constexpr std::string_view kTextureDetailNames[] = {"full", "bilinear", "nearest"};
-constexpr std::string_view texture_detail_name(shading::TextureDetail detail) { return kTextureDetailNames[static_cast<std::size_t>(detail)]; }
+constexpr std::string_view texture_detail_name(shading::TextureDetail detail) {
+    return kTextureDetailNames[static_cast<std::size_t>(detail)];
+}
 
 inline constexpr std::string_view kShadowModeNames[] = {"off", "hard", "soft-split"};
 constexpr std::string_view shadow_mode_name(shading::ShadowMode mode) { return kShadowModeNames[static_cast<std::size_t>(mode)]; }

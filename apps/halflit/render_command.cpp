@@ -1,9 +1,9 @@
 // halflit render: a scene to a picture.
 #include "apps/halflit/cli_support.hpp"
 #include "apps/halflit/commands.hpp"
-#include "apps/halflit/render_job.hpp"
 #include "apps/halflit/interrupt.hpp"
 #include "apps/halflit/messages.hpp"
+#include "apps/halflit/render_job.hpp"
 #include "apps/halflit/run_report.hpp"
 #include "apps/halflit/stopwatch.hpp"
 #include "apps/io/atomic_file.hpp"

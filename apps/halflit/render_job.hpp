@@ -13,7 +13,7 @@
 namespace halflit::cli {
 
 struct RenderJob {
-    SceneSource source;                            ///< with the job's lights and ambient
+    SceneSource source;                             ///< with the job's lights and ambient
     std::optional<raster::PreparedScene> prepared;  ///< of that scene
     raster::Camera camera;
     raster::Settings settings;  ///< the region is never empty

@@ -54,13 +54,15 @@ std::string_view name_of(T value, const std::string_view (&names)[N]) {
 void add_picture_flags(CLI::App& app, RenderOptions& o, PictureSize usual) {
     constexpr const char* kGroup = "Picture";
     raster::Settings& s = o.settings;
-    add_value(app, "--size", "WxH", fmt::format("Size in pixels (default {}x{}, or the shape of the file's camera)", usual.width, usual.height),
+    add_value(app, "--size", "WxH",
+              fmt::format("Size in pixels (default {}x{}, or the shape of the file's camera)", usual.width, usual.height),
               [&o](const std::string& text) { return assign(o.size, parse_size(text)); })
         ->group(kGroup);
     add_value(app, "--region", "X,Y,W,H", "Draw and write only this part of the picture", [&s](const std::string& text) {
         return assign(s.region, parse_region(text));
     })->group(kGroup);
-    add_value(app, "--samples", "1|4|8", fmt::format("Samples a pixel against jagged edges (default {})", s.samples), choice(s.samples, {1, 4, 8}))
+    add_value(app, "--samples", "1|4|8", fmt::format("Samples a pixel against jagged edges (default {})", s.samples),
+              choice(s.samples, {1, 4, 8}))
         ->group(kGroup);
     add_value(app, "--background", "COLOR|environment",
               fmt::format("transparent, #rgb, #rrggbb, #rrggbbaa or a name (default {}); environment: what --env names", kUsualBackground),
@@ -158,11 +160,13 @@ void add_environment_flags(CLI::App& app, RenderOptions& o) {
 void add_shadow_flags(CLI::App& app, raster::Settings& s) {
     constexpr const char* kGroup = "Shadows";
     constexpr std::size_t kMib = 1u << 20;
-    add_value(app, "--shadows", form_of(kShadowModeNames),
-              fmt::format("soft-split lets wrapped light fade instead of cutting it off (default {})", name_of(s.shadows, kShadowModeNames)),
-              named(s.shadows, kShadowModeNames))
+    add_value(
+        app, "--shadows", form_of(kShadowModeNames),
+        fmt::format("soft-split lets wrapped light fade instead of cutting it off (default {})", name_of(s.shadows, kShadowModeNames)),
+        named(s.shadows, kShadowModeNames))
         ->group(kGroup);
-    add_value(app, "--shadow-size", "N", fmt::format("Side of a shadow map in texels, a power of two from 64 to 4096 (default {})", s.shadow_size),
+    add_value(app, "--shadow-size", "N",
+              fmt::format("Side of a shadow map in texels, a power of two from 64 to 4096 (default {})", s.shadow_size),
               choice(s.shadow_size, {64, 128, 256, 512, 1024, 2048, 4096}))
         ->group(kGroup);
     add_value(app, "--shadow-fade", "D", "soft-split: blocker distance where wrapped light is gone (default: from object size and wrap)",
@@ -187,13 +191,15 @@ void add_shadow_flags(CLI::App& app, raster::Settings& s) {
 void add_surface_flags(CLI::App& app, RenderOptions& o) {
     constexpr const char* kGroup = "Surface";
     shading::PlanOptions& s = o.settings.shading;
-    add_value(app, "--lobe", "NAME", fmt::format("Diffuse lobe: {} (default lambert)", shading::lobe_names()), [&o](const std::string& text) {
-        o.lobe_name = text;
-        return Result<void>();
-    })->group(kGroup);
-    add_value(app, "--wrap", "W", fmt::format("How far the light reaches round, 0 to {}", shading::kMaxLobeWrap), [&o](const std::string& text) {
-        return assign(o.lobe.wrap, parse_float(text, 0.0f, shading::kMaxLobeWrap));
-    })->group(kGroup);
+    add_value(app, "--lobe", "NAME", fmt::format("Diffuse lobe: {} (default lambert)", shading::lobe_names()),
+              [&o](const std::string& text) {
+                  o.lobe_name = text;
+                  return Result<void>();
+              })
+        ->group(kGroup);
+    add_value(app, "--wrap", "W", fmt::format("How far the light reaches round, 0 to {}", shading::kMaxLobeWrap),
+              [&o](const std::string& text) { return assign(o.lobe.wrap, parse_float(text, 0.0f, shading::kMaxLobeWrap)); })
+        ->group(kGroup);
     add_value(app, "--power", "N", fmt::format("Exponent of the lobe, 0 to {}", shading::kMaxLobePower), [&o](const std::string& text) {
         return assign(o.lobe.power, parse_float(text, 0.0f, shading::kMaxLobePower));
     })->group(kGroup);
@@ -204,17 +210,19 @@ void add_surface_flags(CLI::App& app, RenderOptions& o) {
               named(s.specular, kSpecularNames))
         ->group(kGroup);
     add_value(app, "--specular-normalize", form_of(kOffOn),
-              fmt::format("Make sharper highlights brighter (default {})", name_of(s.normalize_specular, kOffOn)), named(s.normalize_specular, kOffOn))
+              fmt::format("Make sharper highlights brighter (default {})", name_of(s.normalize_specular, kOffOn)),
+              named(s.normalize_specular, kOffOn))
         ->group(kGroup);
-    add_value(app, "--shading", form_of(kRateNames), fmt::format("Light once a triangle, vertex or pixel (default {})", name_of(s.rate, kRateNames)),
-              named(s.rate, kRateNames))
+    add_value(app, "--shading", form_of(kRateNames),
+              fmt::format("Light once a triangle, vertex or pixel (default {})", name_of(s.rate, kRateNames)), named(s.rate, kRateNames))
         ->group(kGroup);
 }
 
 void add_accuracy_flags(CLI::App& app, shading::PlanOptions& s) {
     constexpr const char* kGroup = "Accuracy";
     add_value(app, "--accuracy", form_of(kAccuracyNames),
-              fmt::format("reference: float64, slow; display: within one 8-bit code of exact; fast: less (default {})", name_of(s.accuracy, kAccuracyNames)),
+              fmt::format("reference: float64, slow; display: within one 8-bit code of exact; fast: less (default {})",
+                          name_of(s.accuracy, kAccuracyNames)),
               named(s.accuracy, kAccuracyNames))
         ->group(kGroup);
     add_value(app, "--max-error", "CODES", "Instead of a tier: the cheapest whose bound, in 8-bit codes, is below this, as 0.5",
@@ -233,23 +241,21 @@ void add_accuracy_flags(CLI::App& app, shading::PlanOptions& s) {
 
 void add_machine_flags(CLI::App& app, raster::Settings& s) {
     constexpr const char* kGroup = "Speed (never changes a pixel)";
-    add_value(app, "--isa", "NAME", "Instruction set: auto, " + shading::isa_names(),
-              [&s](const std::string& text) -> Result<void> {
-                  s.isa = shading::isa_by_name(text);
-                  constexpr std::string_view kPlace = "isa: ";  // said by the flag's own name
-                  if (!s.isa)
-                      return fail(ErrorCode::usage,
-                                  s.isa.error().message.substr(s.isa.error().message.starts_with(kPlace) ? kPlace.size() : 0));
-                  return {};
-              })
-        ->group(kGroup);
+    add_value(app, "--isa", "NAME", "Instruction set: auto, " + shading::isa_names(), [&s](const std::string& text) -> Result<void> {
+        s.isa = shading::isa_by_name(text);
+        constexpr std::string_view kPlace = "isa: ";  // said by the flag's own name
+        if (!s.isa)
+            return fail(ErrorCode::usage, s.isa.error().message.substr(s.isa.error().message.starts_with(kPlace) ? kPlace.size() : 0));
+        return {};
+    })->group(kGroup);
     add_value(app, "--threads", "N", "Threads, 0 for one a core (default)", [&s](const std::string& text) -> Result<void> {
         const auto threads = parse_int(text, 0, 1024);
         if (!threads) return tl::unexpected(threads.error());
         s.threads = static_cast<int>(*threads);
         return {};
     })->group(kGroup);
-    add_value(app, "--tile", "N", fmt::format("Side of a tile in pixels: 16, 32 or 64 (default {})", s.tile_size), choice(s.tile_size, {16, 32, 64}))
+    add_value(app, "--tile", "N", fmt::format("Side of a tile in pixels: 16, 32 or 64 (default {})", s.tile_size),
+              choice(s.tile_size, {16, 32, 64}))
         ->group(kGroup);
 }
 
@@ -307,7 +313,8 @@ raster::Settings RenderOptions::usual_settings() {
 
 void add_render_options(CLI::App& app, RenderOptions& o, bool scene_required, PictureSize usual) {
     CLI::Option* scene =
-        app.add_option("SCENE", o.scene, "A .glb or .gltf file, - for standard input, or a built-in scene: demo, sphere:N (N triangles), lights:N (N lamps)");
+        app.add_option("SCENE", o.scene,
+                       "A .glb or .gltf file, - for standard input, or a built-in scene: demo, sphere:N (N triangles), lights:N (N lamps)");
     scene->type_name("");
     if (scene_required) scene->required();
     add_picture_flags(app, o, usual);

@@ -90,7 +90,8 @@ Json error_bound_json(const shading::ErrorBound& error) {
 
 Json stages_ms(const raster::RenderReport& rendered) {
     const auto& ms = rendered.ms;
-    return {{"plan", ms.plan}, {"shadows", ms.shadows}, {"cull", ms.cull}, {"transform", ms.transform}, {"bin", ms.bin}, {"tiles", ms.tiles}};
+    return {{"plan", ms.plan},           {"shadows", ms.shadows}, {"cull", ms.cull},
+            {"transform", ms.transform}, {"bin", ms.bin},         {"tiles", ms.tiles}};
 }
 
 Json environment_use_json(const raster::EnvironmentUse& use, const raster::Settings& settings) {

@@ -48,8 +48,8 @@ Result<SceneSource> load_scene(const RenderOptions& options) {
     if (*built_in) return SceneSource{name, std::make_unique<raster::Scene>(std::move(**built_in)), std::nullopt, {}};
     auto loaded = load_model(options);
     if (!loaded) return tl::unexpected(loaded.error());
-    return SceneSource{name == "-" ? kStandardInput : name, std::make_unique<raster::Scene>(std::move(loaded->scene)), std::move(loaded->info),
-                       std::move(loaded->warnings)};
+    return SceneSource{name == "-" ? kStandardInput : name, std::make_unique<raster::Scene>(std::move(loaded->scene)),
+                       std::move(loaded->info), std::move(loaded->warnings)};
 }
 
 }  // namespace halflit::cli

@@ -14,9 +14,9 @@
 namespace halflit::cli {
 
 struct SceneSource {
-    std::string name;  ///< for people: the path, "standard input", or the built-in name
+    std::string name;                      ///< for people: the path, "standard input", or the built-in name
     std::unique_ptr<raster::Scene> scene;  ///< stays where it is while the source moves
-    std::optional<io::SceneInfo> file;  ///< of a file or standard input, whose lights are in their author's unit
+    std::optional<io::SceneInfo> file;     ///< of a file or standard input, whose lights are in their author's unit
     std::vector<std::string> warnings;
 };
 

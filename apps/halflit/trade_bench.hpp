@@ -24,7 +24,7 @@ struct TradeRow {
     TradeError error;
     std::optional<shading::ErrorBound> bound;  ///< with a budget: what was promised
     std::vector<std::string> lobe_paths;       ///< how t^n is computed, with the polynomials' tier where there are any
-    std::string specular_tier;                ///< of the polynomials for cos^s, or "curve"; empty without highlights
+    std::string specular_tier;                 ///< of the polynomials for cos^s, or "curve"; empty without highlights
     std::vector<int> orders;                   ///< of the environment, in use
     bool front = false;                        ///< nothing else is both faster and nearer to the reference
     int number = 0;                            ///< on the front, by time from 1; otherwise 0

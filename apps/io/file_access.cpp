@@ -21,7 +21,6 @@ namespace halflit::io {
 
 namespace {
 
-
 class Descriptor {
 public:
     explicit Descriptor(int fd) : fd_(fd) {}

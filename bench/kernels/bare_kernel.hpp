@@ -30,8 +30,7 @@ static void bare_sum(const shading::ShadingPlan& frame, const shading::MaterialP
         const V3 position = row3(block, shading::kPosX, lane);
         const ShadowReceiver receiver{frame, position, normal, {}};
         const SpecularShape shape{frame.specular, material.specular_tier, 0.0f, material.specular_curve, F(bench::kHalfExponent), F(1.0f)};
-        const LightSums sums =
-            sum_lights<kHighlight>(frame.lights.data(), count, material.lobe, receiver, position, normal, to_eye, shape);
+        const LightSums sums = sum_lights<kHighlight>(frame.lights.data(), count, material.lobe, receiver, position, normal, to_eye, shape);
         store_color(block, lane, sums.diffuse);
         if constexpr (kHighlight) store3(block, shading::kColorR, lane, sums.specular);
     }

@@ -1,8 +1,8 @@
 // The built-in scene: five balls of one clay that differ in their lobe alone, from Lambert on the left to the full wrap on the right,
 // under a low key from the side. Behind them a lacquered trefoil on a plinth with a mosaic.
 #include "raster/built_in/demo_parts.hpp"
-#include "raster/scene/scene.hpp"
 #include "raster/built_in/shapes.hpp"
+#include "raster/scene/scene.hpp"
 #include "sh/trig.hpp"
 
 #include <utility>

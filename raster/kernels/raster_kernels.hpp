@@ -16,7 +16,7 @@ namespace halflit::raster {
 struct alignas(16) ScreenVertex {
     std::int32_t x, y;  ///< 24.8 fixed point, see above
     float z;            ///< depth: 1 at the near plane, 0 at the far plane or infinity
-    float inv_w;          ///< 1 / clip w
+    float inv_w;        ///< 1 / clip w
 };
 
 /// Why a triangle with this vertex may need more than plain set-up.
@@ -129,10 +129,10 @@ struct InterpolateArgs {
     const float* const* clip_records;  ///< per chunk; records of clip vertices, kVertexFloats floats apart, slots packed as in `base`
     shading::SlotMask slots;
     int stride;
-    bool gradients;  ///< fill the kDu.. rows
-    bool facing;     ///< fill kFacing
+    bool gradients;      ///< fill the kDu.. rows
+    bool facing;         ///< fill kFacing
     bool shadow_offset;  ///< fill the kShadowX.. rows; needs slots 0 and 1
-    int count;       ///< fragments; ids and positions are padded to a multiple of 16 with copies of the last one
+    int count;           ///< fragments; ids and positions are padded to a multiple of 16 with copies of the last one
     const std::uint32_t* ids;
     const std::int32_t *x_px, *y_px;
 };

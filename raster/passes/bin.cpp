@@ -217,7 +217,8 @@ void ViewGeometry::bin(Executor& executor, SubmissionNumbers* numbers) {
     local_bits_ = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(most)));
     sources_.clear();
     for (std::size_t i = 0; i < chunk_count_; ++i)
-        sources_.push_back({chunks_[i]->records.data(), screen_.data(), chunks_[i]->clip_screen.data(), static_cast<std::uint32_t>(i << local_bits_)});
+        sources_.push_back(
+            {chunks_[i]->records.data(), screen_.data(), chunks_[i]->clip_screen.data(), static_cast<std::uint32_t>(i << local_bits_)});
 }
 
 }  // namespace halflit::raster

@@ -33,7 +33,8 @@ public:
                                      [](std::int64_t cluster, const Draw& d) { return cluster < d.cluster_base; }) -
                     1;
         for (std::int64_t c = chunk_.first_cluster; c < chunk_.end_cluster; ++draw) {
-            const std::int64_t end = std::min(chunk_.end_cluster, draw->cluster_base + static_cast<std::int64_t>(draw->prepared->cluster_count()));
+            const std::int64_t end =
+                std::min(chunk_.end_cluster, draw->cluster_base + static_cast<std::int64_t>(draw->prepared->cluster_count()));
             cull(*draw, static_cast<std::uint32_t>(draw - draws.begin()), static_cast<std::size_t>(c - draw->cluster_base),
                  static_cast<std::size_t>(end - draw->cluster_base));
             c = end;
@@ -57,7 +58,8 @@ private:
 
     void keep(const Draw& draw, std::uint32_t number, std::size_t cluster) {
         const auto first = static_cast<std::uint32_t>(cluster * kClusterTriangles);
-        const auto end = static_cast<std::uint32_t>(std::min<std::size_t>(first + std::size_t{kClusterTriangles}, draw.mesh->indices.size() / 3));
+        const auto end =
+            static_cast<std::uint32_t>(std::min<std::size_t>(first + std::size_t{kClusterTriangles}, draw.mesh->indices.size() / 3));
         if (!chunk_.runs.empty() && chunk_.runs.back().draw == number && chunk_.runs.back().end == first)
             chunk_.runs.back().end = end;
         else
@@ -85,7 +87,8 @@ void ViewGeometry::list_draws(Executor& executor) {
             const std::size_t begin = static_cast<std::size_t>(task) * kInstancesPerTask;
             for (std::size_t i = begin; i < std::min(begin + kInstancesPerTask, instances.size()); ++i) {
                 const PreparedMesh& mesh = scene_->mesh(instances[i].mesh);
-                seen[i] = !mesh.finite || verdict_on(culler_of(view_, instances[i].world_from_object, false), mesh.bounds) != Culler::Verdict::outside;
+                seen[i] = !mesh.finite ||
+                          verdict_on(culler_of(view_, instances[i].world_from_object, false), mesh.bounds) != Culler::Verdict::outside;
             }
         });
     }

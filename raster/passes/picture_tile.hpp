@@ -20,7 +20,12 @@ struct PicturePass {
 class PictureTile {
 public:
     PictureTile(const PicturePass& pass, int tile, TileScratch& scratch)
-        : pass_(pass), plan_(pass.plan), tile_(tile), rect_(plan_.picture.tile_rect(tile)), samples_(plan_.picture.samples.count), scratch_(scratch) {}
+        : pass_(pass),
+          plan_(pass.plan),
+          tile_(tile),
+          rect_(plan_.picture.tile_rect(tile)),
+          samples_(plan_.picture.samples.count),
+          scratch_(scratch) {}
 
     TileCounts draw();
 
@@ -31,9 +36,9 @@ private:
     // blend.cpp
     void blend_layers();
     // resolve.cpp
-    void clear();             ///< the background behind everything, of a tile that has triangles
-    void fill_background();   ///< the picture of a tile that has none
-    void fill_samples();      ///< every sample with the environment behind its pixel
+    void clear();                          ///< the background behind everything, of a tile that has triangles
+    void fill_background();                ///< the picture of a tile that has none
+    void fill_samples();                   ///< every sample with the environment behind its pixel
     void write(const FragmentList& list);  ///< the scratch's block, to the framebuffer or to its samples
     void write_samples(const FragmentList& list, bool blend);
     void resolve();

@@ -114,7 +114,8 @@ void PictureTile::fill_background() {
     if (target.rgba_linear) {
         const float back[4] = {b.x, b.y, b.z, b.w};
         for (int y = 0; y < rect_.height; ++y)
-            for (int x = 0; x < rect_.width; ++x) std::memcpy(target.rgba_linear + 4 * pixel_offset(rect_.x + x, rect_.y + y), back, sizeof back);
+            for (int x = 0; x < rect_.width; ++x)
+                std::memcpy(target.rgba_linear + 4 * pixel_offset(rect_.x + x, rect_.y + y), back, sizeof back);
     }
 }
 

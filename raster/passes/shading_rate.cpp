@@ -34,7 +34,8 @@ Vec3f row3(const FragmentBlock& block, int row, int l) { return {block.lane[row]
 const float* vertex_record(const TilePass& pass, std::uint32_t id, const TriangleRecord& triangle, int k) {
     const std::uint32_t v = triangle.vertex[k];
     if (v & kClipVertex)
-        return pass.records.clip_records()[pass.geometry.chunk_of(id)] + static_cast<std::size_t>(v & ~kClipVertex) * shading::kVertexFloats;
+        return pass.records.clip_records()[pass.geometry.chunk_of(id)] +
+               static_cast<std::size_t>(v & ~kClipVertex) * shading::kVertexFloats;
     const std::size_t draw = triangle.draw_and_back >> 1;
     return pass.records.draws()[draw].base + static_cast<std::int64_t>(v) * pass.records.stride(draw);
 }

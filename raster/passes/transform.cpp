@@ -15,7 +15,8 @@ void ViewGeometry::transform(const RasterKernels& kernels, Executor& executor) {
     executor.run(static_cast<int>((group_count_ + kGroupsPerTask - 1) / kGroupsPerTask), [&](int task) {
         std::int64_t group = task * kGroupsPerTask;
         const std::int64_t end = std::min(group + kGroupsPerTask, group_count_);
-        auto draw = std::upper_bound(draws_.begin(), draws_.end(), group, [](std::int64_t g, const Draw& d) { return g < d.group_base; }) - 1;
+        auto draw =
+            std::upper_bound(draws_.begin(), draws_.end(), group, [](std::int64_t g, const Draw& d) { return g < d.group_base; }) - 1;
         for (; group < end; ++draw) {
             const std::int64_t draw_end = std::min(end, draw->group_base + draw->group_count());
             TransformArgs args{};

@@ -13,7 +13,8 @@ class VertexRecords {
 public:
     /// For a view's geometry as its materials ask for; `materials` as PreparedScene counts them. Does nothing where geometry and attribute
     /// slots are those of the last call.
-    void make(const ViewGeometry& geometry, std::span<const shading::MaterialPlan> materials, const RasterKernels& kernels, Executor& executor);
+    void make(const ViewGeometry& geometry, std::span<const shading::MaterialPlan> materials, const RasterKernels& kernels,
+              Executor& executor);
 
     /// Floats a record of that draw's vertices.
     [[nodiscard]] int stride(std::size_t draw) const { return strides_[draw]; }
@@ -21,7 +22,9 @@ public:
     [[nodiscard]] const float* const* clip_records() const { return clip_records_.data(); }
 
     /// The record of a vertex of a draw, counted from the mesh's first. Whoever writes it says so by changed().
-    [[nodiscard]] float* record(std::size_t draw, std::int64_t vertex) { return records_.data() + record_bases_[draw] + vertex * strides_[draw]; }
+    [[nodiscard]] float* record(std::size_t draw, std::int64_t vertex) {
+        return records_.data() + record_bases_[draw] + vertex * strides_[draw];
+    }
     void changed() { version_ = 0; }
     /// Makes the records of clipped vertices anew from those of their triangles.
     void make_clip_records(const ViewGeometry& geometry, Executor& executor);

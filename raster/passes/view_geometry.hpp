@@ -23,10 +23,10 @@ struct Draw {
     const Mesh* mesh = nullptr;
     const PreparedMesh* prepared = nullptr;
     std::uint32_t instance = 0;
-    std::int32_t material = 0;     ///< as PreparedScene counts them
-    std::int64_t vertex_base = 0;  ///< of its first vertex, in the view's arrays
-    std::int64_t group_base = 0;   ///< of its first vertex group
-    std::int64_t cluster_base = 0; ///< of its first cluster, over all draws
+    std::int32_t material = 0;       ///< as PreparedScene counts them
+    std::int64_t vertex_base = 0;    ///< of its first vertex, in the view's arrays
+    std::int64_t group_base = 0;     ///< of its first vertex group
+    std::int64_t cluster_base = 0;   ///< of its first cluster, over all draws
     std::int64_t triangle_base = 0;  ///< of its first triangle in submission order, over all instances of the scene
     bool mirrored = false, cull_back = true;
     shading::AlphaMode alpha_mode = shading::AlphaMode::opaque;
@@ -58,7 +58,7 @@ struct Chunk {
     std::vector<std::uint64_t> pairs;       ///< tile << 32 | record, in submission order; scratch
     std::vector<std::uint32_t> tile_begin;  ///< per tile: first entry of tile_list; one more at the end
     std::vector<std::uint32_t> tile_list;
-    std::uint64_t not_finite = 0;           ///< triangles dropped for a NaN or infinite vertex
+    std::uint64_t not_finite = 0;  ///< triangles dropped for a NaN or infinite vertex
 
     [[nodiscard]] std::span<const std::uint32_t> tile(int number) const {
         const auto t = static_cast<std::size_t>(number);
@@ -95,7 +95,9 @@ public:
     [[nodiscard]] const TriangleSource& source(std::size_t chunk) const { return sources_[chunk]; }
     [[nodiscard]] TriangleTable table() const { return {sources_.data(), local_bits_}; }
     [[nodiscard]] std::size_t chunk_of(std::uint32_t id) const { return id >> local_bits_; }
-    [[nodiscard]] const TriangleRecord& record(std::uint32_t id) const { return sources_[chunk_of(id)].records[id & ((1u << local_bits_) - 1u)]; }
+    [[nodiscard]] const TriangleRecord& record(std::uint32_t id) const {
+        return sources_[chunk_of(id)].records[id & ((1u << local_bits_) - 1u)];
+    }
     [[nodiscard]] const Draw& draw_of(const TriangleRecord& record) const { return draws_[record.draw_and_back >> 1]; }
     [[nodiscard]] bool tile_is_empty(int tile) const;
 
@@ -120,7 +122,7 @@ private:
     std::vector<Draw> draws_;
     bool has_mode_[3] = {};
     std::int64_t vertex_count_ = 0, group_count_ = 0, cluster_count_ = 0, triangle_count_ = 0;
-    RawBuffer<std::uint8_t> seen_;                         ///< per instance; scratch
+    RawBuffer<std::uint8_t> seen_;  ///< per instance; scratch
     RawBuffer<std::uint8_t> groups_seen_, groups_drawn_;
     RawBuffer<ScreenVertex> screen_;
     RawBuffer<std::uint8_t> outcodes_;

@@ -10,7 +10,8 @@ namespace {
 using shading::AlphaMode;
 
 /// One triangle of a masked material: the samples that its alpha test leaves.
-void draw_masked(const TilePass& pass, const TileRect& rect, std::size_t chunk, std::uint32_t record, TileScratch& scratch, TileCounts& counts) {
+void draw_masked(const TilePass& pass, const TileRect& rect, std::size_t chunk, std::uint32_t record, TileScratch& scratch,
+                 TileCounts& counts) {
     bool any = false;
     const CoverBox box = collect_covered(pass, rect, chunk, record, scratch, [&](FragmentList& list) {
         const shading::MaterialPlan& material = pass.materials[static_cast<std::size_t>(list.material)];

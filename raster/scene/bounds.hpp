@@ -14,7 +14,7 @@ struct Bounds {
     /// A box, whole.
     void include(const Bounds& other);
     [[nodiscard]] Vec3f center() const;
-    [[nodiscard]] float radius() const;   ///< half the diagonal
+    [[nodiscard]] float radius() const;  ///< half the diagonal
 };
 
 }  // namespace halflit::raster

@@ -84,8 +84,7 @@ void set_cone(const Shapes& shapes, std::uint32_t count, Cluster& cluster) {
 /// One run of clusters, by one task.
 class ClusterRun {
 public:
-    explicit ClusterRun(const Mesh& mesh)
-        : mesh_(mesh), stamp_((mesh.positions.size() + kVertexGroup - 1) / kVertexGroup, 0) {}
+    explicit ClusterRun(const Mesh& mesh) : mesh_(mesh), stamp_((mesh.positions.size() + kVertexGroup - 1) / kVertexGroup, 0) {}
 
     /// False where an index is out of range. Groups are numbered from the run's first one on.
     bool build(std::size_t begin, std::size_t end, Cluster* clusters) {
@@ -193,7 +192,8 @@ double PlacedBox::distance_squared(Vec3d p) const {
 Bounds placed_bounds(const Mesh& mesh, const PreparedMesh& prepared, const Mat4& world_from_object) {
     Bounds bounds;
     const auto look_into = [&](std::size_t cluster) {
-        const std::size_t begin = 3 * cluster * kClusterTriangles, end = std::min(begin + std::size_t{3} * kClusterTriangles, mesh.indices.size());
+        const std::size_t begin = 3 * cluster * kClusterTriangles,
+                          end = std::min(begin + std::size_t{3} * kClusterTriangles, mesh.indices.size());
         for (std::size_t i = begin; i < end; ++i) bounds.add(transform_point(world_from_object, mesh.positions[mesh.indices[i]]));
     };
     const std::size_t count = prepared.cluster_count();
@@ -222,7 +222,8 @@ Result<PreparedMesh> prepare_mesh(const Mesh& mesh, Executor& executor) {
     if (const char* wrong = what_is_wrong(mesh)) return fail(ErrorCode::bad_input, wrong);
     PreparedMesh prepared;
     for (const std::vector<Vec2f>* set : {&mesh.uv0, &mesh.uv1})
-        prepared.largest_uv = largest_of(*set, prepared.largest_uv, [](Vec2f uv) { return static_cast<float>(std::max(magnitude(uv.x), magnitude(uv.y))); });
+        prepared.largest_uv =
+            largest_of(*set, prepared.largest_uv, [](Vec2f uv) { return static_cast<float>(std::max(magnitude(uv.x), magnitude(uv.y))); });
     prepared.largest_color = largest_of(mesh.colors, 1.0f, [](Vec4f c) { return std::max({c.x, c.y, c.z}); });
     if (mesh.indices.empty()) return prepared;
 

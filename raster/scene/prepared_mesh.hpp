@@ -37,17 +37,18 @@ struct Cluster {
 inline constexpr std::size_t kSuperclusterSize = 32;
 
 struct PreparedMesh {
-    Bounds bounds;                            ///< object space, of the finite vertices that some triangle uses
-    std::vector<Cluster> clusters;            ///< one more at the end, for its first_group
-    std::vector<Bounds> superclusters;        ///< object space: of kSuperclusterSize clusters each, in order
-    std::vector<std::uint32_t> vertex_groups; ///< numbers of the groups that each cluster reads, cluster after cluster
-    float largest_uv = 0;                     ///< the largest magnitude of a texture coordinate
-    float largest_color = 1;                  ///< the largest red, green or blue of the vertex colours, at least 1
-    bool finite = true;                       ///< every used vertex is finite
+    Bounds bounds;                             ///< object space, of the finite vertices that some triangle uses
+    std::vector<Cluster> clusters;             ///< one more at the end, for its first_group
+    std::vector<Bounds> superclusters;         ///< object space: of kSuperclusterSize clusters each, in order
+    std::vector<std::uint32_t> vertex_groups;  ///< numbers of the groups that each cluster reads, cluster after cluster
+    float largest_uv = 0;                      ///< the largest magnitude of a texture coordinate
+    float largest_color = 1;                   ///< the largest red, green or blue of the vertex colours, at least 1
+    bool finite = true;                        ///< every used vertex is finite
 
     [[nodiscard]] std::size_t cluster_count() const { return clusters.empty() ? 0 : clusters.size() - 1; }
     [[nodiscard]] std::span<const std::uint32_t> groups_of(std::size_t cluster) const {
-        return std::span(vertex_groups).subspan(clusters[cluster].first_group, clusters[cluster + 1].first_group - clusters[cluster].first_group);
+        return std::span(vertex_groups)
+            .subspan(clusters[cluster].first_group, clusters[cluster + 1].first_group - clusters[cluster].first_group);
     }
 };
 

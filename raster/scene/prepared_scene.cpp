@@ -118,8 +118,8 @@ Result<PreparedScene> PreparedScene::make(const Scene& scene, const Workers& wor
         const std::size_t begin = static_cast<std::size_t>(task) * kInstancesPerTask;
         for (std::size_t i = begin; i < std::min(begin + kInstancesPerTask, scene.instances.size()); ++i) {
             const Instance& instance = scene.instances[i];
-            prepared.instance_bounds_[i] =
-                placed_bounds(scene.meshes[static_cast<std::size_t>(instance.mesh)], prepared.mesh(instance.mesh), instance.world_from_object);
+            prepared.instance_bounds_[i] = placed_bounds(scene.meshes[static_cast<std::size_t>(instance.mesh)],
+                                                         prepared.mesh(instance.mesh), instance.world_from_object);
         }
     });
     prepared.collect();
@@ -143,7 +143,8 @@ Result<void> PreparedScene::update(const SceneChanges& changes, const Workers& w
         executor.configure(workers.threads, workers.parallel_for);
         std::vector<bool> deformed(scene.meshes.size(), false);
         for (const std::size_t i : changes.deformed_meshes) {
-            if (i >= scene.meshes.size()) return fail(ErrorCode::usage, "mesh " + std::to_string(i) + " of " + std::to_string(scene.meshes.size()));
+            if (i >= scene.meshes.size())
+                return fail(ErrorCode::usage, "mesh " + std::to_string(i) + " of " + std::to_string(scene.meshes.size()));
             if (auto ok = prepare(i, executor); !ok) return ok;
             deformed[i] = true;
         }

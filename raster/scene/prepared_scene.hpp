@@ -16,11 +16,11 @@ namespace halflit::raster {
 
 /// What is no longer as it was when a scene was prepared. Numbers of meshes, instances and materials must be the same.
 struct SceneChanges {
-    std::vector<std::size_t> moved_instances{};   ///< Instance::world_from_object
-    std::vector<std::size_t> deformed_meshes{};   ///< any array of the mesh, indices and material included
-    bool materials = false;                       ///< materials or textures
-    bool lights = false;                          ///< lights or ambient light
-    bool environment = false;                     ///< another, or another image in the same place
+    std::vector<std::size_t> moved_instances{};  ///< Instance::world_from_object
+    std::vector<std::size_t> deformed_meshes{};  ///< any array of the mesh, indices and material included
+    bool materials = false;                      ///< materials or textures
+    bool lights = false;                         ///< lights or ambient light
+    bool environment = false;                    ///< another, or another image in the same place
 };
 
 /// Grow with every change and are never the same for two scenes, so that what was made from a scene can be kept while they stay.

@@ -103,13 +103,15 @@ private:
     }
 
     void look_into(const Mesh& mesh, std::size_t cluster, const Mat4& m) {
-        const std::size_t begin = 3 * cluster * kClusterTriangles, end = std::min(begin + std::size_t{3} * kClusterTriangles, mesh.indices.size());
+        const std::size_t begin = 3 * cluster * kClusterTriangles,
+                          end = std::min(begin + std::size_t{3} * kClusterTriangles, mesh.indices.size());
         const auto vertex = [&](std::uint32_t index) {
             const Vec3f p = transform_point(m, mesh.positions[index]);  // in float32, as it is drawn
             return Vec3d{p.x - point_.x, p.y - point_.y, p.z - point_.z};
         };
         for (std::size_t i = begin; i < end; i += 3)
-            nearest_ = std::min(nearest_, triangle_distance(vertex(mesh.indices[i]), vertex(mesh.indices[i + 1]), vertex(mesh.indices[i + 2])));
+            nearest_ =
+                std::min(nearest_, triangle_distance(vertex(mesh.indices[i]), vertex(mesh.indices[i + 1]), vertex(mesh.indices[i + 2])));
     }
 
     [[nodiscard]] double distance_to(const float (&&min)[3], const float (&&max)[3], const Mat4& m) const {
@@ -128,7 +130,8 @@ double nearest_surface_squared(const PreparedScene& scene, Vec3d point) { return
 double farthest_surface_squared(const PreparedScene& scene, Vec3d point) {
     const Bounds& box = scene.bounds();
     if (box.empty) return 0.0;
-    const double low[3] = {box.min.x, box.min.y, box.min.z}, high[3] = {box.max.x, box.max.y, box.max.z}, at[3] = {point.x, point.y, point.z};
+    const double low[3] = {box.min.x, box.min.y, box.min.z}, high[3] = {box.max.x, box.max.y, box.max.z},
+                 at[3] = {point.x, point.y, point.z};
     double sum = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
         const double d = larger(magnitude(at[axis] - low[axis]), magnitude(high[axis] - at[axis]));

@@ -5,8 +5,11 @@
 namespace halflit::raster {
 
 Background::Background(const shading::Environment& environment, const Camera& camera, int width, int height, float exposure)
-    : environment_(&environment), rays_(view_rays(camera, static_cast<float>(width) / static_cast<float>(height))), width_(width),
-      height_(height), exposure_(exposure) {
+    : environment_(&environment),
+      rays_(view_rays(camera, static_cast<float>(width) / static_cast<float>(height))),
+      width_(width),
+      height_(height),
+      exposure_(exposure) {
     const sh::Rotation back = sh::inverse(sh::rotation_about_y(environment.rotate_rad));
     rays_ = {back * rays_.middle, back * rays_.right, back * rays_.up};
 }
@@ -22,9 +25,11 @@ Vec4f Background::at(int x_px, int y_px) const {
     const int y1 = lower_row < h ? lower_row : h - 1, y0 = lower_row > 0 ? lower_row - 1 : 0;
     const double fx = x - right_column, fy = y - lower_row;
     const sh::EquirectView image{w, h, environment_->rgb};
-    const Vec3d upper = image.at(x0, y0) * (1.0 - fx) + image.at(x1, y0) * fx, lower = image.at(x0, y1) * (1.0 - fx) + image.at(x1, y1) * fx;
+    const Vec3d upper = image.at(x0, y0) * (1.0 - fx) + image.at(x1, y0) * fx,
+                lower = image.at(x0, y1) * (1.0 - fx) + image.at(x1, y1) * fx;
     const Vec3d light = upper * (1.0 - fy) + lower * fy;
-    return {static_cast<float>(light.x) * exposure_, static_cast<float>(light.y) * exposure_, static_cast<float>(light.z) * exposure_, 1.0f};
+    return {static_cast<float>(light.x) * exposure_, static_cast<float>(light.y) * exposure_, static_cast<float>(light.z) * exposure_,
+            1.0f};
 }
 
 }  // namespace halflit::raster

@@ -57,16 +57,17 @@ Culler::Culler(const View& view, const Mat4& m, bool mirrored, bool back_faces)
         p.size_offset = magnitude(row.offset) + magnitude(w.offset);
         return p;
     };
-    plane_[0] = plane(0, 1.0, -left);     // x >= left w
-    plane_[1] = plane(0, -1.0, right);    // x <= right w
-    plane_[2] = plane(1, -1.0, -top);     // -y >= top w: the window's y points down
-    plane_[3] = plane(1, 1.0, bottom);    // -y <= bottom w
-    plane_[4] = plane(2, 1.0, 0.0);       // z >= 0: not beyond the far plane
-    plane_[5] = plane(2, -1.0, 1.0);      // z <= w: not before the near plane
+    plane_[0] = plane(0, 1.0, -left);   // x >= left w
+    plane_[1] = plane(0, -1.0, right);  // x <= right w
+    plane_[2] = plane(1, -1.0, -top);   // -y >= top w: the window's y points down
+    plane_[3] = plane(1, 1.0, bottom);  // -y <= bottom w
+    plane_[4] = plane(2, 1.0, 0.0);     // z >= 0: not beyond the far plane
+    plane_[5] = plane(2, -1.0, 1.0);    // z <= w: not before the near plane
 
     // Doubled area in ndc of a triangle with w > 0: D / (w0 w1 w2), D the determinant of its corners' (x, y, w). With the columns C, c3 of
     // these three rows, D = c3 . cof(C) N + det(C) N . p for the triangle's normal N = (p1 - p0) x (p2 - p0) and any of its points p.
-    const Vec3d c[4] = {{m.c[0].x, m.c[0].y, m.c[0].w}, {m.c[1].x, m.c[1].y, m.c[1].w}, {m.c[2].x, m.c[2].y, m.c[2].w}, {m.c[3].x, m.c[3].y, m.c[3].w}};
+    const Vec3d c[4] = {
+        {m.c[0].x, m.c[0].y, m.c[0].w}, {m.c[1].x, m.c[1].y, m.c[1].w}, {m.c[2].x, m.c[2].y, m.c[2].w}, {m.c[3].x, m.c[3].y, m.c[3].w}};
     determinant_ = dot(c[0], cross(c[1], c[2]));
     eye_[0] = dot(c[3], cross(c[1], c[2]));
     eye_[1] = dot(c[3], cross(c[2], c[0]));
@@ -122,7 +123,8 @@ bool Culler::faces_away(const Cluster& cluster) const {
     if (!(least > 0.0)) return false;
 
     // No triangle may be clipped, and each must be thick enough in the window to keep its side when its corners are snapped.
-    const Range x = range(row_[0], middle, half), y = range(row_[1], middle, half), z = range(row_[2], middle, half), w = range(row_[3], middle, half);
+    const Range x = range(row_[0], middle, half), y = range(row_[1], middle, half), z = range(row_[2], middle, half),
+                w = range(row_[3], middle, half);
     if (!(x.size + y.size + z.size + w.size < kHuge)) return false;
     const double error_w = kClipError * w.size, w_min = w.middle - w.half - error_w, w_max = w.middle + w.half;
     if (!(w_min > 4.0 * error_w)) return false;
@@ -132,7 +134,8 @@ bool Culler::faces_away(const Cluster& cluster) const {
     // An edge of length 1 in object space is at most this long in the window, times w_min.
     const double w_slope = length3(row_[3].g);
     const double dx = half_width_ * (length3(row_[0].g) + x_most * w_slope), dy = half_height_ * (length3(row_[1].g) + y_most * w_slope);
-    const double altitude = cluster.least_altitude * least * half_width_ * half_height_ * w_min / (w_max * w_max * w_max * __builtin_sqrt(dx * dx + dy * dy));
+    const double altitude =
+        cluster.least_altitude * least * half_width_ * half_height_ * w_min / (w_max * w_max * w_max * __builtin_sqrt(dx * dx + dy * dy));
     // Half a step of the grid, and what float32 makes of the window position: of clip x and w, of the division and the mapping.
     const auto error = [&](const Range& coordinate, double most, double half_size) {
         return half_size * (1.01 * kClipError * (coordinate.size + most * w.size) / w_min + 5e-7 * (most + 1.0));

@@ -23,7 +23,8 @@ public:
     /// Sorts the lights that have a range into groups of neighbours.
     explicit LightCuller(std::span<const shading::LightPlan> lights);
 
-    /// Those of the same lights that `count` fragments need, from their world positions; `scratch` holds the list where it is not the whole.
+    /// Those of the same lights that `count` fragments need, from their world positions; `scratch` holds the list where it is not the
+    /// whole.
     [[nodiscard]] shading::LightList select(std::span<const shading::LightPlan> lights, const shading::FragmentBlock& block, int count,
                                             LightSelection& scratch) const;
 

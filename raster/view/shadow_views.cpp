@@ -105,7 +105,11 @@ bool can_see(const Axes& axes, Vec3d eye, double half, const Bounds& bounds) {
 class Planner {
 public:
     Planner(const Bounds& bounds, int side, ShadowViews& out)
-        : bounds_(bounds), center_{bounds.center().x, bounds.center().y, bounds.center().z}, radius_(bounds.radius()), side_(side), out_(out) {}
+        : bounds_(bounds),
+          center_{bounds.center().x, bounds.center().y, bounds.center().z},
+          radius_(bounds.radius()),
+          side_(side),
+          out_(out) {}
 
     void add(const LightPlan& light) {
         ShadowMapPlan map;
@@ -128,7 +132,8 @@ private:
         const Axes axes = axes_for(unit(to_double(light.to_light)));
         double half = 0.0, depth = 0.0;
         for (int k = 0; k < 8; ++k) {
-            const Vec3f p{k & 1 ? bounds_.max.x : bounds_.min.x, k & 2 ? bounds_.max.y : bounds_.min.y, k & 4 ? bounds_.max.z : bounds_.min.z};
+            const Vec3f p{k & 1 ? bounds_.max.x : bounds_.min.x, k & 2 ? bounds_.max.y : bounds_.min.y,
+                          k & 4 ? bounds_.max.z : bounds_.min.z};
             const Vec3d q = Vec3d{p.x, p.y, p.z} - center_;
             const double x = dot(q, axes.right), y = dot(q, axes.up), z = dot(q, axes.back);
             half = std::max({half, x, -x, y, -y});

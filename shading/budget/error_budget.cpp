@@ -1,9 +1,9 @@
 #include "shading/budget/error_budget.hpp"
 
 #include "sh/power.hpp"
-#include "shading/model/code_bounds.hpp"
 #include "shading/budget/power_fit.hpp"
 #include "shading/budget/texture_bounds.hpp"
+#include "shading/model/code_bounds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,10 +21,10 @@ constexpr double kProductError = 1e-5;
 
 /// What the material makes of light, at most.
 struct Surface {
-    double albedo, reflectance;     ///< diffuse with the lobe's scale; F0
-    double exponent, normalization; ///< of the sharpest highlight
+    double albedo, reflectance;      ///< diffuse with the lobe's scale; F0
+    double exponent, normalization;  ///< of the sharpest highlight
     double cosine_error;
-    double roughness_error;  ///< relative, where a texture gives it
+    double roughness_error;                                                    ///< relative, where a texture gives it
     double base_color_error, metallic_error, occlusion_error, emissive_error;  ///< of a texture's value
     bool specular;
 };
@@ -45,7 +45,8 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
     double roughness = material.roughness;
     if (has(kStageMetallicRoughnessTexture)) {
         roughness *= least_value(material.metallic_roughness_texture, 1);
-        s.roughness_error = filtered(material.metallic_roughness_texture, {1}) * static_cast<double>(material.roughness) / std::max(roughness, double{kMinRoughness});
+        s.roughness_error = filtered(material.metallic_roughness_texture, {1}) * static_cast<double>(material.roughness) /
+                            std::max(roughness, double{kMinRoughness});
         s.metallic_error = filtered(material.metallic_roughness_texture, {2});
     }
     if (has(kStageBaseColorTexture)) s.base_color_error = filtered(material.base_color_texture, {0, 1, 2});
@@ -57,8 +58,8 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
     if (has(kStageNormalMap)) {
         // Three components in [-1, 1], each off by twice its channel, of a vector that is no shorter than its z.
         const double z = 2.0 * least_value(material.normal_texture, 2) - 1.0;
-        s.cosine_error += 2.0 * 1.7320508 * filtered(material.normal_texture, {0, 1, 2}) * std::max(1.0, std::fabs(double{material.normal_scale})) /
-                          std::max(z, kShortestNormal);
+        s.cosine_error += 2.0 * 1.7320508 * filtered(material.normal_texture, {0, 1, 2}) *
+                          std::max(1.0, std::fabs(double{material.normal_scale})) / std::max(z, kShortestNormal);
     }
     return s;
 }
@@ -121,14 +122,15 @@ double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, con
         double constant = 0.0, linear = 3e-7;
         if (has(kStageMetallicRoughnessTexture)) constant = linear = 4.0 * s.roughness_error;  // alpha^4, in the exponent and in its norm
         codes += codes_of_specular(s.reflectance * s.normalization * light.largest, light.count, constant, linear,
-                                    turning * std::sqrt(2.0 * s.exponent) * s.cosine_error);
+                                   turning * std::sqrt(2.0 * s.exponent) * s.cosine_error);
     }
     const double lit = has(kStageUnlit) ? exposure : light.sum * std::max(1.0, scale) + around;
     if (has(kStageBaseColorTexture)) codes += codes_of_absolute(s.base_color_error * s.albedo * lit);
     if (has(kStageMetallicRoughnessTexture)) codes += codes_of_absolute(2.0 * s.metallic_error * s.albedo * lit);
     if (has(kStageOcclusionTexture)) codes += codes_of_absolute(s.occlusion_error * around);
     if (has(kStageEmissiveTexture))
-        codes += codes_of_absolute(s.emissive_error * exposure * std::max({material.emissive[0], material.emissive[1], material.emissive[2]}));
+        codes +=
+            codes_of_absolute(s.emissive_error * exposure * std::max({material.emissive[0], material.emissive[1], material.emissive[2]}));
     return std::min(codes, 255.0);
 }
 
@@ -180,8 +182,8 @@ bool specular_ends(const ShadingPlan& plan, const Surface& s, double largest, do
 }
 
 /// The cheapest way to highlights within `budget` codes; adds to the bound what it costs of them.
-void spend_on_specular(const ShadingPlan& plan, MaterialPlan& material, const Surface& s, const Arriving& light, double exposure, double budget,
-                       PowerFits& fits, ErrorBound& bound) {
+void spend_on_specular(const ShadingPlan& plan, MaterialPlan& material, const Surface& s, const Arriving& light, double exposure,
+                       double budget, PowerFits& fits, ErrorBound& bound) {
     // Highlights below this, before the reflectance, are not seen in `codes` codes.
     const auto threshold_of = [&](double codes) { return codes / (kSlopeAtBlack * exposure * s.reflectance * light.count); };
     if ((material.stages & kStageMetallicRoughnessTexture) == 0) {
@@ -196,7 +198,8 @@ void spend_on_specular(const ShadingPlan& plan, MaterialPlan& material, const Su
             return;
         }
     }
-    material.specular_tier = cheapest_tier(kBudgetShares.specular_power * budget, [&](PowTier tier) { return specular_tier_codes(s, light, tier); });
+    material.specular_tier =
+        cheapest_tier(kBudgetShares.specular_power * budget, [&](PowTier tier) { return specular_tier_codes(s, light, tier); });
     bound.specular = specular_tier_codes(s, light, material.specular_tier);
     const double spent = kBudgetShares.specular_left_out * (budget - bound.specular), threshold = threshold_of(spent);
     if (specular_ends(plan, s, light.largest / exposure, threshold)) {

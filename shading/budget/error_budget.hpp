@@ -11,11 +11,12 @@ namespace halflit::shading {
 
 /// What the shading model cannot know of a scene.
 struct SceneFacts {
-    std::vector<double> light_attenuation;  ///< for each of the plan's lights: no surface gets more of it, as a share of its colour; directional: 1
+    std::vector<double>
+        light_attenuation;  ///< for each of the plan's lights: no surface gets more of it, as a share of its colour; directional: 1
     std::vector<double> light_farthest_squared;  ///< likewise: no surface is farther from it, squared
-    std::vector<bool> drawn;             ///< for each of the plan's materials: something is made of it
-    double vertex_color = 1.0;           ///< the largest channel of all vertex colours
-    double largest_uv = 0.0;             ///< the largest texture coordinate; needed where a texture's are transformed
+    std::vector<bool> drawn;                     ///< for each of the plan's materials: something is made of it
+    double vertex_color = 1.0;                   ///< the largest channel of all vertex colours
+    double largest_uv = 0.0;                     ///< the largest texture coordinate; needed where a texture's are transformed
 };
 
 /// Takes the cheapest polynomials, cutoff radii and thresholds whose bounds, with those of float32 itself and of the bands, stay below

@@ -212,8 +212,10 @@ SpecularFit fit_specular(double half_exponent, double least) {
     };
     double before = least, error_before = error_at(least), largest = 0.0;
     for (int i = 1; i <= kSteps; ++i) {
-        const double at = i == kSteps ? 1.0 : power_of(least, 1.0 - static_cast<double>(i) / kSteps), step = at - before, error = error_at(at);
-        const double bend = std::fabs(power * (power - 1.0)) * power_of(before, std::min(0.0, power - 2.0)) + std::fabs(2.0 * c[2]) + std::fabs(6.0 * c[3]);
+        const double at = i == kSteps ? 1.0 : power_of(least, 1.0 - static_cast<double>(i) / kSteps), step = at - before,
+                     error = error_at(at);
+        const double bend =
+            std::fabs(power * (power - 1.0)) * power_of(before, std::min(0.0, power - 2.0)) + std::fabs(2.0 * c[2]) + std::fabs(6.0 * c[3]);
         largest = std::max(largest, std::max(error, error_before) + 0.125 * bend * step * step);
         before = at, error_before = error;
     }
@@ -258,13 +260,18 @@ const LobeFit& PowerFits::lobe(double n, double amplitude) {
     // The next quarter of a power of two; more light is off by more, so that is a bound for less.
     const double held = amplitude > 1e-30 && amplitude < 1e6 ? exp2_of(std::ceil(4.0 * log2_of(amplitude)) / 4.0) : 0.0;
     return find_or_make(
-        lobes_, [&](const LobeEntry& e) { return e.n == n && e.amplitude == held; }, [&] { return LobeEntry{n, held, fit_lobe(n, held)}; });
+        lobes_, [&](const LobeEntry& e) { return e.n == n && e.amplitude == held; },
+        [&] {
+            return LobeEntry{n, held, fit_lobe(n, held)};
+        });
 }
 
 const SpecularFit& PowerFits::specular(double half_exponent, double least) {
     return find_or_make(
         speculars_, [&](const SpecularEntry& e) { return e.half_exponent == half_exponent && e.least == least; },
-        [&] { return SpecularEntry{half_exponent, least, fit_specular(half_exponent, least)}; });
+        [&] {
+            return SpecularEntry{half_exponent, least, fit_specular(half_exponent, least)};
+        });
 }
 
 }  // namespace halflit::shading

@@ -20,9 +20,9 @@ struct LobeFit {
 /// x^h for x in [least, 1] as p(x)^(2^squarings), p of degree three.
 struct SpecularFit {
     SpecularCurve curve;
-    double rounding;      ///< relative error of the kernel's rounding, x's own included
-    double root_error;    ///< of p as the 2^squarings-th root of x^h
-    double least_root;    ///< the least that this root is
+    double rounding;    ///< relative error of the kernel's rounding, x's own included
+    double root_error;  ///< of p as the 2^squarings-th root of x^h
+    double least_root;  ///< the least that this root is
     /// Relative error where the highlight is `share` of its peak: largest where it is weakest.
     [[nodiscard]] double relative_error(double share) const;
     /// In 8-bit codes, for `count` lights that are `peak` at most: by concavity no more than one of `count` times the peak.

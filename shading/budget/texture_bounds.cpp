@@ -30,7 +30,8 @@ double filter_error(const TexturePlan& texture, int c, double largest_uv) {
                          coordinate_error(texture.height[0], texture.transform, texture.row_v, largest_uv);
     // log2 of the footprint by the polynomial of degree 5, and its own roundings. What two levels show at a place is made of texels of the
     // larger one that are at most 9 steps apart: one and three and a half on each axis.
-    const double level = texture.mip == MipFilter::linear && texture.level_count > 1 ? (texture.transform ? 1e-5 : 4e-6) * std::min(range, 9.0 * step) : 0.0;
+    const double level =
+        texture.mip == MipFilter::linear && texture.level_count > 1 ? (texture.transform ? 1e-5 : 4e-6) * std::min(range, 9.0 * step) : 0.0;
     return std::min(shift * step, range) + level + 10.0 * kRounding;
 }
 

@@ -12,7 +12,8 @@ HALFLIT_INLINE I unorm8(F x) { return round_to_int(clamp(x, F(0.0f), F(1.0f)) * 
 
 /// 1.055 x^(1/2.4) - 0.055 by u = x^(1/4), for x from the end of the curve's straight part to 1: minimax, within 0.0004 codes. Two roots
 /// run beside the polynomials of other lanes; a logarithm and an exponential would be three times as many operations.
-inline constexpr float kSrgbByFourthRoot[] = {-0.0595466085f, 0.139604136f, 1.36592102f, -0.852957428f, 0.657188296f, -0.318415970f, 0.0682079792f};
+inline constexpr float kSrgbByFourthRoot[] = {-0.0595466085f, 0.139604136f,  1.36592102f,  -0.852957428f,
+                                              0.657188296f,   -0.318415970f, 0.0682079792f};
 
 /// The sRGB curve of IEC 61966-2-1: 1.055 x^(1/2.4) - 0.055, 12.92 x below 0.0031308. x in [0, 1]. The code that it rounds to is at
 /// most 0.501 from the exact value.

@@ -1,8 +1,8 @@
 // Environment light at a normal: spherical harmonics of 1 to 10 bands, as polynomials in its components.
 #pragma once
 
-#include "shading/plan/environment_plan.hpp"
 #include "shading/kernels/vector.hpp"
+#include "shading/plan/environment_plan.hpp"
 
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {

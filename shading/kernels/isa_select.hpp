@@ -1,20 +1,20 @@
 // Picks one of a family of tables that exist once for each instruction set that is built: NAME_scalar, NAME_sse2, NAME_avx2 and so on.
 #pragma once
 
-#include "shading/kernels/built_isas.hpp"
 #include "shading/isa.hpp"
+#include "shading/kernels/built_isas.hpp"
 
 /// Declares NAME_scalar and its twins, which the kernels' objects define.
 #define HALFLIT_DECLARE_TABLE(set, type, name) extern const type name##_##set;
 #define HALFLIT_DECLARE_TABLES(type, name) HALFLIT_FOR_BUILT_ISAS(HALFLIT_DECLARE_TABLE, type, name)
 
 /// The body of a function that returns the table of `isa`; of scalar when that set is not built.
-#define HALFLIT_TABLE_CASE(set, name)   \
+#define HALFLIT_TABLE_CASE(set, name)  \
     case ::halflit::shading::Isa::set: \
         return name##_##set;
-#define HALFLIT_RETURN_TABLE_OF(isa, name)                \
-    switch (isa) {                                        \
+#define HALFLIT_RETURN_TABLE_OF(isa, name)               \
+    switch (isa) {                                       \
         HALFLIT_FOR_BUILT_ISAS(HALFLIT_TABLE_CASE, name) \
-        default:                                          \
-            return name##_scalar;                         \
+        default:                                         \
+            return name##_scalar;                        \
     }

@@ -1,9 +1,9 @@
 // Direct light: for each light its direction and attenuation at a fragment, and the sums of lobes and highlights over all of them.
 #pragma once
 
-#include "shading/kernels/specular_kernel.hpp"
 #include "shading/kernels/lobe_kernel.hpp"
 #include "shading/kernels/shadow_kernel.hpp"
+#include "shading/kernels/specular_kernel.hpp"
 #include "shading/kernels/vector.hpp"
 #include "shading/model/formulas.hpp"
 #include "shading/plan/plan.hpp"
@@ -74,7 +74,7 @@ HALFLIT_INLINE void cast_shadow(const ShadowReceiver& receiver, const shading::L
     const bool split = receiver.frame.shadow_mode == shading::ShadowMode::soft_split;
     const bool soft = split && receiver.fade.scale > 0.0f;
     const HiddenShares hidden = hidden_share(receiver.frame.shadow_maps[light.shadow_map], receiver.position, receiver.surface_normal,
-                                       at.direction, receiver.fade, soft);
+                                             at.direction, receiver.fade, soft);
     const F core = split ? vmin(diffuse, vmax(n_dot_l, F(0.0f))) : diffuse;
     const F excess = diffuse - core;
     diffuse = (diffuse - hidden.hard * core) - hidden.soft * excess;
@@ -85,7 +85,8 @@ HALFLIT_INLINE void cast_shadow(const ShadowReceiver& receiver, const shading::L
 /// holds every path, GCC keeps the sums in memory, and each light waits for the store of the one before. With them it makes no difference.
 template <bool kSpecular, bool kShadows, class LobeValue, class SpecularValue>
 HALFLIT_INLINE LightSums sum_lights_by(const LobeValue& lobe_value_at, const SpecularValue& specular_value_at,
-                                       const shading::LightPlan* lights, int count, const ShadowReceiver& receiver, V3 position, V3 normal) {
+                                       const shading::LightPlan* lights, int count, const ShadowReceiver& receiver, V3 position,
+                                       V3 normal) {
     LightSums sums;
     for (int i = 0; i < count; ++i) {
         const shading::LightPlan& light = lights[i];
@@ -121,7 +122,8 @@ HALFLIT_INLINE LightSums sum_lights_by_power(const shading::LobePlan& lobe, cons
     }
     if (i < count) {
         const LocalLight at = arrival(lights[i], position);
-        sums.diffuse = sums.diffuse + broadcast(lights[i].color) * (general_lobe_value<kTier>(lobe, dot(normal, at.direction)) * at.attenuation);
+        sums.diffuse =
+            sums.diffuse + broadcast(lights[i].color) * (general_lobe_value<kTier>(lobe, dot(normal, at.direction)) * at.attenuation);
     }
     return sums;
 }

@@ -2,8 +2,8 @@
 // minimax in relative error, rounded to float32; each table states what it approximates and how well.
 #pragma once
 
-#include "shading/plan/accuracy.hpp"
 #include "shading/kernels/simd.hpp"
+#include "shading/plan/accuracy.hpp"
 
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {

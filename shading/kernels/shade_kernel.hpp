@@ -28,8 +28,8 @@ HALFLIT_INLINE V3 looked_up(const shading::ShadingPlan& frame, const shading::Fr
 
 /// All light that meets a surface point, before the base colour decides what becomes of it.
 struct IncidentLight {
-    V3 diffuse;            ///< through the lobe, its scale included
-    V3 specular;           ///< the highlight, before the reflectance
+    V3 diffuse;                    ///< through the lobe, its scale included
+    V3 specular;                   ///< the highlight, before the reflectance
     V3 ambient, specular_ambient;  ///< of the surroundings towards the normal, and towards the reflected view; times occlusion
     F metallic, roughness, grazing;
 };
@@ -52,9 +52,9 @@ HALFLIT_INLINE IncidentLight incident_light(const shading::ShadingPlan& frame, c
         if (frame.normalize_specular) shape.normalization = specular_normalization(shape.half_exponent);
     }
     if (has(material, shading::kStageLights)) {
-        const ShadowReceiver receiver{frame, looked_up(frame, block, lane), facing.surface, {material.shadow_fade_scale, material.shadow_turn_scale}};
-        const LightSums sums =
-            sum_lights<kSpecular>(lights.lights, lights.count, material.lobe, receiver, position, normal, to_eye, shape);
+        const ShadowReceiver receiver{
+            frame, looked_up(frame, block, lane), facing.surface, {material.shadow_fade_scale, material.shadow_turn_scale}};
+        const LightSums sums = sum_lights<kSpecular>(lights.lights, lights.count, material.lobe, receiver, position, normal, to_eye, shape);
         light.diffuse = sums.diffuse * F(material.lobe.scale);
         if constexpr (kSpecular) light.specular = sums.specular * shape.normalization;
     }
@@ -70,7 +70,7 @@ HALFLIT_INLINE IncidentLight incident_light(const shading::ShadingPlan& frame, c
             const F away2 = away * away;
             light.grazing = (away2 * away2) * away;
             const V3 reflection{mad(twice, normal.x, F(0.0f) - to_eye.x), mad(twice, normal.y, F(0.0f) - to_eye.y),
-                              mad(twice, normal.z, F(0.0f) - to_eye.z)};
+                                mad(twice, normal.z, F(0.0f) - to_eye.z)};
             light.specular_ambient =
                 (environment ? environment_light(frame.environments[static_cast<std::size_t>(material.specular_environment)], reflection)
                              : hemisphere(frame.ambient, reflection.y)) *
@@ -179,7 +179,7 @@ static void hidden(const shading::ShadingPlan& frame, const shading::MaterialPla
     for (int lane = 0; lane < count; lane += kWidth) {
         const V3 position = row3(block, shading::kPosX, lane), surface = normals(material, block, lane).surface;
         const HiddenShares share = hidden_share(frame.shadow_maps[light.shadow_map], looked_up(frame, block, lane), surface,
-                                          arrival(light, position).direction, fade, soft);
+                                                arrival(light, position).direction, fade, soft);
         store(core + lane, share.hard);
         store(excess + lane, share.soft);
     }

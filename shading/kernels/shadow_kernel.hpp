@@ -71,7 +71,8 @@ HALFLIT_INLINE F faded(F v) {
 }
 
 /// `normal`: of the surface, unit.
-HALFLIT_INLINE HiddenShares hidden_share(const shading::ShadowMapPlan& map, V3 position, V3 normal, V3 to_light, ShadowFade fade, bool soft) {
+HALFLIT_INLINE HiddenShares hidden_share(const shading::ShadowMapPlan& map, V3 position, V3 normal, V3 to_light, ShadowFade fade,
+                                         bool soft) {
     const F cosine = dot(normal, to_light);
     const F sine = vsqrt(vmax(F(1.0f) - cosine * cosine, F(0.0f)));
     F texel(map.texel_size);

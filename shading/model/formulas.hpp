@@ -1,6 +1,6 @@
 // Formulas of the shading model over a number type T: lanes of floats in the kernels, double in bounds and plans. T's operations vdiv, vmax
-// and mad must be declared before this is included: scalar.hpp for double, kernels/simd.hpp for lanes. Their order is the kernels' order, bit
-// for bit. The float64 reference writes them down by itself, so that it can tell when one is wrong.
+// and mad must be declared before this is included: scalar.hpp for double, kernels/simd.hpp for lanes. Their order is the kernels' order,
+// bit for bit. The float64 reference writes them down by itself, so that it can tell when one is wrong.
 #pragma once
 
 #include "sh/config.hpp"

@@ -42,7 +42,7 @@ struct ErrorBound {
     bool within = true;      ///< codes <= budget; otherwise some material's rounding alone is more, and that is computed exactly
     double rounding = 0;     ///< float32 itself, and texture filters
     double lobes = 0;        ///< shorter polynomials for t^n, or curves
-    double specular = 0;   ///< shorter polynomials for cos^s, or curves
+    double specular = 0;     ///< shorter polynomials for cos^s, or curves
     double environment = 0;  ///< bands left out
     double left_out = 0;     ///< lights beyond their reach and highlights too weak to see
 };

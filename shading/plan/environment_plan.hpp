@@ -7,15 +7,16 @@ namespace halflit::shading {
 
 /// How a lobe takes light from an environment, as the kernels read it: at unit normal N the sum of c[i] Y_i(N), not below 0.
 struct EnvironmentPlan {
-    int bands = 0;       ///< 1..10
-    double bound = 0.0;  ///< of the error of leaving out the others, any normal, worst channel, before exposure
-    bool within = true;  ///< whether that is within the tolerance asked for
+    int bands = 0;             ///< 1..10
+    double bound = 0.0;        ///< of the error of leaving out the others, any normal, worst channel, before exposure
+    bool within = true;        ///< whether that is within the tolerance asked for
     double bound_codes = 0.0;  ///< the same error in 8-bit sRGB codes; only where codes were asked for
     float red[sh::kMaxCoefficients]{}, green[sh::kMaxCoefficients]{}, blue[sh::kMaxCoefficients]{};
 
     /// The same sum as the kernels read it. With N = (x, y, z) it is a polynomial in z for each part of each power (x + iy)^m, of degree
-    /// bands - 1 - m, in Newton form about kNodes: ((a[k] (z - node[k-1]) + a[k-1]) (z - node[k-2]) + ..) + a[0]. Coefficients in the order of use:
-    /// m ascending, the degree descending; of each, red, green, blue of the real part and then, from m = 1 on, of the imaginary part.
+    /// bands - 1 - m, in Newton form about kNodes: ((a[k] (z - node[k-1]) + a[k-1]) (z - node[k-2]) + ..) + a[0]. Coefficients in the order
+    /// of use: m ascending, the degree descending; of each, red, green, blue of the real part and then, from m = 1 on, of the imaginary
+    /// part.
     alignas(64) float newton[3 * sh::kMaxCoefficients]{};
 };
 

@@ -78,9 +78,9 @@ void make_newton_form(EnvironmentPlan& plan) {
         for (int part = 0; part < parts; ++part)
             for (int channel = 0; channel < 3; ++channel)
                 a[part][channel] = newton_form_about_nodes(channel == 0   ? plan.red
-                                                      : channel == 1 ? plan.green
-                                                                     : plan.blue,
-                                                      plan.bands, m, 1 - 2 * part);
+                                                           : channel == 1 ? plan.green
+                                                                          : plan.blue,
+                                                           plan.bands, m, 1 - 2 * part);
         for (int k = plan.bands - 1 - m; k >= 0; --k)
             for (int part = 0; part < parts; ++part)
                 for (int channel = 0; channel < 3; ++channel) *next++ = static_cast<float>(a[part][channel][static_cast<std::size_t>(k)]);

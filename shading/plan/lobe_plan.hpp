@@ -21,7 +21,7 @@ struct LobePlan {
     std::int32_t integer_power = 1;  ///< path integer: n, 3 to 5
     float power_minus_one = 0;       ///< path general: n - 1, and the same in two parts of 18 and 6 bits (pow.hpp)
     float power_minus_one_high = 0, power_minus_one_low = 0;
-    PowTier tier = PowTier::exact;  ///< path general
+    PowTier tier = PowTier::exact;      ///< path general
     float curve[kLobeCurveTerms] = {};  ///< path curve
 };
 

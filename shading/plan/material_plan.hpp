@@ -31,8 +31,8 @@ enum Stage : std::uint32_t {
     kStageSpecular = 1u << 7,
     kStageAmbient = 1u << 8,
     kStageUnlit = 1u << 9,
-    kStageGradients = 1u << 10,  ///< some texture has mips: raster fills the kDu.. rows
-    kStagePrelit = 1u << 11,     ///< light comes in with the fragments: a shading rate below one a pixel
+    kStageGradients = 1u << 10,    ///< some texture has mips: raster fills the kDu.. rows
+    kStagePrelit = 1u << 11,       ///< light comes in with the fragments: a shading rate below one a pixel
     kStageEnvironment = 1u << 12,  ///< the ambient light is an environment's, in spherical harmonics
     kStageCount = 13
 };
@@ -57,7 +57,7 @@ struct MaterialPlan {
     /// Times -N.L: the share of d0 that a body which turns away from the light by N.L is thick, and that it does not shade itself by.
     float shadow_turn_scale = 0;
     int environment = -1, specular_environment = -1;  ///< indices into ShadingPlan::environments
-    bool occlusion_is_metallic_roughness = false;  ///< both read the same texels the same way: one fetch serves both
+    bool occlusion_is_metallic_roughness = false;     ///< both read the same texels the same way: one fetch serves both
     TexturePlan base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;
 };
 
@@ -67,7 +67,7 @@ struct LightKinds {
 };
 
 /// `available`: attribute slots that the material's meshes bring; what they do not bring is planned without.
-[[nodiscard]] MaterialPlan plan_material(const Material& material, std::span<const Texture> textures, SlotMask available, const LightKinds& kinds,
-                                         const PlanOptions& options);
+[[nodiscard]] MaterialPlan plan_material(const Material& material, std::span<const Texture> textures, SlotMask available,
+                                         const LightKinds& kinds, const PlanOptions& options);
 
 }  // namespace halflit::shading

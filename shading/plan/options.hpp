@@ -34,7 +34,7 @@ struct PlanOptions {
     bool override_lobe = false;  ///< use `lobe` for all materials that do not bring their own
     Lobe lobe;
     SpecularModel specular = SpecularModel::blinn;  ///< none: no specular stage, albedo is the base colour itself
-    bool normalize_specular = true;         ///< times (s + 8) / 8, so that sharper highlights are brighter; off: a peak of 1 for every exponent
+    bool normalize_specular = true;  ///< times (s + 8) / 8, so that sharper highlights are brighter; off: a peak of 1 for every exponent
     EnvironmentOrder environment_order;
     Accuracy accuracy = Accuracy::exact;
     double max_error_codes = 0.0;  ///< 0: as `accuracy` says; otherwise the cheapest whose bound is below this (error_budget.hpp)

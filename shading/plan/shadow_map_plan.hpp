@@ -33,8 +33,8 @@ struct ShadowMapPlan {
 
 inline constexpr float kNoBlocker = 3e38f;
 
-/// Where a sphere of radius R turns away from the light, x = N.L < 0, it is 2 R |x| thick towards it. d0 is 2 w R over this share, so that the
-/// thickness is less than d0 wherever a lobe of wrap w leaves light, |x| < w.
+/// Where a sphere of radius R turns away from the light, x = N.L < 0, it is 2 R |x| thick towards it. d0 is 2 w R over this share, so that
+/// the thickness is less than d0 wherever a lobe of wrap w leaves light, |x| < w.
 inline constexpr float kOwnThickness = 8.0f / 9.0f;
 
 }  // namespace halflit::shading

@@ -25,7 +25,8 @@ struct TexturePlan {
     MipFilter mip;
 };
 
-/// The plan of one use of a texture; without data where the material has none. `available`: attribute slots that the material's meshes bring.
+/// The plan of one use of a texture; without data where the material has none. `available`: attribute slots that the material's meshes
+/// bring.
 [[nodiscard]] TexturePlan plan_texture(const TextureUse& use, std::span<const Texture> textures, SlotMask available, TextureDetail detail);
 
 /// Whether both read the same texels in the same way, so that one fetch serves both.

@@ -85,8 +85,8 @@ DirectIrradiance::DirectIrradiance(const Environment& environment, const Lobe& l
         for (int j = 0; j < kNodes; ++j)
             for (int i = 0; i < kNodes; ++i) {
                 // Nodes stand at equal angles, so that the grid is about as fine in the corners as in the middle.
-                const Vec3d normal =
-                    direction_of(face, std::tan(kPi / 4 * (2.0 * (i - 1) / kCells - 1.0)), std::tan(kPi / 4 * (2.0 * (j - 1) / kCells - 1.0)));
+                const Vec3d normal = direction_of(face, std::tan(kPi / 4 * (2.0 * (i - 1) / kCells - 1.0)),
+                                                  std::tan(kPi / 4 * (2.0 * (j - 1) / kCells - 1.0)));
                 Vec3d sum{};
                 for (const Patch& pixel : pixels) sum = sum + pixel.light * table.at(dot(pixel.direction, normal));
                 nodes_[static_cast<std::size_t>((face * kNodes + j) * kNodes + i)] = sum;

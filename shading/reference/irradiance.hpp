@@ -10,8 +10,8 @@
 
 namespace halflit::shading::reference {
 
-/// (1/pi) integral of L f by direct summation over some 512 x 256 patches of the image, in double, at the nodes of six square grids; between
-/// them by cubic interpolation. Off by about 1e-5 of the light's largest value. Takes 2 to 3 s.
+/// (1/pi) integral of L f by direct summation over some 512 x 256 patches of the image, in double, at the nodes of six square grids;
+/// between them by cubic interpolation. Off by about 1e-5 of the light's largest value. Takes 2 to 3 s.
 class DirectIrradiance final : public Irradiance {
 public:
     /// The environment must have kept its light.

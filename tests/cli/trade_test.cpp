@@ -89,26 +89,11 @@ TEST_CASE("trade: page, table and report are complete, and tell of the same rows
     CHECK(found == wanted);
     for (const Json& row : rows) {
         INFO(row.dump());
-        for (const char* key : {"name",
-                                "flags",
-                                "lobe",
-                                "accuracy",
-                                "max_error",
-                                "order",
-                                "orders_used",
-                                "rate",
-                                "texture_filter",
-                                "shadows",
-                                "shadow_size",
-                                "lobes_computed_as",
-                                "specular_power",
-                                "frames",
-                                "ms",
-                                "ratio",
-                                "ratio_range",
-                                "cpu_ratio",
-                                "error",
-                                "bound",
+        for (const char* key : {"name",           "flags",     "lobe",        "accuracy",
+                                "max_error",      "order",     "orders_used", "rate",
+                                "texture_filter", "shadows",   "shadow_size", "lobes_computed_as",
+                                "specular_power", "frames",    "ms",          "ratio",
+                                "ratio_range",    "cpu_ratio", "error",       "bound",
                                 "front"})
             CHECK(row.contains(key));
         for (const char* key : {"max", "mean", "p999", "psnr", "share_off_by_one"}) CHECK(row["error"].contains(key));

@@ -1,7 +1,7 @@
 // Where float32 is at its limits: pictures by the kernels against the float64 reference, and what the table of extremes in
 // shading/README.md says of them. Visibility and what is interpolated are the same for both: the difference is shading's own.
-#include "raster/renderer.hpp"
 #include "raster/built_in/shapes.hpp"
+#include "raster/renderer.hpp"
 #include "shading/reference/reference.hpp"
 #include "tests/support/cameras.hpp"
 #include "tests/support/isas.hpp"

@@ -39,7 +39,8 @@ TEST_CASE("background: directions and places in the image are each other's inver
             CHECK(point.u == Approx(u).margin(1e-12));
             CHECK(point.v == Approx(v).margin(1e-12));
         }
-    for (const double angle : {-3.1, -1.6, -0.8, 0.0, 0.3, 1.5, 2.4}) CHECK(angle_of(std::sin(angle), std::cos(angle)) == Approx(angle).margin(1e-12));
+    for (const double angle : {-3.1, -1.6, -0.8, 0.0, 0.3, 1.5, 2.4})
+        CHECK(angle_of(std::sin(angle), std::cos(angle)) == Approx(angle).margin(1e-12));
 }
 
 TEST_CASE("background: a pixel shows what its view ray meets, turned as the light is", "[raster][background]") {
@@ -63,14 +64,16 @@ TEST_CASE("background: a pixel shows what its view ray meets, turned as the ligh
                 const Vec3d ray = column(0) * rx + column(1) * ry - column(2);
                 const Vec3d want = back * (ray * (1.0 / length(ray)));
                 const float* p = &rgba[static_cast<std::size_t>(4 * (y * kWidth + x))];
-                worst = std::max({worst, std::fabs(2 * p[0] - 2 - want.x), std::fabs(2 * p[1] - 2 - want.y), std::fabs(2 * p[2] - 2 - want.z)});
+                worst =
+                    std::max({worst, std::fabs(2 * p[0] - 2 - want.x), std::fabs(2 * p[1] - 2 - want.y), std::fabs(2 * p[2] - 2 - want.z)});
                 CHECK(p[3] == 1.0f);
             }
         CHECK(worst < 1e-4);  // a pixel of the sky is 0.012 wide; the chord's error is an eighth of its square
     }
 }
 
-TEST_CASE("background: the same bits for every instruction set, tile size, thread count, crop and number of samples", "[raster][background]") {
+TEST_CASE("background: the same bits for every instruction set, tile size, thread count, crop and number of samples",
+          "[raster][background]") {
     raster::test::NamedScene s = raster::test::layers_scene();
     s.scene.environment = kept(random_sky(64, 32, 7), 0.4);
     for (const int samples : {1, 4, 8}) {
@@ -85,7 +88,7 @@ TEST_CASE("background: the same bits for every instruction set, tile size, threa
         const auto bare = drawn(empty, s.camera, settings);
         int seen = 0;
         for (std::size_t i = 0; i < want.size(); i += 4) seen += std::memcmp(&want[i], &bare[i], 4 * sizeof(float)) == 0;
-        CHECK(seen > 100);                   // where nothing is drawn
+        CHECK(seen > 100);  // where nothing is drawn
         CHECK(seen < kWidth * kHeight - 100);
         for (const shading::Isa isa : available_isas())
             for (const int tile : {16, 32, 64}) {

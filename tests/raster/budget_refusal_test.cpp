@@ -1,7 +1,7 @@
 // An error budget is refused with what has no bound, and accepted with all else.
+#include "raster/built_in/shapes.hpp"
 #include "raster/frame_plan.hpp"
 #include "raster/renderer.hpp"
-#include "raster/built_in/shapes.hpp"
 #include "tests/support/cameras.hpp"
 
 #include <catch2/catch.hpp>

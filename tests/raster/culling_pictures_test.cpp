@@ -70,7 +70,9 @@ void check_culling(const Scene& scene, const Camera& camera, const Settings& set
     CHECK(culled.report.triangles_drawn == whole.report.triangles_drawn);
     CHECK(culled.report.pixels_visible == whole.report.pixels_visible);
     CHECK(culled.report.fragments_shaded == whole.report.fragments_shaded);
-    const auto bytes = [](const std::vector<float>& v) { return std::span(reinterpret_cast<const std::uint8_t*>(v.data()), v.size() * sizeof(float)); };
+    const auto bytes = [](const std::vector<float>& v) {
+        return std::span(reinterpret_cast<const std::uint8_t*>(v.data()), v.size() * sizeof(float));
+    };
     CHECK(pixel_hash(culled.rgba8) == pixel_hash(whole.rgba8));
     CHECK(pixel_hash(bytes(culled.linear)) == pixel_hash(bytes(whole.linear)));
     tally.drawn += culled.report.triangles_drawn;
@@ -152,7 +154,8 @@ TEST_CASE("culling: random scenes of all sizes and from all sides have the same 
     CHECK(tally.visible > 200'000);
 }
 
-TEST_CASE("culling: grids whose triangles are about as large as a step of the window have the same pictures without it", "[raster][culling]") {
+TEST_CASE("culling: grids whose triangles are about as large as a step of the window have the same pictures without it",
+          "[raster][culling]") {
     Random random(2);
     Tally tally;
     for (int round = 0; round < 200; ++round) {
@@ -165,7 +168,8 @@ TEST_CASE("culling: grids whose triangles are about as large as a step of the wi
             // Flattened in one direction, and from 0.01 to 100 pixels large.
             const Vec3f scale{1, random_decades(random, 1e-4, 1), random.chance(0.5) ? 1.0f : -random_decades(random, 1e-4, 1)};
             const Mat4 turn = random_rotation(random);
-            scene.instances.push_back({i % 2, translation(far_away + random_point(random, 1)) * turn * scaling(scale * random_decades(random, 1e-4, 1))});
+            scene.instances.push_back(
+                {i % 2, translation(far_away + random_point(random, 1)) * turn * scaling(scale * random_decades(random, 1e-4, 1))});
         }
         Camera camera = halflit::test::camera_at({0, 0, 3}, {0, 0, 0}, 0.9f, 0.1f);
         camera.orthographic = random.chance(0.3);
@@ -186,7 +190,8 @@ TEST_CASE("culling: a wall that lies on the near plane, the far plane or a side 
         Mesh wall = make_plane(1, 16);
         wall.normals.clear(), wall.uv0.clear();
         Scene scene = coloured(random, {wall});
-        const float size = random.chance(0.4) ? 1.0f : random_decades(random, 1e-38, 1e12), off = random.chance(0.3) ? 0.0f : random_decades(random, 1e-8, 1e-3);
+        const float size = random.chance(0.4) ? 1.0f : random_decades(random, 1e-38, 1e12),
+                    off = random.chance(0.3) ? 0.0f : random_decades(random, 1e-8, 1e-3);
         const float step = 1.0f + (random.chance(0.5) ? off : -off);
         Camera camera;
         camera.near_z = 0.25f * size;

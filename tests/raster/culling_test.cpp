@@ -19,7 +19,8 @@ struct Projected {
     std::vector<ScreenVertex> screen;
     std::vector<std::uint8_t> outcode;
 
-    Projected(const Mesh& mesh, const Mat4& clip_from_object, const View& view) : screen(mesh.positions.size()), outcode(mesh.positions.size()) {
+    Projected(const Mesh& mesh, const Mat4& clip_from_object, const View& view)
+        : screen(mesh.positions.size()), outcode(mesh.positions.size()) {
         TransformArgs args{};
         args.positions = &mesh.positions[0].x;
         args.end = static_cast<std::int64_t>(mesh.positions.size());
@@ -41,7 +42,8 @@ Fate fate_of(const Projected& p, const std::uint32_t* v, const View& view, bool 
     const ScreenVertex &a = p.screen[v[0]], &b = p.screen[v[1]], &c = p.screen[v[2]];
     // Samples lie within half a pixel of the pixel's centre, which is at a multiple of 256.
     const Region& r = view.region;
-    const std::int64_t left = 256 * r.x - 128, right = 256 * (r.x + r.width) - 128, top = 256 * r.y - 128, bottom = 256 * (r.y + r.height) - 128;
+    const std::int64_t left = 256 * r.x - 128, right = 256 * (r.x + r.width) - 128, top = 256 * r.y - 128,
+                       bottom = 256 * (r.y + r.height) - 128;
     if (std::max({a.x, b.x, c.x}) < left || std::min({a.x, b.x, c.x}) > right || std::max({a.y, b.y, c.y}) < top ||
         std::min({a.y, b.y, c.y}) > bottom)
         return Fate::outside;
@@ -50,8 +52,8 @@ Fate fate_of(const Projected& p, const std::uint32_t* v, const View& view, bool 
 }
 
 struct Tally {
-    int clusters = 0, outside = 0, away = 0;         ///< clusters, and what the culler says of them
-    int dropped = 0, clipped = 0, wrong = 0;         ///< triangles of those that it leaves out
+    int clusters = 0, outside = 0, away = 0;  ///< clusters, and what the culler says of them
+    int dropped = 0, clipped = 0, wrong = 0;  ///< triangles of those that it leaves out
 };
 
 void check_clusters(const Scene& scene, const View& view, Tally& tally) {
@@ -70,7 +72,8 @@ void check_clusters(const Scene& scene, const View& view, Tally& tally) {
             ++tally.clusters;
             tally.outside += outside;
             tally.away += away;
-            const std::size_t first = 3 * c * kClusterTriangles, end = std::min(first + std::size_t{3} * kClusterTriangles, mesh.indices.size());
+            const std::size_t first = 3 * c * kClusterTriangles,
+                              end = std::min(first + std::size_t{3} * kClusterTriangles, mesh.indices.size());
             for (std::size_t i = first; (outside || away) && i < end; i += 3) {
                 const Fate fate = fate_of(projected, &mesh.indices[i], view, mirrored);
                 tally.clipped += fate == Fate::clipped;
@@ -162,7 +165,8 @@ TEST_CASE("culling: patches seen nearly edge on, down to a thousandth of a pixel
         const float size = distance * (between ? random.real32(0.1, 0.9) : random_decades(random, 1e-5, 0.5));
         const Vec3f normal = normalize_or(edge_on + towards * (random.chance(0.6) ? -angle : angle), {0, 1, 0});
         const float origin = random.chance(0.5) ? 0.0f : random_decades(random, 1, 1e5);
-        check_clusters(patch_at(random, at, normal, size, origin, between ? random.real32(0.05, 1) : 0), random_view(random, camera), tally);
+        check_clusters(patch_at(random, at, normal, size, origin, between ? random.real32(0.05, 1) : 0), random_view(random, camera),
+                       tally);
     }
     INFO(tally.clusters << " clusters, outside " << tally.outside << ", away " << tally.away << ", clipped " << tally.clipped);
     CHECK(tally.wrong == 0);
@@ -187,13 +191,15 @@ TEST_CASE("culling: patches at the sides of the view", "[raster][culling]") {
         const Region& r = view.region;
         const float tangent = camera.orthographic ? camera.half_height : std::tan(0.5f * camera.fov_y_rad);
         const float aspect = view.viewport.half_width / view.viewport.half_height;
-        const float depth = random.chance(0.3)   ? -camera.near_z * (1.0f + off)
+        const float depth = random.chance(0.3)                       ? -camera.near_z * (1.0f + off)
                             : camera.far_z > 0 && random.chance(0.3) ? -camera.far_z * (1.0f + off)
                                                                      : -random_decades(random, 0.1, 10);
         const float reach = camera.orthographic ? tangent : -tangent * depth;
         const bool on_x = random.chance(0.5);
-        const float ndc_x = on_x ? static_cast<float>(r.x + (random.chance(0.5) ? r.width : 0)) / view.viewport.half_width - 1.0f : random.real32(-1, 1);
-        const float ndc_y = on_x ? random.real32(-1, 1) : 1.0f - static_cast<float>(r.y + (random.chance(0.5) ? r.height : 0)) / view.viewport.half_height;
+        const float ndc_x =
+            on_x ? static_cast<float>(r.x + (random.chance(0.5) ? r.width : 0)) / view.viewport.half_width - 1.0f : random.real32(-1, 1);
+        const float ndc_y =
+            on_x ? random.real32(-1, 1) : 1.0f - static_cast<float>(r.y + (random.chance(0.5) ? r.height : 0)) / view.viewport.half_height;
         at = point(reach * aspect * (ndc_x + off), reach * (ndc_y + off), depth);
         const float size = -depth * random_decades(random, 1e-7, 0.3), origin = random.chance(0.5) ? 0.0f : random_decades(random, 1, 1e5);
         check_clusters(patch_at(random, at, normalize_or(random_point(random, 1), {0, 0, 1}), size, origin), view, tally);

@@ -1,8 +1,8 @@
 // Light from an environment, from the image to the pixel: against closed forms and brute force in double.
 #include "shading/environment.hpp"
-#include "shading/planner.hpp"
 #include "raster/renderer.hpp"
 #include "shading/kernels/shade_kernels.hpp"
+#include "shading/planner.hpp"
 #include "tests/sh/bound_check.hpp"
 #include "tests/support/cameras.hpp"
 #include "tests/support/isas.hpp"
@@ -295,7 +295,8 @@ TEST_CASE("environment: every instruction set gives the same bits at every order
     for (int order = 1; order <= sh::kMaxBands; ++order) {
         shading::PlanOptions options;
         options.environment_order.fixed = order;
-        const auto plan = shading::plan_shading({{&material, 1}, {}, slots, environment->suns, {}, options, shading::borrowed(*environment)});
+        const auto plan =
+            shading::plan_shading({{&material, 1}, {}, slots, environment->suns, {}, options, shading::borrowed(*environment)});
         REQUIRE(plan.environments.front().bands == order);
         for (int round = 0; round < 20; ++round) {
             shading::FragmentBlock input{};

@@ -36,7 +36,8 @@ double largest_codes(const Picture& a, const Picture& b) {
     double most = 0;
     for (std::size_t i = 0; i < a.linear.size(); ++i) {
         if (i % 4 == 3) continue;
-        const double error = shading::reference::srgb_code(static_cast<double>(a.linear[i])) - shading::reference::srgb_code(static_cast<double>(b.linear[i]));
+        const double error = shading::reference::srgb_code(static_cast<double>(a.linear[i])) -
+                             shading::reference::srgb_code(static_cast<double>(b.linear[i]));
         most = std::max(most, std::fabs(error));
     }
     return most;
@@ -56,9 +57,9 @@ TEST_CASE("error budget: no random scene is off by more than was promised, nor b
         const Picture picture = draw(trial, shading::Accuracy::exact, budget);
         const double measured = largest_codes(picture, truth);
         const shading::ErrorBound& error = picture.report.error;
-        INFO("seed " << seed << ", budget " << budget << ", bound " << error.codes << " = rounding " << error.rounding << " + lobes " << error.lobes
-                     << " + specular " << error.specular << " + environment " << error.environment << " + left out " << error.left_out
-                     << ", measured " << measured << ", lights " << trial.scene.lights.size());
+        INFO("seed " << seed << ", budget " << budget << ", bound " << error.codes << " = rounding " << error.rounding << " + lobes "
+                     << error.lobes << " + specular " << error.specular << " + environment " << error.environment << " + left out "
+                     << error.left_out << ", measured " << measured << ", lights " << trial.scene.lights.size());
         CHECK(error.budget == budget);
         CHECK(error.within == (error.codes <= budget));
         CHECK(measured <= error.codes);
@@ -72,7 +73,7 @@ TEST_CASE("error budget: no random scene is off by more than was promised, nor b
             ++exact_codes_seen;
         }
     }
-    WARN("budgets promised and kept: " << kept << ", the most used of one " << most_used << "; not promised: " << exact_codes_seen << ", of which over "
-                                       << beyond);
+    WARN("budgets promised and kept: " << kept << ", the most used of one " << most_used << "; not promised: " << exact_codes_seen
+                                       << ", of which over " << beyond);
     CHECK(kept >= 100);
 }

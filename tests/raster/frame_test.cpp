@@ -1,7 +1,7 @@
 // Whole pictures against closed forms: alpha test, blending, samples, background, and numbers that are not.
+#include "raster/built_in/shapes.hpp"
 #include "raster/debug_view.hpp"
 #include "raster/renderer.hpp"
-#include "raster/built_in/shapes.hpp"
 #include "tests/raster/kernel_fixture.hpp"
 #include "tests/support/cameras.hpp"
 

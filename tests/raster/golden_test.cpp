@@ -87,7 +87,8 @@ std::string hashes(const test::NamedScene& named, const Variant& variant) {
     settings.shadow_size = 256;
     const auto report = render(scene, named.camera, settings, {kWidth, kHeight, rgba8.data(), linear.data()});
     if (!report) return report.error().message;
-    return hex(pixel_hash(rgba8)) + " " + hex(pixel_hash({reinterpret_cast<const std::uint8_t*>(linear.data()), linear.size() * sizeof(float)}));
+    return hex(pixel_hash(rgba8)) + " " +
+           hex(pixel_hash({reinterpret_cast<const std::uint8_t*>(linear.data()), linear.size() * sizeof(float)}));
 }
 
 }  // namespace
@@ -102,7 +103,8 @@ TEST_CASE("golden: every scene in every variant has the committed pixels", "[ras
 
     if (std::getenv("HALFLIT_UPDATE_GOLDEN") != nullptr) {
         std::ofstream out(kTable);
-        out << "# scene/variant, hash of the 8-bit picture, hash of the linear one; made by HALFLIT_UPDATE_GOLDEN=1 (tests/raster/golden_test.cpp)\n";
+        out << "# scene/variant, hash of the 8-bit picture, hash of the linear one; made by HALFLIT_UPDATE_GOLDEN=1 "
+               "(tests/raster/golden_test.cpp)\n";
         for (const auto& [name, hash] : found) out << name << " " << hash << "\n";
         out.close();
         CHECK(out.good());

@@ -89,7 +89,8 @@ struct Fragments {
         return (w * w + h * h) / std::abs(static_cast<double>(doubled_area(fixed[t])));
     }
     [[nodiscard]] double w_ratio(std::uint32_t t) const {
-        return static_cast<double>(*std::max_element(inv_w[t].begin(), inv_w[t].end()) / *std::min_element(inv_w[t].begin(), inv_w[t].end()));
+        return static_cast<double>(*std::max_element(inv_w[t].begin(), inv_w[t].end()) /
+                                   *std::min_element(inv_w[t].begin(), inv_w[t].end()));
     }
 };
 

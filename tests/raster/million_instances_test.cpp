@@ -51,7 +51,8 @@ TEST_CASE("renderer: a million instances are prepared and drawn in less than 1 G
     scene.meshes.push_back(mesh);
     scene.instances.reserve(std::size_t{kSide} * kSide);
     for (int z = 0; z < kSide; ++z)
-        for (int x = 0; x < kSide; ++x) scene.instances.push_back({0, translation({static_cast<float>(x - kSide / 2), 0, static_cast<float>(z - kSide / 2)})});
+        for (int x = 0; x < kSide; ++x)
+            scene.instances.push_back({0, translation({static_cast<float>(x - kSide / 2), 0, static_cast<float>(z - kSide / 2)})});
     // From above, all in view: each pixel has some 15 triangles.
     Camera camera = halflit::test::camera_at({0, 100, 0}, {0, 0, 0});
     camera.orthographic = true;

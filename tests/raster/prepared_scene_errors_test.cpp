@@ -1,6 +1,6 @@
 // What preparing a scene refuses, at first and when it is told of changes.
-#include "raster/scene/prepared_scene.hpp"
 #include "raster/built_in/shapes.hpp"
+#include "raster/scene/prepared_scene.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -41,7 +41,11 @@ const std::vector<Fault>& faults() {
         {"two indices too many", [](Scene& s) { s.meshes[1].indices.resize(s.meshes[1].indices.size() + 2, 0); }, kMesh},
         {"no positions", [](Scene& s) { s.meshes[1].positions.clear(); }, kMesh},
         {"a position less", [](Scene& s) { s.meshes[1].positions.pop_back(); }, kMesh},
-        {"a normal more", [](Scene& s) { s.meshes[1].normals.push_back({0, 1, 0}); }, kMesh},
+        {"a normal more",
+         [](Scene& s) {
+             s.meshes[1].normals.push_back({0, 1, 0});
+         },
+         kMesh},
         {"one tangent", [](Scene& s) { s.meshes[1].tangents.resize(1); }, kMesh},
         {"a uv less", [](Scene& s) { s.meshes[1].uv0.pop_back(); }, kMesh},
         {"one uv of set 1", [](Scene& s) { s.meshes[1].uv1.resize(1); }, kMesh},
@@ -94,10 +98,15 @@ TEST_CASE("prepared scene: a change that breaks the scene is refused", "[raster]
 }
 
 TEST_CASE("prepared scene: other numbers of meshes, instances or materials are refused, whatever is told", "[raster][prepared]") {
-    void (*const spoil[])(Scene&) = {
-        [](Scene& s) { s.instances.push_back({1, {}}); }, [](Scene& s) { s.instances.pop_back(); },  [](Scene& s) { s.meshes.emplace_back(); },
-        [](Scene& s) { s.meshes.pop_back(); },            [](Scene& s) { s.materials.emplace_back(); }, [](Scene& s) { s.materials.pop_back(); },
-        [](Scene& s) { s = {}; }};
+    void (*const spoil[])(Scene&) = {[](Scene& s) {
+                                         s.instances.push_back({1, {}});
+                                     },
+                                     [](Scene& s) { s.instances.pop_back(); },
+                                     [](Scene& s) { s.meshes.emplace_back(); },
+                                     [](Scene& s) { s.meshes.pop_back(); },
+                                     [](Scene& s) { s.materials.emplace_back(); },
+                                     [](Scene& s) { s.materials.pop_back(); },
+                                     [](Scene& s) { s = {}; }};
     const SceneChanges told[] = {{}, {{0}}, {{}, {0}}, {{}, {}, true}, {{}, {}, false, true}};
     for (const auto& change : spoil)
         for (const SceneChanges& changes : told) {
@@ -113,8 +122,9 @@ TEST_CASE("prepared scene: other numbers of meshes, instances or materials are r
 
 TEST_CASE("prepared scene: a change of what is not there is refused", "[raster][prepared]") {
     Scene scene = good_scene();
-    for (const SceneChanges& changes : {SceneChanges{{3}}, SceneChanges{{0, 1, 99}}, SceneChanges{{std::numeric_limits<std::size_t>::max()}},
-                                        SceneChanges{{}, {2}}, SceneChanges{{}, {0, std::numeric_limits<std::size_t>::max()}}}) {
+    for (const SceneChanges& changes :
+         {SceneChanges{{3}}, SceneChanges{{0, 1, 99}}, SceneChanges{{std::numeric_limits<std::size_t>::max()}}, SceneChanges{{}, {2}},
+          SceneChanges{{}, {0, std::numeric_limits<std::size_t>::max()}}}) {
         auto prepared = PreparedScene::make(scene);
         REQUIRE(prepared);
         const auto updated = prepared->update(changes);

@@ -20,9 +20,9 @@ constexpr int kMaterials = 3;
 bool same(const Bounds& a, const Bounds& b) { return a.empty == b.empty && (a.empty || (a.min == b.min && a.max == b.max)); }
 
 bool same(const Cluster& a, const Cluster& b) {
-    return std::equal(a.min, a.min + 3, b.min) && std::equal(a.max, a.max + 3, b.max) && std::equal(a.cone_axis, a.cone_axis + 3, b.cone_axis) &&
-           a.cone_sine == b.cone_sine && a.cone_cosine == b.cone_cosine && a.least_altitude == b.least_altitude &&
-           a.first_group == b.first_group && a.finite == b.finite;
+    return std::equal(a.min, a.min + 3, b.min) && std::equal(a.max, a.max + 3, b.max) &&
+           std::equal(a.cone_axis, a.cone_axis + 3, b.cone_axis) && a.cone_sine == b.cone_sine && a.cone_cosine == b.cone_cosine &&
+           a.least_altitude == b.least_altitude && a.first_group == b.first_group && a.finite == b.finite;
 }
 
 bool same(const PreparedMesh& a, const PreparedMesh& b) {
@@ -39,7 +39,8 @@ void check_same(const PreparedScene& a, const PreparedScene& b) {
     int differing_meshes = 0, differing_instances = 0;
     for (int i = 0; i < static_cast<int>(a.scene().meshes.size()); ++i) differing_meshes += !same(a.mesh(i), b.mesh(i));
     REQUIRE(a.instance_bounds().size() == b.instance_bounds().size());
-    for (std::size_t i = 0; i < a.instance_bounds().size(); ++i) differing_instances += !same(a.instance_bounds()[i], b.instance_bounds()[i]);
+    for (std::size_t i = 0; i < a.instance_bounds().size(); ++i)
+        differing_instances += !same(a.instance_bounds()[i], b.instance_bounds()[i]);
     CHECK(differing_meshes == 0);
     CHECK(differing_instances == 0);
     CHECK(a.triangle_count() == b.triangle_count());
@@ -112,7 +113,8 @@ SceneChanges change(Random& random, Scene& scene) {
     std::ranges::reverse(told.moved_instances);
     if (!told.deformed_meshes.empty() && random.chance(0.2)) told.deformed_meshes.push_back(told.deformed_meshes[0]);
     told.materials = random.chance(0.2);
-    if (told.materials) scene.materials[static_cast<std::size_t>(random.index(kMaterials))].lobe = shading::Lobe::green(random.real32(0, 1));
+    if (told.materials)
+        scene.materials[static_cast<std::size_t>(random.index(kMaterials))].lobe = shading::Lobe::green(random.real32(0, 1));
     told.lights = random.chance(0.2);
     if (told.lights) scene.lights.resize(static_cast<std::size_t>(random.index(4)));
     return told;
@@ -163,7 +165,8 @@ TEST_CASE("prepared scene: bounds where float32 has few digits left", "[raster][
     }
 }
 
-TEST_CASE("prepared scene: after any changes it is what it would be made anew, and its revision tells of their kind", "[raster][prepared]") {
+TEST_CASE("prepared scene: after any changes it is what it would be made anew, and its revision tells of their kind",
+          "[raster][prepared]") {
     Random random(3);
     int updates = 0;
     for (int round = 0; round < 60; ++round) {

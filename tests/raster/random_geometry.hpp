@@ -83,7 +83,8 @@ inline Mesh random_mesh(Random& random, int most_triangles = 6000) {
             for (Vec3f& p : mesh.positions) p.y += random.real32(-0.02, 0.02);
             break;
         case 3:
-            mesh = make_torus(0.7f, random.real32(0.05, 0.4), static_cast<int>(random.integer(3, 40)), static_cast<int>(random.integer(3, 30)));
+            mesh = make_torus(0.7f, random.real32(0.05, 0.4), static_cast<int>(random.integer(3, 40)),
+                              static_cast<int>(random.integer(3, 30)));
             break;
         case 4: {
             const double size = random_decades(random, 1e-3, 1);

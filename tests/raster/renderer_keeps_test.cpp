@@ -108,10 +108,11 @@ TEST_CASE("renderer: reference accuracy after its environment was freed and anot
     const auto at_the_place = [&alive](std::uint64_t seed) {
         REQUIRE(alive == 0);
         ++alive;
-        return std::shared_ptr<const shading::Environment>(new (place) shading::Environment(sky(seed)), [&alive](const shading::Environment* e) {
-            e->~Environment();
-            --alive;
-        });
+        return std::shared_ptr<const shading::Environment>(new (place) shading::Environment(sky(seed)),
+                                                           [&alive](const shading::Environment* e) {
+                                                               e->~Environment();
+                                                               --alive;
+                                                           });
     };
     NamedScene s = materials_scene();
     for (shading::Material& material : s.scene.materials) material.lobe = shading::Lobe::lambert();  // one integration for all: 0.5 s
@@ -137,7 +138,8 @@ TEST_CASE("renderer: light once a vertex leaves nothing behind", "[raster][reten
         const PreparedScene prepared = made(s.scene);
         Renderer renderer;
         using shading::ShadingRate;
-        for (const ShadingRate rate : {ShadingRate::gouraud, ShadingRate::pixel, ShadingRate::gouraud, ShadingRate::gouraud, ShadingRate::flat}) {
+        for (const ShadingRate rate :
+             {ShadingRate::gouraud, ShadingRate::pixel, ShadingRate::gouraud, ShadingRate::gouraud, ShadingRate::flat}) {
             Settings settings = small_shadows();
             settings.shading.rate = rate;
             INFO(s.name << ", rate " << static_cast<int>(rate));

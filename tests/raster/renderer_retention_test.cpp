@@ -61,7 +61,8 @@ std::shared_ptr<const shading::Environment> sky(std::uint64_t seed) {
     Random random(seed);
     std::vector<float> rgb;
     for (int i = 0; i < 3 * kWide * kHigh; ++i) rgb.push_back(random.real32(0, 0.6));
-    return std::make_shared<shading::Environment>(shading::make_environment({kWide, kHigh, rgb}, {.extract_suns = false, .keep_image = true}));
+    return std::make_shared<shading::Environment>(
+        shading::make_environment({kWide, kHigh, rgb}, {.extract_suns = false, .keep_image = true}));
 }
 
 shading::Texture noise(Random& random) {
@@ -110,7 +111,9 @@ void deform(Random& random, Mesh& mesh) {
 void change_material(Random& random, Scene& scene) {
     shading::Material& m = scene.materials[static_cast<std::size_t>(random.index(static_cast<int>(scene.materials.size())))];
     const std::function<void()> changes[] = {
-        [&] { m.base_color = {random.real32(0, 1), random.real32(0, 1), random.real32(0, 1), random.real32(0.2, 1)}; },
+        [&] {
+            m.base_color = {random.real32(0, 1), random.real32(0, 1), random.real32(0, 1), random.real32(0.2, 1)};
+        },
         [&] { m.double_sided = !m.double_sided; },
         [&] { m.alpha_mode = static_cast<shading::AlphaMode>(random.index(3)); },
         [&] { m.lobe = shading::Lobe::sloan(random.real32(0, 1)); },
@@ -180,21 +183,29 @@ void change_frame(Random& random, Frame& frame) {
     const bool coin = random.chance(0.5);
     const int die = random.index(3);
     const std::function<void()> changes[] = {
-        [&] { s.samples = coin ? 1 : die == 0 ? 4 : 8; },
+        [&] { s.samples = coin       ? 1
+                          : die == 0 ? 4
+                                     : 8; },
         [&] { frame.width = coin ? 96 : 61; },
         [&] { s.shadows = static_cast<shading::ShadowMode>(die); },
         [&] { s.shadow_size = coin ? 64 : 128; },
         [&] { s.shadow_memory_limit = std::size_t{1} << (coin ? 20 : 28); },
         [&] { s.shadow_fade = coin ? 0.0f : 0.3f; },
         [&] { s.shadow_terminator_offset = coin; },
-        [&] { s.region = coin ? Region{} : Region{20, 11, 33, 40}; },
+        [&] {
+            s.region = coin ? Region{} : Region{20, 11, 33, 40};
+        },
         [&] { s.exposure = coin ? 1.0f : 0.4f; },
         [&] { s.background_environment = coin; },
         [&] { options.max_error_codes = coin ? 0.0 : 2.0; },
         [&] { options.override_lobe = coin; },
         [&] { options.lobe = coin ? shading::Lobe::valve() : shading::Lobe::green(0.3f); },
-        [&] { options.accuracy = coin ? Accuracy::exact : die == 0 ? Accuracy::display : Accuracy::fast; },
-        [&] { options.rate = coin ? ShadingRate::pixel : die == 0 ? ShadingRate::flat : ShadingRate::gouraud; },
+        [&] { options.accuracy = coin       ? Accuracy::exact
+                                 : die == 0 ? Accuracy::display
+                                            : Accuracy::fast; },
+        [&] { options.rate = coin       ? ShadingRate::pixel
+                             : die == 0 ? ShadingRate::flat
+                                        : ShadingRate::gouraud; },
         [&] { options.texture_detail = coin ? TextureDetail::full : TextureDetail::nearest; },
         [&] { options.specular = static_cast<shading::SpecularModel>(die); },
         [&] { options.environment_order.fixed = coin ? 0 : 3; },
@@ -215,7 +226,9 @@ void fail_once(Random& random, Renderer& renderer, const Stage& stage, Frame fra
     const std::function<void()> faults[] = {
         [&] { s.samples = 3; },
         [&] { s.shadow_size = 100; },
-        [&] { s.region = {90, 60, 50, 50}; },
+        [&] {
+            s.region = {90, 60, 50, 50};
+        },
         [&] { s.shading.override_lobe = true, s.shading.lobe.wrap = 2; },
         [&] { camera.world_from_camera.c[3].x = std::numeric_limits<float>::quiet_NaN(); },
         [&] { s.cancelled = &stop, s.parallel_for = in_reverse, s.tile_size = 16, s.region = {}; },

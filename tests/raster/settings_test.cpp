@@ -1,6 +1,6 @@
 // What a frame refuses, with which code, and how it stops.
-#include "raster/renderer.hpp"
 #include "raster/built_in/shapes.hpp"
+#include "raster/renderer.hpp"
 #include "tests/support/cameras.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,8 +1,8 @@
 // A white matte surface under one light of colour 1, so that a pixel is V f(N.L).
 #pragma once
 
-#include "raster/renderer.hpp"
 #include "raster/built_in/shapes.hpp"
+#include "raster/renderer.hpp"
 #include "tests/support/cameras.hpp"
 
 #include <catch2/catch.hpp>

@@ -85,7 +85,8 @@ Vec3d any_point(Random& random, const Scene& scene, double reach) {
         const auto i = static_cast<std::size_t>(random.index(static_cast<int>(mesh.indices.size())));
         const Vec3f on = transform_point(instance.world_from_object, mesh.positions[mesh.indices[i]]);
         const double off = random.chance(0.3) ? 0.0 : reach * std::pow(10.0, random.real(-6, -1));
-        if (std::isfinite(on.x + on.y + on.z)) point = Vec3d{on.x + random.real(-off, off), on.y + random.real(-off, off), on.z + random.real(-off, off)};
+        if (std::isfinite(on.x + on.y + on.z))
+            point = Vec3d{on.x + random.real(-off, off), on.y + random.real(-off, off), on.z + random.real(-off, off)};
     }
     return point;
 }
@@ -159,8 +160,10 @@ TEST_CASE("surface distance: never beyond the nearest triangle, for triangles th
         // Some exactly on a line: halves and sums of small whole numbers.
         if (random.chance(0.5))
             for (std::size_t i = 0; i < mesh.positions.size(); i += 3) {
-                const Vec3f a{static_cast<float>(random.index(9)), static_cast<float>(random.index(9)), static_cast<float>(random.index(9))};
-                const Vec3f step{static_cast<float>(random.index(5) - 2), static_cast<float>(random.index(5) - 2), static_cast<float>(random.index(5) - 2)};
+                const Vec3f a{static_cast<float>(random.index(9)), static_cast<float>(random.index(9)),
+                              static_cast<float>(random.index(9))};
+                const Vec3f step{static_cast<float>(random.index(5) - 2), static_cast<float>(random.index(5) - 2),
+                                 static_cast<float>(random.index(5) - 2)};
                 for (std::size_t k = 0; k < 3; ++k) mesh.positions[i + k] = a + step * static_cast<float>(random.index(7) - 3);
             }
         scene.instances.push_back({0, random_place(random, 3)});
@@ -186,7 +189,8 @@ TEST_CASE("surface distance: no surface is drawn nearer, far from the origin too
         }
         const PreparedScene prepared = made(scene);
         for (int i = 0; i < 6; ++i) {
-            const Vec3d point{far_away.x + random.real(-0.5, 0.5), far_away.y + random.real(-0.5, 0.5), far_away.z + random.real(-0.5, 0.5)};
+            const Vec3d point{far_away.x + random.real(-0.5, 0.5), far_away.y + random.real(-0.5, 0.5),
+                              far_away.z + random.real(-0.5, 0.5)};
             sum.add(scene, prepared, point, 2e5);
         }
     }

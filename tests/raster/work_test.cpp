@@ -1,7 +1,7 @@
 // What a frame's shading did, counted: a square that fills the picture has as many fragments as the picture has pixels, so every count has
 // a closed form.
-#include "raster/renderer.hpp"
 #include "raster/built_in/shapes.hpp"
+#include "raster/renderer.hpp"
 #include "raster/scene/tangent_space.hpp"
 #include "shading/environment.hpp"
 #include "tests/raster/test_scenes.hpp"

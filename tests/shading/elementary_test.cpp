@@ -236,8 +236,8 @@ TEST_CASE("highlight power: cos^s is right to 4e-7 for exponents from 0.5 to 8e4
 }
 
 TEST_CASE("power tiers: display and fast are off by what accuracy.hpp says of their polynomials", "[shading][pow]") {
-    // t^n = t 2^((n-1) log2 t): 2^r as far as its own error, and log2's on a fraction of at most 1/2, times ln 2 (n - 1). The exponent itself
-    // is a float32 of up to 24 here, rounded three times.
+    // t^n = t 2^((n-1) log2 t): 2^r as far as its own error, and log2's on a fraction of at most 1/2, times ln 2 (n - 1). The exponent
+    // itself is a float32 of up to 24 here, rounded three times.
     struct Row {
         const char* name;
         double n;
@@ -270,7 +270,8 @@ TEST_CASE("power tiers: display and fast are off by what accuracy.hpp says of th
             INFO(row.name << ": relative error " << worst << ", of its bound " << worst_of_bound);
             CHECK(worst_of_bound <= 1.0);
             CHECK(worst_of_bound > 0.4);  // and no better than that: the tier did run
-            CHECK(worst <= (row.tier == shading::PowTier::display ? 2.6e-6 * row.n + 3e-6 : 1.3e-4 * row.n + 1e-4));  // in the tiers' own words
+            CHECK(worst <=
+                  (row.tier == shading::PowTier::display ? 2.6e-6 * row.n + 3e-6 : 1.3e-4 * row.n + 1e-4));  // in the tiers' own words
         }
     CHECK(found == 4);
 }
@@ -298,7 +299,8 @@ TEST_CASE("power tiers: highlights are off by what accuracy.hpp says of their po
             scalar.unary[f].run(sine.data(), out.data(), static_cast<int>(sine.size()));
             double worst = 0;
             for (std::size_t i = 0; i < sine.size(); ++i)
-                worst = std::max(worst, std::fabs(static_cast<double>(out[i]) - std::exp(row.half_exponent * std::log1p(-static_cast<double>(sine[i])))));
+                worst = std::max(worst, std::fabs(static_cast<double>(out[i]) -
+                                                  std::exp(row.half_exponent * std::log1p(-static_cast<double>(sine[i])))));
             const shading::PowErrors errors = shading::pow_errors(row.tier);
             const double bound = errors.exp2 + 0.3679 * errors.log2 + 4e-7;
             INFO(row.name << ": " << worst << " of the peak, bound " << bound);

@@ -68,7 +68,8 @@ TEST_CASE("environment: of a small image it holds its bands' grid of 5 MB and li
 }
 
 TEST_CASE("environment: the image is kept where it is asked for, and nowhere else", "[shading][environment]") {
-    const Environment neither = of_image(32, 16), image = of_image(32, 16, {.keep_image = true}), light = of_image(32, 16, {.keep_light = true});
+    const Environment neither = of_image(32, 16), image = of_image(32, 16, {.keep_image = true}),
+                      light = of_image(32, 16, {.keep_light = true});
     CHECK(neither.rgb.capacity() == 0);
     CHECK(neither.lit_rgb.capacity() == 0);
     CHECK(image.rgb.size() == 3 * 32 * 16);

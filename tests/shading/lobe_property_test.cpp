@@ -1,8 +1,8 @@
 // Properties that every member of the wrap family has at every x = N.L, on every instruction set.
 #include "floats.hpp"
 #include "lobe_curve/lobe_curve.hpp"
-#include "shading/reference/reference.hpp"
 #include "shading/planner.hpp"
+#include "shading/reference/reference.hpp"
 #include "tests/support/isas.hpp"
 
 #include <catch2/catch.hpp>

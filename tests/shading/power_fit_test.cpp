@@ -73,7 +73,8 @@ TEST_CASE("curves: no lobe is off by more codes than its fit says, by one light 
         }
 }
 
-TEST_CASE("curves: a lobe of half-integer power is a polynomial, and other fits are close where budgets use them", "[shading][pow][curve]") {
+TEST_CASE("curves: a lobe of half-integer power is a polynomial, and other fits are close where budgets use them",
+          "[shading][pow][curve]") {
     for (const double n : {1.5, 2.5, 3.5}) CHECK(fit_lobe(n, 1.0).codes < 0.005);
     for (const double n : {1.1, 1.3, 1.7}) CHECK(fit_lobe(n, 2.0).codes < 0.2);
     // What has no bound is not promised.

@@ -90,14 +90,15 @@ TEST_CASE("texture bounds: no filtered channel is off by more than its bound", "
                         const reference::Rgba want =
                             reference::sample(texture, use.sampler, moved(use.row_u, u, v) + double{use.row_u.z},
                                               moved(use.row_v, u, v) + double{use.row_v.z}, 0.5 * std::log2(right * right + down * down));
-                        const double errors[] = {std::fabs(static_cast<double>(block.red[lane]) - want.r), std::fabs(static_cast<double>(block.green[lane]) - want.g),
+                        const double errors[] = {std::fabs(static_cast<double>(block.red[lane]) - want.r),
+                                                 std::fabs(static_cast<double>(block.green[lane]) - want.g),
                                                  std::fabs(static_cast<double>(block.blue[lane]) - want.b)};
                         for (int c = 0; c < 3; ++c) {
                             const double bound = filter_error(planned, c, static_cast<double>(kLargest));
                             closest = std::max(closest, errors[c] / bound);
                             if (errors[c] > bound)
-                                FAIL(width << " x " << height << ", noise " << noise << ", mode " << mode << ", u " << u << ", v " << v << ": off by "
-                                           << errors[c] << ", bound " << bound);
+                                FAIL(width << " x " << height << ", noise " << noise << ", mode " << mode << ", u " << u << ", v " << v
+                                           << ": off by " << errors[c] << ", bound " << bound);
                         }
                     }
                 }

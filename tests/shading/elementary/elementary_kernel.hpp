@@ -35,8 +35,12 @@ HALFLIT_INLINE F power_to(F t, float n) {
     const SplitPower split(n);
     return power_of_unit(clamp(t, F(0.0f), F(1.0f)), split.minus_one, split.high, split.low);
 }
-HALFLIT_INLINE F display_power_to(F t, float n) { return short_power_of_unit(kLog2Degree5, kExp2Degree4, clamp(t, F(0.0f), F(1.0f)), n - 1.0f); }
-HALFLIT_INLINE F fast_power_to(F t, float n) { return short_power_of_unit(kLog2Degree3, kExp2Degree3, clamp(t, F(0.0f), F(1.0f)), n - 1.0f); }
+HALFLIT_INLINE F display_power_to(F t, float n) {
+    return short_power_of_unit(kLog2Degree5, kExp2Degree4, clamp(t, F(0.0f), F(1.0f)), n - 1.0f);
+}
+HALFLIT_INLINE F fast_power_to(F t, float n) {
+    return short_power_of_unit(kLog2Degree3, kExp2Degree3, clamp(t, F(0.0f), F(1.0f)), n - 1.0f);
+}
 HALFLIT_INLINE F sharp_power_to(F one_minus_t, float n) {
     const F held = clamp(one_minus_t, F(0.0f), F(1.0f));
     return sharp_power_of_unit(F(1.0f) - held, held, F(n));
