@@ -155,7 +155,6 @@ Result<FramePlan> plan_frame(const PreparedScene& prepared, const Camera& camera
          .ambient = scene.ambient,
          .options = options,
          .environment = scene.environment,
-         .environment_revision = prepared.revision().environment,
          .exposure = static_cast<double>(settings.exposure),
          .viewer = viewer_of(camera),
          .shadows = {settings.shadows, settings.shadow_terminator_offset, std::move(shadows->maps), std::move(shadows->map_of_light),

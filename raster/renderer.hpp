@@ -24,7 +24,7 @@ public:
     /// For pictures one after the other: the scene was prepared beforehand, and is told what changes.
     Result<RenderReport> render(const PreparedScene& scene, const Camera& camera, const Settings& settings, const FramebufferView& target);
 
-    /// The short way: prepares the scene first, every time.
+    /// The short way: prepares the scene first, every time. Anything may have changed since the last frame.
     Result<RenderReport> render(const Scene& scene, const Camera& camera, const Settings& settings, const FramebufferView& target);
 
     /// Forgets what the last frames left for the next one, but for their memory and what belongs to an environment or a material alone. The

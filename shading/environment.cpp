@@ -5,8 +5,18 @@
 #include "shading/material.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 namespace halflit::shading {
+namespace {
+
+std::uint64_t next_id() {
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
+}
+
+}  // namespace
+
 sh::WrapLobe specular_environment_lobe(float roughness) {
     const double power = std::max(1.0, specular_exponent(static_cast<double>(roughness)) * 0.25);
     return {0.0, power, 0.5 * (power + 1.0)};
@@ -16,6 +26,7 @@ Environment make_environment(const sh::EquirectView& image, const EnvironmentOpt
     const sh::Projection whole(image);
     const sh::Rotation turn = sh::rotation_about_y(options.rotate_rad);
     Environment environment;
+    environment.id = next_id();
     if (options.keep_image) {
         environment.rgb.assign(image.rgb.begin(), image.rgb.end());
         environment.width = image.width;

@@ -7,6 +7,7 @@
 #include "sh/rotate.hpp"
 #include "shading/light.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -15,6 +16,9 @@ namespace halflit::shading {
 /// An environment image in ten bands, with what bounds the error of leaving bands out. Suns that were taken out of it are lights of
 /// their own: whoever lights a scene with this adds them to the scene's lights.
 struct Environment {
+    /// Given by make_environment, never twice; copies share it. What renderers keep of an environment goes by it, so make another one
+    /// instead of editing this.
+    std::uint64_t id = 0;
     sh::RadianceSh radiance;  ///< turned as the scene wants it
     sh::BandGrid grid;
     std::vector<Light> suns;  ///< directional, colour premultiplied by 1/pi

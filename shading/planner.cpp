@@ -44,7 +44,7 @@ void plan_environments(const PlanInputs& inputs, PlanMemory& memory, ShadingPlan
     EnvironmentOrder order = inputs.options.environment_order;
     order.exposure = inputs.exposure;
     if (inputs.options.max_error_codes > 0.0) order.codes = inputs.options.max_error_codes * kBudgetShares.each_environment();
-    memory.environments.use(inputs.environment, inputs.environment_revision);
+    memory.environments.use(inputs.environment);
     EnvironmentPlanner planner(memory.environments, order, plan.environments);
     for (MaterialPlan& material : plan.materials) {
         if ((material.stages & kStageAmbient) == 0) continue;

@@ -48,7 +48,6 @@ struct PlanInputs {
     Ambient ambient;
     PlanOptions options;
     std::shared_ptr<const Environment> environment = nullptr;
-    std::uint64_t environment_revision = 0;  ///< another one for another image in the same place
     double exposure = 1.0;                   ///< display white is 1 / exposure
     Viewer viewer = {};
     ShadowInputs shadows = {};

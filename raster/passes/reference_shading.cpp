@@ -24,9 +24,10 @@ Result<void> ReferenceShading::build(const PreparedScene& prepared, const shadin
     scene_ = &prepared;
     frame_ = {scene.textures, scene.lights,           scene.ambient,     options,
               plan.eye_ws,    plan.view_direction_ws, plan.orthographic, plan.shadow_mode};
-    if (scene.environment != environment_ || prepared.revision().environment != environment_revision_) known_.clear();
+    const std::uint64_t environment_id = scene.environment != nullptr ? scene.environment->id : 0;
+    if (scene.environment != environment_ || environment_id != environment_id_) known_.clear();
     environment_ = scene.environment;
-    environment_revision_ = prepared.revision().environment;
+    environment_id_ = environment_id;
     diffuse_.assign(plan.materials.size(), nullptr);
     specular_.assign(plan.materials.size(), nullptr);
     if (scene.environment == nullptr) return {};

@@ -29,8 +29,8 @@ private:
 
     const PreparedScene* scene_ = nullptr;
     shading::reference::FrameInputs frame_;
-    std::shared_ptr<const shading::Environment> environment_;  ///< that of known_, in its revision
-    std::uint64_t environment_revision_ = 0;
+    std::shared_ptr<const shading::Environment> environment_;  ///< that of known_
+    std::uint64_t environment_id_ = 0;
     std::vector<Around> known_;
     std::vector<std::shared_ptr<const shading::reference::Irradiance>> diffuse_, specular_;  ///< for each material
 };

@@ -123,7 +123,7 @@ Result<PreparedScene> PreparedScene::make(const Scene& scene, const Workers& wor
         }
     });
     prepared.collect();
-    prepared.revision_ = {next_revision(), next_revision(), next_revision(), next_revision()};
+    prepared.revision_ = {next_revision(), next_revision(), next_revision()};
     return prepared;
 }
 
@@ -165,7 +165,6 @@ Result<void> PreparedScene::update(const SceneChanges& changes, const Workers& w
         revision_.materials = next_revision();
     }
     if (changes.lights) revision_.lights = next_revision();
-    if (changes.environment) revision_.environment = next_revision();
     return {};
 }
 

@@ -19,13 +19,12 @@ struct SceneChanges {
     std::vector<std::size_t> moved_instances{};  ///< Instance::world_from_object
     std::vector<std::size_t> deformed_meshes{};  ///< any array of the mesh, indices and material included
     bool materials = false;                      ///< materials or textures
-    bool lights = false;                         ///< lights or ambient light
-    bool environment = false;                    ///< another, or another image in the same place
+    bool lights = false;                         ///< lights, ambient light or environment
 };
 
 /// Grow with every change and are never the same for two scenes, so that what was made from a scene can be kept while they stay.
 struct SceneRevision {
-    std::uint64_t geometry = 0, materials = 0, lights = 0, environment = 0;
+    std::uint64_t geometry = 0, materials = 0, lights = 0;
     friend bool operator==(const SceneRevision&, const SceneRevision&) = default;
 };
 

@@ -116,9 +116,10 @@ EnvironmentPlan plan_environment(const Environment& environment, const sh::WrapL
     return plan;
 }
 
-void EnvironmentPlans::use(std::shared_ptr<const Environment> environment, std::uint64_t revision) {
-    if (environment == environment_ && revision == revision_) return;
-    revision_ = revision;
+void EnvironmentPlans::use(std::shared_ptr<const Environment> environment) {
+    const std::uint64_t id = environment != nullptr ? environment->id : 0;
+    if (environment == environment_ && id == id_) return;
+    id_ = id;
     entries_.clear();
     environment_ = std::move(environment);
 }

@@ -19,8 +19,8 @@ public:
     EnvironmentPlans() = default;
     /// The environment must live as long.
     explicit EnvironmentPlans(const Environment& environment) : environment_(std::shared_ptr<void>(), &environment) {}
-    /// For the plans that follow. Those of another environment, or of another revision of this one, are forgotten.
-    void use(std::shared_ptr<const Environment> environment, std::uint64_t revision);
+    /// For the plans that follow. Those of another environment are forgotten.
+    void use(std::shared_ptr<const Environment> environment);
     [[nodiscard]] EnvironmentPlan plan(const sh::WrapLobe& lobe, const EnvironmentOrder& order);
 
 private:
@@ -30,7 +30,7 @@ private:
         EnvironmentPlan plan;
     };
     std::shared_ptr<const Environment> environment_;
-    std::uint64_t revision_ = 0;
+    std::uint64_t id_ = 0;  ///< Environment::id: another one may come to lie where this one did
     std::vector<Entry> entries_;
 };
 

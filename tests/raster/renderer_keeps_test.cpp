@@ -59,7 +59,6 @@ PreparedScene made(const Scene& scene) {
 }
 
 const SceneChanges kLights{{}, {}, false, true};
-const SceneChanges kEnvironment{{}, {}, false, false, true};
 
 }  // namespace
 
@@ -85,7 +84,7 @@ TEST_CASE("renderer: an environment that changed where it lies, and was told", "
     Renderer renderer;
     const Pixels before = draw(renderer, prepared, s.camera, small_shadows());
     environment = sky(2);
-    REQUIRE(prepared.update(kEnvironment));
+    REQUIRE(prepared.update(kLights));
     const Pixels expected = draw_anew(s.scene, s.camera, small_shadows());
     CHECK(differing(before, expected) > 1000);
     CHECK(differing(draw(renderer, prepared, s.camera, small_shadows()), expected) == 0);
@@ -124,10 +123,10 @@ TEST_CASE("renderer: reference accuracy after its environment was freed and anot
     const Pixels before = draw(renderer, prepared, s.camera, reference);
 
     s.scene.environment = std::make_shared<const shading::Environment>(sky(2));
-    REQUIRE(prepared.update(kEnvironment));
+    REQUIRE(prepared.update(kLights));
     draw(renderer, prepared, s.camera, small_shadows());
     if (alive == 0) s.scene.environment = at_the_place(3);  // otherwise the Renderer holds the first, and nothing can lie there
-    REQUIRE(prepared.update(kEnvironment));
+    REQUIRE(prepared.update(kLights));
     const Pixels expected = draw_anew(s.scene, s.camera, reference);
     CHECK(differing(before, expected) > 1000);
     CHECK(differing(draw(renderer, prepared, s.camera, reference), expected) == 0);
