@@ -4,6 +4,7 @@
 
 #include "sh/config.hpp"
 
+// clang-format off
 namespace halflit {
 
 template <class T>
@@ -30,54 +31,32 @@ using Vec4f = Vec4<float>;
 using Vec3d = Vec3<double>;
 
 template <class T>
-HALFLIT_INLINE constexpr Vec2<T> operator+(Vec2<T> a, Vec2<T> b) {
-    return {a.x + b.x, a.y + b.y};
-}
+HALFLIT_INLINE constexpr Vec2<T> operator+(Vec2<T> a, Vec2<T> b) { return {a.x + b.x, a.y + b.y}; }
 template <class T>
-HALFLIT_INLINE constexpr Vec2<T> operator-(Vec2<T> a, Vec2<T> b) {
-    return {a.x - b.x, a.y - b.y};
-}
+HALFLIT_INLINE constexpr Vec2<T> operator-(Vec2<T> a, Vec2<T> b) { return {a.x - b.x, a.y - b.y}; }
 template <class T>
-HALFLIT_INLINE constexpr Vec2<T> operator*(Vec2<T> a, T s) {
-    return {a.x * s, a.y * s};
-}
+HALFLIT_INLINE constexpr Vec2<T> operator*(Vec2<T> a, T s) { return {a.x * s, a.y * s}; }
 
 template <class T>
-HALFLIT_INLINE constexpr Vec3<T> operator+(Vec3<T> a, Vec3<T> b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
+HALFLIT_INLINE constexpr Vec3<T> operator+(Vec3<T> a, Vec3<T> b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 template <class T>
-HALFLIT_INLINE constexpr Vec3<T> operator-(Vec3<T> a, Vec3<T> b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
+HALFLIT_INLINE constexpr Vec3<T> operator-(Vec3<T> a, Vec3<T> b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 /// Component by component.
 template <class T>
-HALFLIT_INLINE constexpr Vec3<T> operator*(Vec3<T> a, Vec3<T> b) {
-    return {a.x * b.x, a.y * b.y, a.z * b.z};
-}
+HALFLIT_INLINE constexpr Vec3<T> operator*(Vec3<T> a, Vec3<T> b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 template <class T>
-HALFLIT_INLINE constexpr Vec3<T> operator*(Vec3<T> a, T s) {
-    return {a.x * s, a.y * s, a.z * s};
-}
+HALFLIT_INLINE constexpr Vec3<T> operator*(Vec3<T> a, T s) { return {a.x * s, a.y * s, a.z * s}; }
 
 template <class T>
-HALFLIT_INLINE constexpr Vec4<T> operator+(Vec4<T> a, Vec4<T> b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w};
-}
+HALFLIT_INLINE constexpr Vec4<T> operator+(Vec4<T> a, Vec4<T> b) { return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w}; }
 template <class T>
-HALFLIT_INLINE constexpr Vec4<T> operator-(Vec4<T> a, Vec4<T> b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w};
-}
+HALFLIT_INLINE constexpr Vec4<T> operator-(Vec4<T> a, Vec4<T> b) { return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w}; }
 template <class T>
-HALFLIT_INLINE constexpr Vec4<T> operator*(Vec4<T> a, T s) {
-    return {a.x * s, a.y * s, a.z * s, a.w * s};
-}
+HALFLIT_INLINE constexpr Vec4<T> operator*(Vec4<T> a, T s) { return {a.x * s, a.y * s, a.z * s, a.w * s}; }
 
 /// (a.x b.x + a.y b.y) + a.z b.z
 template <class T>
-HALFLIT_INLINE constexpr T dot(Vec3<T> a, Vec3<T> b) {
-    return (a.x * b.x + a.y * b.y) + a.z * b.z;
-}
+HALFLIT_INLINE constexpr T dot(Vec3<T> a, Vec3<T> b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
 
 template <class T>
 HALFLIT_INLINE constexpr Vec3<T> cross(Vec3<T> a, Vec3<T> b) {

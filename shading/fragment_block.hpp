@@ -9,44 +9,23 @@ namespace halflit::shading {
 
 inline constexpr int kBlockSize = 64;  ///< lanes; a multiple of every SIMD width
 
+// clang-format off
 /// Rows of FragmentBlock::lane. The first kVertexFloats rows are interpolated from vertices, in attribute slots of four,
 /// so that a vertex record is a list of 16-byte groups and a group becomes four rows by a 4x4 transpose.
 enum Row : int {
-    kPosX,
-    kPosY,
-    kPosZ,
-    kNormalX,  // slot 0: world-space position; world-space normal, any length
-    kNormalY,
-    kNormalZ,
-    kU0,
-    kV0,  // slot 1: texture coordinates, set 0
-    kTangentX,
-    kTangentY,
-    kTangentZ,
-    kTangentW,  // slot 2: world-space tangent, any length; W: handedness, +1 or -1
-    kColorR,
-    kColorG,
-    kColorB,
-    kColorA,  // slot 3: vertex colour, linear
-    kU1,
-    kV1,
-    kUnused0,
-    kUnused1,  // slot 4: texture coordinates, set 1
+    kPosX, kPosY, kPosZ, kNormalX,         // slot 0: world-space position; world-space normal, any length
+    kNormalY, kNormalZ, kU0, kV0,          // slot 1: texture coordinates, set 0
+    kTangentX, kTangentY, kTangentZ, kTangentW,  // slot 2: world-space tangent, any length; W: handedness, +1 or -1
+    kColorR, kColorG, kColorB, kColorA,    // slot 3: vertex colour, linear
+    kU1, kV1, kUnused0, kUnused1,          // slot 4: texture coordinates, set 1
     kVertexFloats,
-    kDu0Dx = kVertexFloats,
-    kDv0Dx,
-    kDu0Dy,
-    kDv0Dy,  // change per pixel to the right and down, set 0
-    kDu1Dx,
-    kDv1Dx,
-    kDu1Dy,
-    kDv1Dy,   // set 1
-    kFacing,  // +1 front face, -1 back face
-    kShadowX,
-    kShadowY,
-    kShadowZ,  // from the position to where shadows are looked up, world space
+    kDu0Dx = kVertexFloats, kDv0Dx, kDu0Dy, kDv0Dy,  // change per pixel to the right and down, set 0
+    kDu1Dx, kDv1Dx, kDu1Dy, kDv1Dy,                  // set 1
+    kFacing,                               // +1 front face, -1 back face
+    kShadowX, kShadowY, kShadowZ,          // from the position to where shadows are looked up, world space
     kInputRows
 };
+// clang-format on
 inline constexpr int kSlotCount = 5;
 
 /// A set of attribute slots; bit s for slot s.

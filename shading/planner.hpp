@@ -48,7 +48,7 @@ struct PlanInputs {
     Ambient ambient;
     PlanOptions options;
     std::shared_ptr<const Environment> environment = nullptr;
-    double exposure = 1.0;                   ///< display white is 1 / exposure
+    double exposure = 1.0;  ///< display white is 1 / exposure
     Viewer viewer = {};
     ShadowInputs shadows = {};
     const SceneFacts* facts = nullptr;  ///< needed by an error budget, and by nothing else
