@@ -69,10 +69,8 @@ shading::SceneFacts scene_facts(const PreparedScene& scene, std::span<const Ligh
             continue;
         }
         const Vec3d position{light.position[0], light.position[1], light.position[2]};
-        const auto same = [&](const auto& known) { return known.first == position; };
-        auto known = std::find_if(memory.light_distances.begin(), memory.light_distances.end(), same);
-        if (known == memory.light_distances.end())
-            known = memory.light_distances.insert(known, {position, nearest_surface_squared(scene, position)});
+        const auto [known, is_new] = memory.light_distances.try_emplace({position.x, position.y, position.z});
+        if (is_new) known->second = nearest_surface_squared(scene, position);
         // A little nearer than found: positions are rounded to float on their way to the screen.
         facts.light_attenuation.push_back(1.0 / std::max(0.999 * known->second, static_cast<double>(light.min_distance_squared)));
         facts.light_farthest_squared.push_back(1.001 * farthest_surface_squared(scene, position));

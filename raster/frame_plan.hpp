@@ -12,9 +12,10 @@
 #include "raster/view/view.hpp"
 #include "shading/planner.hpp"
 
+#include <array>
+#include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace halflit::raster {
@@ -41,7 +42,7 @@ struct FramePlanMemory {
     shading::PlanMemory shading;
     /// Squared distances from lights to the nearest surface, and the geometry that they are of.
     std::uint64_t geometry_revision = 0;
-    std::vector<std::pair<Vec3d, double>> light_distances;
+    std::map<std::array<double, 3>, double> light_distances;
     /// Of all shadow maps, one after the other. None: the plan is only read, and its maps have no texels.
     std::optional<RawBuffer<float>> shadow_texels;
 };

@@ -37,6 +37,12 @@ double triangle_distance(Vec3d a, Vec3d b, Vec3d c) {
     return std::min({segment_distance(a, b), segment_distance(b, c), segment_distance(c, a)});
 }
 
+/// Of the box round the corners: a tenth of the work of triangle_distance.
+double corners_distance(Vec3d a, Vec3d b, Vec3d c) {
+    const auto beyond = [](double x, double y, double z) { return larger(0.0, larger(std::min({x, y, z}), -std::max({x, y, z}))); };
+    return squared({beyond(a.x, b.x, c.x), beyond(a.y, b.y, c.y), beyond(a.z, b.z, c.z)});
+}
+
 double box_distance(const Bounds& box, Vec3d p) {
     const double low[3] = {box.min.x, box.min.y, box.min.z}, high[3] = {box.max.x, box.max.y, box.max.z}, at[3] = {p.x, p.y, p.z};
     double sum = 0.0;
@@ -109,9 +115,10 @@ private:
             const Vec3f p = transform_point(m, mesh.positions[index]);  // in float32, as it is drawn
             return Vec3d{p.x - point_.x, p.y - point_.y, p.z - point_.z};
         };
-        for (std::size_t i = begin; i < end; i += 3)
-            nearest_ =
-                std::min(nearest_, triangle_distance(vertex(mesh.indices[i]), vertex(mesh.indices[i + 1]), vertex(mesh.indices[i + 2])));
+        for (std::size_t i = begin; i < end; i += 3) {
+            const Vec3d a = vertex(mesh.indices[i]), b = vertex(mesh.indices[i + 1]), c = vertex(mesh.indices[i + 2]);
+            if (corners_distance(a, b, c) < nearest_) nearest_ = std::min(nearest_, triangle_distance(a, b, c));
+        }
     }
 
     [[nodiscard]] double distance_to(const float (&&min)[3], const float (&&max)[3], const Mat4& m) const {
