@@ -1,8 +1,9 @@
-// What an error budget costs and saves: random scenes drawn exactly and within half a code by turns, one thread; the shortest tile stage of
-// each, and what planning takes longer. Scenes in which the budget looks slower are measured again, ten times as often. Apart stand those
-// in which the budget takes more bands of the environment than exact does by its own tolerance: it buys accuracy there, not speed.
+// Cost and gain of an error budget. Random scenes are drawn with accuracy exact and with a budget in turn, on one thread. The shortest tile
+// stage of each counts, and the difference in planning time. Scenes in which the budget looks slower are measured again, ten times as
+// often. Scenes in which the budget needs more bands of the environment than exact takes by its own tolerance are listed apart: there the
+// budget buys accuracy, not speed.
 //
-//     halflit_budget_bench [SCENES [WIDTH [CODES [SEED]]]]      60 scenes, 320 pixels wide, 0.5 codes, from seed 1 on
+//     halflit_budget_bench [SCENES [WIDTH [CODES [SEED]]]]      60 scenes, 320 pixels wide, 0.5 codes, seeds from 1 on
 #include "raster/renderer.hpp"
 #include "tests/raster/random_trial.hpp"
 
@@ -16,10 +17,10 @@ using namespace halflit::raster;
 
 namespace {
 
-/// Milliseconds, the shortest of several frames.
+/// Times in milliseconds, the shortest of several frames.
 struct Times {
     double tiles = 1e30, plan = 1e30;
-    int bands = 0;  ///< of environments, all together
+    int bands = 0;  ///< sum over the environment's series
 };
 
 class Subject {
@@ -32,7 +33,7 @@ public:
         budget_ = trial_.settings;
         budget_.shading.max_error_codes = codes;
     }
-    /// False when the scene cannot be drawn.
+    /// Returns false if the scene cannot be drawn.
     bool measure(int frames) {
         for (int i = 0; i < frames; ++i)
             if (!draw(trial_.settings, exact) || !draw(budget_, budget)) return false;
@@ -68,7 +69,7 @@ int main(int argc, char** argv) {
     const double codes = argc > 3 ? std::atof(argv[3]) : 0.5;
     const int first_seed = argc > 4 ? std::atoi(argv[4]) : 1;
     if (scenes < 1 || width < 16 || !(codes > 0)) {
-        std::fprintf(stderr, "halflit_budget_bench [SCENES [WIDTH [CODES [SEED]]]]\n");
+        std::fprintf(stderr, "usage: halflit_budget_bench [SCENES [WIDTH [CODES [SEED]]]]\n");
         return 2;
     }
     constexpr int kFrames = 7;
@@ -93,10 +94,12 @@ int main(int argc, char** argv) {
         saved_sum += saved;
         dearer += subject.planning() > saved ? 1 : 0;
     }
-    std::printf("%d scenes, %d x %d, at most %g codes\n", scenes, width, width * 3 / 4, codes);
-    std::printf("tiles, budget / exact: worst %.3f (seed %d), mean %.3f, best %.3f\n", worst, worst_seed, std::exp(log_sum / scenes), best);
-    std::printf("with more bands of an environment than exact: %d scenes, worst %.3f\n", more_bands, worst_of_more_bands);
-    std::printf("a frame: %.3f ms of tiles saved, %.3f ms more of planning (worst %.3f); planning costs more than it saves in %d scenes\n",
+    std::printf("%d scenes, %d x %d, error budget %g codes\n", scenes, width, width * 3 / 4, codes);
+    std::printf("time of the tiles, budget / exact: worst %.3f (seed %d), mean %.3f, best %.3f\n", worst, worst_seed,
+                std::exp(log_sum / scenes), best);
+    std::printf("scenes where the budget takes more bands of the environment than exact: %d, worst ratio %.3f\n", more_bands,
+                worst_of_more_bands);
+    std::printf("per frame: tiles %.3f ms shorter, planning %.3f ms longer (worst %.3f); in %d scenes planning costs more than it saves\n",
                 saved_sum / scenes, planning_sum / scenes, planning_worst, dearer);
     return 0;
 }

@@ -1,5 +1,5 @@
-// The shading stage alone, of a floor that fills the screen under eight lamps: at full accuracy, by tiers and within error budgets, on
-// every instruction set that this processor has. The shortest of many short slices by turns.
+// Time of the shading stage alone, for a floor that fills the screen under eight lamps: at full accuracy, by tiers and within error
+// budgets, on every instruction set that this processor has. All are measured in turn, in short slices; the shortest slice of each counts.
 //
 //     halflit_eight_lights_bench [SLICES [POWER [ROUGHNESS]]]      400 slices, t^1.3, highlights of exponent 32
 #include "raster/built_in/shapes.hpp"
@@ -19,7 +19,7 @@ using namespace halflit;
 
 namespace {
 
-constexpr int kPatches = 16;  ///< on a side of the floor; a block of fragments of each, as tiles bring them
+constexpr int kPatches = 16;  ///< patches on a side of the floor; each is one block of 8 x 8 fragments, as in a tile
 
 raster::Scene eight_lamps(float power, float roughness) {
     raster::Scene scene;
@@ -41,14 +41,14 @@ raster::Scene eight_lamps(float power, float roughness) {
         lamp.color_linear = {0.16f, 0.14f + 0.01f * static_cast<float>(i % 3), 0.13f};
         scene.lights.push_back(lamp);
     }
-    raster::Camera camera;  // from above, so that nothing but the floor is seen
+    raster::Camera camera;  // looks down from above, so that only the floor is seen
     camera.world_from_camera = {{{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}, {0, 3, 0, 1}}};
     camera.fov_y_rad = 0.8f;
     scene.cameras.push_back(camera);
     return scene;
 }
 
-/// Patches of the floor, whose normals a gentle wave turns.
+/// Blocks of fragments, one per patch of the floor. A wave varies the normals.
 std::vector<shading::FragmentBlock> floor_blocks() {
     std::vector<shading::FragmentBlock> blocks(std::size_t{kPatches} * kPatches);
     const int side = static_cast<int>(std::sqrt(static_cast<double>(shading::kBlockSize)));
@@ -72,7 +72,7 @@ std::vector<shading::FragmentBlock> floor_blocks() {
 struct Way {
     std::string name;
     shading::ShadingPlan plan;
-    double shortest = 1e30;  ///< ns a fragment
+    double shortest = 1e30;  ///< ns per fragment
 };
 
 std::string described(const shading::ShadingPlan& plan) {

@@ -1,5 +1,6 @@
-// What a next frame costs, and what of it a budget costs, for whole frames of one renderer: a scene at rest, one of its objects moved, its
-// camera moved, its light changed, and all forgotten; then exact and half a code by turns, planning included. The shortest of each.
+// Cost of a next frame, for whole frames of one renderer: after forget_frames(), with nothing changed, one object moved, the camera moved,
+// and a light changed. Then the cost of an error budget of half a code: exact and budget in turn, planning included. The shortest frame
+// counts.
 //
 //     halflit_next_frame_bench [FRAMES [THREADS]]      9 frames, all threads
 #include "raster/built_in/hall_of_lamps.hpp"
@@ -64,7 +65,7 @@ struct Subject {
     Scene scene;
 };
 
-/// Of the shortest frame: what comes before the tiles and apart from drawing maps, and the whole.
+/// Times of the shortest frame, ms. ready: update, plan and view geometry, which is all except shadow maps and tiles.
 struct Cost {
     double update = 1e30, ready = 0, maps = 0, tiles = 0, whole = 1e30;
 };
@@ -121,7 +122,7 @@ private:
     }
     std::string name_;
     Scene scene_;
-    std::vector<PreparedScene> prepared_;  // one
+    std::vector<PreparedScene> prepared_;  // one element
     Camera camera_;
     Renderer renderer_;
     std::vector<std::uint8_t> rgba8_;
@@ -139,8 +140,8 @@ void next_frames(const Subject& subject, int frames, int threads) {
             std::printf("| %s | %d | %s | %.3f | %.3f | %.1f | %.1f | %.1f |\n", subject.name.c_str(), samples, what, cost.update,
                         cost.ready, cost.maps, cost.tiles, cost.whole);
         };
-        row("all forgotten", [&] { scene.forget(); });
-        row("at rest", [] {});
+        row("after forget_frames()", [&] { scene.forget(); });
+        row("nothing changed", [] {});
         row("one object moved", [&] { scene.move_object(); });
         row("camera moved", [&] { scene.move_camera(); });
         row("a light changed", [&] { scene.change_light(); });
@@ -171,7 +172,7 @@ void budget_by_turns(const Subject& subject, int frames, int threads) {
 int main(int argc, char** argv) {
     const int frames = argc > 1 ? std::atoi(argv[1]) : 9, threads = argc > 2 ? std::atoi(argv[2]) : 0;
     if (frames < 1 || threads < 0) {
-        std::fprintf(stderr, "halflit_next_frame_bench [FRAMES [THREADS]]\n");
+        std::fprintf(stderr, "usage: halflit_next_frame_bench [FRAMES [THREADS]]\n");
         return 2;
     }
     const Subject subjects[] = {{"demo", demo_scene()},
@@ -180,7 +181,7 @@ int main(int argc, char** argv) {
                                 {"sphere of 4 M", sphere(4'000'000)},
                                 {"64 lamps", lights_scene(64, true)}};
     std::printf("%d x %d, ms, the shortest of %d frames\n\n", kWidth, kHeight, frames);
-    std::printf("| scene | samples | change | told | ready to draw | maps | tiles | whole |\n|---|---:|---|---:|---:|---:|---:|---:|\n");
+    std::printf("| scene | samples | change | update | ready to draw | maps | tiles | whole |\n|---|---:|---|---:|---:|---:|---:|---:|\n");
     for (const Subject& subject : subjects) next_frames(subject, frames, threads);
     std::printf(
         "\n| scene | exact | within half a code | ratio | ready to draw: exact | within half a code |\n|---|---:|---:|---:|---:|---:|\n");

@@ -18,7 +18,7 @@ std::string number(const char* format, double value) {
     return text;
 }
 
-/// Three digits.
+/// Time with three digits.
 std::string nanoseconds(double value) { return number(value < 1.0 ? "%.3f" : value < 10.0 ? "%.2f" : "%.1f", value); }
 
 std::string operations_text(const Operations& operations) {
@@ -100,18 +100,17 @@ void RatioTable::print_misses() const {
             const int lights = rows_[row].lights[variant];
             const double gain = quotient(row, variant, "scalar", "avx2"), fused = quotient(row, variant, "avx2", kFused);
             if (lights >= 4 && gain > 0.0 && gain < rows_[row].least_gain)
-                std::printf("below %.0f x scalar: %s, %d lights: %.1f\n", rows_[row].least_gain, rows_[row].name.c_str(), lights, gain);
+                std::printf("gain below %.0f: %s, %d lights: %.1f\n", rows_[row].least_gain, rows_[row].name.c_str(), lights, gain);
             if (lights != 1 && rows_[row].largest_price > 0.0 && fused > 1.0 + rows_[row].largest_price)
-                std::printf("exactness above %.0f %%: %s, %d lights: %.0f %%\n", 100.0 * rows_[row].largest_price, rows_[row].name.c_str(),
+                std::printf("price above %.0f %%: %s, %d lights: %.0f %%\n", 100.0 * rows_[row].largest_price, rows_[row].name.c_str(),
                             lights, 100.0 * (fused - 1.0));
         }
 }
 
 void RatioTable::Finalize() {
-    std::puts(
-        "Nanoseconds a fragment and light (1 / 4 / 16 lights), or a fragment. gain: scalar over it. price: of exactness, AVX2 over the "
-        "same");
-    std::puts("with fused multiply-add, less 1, in percent. share: of AVX2's peak of multiplications and additions, in percent.\n");
+    std::puts("Nanoseconds per fragment and light (1 / 4 / 16 lights), or per fragment. gain: time of scalar / time of the set. price of");
+    std::puts("exactness: time of AVX2 / time with fused multiply-add - 1, in percent. share: part of AVX2's peak of multiplications and");
+    std::puts("additions, in percent.\n");
     std::puts("| | operations | scalar | SSE2 | SSE4.1 | AVX2 | AVX-512 | gain AVX2 | gain AVX-512 | price | share |");
     std::puts("|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|");
     for (std::size_t row = 0; row < rows_.size(); ++row)

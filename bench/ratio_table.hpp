@@ -1,4 +1,4 @@
-// From repeated, interleaved measurements to one table of times and ratios.
+// Table of times and ratios, made from repeated and interleaved measurements.
 #pragma once
 
 #include "bench/shading_rows.hpp"
@@ -11,14 +11,14 @@
 
 namespace halflit::bench {
 
-/// What a benchmark of the library stands for.
+/// Place of a benchmark in the table.
 struct Cell {
     int row = 0, variant = 0;
     std::string column;  ///< an instruction set's name, or kFused
 };
 inline constexpr const char* kFused = "avx2+fma";
 
-/// Keeps the shortest of each benchmark's repetitions: other programs can only make one longer. Ratios are of such minima.
+/// Keeps the shortest of each benchmark's repetitions, because other programs can only make one longer. Ratios are those of the minima.
 class RatioTable : public benchmark::BenchmarkReporter {
 public:
     RatioTable(const std::vector<Row>& rows, std::map<std::string, Cell> cells) : rows_(rows), cells_(std::move(cells)) {}
@@ -28,14 +28,14 @@ public:
     void Finalize() override;
 
 private:
-    /// Nanoseconds for a fragment (and light); 0 when not measured.
+    /// Nanoseconds per fragment (and light); 0 if not measured.
     double time(std::size_t row, std::size_t variant, const std::string& column) const;
     double quotient(std::size_t row, std::size_t variant, const std::string& above, const std::string& below) const;
     std::string times(std::size_t row, const std::string& column) const;
     std::string gains(std::size_t row, const std::string& column) const;
     std::string prices(std::size_t row) const;
     std::string share(std::size_t row) const;
-    double flops_per_ns(const std::string& column) const;  ///< the peak row's
+    double flops_per_ns(const std::string& column) const;  ///< rate of the peak row
     void print_line(std::size_t row) const;
     void print_misses() const;
 

@@ -1,5 +1,5 @@
-// What shading costs a fragment and light: every path of the lobe, every kind of light, on every instruction set that this processor has,
-// measured in short slices in random order, so that whatever else the machine does falls on all rows alike.
+// Cost of shading per fragment and light: every path of the lobe and every kind of light, on every instruction set that this processor has.
+// Measured in short slices in random order, so that other load on the machine affects all rows alike.
 #include "bench/ratio_table.hpp"
 #include "shading/kernels/isa_select.hpp"
 
@@ -47,7 +47,7 @@ std::vector<Column> columns() {
     return all;
 }
 
-/// The state's loop is written once for each kind of work, so that nothing but the call is in it.
+/// Benchmark loop. A template, so that each kind of work has a loop of its own with nothing but the call in it.
 template <class Call>
 void repeat(benchmark::State& state, const shading::FragmentBlock& block, const Call& call) {
     for (auto _ : state) {
@@ -105,7 +105,7 @@ std::map<std::string, Cell> register_all(const std::vector<Row>& rows, const std
 
 int main(int argc, char** argv) {
     using namespace halflit::bench;
-    // Before what the command line says, which wins.
+    // Defaults come first: the command line overrides them.
     std::vector<char*> arguments = {argv[0]};
     std::string defaults[] = {"--benchmark_repetitions=15", "--benchmark_min_time=0.001", "--benchmark_enable_random_interleaving=true"};
     for (std::string& flag : defaults) arguments.push_back(flag.data());

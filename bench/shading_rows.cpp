@@ -47,11 +47,11 @@ const NamedLobe kLobes[] = {{"lambert", Lobe::lambert()},
 constexpr std::pair<const char*, LightType> kTypes[] = {
     {"directional", LightType::directional}, {"point", LightType::point}, {"spot", LightType::spot}};
 
-// ---- operations, read off the kernels ------------------------------------------------------------------------------
+// ---- operations, counted in the kernels' source --------------------------------------------------------------------
 
 constexpr int kDot = 5, kCross = 9, kVector = 3;
 
-/// t^n by log2 and exp2 (power_of_unit): both ends of two polynomials of degree 8 and 6, and what holds them together.
+/// t^n by log2 and exp2 (power_of_unit): polynomials of degree 8 and 6, and the steps before, between and after them.
 constexpr int kPowerOfUnit = 1 + (2 * 8 + 1) + 5 + 2 + 2 + 2 * 6 + 2 + 1;
 /// The same for cosines (power_of_cosine): degrees 7 and 5.
 constexpr int kPowerOfCosine = 1 + 1 + (2 * 7 + 2) + 1 + 2 + 1 + 2 * 5 + 2;
@@ -73,9 +73,9 @@ Operations lobe_operations(const shading::LobePlan& lobe) {
 }
 
 Operations light_operations(LightType type) {
-    const int n_dot_l = kDot, colour = 2 * kVector;  // times the lobe, and added
+    const int n_dot_l = kDot, colour = 2 * kVector;  // colour times the lobe, added to the sum
     if (type == LightType::directional) return {n_dot_l + colour};
-    // Offset, its square, unit direction; window and inverse square; strength times the lobe.
+    // Offset, its squared length, unit direction; range window and inverse square; attenuation times the lobe.
     const int local = kVector + kDot + kVector + 3 + 1;
     const int cone = type == LightType::spot ? kVector + kDot + 1 + 2 + 2 : 0;  // versine from |L - A|^2, ramp, its square
     return {n_dot_l + colour + local + cone, 2, 1};
@@ -118,7 +118,7 @@ const shading::Environment& some_environment() {
 
 shading::ShadingPlan plan(const shading::Material& material, const std::vector<shading::Light>& lights, bool specular, int order = 0,
                           std::span<const shading::Texture> textures = {}) {
-    const shading::SlotMask all = ((1u << shading::kSlotCount) - 1u) & ~(1u << 3);  // everything but a vertex colour
+    const shading::SlotMask all = ((1u << shading::kSlotCount) - 1u) & ~(1u << 3);  // all slots except the vertex colour
     const shading::SlotMask slots[] = {all, all};
     shading::PlanOptions options;
     options.specular = specular ? SpecularModel::blinn : SpecularModel::none;
@@ -145,7 +145,7 @@ void add_light_rows(std::vector<Row>& rows, Work work) {
                     row.frames.push_back(plan(material, some_lights(type, count), specular));
                 }
                 const shading::LobePlan& planned = row.frames[0].materials[0].lobe;
-                // The specular adds the same to every lobe; three of them show it.
+                // A highlight adds the same work to every lobe, so rows for three lobes are enough.
                 if (specular && planned.path != LobePath::linear && planned.path != LobePath::square && planned.path != LobePath::general)
                     continue;
                 if (specular && planned.path == LobePath::linear && planned.wrap > 0.0f) continue;
@@ -166,14 +166,14 @@ void add_environment_rows(std::vector<Row>& rows) {
         row.work = Work::environment;
         row.lights = {0};
         row.frames = {plan({}, {}, false, order)};
-        // A multiplication and an addition for each coefficient and channel but the leading ones; z less each node; powers of x + iy.
+        // A multiplication and an addition per channel for each coefficient except the leading one; z - node; powers of x + iy.
         row.operations = {6 * (order * order - 1) + (order - 1) + (order > 2 ? 6 * (order - 2) : 0)};
         row.largest_price = 0.12;
         rows.push_back(std::move(row));
     }
 }
 
-/// Normal map, four point lights with a general power and highlights, an environment of three bands, sRGB codes.
+/// A whole pixel: normal map, four point lights with a general power and highlights, an environment of three bands, sRGB codes.
 Row pixel_row() {
     Numbers numbers;
     std::vector<std::uint8_t> rgba8(std::size_t{64} * 64 * 4);
@@ -206,7 +206,7 @@ std::vector<Row> shading_rows() {
     encode.work = Work::encode;
     encode.lights = {0};
     encode.frames.emplace_back();
-    // Exposure, two roots, a polynomial of degree 6, the curve's straight arm, the code: three channels, and alpha's code.
+    // Three channels: exposure, two roots, a polynomial of degree 6, the curve's linear part, the code. Then alpha's code.
     encode.operations = {3 * (1 + 2 * 6 + 1 + 1) + 1, 0, 6};
     rows.push_back(std::move(encode));
     rows.push_back(pixel_row());

@@ -1,4 +1,4 @@
-# The instruction sets of shading/kernels/isa_list.def: which of them are built, and kernels compiled once for each.
+# Chooses which instruction sets of shading/kernels/isa_list.def are built, and compiles kernels once for each.
 #   HALFLIT_ISAS                            identifiers of the sets that are built
 #   halflit_kernel_objects(layer out header)  objects of one kernel header, one for each of HALFLIT_ISAS
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
@@ -25,16 +25,16 @@ foreach(row IN LISTS rows)
         list(APPEND HALFLIT_ISAS ${isa})
     endif()
 endforeach()
-set(HALFLIT_KERNEL_SETS "" CACHE STRING "Build only these of the processor's instruction sets, as scalar;avx2; empty: all")
+set(HALFLIT_KERNEL_SETS "" CACHE STRING "Instruction sets to build, for example scalar;avx2; empty: all of the processor's")
 if(HALFLIT_KERNEL_SETS)
     set(HALFLIT_ISAS ${HALFLIT_KERNEL_SETS})
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # GCC 12's own AVX-512 header starts results from an undefined register on purpose, and warns about it when inlined.
+    # GCC 12's AVX-512 header uses an undefined register on purpose; when its functions are inlined, GCC warns about it.
     list(APPEND HALFLIT_FLAGS_avx512 -Wno-uninitialized -Wno-maybe-uninitialized)
 endif()
 
-# What the registries are made of: X(set, ...) for each set that is built.
+# Macro that the registries are made of: X(set, ...) for each set that is built.
 set(generated ${PROJECT_BINARY_DIR}/generated)
 list(TRANSFORM HALFLIT_ISAS REPLACE "^.+$" "X(\\0, __VA_ARGS__)" OUTPUT_VARIABLE calls)
 list(JOIN calls " " calls)
@@ -44,7 +44,7 @@ file(CONFIGURE OUTPUT ${generated}/shading/kernels/built_isas.hpp CONTENT
 #define HALFLIT_FOR_BUILT_ISAS(X, ...) @calls@
 " @ONLY)
 
-# One object library a set. GCC hoists and spills the broadcasts of long straight-line kernels without the scheduling flags.
+# One object library per set. Without the scheduling flags GCC hoists and spills the broadcasts of long straight-line kernels.
 function(halflit_kernel_objects layer out header)
     set(objects "")
     foreach(isa IN LISTS HALFLIT_ISAS)

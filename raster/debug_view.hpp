@@ -1,4 +1,4 @@
-// Views of what the rasterizer decided before any shading: for tests, tools and curious people.
+// Debug views of the visibility stage, before any shading: for tests and tools.
 #pragma once
 
 #include "raster/scene/camera.hpp"
@@ -10,12 +10,12 @@
 
 namespace halflit::raster {
 
-/// What each pixel's first sample shows, row 0 on top.
+/// Triangle and depth of each pixel's first sample; row 0 is the top row.
 struct VisibilityView {
     int width = 0, height = 0;
-    std::vector<std::uint32_t>
-        triangle;              ///< 0: background; i + 1: triangle i in submission order (instances in order, their triangles in order)
-    std::vector<float> depth;  ///< reversed: 1 near, 0 far or background
+    /// 0: background; i + 1: triangle i in submission order (instances in scene order, their triangles in index order).
+    std::vector<std::uint32_t> triangle;
+    std::vector<float> depth;  ///< reversed: 1 at the near plane, 0 at the far plane or background
 };
 
 [[nodiscard]] Result<VisibilityView> visibility(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height);

@@ -11,7 +11,7 @@ namespace {
 
 using shading::Accuracy, shading::LightPlan, shading::MaterialPlan;
 
-/// What the cheaper ways are measured against: light at every pixel, textures as their samplers say.
+/// Options in effect. Accuracy::reference implies light at every pixel, full texture filtering and no error budget.
 shading::PlanOptions effective(shading::PlanOptions options) {
     if (options.accuracy != Accuracy::reference) return options;
     options.rate = shading::ShadingRate::pixel;
@@ -23,8 +23,8 @@ shading::PlanOptions effective(shading::PlanOptions options) {
 Result<void> check_settings(const Settings& settings, int width, int height) {
     if (width < 1 || height < 1) return fail(ErrorCode::usage, "the picture has no pixels");
     if (width > 2 * kGuardBandPx || height > 2 * kGuardBandPx)
-        return fail(ErrorCode::limit, "a picture of " + std::to_string(width) + " x " + std::to_string(height) + " pixels, at most " +
-                                          std::to_string(2 * kGuardBandPx) + " on a side are supported");
+        return fail(ErrorCode::limit, "picture size: " + std::to_string(width) + " x " + std::to_string(height) +
+                                          " pixels, expected at most " + std::to_string(2 * kGuardBandPx) + " on a side");
     if (settings.samples != 1 && settings.samples != 4 && settings.samples != 8)
         return fail(ErrorCode::usage, "samples: " + std::to_string(settings.samples) + ", expected 1, 4 or 8");
     if (settings.tile_size != 16 && settings.tile_size != 32 && settings.tile_size != 64)
@@ -52,7 +52,7 @@ shading::Viewer viewer_of(const Camera& camera) {
     return {{eye.x, eye.y, eye.z}, normalize_or({-back.x, -back.y, -back.z}, {0, 0, -1}), camera.orthographic};
 }
 
-/// What an error budget has to know of a scene: how close its surfaces come to its lights, how bright vertex colours are.
+/// Facts that an error budget needs of a scene: distances from lights to surfaces, largest vertex colour and texture coordinate.
 shading::SceneFacts scene_facts(const PreparedScene& scene, std::span<const LightPlan> lights, FramePlanMemory& memory) {
     shading::SceneFacts facts;
     facts.drawn = scene.drawn_materials();
@@ -60,7 +60,7 @@ shading::SceneFacts scene_facts(const PreparedScene& scene, std::span<const Ligh
     facts.vertex_color = scene.largest_color();
     if (memory.geometry_revision != scene.revision().geometry) memory.light_distances.clear();
     memory.geometry_revision = scene.revision().geometry;
-    constexpr std::size_t kMostDistances = 4096;  // lights that move all the time must not fill the memory
+    constexpr std::size_t kMostDistances = 4096;  // limits the memory for lights that move every frame
     if (memory.light_distances.size() > kMostDistances) memory.light_distances.clear();
     for (const LightPlan& light : lights) {
         if (light.type == shading::LightType::directional) {
@@ -71,14 +71,14 @@ shading::SceneFacts scene_facts(const PreparedScene& scene, std::span<const Ligh
         const Vec3d position{light.position[0], light.position[1], light.position[2]};
         const auto [known, is_new] = memory.light_distances.try_emplace({position.x, position.y, position.z});
         if (is_new) known->second = nearest_surface_squared(scene, position);
-        // A little nearer than found: positions are rounded to float on their way to the screen.
+        // 0.999: drawing rounds positions to float, so a surface may be a little nearer than found.
         facts.light_attenuation.push_back(1.0 / std::max(0.999 * known->second, static_cast<double>(light.min_distance_squared)));
         facts.light_farthest_squared.push_back(1.001 * farthest_surface_squared(scene, position));
     }
     return facts;
 }
 
-/// Of the materials that something is drawn with, in the plan's order.
+/// Environments that drawn materials use, in the plan's order.
 std::vector<EnvironmentUse> environment_uses(const PreparedScene& scene, const shading::ShadingPlan& plan) {
     enum : unsigned { kDiffuse = 1, kSpecular = 2 };
     std::vector<unsigned> uses(plan.environments.size(), 0);
@@ -96,7 +96,7 @@ std::vector<EnvironmentUse> environment_uses(const PreparedScene& scene, const s
     return out;
 }
 
-/// Of the lobes of materials that are drawn and that light meets, each warning once.
+/// Adds the warnings about lobes of materials that are drawn and lit, each warning once.
 void add_lobe_warnings(const PreparedScene& scene, const shading::ShadingPlan& plan, const shading::PlanOptions& options,
                        std::vector<std::string>& warnings) {
     for (std::size_t i = 0; i < plan.materials.size(); ++i) {
@@ -107,7 +107,7 @@ void add_lobe_warnings(const PreparedScene& scene, const shading::ShadingPlan& p
     }
 }
 
-/// What an alpha test in a shadow map reads of the materials; empty where none has a mask.
+/// Material plans for the alpha test of the shadow pass; empty if no material has a mask.
 std::vector<MaterialPlan> plan_casters(const PreparedScene& scene, const shading::PlanOptions& options) {
     std::vector<MaterialPlan> casters;
     for (std::size_t i = 0; i < scene.drawn_materials().size(); ++i) {

@@ -1,5 +1,5 @@
-// The plan of a frame: everything that is decided before anything is drawn, in one object that does not change. The renderer draws it;
-// whoever wants to know what a frame requires reads it.
+// The plan of a frame: all decisions that are made before drawing, in one object that does not change. The renderer draws from it. Other
+// callers read from it what a frame requires.
 #pragma once
 
 #include "raster/detail/raw_buffer.hpp"
@@ -22,13 +22,13 @@ namespace halflit::raster {
 
 struct FramePlan {
     View picture;
-    shading::ShadingPlan shading;          ///< materials, lights, environments, shadow maps, error bound: what the kernels read
-    std::vector<ShadowView> shadow_views;  ///< what the shadow maps are drawn from
-    std::vector<shading::MaterialPlan>
-        casters;  ///< what alpha tests in shadow maps read of the materials; empty where no material has a mask
-    shading::TextureDetail caster_detail = shading::TextureDetail::full;  ///< how they filter
-    LightCuller light_culler;                                             ///< which lights a block of fragments needs
-    Background background;                                                ///< instead of background_linear, where it is one
+    shading::ShadingPlan shading;          ///< input of the kernels: materials, lights, environments, shadow maps, error bound
+    std::vector<ShadowView> shadow_views;  ///< views that the shadow maps are drawn from
+    /// Materials as the alpha test of the shadow pass reads them; empty if no material has a mask.
+    std::vector<shading::MaterialPlan> casters;
+    shading::TextureDetail caster_detail = shading::TextureDetail::full;  ///< texture filter of that alpha test
+    LightCuller light_culler;                                             ///< selects the lights of a block of fragments
+    Background background;                                                ///< replaces background_linear if it has an environment
     Vec4f background_linear{0, 0, 0, 0};
     float exposure = 1.0f;
     shading::ShadingRate rate = shading::ShadingRate::pixel;
@@ -37,13 +37,13 @@ struct FramePlan {
     std::vector<std::string> warnings;
 };
 
-/// What planning keeps from frame to frame of one renderer.
+/// Results of planning that one renderer keeps from frame to frame.
 struct FramePlanMemory {
     shading::PlanMemory shading;
-    /// Squared distances from lights to the nearest surface, and the geometry that they are of.
+    /// Squared distance from a light's position to the nearest surface, world units. Valid for geometry_revision.
     std::uint64_t geometry_revision = 0;
     std::map<std::array<double, 3>, double> light_distances;
-    /// Of all shadow maps, one after the other. None: the plan is only read, and its maps have no texels.
+    /// Texels of all shadow maps, one map after the other. Without a value the plan is only read: its maps have no texels.
     std::optional<RawBuffer<float>> shadow_texels;
 };
 
@@ -52,7 +52,7 @@ struct FramePlanMemory {
 Result<FramePlan> plan_frame(const PreparedScene& scene, const Camera& camera, const Settings& settings, int width, int height,
                              FramePlanMemory& memory);
 
-/// The same for whoever only reads the plan: its shadow maps have no texels.
+/// The same for callers that only read the plan: its shadow maps have no texels.
 Result<FramePlan> plan_frame(const PreparedScene& scene, const Camera& camera, const Settings& settings, int width, int height);
 
 }  // namespace halflit::raster

@@ -7,9 +7,9 @@
 
 namespace halflit::raster {
 
-/// Row 0 is the top row. Either pointer may be null: what is not asked for is not made.
+/// Row 0 is the top row. Either pointer may be null: that output is not made.
 struct FramebufferView {
-    int width = 0, height = 0;      ///< of the whole picture, pixels
+    int width = 0, height = 0;      ///< pixels, of the whole picture
     std::uint8_t* rgba8 = nullptr;  ///< sRGB codes, alpha linear and not premultiplied; width * height * 4
     float* rgba_linear = nullptr;   ///< linear light after exposure, alpha not premultiplied; width * height * 4, 16-byte aligned
 };

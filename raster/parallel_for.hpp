@@ -1,4 +1,4 @@
-// Threads as a host hands them in.
+// Hook for a host's own threads.
 #pragma once
 
 #include <functional>
@@ -8,10 +8,10 @@ namespace halflit::raster {
 /// Runs body(i) for every i in [0, count), in any order, on any threads, and returns when all are done.
 using ParallelFor = std::function<void(int count, const std::function<void(int)>& body)>;
 
-/// Who does the work. Neither changes a result.
+/// Threads that do the work. Neither member changes a result.
 struct Workers {
-    int threads = 0;             ///< 0: one a core
-    ParallelFor parallel_for{};  ///< the hook for a host's own threads; empty: oneTBB
+    int threads = 0;             ///< 0: one per core
+    ParallelFor parallel_for{};  ///< empty: oneTBB, or the standard library's threads if built without it
 };
 
 }  // namespace halflit::raster

@@ -1,9 +1,9 @@
-// The age of the pixels.
+// Version number of the pixels.
 #pragma once
 
 namespace halflit::raster {
 
-/// Rises with every release in which some scene may give other pixels than before. Equal epochs mean equal pixel hashes.
+/// Raised by every release that may change the pixels of some scene. Releases of equal epoch give equal pixel hashes.
 inline constexpr int kPixelEpoch = 1;
 
 }  // namespace halflit::raster

@@ -16,7 +16,7 @@
 namespace halflit::raster {
 namespace {
 
-/// What a plan was made from.
+/// Inputs of a plan.
 struct PlanKey {
     SceneRevision scene;
     Camera camera;
@@ -60,7 +60,7 @@ struct Renderer::Impl {
 
     Result<void> make_plan(const PreparedScene& scene, const Camera& camera, const Settings& settings, const FramebufferView& target) {
         PlanKey key{scene.revision(), camera, settings, target.width, target.height};
-        key.settings.parallel_for = {};  // the host's, for this call
+        key.settings.parallel_for = {};  // valid for this call only
         key.settings.cancelled = nullptr;
         if (plan_key && plan_key->same(key)) return {};
         plan_key.reset();
@@ -71,7 +71,7 @@ struct Renderer::Impl {
         return {};
     }
 
-    /// All tiles of the picture, or none where the caller says stop.
+    /// Draws all tiles of the picture. Fails if the caller cancels.
     Result<TileCounts> draw_tiles(const PicturePass& pass, const std::function<bool()>* cancelled) {
         std::mutex counting;
         TileCounts sum;
@@ -130,7 +130,7 @@ struct Renderer::Impl {
         report.error = plan.shading.error;
         report.warnings.insert(report.warnings.end(), plan.warnings.begin(), plan.warnings.end());
         add_counts(geometry, *tiles, report);
-        // A part of a picture may well be empty; a whole one is rarely meant to be.
+        // An empty region is common; an empty whole picture is rarely intended.
         const bool whole_picture = settings.region.width == 0;
         if (report.triangles_submitted == 0 || (whole_picture && report.triangles_drawn == 0))
             report.warnings.emplace_back("nothing to draw");

@@ -12,8 +12,9 @@
 
 namespace halflit::raster {
 
-/// Keeps working memory between frames, and all that a next frame of the same prepared scene can use again: the plan, shadow maps, and the
-/// view's geometry, each while what it is made from stays the same. One frame at a time for each Renderer, any number of Renderers at once.
+/// Draws frames. Keeps working memory between frames, and the plan, the shadow maps and the view's geometry: the next frame of the same
+/// prepared scene uses each of these again if its inputs are unchanged. A Renderer draws one frame at a time; any number of Renderers may
+/// draw at once.
 class Renderer {
 public:
     Renderer();
@@ -21,14 +22,14 @@ public:
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
 
-    /// For pictures one after the other: the scene was prepared beforehand, and is told what changes.
+    /// Draws a prepared scene. For sequences of pictures: PreparedScene::update tells what changed.
     Result<RenderReport> render(const PreparedScene& scene, const Camera& camera, const Settings& settings, const FramebufferView& target);
 
-    /// The short way: prepares the scene first, every time. Anything may have changed since the last frame.
+    /// Prepares the scene and draws it. Anything in it may have changed since the last frame.
     Result<RenderReport> render(const Scene& scene, const Camera& camera, const Settings& settings, const FramebufferView& target);
 
-    /// Forgets what the last frames left for the next one, but for their memory and what belongs to an environment or a material alone. The
-    /// next frame is drawn as after a change of the whole scene's geometry.
+    /// Drops the plan, light distances, shadow maps and geometry of earlier frames. Keeps their memory, and results that depend on an
+    /// environment or a material alone. The next frame does the same work as after a change of the whole scene's geometry.
     void forget_frames();
 
 private:
@@ -36,7 +37,7 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// One picture, with its own Renderer.
+/// Draws one picture with a temporary Renderer.
 Result<RenderReport> render(const Scene& scene, const Camera& camera, const Settings& settings, const FramebufferView& target);
 
 }  // namespace halflit::raster

@@ -1,4 +1,4 @@
-// What a frame did.
+// Report of a frame: times, counts, warnings.
 #pragma once
 
 #include "raster/work_counts.hpp"
@@ -11,35 +11,35 @@
 
 namespace halflit::raster {
 
-/// How the frame's materials of one lobe take the light of the scene's environment.
+/// Series of spherical harmonics by which the materials of one lobe take the light of the scene's environment.
 struct EnvironmentUse {
-    int bands = 0;          ///< of spherical harmonics, 1..10
-    double bound = 0;       ///< no normal's light is off by more, white surface, worst channel, before exposure
-    bool within = true;     ///< whether that times the exposure is within the tolerance
-    bool specular = false;  ///< what surfaces reflect like mirrors, which may be off by twice the tolerance; otherwise diffuse light
+    int bands = 0;          ///< length of the series, 1..10
+    double bound = 0;       ///< largest error of the light over all normals, white surface, worst channel, before exposure
+    bool within = true;     ///< true if bound times exposure is within the tolerance, or the bound in codes within the budget
+    bool specular = false;  ///< true: mirrored light, whose error may be twice the tolerance; false: diffuse light
 };
 
-/// Times in milliseconds of wall clock.
+/// Times are milliseconds of wall clock.
 struct RenderReport {
     struct StageTimes {
-        double prepare = 0;    ///< of the scene: 0 for one that was prepared beforehand
-        double plan = 0;       ///< 0 where the last frame's plan still holds
+        double prepare = 0;    ///< preparing the scene; 0 if it was prepared before
+        double plan = 0;       ///< near 0 if the last frame's plan is used again
         double shadows = 0;    ///< shadow maps
         double cull = 0;       ///< instances and clusters out of view or facing away
-        double transform = 0;  ///< vertices to the window, and vertex records
+        double transform = 0;  ///< vertices to the window, vertex records, light at vertices
         double bin = 0;        ///< triangle set-up and tile lists
         double tiles = 0;      ///< visibility, shading, blending, resolving
     } ms;
     double total_ms = 0;
     int threads = 1;
     shading::Isa isa = shading::Isa::scalar;
-    std::uint64_t triangles_submitted = 0, triangles_drawn = 0;  ///< drawn: those that reached a tile's list
+    std::uint64_t triangles_submitted = 0, triangles_drawn = 0;  ///< drawn: set up for tiles; pieces of clipped triangles count singly
     std::uint64_t triangles_not_finite = 0;                      ///< dropped for a NaN or infinite vertex
     std::uint64_t pixels_visible = 0, fragments_shaded = 0;
-    std::uint64_t nan_pixels = 0;             ///< written as 0
-    WorkCounts work;                          ///< of fragments_shaded, stage by stage
-    std::vector<EnvironmentUse> environment;  ///< of the materials that are drawn, each lobe once
-    shading::ErrorBound error;                ///< with a budget: what was promised
+    std::uint64_t nan_pixels = 0;             ///< fragments with a NaN in their colour; it is written as 0
+    WorkCounts work;                          ///< shading work, stage by stage
+    std::vector<EnvironmentUse> environment;  ///< series of the drawn materials, one per lobe
+    shading::ErrorBound error;                ///< the promised bound; only with an error budget
     std::vector<std::string> warnings;
 };
 

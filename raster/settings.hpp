@@ -1,4 +1,4 @@
-// How a picture is drawn: what changes pixels first, then what only changes speed.
+// Settings of a picture. tile_size, threads, isa and parallel_for change speed, never a pixel.
 #pragma once
 
 #include "raster/parallel_for.hpp"
@@ -19,24 +19,25 @@ struct Region {
 
 struct Settings {
     Region region{};
-    int samples = 1;                                    ///< a pixel: 1, 4 or 8
+    int samples = 1;                                    ///< per pixel: 1, 4 or 8
     int tile_size = 64;                                 ///< 16, 32 or 64; changes speed, never a pixel
-    int threads = 0;                                    ///< 0: one a core; changes speed, never a pixel
+    int threads = 0;                                    ///< 0: one per core; changes speed, never a pixel
     Result<shading::Isa> isa = shading::default_isa();  ///< changes speed, never a pixel
     Vec4f background_linear{0, 0, 0, 0};                ///< linear colour, not premultiplied; w = 0 is transparent
-    bool background_environment = false;                ///< the scene's environment instead, where it kept its image
+    bool background_environment = false;                ///< true: the scene's environment, if it kept its image
     float exposure = 1.0f;                              ///< factor on all light, > 0
     shading::PlanOptions shading{};
     shading::ShadowMode shadows = shading::ShadowMode::soft_split;
     int shadow_size = 2048;  ///< texels on a side of a shadow map, a power of two from 64 to 4096; a cube's faces have half
     std::size_t shadow_memory_limit = std::size_t{256} << 20;  ///< bytes; shadow maps are halved in size until all fit
-    float shadow_fade = 0.0f;  ///< soft_split: blocker distance where wrapped light is gone, world units; 0: from object size and wrap
-    bool shadow_terminator_offset = false;             ///< coarse meshes look shadows up where their normals' surface would be
-    ParallelFor parallel_for{};                        ///< the hook for a host's own threads; empty: oneTBB
-    const std::function<bool()>* cancelled = nullptr;  ///< asked at tile borders; true stops the frame with an error
+    /// soft_split: distance to the blocker from which on wrapped light is 0, world units; 0: from object size and wrap.
+    float shadow_fade = 0.0f;
+    bool shadow_terminator_offset = false;             ///< look-ups on the smooth surface given by the vertex normals, for coarse meshes
+    ParallelFor parallel_for{};                        ///< hook for a host's own threads; empty: those of this build
+    const std::function<bool()>* cancelled = nullptr;  ///< called before each tile; true stops the frame with an error
 };
 
-/// Whether two frames of one scene, camera and size have the same plan: all that changes pixels is equal, and so is the tile size.
+/// True if two frames of one scene, camera and size have the same plan: all that changes pixels is equal, and so is the tile size.
 [[nodiscard]] bool same_plan(const Settings& a, const Settings& b);
 
 }  // namespace halflit::raster

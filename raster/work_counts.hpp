@@ -1,4 +1,4 @@
-// How much work shading was, in lanes: what the plan promises not to do can be seen not to be done.
+// Amount of shading work, in lanes. The counts show that stages which are not in the plan do not run.
 #pragma once
 
 #include "shading/plan/plan.hpp"
@@ -10,15 +10,16 @@
 
 namespace halflit::raster {
 
-/// Counts of one frame. They do not depend on threads or instruction set. Lights are left out block by block where their range or cone
-/// ends, and ShadingRate::flat lights a triangle once a block, so what counts lights depends on the tile size, which decides what meets in
-/// a block.
+/// Counts of one frame. They do not depend on threads or instruction set. Counts of light depend on the tile size, because it decides which
+/// fragments share a block: a light is left out of a block that its range or cone does not reach, and ShadingRate::flat lights a triangle
+/// once per block.
 struct WorkCounts {
-    /// Lanes for which a stage ran, by its bit in shading::Stage: fragments; vertices or triangles for the stages of light at a lower rate.
+    /// Lanes that ran a stage, indexed by its bit in shading::Stage. A lane is a fragment, or a vertex or triangle for light at a lower
+    /// rate.
     std::array<std::uint64_t, shading::kStageCount> stage_lanes{};
-    std::uint64_t alpha_test_lanes = 0;          ///< fragments that a mask was asked about; what that read counts in stage_lanes too
+    std::uint64_t alpha_test_lanes = 0;          ///< fragments that had an alpha test; its stages count in stage_lanes too
     std::array<std::uint64_t, 3> light_lanes{};  ///< pairs of a light and a lane, by shading::LightType
-    std::uint64_t shadow_lookup_lanes = 0;       ///< of these pairs, those whose light has a shadow map
+    std::uint64_t shadow_lookup_lanes = 0;       ///< pairs whose light has a shadow map
 
     [[nodiscard]] std::uint64_t lanes(shading::Stage stage) const {
         return stage_lanes[static_cast<std::size_t>(std::countr_zero(static_cast<std::uint32_t>(stage)))];

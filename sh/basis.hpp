@@ -26,7 +26,7 @@ constexpr int band_of(int index) {
 
 namespace detail {
 
-/// Square root by Newton from above; for tables, where std::sqrt may not be constexpr. Within 1 ulp for x in [1e-6, 1e6].
+/// Square root by Newton's iteration from above, for tables: std::sqrt may not be constexpr. Within 1 ulp for x in [1e-6, 1e6].
 constexpr double table_sqrt(double x) {
     double y = x > 1.0 ? x : 1.0;
     for (int i = 0; i < 64; ++i) {
@@ -37,8 +37,8 @@ constexpr double table_sqrt(double x) {
     return x > 0.0 ? y : 0.0;
 }
 
-/// Y_lm = q_lm(z) (cos or sin of m phi) sin^m theta, with
-/// q_mm constant and q_lm = up[l][m] z q_{l-1,m} - back[l][m] q_{l-2,m}.
+/// Factors of the recurrence for Y_lm = q_lm(z) (cos or sin of m phi) sin^m theta:
+///     q_mm = diagonal[m],  q_lm = up[l][m] z q_{l-1,m} - back[l][m] q_{l-2,m}.
 struct BasisTable {
     double diagonal[kMaxBands]{};
     double up[kMaxBands][kMaxBands]{};
@@ -62,7 +62,7 @@ constexpr BasisTable make_basis_table() {
 
 inline constexpr BasisTable kBasisTable = make_basis_table();
 
-/// Tables are in double; everything else (float, a batch of floats) is made from the nearest float.
+/// Turns a table's double into a T. Types other than double (float, a batch of floats) get the nearest float.
 template <class T>
 struct Constant {
     static HALFLIT_INLINE constexpr T of(double value) { return T(static_cast<float>(value)); }
@@ -76,7 +76,7 @@ struct Constant<double> {
 
 namespace detail {
 
-/// A loop whose index is a constant of the compiler: table entries become immediate values, in every build.
+/// A loop whose index is a compile-time constant, so that table entries become immediate values in every build.
 template <int I>
 struct Index {
     static constexpr int value = I;
@@ -91,12 +91,13 @@ HALFLIT_INLINE constexpr void static_for(const Fn& fn) {
 
 }  // namespace detail
 
-/// All basis functions of the bands 0..N-1 at the unit vector d. |d| = 1 - e costs l(l+1)/2 e, relative, in band l.
+/// Evaluates all basis functions of the bands 0..N-1 at the unit vector d. A length |d| = 1 - e causes a relative error of l(l+1)/2 e in
+/// band l.
 template <int N, class T>
 HALFLIT_INLINE constexpr void evaluate_basis(Vec3<T> d, T (&y)[N * N]) {
     static_assert(N >= 1 && N <= kMaxBands);
     using C = detail::Constant<T>;
-    T c = C::of(1.0), s = C::of(0.0);  // sin^m theta times cos and sin of m phi: the parts of (x + iy)^m
+    T c = C::of(1.0), s = C::of(0.0);  // real and imaginary part of (x + iy)^m: sin^m theta times cos and sin of m phi
     detail::static_for<0, N>([&](auto order) __attribute__((always_inline)) {
         constexpr int m = decltype(order)::value;
         constexpr double diagonal = detail::kBasisTable.diagonal[m];

@@ -1,5 +1,5 @@
-// Expansions in spherical harmonics with three channels. Radiance and what a lobe reflects of it are different types, so that
-// raw radiance coefficients cannot be used as irradiance by mistake: convolve() is the only way from one to the other.
+// Expansions in spherical harmonics with three channels. Radiance and the light that a lobe reflects of it are different types, so that
+// radiance coefficients cannot be used as irradiance by mistake. convolve() is the only way from one to the other.
 #pragma once
 
 #include "sh/basis.hpp"
@@ -21,9 +21,9 @@ struct Expansion {
 /// Incoming radiance, linear rgb.
 using RadianceSh = Expansion<double>;
 
-/// What a white surface with a given lobe reflects: (1/pi) times the integral of L(d) f(N.d), as an expansion in the normal N.
-/// The factor 1/pi is inside, like in a light's colour: a sky of constant radiance 1 gives 1 for Lambert. One array for each channel,
-/// for kernels that broadcast; coefficients past `bands` are zero.
+/// Light reflected by a white surface with a given lobe: (1/pi) times the integral of L(d) f(N.d), as an expansion in the normal N. The
+/// factor 1/pi is inside, as in a light's colour: a sky of constant radiance 1 gives 1 for Lambert. There is one array per channel, because
+/// kernels broadcast coefficients; coefficients past `bands` are zero.
 struct PreconvolvedSh {
     int bands = 0;
     std::array<float, kMaxCoefficients> r{}, g{}, b{};
@@ -38,7 +38,7 @@ template <class T>
     return sum;
 }
 
-/// The meaning of every faster evaluation: in double, coefficients in ascending order. May be negative (see sh/window.hpp).
+/// Definition of the result of every faster evaluation: in double, coefficients in ascending order. May be negative (see sh/window.hpp).
 [[nodiscard]] inline Vec3d evaluate(const PreconvolvedSh& sh, Vec3d normal) {
     double y[kMaxCoefficients];
     evaluate_basis<kMaxBands>(normal, y);
@@ -48,7 +48,7 @@ template <class T>
     return sum;
 }
 
-/// Each band times its factor.
+/// Multiplies each band by its factor.
 template <class T>
 [[nodiscard]] Expansion<T> scaled_by_band(const Expansion<T>& sh, const BandFactors& factors) {
     Expansion<T> out{sh.bands, {}};
@@ -68,7 +68,7 @@ template <class T>
     return out;
 }
 
-/// Radiance to what a lobe with these bands (sh/zonal.hpp) reflects of it, at order `bands`.
+/// Turns radiance into the light that a lobe with these bands (sh/zonal.hpp) reflects of it, at order `bands`.
 [[nodiscard]] inline PreconvolvedSh convolve(const RadianceSh& radiance, const BandFactors& lobe, int bands) {
     const RadianceSh product = scaled_by_band(truncated(radiance, bands), lobe);
     PreconvolvedSh out;

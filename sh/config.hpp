@@ -5,7 +5,7 @@
 /// leaves no symbol behind that the linker could merge (see shading/kernels/README.md).
 #define HALFLIT_INLINE inline __attribute__((always_inline))
 
-/// A broken precondition inside the library; never used for user input. Compiled out when NDEBUG is set.
+/// Traps on a broken precondition inside the library; never used for user input. Compiled out when NDEBUG is set.
 #ifdef NDEBUG
 #define HALFLIT_ASSERT(condition) ((void)0)
 #else

@@ -1,4 +1,4 @@
-// Equirectangular (latitude-longitude) images of an environment, and which way their pixels look.
+// Equirectangular (latitude-longitude) images of an environment, and the directions of their pixels.
 //
 // v = 0 is straight up (+y), v = 1 straight down; u = 0.5, the middle column, looks along -z; u = 0.75 along +x:
 //     theta = pi v,  phi = 2 pi (u - 1/2),  direction = (sin theta sin phi, cos theta, -sin theta cos phi).
@@ -34,7 +34,7 @@ struct EquirectPoint {
     double u, v;  ///< in [0, 1]
 };
 
-/// The inverse, for directions of any length.
+/// Inverse of equirect_direction(), for directions of any length.
 [[nodiscard]] inline EquirectPoint equirect_point(Vec3d d) {
     return {0.5 + angle_of(d.x, -d.z) / (2.0 * kPi), angle_of(__builtin_sqrt(d.x * d.x + d.z * d.z), d.y) / kPi};
 }

@@ -7,9 +7,10 @@
 namespace halflit::sh {
 namespace {
 
-constexpr int kSamples = 4096;  ///< in the angle; between two of them a golden section search goes on
+constexpr int kSamples = 4096;  ///< samples of the angle; a golden section search refines between two of them
 
-/// The largest value of fn(cos theta), theta in [0, pi], starting from a grid and from `kink`, where a corner may stand.
+/// The largest value of fn(cos theta), theta in [0, pi]. The search starts from a grid and from `kink`, an angle where fn may have a
+/// corner.
 template <class Fn>
 double maximum(double kink, Fn&& fn) {
     double best = fn(std::cos(kink)), at = kink;
@@ -61,7 +62,7 @@ TruncationError truncation_error(const WrapLobe& lobe, int bands) {
             (2.0 * l + 1.0) / (4.0 * kPi) * spectrum.f[static_cast<std::size_t>(l)] * spectrum.f[static_cast<std::size_t>(l)];
         (l < bands ? head : tail) += band;
     }
-    // The closed form of the whole is exact but cancels where little is left; the sum of the bands is the other way round.
+    // The closed form of the total is exact, but the difference cancels where little is left. There the sum of the bands is more accurate.
     const double rest = total - kPi * kPi * head, square = rest > 1e-6 * total ? rest : kPi * kPi * tail;
     const double boundary = std::acos(std::clamp(-lobe.wrap, -1.0, 1.0));
     TruncationError out;

@@ -1,4 +1,4 @@
-// What a lobe is, and what is lost when its series is cut after N bands, for one directional light: for reports and tests. Uses the C
+// Values of a lobe for one directional light, and the error when its series is cut after N bands. For reports and tests: it uses the C
 // library's pow, so nothing here may reach a pixel.
 #pragma once
 
@@ -9,7 +9,7 @@ namespace halflit::sh {
 /// f(x; w, n) times its scale; 0 for x <= -w, whatever the power.
 [[nodiscard]] double lobe_value(const WrapLobe& lobe, double x);
 
-/// The series of f cut after `bands` bands, at x: the sum of (2l+1)/4 f_l P_l(x). bands in 0..10.
+/// The series of f cut after `bands` bands, at x: the sum of (2l+1)/4 f_l P_l(x), P_l the Legendre polynomials. bands in 0..10.
 [[nodiscard]] double series_value(const BandFactors& f, int bands, double x);
 
 /// df/dx at x = -w from above: 0 for powers above 1, infinite below 1.

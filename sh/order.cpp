@@ -10,14 +10,15 @@ Vec3d absolute(Vec3d v) { return {absolute(v.x), absolute(v.y), absolute(v.z)}; 
 Vec3d larger(Vec3d a, Vec3d b) { return {a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z}; }
 Vec3d smaller(Vec3d a, Vec3d b) { return {a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z}; }
 
-/// 0 times infinity is 0 here: darkness has no error.
+/// Bound on the bands from 64 on, for one channel: the smaller of the two estimates in order.hpp. A black channel has no error, even where
+/// tail_sum is infinite.
 double tail(double norm, double absolute_sum, const LobeSpectrum& lobe) {
     const double by_norm = norm * lobe.tail_norm;
     const double by_sum = absolute_sum > 0 ? absolute_sum * lobe.tail_sum : 0.0;
     return by_norm < by_sum ? by_norm : by_sum;
 }
 
-/// bounds[l]: of everything from band l on, by the norms.
+/// bounds[l]: bound on the sum of all bands from l on, from the norms.
 std::array<Vec3d, kSpectrumBands + 1> bounds_from(const Spectrum& environment, const LobeSpectrum& lobe) {
     std::array<Vec3d, kSpectrumBands + 1> bounds;
     bounds[kSpectrumBands] = {tail(environment.tail_norm.x, environment.absolute.x, lobe),
@@ -29,7 +30,8 @@ std::array<Vec3d, kSpectrumBands + 1> bounds_from(const Spectrum& environment, c
     return bounds;
 }
 
-/// Of each direction's light no more is lost than of one light's.
+/// Third bound of order.hpp: light from each direction is off by at most sup[i] / pi times its strength, so all light is off by at most
+/// sup[i] / pi times the integral of |L|.
 Vec3d by_lobe(const Spectrum& environment, const LobeSpectrum& lobe, std::size_t i) {
     const auto part = [&](double absolute_sum) { return absolute_sum > 0 ? absolute_sum * lobe.sup[i] / kPi : 0.0; };
     return {part(environment.absolute.x), part(environment.absolute.y), part(environment.absolute.z)};
@@ -57,7 +59,7 @@ OrderBounds BandGrid::order_bounds(const LobeSpectrum& lobe) const {
             if (l <= kMaxBands) largest_sum[l - 1] = larger(largest_sum[l - 1], absolute(sum));
         }
     }
-    // Half a grid cell's diagonal; values are stored as float, hence the last factor.
+    // distance: half the diagonal of a grid cell. The factor 1 + 1e-6 covers the rounding of the values to float.
     const double distance = 0.5 * kPi / kGridRows * __builtin_sqrt(2.0);
     const double factor = (1.0 + 1e-6) / sin_cos((kGridBands - 1) * distance).cos;
     const auto by_norms = bounds_from(spectrum_, lobe);

@@ -21,7 +21,7 @@ inline double log2_of(double x) {
     return exponent + 2.8853900817779268 * (s * sum);  // 2 / ln 2
 }
 
-/// 2^y for y in [-1000, 1000], relative error below 1e-15; 0 below, held at 2^1000 above.
+/// 2^y for y in [-1000, 1000], relative error below 1e-15. Smaller y give 0, larger ones 2^1000.
 inline double exp2_of(double y) {
     if (!(y >= -1000.0)) return 0.0;
     if (y > 1000.0) y = 1000.0;

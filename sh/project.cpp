@@ -11,13 +11,15 @@ namespace {
 constexpr int kBands = kSpectrumBands;
 using Harmonics = std::array<Vec3d, kBands>;
 
-/// The image's frame: x along -z, y along +x, z along +y of the world, so that z = cos theta and atan2(y, x) = phi. A reflection.
+/// The image's frame: x along -z, y along +x, z along +y of the world, so that z = cos theta and atan2(y, x) = phi. The map is a
+/// reflection.
 constexpr Rotation kImageToWorld{{{0, 0, -1}, {1, 0, 0}, {0, 1, 0}}};
 
 /// Integrals of one row against cos(m phi) and sin(m phi), m = 0..63.
 ///
-/// With mirrored columns added and subtracted first, each harmonic needs a half (odd width: all) of the columns, and with a width divisible
-/// by 4, where the columns mirror at a quarter turn as well, a quarter: even and odd m then see different sums.
+/// Mirrored columns are added and subtracted first. An even width then needs half of the columns for each harmonic, an odd width all of
+/// them. If 4 divides the width, the columns mirror at a quarter turn as well, and a quarter of them is enough; even and odd m then need
+/// different sums.
 class RowTransform {
 public:
     explicit RowTransform(int width) : width_(width), fold_(width % 4 == 0 ? 4 : width % 2 == 0 ? 2 : 1), columns_(width / fold_) {
@@ -39,7 +41,7 @@ public:
                 }
             }
         }
-        const double half = kPi / width;  // half a pixel
+        const double half = kPi / width;  // half a pixel's width
         for (int m = 0; m < kBands; ++m) pixel_[static_cast<std::size_t>(m)] = m == 0 ? 2.0 * half : 2.0 * sin_cos(m * half).sin / m;
     }
 
@@ -47,7 +49,7 @@ public:
         cosines.fill({});
         sines.fill({});
         for (int k = 0; k < columns_; ++k) {
-            // even/odd: the parts that even and odd m see, for the cosine and for the sine.
+            // Sums for even and for odd m, for the cosine and for the sine.
             Vec3d cos_even, cos_odd, sin_even, sin_odd;
             if (fold_ == 1) {
                 cos_even = cos_odd = sin_even = sin_odd = image.at(k, row);
@@ -83,7 +85,7 @@ public:
     }
 
 private:
-    /// phi at the middle of column k of those that are left after folding, which start at phi = 0.
+    /// phi at the middle of column k after folding. Folded columns start at phi = 0, unfolded ones at -pi.
     [[nodiscard]] double angle(int k) const {
         const double turn = (k + 0.5) / width_;
         return 2.0 * kPi * (fold_ == 1 ? turn - 0.5 : turn);
@@ -98,7 +100,8 @@ private:
     std::array<double, kBands> pixel_{};  ///< integral of cos(m phi) over a pixel centred on 0
 };
 
-/// Integrals of p_lm(cos theta) sin theta over one row. Eight nodes for every radian that the highest band turns: error below 1e-15.
+/// Integrals of p_lm(cos theta) sin theta over one row, by eight nodes per panel. The highest band turns by less than a radian per panel,
+/// so the error is below 1e-15.
 void integrate_row(int height, int row, const std::vector<GaussNode>& rule, std::array<detail::LegendreRow, kBands>& integrals) {
     for (auto& r : integrals) r.p.fill(0.0);
     const int panels = 1 + static_cast<int>(kBands * kPi / height);
@@ -165,7 +168,8 @@ Spectrum Projection::spectrum() const {
         known = known + sum;
         out.norm[static_cast<std::size_t>(l)] = positive_sqrt(sum);
     }
-    // The difference cancels when the bands hold nearly everything; what rounding may have taken is given back.
+    // The difference cancels when the bands hold nearly all light. The term with kRounding covers the rounding error, so that the norm
+    // stays a bound.
     constexpr double kRounding = 256 * std::numeric_limits<double>::epsilon();
     const Vec3d rest = squares_ - known;
     out.tail_norm = positive_sqrt(Vec3d{rest.x > 0 ? rest.x : 0, rest.y > 0 ? rest.y : 0, rest.z > 0 ? rest.z : 0} + squares_ * kRounding);

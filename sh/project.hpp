@@ -1,5 +1,5 @@
-// Projection of environments. An equirectangular image is taken as what it is, patches of constant radiance, and integrated exactly: around
-// by the closed form of the sine over a pixel's width, from pole to pole by Gauss quadrature within each row. Besides the coefficients
+// Projection of environments. An equirectangular image is treated as patches of constant radiance, one per pixel, and integrated exactly:
+// along a row by the closed form over each pixel's width, from pole to pole by Gauss quadrature within each row. Besides the coefficients
 // that shading uses, the norms of 64 bands are kept, because they bound the error of every lobe at every order (sh/order.hpp).
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace halflit::sh {
 
-/// How much of an environment each band holds, channel by channel.
+/// Norms of an environment's bands, channel by channel. L is the radiance, L_lm its coefficients.
 struct Spectrum {
     std::array<Vec3d, kSpectrumBands> norm{};  ///< |L_l| = sqrt of the sum over m of L_lm^2
     Vec3d tail_norm;                           ///< the same over all bands from kSpectrumBands on
@@ -21,11 +21,12 @@ struct Spectrum {
 
 class Projection {
 public:
-    /// Of a whole image; without one, of darkness.
+    /// The projection of a black environment.
     Projection() = default;
     explicit Projection(const EquirectView& image);
 
-    /// Adds `factor` times the given rows of an image as large as the others, factor 1 or -1. With -1 and then 1, rows are replaced.
+    /// Adds `factor`, 1 or -1, times the rows [first_row, end_row) of an image; all images added have the same size. To replace rows, add
+    /// the old ones with -1 and the new ones with 1.
     void add_rows(const EquirectView& image, int first_row, int end_row, double factor);
 
     /// The first `bands` bands, 1..10.
@@ -35,19 +36,20 @@ public:
     [[nodiscard]] Vec3d mean() const;
     /// The integral of L^2 over the sphere.
     [[nodiscard]] Vec3d squares() const { return squares_; }
-    /// What each band is worth in a direction.
+    /// Value of each band in a direction.
     [[nodiscard]] std::array<Vec3d, kSpectrumBands> bands_at(Vec3d direction) const;
-    /// The same for the first `bands` bands in the middles of a grid of latitudes and longitudes: [row][column][band].
+    /// Values of the first `bands` bands at the cell centres of a grid of latitudes and longitudes: [row][column][band].
     [[nodiscard]] std::vector<Vec3f> bands_on_grid(int bands, int rows, int columns) const;
 
 private:
-    // The image's own frame: polar axis y. Rotated into the world's only for the bands that are asked for; norms do not care.
+    // Coefficients in the image's own frame, with polar axis y. radiance() rotates the bands asked for into the world's frame; norms are
+    // the same in both.
     std::vector<Vec3d> c_ = std::vector<Vec3d>(static_cast<std::size_t>(kSpectrumBands * kSpectrumBands));
     Vec3d squares_, absolute_;
 };
 
-/// Expansion of fn(direction) -> Vec3d, bands in 1..10, by a quadrature of this degree: exact when fn is a polynomial of degree up to
-/// degree - bands + 1, and close when it is smooth.
+/// Expansion of fn(direction) -> Vec3d, bands in 1..10, by a quadrature of the given degree: exact if fn is a polynomial of degree up to
+/// `degree` - `bands` + 1, and close if it is smooth.
 template <class Fn>
 [[nodiscard]] RadianceSh project_function(int bands, int degree, Fn&& fn) {
     RadianceSh out{bands, {}};

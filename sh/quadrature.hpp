@@ -1,5 +1,5 @@
-// Gauss quadrature on an interval and on the sphere, exact for polynomials: what rotation, products and the projection of a function
-// rest on. Nodes come from + - * / and sqrt alone.
+// Gauss quadrature on an interval and on the sphere, exact for polynomials. Rotation, products and the projection of functions use it.
+// Nodes are computed with + - * / and sqrt alone.
 #pragma once
 
 #include "sh/basis.hpp"
@@ -21,7 +21,8 @@ struct SphereNode {
     double weight = 0.0;  ///< all weights sum to 4 pi
 };
 
-/// Exact for polynomials in x, y, z of this degree, so for products of harmonics whose bands sum to it. degree in [0, 510].
+/// Rule on the sphere, exact for polynomials in x, y, z up to this degree, and so for products of harmonics whose bands add up to it.
+/// degree in [0, 510].
 [[nodiscard]] std::vector<SphereNode> sphere_quadrature(int degree);
 
 }  // namespace halflit::sh

@@ -1,12 +1,12 @@
-// Rotations of expansions. A rotated polynomial is a polynomial of the same degree, so evaluating it at the rotated nodes of an exact
-// quadrature and projecting it again is exact; no recurrence over bands, no special case at the poles.
+// Rotations of expansions. A rotated polynomial is a polynomial of the same degree. It is evaluated at the rotated nodes of an exact
+// quadrature and projected again, which is exact. There is no recurrence over bands and no special case at the poles.
 #pragma once
 
 #include "sh/coefficients.hpp"
 
 namespace halflit::sh {
 
-/// An orthogonal 3x3 matrix by its columns: c[0] is where the x axis goes. Reflections are allowed.
+/// An orthogonal 3x3 matrix, stored by columns: c[0] is the image of the x axis. Reflections are allowed.
 struct Rotation {
     Vec3d c[3]{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 };
@@ -17,13 +17,13 @@ struct Rotation {
     return {{{r.c[0].x, r.c[1].x, r.c[2].x}, {r.c[0].y, r.c[1].y, r.c[2].y}, {r.c[0].z, r.c[1].z, r.c[2].z}}};
 }
 
-/// About +y, counterclockwise seen from above: +z goes towards +x. Turns an environment about the vertical.
+/// Rotation about +y, counterclockwise seen from above: +z goes towards +x.
 [[nodiscard]] inline Rotation rotation_about_y(double angle_rad) {
     const SinCos a = sin_cos(angle_rad);
     return {{{a.cos, 0, -a.sin}, {0, 1, 0}, {a.sin, 0, a.cos}}};
 }
 
-/// The expansion of d -> L(r^-1 d): what stood in direction d now stands in r d. Bands do not mix; error below 1e-13 of the band's norm.
+/// Expansion of d -> L(r^-1 d): the light of direction d moves to r d. Bands do not mix. Error: below 1e-13 of the band's norm.
 [[nodiscard]] RadianceSh rotated(const RadianceSh& sh, const Rotation& r);
 
 }  // namespace halflit::sh

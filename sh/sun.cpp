@@ -9,8 +9,9 @@ namespace {
 
 constexpr int kJudgedOrder = 5;
 constexpr int kMaxCandidates = 8;
-/// Where nearly all light is the sun's, its own part of the bound hides what is left of it in the image. So of the levels whose bounds are
-/// as good as the best the lowest one is taken, and levels go on below the mean when most of that is the sun's, down to the sky.
+/// Choice of the level that a source is cut at. Where nearly all light is the sun's, the sun's own part dominates the bound and hides the
+/// part that is left in the image. So the lowest level is taken whose bound is at most kAsGood times the best. Levels go on below the mean
+/// luminance where the sun makes most of it, down to kAboveRest times the mean luminance of the rest.
 constexpr double kAsGood = 1.01, kAboveRest = 4.0;
 
 struct Pixel {
@@ -18,7 +19,7 @@ struct Pixel {
     double luminance = 0;
 };
 
-/// An image that changes, and the bound on the error of its projection plus that of the suns taken out so far.
+/// The image without the suns found so far, its projection, those suns, and the bound on the error of both together.
 struct State {
     int width, height;
     std::vector<float> rgb;
@@ -60,7 +61,7 @@ std::optional<Pixel> brightest(const State& state, const std::vector<std::uint8_
     return best;
 }
 
-/// The pixels connected with a peak that are brighter than `floor` and within a distance of `axis`. They are marked as seen.
+/// The pixels connected to a peak that are brighter than `floor` and within the angle `max_radius` of `axis`. Marks them as seen.
 std::vector<Pixel> region(const State& state, const Pixel& peak, Vec3d axis, double floor, double max_radius,
                           std::vector<std::uint8_t>& seen) {
     const double half_chord = sin_cos(0.5 * max_radius).sin, max_chord2 = 4.0 * half_chord * half_chord;
@@ -82,7 +83,7 @@ std::vector<Pixel> region(const State& state, const Pixel& peak, Vec3d axis, dou
     return found;
 }
 
-/// What is left of a pixel when its luminance is brought down to `level`; the colour stays.
+/// Writes to `left` a pixel's radiance scaled to the luminance `level`; the colour stays.
 void dim(const State& state, const Pixel& p, double level, float (&left)[3]) {
     const Vec3d rgb = state.view().at(p.x, p.y) * (level / p.luminance);
     left[0] = static_cast<float>(rgb.x), left[1] = static_cast<float>(rgb.y), left[2] = static_cast<float>(rgb.z);
@@ -94,7 +95,7 @@ struct Candidate {
     std::array<double, kSpectrumBands> sharpness{};  ///< mean of P_l(cos angle to the direction): 1 for a point, falling with l for a disc
 };
 
-/// The light above `level` as one direction.
+/// Gathers the light above `level` into one direction.
 Candidate gather(const State& state, const std::vector<Pixel>& pixels, double level) {
     Candidate out;
     Vec3d centroid{};
@@ -134,7 +135,7 @@ Candidate gather(const State& state, const std::vector<Pixel>& pixels, double le
     return out;
 }
 
-/// The pixels that belong to the source around a peak. A source's brightest pixel may stand at its edge, so its middle is looked for first.
+/// The pixels that belong to the source around a peak. The brightest pixel may lie at the source's edge, so its middle is found first.
 std::vector<Pixel> source(const State& state, const Pixel& peak, double floor, double max_radius, std::vector<std::uint8_t>& seen) {
     Vec3d axis = center(state, peak);
     for (int pass = 0; pass < 2; ++pass) {
@@ -145,7 +146,7 @@ std::vector<Pixel> source(const State& state, const Pixel& peak, double floor, d
     return region(state, peak, axis, floor, max_radius, seen);
 }
 
-/// The spectrum after a candidate has gone, as if it were round: cheap, and good enough to choose a level.
+/// The spectrum without a candidate, which is treated as round: cheap, and good enough to choose a level.
 Spectrum without(const State& state, const Candidate& candidate) {
     Spectrum out = state.projection.spectrum();
     const auto at = state.projection.bands_at(candidate.sun.direction);
@@ -165,13 +166,13 @@ Spectrum without(const State& state, const Candidate& candidate) {
     return out;
 }
 
-/// A level to cut a source at, and the bound that is to be expected then.
+/// A level to cut a source at, and the bound expected for it.
 struct Cut {
     double level, bound;
     Sun sun;
 };
 
-/// Takes what is above `level` out of the image and brings the projection up to date, unless that gains too little.
+/// Takes the light above `level` out of the image and updates the projection. Undone if the new bound exceeds `target`.
 void take(State& state, const Judge& judge, const std::vector<Pixel>& pixels, double level, const Sun& sun, double target) {
     int first = state.height, end = 0;
     for (const Pixel& p : pixels) first = std::min(first, p.y), end = std::max(end, p.y + 1);

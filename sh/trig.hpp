@@ -1,5 +1,5 @@
-// Sine, cosine and tangent in double from + - * / alone. The C library's double versions change in the last
-// bit with the CPU (their FMA variants), so set-up code whose results reach pixels uses these.
+// Sine and cosine in double from + - * / alone. The C library's versions differ in the last bit between CPUs (they have FMA variants), so
+// set-up code whose results reach pixels uses these.
 // Error: below 1e-15 for |x| <= 1e3 (tests/sh/trig_test.cpp).
 #pragma once
 

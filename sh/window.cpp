@@ -5,7 +5,7 @@
 namespace halflit::sh {
 namespace {
 
-/// Basis values along z = cos theta and around, on a grid of latitudes and longitudes.
+/// Size of the grid of directions on which bands are evaluated.
 constexpr int kLatitudes = 64, kLongitudes = 128;
 
 std::vector<Vec3d> grid() {
@@ -20,7 +20,7 @@ std::vector<Vec3d> grid() {
     return directions;
 }
 
-/// The value of each band in each direction: what a window scales.
+/// Value of each band in one direction; a window scales these.
 struct BandValues {
     Vec3d band[kMaxBands];
 };

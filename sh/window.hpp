@@ -1,6 +1,6 @@
-// Windows over bands, against the ringing of a truncated series [Sloan08]. None is applied by default: for wrapped lobes at order 3
-// Hann's window triples the error and makes the most negative value more negative still (Lambert: -.040 becomes -.047). Taking the sun out
-// (sh/sun.hpp) removes the cause; dering() is for what cannot be helped otherwise.
+// Windows over bands, against the ringing of a truncated series [Sloan08]. None is applied by default: for wrapped lobes at order 3 Hann's
+// window triples the error and makes the most negative value more negative still (Lambert: -.040 becomes -.047). Taking the sun out
+// (sh/sun.hpp) removes the cause of the ringing; use dering() where that is not enough.
 #pragma once
 
 #include "sh/coefficients.hpp"
@@ -18,11 +18,12 @@ namespace halflit::sh {
 
 struct Deringed {
     RadianceSh sh;
-    double lambda = 0.0;  ///< 0: nothing had to be done
+    double lambda = 0.0;  ///< 0: no window was needed
 };
 
-/// The weakest Laplacian window under which no channel goes below `floor`, an absolute value below the mean, in 8,192 directions. Apply it
-/// to what is shown: radiance times the lobe's bands. A channel whose mean is below the floor is left out of the search.
+/// Applies the weakest Laplacian window with which no channel goes below `floor` in 8,192 directions. `floor` is an absolute value below
+/// the mean; a channel whose mean is below it is left out of the search. Use this on reflected light, which is radiance times the lobe's
+/// bands.
 [[nodiscard]] Deringed dering(const RadianceSh& sh, double floor = 0.0);
 
 }  // namespace halflit::sh

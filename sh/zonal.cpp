@@ -12,7 +12,7 @@ namespace {
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// f_0 and g_l, as in the header. For w = 1 and an integer n the lobe is a polynomial of degree n: the bands past it are exactly 0.
+/// g_l as in the header. For w = 1 and an integer n the lobe is a polynomial of degree n: the bands past it are exactly 0.
 void relative_bands(const WrapLobe& lobe, std::span<double> g) {
     const double w = lobe.wrap, n = lobe.power;
     const bool polynomial = w == 1.0 && n < 1e6 && n == static_cast<double>(static_cast<long long>(n));
@@ -28,15 +28,16 @@ void relative_bands(const WrapLobe& lobe, std::span<double> g) {
 
 double band_zero(const WrapLobe& lobe) { return lobe.scale * 2.0 * (1.0 + lobe.wrap) / (lobe.power + 1.0); }
 
-/// The sum over all octaves past one whose sum is `octave`, when each is `ratio` times the one before; a quarter to spare, because
-/// bands oscillate within their octave.
+/// Sum of all octaves of bands after one whose sum is `octave`, if each is `ratio` times the one before. A quarter is added, because bands
+/// oscillate within their octave.
 double octaves_after(double octave, double ratio) {
     if (octave == 0.0) return 0.0;
     return ratio < 1.0 ? 1.25 * octave * ratio / (1.0 - ratio) : kInfinity;
 }
 
-/// The largest errors of the series of 1 to 10 bands, from above. Between two points of the grid a function with slopes up to s is off its
-/// chord by at most s h / 2, and a series of degree d with values up to m by at most d^2 m h^2 / 8.
+/// Upper bounds on the largest errors of the series of 1 to 10 bands: the largest error on a grid of angles with the step h, plus what the
+/// grid may miss. Between two points a function with slopes up to s differs from its chord by at most s h / 2, and a series of degree d
+/// with values up to m by at most d^2 m h^2 / 8.
 std::array<double, kMaxBands> suprema(const WrapLobe& lobe, const LobeSpectrum& spectrum) {
     constexpr int kPoints = 2048;
     constexpr double kStep = kPi / kPoints;

@@ -1,4 +1,4 @@
-// Light from all around: an environment as shading takes it, ready to be convolved with any lobe at the order that the error asks for.
+// Light from all around: an environment as shading uses it, ready to be convolved with any lobe at the order that the error requires.
 #pragma once
 
 #include "sh/coefficients.hpp"
@@ -13,36 +13,36 @@
 
 namespace halflit::shading {
 
-/// An environment image in ten bands, with what bounds the error of leaving bands out. Suns that were taken out of it are lights of
-/// their own: whoever lights a scene with this adds them to the scene's lights.
+/// An environment image in ten bands, and the data that bound the error of leaving bands out. Suns taken out of the image are separate
+/// lights: the caller adds them to the scene's lights.
 struct Environment {
-    /// Given by make_environment, never twice; copies share it. What renderers keep of an environment goes by it, so make another one
-    /// instead of editing this.
+    /// Set by make_environment(), different for each environment, shared by copies. Renderers keep data of an environment under its id, so
+    /// make a new environment instead of editing this one.
     std::uint64_t id = 0;
-    sh::RadianceSh radiance;  ///< turned as the scene wants it
+    sh::RadianceSh radiance;  ///< turned by rotate_rad
     sh::BandGrid grid;
     std::vector<Light> suns;  ///< directional, colour premultiplied by 1/pi
-    /// The image itself, suns and all, as it came, and how it is to be turned: what is seen behind a scene. Empty unless kept.
+    /// The original image with the suns, before any rotation, for the background of pictures; rotate_rad turns it. Empty unless kept.
     std::vector<float> rgb;
     int width = 0, height = 0;
     double rotate_rad = 0.0;
-    /// What the bands stand for: the image without the suns. Empty unless kept.
+    /// The image that the bands are made of, without the suns. Empty unless kept.
     std::vector<float> lit_rgb;
     int lit_width = 0, lit_height = 0;
 };
 
 struct EnvironmentOptions {
-    bool extract_suns = true;  ///< where that lowers the bound
+    bool extract_suns = true;  ///< take suns out where that lowers the bound on the error
     double rotate_rad = 0.0;   ///< about +y, counterclockwise seen from above
-    bool keep_image = false;   ///< for a background
-    bool keep_light = false;   ///< for Accuracy::reference
+    bool keep_image = false;   ///< keep `rgb`, for a background
+    bool keep_light = false;   ///< keep `lit_rgb`, for Accuracy::reference
 };
 
-/// What a rough surface mirrors: a cosine power about the mirrored view, with a quarter of the highlight's exponent, because
-/// the mirrored direction turns twice as fast as the half vector. Normalised.
+/// Lobe of the reflected environment: a normalised cosine power about the mirrored view direction. Its exponent is a quarter of the
+/// highlight's, because the mirrored direction turns twice as fast as the half vector.
 [[nodiscard]] sh::WrapLobe specular_environment_lobe(float roughness);
 
-/// An environment that the caller keeps alive.
+/// A pointer to an environment that the caller keeps alive.
 [[nodiscard]] inline std::shared_ptr<const Environment> borrowed(const Environment& environment) {
     return {std::shared_ptr<void>(), &environment};
 }

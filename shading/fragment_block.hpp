@@ -22,7 +22,7 @@ enum Row : int {
     kDu0Dx = kVertexFloats, kDv0Dx, kDu0Dy, kDv0Dy,  // change per pixel to the right and down, set 0
     kDu1Dx, kDv1Dx, kDu1Dy, kDv1Dy,                  // set 1
     kFacing,                               // +1 front face, -1 back face
-    kShadowX, kShadowY, kShadowZ,          // from the position to where shadows are looked up, world space
+    kShadowX, kShadowY, kShadowZ,          // offset from the position to the point where shadows are looked up, world space
     kInputRows
 };
 // clang-format on

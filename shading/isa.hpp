@@ -19,20 +19,20 @@ enum class Isa : std::uint8_t {
 /// "scalar", "sse2", "sse4.1", "avx2", "avx512", "neon64".
 [[nodiscard]] std::string_view isa_name(Isa isa);
 
-/// All of them, "scalar, sse2, .. or neon64", for messages.
+/// All names as "scalar, sse2, .. or neon64", for messages.
 [[nodiscard]] std::string isa_names();
 
-/// Built into this binary, narrowest first.
+/// Instruction sets built into this binary, narrowest first.
 [[nodiscard]] std::span<const Isa> built_isas();
 
-/// Whether this CPU and its operating system run it (checked with the compiler's CPU detection, which asks XGETBV too).
+/// True if this CPU and its operating system can run the set (by the compiler's CPU detection, which asks XGETBV too).
 [[nodiscard]] bool isa_available(Isa isa);
 
-/// The widest available one; the environment variable HALFLIT_KERNEL, if set, names another and fails when unknown or
-/// not available.
+/// The widest available set, or the one that the environment variable HALFLIT_KERNEL names. Fails if that name is unknown or the set is not
+/// available.
 [[nodiscard]] Result<Isa> default_isa();
 
-/// "auto" gives default_isa(); an unknown or unavailable name is an error that lists what there is.
+/// "auto" gives default_isa(); an unknown or unavailable name is an error that lists the available ones.
 [[nodiscard]] Result<Isa> isa_by_name(std::string_view name);
 
 }  // namespace halflit::shading

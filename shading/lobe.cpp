@@ -6,7 +6,7 @@
 namespace halflit::shading {
 namespace {
 
-/// As short as reads back the same; never with a comma.
+/// The shortest text that reads back as the same number; never with a comma.
 std::string text_of(float value) {
     char digits[32];
     const auto [end, error] = std::to_chars(digits, digits + sizeof digits, value);
@@ -25,7 +25,9 @@ Result<void> check_lobe(const Lobe& lobe) {
     return {};
 }
 
-const char* why_not_wrap(double wrap) { return wrap > kMaxLobeWrap ? ": from 1 on light reaches everything, and the norm is another" : ""; }
+const char* why_not_wrap(double wrap) {
+    return wrap > kMaxLobeWrap ? ": above 1 every normal is lit, and the norm has another formula" : "";
+}
 
 const char* why_not_power(double power) { return power < 0 ? ": below 0 the lobe grows without bound at its boundary" : ""; }
 

@@ -27,36 +27,36 @@ struct Lobe {
     friend constexpr bool operator==(const Lobe&, const Lobe&) = default;
 };
 
-/// Beyond this light reaches everything, and the norm is another one.
+/// Largest wrap. Above it every normal is lit, and the norm has another formula.
 inline constexpr float kMaxLobeWrap = 1.0f;
-/// Sharper lobes than this are not taken: they are points of light.
+/// Largest power. Sharper lobes are refused; they are almost points of light.
 inline constexpr float kMaxLobePower = 10000.0f;
 
 /// Fails (bad_input) unless w is in [0, kMaxLobeWrap] and n in [0, kMaxLobePower]; the message begins with "wrap" or "power" and says why.
 [[nodiscard]] Result<void> check_lobe(const Lobe& lobe);
-/// Why check_lobe refuses a wrap or a power, as ": reason"; empty where the range says enough.
+/// Reason why check_lobe refuses a wrap or a power, as ": reason"; empty where the range explains it.
 [[nodiscard]] const char* why_not_wrap(double wrap);
 [[nodiscard]] const char* why_not_power(double power);
 
 /// A model of the literature by the name that users type: n = power + power_per_wrap w.
 struct NamedLobe {
     std::string_view name;
-    bool takes_wrap;  ///< w is the user's; otherwise it is `wrap`
+    bool takes_wrap;  ///< the user chooses w; otherwise it is `wrap`
     float wrap, power, power_per_wrap;
     bool normalize;
 };
 inline constexpr NamedLobe kNamedLobes[] = {{"lambert", false, 0, 1, 0, false},      {"green", true, 0, 1, 0, false},
                                             {"half-lambert", false, 1, 1, 0, false}, {"valve", false, 1, 2, 0, false},
                                             {"sloan", true, 0, 1, 1, false},         {"mcauley", true, 0, 1, 1, true}};
-/// The wrap of a model that takes one, where the user names none.
+/// Default wrap of a model that takes one.
 inline constexpr float kUsualWrap = 0.5f;
 
-/// Null for an unknown name.
+/// Finds a model by its name; null for an unknown one.
 [[nodiscard]] const NamedLobe* find_named_lobe(std::string_view name);
 /// "lambert, green, .. or mcauley", for messages.
 [[nodiscard]] std::string lobe_names();
 
-/// Of a lobe that is allowed and yet may surprise, powers below 1; empty for all others.
+/// Warning for a lobe that is allowed but may surprise, one with a power below 1; empty for all others.
 [[nodiscard]] std::string lobe_warning(const Lobe& lobe);
 
 }  // namespace halflit::shading

@@ -14,7 +14,7 @@ namespace halflit::shading {
 
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
-/// Exponent s of (N.H)^s for a roughness, which is held to kMinRoughness and above: 2 / roughness^4 - 2.
+/// Exponent s of (N.H)^s for a roughness: 2 / roughness^4 - 2. A roughness below kMinRoughness counts as kMinRoughness.
 [[nodiscard]] constexpr double specular_exponent(double roughness) { return 2.0 * half_specular_exponent(vmax(roughness, 0.07)); }
 static_assert(0.07f == kMinRoughness);
 

@@ -7,7 +7,7 @@
 namespace halflit::shading {
 namespace {
 
-/// Distinct lobes of a frame, each convolved once.
+/// Plans the distinct lobes of a frame, each convolved once.
 class EnvironmentPlanner {
 public:
     EnvironmentPlanner(EnvironmentPlans& known, const EnvironmentOrder& order, std::vector<EnvironmentPlan>& plans)
@@ -15,11 +15,10 @@ public:
 
     int diffuse(const LobePlan& lobe) { return find({lobe.wrap, static_cast<double>(lobe.power_minus_one) + 1.0, lobe.scale}, order_); }
 
-    /// A stand-in for reflections, so twice the error is allowed.
+    /// Plans reflections. They are an approximation, so the tolerance is doubled. With an error budget their ten bands count as exact.
     int specular(float roughness) {
         EnvironmentOrder order = order_;
         order.tolerance *= 2.0;
-        order.codes *= 0.5;
         order.ten_bands_are_all = true;
         return find(specular_environment_lobe(roughness), order);
     }
@@ -51,14 +50,14 @@ void plan_environments(const PlanInputs& inputs, PlanMemory& memory, ShadingPlan
         material.stages |= kStageEnvironment;
         material.environment = planner.diffuse(material.lobe);
     }
-    // Last: roughness 1 reflects with Lambert's lobe, and a Lambert surface must not get the larger error that reflections are allowed.
+    // Reflections come last: at roughness 1 their lobe is Lambert's, and a Lambert surface must not get the plan with the larger error.
     for (MaterialPlan& material : plan.materials)
         if ((material.stages & kStageEnvironment) != 0 && (material.stages & kStageSpecular) != 0)
             material.specular_environment = planner.specular(material.roughness);
 }
 
-/// Over what distance wrapped light fades in a shadow: d0 = 9/8 * 2 w R for a lobe of wrap w on an object of radius R. Materials without
-/// wrap get none.
+/// Plans shadows, and the distance over which wrapped light fades in them: d0 = 9/8 * 2 w R for a lobe of wrap w on an object of radius R.
+/// Materials without wrap get none.
 void plan_shadows(const ShadowInputs& shadows, ShadingPlan& plan) {
     plan.shadow_maps = shadows.maps;
     for (std::size_t i = 0; i < std::min(plan.lights.size(), shadows.map_of_light.size()); ++i)
@@ -84,9 +83,9 @@ Result<void> check_options(const PlanOptions& options) {
         if (const auto lobe = check_lobe(options.lobe); !lobe) return fail(ErrorCode::usage, "lobe: " + lobe.error().message);
     if (!(options.max_error_codes > 0.0) || options.accuracy == Accuracy::reference) return {};
     if (options.rate != ShadingRate::pixel)
-        return fail(ErrorCode::usage, "max_error: expected the shading rate pixel, the error of other rates has no bound");
+        return fail(ErrorCode::usage, "max_error: expected the shading rate pixel; the error of other rates has no bound");
     if (options.texture_detail != TextureDetail::full)
-        return fail(ErrorCode::usage, "max_error: expected the texture filter full, the error of others has no bound");
+        return fail(ErrorCode::usage, "max_error: expected the texture filter full; the error of other filters has no bound");
     return {};
 }
 

@@ -1,5 +1,5 @@
-// The one way to a ShadingPlan: from what users give, the viewer and the shadow maps to all that the kernels read, an error budget
-// included.
+// The planner: makes a ShadingPlan, with all data that the kernels read, from the user's data, the viewer and the shadow maps. It also
+// spends an error budget. Nothing else makes plans.
 #pragma once
 
 #include "shading/budget/error_budget.hpp"
@@ -15,24 +15,24 @@
 
 namespace halflit::shading {
 
-/// Where pictures are seen from.
+/// Point or direction that a picture is seen from.
 struct Viewer {
     Vec3f eye_ws{0, 0, 0};              ///< perspective
-    Vec3f view_direction_ws{0, 0, -1};  ///< orthographic, and for whoever asks: the way the camera looks, unit
+    Vec3f view_direction_ws{0, 0, -1};  ///< direction that the camera looks in, unit; always set, needed for orthographic cameras
     bool orthographic = false;
 };
 
-/// The shadow maps that are to be drawn, and what is known of those that cast and receive.
+/// Shadow maps to be drawn, and facts about what casts and receives shadows.
 struct ShadowInputs {
     ShadowMode mode = ShadowMode::off;
     bool terminator_offset = false;
     std::vector<ShadowMapPlan> maps;
-    std::vector<std::int32_t> map_of_light;  ///< for each of plan_lights(): index into `maps`, or -1; empty: none casts
-    std::span<const double> object_radius;   ///< for each material: of the largest object made of it, world units
-    double fade_distance = 0;                ///< where wrapped light is gone behind a blocker; 0: from object size and wrap
+    std::vector<std::int32_t> map_of_light;  ///< index into `maps` for each of plan_lights(), or -1; empty: no light casts shadows
+    std::span<const double> object_radius;   ///< radius of the largest object made of each material, world units
+    double fade_distance = 0;                ///< distance behind a blocker where wrapped light is gone; 0: from object size and wrap
 };
 
-/// What planning keeps from frame to frame.
+/// Data that planning keeps from frame to frame.
 struct PlanMemory {
     EnvironmentPlans environments;
     PowerFits fits;
@@ -41,8 +41,8 @@ struct PlanMemory {
 struct PlanInputs {
     std::span<const Material> materials;
     std::span<const Texture> textures;
-    /// materials.size() + 1 entries, the last for "no material": the vertex data that the meshes of each bring. What they do not bring
-    /// (texture coordinates, colours, tangents) is planned without.
+    /// Attribute slots that the meshes of each material have: materials.size() + 1 entries, the last for "no material". The plan leaves out
+    /// texture coordinates, colours and tangents that the meshes lack.
     std::span<const SlotMask> available_slots;
     std::span<const Light> lights;
     Ambient ambient;
@@ -51,10 +51,10 @@ struct PlanInputs {
     double exposure = 1.0;  ///< display white is 1 / exposure
     Viewer viewer = {};
     ShadowInputs shadows = {};
-    const SceneFacts* facts = nullptr;  ///< needed by an error budget, and by nothing else
+    const SceneFacts* facts = nullptr;  ///< needed for an error budget only
 };
 
-/// Fails, as usage, for options that exclude each other: a budget without facts, or one of an error that has no bound.
+/// Fails (usage) for a lobe that check_lobe refuses, and for an error budget with options whose error has no bound.
 [[nodiscard]] Result<void> check_options(const PlanOptions& options);
 
 [[nodiscard]] ShadingPlan plan_shading(const PlanInputs& inputs, PlanMemory& memory);

@@ -1,4 +1,4 @@
-// What a call that can fail because of its input returns. No exception leaves a module.
+// Result of a call that can fail because of its input. No exception leaves a module.
 #pragma once
 
 #include <tl/expected.hpp>
@@ -7,7 +7,7 @@
 
 namespace halflit {
 
-/// Why a call failed; the command line's exit codes are these numbers.
+/// Reason why a call failed. The numbers are the exit codes of the command line.
 enum class ErrorCode { negative_result = 1, usage = 2, bad_input = 3, io = 4, limit = 5, internal = 6 };
 
 struct Error {

@@ -1,11 +1,11 @@
-// How a shadow meets wrapped light.
+// Shadow modes: the effect of a shadow on wrapped light.
 #pragma once
 
 #include <cstdint>
 
 namespace halflit::shading {
 
-/// What a shadow does to a light whose lobe f reaches round the terminator. V is visibility by the shadow map, x = N.L.
+/// Effect of a shadow on light through a lobe f that reaches past the terminator, where x = N.L = 0. V is the visibility by the shadow map.
 enum class ShadowMode : std::uint8_t {
     off,        ///< f
     hard,       ///< V f: a step of f(0) where the surface turns away from the light

@@ -35,7 +35,7 @@ constexpr Box box_of(int i, int size) {
     return {first, 3, {n - at, n, at + 1}, 2 * n + 1};
 }
 
-/// One level from the one above it. Integer sums (at most 2^16 * 2^28), so the order of summing cannot matter.
+/// Computes one level from the one above it. The sums are integers (at most 2^16 * 2^28), so their order does not matter.
 void reduce(const std::uint16_t* from, const TextureLevel& large, std::uint16_t* to, const TextureLevel& small) {
     for (int y = 0; y < small.height; ++y) {
         const Box rows = box_of(y, large.height);
@@ -59,7 +59,8 @@ void reduce(const std::uint16_t* from, const TextureLevel& large, std::uint16_t*
 constexpr std::size_t kLanes = 32;
 using Lanes = std::array<std::uint16_t, kLanes>;
 
-/// `sum` = combine(sum, value(i)) for all i below `values`; a copy on the stack, so that the compiler knows that nothing else changes it.
+/// `sum` = combine(sum, value(i)) for all i below `values`. Works on a copy on the stack, so that the compiler knows that nothing else
+/// changes it.
 template <class Combine, class Value>
 void accumulate(Lanes& sum, std::size_t values, const Combine& combine, const Value& value) {
     Lanes lanes = sum;

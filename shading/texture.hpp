@@ -26,13 +26,13 @@ struct Sampler {
 
 struct TextureLevel {
     std::int32_t width = 0, height = 0;  ///< texels, >= 1
-    std::int32_t offset = 0;             ///< of texel (0, 0), in texels from the start of the data
+    std::int32_t offset = 0;             ///< position of texel (0, 0) in the data, in texels
 };
 
 inline constexpr int kMaxTextureLevels = 16;
 inline constexpr int kMaxTextureSide = 16384;
 
-/// What is known of a texture's channels, in 1 / 65535, over all levels: for bounds of what filtering can be off by.
+/// Range of a texture's channels over all levels, in units of 1 / 65535, for bounds on the error of filtering.
 struct TextureRange {
     std::uint16_t least[4], most[4];
     std::uint16_t step[4];  ///< the largest difference between neighbours in a row or a column, those across opposite edges included
@@ -61,7 +61,7 @@ private:
     TextureRange range_{};
 };
 
-/// How a material uses a texture: which one, through which sampler, at which coordinates.
+/// A material's use of a texture: the texture, its sampler and the coordinates.
 struct TextureUse {
     int texture = -1;  ///< index into Scene::textures; -1: not used
     int uv_set = 0;    ///< 0 or 1

@@ -1,4 +1,4 @@
-// halflit bench: how long a frame takes, from a scene in memory to codes in memory.
+// halflit bench: the time of a frame, from a scene in memory to 8-bit codes in memory.
 #include "apps/halflit/cli_support.hpp"
 #include "apps/halflit/commands.hpp"
 #include "apps/halflit/messages.hpp"
@@ -32,11 +32,11 @@ double median(std::vector<double> values) {
 
 struct Measured {
     std::vector<double> ms;
-    raster::RenderReport fastest;  ///< its stages are what is reported
+    raster::RenderReport fastest;  ///< gives the reported times of stages
 };
 
-/// One Renderer for all frames, whose memory is warm from the second one on. Every frame is drawn whole, as if the scene had moved, unless
-/// `keep`: then frames after the first use again what did not change, which for a scene at rest is all but the tiles.
+/// Draws all frames with one Renderer, so that its memory is allocated from the second frame on. Each frame is drawn completely, as if the
+/// scene had moved. With `keep`, frames after the first reuse what did not change; for a scene at rest that is everything but the tiles.
 Result<Measured> measure(const RenderJob& job, int frames, bool keep, raster::Image& image) {
     Measured measured;
     raster::Renderer renderer;
@@ -93,18 +93,18 @@ Result<int> run_bench(const BenchOptions& options) {
 }  // namespace
 
 Command add_bench_command(CLI::App& root) {
-    CLI::App* app = root.add_subcommand("bench", "Time the drawing of a scene, from memory to memory");
+    CLI::App* app = root.add_subcommand("bench", "Time the drawing of a scene, from the scene in memory to 8-bit codes in memory");
     const auto options = std::make_shared<BenchOptions>();
     add_render_options(*app, *options, true, kUsualSize);
     constexpr const char* kGroup = "Measurement";
-    add_value(*app, "--frames", "N", "How often to draw (default 10)", [options](const std::string& text) -> Result<void> {
+    add_value(*app, "--frames", "N", "Number of frames (default 10)", [options](const std::string& text) -> Result<void> {
         const auto frames = parse_int(text, 1, 1000000);
         if (!frames) return tl::unexpected(frames.error());
         options->frames = static_cast<int>(*frames);
         return {};
     })->group(kGroup);
-    app->add_flag("--keep", options->keep, "Let frames use again what the one before made: a scene at rest")->group(kGroup);
-    app->add_flag("--json", options->json, "As one JSON object")->group(kGroup);
+    app->add_flag("--keep", options->keep, "Let each frame reuse what the one before computed, as for a scene at rest")->group(kGroup);
+    app->add_flag("--json", options->json, "Print one JSON object")->group(kGroup);
     return {app, [options] { return run_bench(*options); }};
 }
 

@@ -14,7 +14,7 @@ constexpr std::string_view kSpherePrefix = "sphere:", kLightsPrefix = "lights:",
 
 raster::Camera touching_camera(double radius) {
     constexpr double kFovDeg = 35.0;
-    // The outline is where the ray of half the angle touches: sin(fov / 2) = radius / distance.
+    // The ray at half the field of view is tangent to the sphere: sin(fov / 2) = radius / distance.
     const double distance = radius / sin_cos(kFovDeg / 2 * (kPi / 180.0)).sin;
     raster::Camera camera;
     camera.name = "front";

@@ -23,7 +23,7 @@ inline CLI::Option* add_value(CLI::App& app, const std::string& names, const std
     return app.add_option_function<std::string>(names, take, help)->type_name(form);
 }
 
-/// The same for a flag that may be given again and again, once for each value.
+/// The same for a flag that may be repeated; each use has one value.
 inline CLI::Option* add_values(CLI::App& app, const std::string& names, const std::string& form, const std::string& help, ReadValue read) {
     const auto take = [names, read = std::move(read)](const std::vector<std::string>& texts) {
         for (const std::string& text : texts) {
@@ -34,7 +34,7 @@ inline CLI::Option* add_values(CLI::App& app, const std::string& names, const st
     return app.add_option_function<std::vector<std::string>>(names, take, help)->type_name(form)->allow_extra_args(false);
 }
 
-/// For ReadValue: puts a parsed value in its place, or hands on the error.
+/// Stores a parsed value in `target`, or returns its error; for use in a ReadValue.
 template <class Target, class T>
 Result<void> assign(Target& target, const Result<T>& value) {
     if (!value) return tl::unexpected(value.error());

@@ -1,4 +1,4 @@
-// The sub-commands. Each adds itself to the command line and says what to run when it is chosen.
+// The sub-commands. Each adds itself to the command line and returns the function that runs it.
 #pragma once
 
 #include "shading/result.hpp"

@@ -1,4 +1,4 @@
-// halflit diff: how far two pictures are apart, in 8-bit codes.
+// halflit diff: the difference of two pictures, in 8-bit codes.
 #include "apps/halflit/cli_support.hpp"
 #include "apps/halflit/commands.hpp"
 #include "apps/halflit/picture_diff.hpp"
@@ -55,7 +55,7 @@ Json json_of(const PictureDiff& diff) {
 }
 
 Result<int> run_diff(const DiffOptions& options) {
-    if (options.output == "-") return fail(ErrorCode::usage, "-o: expected a file name, standard output has the numbers");
+    if (options.output == "-") return fail(ErrorCode::usage, "-o: expected a file name; standard output is for the numbers");
     const auto a = read_picture(options.a);
     if (!a) return tl::unexpected(a.error());
     const auto b = read_picture(options.b);
@@ -75,9 +75,9 @@ Result<int> run_diff(const DiffOptions& options) {
 }  // namespace
 
 Command add_diff_command(CLI::App& root) {
-    CLI::App* app = root.add_subcommand("diff", "Compare two PNG or JPEG pictures; exit code 1 when they are too far apart");
+    CLI::App* app = root.add_subcommand("diff", "Compare two PNG or JPEG pictures; exit code 1 if they differ by more than --max");
     const auto options = std::make_shared<DiffOptions>();
-    app->add_option("A", options->a, "The picture expected")->required()->type_name("");
+    app->add_option("A", options->a, "The expected picture")->required()->type_name("");
     app->add_option("B", options->b, "The picture to compare with it")->required()->type_name("");
     add_value(*app, "--max", "CODES", "Largest difference in any channel that still passes, 0 to 255 (default 0)",
               [options](const std::string& text) -> Result<void> {
@@ -86,7 +86,7 @@ Command add_diff_command(CLI::App& root) {
                   options->max_codes = static_cast<int>(*codes);
                   return {};
               });
-    app->add_flag("--json", options->json, "As one JSON object");
+    app->add_flag("--json", options->json, "Print one JSON object");
     app->add_option("-o,--output", options->output, "Write the absolute differences as a picture, stretched to the full range")
         ->type_name("FILE");
     return {app, [options] { return run_diff(*options); }};

@@ -1,4 +1,4 @@
-// halflit env: what an environment holds, band by band, and how many bands it needs.
+// halflit env: an environment's bands of spherical harmonics, its suns, and the number of bands that it needs.
 #include "apps/halflit/cli_support.hpp"
 #include "apps/halflit/commands.hpp"
 #include "apps/halflit/messages.hpp"
@@ -24,7 +24,7 @@ struct EnvOptions {
     bool json = false;
 };
 
-/// All that is said about an environment.
+/// An environment and everything that is computed from it.
 struct Description {
     io::EnvironmentImage environment;
     sh::Projection whole;
@@ -48,7 +48,7 @@ Description look_at(io::EnvironmentImage environment) {
 
 Json triple(Vec3d v) { return {v.x, v.y, v.z}; }
 
-/// Coefficients, band norms and bounds of one projection.
+/// Adds coefficients, band norms and bounds of one projection.
 void add_projection(Json& json, const sh::Projection& projection, const sh::LobeSpectrum& lambert, int bands) {
     const sh::RadianceSh radiance = projection.radiance(bands);
     const sh::Spectrum spectrum = projection.spectrum();
@@ -83,7 +83,8 @@ Json json_of(const Description& d, int bands) {
     return json;
 }
 
-/// The expansion's luminance as characters, seen like the image; each step of the ramp is twice as bright, '@' the brightest.
+/// Text picture of the expansion's luminance, laid out like the image. Each character of the ramp is twice as bright as the one before; '@'
+/// is the brightest.
 std::string picture(const sh::RadianceSh& radiance) {
     constexpr int kColumns = 64, kRows = 16;
     constexpr std::string_view kRamp = " .:-=+*#%@";
@@ -109,8 +110,10 @@ std::string text_of(const Description& d, int bands) {
     const sh::OrderBounds rest = sh::BandGrid(d.extraction.residual).order_bounds(d.lambert);
     std::string text = fmt::format("{} x {}, mean radiance {:.4g} {:.4g} {:.4g}, max {:.4g}\n\n", d.environment.width, d.environment.height,
                                    d.mean.x, d.mean.y, d.mean.z, d.max);
-    text += "band   |L_l| r          g          b   order  error of Lambert is below";
-    text += d.extraction.suns.empty() ? "\n" : ", suns apart\n";
+    text +=
+        "Norms |L_l| of the bands, and a bound on the error of a Lambert surface lit by bands 0 to order - 1:\n"
+        "band   |L_l| r          g          b   order  error below";
+    text += d.extraction.suns.empty() ? "\n" : "               with suns as lights\n";
     for (std::size_t l = 0; l < static_cast<std::size_t>(bands); ++l) {
         const Vec3d& norm = spectrum.norm[l];
         text += fmt::format("{:4} {:10.4g} {:10.4g} {:10.4g}   {:5}  {:<10.4g}", l, norm.x, norm.y, norm.z, l + 1,
@@ -121,7 +124,8 @@ std::string text_of(const Description& d, int bands) {
         text += fmt::format("\nsun towards {:.4f} {:.4f} {:.4f}, irradiance {:.4g} {:.4g} {:.4g}, {:.3g} sr", sun.direction.x,
                             sun.direction.y, sun.direction.z, sun.irradiance.x, sun.irradiance.y, sun.irradiance.z, sun.solid_angle);
     if (!d.extraction.suns.empty()) text += "\n";
-    text += fmt::format("\n{} bands of it{}, each step twice as bright:\n", bands, d.extraction.suns.empty() ? "" : " without suns");
+    text += fmt::format("\nPicture of {} bands{}; each character is twice as bright as the one before:\n", bands,
+                        d.extraction.suns.empty() ? "" : " without suns");
     return text + picture(d.extraction.residual.radiance(bands));
 }
 
@@ -138,16 +142,17 @@ Result<int> run_env(const EnvOptions& options) {
 }  // namespace
 
 Command add_env_command(CLI::App& root) {
-    CLI::App* app = root.add_subcommand("env", "Describe an environment: its spherical harmonics, its suns, how many bands it needs");
+    CLI::App* app =
+        root.add_subcommand("env", "Describe an environment: its bands of spherical harmonics, its suns, and how many bands it needs");
     const auto options = std::make_shared<EnvOptions>();
     app->add_option("ENVIRONMENT", options->name, "A Radiance picture (.hdr), or sky for the built-in one")->required()->type_name("");
-    add_value(*app, "--bands", "N", "How many bands to list, 1 to 10 (default 10)", [options](const std::string& text) -> Result<void> {
+    add_value(*app, "--bands", "N", "Number of bands to list, 1 to 10 (default 10)", [options](const std::string& text) -> Result<void> {
         const auto bands = parse_int(text, 1, sh::kMaxBands);
         if (!bands) return tl::unexpected(bands.error());
         options->bands = static_cast<int>(*bands);
         return {};
     });
-    app->add_flag("--json", options->json, "As one JSON object");
+    app->add_flag("--json", options->json, "Print one JSON object");
     return {app, [options] { return run_env(*options); }};
 }
 

@@ -80,7 +80,7 @@ Result<double> add_part(SvgPage& page, double top, double page_width, const Plot
     return height;
 }
 
-/// A page with the parts that are wanted, all of them or the plots alone.
+/// A page with all parts of the figure, or with the plots alone.
 Result<std::string> page_of(const FigureEntry& entry, const Figure& figure, bool plots_alone) {
     double width = kMinWidth;
     for (const auto& part : figure.parts)

@@ -1,4 +1,4 @@
-// A figure: rows of pictures and of plots under one caption, and the files that it becomes.
+// A figure: rows of pictures and of plots under one caption, and the files made from it.
 #pragma once
 
 #include "apps/halflit/svg_plot.hpp"
@@ -18,26 +18,26 @@ struct PictureGrid {
     std::string title{};
     std::vector<std::string> columns;       ///< labels above
     std::vector<std::string> rows;          ///< labels on the left; one or more, may be empty text
-    double width = 150;                     ///< of one picture on the page; its height follows
+    double width = 150;                     ///< width of one picture on the page; its height follows
     std::vector<raster::Image> pictures{};  ///< row by row
 };
 
 using PlotRow = std::vector<Plot>;
 
 struct Figure {
-    std::string caption;  ///< what was computed: model, parameters, light
+    std::string caption;  ///< says what was computed: model, parameters, light
     std::vector<std::variant<PictureGrid, PlotRow>> parts;
 };
 
-/// What is known of a figure before it is made.
+/// A figure's name, title and source, and the function that makes it.
 struct FigureEntry {
-    const char* name;  ///< as users type it, and the file's name
+    const char* name;  ///< name on the command line and of the files
     const char* title;
     const char* source;  ///< the figure that it remakes; keys resolve in sh/README.md
     Result<Figure> (*make)();
 };
 
-/// All of them, in the order of the sources.
+/// All figures, in the order of their sources.
 [[nodiscard]] std::span<const FigureEntry> all_figures();
 
 enum class FigureFormat : std::uint8_t {
@@ -50,16 +50,17 @@ struct FigureFile {
     std::vector<std::uint8_t> bytes;
 };
 
-/// NAME.svg or NAME.png, and where there are plots NAME.csv with their numbers. In PNG form a figure with both pictures and plots also has
+/// NAME.svg or NAME.png, and for a figure with plots NAME.csv with their numbers. As PNG, a figure with both pictures and plots also has
 /// NAME.svg, with the plots.
 [[nodiscard]] Result<std::vector<FigureFile>> figure_files(const FigureEntry& entry, const Figure& figure, FigureFormat format);
 
-/// index.html: every figure with its caption. `files[i]` are those of `entries[i]`.
+/// A figure whose files have been written.
 struct MadeFigure {
     const FigureEntry* entry;
     std::string caption;
-    std::vector<std::string> files;
+    std::vector<std::string> files;  ///< names
 };
+/// The text of index.html: every figure with its caption.
 [[nodiscard]] std::string figure_index(std::span<const MadeFigure> figures);
 
 }  // namespace halflit::cli

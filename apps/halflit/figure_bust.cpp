@@ -1,5 +1,6 @@
-// The form is a distance field: ellipsoids joined (or cut out) with rounded seams, those beside the middle on both sides. A surface net
-// turns it into triangles: one vertex in each cell that the surface crosses, moved onto it, and a quad across each edge that it crosses.
+// The bust is a distance field of ellipsoids, joined or cut out with rounded seams. Ellipsoids with x != 0 stand on both sides. A surface
+// net turns the field into triangles: one vertex in each grid cell that the surface crosses, moved onto the surface, and one quad for each
+// grid edge that the surface crosses.
 #include "apps/halflit/figure_bust.hpp"
 
 #include "sh/vec3.hpp"
@@ -11,7 +12,7 @@
 namespace halflit::cli {
 namespace {
 
-/// Radii rx, ry, rz around a centre; the seam with what came before is rounded over `blend`.
+/// An ellipsoid. Its seam with the parts before it is rounded over the distance `blend`; `cut` takes it away instead of adding it.
 struct Part {
     Vec3d center, radii;
     double blend;
@@ -37,7 +38,7 @@ constexpr Part kParts[] = {
     {{0.52, -1.80, -0.24}, {0.62, 0.34, 0.40}, 0.40},       // shoulder
     {{0, -1.95, -0.10}, {0.78, 0.46, 0.48}, 0.40},          // chest
 };
-constexpr double kFoot = -1.90;  ///< where the form is cut off
+constexpr double kFoot = -1.90;  ///< y where the bust is cut off
 constexpr Vec3d kLow{-1.32, -2.0, -1.12}, kHigh{1.32, 1.16, 1.08};
 
 double ellipsoid(Vec3d p, const Part& part) {
@@ -53,7 +54,8 @@ double smooth_min(double a, double b, double k) {
     return std::min(a, b) - h * h * k / 4;
 }
 
-/// Negative inside. Parts beside the middle are there twice; mirroring the point instead would leave a crease at x = 0.
+/// The distance field, negative inside. Parts with x != 0 are evaluated on both sides; mirroring the point instead would leave a crease at
+/// x = 0.
 double field(Vec3d p) {
     double distance = 1e9;
     for (const Part& part : kParts)
@@ -71,7 +73,7 @@ Vec3d gradient(Vec3d p) {
             field(p + Vec3d{0, 0, h}) - field(p - Vec3d{0, 0, h})};
 }
 
-/// Newton's steps along the gradient, whose length is about 1 for a distance field.
+/// Moves p onto the surface by three Newton steps. gradient() returns 2e-3 times the gradient.
 Vec3d onto_surface(Vec3d p) {
     for (int i = 0; i < 3; ++i) {
         const Vec3d g = gradient(p);
@@ -128,7 +130,7 @@ private:
                 for (int i = 0; i + 1 < count_[0]; ++i) fn(Cell{i, j, k});
     }
 
-    /// At the mean of the points where the surface crosses the cell's twelve edges.
+    /// Adds a vertex at the mean of the points where the surface crosses the cell's twelve edges, moved onto the surface.
     void add_vertex(Cell cell) {
         Vec3d sum{0, 0, 0};
         int crossings = 0;
@@ -148,7 +150,7 @@ private:
         mesh_.normals.push_back(normalize_or(to_float(g), {0, 1, 0}));
     }
 
-    /// Between the four cells around the edge that leaves `corner` along `axis`.
+    /// Adds a quad between the vertices of the four cells around the edge from `corner` along `axis`, if the surface crosses that edge.
     void add_quad(Cell corner, int axis) {
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
         if (corner[static_cast<std::size_t>(u)] == 0 || corner[static_cast<std::size_t>(v)] == 0) return;

@@ -1,4 +1,4 @@
-// Figures of numbers alone, from sh/.
+// Figures without pictures: curves computed by sh/.
 #include "apps/halflit/figure_entries.hpp"
 #include "sh/lobe_error.hpp"
 
@@ -9,10 +9,10 @@
 namespace halflit::cli {
 namespace {
 
-constexpr int kWrapSteps = 100;   ///< of a, 0 to 1
-constexpr int kAngleSteps = 720;  ///< -180 to 180 degrees
+constexpr int kWrapSteps = 100;   ///< steps of the wrap a, from 0 to 1
+constexpr int kAngleSteps = 720;  ///< steps from -180 to 180 degrees
 
-/// [SNY11] eq. 3.
+/// Sloan's lobe with wrap a, [SNY11] eq. 3.
 sh::WrapLobe sloan(double a) { return {a, 1.0 + a, 1.0}; }
 
 PlotSeries over_angle(std::string name, const sh::WrapLobe& lobe, std::string color = {}) {
@@ -24,7 +24,7 @@ PlotSeries over_angle(std::string name, const sh::WrapLobe& lobe, std::string co
     return series;
 }
 
-/// fn(a) over a.
+/// Series of fn(a) over the wrap a.
 template <class Fn>
 PlotSeries over_wrap(std::string name, Fn&& fn) {
     PlotSeries series{.name = std::move(name), .points = {}};
@@ -38,7 +38,7 @@ PlotSeries over_wrap(std::string name, Fn&& fn) {
 /// The integral of f^2 over the sphere, in closed form.
 double energy(const sh::WrapLobe& lobe) { return 2.0 * kPi * (1.0 + lobe.wrap) / (2.0 * lobe.power + 1.0); }
 
-/// The share of it that band l has.
+/// The fraction of that energy that band l of Sloan's lobe has.
 double energy_share(double a, int l) {
     const double f = sh::zonal_bands(sloan(a))[static_cast<std::size_t>(l)];
     return (2.0 * l + 1.0) * (kPi / 4.0) * f * f / energy(sloan(a));
@@ -56,11 +56,11 @@ Result<Figure> make_curves_figure() {
     for (const double a : {0.0, 0.25, 0.5, 0.75, 1.0}) family.series.push_back(over_angle(fmt::format("a = {:g}", a), sloan(a)));
     for (Plot* plot : {&models, &family}) plot->width = 460, plot->height = 330;
     return Figure{.caption =
-                      "Left: Lambert's max(0, cos t), Valve's ((cos t + 1)/2)^2 and Green's max(0, cos t + w)/(1 + w) at w = 1. Near t = 0 "
-                      "Valve's lobe "
-                      "keeps to the cosine, whose first two derivatives in t it shares; Green's is flatter. Right: Sloan's (max(0, cos t + "
-                      "a)/(1 + a))^(1 + a), "
-                      "which goes from Lambert (a = 0) to Valve (a = 1), shares those derivatives for every a, and ends at arccos(-a).",
+                      "A lobe is the light that a surface reflects, over the angle t between its normal and the light. Left: Lambert's "
+                      "max(0, cos t), Valve's ((cos t + 1)/2)^2, and Green's max(0, cos t + w)/(1 + w) at the wrap w = 1. At t = 0 Valve's "
+                      "lobe has the first two derivatives of the cosine; Green's is flatter. Right: Sloan's (max(0, cos t + a)/(1 + a))^(1 "
+                      "+ a) with the wrap a. It is Lambert's at a = 0 and Valve's at a = 1, has those derivatives for every a, and is 0 "
+                      "from arccos(-a) on.",
                   .parts = {PlotRow{models, family}}};
 }
 
@@ -74,12 +74,12 @@ Result<Figure> make_sh_error_figure() {
     plot.series[2].dash = "2 3";
     plot.width = 620;
     plot.height = 380;
-    return Figure{.caption = fmt::format("The absolute error is the square root of the integral over the sphere of (f - f_3)^2, where f = "
-                                         "(max(0, cos t + a)/(1 + a))^(1 + a) and "
-                                         "f_3 is its series of three bands (nine coefficients). It falls from {:.6f} at a = 0, Lambert's "
-                                         "cosine, over {:.6f} at a = 1/2 to {:g} at "
-                                         "a = 1, where the lobe is a polynomial of degree two in cos t. Which scale the source plots it "
-                                         "does not say; all three have this shape.",
+    return Figure{.caption = fmt::format("The absolute error is the square root of the integral over the sphere of (f - f_3)^2. Here f = "
+                                         "(max(0, cos t + a)/(1 + a))^(1 + a), t is the angle between normal and light, and f_3 is the "
+                                         "series of three bands of spherical harmonics (nine coefficients). The error falls from {:.6f} "
+                                         "at a = 0, Lambert's cosine, to {:.6f} at a = 1/2 and {:g} at a = 1, where the lobe is a "
+                                         "polynomial of degree two in cos t. The source does not say which scale it plots; all three "
+                                         "curves have the same shape.",
                                          l2(0), l2(0.5), l2(1)),
                   .parts = {PlotRow{plot}}};
 }
@@ -97,15 +97,15 @@ Result<Figure> make_band_energy_figure() {
     for (Plot* plot : {&low, &high}) plot->width = 460, plot->height = 360;
     high.legend = LegendPlace::none;
     const auto first_three = [](double a) { return 100.0 * (energy_share(a, 0) + energy_share(a, 1) + energy_share(a, 2)); };
-    return Figure{.caption = fmt::format("The share of band l in the integral of f^2 over the sphere, for Sloan's lobe as an order-6 "
-                                         "kernel: (2l + 1)(pi/4) f_l^2 / |f|^2, with the "
-                                         "band factors f_l and the closed form of |f|^2. As a grows the energy moves to the lower bands: "
-                                         "the first three hold {:.3f}% at a = 0, {:.3f}% "
-                                         "at a = 1/2 and {:.3f}% at a = 1, where bands 3 to 5 are exactly 0. Bands 3 and 5 are 0 at a = 0 "
-                                         "too, and band 4 once in between, so no "
-                                         "single band falls all the way.",
-                                         first_three(0), first_three(0.5), first_three(1)),
-                  .parts = {PlotRow{low, high}}};
+    return Figure{
+        .caption = fmt::format("The energy of a lobe f is the integral |f|^2 of f^2 over the sphere. For Sloan's lobe with the wrap "
+                               "a, the plots show the share of each band l of spherical harmonics, (2l + 1)(pi/4) f_l^2 / |f|^2, "
+                               "with the band's factor f_l and the closed form of |f|^2. As a grows, energy moves to the lower "
+                               "bands: the first three hold {:.3f}% at a = 0, {:.3f}% at a = 1/2 and {:.3f}% at a = 1, where "
+                               "bands 3 to 5 are exactly 0. Bands 3 and 5 are also 0 at a = 0, and band 4 is 0 once in between, "
+                               "so none of these three falls steadily.",
+                               first_three(0), first_three(0.5), first_three(1)),
+        .parts = {PlotRow{low, high}}};
 }
 
 }  // namespace halflit::cli

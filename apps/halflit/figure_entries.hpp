@@ -1,11 +1,11 @@
-// The figures themselves; figure_entries.cpp lists them with their names and sources.
+// Functions that make the figures; figure_entries.cpp lists them with their names and sources.
 #pragma once
 
 #include "apps/halflit/figure.hpp"
 
 namespace halflit::cli {
 
-// figure_curves.cpp: numbers alone
+// figure_curves.cpp: curves without pictures
 [[nodiscard]] Result<Figure> make_curves_figure();
 [[nodiscard]] Result<Figure> make_sh_error_figure();
 [[nodiscard]] Result<Figure> make_band_energy_figure();

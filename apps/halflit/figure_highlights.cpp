@@ -1,4 +1,4 @@
-// Two shapes of highlight: the mirrored light against the half vector.
+// Two models of highlights: Phong's, by the mirrored light, and Blinn's, by the half vector.
 #include "apps/halflit/figure_entries.hpp"
 #include "apps/halflit/figure_studio.hpp"
 #include "raster/built_in/shapes.hpp"
@@ -45,8 +45,8 @@ Shot floor_shot(SpecularModel specular) {
     return shot;
 }
 
-/// Brightness over the angle by which the normal leaves the half vector, when the eye looks into the mirrored light at an incidence of
-/// `incidence_deg`: in the plane of eye and light, or across it.
+/// Brightness over the angle between normal and half vector. At angle 0 the eye sees the mirrored light, at an incidence of
+/// `incidence_deg`. The normal turns in the plane of eye and light or, if `across`, at a right angle to it.
 PlotSeries shape(std::string name, bool phong, bool across, double incidence_deg) {
     const double s = shading::specular_exponent(static_cast<double>(kRoughness)), cos_i = std::cos(incidence_deg * kPi / 180.0);
     PlotSeries series{.name = std::move(name), .points = {}, .color = phong ? "#d55e00" : "#0072b2", .dash = phong ? "" : "6 3"};
@@ -78,14 +78,15 @@ Result<Figure> make_highlights_figure() {
         plot.width = 400;
         plots.push_back(std::move(plot));
     }
-    return Figure{.caption = fmt::format("Phong's (R.V)^p, R the mirrored light, and Blinn's (N.H)^s, H the half vector, on lacquer of "
-                                         "roughness {:g}: s = {:.0f} and p = s/4, because R "
-                                         "turns twice as fast as H. Both are times N.L and normalised by (s + 8)/8, which the source does "
-                                         "not do. On the ball the two are alike; "
-                                         "at grazing angles Blinn's highlight grows long, as on a wet road, while Phong's stays round. One "
-                                         "directional light of strength 1.5.",
-                                         static_cast<double>(kRoughness), shading::specular_exponent(static_cast<double>(kRoughness))),
-                  .parts = {std::move(*pictures), std::move(plots)}};
+    return Figure{
+        .caption = fmt::format("Phong's highlight is (R.V)^p, Blinn's is (N.H)^s: N is the normal, L the direction to the light, V "
+                               "that to the eye, R the mirrored L, and H is half-way between L and V. On lacquer of roughness "
+                               "{:g}, s = {:.0f}, and p = s/4 because R turns twice as fast as H. Both are multiplied by N.L and "
+                               "normalised by (s + 8)/8, which the source does not do. On the ball the two look alike. At "
+                               "grazing angles Blinn's highlight grows long, as on a wet road, while Phong's stays round. One "
+                               "directional light of strength 1.5.",
+                               static_cast<double>(kRoughness), shading::specular_exponent(static_cast<double>(kRoughness))),
+        .parts = {std::move(*pictures), std::move(plots)}};
 }
 
 }  // namespace halflit::cli

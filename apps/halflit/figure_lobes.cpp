@@ -19,7 +19,7 @@ Shot lit(Shot shot, Vec3f direction, float strength) {
     return shot;
 }
 
-/// scale * f over the cosine, -1 to 1.
+/// The lobe, with its scale, over the cosine from -1 to 1.
 PlotSeries over_cosine(std::string name, const Lobe& lobe, std::string color = {}, std::string dash = {}) {
     const sh::WrapLobe in_double{
         static_cast<double>(lobe.wrap), static_cast<double>(lobe.power),
@@ -43,8 +43,9 @@ Result<Figure> make_wrap_form_figure() {
     return Figure{
         .caption =
             "One directional light of strength 1 from the right, a little above and behind (direction 1, 0.35, -0.3), on a bust whose "
-            "diffuse lobe is Sloan's, (max(0, cos t + a)/(1 + a))^(1 + a). No ambient light, no shadows. The further the lobe reaches "
-            "round the terminator, the softer the form.",
+            "diffuse lobe is Sloan's, (max(0, cos t + a)/(1 + a))^(1 + a), with t the angle between normal and light. No ambient light, no "
+            "shadows. The terminator is the line where the surface turns away from the light. The further the lobe reaches beyond it, the "
+            "softer the form looks.",
         .parts = {std::move(*pictures)}};
 }
 
@@ -57,21 +58,22 @@ Result<Figure> make_backlight_figure() {
         return shot;
     });
     if (!pictures) return tl::unexpected(pictures.error());
-    return Figure{.caption =
-                      "A white sphere with a directional light of strength 2 directly behind it: all that is seen has cos t <= 0. Left: (1 "
-                      "+ cos t)/2, "
-                      "1 at the outline after exposure. Right: its square, ((1 + cos t)/2)^2, which leaves a narrower and dimmer rim.",
-                  .parts = {std::move(*pictures)}};
+    return Figure{
+        .caption =
+            "A white sphere with a directional light of strength 2 directly behind it. With t the angle between normal and light, "
+            "all visible points have cos t <= 0. Left: (1 + cos t)/2, which times the strength is 1 at the outline. Right: its "
+            "square, ((1 + cos t)/2)^2, which leaves a narrower and dimmer rim.",
+        .parts = {std::move(*pictures)}};
 }
 
 Result<Figure> make_green_sloan_figure() {
-    Figure figure{.caption =
-                      "White matter under one directional light of strength 1 from the upper right (direction 1, 1, 0.6), no ambient "
-                      "light. Upper rows: "
-                      "Green's lobe max(0, cos t + w)/(1 + w); lower rows: Sloan's (max(0, cos t + a)/(1 + a))^(1 + a). Both are Lambert's "
-                      "at 0. At 1 "
-                      "Green's is much flatter, while Sloan's keeps the highlight of the cosine.",
-                  .parts = {}};
+    Figure figure{
+        .caption =
+            "White matte surfaces under one directional light of strength 1 from the upper right (direction 1, 1, 0.6), no ambient "
+            "light; t is the angle between normal and light. Upper rows: Green's lobe max(0, cos t + w)/(1 + w). Lower rows: "
+            "Sloan's (max(0, cos t + a)/(1 + a))^(1 + a). Both are Lambert's at 0. At 1 Green's is much flatter, while Sloan's "
+            "keeps the cosine's shape around its peak.",
+        .parts = {}};
     for (const Subject subject : kSubjects) {
         PictureGrid grid{.columns = {"0", "1/4", "1/2", "3/4", "1"}, .rows = {"Green, w =", "Sloan, a ="}, .width = 150};
         auto pictures = take_grid(std::move(grid), [&](std::size_t row, std::size_t column) {
@@ -85,7 +87,7 @@ Result<Figure> make_green_sloan_figure() {
 }
 
 Result<Figure> make_normalized_figure() {
-    constexpr float kStrength = 0.6f;  // the brightest factor is 5/3
+    constexpr float kStrength = 0.6f;  // 0.6 * 5/3, the largest normalising factor, is 1
     const Lobe lobes[] = {Lobe::valve(), Lobe::sloan(0.5f), {0.5f, 4.0f, false}};
     const auto normalized = [](Lobe lobe, bool on) {
         lobe.normalize = on;
@@ -115,12 +117,11 @@ Result<Figure> make_normalized_figure() {
     }
     return Figure{
         .caption =
-            "(max(0, cos t + w)/(1 + w))^n as it is, and times (n + 1)/(2(1 + w)), which makes the mean over all light directions "
-            "Lambert's: "
-            "factors 3/4, 5/6 and 5/3. Normalising makes the first two darker and the last one brighter. One directional light of strength "
-            "0.6 "
-            "(direction 0.8, 0.6, 0.5), chosen so that nothing clips. Single directions may reflect more than arrives; it is the mean that "
-            "is kept.",
+            "The lobe (max(0, cos t + w)/(1 + w))^n as it is, and normalised: times (n + 1)/(2(1 + w)), which makes the mean over all "
+            "light "
+            "directions Lambert's. Here t is the angle between normal and light. The factors are 3/4, 5/6 and 5/3, so the first two lobes "
+            "get darker and the last one brighter. One directional light of strength 0.6 (direction 0.8, 0.6, 0.5), chosen so that nothing "
+            "clips. From single directions more light may be reflected than arrives; only the mean is kept.",
         .parts = {std::move(*pictures), PlotRow{plot}}};
 }
 
@@ -150,11 +151,10 @@ Result<Figure> make_half_lambert_figure() {
     }
     return Figure{
         .caption =
-            "One directional light of strength 1 (direction 1, 0.7, 0.25), no ambient light, sRGB output and nothing else. Lambert leaves "
-            "half of "
-            "the form black; half-Lambert shows all of it, too brightly; its square has Lambert's values and slopes at x = -1 and x = 1. "
-            "Both are "
-            "exact for other skies: half-Lambert is Lambert under a hemisphere of constant light, its square under one of 2 cos^2.",
+            "One directional light of strength 1 (direction 1, 0.7, 0.25), no ambient light, sRGB output and nothing else; x = N.L is the "
+            "cosine between normal and light. Lambert leaves half of the form black. Half-Lambert shows all of it, but too brightly. Its "
+            "square has Lambert's values and slopes at x = -1 and x = 1. Both are exactly Lambert under other lights: half-Lambert under a "
+            "hemisphere of constant light, its square under a hemisphere of 2 cos^2 of the angle to its axis.",
         .parts = {std::move(*pictures), std::move(plots)}};
 }
 

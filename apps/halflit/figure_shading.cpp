@@ -1,4 +1,4 @@
-// How often light is evaluated, and where it comes from.
+// Figures of shading rates and of types of light.
 #include "apps/halflit/figure_entries.hpp"
 #include "apps/halflit/figure_studio.hpp"
 #include "raster/built_in/shapes.hpp"
@@ -13,7 +13,7 @@ using shading::Light;
 using shading::LightType;
 using shading::Lobe;
 
-constexpr int kSlices = 16, kStacks = 10;  ///< of the coarse sphere
+constexpr int kSlices = 16, kStacks = 10;  ///< slices and stacks of the coarse sphere
 
 Shot coarse_sphere(shading::ShadingRate rate, bool glossy) {
     Shot shot = empty_shot();
@@ -57,13 +57,14 @@ Result<Figure> make_shading_rates_figure() {
     auto pictures =
         take_grid(std::move(grid), [&](std::size_t row, std::size_t column) { return coarse_sphere(kRates[column], row == 1); });
     if (!pictures) return tl::unexpected(pictures.error());
-    return Figure{
-        .caption = fmt::format(
-            "The same {} triangles three times, under one directional light and a little ambient: light evaluated once a triangle with its "
-            "own normal, once a vertex and interpolated, and once a pixel with the interpolated normal. Lambert's lobe; below with a "
-            "highlight of roughness 0.32. A highlight smaller than a triangle is smeared or lost between vertices.",
-            2 * kSlices * (kStacks - 1)),
-        .parts = {std::move(*pictures)}};
+    return Figure{.caption = fmt::format(
+                      "The same {} triangles three times, under one directional light and a little ambient light. Light is computed once "
+                      "per triangle "
+                      "with the triangle's normal, once per vertex and interpolated, and once per pixel with the interpolated normal. "
+                      "Lambert's lobe; "
+                      "below with a highlight of roughness 0.32. A highlight smaller than a triangle is smeared or lost between vertices.",
+                      2 * kSlices * (kStacks - 1)),
+                  .parts = {std::move(*pictures)}};
 }
 
 Result<Figure> make_light_sources_figure() {
@@ -80,13 +81,13 @@ Result<Figure> make_light_sources_figure() {
     return Figure{
         .caption =
             "Four balls on a floor, Lambert's lobe, a little ambient light, and shadow maps. Directional: the same light everywhere, from "
-            "(-1, 1.4, 0.8), "
-            "strength 0.9; shadows are parallel. Point: at (0, 1.5, 0) between the balls, strength 2 at distance 1, falling with the "
-            "square of the "
-            "distance; shadows spread from below it. Spot: from (-1.4, 2.8, 1.2) towards (0, 0, -0.1), strength 9 on its axis at "
-            "distance 1, times the cosine to the axis to the power of 6, within 0.4 radians of it; it falls with distance too, which the "
-            "source's "
-            "does not.",
+            "(-1, 1.4, 0.8), strength 0.9; shadows are parallel. Point: at (0, 1.5, 0) between the balls, strength 2 at distance 1, "
+            "falling "
+            "with the square of the distance; shadows point away from the light. Spot: from (-1.4, 2.8, 1.2) towards (0, 0, -0.1), "
+            "strength "
+            "9 on its axis at distance 1. Away from the axis it is multiplied by the sixth power of the cosine of the angle, and it ends "
+            "at "
+            "0.4 radians. It falls with the square of the distance too, unlike the source's.",
         .parts = {std::move(*pictures)}};
 }
 

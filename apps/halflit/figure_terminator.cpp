@@ -1,4 +1,4 @@
-// What shadow maps do to light that wraps: three bodies, three modes, five wraps, and the light measured across the terminator.
+// Effect of shadow maps on wrapped light: three bodies, three modes, five wraps, and profiles of the light across the terminator.
 #include "apps/halflit/figure_entries.hpp"
 #include "apps/halflit/figure_studio.hpp"
 #include "raster/built_in/shapes.hpp"
@@ -21,7 +21,7 @@ Shot shot_of(Body body, ShadowMode mode, float wrap) {
     Shot shot = empty_shot();
     const bool coarse = body == Body::coarse;
     add_object(shot, raster::make_sphere(1.0f, coarse ? 32 : 256, coarse ? 16 : 128), matte(shading::Lobe::sloan(wrap)));
-    // Far enough for its blocker distance to be beyond any fade, and out of the picture.
+    // The ball is outside the picture, and farther from the body than wrapped light takes to fade.
     if (body == Body::shadowed) add_object(shot, raster::make_sphere(0.2f, 96, 48), matte(shading::Lobe::lambert()), {5.0f, 0.0f, 0.8f});
     shot.camera = front_camera(1.08f);
     shot.scene.lights = {light_from({1, 0, 0})};
@@ -29,7 +29,7 @@ Shot shot_of(Body body, ShadowMode mode, float wrap) {
     return shot;
 }
 
-/// Linear light along a row of pixels a tenth above the middle, over x, which is N.L on a sphere that is lit from the right.
+/// Profile of linear light over x, along a row of pixels a tenth of the radius above the middle. On a sphere lit from the right, x is N.L.
 Result<PlotSeries> profile(Body body, ShadowMode mode, float wrap) {
     constexpr int kPixels = 600, kRow = kPixels * 45 / 100;
     Shot shot = shot_of(body, mode, wrap);
@@ -69,7 +69,7 @@ Result<PlotRow> profiles(Body body) {
     return plots;
 }
 
-/// The largest x below which less than half of the light is left.
+/// The largest x where `cut` has less than half of the light of `whole`; -1 if there is none.
 double cut_at(const PlotSeries& whole, const PlotSeries& cut) {
     double x = -1;
     for (std::size_t i = 0; i < cut.points.size(); ++i)
@@ -106,18 +106,14 @@ Result<Figure> make_terminator_figure() {
     }
     figure.caption = fmt::format(
         "White bodies of radius 1 with Sloan's lobe f, one directional light of strength 1 from the right, a shadow map of 2048 texels. "
-        "Rows: shadows off "
-        "(f), hard (f times visibility), soft-split (Lambert's part times visibility, the wrapped rest fading with the distance to the "
-        "blocker, here over "
-        "2a). The plots are the pictures' linear light, read along a row of pixels a tenth above the middle; on the sphere x is N.L and "
-        "the first plot is f. "
-        "Where a body turns away from the light, x = 0, hard visibility cuts f off, a step of f(0) = (a/(1 + a))^(1 + a): 0, 0.134, 0.192, "
-        "0.227 and 0.250 for "
-        "the five wraps. Because the map is looked up 3 texels off the surface, the cut is seen at x = {:.2f} on the sphere and at {:.2f} "
-        "on the coarse one, "
-        "whose edges show. Soft-split is f on the lit side, continuous where the body turns away, and dark on both sides where the ball, "
-        "of radius 0.2 and "
-        "5 away towards the light, casts its shadow.",
+        "Rows: shadows off (f); hard (f times visibility); soft-split (Lambert's part times visibility, while the wrapped rest fades with "
+        "the distance to the blocker, here over 9a/4). The plots show linear light along a row of pixels a tenth of the radius above the "
+        "middle. On the sphere x is N.L, the cosine between normal and light, and the first plot is f. The terminator, where a body turns "
+        "away from the light, is at x = 0. There hard visibility cuts f off, a step of f(0) = (a/(1 + a))^(1 + a): 0, 0.134, 0.192, 0.227 "
+        "and 0.250 for the five wraps. Because the map is looked up 3 texels off the surface, the step is seen at x = {:.2f} on the sphere "
+        "and at {:.2f} on the coarse one, whose edges show. Soft-split is f on the lit side and continuous at the terminator. In the "
+        "shadow "
+        "of the ball, which has radius 0.2 and is 5 away towards the light, it is dark on both sides.",
         cuts[0], cuts[1]);
     return figure;
 }

@@ -1,4 +1,4 @@
-// halflit figures: the sources' figures, remade.
+// halflit figures: remakes figures of the literature.
 #include "apps/halflit/cli_support.hpp"
 #include "apps/halflit/commands.hpp"
 #include "apps/halflit/figure.hpp"
@@ -37,7 +37,7 @@ Result<const FigureEntry*> entry_named(const std::string& name) {
     return fail(ErrorCode::usage, fmt::format("NAME: expected one of {}; found '{}'", known, printable(name)));
 }
 
-/// Every name is checked before anything is made; a name that is said twice counts once.
+/// Every name is checked before anything is made; a name that is given twice counts once.
 Result<std::vector<const FigureEntry*>> chosen_entries(const std::vector<std::string>& names) {
     std::vector<const FigureEntry*> entries;
     for (const std::string& name : names) {
@@ -92,17 +92,17 @@ Result<int> run_figures(const FiguresOptions& options) {
 Command add_figures_command(CLI::App& root) {
     CLI::App* app = root.add_subcommand("figures", "Remake the figures of the literature, with captions that say what was computed");
     const auto options = std::make_shared<FiguresOptions>();
-    app->add_option("NAME", options->names, "Which figures; without one all of them, and an index.html (see --list)")->type_name("");
-    add_value(*app, "-o,--output", "DIR", "Where the files go; made where it is missing (default figures)",
+    app->add_option("NAME", options->names, "Figures to make (see --list); without a name, all of them and an index.html")->type_name("");
+    add_value(*app, "-o,--output", "DIR", "Folder for the files; created if missing (default figures)",
               [options](const std::string& text) { return assign(options->folder, parse_folder(text)); });
     add_value(*app, "--format", "svg|png",
-              "Pictures on a page with their labels and caption, or one sheet without text; plots are always SVG",
+              "svg: a page of pictures and plots with labels and caption (default); png: one sheet of pictures without text, plots as SVG",
               [options](const std::string& text) -> Result<void> {
                   if (text != "svg" && text != "png") return fail(ErrorCode::usage, "expected svg or png, found '" + printable(text) + "'");
                   options->format = text == "svg" ? FigureFormat::svg : FigureFormat::png;
                   return {};
               });
-    app->add_flag("--list", options->list, "Name all figures and their sources");
+    app->add_flag("--list", options->list, "List all figures and their sources");
     return {app, [options] { return run_figures(*options); }};
 }
 

@@ -1,4 +1,4 @@
-// halflit info: what is in a scene, and what drawing it requires.
+// halflit info: describes a scene, and what drawing it requires.
 #include "apps/halflit/cli_support.hpp"
 #include "apps/halflit/commands.hpp"
 #include "apps/halflit/messages.hpp"
@@ -34,10 +34,10 @@ Result<int> run_info(const InfoOptions& options) {
 }  // namespace
 
 Command add_info_command(CLI::App& root) {
-    CLI::App* app = root.add_subcommand("info", "Say what is in a scene, and what drawing it requires");
+    CLI::App* app = root.add_subcommand("info", "Describe a scene, and what drawing it requires");
     const auto options = std::make_shared<InfoOptions>();
     add_render_options(*app, *options, true, kUsualSize);
-    app->add_flag("--json", options->json, "As one JSON object")->group("Output");
+    app->add_flag("--json", options->json, "Print one JSON object")->group("Output");
     return {app, [options] { return run_info(*options); }};
 }
 

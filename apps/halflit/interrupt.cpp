@@ -30,7 +30,7 @@ void wait_for_signal(sigset_t taken) {
     if (sigwait(&taken, &signal) != 0) return;
     io::abandon_files();
     print_error("interrupted by signal " + std::to_string(signal));
-    // Never unlocked: whoever wants to change the last words now waits for the end.
+    // Never unlocked: a thread that calls set_last_words now waits until the process ends.
     last_words_mutex.lock();
     if (last_words) last_words(signal);
     end_by(signal);
@@ -55,7 +55,7 @@ void handle_signals() {
     try {
         std::thread(wait_for_signal, taken).detach();
     } catch (const std::system_error&) {
-        pthread_sigmask(SIG_UNBLOCK, &taken, nullptr);  // no thread to be had: the default action must do
+        pthread_sigmask(SIG_UNBLOCK, &taken, nullptr);  // the thread could not start: the default action stays
     }
 }
 

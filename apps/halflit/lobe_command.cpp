@@ -1,4 +1,4 @@
-// halflit lobe: a shading model's curve, its bands, and what a series of N bands makes of it.
+// halflit lobe: a diffuse lobe's curve, its bands (coefficients in spherical harmonics), and the error of its series of N bands.
 #include "apps/halflit/cli_support.hpp"
 #include "apps/halflit/commands.hpp"
 #include "apps/halflit/lobe_model.hpp"
@@ -16,7 +16,7 @@
 namespace halflit::cli {
 namespace {
 
-constexpr int kSamples = 201;  ///< of the cosine, -1 to 1
+constexpr int kSamples = 201;  ///< samples of the cosine from -1 to 1
 
 struct LobeOptions {
     LobeModelOptions model;
@@ -49,7 +49,7 @@ Json describe(const LobeModel& model) {
     return json;
 }
 
-/// The curve over the cosine, 61 columns by 12 rows.
+/// Text plot of the curve over the cosine, 61 columns by 12 rows.
 std::string curve(const sh::WrapLobe& lobe) {
     constexpr int kColumns = 61, kRows = 12;
     std::vector<std::string> rows(kRows, std::string(kColumns, ' '));
@@ -68,13 +68,16 @@ std::string curve(const sh::WrapLobe& lobe) {
 
 std::string description(const LobeModel& model) {
     const sh::WrapLobe& lobe = model.lobe;
-    std::string text = fmt::format("{}: {:.6g} * max(0, (x + {:.6g}) / {:.6g})^{:.6g}, x = N.L\n\n{}\n", model.name, lobe.scale, lobe.wrap,
-                                   1.0 + lobe.wrap, lobe.power, curve(lobe));
-    text += fmt::format("boundary       {:.4f} degrees, where the slope df/dx is {:.6g}\n", std::acos(-lobe.wrap) * 180.0 / kPi,
-                        sh::slope_at_boundary(lobe));
-    text += fmt::format("normalization  {:.6g} makes a sky of constant light as bright as with Lambert\n\n",
+    std::string text =
+        fmt::format("{}: {:.6g} * max(0, (x + {:.6g}) / {:.6g})^{:.6g}, x = N.L, the cosine between normal and light\n\n{}\n", model.name,
+                    lobe.scale, lobe.wrap, 1.0 + lobe.wrap, lobe.power, curve(lobe));
+    text += fmt::format("boundary       {:.4f} degrees, where the lobe ends with the slope df/dx = {:.6g}\n",
+                        std::acos(-lobe.wrap) * 180.0 / kPi, sh::slope_at_boundary(lobe));
+    text += fmt::format("normalization  {:.6g}, the factor that makes the mean over all light directions Lambert's\n\n",
                         sh::normalizing_scale(lobe.wrap, lobe.power));
-    text += "band            f_l    order      L2 error     max error  lowest value\n";
+    text +=
+        "Bands f_l of the lobe, and the error of its series of bands 0 to order - 1:\n"
+        "band            f_l    order      L2 error     max error  lowest value\n";
     const sh::BandFactors f = sh::zonal_bands(lobe);
     for (int l = 0; l < sh::kMaxBands; ++l) {
         const sh::TruncationError error = sh::truncation_error(lobe, l + 1);
@@ -99,17 +102,19 @@ Result<int> run_lobe(const LobeOptions& options) {
 }  // namespace
 
 Command add_lobe_command(CLI::App& root) {
-    CLI::App* app = root.add_subcommand("lobe", "Describe a shading model: its curve, its bands, the error of a short series");
+    CLI::App* app = root.add_subcommand(
+        "lobe", "Describe a diffuse lobe: its curve, its bands of spherical harmonics, and the error of a series of few bands");
     const auto options = std::make_shared<LobeOptions>();
     app->add_option("MODEL", options->model.name, "lambert, green, half-lambert, valve, sloan or mcauley")->required()->type_name("");
-    add_value(*app, "--wrap", "W", "How far light reaches round, 0 to 1 (green, sloan, mcauley: 0.5)",
+    add_value(*app, "--wrap", "W",
+              "Wrap, 0 to 1: light reaches surfaces whose cosine to the light is above -W (default for green, sloan, mcauley: 0.5)",
               [options](const std::string& text) { return assign(options->model.wrap, parse_wrap(text)); });
-    add_value(*app, "--power", "N", "Exponent, 0 to 10000 (sloan, mcauley: 1 + W)",
+    add_value(*app, "--power", "N", "Exponent, 0 to 10000 (default for sloan, mcauley: 1 + W)",
               [options](const std::string& text) { return assign(options->model.power, parse_power(text)); });
     app->add_flag_function(
         "--normalize,!--no-normalize", [options](std::int64_t count) { options->model.normalize = count > 0; },
         "Scale so that the mean over all light directions is Lambert's");
-    app->add_flag("--json", options->json, "As one JSON object");
+    app->add_flag("--json", options->json, "Print one JSON object");
     return {app, [options] { return run_lobe(*options); }};
 }
 

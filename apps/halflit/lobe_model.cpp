@@ -25,7 +25,7 @@ Result<double> parse_double(std::string_view text, std::string_view expected) {
     return value;
 }
 
-/// A number from 0 to `most`; `why` says why another one is refused.
+/// A number from 0 to `most`; `why` gives the reason for refusing another one.
 Result<double> parse_parameter(const std::string& text, double most, const char* (*why)(double)) {
     const std::string expected = fmt::format("a number from 0 to {:g}", most);
     const auto value = parse_double(text, expected);

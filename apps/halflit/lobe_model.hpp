@@ -1,4 +1,5 @@
-// Lobes by name in double, for reports whose numbers are compared with closed forms; what is rendered is io::lobe_from_name's, in float.
+// Lobes by name in double, for reports whose numbers are compared with closed forms. Rendering takes them from io::lobe_from_name, in
+// float.
 #pragma once
 
 #include "sh/zonal.hpp"
@@ -11,7 +12,7 @@ namespace halflit::cli {
 
 struct LobeModelOptions {
     std::string name;
-    std::optional<double> wrap, power;  ///< what is not said is what the name stands for
+    std::optional<double> wrap, power;  ///< empty: the value that the name stands for
     std::optional<bool> normalize;
 };
 
@@ -20,9 +21,9 @@ struct LobeModel {
     sh::WrapLobe lobe;
 };
 
-/// w in [0, 1]; the error says why not another one.
+/// Wrap w in [0, 1]; the error says why another value is refused.
 [[nodiscard]] Result<double> parse_wrap(const std::string& text);
-/// n in [0, 10000].
+/// Power n in [0, 10000].
 [[nodiscard]] Result<double> parse_power(const std::string& text);
 
 [[nodiscard]] Result<LobeModel> make_lobe_model(const LobeModelOptions& options);

@@ -20,10 +20,11 @@ namespace {
 using namespace halflit;
 using namespace halflit::cli;
 
-/// With a standard stream closed, the next file opened would take its number, and messages would end up in it.
+/// Opens /dev/null for each closed standard stream. Otherwise the next file opened would get that stream's number, and messages would be
+/// written into it.
 void occupy_standard_streams() {
     for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-        // Wrong way round on purpose: reading from or writing to a stream that was closed stays an error.
+        // Opened for the opposite direction, so that reading from or writing to the closed stream stays an error.
         if (::fcntl(fd, F_GETFD) == -1) (void)::open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 

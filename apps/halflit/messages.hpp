@@ -1,4 +1,4 @@
-// What the program says to people: one line each, on standard error. Standard output is for data.
+// Messages to people: one line each, on standard error. Standard output is for data.
 #pragma once
 
 #include "apps/io/text.hpp"
@@ -8,11 +8,11 @@
 
 namespace halflit::cli {
 
-/// Text of any length with control characters and what is not UTF-8 escaped, so that a name from a file cannot drive the terminal or fake a
-/// second line.
+/// Escapes control characters and bytes that are not UTF-8, in text of any length. So a name from a file cannot control the terminal or
+/// forge a second line.
 [[nodiscard]] inline std::string printable(std::string_view text) { return io::printable(text, std::string_view::npos); }
 
-/// "halflit: error: MESSAGE". An empty message says nothing.
+/// "halflit: error: MESSAGE". Prints nothing for an empty message.
 void print_error(std::string_view message);
 /// "halflit: warning: MESSAGE"
 void print_warning(std::string_view message);

@@ -10,10 +10,10 @@ namespace halflit::cli {
 /// The value of `-o DIR`; not empty, and not standard output.
 [[nodiscard]] Result<std::string> parse_folder(const std::string& text);
 
-/// Makes it, and those above it, where missing.
+/// Creates the folder and its parents where they are missing.
 Result<void> make_folder(const std::string& path);
 
-/// To a file (replaced in one step) or "-".
+/// Writes to a file, which is replaced in one step, or to standard output ("-").
 Result<void> write_text(const std::string& path, const std::string& text);
 
 }  // namespace halflit::cli

@@ -1,4 +1,4 @@
-// The distance between two pictures of the same size, in 8-bit codes over red, green, blue and alpha.
+// The difference of two pictures of the same size, in 8-bit codes over red, green, blue and alpha.
 #pragma once
 
 #include "raster/framebuffer.hpp"
@@ -11,13 +11,13 @@ namespace halflit::cli {
 struct PictureDiff {
     int max = 0;               ///< largest difference of any channel
     std::uint64_t count = 0;   ///< pixels in which any channel differs
-    std::uint64_t pixels = 0;  ///< of each picture
-    std::uint64_t sum = 0;     ///< of absolute differences over all channels
+    std::uint64_t pixels = 0;  ///< pixels of each picture
+    std::uint64_t sum = 0;     ///< sum of absolute differences over all channels
     std::uint64_t sum_squares = 0;
 
-    /// Over all channels of all pixels.
+    /// Mean absolute difference over all channels of all pixels.
     [[nodiscard]] double mean() const;
-    /// 10 log10(255^2 / mean square); nothing when the pictures are equal.
+    /// 10 log10(255^2 / mean square); empty if the pictures are equal.
     [[nodiscard]] std::optional<double> psnr() const;
 };
 

@@ -1,4 +1,4 @@
-// What users read instead of the plan's numbers.
+// Names for the plan's enumerators, in flags and reports.
 #pragma once
 
 #include "shading/plan/plan.hpp"
@@ -8,7 +8,7 @@
 
 namespace halflit::cli {
 
-/// By bit of shading::Stage.
+/// Indexed by the bit of shading::Stage.
 inline constexpr std::string_view kStageNames[shading::kStageCount] = {"base colour texture",
                                                                        "vertex colour",
                                                                        "normal map",
@@ -23,13 +23,13 @@ inline constexpr std::string_view kStageNames[shading::kStageCount] = {"base col
                                                                        "light at vertices or triangles",
                                                                        "environment"};
 
-/// By shading::LightType.
+/// Indexed by shading::LightType.
 inline constexpr std::string_view kLightTypeNames[] = {"directional", "point", "spot"};
 
 inline constexpr std::string_view kAccuracyNames[] = {"reference", "exact", "display", "fast"};
 constexpr std::string_view accuracy_name(shading::Accuracy accuracy) { return kAccuracyNames[static_cast<std::size_t>(accuracy)]; }
 
-/// By shading::SpecularModel.
+/// Indexed by shading::SpecularModel.
 inline constexpr std::string_view kSpecularNames[] = {"none", "phong", "blinn"};
 
 constexpr std::string_view tier_name(shading::PowTier tier) {
@@ -37,11 +37,12 @@ constexpr std::string_view tier_name(shading::PowTier tier) {
     return kNames[static_cast<std::size_t>(tier)];
 }
 
-/// How a material's highlights are computed.
+/// Method for a material's highlights: a fitted curve, or a tier of polynomials.
 constexpr std::string_view specular_power_name(const shading::MaterialPlan& plan) {
     return plan.specular_curve.squarings >= 0 ? "curve" : tier_name(plan.specular_tier);
 }
 
+/// Method for a lobe t^n, t = max(0, (N.L + w) / (1 + w)) with wrap w and power n.
 constexpr std::string_view lobe_path_name(shading::LobePath path) {
     constexpr std::string_view kNames[] = {"step", "t", "t*t", "t*sqrt(t)", "t^n, n whole", "t^n", "t^n as a curve"};
     return kNames[static_cast<std::size_t>(path)];

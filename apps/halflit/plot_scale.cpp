@@ -9,7 +9,7 @@ namespace halflit::cli {
 namespace {
 
 constexpr int kWantedTicks = 5;
-constexpr double kFarBelow = -10.0;  ///< axis lengths; the line to there is cut at the edge
+constexpr double kFarBelow = -10.0;  ///< position of values without a logarithm, in axis lengths; a line to there is clipped at the edge
 
 /// The step 1, 2 or 5 times a power of ten that gives about the wanted number.
 double tick_step(double span) {
@@ -19,7 +19,7 @@ double tick_step(double span) {
     return 10.0 * power;
 }
 
-/// A typographic minus, and no negative zero.
+/// A number with a typographic minus and without negative zero.
 std::string number(double value) {
     std::string text = fmt::format("{:.6g}", value == 0.0 ? 0.0 : value);
     if (text.starts_with('-')) text.replace(0, 1, "\u2212");
@@ -80,7 +80,7 @@ std::vector<PlotTick> PlotScale::ticks() const {
 std::vector<PlotTick> PlotScale::log_ticks() const {
     std::vector<PlotTick> ticks;
     const int first = static_cast<int>(std::floor(min_)), last = static_cast<int>(std::floor(max_ + 1e-6));
-    const bool short_axis = max_ - min_ < 1.5;  // one decade line would not tell enough
+    const bool short_axis = max_ - min_ < 1.5;  // also label 2 and 5: decades alone would be too few
     const int every = std::max(1, (last - first + kWantedTicks) / (kWantedTicks + 2));
     for (int exponent = first; exponent <= last; ++exponent)
         for (int digit = 1; digit <= 9; ++digit) {

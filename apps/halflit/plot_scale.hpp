@@ -1,4 +1,4 @@
-// From values to places along an axis, and the ticks between.
+// Scale of a plot's axis: maps values to positions, and chooses ticks.
 #pragma once
 
 #include "apps/halflit/svg_plot.hpp"
@@ -10,17 +10,17 @@ namespace halflit::cli {
 
 struct PlotTick {
     double value = 0;
-    std::string label;  ///< as SVG content; empty: a small tick without a number
+    std::string label;  ///< SVG content; empty: a small tick without a number
 };
 
-/// An axis whose limits are known.
+/// An axis with known limits.
 class PlotScale {
 public:
-    /// `values` are the data's, for limits that the axis leaves open.
+    /// `values`: the data, which gives the limits that the axis leaves open.
     PlotScale(const PlotAxis& axis, const std::vector<double>& values);
 
-    /// 0 at the lower limit, 1 at the upper one; not finite where the value is not. On a logarithmic axis what has no logarithm is far
-    /// below.
+    /// Position of a value: 0 at the lower limit, 1 at the upper one; not finite if the value is not. On a logarithmic axis, 0 and negative
+    /// values are far below the lower limit.
     [[nodiscard]] double place(double value) const;
     [[nodiscard]] std::vector<PlotTick> ticks() const;
 

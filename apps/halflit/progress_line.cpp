@@ -32,7 +32,7 @@ void ProgressLine::show(std::size_t done, std::size_t all) {
 
 void ProgressLine::write(std::string line) {
     const std::size_t width = line.size();
-    if (width < width_) line.append(width_ - width, ' ');  // what stood there before
+    if (width < width_) line.append(width_ - width, ' ');  // overwrites the rest of the line before
     width_ = width;
     std::fwrite("\r", 1, 1, stderr);
     std::fwrite(line.data(), 1, line.size(), stderr);

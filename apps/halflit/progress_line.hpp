@@ -1,4 +1,4 @@
-// How far a long run is: one line on standard error that is written over again and again, and gone at the end.
+// Progress of a long run: one line on standard error, which each step overwrites and the end erases.
 #pragma once
 
 #include "apps/halflit/stopwatch.hpp"
@@ -16,14 +16,14 @@ public:
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
 
-    /// "halflit: 12 of 80, 15 %, 40 s left". What is left is told from the steps since the first call's.
+    /// "halflit: 12 of 80, 15 %, 40 s left". The time left assumes that the other steps take as long as those since construction.
     void show(std::size_t done, std::size_t all);
 
 private:
     void write(std::string line);
 
     bool shown_;
-    std::size_t width_ = 0;  ///< of the line that stands there
+    std::size_t width_ = 0;  ///< length of the line that is shown
     Stopwatch watch_;
     double last_ms_ = -1e9;
 };

@@ -1,4 +1,4 @@
-// halflit render: a scene to a picture.
+// halflit render: draws a scene into a picture.
 #include "apps/halflit/cli_support.hpp"
 #include "apps/halflit/commands.hpp"
 #include "apps/halflit/interrupt.hpp"
@@ -46,13 +46,13 @@ bool is_directory(const std::string& path) {
     return ::stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode);
 }
 
-/// Nothing that is read, and nothing that is written besides, may be overwritten by accident.
+/// Refuses output paths that would overwrite the scene or each other.
 Result<void> check_paths(const RenderCommandOptions& options) {
     if (!options.report.empty() && options.report == options.output)
-        return fail(ErrorCode::usage, "--report: expected another place than the picture's, found '" + options.report + "'");
+        return fail(ErrorCode::usage, "--report: expected another file than the picture's, found '" + options.report + "'");
     for (const std::string& path : {options.output, options.report})
         if (path != "-" && !path.empty() && !options.scene.empty() && same_file(path, options.scene))
-            return fail(ErrorCode::io, path + ": is the scene itself, and is not overwritten");
+            return fail(ErrorCode::io, path + ": is the scene itself and is not overwritten");
     return {};
 }
 
@@ -99,7 +99,7 @@ Result<int> run_render(RenderCommandOptions options) {
     report["output"] = options.output;
     const Result<void> done = render_within_memory(options, report);
     if (!done) report = error_report(static_cast<int>(done.error().code), done.error().message);
-    // A report that would hit the scene or the picture was refused above, and is not written either.
+    // No report is written if its path was refused above because it is the scene's or the picture's.
     if (!options.report.empty() && check_paths(options)) {
         const Result<void> written = write_json(options.report, report);
         if (!written && done) return tl::unexpected(written.error());
@@ -123,7 +123,7 @@ Command add_render_command(CLI::App& root) {
                   return {};
               })
         ->group(kGroup);
-    add_value(*app, "--report", "FILE.json|-", "Write what was done, in numbers; also when it fails",
+    add_value(*app, "--report", "FILE.json|-", "Write size, hash, times and counts as JSON; on failure, the error",
               [options](const std::string& text) -> Result<void> {
                   if (text.empty()) return fail(ErrorCode::usage, "expected a file name or -, found nothing");
                   options->report = text;

@@ -24,7 +24,7 @@ Result<void> check_size(PictureSize size, const raster::Region& region) {
     return {};
 }
 
-/// The largest picture of the camera's shape that fits into the usual one.
+/// The largest size with the camera's aspect ratio that fits into the usual one.
 PictureSize shaped(PictureSize usual, const raster::Camera& camera) {
     double aspect = static_cast<double>(camera.aspect);
     if (camera.orthographic) aspect = camera.half_width > 0.0f ? static_cast<double>(camera.half_width / camera.half_height) : 0.0;
@@ -44,7 +44,7 @@ Result<const raster::Camera*> find_camera(const std::vector<raster::Camera>& cam
                 fmt::format("--camera: expected an index below {} or a camera's name, found '{}'", cameras.size(), wanted));
 }
 
-/// The camera and, unless the flags did, the size. In a file's camera nothing is changed.
+/// Chooses the camera, and the size unless --size gave it. A camera of the file is used unchanged.
 Result<void> choose_view(RenderJob& job, const RenderOptions& options, PictureSize usual) {
     const std::vector<raster::Camera>& cameras = job.scene().cameras;
     const raster::Camera* chosen = cameras.empty() || options.own_view ? nullptr : &cameras.front();
@@ -61,8 +61,8 @@ Result<void> choose_view(RenderJob& job, const RenderOptions& options, PictureSi
     return check_size(size, options.settings.region);
 }
 
-/// Light from all around, in place of the ambient, and its suns. Pictures come in any unit: the exposure is chosen so that their mean
-/// light, suns included, is mid-grey on white.
+/// Replaces the ambient light by the environment, and adds its suns as lights. Returns the automatic exposure. A picture's unit is not
+/// known, so its mean light, suns included, makes a white surface 0.5. The built-in sky has exposure 1.
 Result<float> add_environment(raster::Scene& scene, const RenderOptions& options) {
     const auto image = io::environment_by_name(options.environment);
     if (!image) return tl::unexpected(image.error());
@@ -70,7 +70,7 @@ Result<float> add_environment(raster::Scene& scene, const RenderOptions& options
         image->view(), {options.environment_sun, static_cast<double>(options.environment_rotate_deg) * (kPi / 180.0),
                         options.settings.background_environment, options.settings.shading.accuracy == shading::Accuracy::reference}));
     scene.ambient = {};
-    double level = 0.28209479177387814 * sh::luminance(environment->radiance.c[0]);  // Y_0: the mean radiance
+    double level = 0.28209479177387814 * sh::luminance(environment->radiance.c[0]);  // times Y_0 = 1/(2 sqrt(pi)): the mean radiance
     for (const shading::Light& sun : environment->suns) {
         scene.lights.push_back(sun);
         level += 0.25 * sh::luminance({sun.color_linear.x, sun.color_linear.y, sun.color_linear.z});
@@ -80,8 +80,8 @@ Result<float> add_environment(raster::Scene& scene, const RenderOptions& options
     return static_cast<float>(0.5 / level);
 }
 
-/// A file's own lights come in any unit: what they lack in ambient is added, and the exposure is chosen to fit. Lights that flags or
-/// the built-in scenes bring are made for exposure 1.
+/// Chooses lights, ambient light and exposure. The unit of a file's own lights is not known, so the exposure is chosen from them; ambient
+/// light is added if the file has none. Lights from flags and built-in scenes are made for exposure 1.
 Result<void> choose_light(RenderJob& job, const RenderOptions& options, const raster::Bounds& bounds) {
     raster::Scene& scene = job.scene();
     if (!options.scene_lights) {
@@ -112,11 +112,11 @@ Result<void> choose_settings(raster::Settings& settings, const RenderOptions& op
     settings = options.settings;
     const shading::PlanOptions& s = settings.shading;
     if (s.max_error_codes > 0.0) {
-        if (s.accuracy != shading::Accuracy::exact) return fail(ErrorCode::usage, "--max-error: expected without --accuracy");
+        if (s.accuracy != shading::Accuracy::exact) return fail(ErrorCode::usage, "--max-error: cannot be combined with --accuracy");
         if (s.rate != shading::ShadingRate::pixel)
-            return fail(ErrorCode::usage, "--max-error: expected --shading pixel, the error of other rates has no bound");
+            return fail(ErrorCode::usage, "--max-error: expected --shading pixel; the error of other rates has no bound");
         if (s.texture_detail != shading::TextureDetail::full)
-            return fail(ErrorCode::usage, "--max-error: expected --texture-filter full, the error of others has no bound");
+            return fail(ErrorCode::usage, "--max-error: expected --texture-filter full; the error of other filters has no bound");
     }
     const auto lobe = chosen_lobe(options);
     if (!lobe) return tl::unexpected(lobe.error());
@@ -130,10 +130,10 @@ Result<void> choose_settings(raster::Settings& settings, const RenderOptions& op
 
 Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usual) {
     if (options.settings.background_environment && options.environment.empty())
-        return fail(ErrorCode::usage, "--background: expected --env with environment");
+        return fail(ErrorCode::usage, "--background: environment needs --env");
     if (options.camera && options.own_view)
         return fail(ErrorCode::usage,
-                    "--camera: expected without --azimuth, --elevation, --zoom and --fov, which make a camera of their own");
+                    "--camera: cannot be combined with --azimuth, --elevation, --zoom or --fov, which make a camera of their own");
     if (options.size)
         if (const auto checked = check_size(*options.size, options.settings.region); !checked) return tl::unexpected(checked.error());
     RenderJob job;
@@ -153,7 +153,7 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
     job.prepare_ms = preparing.ms();
     const raster::Bounds bounds = job.prepared->bounds();
     const bool loader_said_so = job.source.file && job.source.file->triangles_drawn == 0;
-    if (bounds.empty && !loader_said_so) job.warnings.push_back("nothing to draw: no vertex is a finite point");
+    if (bounds.empty && !loader_said_so) job.warnings.push_back("nothing to draw: no vertex has finite coordinates");
     if (const auto viewed = choose_view(job, options, usual); !viewed) return tl::unexpected(viewed.error());
     if (const auto lit = choose_light(job, options, bounds); !lit) return tl::unexpected(lit.error());
     if (const auto updated = job.prepared->update({.lights = true}); !updated) return tl::unexpected(updated.error());

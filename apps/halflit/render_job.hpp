@@ -1,4 +1,4 @@
-// From flags to a picture that can be drawn: the scene loaded and prepared, its camera, light and exposure chosen.
+// A render job: the scene, loaded and prepared, with camera, lights and exposure chosen from the flags.
 #pragma once
 
 #include "apps/halflit/render_options.hpp"
@@ -13,8 +13,8 @@
 namespace halflit::cli {
 
 struct RenderJob {
-    SceneSource source;                             ///< with the job's lights and ambient
-    std::optional<raster::PreparedScene> prepared;  ///< of that scene
+    SceneSource source;                             ///< has the job's lights and ambient light
+    std::optional<raster::PreparedScene> prepared;  ///< made from that scene
     raster::Camera camera;
     raster::Settings settings;  ///< the region is never empty
     int width = 0, height = 0;
@@ -25,11 +25,11 @@ struct RenderJob {
     [[nodiscard]] const raster::Scene& scene() const { return *source.scene; }
 };
 
-/// `usual` is the size when neither the flags nor the file's camera choose one. What can be found wrong without loading the scene is found
-/// before.
+/// `usual`: the picture size without --size; it is reduced to the aspect ratio of the file's camera. Errors that can be found without the
+/// scene are reported before it is loaded.
 [[nodiscard]] Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usual);
 
-/// Memory for the whole picture, with the buffers asked for.
+/// Allocates the whole picture: 8-bit codes, and linear floats if `linear`.
 [[nodiscard]] raster::Image make_image(const RenderJob& job, bool linear);
 [[nodiscard]] raster::FramebufferView view_of(raster::Image& image);
 

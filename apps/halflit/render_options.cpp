@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view kOffOn[] = {"off", "on"};
 constexpr const char* kUsualBackground = "#3a3f47";
 
-/// One of a few whole numbers.
+/// Reads one of the allowed whole numbers.
 ReadValue choice(int& target, std::initializer_list<int> allowed) {
     return [&target, choices = std::vector<int>(allowed)](const std::string& text) -> Result<void> {
         const auto value = parse_int(text, 1, std::numeric_limits<int>::max());
@@ -27,7 +27,7 @@ ReadValue choice(int& target, std::initializer_list<int> allowed) {
     };
 }
 
-/// One of a few names; the value is the name's place in the list.
+/// Reads one of the names; the value is the name's index in the list.
 template <class T, std::size_t N>
 ReadValue named(T& target, const std::string_view (&names)[N]) {
     return [&target, &names](const std::string& text) -> Result<void> {
@@ -55,25 +55,26 @@ void add_picture_flags(CLI::App& app, RenderOptions& o, PictureSize usual) {
     constexpr const char* kGroup = "Picture";
     raster::Settings& s = o.settings;
     add_value(app, "--size", "WxH",
-              fmt::format("Size in pixels (default {}x{}, or the shape of the file's camera)", usual.width, usual.height),
+              fmt::format("Size in pixels (default {}x{}, reduced to the aspect ratio of the file's camera)", usual.width, usual.height),
               [&o](const std::string& text) { return assign(o.size, parse_size(text)); })
         ->group(kGroup);
     add_value(app, "--region", "X,Y,W,H", "Draw and write only this part of the picture", [&s](const std::string& text) {
         return assign(s.region, parse_region(text));
     })->group(kGroup);
-    add_value(app, "--samples", "1|4|8", fmt::format("Samples a pixel against jagged edges (default {})", s.samples),
+    add_value(app, "--samples", "1|4|8", fmt::format("Samples per pixel, which smooth edges (default {})", s.samples),
               choice(s.samples, {1, 4, 8}))
         ->group(kGroup);
-    add_value(app, "--background", "COLOR|environment",
-              fmt::format("transparent, #rgb, #rrggbb, #rrggbbaa or a name (default {}); environment: what --env names", kUsualBackground),
-              [&s](const std::string& text) -> Result<void> {
-                  s.background_environment = text == "environment";
-                  if (s.background_environment) return {};
-                  return assign(s.background_linear, parse_color(text));
-              })
+    add_value(
+        app, "--background", "COLOR|environment",
+        fmt::format("transparent, #rgb, #rrggbb, #rrggbbaa or a name (default {}); environment: the image of --env", kUsualBackground),
+        [&s](const std::string& text) -> Result<void> {
+            s.background_environment = text == "environment";
+            if (s.background_environment) return {};
+            return assign(s.background_linear, parse_color(text));
+        })
         ->group(kGroup);
     add_value(
-        app, "--exposure", "EV|auto", "Light times 2^EV; auto: chosen from the file's lights (default)",
+        app, "--exposure", "EV|auto", "Multiply all light by 2^EV; auto: chosen from the file's lights or the environment (default)",
         [&o](const std::string& text) {
             o.exposure.reset();
             if (text == "auto") return Result<void>();
@@ -86,8 +87,8 @@ void add_picture_flags(CLI::App& app, RenderOptions& o, PictureSize usual) {
 }
 
 void add_camera_flags(CLI::App& app, RenderOptions& o) {
-    constexpr const char* kGroup = "Camera (without one in the file, the whole scene is framed)";
-    add_value(app, "--camera", "INDEX|NAME", "Which of the file's cameras (default: the first)", [&o](const std::string& text) {
+    constexpr const char* kGroup = "Camera (default: the file's first camera, or a view of the whole scene)";
+    add_value(app, "--camera", "INDEX|NAME", "Use this camera of the file (default: the first)", [&o](const std::string& text) {
         o.camera = text;
         return Result<void>();
     })->group(kGroup);
@@ -98,10 +99,10 @@ void add_camera_flags(CLI::App& app, RenderOptions& o) {
         };
         add_value(app, name, form, fmt::format("{} (default {})", help, target), read)->group(kGroup);
     };
-    view_flag("--azimuth", "DEG", "Frame the scene from this side: 0 is from +z, 90 from +x", o.view.azimuth_deg, -3600, 3600);
-    view_flag("--elevation", "DEG", "... and from this height, -90 to 90", o.view.elevation_deg, -90, 90);
-    view_flag("--zoom", "N", "... that much larger", o.view.zoom, 1e-3f, 1e3f);
-    view_flag("--fov", "DEG", "... with this vertical angle of view, 1 to 170", o.view.fov_y_deg, 1, 170);
+    view_flag("--azimuth", "DEG", "View the whole scene from this side: 0 is from +z, 90 from +x", o.view.azimuth_deg, -3600, 3600);
+    view_flag("--elevation", "DEG", "View it from this angle above the horizon, -90 to 90", o.view.elevation_deg, -90, 90);
+    view_flag("--zoom", "N", "Enlarge it by this factor", o.view.zoom, 1e-3f, 1e3f);
+    view_flag("--fov", "DEG", "Vertical field of view, 1 to 170", o.view.fov_y_deg, 1, 170);
 }
 
 void add_light_flags(CLI::App& app, RenderOptions& o) {
@@ -117,35 +118,39 @@ void add_light_flags(CLI::App& app, RenderOptions& o) {
                })
         ->group(kGroup);
     app.add_flag_callback(
-           "--no-scene-lights", [&o] { o.scene_lights = false; }, "Leave out the lights and the ambient of the scene")
+           "--no-scene-lights", [&o] { o.scene_lights = false; }, "Leave out the scene's own lights and ambient light")
         ->group(kGroup);
-    add_value(app, "--ambient", "R,G,B", "Light from all around, linear", [&o](const std::string& text) -> Result<void> {
-        const auto rgb = parse_floats(text, 3);
-        if (!rgb) return tl::unexpected(rgb.error());
-        if ((*rgb)[0] < 0 || (*rgb)[1] < 0 || (*rgb)[2] < 0) return fail(ErrorCode::usage, "expected numbers from 0, found '" + text + "'");
-        o.ambient_linear = Vec3f{(*rgb)[0], (*rgb)[1], (*rgb)[2]};
-        return {};
-    })->group(kGroup);
+    add_value(app, "--ambient", "R,G,B", "Ambient light: the same from all directions, linear RGB",
+              [&o](const std::string& text) -> Result<void> {
+                  const auto rgb = parse_floats(text, 3);
+                  if (!rgb) return tl::unexpected(rgb.error());
+                  if ((*rgb)[0] < 0 || (*rgb)[1] < 0 || (*rgb)[2] < 0)
+                      return fail(ErrorCode::usage, "expected numbers from 0, found '" + text + "'");
+                  o.ambient_linear = Vec3f{(*rgb)[0], (*rgb)[1], (*rgb)[2]};
+                  return {};
+              })
+        ->group(kGroup);
 }
 
 void add_environment_flags(CLI::App& app, RenderOptions& o) {
     constexpr const char* kGroup = "Environment";
-    add_value(app, "--env", "FILE|sky|none", "Light from all around: a Radiance picture (.hdr) or the built-in sky (default none)",
+    add_value(app, "--env", "FILE|sky|none",
+              "Environment, an image of light from all directions: a Radiance picture (.hdr) or the built-in sky (default none)",
               [&o](const std::string& text) {
                   o.environment = text == "none" ? "" : text;
                   return Result<void>();
               })
         ->group(kGroup);
-    add_value(app, "--env-rotate", "DEG", "Turn it about the vertical", [&o](const std::string& text) {
-        return assign(o.environment_rotate_deg, parse_float(text, -3600.0f, 3600.0f));
-    })->group(kGroup);
+    add_value(app, "--env-rotate", "DEG", "Turn the environment about the vertical, counter-clockwise seen from above",
+              [&o](const std::string& text) { return assign(o.environment_rotate_deg, parse_float(text, -3600.0f, 3600.0f)); })
+        ->group(kGroup);
     add_value(app, "--env-sun", form_of(kOffOn),
-              fmt::format("Take suns out of it as lights of their own (default {})", name_of(o.environment_sun, kOffOn)),
+              fmt::format("Replace suns in the environment by directional lights (default {})", name_of(o.environment_sun, kOffOn)),
               named(o.environment_sun, kOffOn))
         ->group(kGroup);
     int& order = o.settings.shading.environment_order.fixed;
     add_value(app, "--sh-order", fmt::format("auto|1..{}", sh::kMaxBands),
-              "Bands of spherical harmonics; auto: as many as half an 8-bit code asks for (default)",
+              "Bands of spherical harmonics for the environment; auto: as few as keep the error within 1/510 of white (default)",
               [&order](const std::string& text) -> Result<void> {
                   order = 0;
                   if (text == "auto") return {};
@@ -160,20 +165,22 @@ void add_environment_flags(CLI::App& app, RenderOptions& o) {
 void add_shadow_flags(CLI::App& app, raster::Settings& s) {
     constexpr const char* kGroup = "Shadows";
     constexpr std::size_t kMib = 1u << 20;
-    add_value(
-        app, "--shadows", form_of(kShadowModeNames),
-        fmt::format("soft-split lets wrapped light fade instead of cutting it off (default {})", name_of(s.shadows, kShadowModeNames)),
-        named(s.shadows, kShadowModeNames))
+    add_value(app, "--shadows", form_of(kShadowModeNames),
+              fmt::format("hard: shadows cut off wrapped light; soft-split: it fades with the distance to the blocker (default {})",
+                          name_of(s.shadows, kShadowModeNames)),
+              named(s.shadows, kShadowModeNames))
         ->group(kGroup);
     add_value(app, "--shadow-size", "N",
               fmt::format("Side of a shadow map in texels, a power of two from 64 to 4096 (default {})", s.shadow_size),
               choice(s.shadow_size, {64, 128, 256, 512, 1024, 2048, 4096}))
         ->group(kGroup);
-    add_value(app, "--shadow-fade", "D", "soft-split: blocker distance where wrapped light is gone (default: from object size and wrap)",
+    add_value(app, "--shadow-fade", "D",
+              "soft-split: distance to the blocker from which on no wrapped light is left (default: from object size and wrap)",
               [&s](const std::string& text) { return assign(s.shadow_fade, parse_float(text, 1e-6f, 1e9f)); })
         ->group(kGroup);
     add_value(app, "--shadow-memory", "MIB",
-              fmt::format("Halve shadow maps until all fit this many MiB, 1 to 65536 (default {})", s.shadow_memory_limit / kMib),
+              fmt::format("Memory limit of all shadow maps, 1 to 65536 MiB: they are halved in size until they fit (default {})",
+                          s.shadow_memory_limit / kMib),
               [&s](const std::string& text) -> Result<void> {
                   const auto mib = parse_int(text, 1, 65536);
                   if (!mib) return tl::unexpected(mib.error());
@@ -191,41 +198,46 @@ void add_shadow_flags(CLI::App& app, raster::Settings& s) {
 void add_surface_flags(CLI::App& app, RenderOptions& o) {
     constexpr const char* kGroup = "Surface";
     shading::PlanOptions& s = o.settings.shading;
-    add_value(app, "--lobe", "NAME", fmt::format("Diffuse lobe: {} (default lambert)", shading::lobe_names()),
+    add_value(app, "--lobe", "NAME",
+              fmt::format("Diffuse lobe, reflected light over the angle to the light: {} (default lambert)", shading::lobe_names()),
               [&o](const std::string& text) {
                   o.lobe_name = text;
                   return Result<void>();
               })
         ->group(kGroup);
-    add_value(app, "--wrap", "W", fmt::format("How far the light reaches round, 0 to {}", shading::kMaxLobeWrap),
+    add_value(app, "--wrap", "W",
+              fmt::format("Wrap, 0 to {}: light reaches surfaces whose cosine to the light is above -W", shading::kMaxLobeWrap),
               [&o](const std::string& text) { return assign(o.lobe.wrap, parse_float(text, 0.0f, shading::kMaxLobeWrap)); })
         ->group(kGroup);
     add_value(app, "--power", "N", fmt::format("Exponent of the lobe, 0 to {}", shading::kMaxLobePower), [&o](const std::string& text) {
         return assign(o.lobe.power, parse_float(text, 0.0f, shading::kMaxLobePower));
     })->group(kGroup);
     app.add_flag_callback(
-           "--normalize", [&o] { o.lobe.normalize = true; }, "Scale the lobe to reflect as much light as Lambert's")
+           "--normalize", [&o] { o.lobe.normalize = true; }, "Scale the lobe so that its mean over all light directions is Lambert's")
         ->group(kGroup);
-    add_value(app, "--specular", form_of(kSpecularNames), fmt::format("Highlights (default {})", name_of(s.specular, kSpecularNames)),
-              named(s.specular, kSpecularNames))
+    add_value(app, "--specular", form_of(kSpecularNames),
+              fmt::format("Model of the highlights (default {})", name_of(s.specular, kSpecularNames)), named(s.specular, kSpecularNames))
         ->group(kGroup);
     add_value(app, "--specular-normalize", form_of(kOffOn),
               fmt::format("Make sharper highlights brighter (default {})", name_of(s.normalize_specular, kOffOn)),
               named(s.normalize_specular, kOffOn))
         ->group(kGroup);
     add_value(app, "--shading", form_of(kRateNames),
-              fmt::format("Light once a triangle, vertex or pixel (default {})", name_of(s.rate, kRateNames)), named(s.rate, kRateNames))
+              fmt::format("Compute light once per triangle (flat), vertex (gouraud) or pixel (default {})", name_of(s.rate, kRateNames)),
+              named(s.rate, kRateNames))
         ->group(kGroup);
 }
 
 void add_accuracy_flags(CLI::App& app, shading::PlanOptions& s) {
     constexpr const char* kGroup = "Accuracy";
     add_value(app, "--accuracy", form_of(kAccuracyNames),
-              fmt::format("reference: float64, slow; display: within one 8-bit code of exact; fast: less (default {})",
-                          name_of(s.accuracy, kAccuracyNames)),
+              fmt::format(
+                  "reference: float64, slow; exact: float32; display: at most one 8-bit code from exact; fast: larger errors (default {})",
+                  name_of(s.accuracy, kAccuracyNames)),
               named(s.accuracy, kAccuracyNames))
         ->group(kGroup);
-    add_value(app, "--max-error", "CODES", "Instead of a tier: the cheapest whose bound, in 8-bit codes, is below this, as 0.5",
+    add_value(app, "--max-error", "CODES",
+              "Instead of --accuracy: the cheapest computation with a proven error below this many 8-bit codes, such as 0.5",
               [&s](const std::string& text) -> Result<void> {
                   const auto codes = parse_float(text, 1e-3f, 255.0f);
                   if (!codes) return tl::unexpected(codes.error());
@@ -234,7 +246,8 @@ void add_accuracy_flags(CLI::App& app, shading::PlanOptions& s) {
               })
         ->group(kGroup);
     add_value(app, "--texture-filter", form_of(kTextureDetailNames),
-              fmt::format("bilinear: no blending of mip levels (default {})", name_of(s.texture_detail, kTextureDetailNames)),
+              fmt::format("full: as the file asks; bilinear: one mip level; nearest: one texel of it (default {})",
+                          name_of(s.texture_detail, kTextureDetailNames)),
               named(s.texture_detail, kTextureDetailNames))
         ->group(kGroup);
 }
@@ -243,12 +256,12 @@ void add_machine_flags(CLI::App& app, raster::Settings& s) {
     constexpr const char* kGroup = "Speed (never changes a pixel)";
     add_value(app, "--isa", "NAME", "Instruction set: auto, " + shading::isa_names(), [&s](const std::string& text) -> Result<void> {
         s.isa = shading::isa_by_name(text);
-        constexpr std::string_view kPlace = "isa: ";  // said by the flag's own name
+        constexpr std::string_view kPlace = "isa: ";  // the flag's own name says it already
         if (!s.isa)
             return fail(ErrorCode::usage, s.isa.error().message.substr(s.isa.error().message.starts_with(kPlace) ? kPlace.size() : 0));
         return {};
     })->group(kGroup);
-    add_value(app, "--threads", "N", "Threads, 0 for one a core (default)", [&s](const std::string& text) -> Result<void> {
+    add_value(app, "--threads", "N", "Number of threads, 0 for one per core (default)", [&s](const std::string& text) -> Result<void> {
         const auto threads = parse_int(text, 0, 1024);
         if (!threads) return tl::unexpected(threads.error());
         s.threads = static_cast<int>(*threads);
@@ -262,7 +275,7 @@ void add_machine_flags(CLI::App& app, raster::Settings& s) {
 void add_file_flags(CLI::App& app, RenderOptions& o) {
     constexpr const char* kGroup = "Untrusted files";
     app.add_flag("--lenient", o.load.lenient, "Draw what can be drawn of a damaged file, with warnings")->group(kGroup);
-    add_values(app, "--allow-external", "DIR", "Let the file refer to files in this folder too", [&o](const std::string& text) {
+    add_values(app, "--allow-external", "DIR", "Also allow references to files in this folder", [&o](const std::string& text) {
         o.load.allow_external.push_back(text);
         return Result<void>();
     })->group(kGroup);
@@ -295,12 +308,12 @@ void add_file_flags(CLI::App& app, RenderOptions& o) {
 Result<std::optional<shading::Lobe>> chosen_lobe(const RenderOptions& o) {
     if (o.lobe_name) {
         auto lobe = io::lobe_from_name(*o.lobe_name, o.lobe);
-        if (!lobe) return fail(ErrorCode::usage, "--" + lobe.error().message);  // begins with the parameter, called like its flag
+        if (!lobe) return fail(ErrorCode::usage, "--" + lobe.error().message);  // begins with the parameter's name, which is the flag's
         return *lobe;
     }
     if (o.lobe.wrap || o.lobe.power)
         return shading::Lobe{o.lobe.wrap.value_or(0.0f), o.lobe.power.value_or(1.0f), o.lobe.normalize.has_value()};
-    if (o.lobe.normalize) return fail(ErrorCode::usage, "--normalize: expected --lobe, --wrap or --power with it");
+    if (o.lobe.normalize) return fail(ErrorCode::usage, "--normalize: expected together with --lobe, --wrap or --power");
     return std::nullopt;
 }
 

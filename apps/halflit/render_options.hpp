@@ -1,4 +1,4 @@
-// The flags that make a picture. render, bench and info take the same ones, so that what is measured or described is what is drawn.
+// Flags that decide the picture. render, bench, info and trade share them, so that bench measures and info describes what render draws.
 #pragma once
 
 #include "apps/halflit/values.hpp"
@@ -18,15 +18,15 @@ class App;
 
 namespace halflit::cli {
 
-/// What the flags say. The values here are what holds without flags; the help text prints them.
+/// Values of the flags. The initial values here are the defaults; the help text prints them.
 struct RenderOptions {
     std::string scene;  ///< a file, "-" for standard input, or a built-in scene
     std::optional<PictureSize> size;
-    raster::Settings settings = usual_settings();  ///< as the flags have them; what is left open (lobe, exposure) is chosen with the scene
+    raster::Settings settings = usual_settings();  ///< the flags' values; lobe and exposure are chosen later, with the scene
 
     std::optional<std::string> camera;
     raster::ViewSettings view;
-    bool own_view = false;  ///< one of the view's flags was given
+    bool own_view = false;  ///< --azimuth, --elevation, --zoom or --fov was given
 
     std::optional<std::string> lobe_name;
     io::LobeParameters lobe;
@@ -43,11 +43,11 @@ struct RenderOptions {
     [[nodiscard]] static raster::Settings usual_settings();
 };
 
-/// The lobe that the flags choose for materials that bring none; nothing when they choose none.
+/// The lobe that the flags choose for materials without one of their own; empty if they choose none.
 [[nodiscard]] Result<std::optional<shading::Lobe>> chosen_lobe(const RenderOptions& options);
 
-/// Adds the flags to a sub-command; `options` must outlive it. `scene_required` says so of the SCENE argument. `usual`: the size of
-/// pictures whose shape nothing else decides.
+/// Adds the flags to a sub-command; `options` must outlive it. `scene_required`: the SCENE argument must be given. `usual`: the default
+/// picture size, which is reduced to the aspect ratio of the file's camera.
 void add_render_options(CLI::App& app, RenderOptions& options, bool scene_required, PictureSize usual);
 
 }  // namespace halflit::cli

@@ -11,14 +11,15 @@
 namespace halflit::cli {
 namespace {
 
-/// Bytes of physical memory that the process held at most.
+/// The most physical memory that the process has held, in bytes.
 std::int64_t peak_memory() {
     struct rusage usage {};
     ::getrusage(RUSAGE_SELF, &usage);
     return std::int64_t{usage.ru_maxrss} * 1024;
 }
 
-/// How many fragments (vertices or triangles at lower shading rates) each stage ran for, and each kind of light was evaluated for.
+/// Counts of fragments (vertices or triangles at lower shading rates): those that each stage ran for, and those that each type of light was
+/// evaluated for.
 Json work_json(const raster::WorkCounts& work) {
     Json stages = Json::object(), lights = Json::object();
     for (std::size_t bit = 0; bit < work.stage_lanes.size(); ++bit) stages[std::string(kStageNames[bit])] = work.stage_lanes[bit];

@@ -1,4 +1,4 @@
-// The report: one JSON object about one run, for scripts. It is written when a run fails, too.
+// The report: one JSON object about one run, for scripts. It is also written when a run fails.
 #pragma once
 
 #include "apps/halflit/render_job.hpp"
@@ -16,23 +16,23 @@ using Json = nlohmann::ordered_json;
 /// {"status": "error", ..., "error": {"code": N, "message": "..."}}
 [[nodiscard]] Json error_report(int code, const std::string& message);
 
-/// Adds what was drawn and what it took: size, hash, instruction set, threads, times, counts, warnings, peak memory.
+/// Adds the frame: size, hash, instruction set, threads, times, counts, warnings, peak memory.
 void add_frame(Json& report, const RenderJob& job, const raster::RenderReport& rendered, const raster::Image& picture);
 
-/// {"budget_codes", "bound_codes", "within", "parts"}: what --max-error asked for and what is promised.
+/// {"budget_codes", "bound_codes", "within", "parts"}: the budget of --max-error, and the proven bound with its parts.
 [[nodiscard]] Json error_bound_json(const shading::ErrorBound& error);
 
 /// {"plan": ms, ...}: the renderer's stages.
 [[nodiscard]] Json stages_ms(const raster::RenderReport& rendered);
 
-/// {"order", "bound_linear", "bound_of_white", "tolerance_of_white", "within"}: the bands in use and what the others may amount to, in
-/// linear light before exposure and as a part of display white.
+/// {"order", "bound_linear", "bound_of_white", "tolerance_of_white", "within"}: the number of bands in use, and the bound on the error of
+/// leaving out the others: in linear light before exposure, and as a fraction of display white.
 [[nodiscard]] Json environment_use_json(const raster::EnvironmentUse& use, const raster::Settings& settings);
 
-/// As text with a newline at the end; strings that are not UTF-8 have the offending bytes replaced.
+/// Text with a newline at the end. Bytes that are not UTF-8 are replaced.
 [[nodiscard]] std::string to_text(const Json& json);
 
-/// To a file (replaced in one step) or "-".
+/// Writes to a file, which is replaced in one step, or to standard output ("-").
 Result<void> write_json(const std::string& path, const Json& json);
 
 }  // namespace halflit::cli

@@ -16,7 +16,7 @@
 namespace halflit::cli {
 namespace {
 
-/// The float as people would write it: the double that prints as shortly, 0.8 and not 0.800000011920929.
+/// The double with the float's shortest decimal digits, so that JSON shows 0.8 and not 0.800000011920929.
 Json number(float value) {
     const std::string text = fmt::format("{}", value);
     double shortest = 0;
@@ -91,7 +91,7 @@ Json environment_json(const shading::ShadingPlan& frame, int index, bool specula
     return environment_use_json({plan.bands, plan.bound, plan.within, specular}, settings);
 }
 
-/// What an error budget was spent on.
+/// Approximations that the error budget allows.
 Json savings_json(const shading::ShadingPlan& frame, const shading::MaterialPlan& plan) {
     const bool power = plan.lobe.path == shading::LobePath::general, curve = plan.lobe.path == shading::LobePath::curve;
     Json savings{{"lobe_power", power ? tier_name(plan.lobe.tier) : curve ? "curve" : "not needed"}};
@@ -128,7 +128,7 @@ Json material_json(const shading::Material& source, const shading::ShadingPlan& 
     return material;
 }
 
-/// What is left of the lights: black ones and those that are not numbers are not computed.
+/// Number of lights of each type that are computed. Black lights and lights that are not finite are left out.
 Json planned_lights_json(const shading::ShadingPlan& plan) {
     std::size_t count[std::size(kLightTypeNames)] = {};
     for (const shading::LightPlan& light : plan.lights) ++count[static_cast<std::size_t>(light.type)];
@@ -137,7 +137,7 @@ Json planned_lights_json(const shading::ShadingPlan& plan) {
     return lights;
 }
 
-/// The maps that the frame draws: one a light that casts, with the faces that see something.
+/// The frame's shadow maps: one per light that casts shadows, with the number of faces that see the scene.
 Json shadows_json(const raster::FramePlan& frame, const raster::Settings& settings) {
     constexpr std::string_view kKinds[] = {"orthographic", "perspective", "cube"};
     Json maps = Json::array();
@@ -163,7 +163,7 @@ Json materials_json(const RenderJob& job, const shading::ShadingPlan& plan) {
     return materials;
 }
 
-/// One line a value, nested values indented; lists of plain values on one line.
+/// One line per value, nested values indented; lists of plain values on one line.
 void append_lines(std::string& text, const std::string& label, const Json& value, std::size_t depth) {
     const std::string indent(2 * depth, ' ');
     const bool plain_list = value.is_array() && (value.empty() || value[0].is_primitive());

@@ -1,4 +1,4 @@
-// A scene in words and numbers.
+// Description of a scene, as JSON and as text.
 #pragma once
 
 #include "apps/halflit/render_job.hpp"
@@ -8,10 +8,11 @@
 
 namespace halflit::cli {
 
-/// What the file holds, what the scene draws, and for each material the stages of its plan: those it requires and those it does without.
+/// Describes the file's contents, what is drawn, and for each material the stages of shading that its plan requires and those that it does
+/// without.
 [[nodiscard]] Result<Json> describe_scene(const RenderJob& job);
 
-/// The same for people: indented lines. Names are escaped (see printable).
+/// The same as indented lines of text. Names are escaped (see printable).
 [[nodiscard]] std::string description_text(const Json& description);
 
 }  // namespace halflit::cli

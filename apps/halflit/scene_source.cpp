@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kStandardInput = "standard input";
 
-/// All of standard input, up to a limit that an endless one would pass.
+/// Reads standard input to its end. Fails above `max_bytes`, so that endless input is refused.
 Result<std::vector<std::byte>> read_standard_input(std::size_t max_bytes) {
     if (::isatty(STDIN_FILENO) == 1) return fail(ErrorCode::usage, "standard input: expected a model, found a terminal");
     constexpr std::size_t kChunk = std::size_t{1} << 20;

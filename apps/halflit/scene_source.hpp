@@ -1,4 +1,4 @@
-// Where a scene comes from: a file, standard input, or code.
+// The source of a scene: a file, standard input, or code.
 #pragma once
 
 #include "apps/halflit/render_options.hpp"
@@ -14,13 +14,13 @@
 namespace halflit::cli {
 
 struct SceneSource {
-    std::string name;                      ///< for people: the path, "standard input", or the built-in name
-    std::unique_ptr<raster::Scene> scene;  ///< stays where it is while the source moves
-    std::optional<io::SceneInfo> file;     ///< of a file or standard input, whose lights are in their author's unit
+    std::string name;                      ///< name for messages: the path, "standard input", or the built-in name
+    std::unique_ptr<raster::Scene> scene;  ///< keeps its address when the source is moved
+    std::optional<io::SceneInfo> file;     ///< counts for a file or standard input; the unit of such a scene's lights is not known
     std::vector<std::string> warnings;
 };
 
-/// No name is the demo scene; built-in names come before files (a file called "demo" is "./demo").
+/// An empty name is the demo scene. Built-in names come before files: a file called "demo" is given as "./demo".
 [[nodiscard]] Result<SceneSource> load_scene(const RenderOptions& options);
 
 }  // namespace halflit::cli

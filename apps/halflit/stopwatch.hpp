@@ -1,4 +1,4 @@
-// Wall-clock time, and time on processors.
+// Wall-clock time and CPU time.
 #pragma once
 
 #include <time.h>
@@ -16,7 +16,7 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// What all threads of the process took from processors: on a busy machine, steadier than the wall clock.
+/// CPU time of all threads of the process. On a busy machine it varies less than wall-clock time.
 class CpuStopwatch {
 public:
     [[nodiscard]] double ms() const { return now_ms() - start_ms_; }

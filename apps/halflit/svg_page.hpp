@@ -9,13 +9,13 @@
 
 namespace halflit::cli {
 
-/// Text for the inside of an element or attribute.
+/// Text escaped for the inside of an element or attribute.
 [[nodiscard]] std::string xml_escaped(std::string_view text);
 
-/// Bytes for a data: address.
+/// Bytes in base64, for a data: URL.
 [[nodiscard]] std::string base64(std::span<const std::uint8_t> bytes);
 
-/// How text is set. `anchor`: start, middle or end.
+/// Style of a line of text. `anchor`: start, middle or end.
 struct TextStyle {
     double size = 12;
     const char* anchor = "start";
@@ -27,21 +27,21 @@ struct TextStyle {
 /// A line of text whose content is SVG already; y is the baseline.
 [[nodiscard]] std::string text_element(double x, double y, std::string_view svg_content, const TextStyle& style);
 
-/// Wider than most fonts set it, because the viewer's font is not known.
+/// Estimated width in pixels, larger than in most fonts, because the viewer's font is not known.
 [[nodiscard]] double text_width(std::string_view text, double size);
 
-/// A page that things are put on, from the top left, in pixels.
+/// A page under construction. Positions are in pixels from the top left.
 class SvgPage {
 public:
     void text(double x, double y, std::string_view line, const TextStyle& style = {});
-    /// Text broken into lines of at most `width`; returns the height that it took. y is the upper edge.
+    /// Adds text broken into lines of at most `width`; returns its height. y is the upper edge.
     double paragraph(double x, double y, double width, std::string_view text, const TextStyle& style = {});
-    /// A PNG file's bytes, scaled to the box.
+    /// Adds a picture, the bytes of a PNG file, scaled to the box.
     void png(double x, double y, double width, double height, std::span<const std::uint8_t> bytes);
-    /// Finished SVG elements.
+    /// Adds finished SVG elements.
     void svg(std::string_view elements) { body_ += elements; }
 
-    /// The whole document; `title` is what a screen reader says.
+    /// The whole document; `title` is for screen readers.
     [[nodiscard]] std::string finish(double width, double height, std::string_view title) const;
 
 private:

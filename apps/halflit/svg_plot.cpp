@@ -15,7 +15,7 @@ namespace {
 constexpr const char* kAxisColor = "#444";
 constexpr const char* kGridColor = "#e4e4e4";
 
-/// Okabe and Ito's colours: told apart with any common colour vision.
+/// Okabe and Ito's colours, which people with any common colour vision can tell apart.
 constexpr std::array<const char*, 7> kPalette{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#555555"};
 
 std::string line_element(double x0, double y0, double x1, double y1, const char* color, const char* more = "") {
@@ -56,7 +56,7 @@ public:
         if (!plot_.title.empty())
             out_ += text_element((left_ + right_) / 2, 18, xml_escaped(plot_.title), {.size = 13, .anchor = "middle", .bold = true});
         add_axes();
-        // A nested picture cuts what leaves the axes without needing an id.
+        // A nested svg element clips at the axes without needing an id.
         out_ += fmt::format("<svg x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" overflow=\"hidden\">\n", left_, top_,
                             width(), height());
         for (const PlotMark& mark : plot_.marks) add_mark(mark);
@@ -100,7 +100,7 @@ private:
         out_ += text_element(x + 4, 13, xml_escaped(mark.label), {.size = 10, .color = "#555"});
     }
 
-    /// Far values are drawn where they leave, so that coordinates stay small numbers.
+    /// Position of a point in pixels. Far values are clamped, so that coordinates stay small.
     [[nodiscard]] Vec2<double> on_page(Vec2<double> point) const {
         const double x = x_.place(point.x), y = y_.place(point.y);
         if (!std::isfinite(x) || !std::isfinite(y)) return {NAN, NAN};
@@ -127,7 +127,7 @@ private:
         if (has_dots(series)) out_ += dots;
     }
 
-    /// Beside its point: on the right where there is room for it.
+    /// Adds a label beside its point, on the right if there is room.
     void add_label(Vec2<double> at, const std::string& label) {
         const bool right = at.x + 6 + text_width(label, 10) < width();
         out_ += text_element(at.x + (right ? 6 : -6), at.y - 5, xml_escaped(label), {.size = 10, .anchor = right ? "start" : "end"});
@@ -171,7 +171,7 @@ private:
     std::string out_;
 };
 
-/// A field of a CSV line; quoted where it has to be.
+/// A field of a CSV line, quoted if necessary.
 std::string csv_field(const std::string& text) {
     if (text.find_first_of(",\"\n") == std::string::npos) return text;
     std::string quoted = "\"";

@@ -22,7 +22,7 @@ void add_once(std::vector<T>& list, T value) {
     if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(std::move(value));
 }
 
-/// Within one lobe: another lobe is another picture.
+/// Compares rows of one lobe only, because another lobe gives another picture.
 bool dominates(const TradeRow& a, const TradeRow& b) {
     return a.choice.lobe == b.choice.lobe && a.ratio <= b.ratio && a.error.p999 <= b.error.p999 &&
            (a.ratio < b.ratio || a.error.p999 < b.error.p999);
@@ -72,7 +72,7 @@ Result<raster::Image> TradeBench::draw(const TradeChoice& choice) {
 
 Result<TradeBench::Times> TradeBench::time_of(raster::Renderer& renderer, const TradeChoice& choice) {
     if (const auto chosen = choose(choice); !chosen) return tl::unexpected(chosen.error());
-    renderer.forget_frames();  // whole frames, as when the scene moves
+    renderer.forget_frames();  // draws complete frames, as when the scene moves
     const Stopwatch watch;
     const CpuStopwatch cpu_watch;
     const auto rendered = renderer.render(*job_.prepared, job_.camera, settings_, view_of(timed_));
@@ -102,7 +102,7 @@ Result<void> TradeBench::describe(TradeRow& row) {
             add_once(row.lobe_paths, std::move(path));
         }
         if ((material.stages & shading::kStageSpecular) == 0) continue;
-        // With a budget materials may differ: the most exact one is named, and a curve only where all have one.
+        // With a budget, materials may differ. The most exact tier is named, and "curve" only if all materials have curves.
         if (material.specular_curve.squarings >= 0) {
             if (row.specular_tier.empty()) row.specular_tier = specular_power_name(material);
             continue;
@@ -121,7 +121,7 @@ Result<TradeRow> TradeBench::measure_reference(std::optional<std::size_t> lobe) 
     auto picture = draw(row.choice);
     if (!picture) return tl::unexpected(picture.error());
     row.ms = watch.ms();
-    row.cpu_ratio = cpu_watch.ms();  // until exact's time is known
+    row.cpu_ratio = cpu_watch.ms();  // a time in ms; divided by exact's when that is known
     row.frames = 1;
     if (const auto described = describe(row); !described) return tl::unexpected(described.error());
 
@@ -140,7 +140,7 @@ Result<TradeRow> TradeBench::measure_reference(std::optional<std::size_t> lobe) 
 Result<TradeRow> TradeBench::measure_choice(const TradeChoice& choice) {
     TradeRow row;
     row.choice = choice;
-    const auto picture = draw(choice);  // the renderer's memory fits after this, and is not timed
+    const auto picture = draw(choice);  // not timed: allocates the renderer's memory
     if (!picture) return tl::unexpected(picture.error());
     row.error = reference(choice.lobe).error_of(*picture);
     if (const auto described = describe(row); !described) return tl::unexpected(described.error());
@@ -148,7 +148,7 @@ Result<TradeRow> TradeBench::measure_choice(const TradeChoice& choice) {
     const TradeChoice exact = space_.exact();
     std::vector<double> times, ratios, cpu_ratios;
     for (int i = 0; i < frames_; ++i) {
-        // In turn, and every other time the other way round: what else the machine does meets both alike.
+        // The two are drawn in turn, every second time in the other order, so that other load on the machine affects both alike.
         Result<Times> of_exact = Times{}, of_choice = Times{};
         if (i % 2 == 0) of_exact = time_of(exact_renderer_, exact);
         of_choice = time_of(renderer_, choice);
@@ -163,7 +163,7 @@ Result<TradeRow> TradeBench::measure_choice(const TradeChoice& choice) {
     }
     row.ms = median(times);
     row.frames = frames_;
-    row.ratio = choice == exact ? 1.0 : median(ratios);  // exact's own spread stays: it is the noise of the others
+    row.ratio = choice == exact ? 1.0 : median(ratios);  // exact's range stays: it is the noise
     row.cpu_ratio = choice == exact ? 1.0 : median(cpu_ratios);
     row.ratio_min = *std::min_element(ratios.begin(), ratios.end());
     row.ratio_max = *std::max_element(ratios.begin(), ratios.end());
@@ -183,7 +183,7 @@ Result<std::vector<TradeRow>> TradeBench::measure(const std::vector<TradeChoice>
     for (std::size_t i = 0; i < references; ++i)
         if (const auto added = add(measure_reference(i == 0 ? std::nullopt : std::optional(i - 1))); !added)
             return tl::unexpected(added.error());
-    // The first frame of exact finds memory and caches cold; it is nobody's measure.
+    // The first frame of exact is not measured: it allocates memory, and caches are cold.
     if (const auto warm = time_of(exact_renderer_, space_.exact()); !warm) return tl::unexpected(warm.error());
     for (const TradeChoice& choice : choices)
         if (const auto added = add(measure_choice(choice)); !added) return tl::unexpected(added.error());

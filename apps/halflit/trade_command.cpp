@@ -1,4 +1,4 @@
-// halflit trade: what accuracy costs, and what the lack of it looks like, for one scene.
+// halflit trade: measures time and error of one scene with many settings, and shows the errors.
 #include "apps/halflit/cli_support.hpp"
 #include "apps/halflit/commands.hpp"
 #include "apps/halflit/messages.hpp"
@@ -45,7 +45,7 @@ Result<void> write_all(const std::vector<TradeRow>& rows, TradeBench& bench, con
 }
 
 Result<int> run_trade(TradeOptions options) {
-    options.settings.shading.accuracy = shading::Accuracy::reference;  // the environment keeps its light for it
+    options.settings.shading.accuracy = shading::Accuracy::reference;  // keeps the environment's image
     auto job = make_render_job(options, kUsualSize);
     if (!job) return tl::unexpected(job.error());
     if (const auto folder = make_folder(options.folder); !folder) return tl::unexpected(folder.error());
@@ -68,17 +68,17 @@ Result<int> run_trade(TradeOptions options) {
 }  // namespace
 
 Command add_trade_command(CLI::App& root) {
-    CLI::App* app = root.add_subcommand("trade", "Say what accuracy costs: time and error of a scene drawn in many ways");
+    CLI::App* app = root.add_subcommand("trade", "Measure time and error of a scene drawn with many settings");
     const auto options = std::make_shared<TradeOptions>();
     add_render_options(*app, *options, true, kUsualSize);
-    // What is varied is not asked for.
+    // Flags of the settings that trade varies itself.
     for (const char* varied : {"--accuracy", "--max-error", "--texture-filter", "--shading", "--sh-order"})
         app->remove_option(app->get_option(varied));
     constexpr const char* kGroup = "Comparison";
-    add_value(*app, "-o,--output", "DIR", "Where index.html, trade.csv and trade.json go; made where it is missing (default trade)",
+    add_value(*app, "-o,--output", "DIR", "Folder for index.html, trade.csv and trade.json; created if missing (default trade)",
               [options](const std::string& text) { return assign(options->folder, parse_folder(text)); })
         ->group(kGroup);
-    add_value(*app, "--frames", "N", "How often to draw each, every time in turn with exact (default 5)",
+    add_value(*app, "--frames", "N", "Frames for each setting, drawn in turn with frames of exact (default 5)",
               [options](const std::string& text) -> Result<void> {
                   const auto frames = parse_int(text, 1, 1000);
                   if (!frames) return tl::unexpected(frames.error());
@@ -86,7 +86,7 @@ Command add_trade_command(CLI::App& root) {
                   return {};
               })
         ->group(kGroup);
-    add_value(*app, "--lobes", "NAME,...", "Also with these lobes on every material: NAME, NAME:WRAP or NAME:WRAP:POWER",
+    add_value(*app, "--lobes", "NAME,...", "Also measure these lobes, on every material: NAME, NAME:WRAP or NAME:WRAP:POWER",
               [options](const std::string& text) -> Result<void> {
                   for (std::size_t start = 0; start <= text.size();) {
                       const std::size_t end = std::min(text.find(',', start), text.size());
@@ -98,9 +98,9 @@ Command add_trade_command(CLI::App& root) {
                   return {};
               })
         ->group(kGroup);
-    CLI::Option* quick = app->add_flag("--quick", options->quick, "Each setting alone, no combinations")->group(kGroup);
-    app->add_flag("--all", options->all, "Every combination, of shadows too")->group(kGroup)->excludes(quick);
-    app->add_flag("--progress", options->progress, "Say how far it is, also where standard error is not a terminal")->group(kGroup);
+    CLI::Option* quick = app->add_flag("--quick", options->quick, "Vary one setting at a time")->group(kGroup);
+    app->add_flag("--all", options->all, "Measure all combinations, those of shadows too")->group(kGroup)->excludes(quick);
+    app->add_flag("--progress", options->progress, "Show progress even if standard error is not a terminal")->group(kGroup);
     return {app, [options] { return run_trade(*options); }};
 }
 

@@ -33,7 +33,7 @@ TradeError TradeReference::error_of(const raster::Image& picture) const {
     for (std::size_t k = 0; k < pixels_.size(); ++k)
         for (std::size_t c = 0; c < 3; ++c) {
             const float value = picture.rgba_linear[pixels_[k] * 4 + c];
-            if (value == linear_[3 * k + c]) continue;  // most of a picture that differs little; the curve is slow
+            if (value == linear_[3 * k + c]) continue;  // true for most values; the sRGB curve is slow
             const double difference = std::abs(code_of(value) - codes_[3 * k + c]);
             worst[k] = std::max(worst[k], difference);
             sum_squares += difference * difference;
@@ -44,7 +44,7 @@ TradeError TradeReference::error_of(const raster::Image& picture) const {
         error.mean += one / count;
         error.share_off += one >= 1.0 ? 1 / count : 0.0;
     }
-    // The smallest value that is not exceeded by 99.9 % of all.
+    // The smallest value that 99.9 % of the pixels do not exceed.
     const auto rank = worst.begin() + static_cast<std::ptrdiff_t>(std::ceil(0.999 * count)) - 1;
     std::nth_element(worst.begin(), rank, worst.end());
     error.p999 = *rank;

@@ -36,7 +36,7 @@ struct Shadows {
     int size;
 };
 
-/// The best, and all that costs less.
+/// The given kind of shadow first, then all cheaper ones.
 std::vector<Shadows> shadows(const TradeSpace& space) {
     std::vector<Shadows> list{{space.shadows, space.shadow_size}};
     if (!space.lights) return list;
@@ -76,7 +76,7 @@ void add_alone(Collector& list, const TradeSpace& space, const TradeChoice& exac
     vary(&TradeChoice::texture, textures(space));
     vary(&TradeChoice::max_error_codes, kBudgets);
     for (const Shadows& kind : shadows(space)) {
-        // A mode and a size each alone.
+        // Mode and size are varied one at a time.
         if (kind.mode != space.shadows && kind.size != space.shadow_size) continue;
         TradeChoice choice = exact;
         choice.shadows = kind.mode;
@@ -102,7 +102,7 @@ void add_product(Collector& list, const TradeSpace& space, const TradeChoice& ex
                     }
 }
 
-/// The parts that differ from exact.
+/// Calls add(name, flag) for each setting that differs from exact.
 template <class Add>
 void describe(const TradeChoice& choice, const TradeSpace& space, const Add& add) {
     if (choice.lobe) add("lobe " + space.lobes[*choice.lobe].name, "");

@@ -1,4 +1,4 @@
-// What `halflit trade` compares: settings that may cost accuracy, and the list of their combinations.
+// Settings that `halflit trade` compares because they affect accuracy, and the list of their combinations.
 #pragma once
 
 #include "raster/renderer.hpp"
@@ -24,7 +24,7 @@ struct TradeChoice {
     std::optional<std::size_t> lobe{};  ///< index into TradeSpace::lobes; none: the scene's own
     shading::Accuracy accuracy = shading::Accuracy::exact;
     double max_error_codes = 0.0;  ///< above 0: instead of the accuracy
-    int order = 0;                 ///< of the environment's harmonics; 0: from the bound
+    int order = 0;                 ///< number of bands for the environment; 0: chosen from the error bound
     shading::ShadingRate rate = shading::ShadingRate::pixel;
     shading::TextureDetail texture = shading::TextureDetail::full;
     shading::ShadowMode shadows = shading::ShadowMode::soft_split;
@@ -33,7 +33,7 @@ struct TradeChoice {
     friend bool operator==(const TradeChoice&, const TradeChoice&) = default;
 };
 
-/// What the scene has that can be traded, and the best of it, from which all errors are measured.
+/// Features of the scene that can be varied, and the most accurate settings, from which all errors are measured.
 struct TradeSpace {
     bool environment = false, textures = false, lights = false;
     shading::ShadowMode shadows = shading::ShadowMode::soft_split;
@@ -45,18 +45,17 @@ struct TradeSpace {
 };
 
 enum class TradeExtent : std::uint8_t {
-    quick,  ///< each setting alone, the others as in exact, and the budgets
-    usual,  ///< and the product of tier, order, rate and texture filter
-    all     ///< and that with every kind of shadow
+    quick,  ///< one setting at a time, the others as in exact; and the error budgets
+    usual,  ///< also all combinations of tier, order, rate and texture filter
+    all     ///< also those combinations with every kind of shadow
 };
 
-/// Every combination once, exact first, for the scene's own lobe and then for each of the others. What the scene does not have is not
-/// varied.
+/// Each choice once, exact first: for the scene's own lobe, then for each of the others. Features that the scene lacks are not varied.
 [[nodiscard]] std::vector<TradeChoice> trade_choices(const TradeSpace& space, TradeExtent extent);
 
-/// For people: "fast, order 3, gouraud".
+/// Name for reports: "fast, order 3, gouraud".
 [[nodiscard]] std::string trade_name(const TradeChoice& choice, const TradeSpace& space);
-/// For `halflit render`, beyond the flags that describe the picture: "--accuracy fast --sh-order 3 --shading gouraud". Empty for exact.
+/// Flags to add to a `halflit render` command: "--accuracy fast --sh-order 3 --shading gouraud". Empty for exact.
 [[nodiscard]] std::string trade_flags(const TradeChoice& choice, const TradeSpace& space);
 
 /// Puts everything but the lobe into the frame's settings.

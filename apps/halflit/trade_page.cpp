@@ -1,4 +1,4 @@
-// The price list as one page of HTML: plots, table, pictures.
+// Results of `halflit trade` as one HTML page: plots, table, pictures.
 #include "apps/halflit/svg_plot.hpp"
 #include "apps/halflit/trade_report.hpp"
 #include "apps/io/image_writer.hpp"
@@ -11,17 +11,17 @@
 namespace halflit::cli {
 namespace {
 
-constexpr double kLeastShown = 1e-3;  ///< codes; errors below stand on the plot's lower edge
+constexpr double kLeastShown = 1e-3;  ///< codes; the plot shows smaller errors as this value
 constexpr double kPlotWidth = 900, kPlotHeight = 520;
-constexpr double kLabelGap = 13;           ///< pixels between the lines of two labels that would meet
-constexpr std::size_t kMostPictures = 12;  ///< of the front
+constexpr double kLabelGap = 13;           ///< least vertical distance of two labels, pixels
+constexpr std::size_t kMostPictures = 12;  ///< rows of the front that are shown
 
 constexpr const char* kHead = R"(<!DOCTYPE html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width">
-<title>halflit: the price list of {0}</title>
+<title>halflit: time and error of {0}</title>
 <style>
 body {{ max-width: 62rem; margin: 2rem auto; padding: 0 1rem; font: 16px/1.5 system-ui, sans-serif; color: #222; background: #fff }}
 svg {{ max-width: 100%; height: auto }}
@@ -38,12 +38,12 @@ img {{ width: 100%; height: auto; border: 1px solid #ddd }}
 </style>
 </head>
 <body>
-<h1>The price list of {0}</h1>
+<h1>Time and error of {0}</h1>
 )";
 
 double shown(double error) { return std::max(error, kLeastShown); }
 
-/// Where the page shows which accuracy a row has.
+/// Groups of rows by accuracy, with their colours in the plot.
 struct Kind {
     const char* name;
     const char* color;
@@ -55,15 +55,15 @@ constexpr Kind kKinds[] = {
     {"fast", "#e69f00", [](const TradeRow& r) { return !r.bound && r.choice.accuracy == shading::Accuracy::fast; }},
     {"budget", "#cc79a7", [](const TradeRow& r) { return r.bound.has_value(); }}};
 
-/// Error over time of one lobe, without the reference, whose time is far away.
+/// Plot of error against time for one lobe, without the reference, which takes far longer.
 Plot plot_of(const std::vector<TradeRow>& rows, std::optional<std::size_t> lobe, const std::string& title) {
     Plot plot;
     plot.title = title;
-    plot.legend = LegendPlace::bottom_left;  // fast and near at once: nobody is there
+    plot.legend = LegendPlace::bottom_left;  // no row is both fast and exact, so this corner is empty
     plot.width = kPlotWidth;
     plot.height = kPlotHeight;
     plot.x.label = "time, exact = 1";
-    plot.y = {.label = "error of 99.9 % of the pixels, 8-bit codes", .log = true};
+    plot.y = {.label = "error that 99.9 % of the pixels keep, 8-bit codes", .log = true};
     std::vector<const TradeRow*> here;
     double largest = 0, slowest = 1;
     for (const TradeRow* row : rows_by_time(rows))
@@ -73,7 +73,7 @@ Plot plot_of(const std::vector<TradeRow>& rows, std::optional<std::size_t> lobe,
             slowest = std::max(slowest, row->ratio);
         }
     plot.x.max = std::ceil(slowest * 10.2) / 10;
-    plot.y.min = kLeastShown / 1.5;  // so that dots on it are whole
+    plot.y.min = kLeastShown / 1.5;  // leaves room for dots at kLeastShown
     plot.y.max = std::clamp(std::pow(10.0, std::ceil(std::log10(largest))), 1.0, 300.0);
     for (const Kind& kind : kKinds) {
         PlotSeries dots{.name = kind.name, .points = {}, .color = kind.color, .mark = PlotSeries::Mark::dots};
@@ -81,9 +81,9 @@ Plot plot_of(const std::vector<TradeRow>& rows, std::optional<std::size_t> lobe,
             if (kind.has(*row)) dots.points.push_back({row->ratio, shown(row->error.p999)});
         plot.series.push_back(std::move(dots));
     }
-    PlotSeries front{.name = "nothing is both faster and nearer", .points = {}, .color = "#222", .mark = PlotSeries::Mark::line_and_dots};
+    PlotSeries front{.name = "Pareto front", .points = {}, .color = "#222", .mark = PlotSeries::Mark::line_and_dots};
     const double pixels_a_decade = (kPlotHeight - 80) / std::log10(plot.y.max / plot.y.min);
-    double last_labelled = INFINITY;  // the front falls from left to right: a label meets the one before it or none
+    double last_labelled = INFINITY;  // the front falls, so a label can overlap only the one before it
     for (const TradeRow* row : here) {
         if (!row->front) continue;
         const double y = shown(row->error.p999), height = pixels_a_decade * std::log10(y);
@@ -106,17 +106,16 @@ std::string table_row(const TradeRow& row) {
         row.error.psnr ? fmt::format("{:.1f}", *row.error.psnr) : "", 100 * row.error.share_off,
         row.bound ? fmt::format("{:.3g}", row.bound->codes) : "",
         !row.bound          ? ""
-        : !row.kept()       ? "broken"
-        : row.bound->within ? "kept"
-                            : "kept; above what was asked");
+        : !row.kept()       ? "violated"
+        : row.bound->within ? "holds"
+                            : "holds, but is above the budget");
 }
 
 std::string table_of(const std::vector<TradeRow>& rows) {
     std::string html =
-        "<div class=\"scroll\"><table>\n<tr><th></th><th>settings</th><th>ms</th><th>time</th><th>from .. "
-        "to</th><th>processors</th><th>largest "
-        "error</th><th>99.9 "
-        "%</th><th>mean</th><th>PSNR, dB</th><th>off by 1 or more</th><th>promised</th><th></th></tr>\n";
+        "<div class=\"scroll\"><table>\n<tr><th></th><th>settings</th><th>ms</th><th>time</th><th>range of time</th><th>CPU time</th>"
+        "<th>largest error</th><th>error of 99.9 %</th><th>mean error</th><th>PSNR, dB</th><th>pixels off by 1 or more</th>"
+        "<th>bound</th><th></th></tr>\n";
     for (const TradeRow* row : rows_by_time(rows)) html += table_row(*row);
     return html + "</table></div>\n";
 }
@@ -128,7 +127,7 @@ Result<std::string> picture(const raster::Image& image, const std::string& capti
                        xml_escaped(caption), base64(*png));
 }
 
-/// A power of two that makes the error of most pixels plain to see.
+/// Gain of a difference picture: the largest power of two from 1 to 2^14 that keeps `error`, in codes, within 200.
 double gain_for(double error) { return std::exp2(std::clamp(std::floor(std::log2(200 / std::max(error, 1e-9))), 0.0, 14.0)); }
 
 Result<std::string> pictures_of(const TradeRow& row, TradeBench& bench) {
@@ -144,7 +143,7 @@ Result<std::string> pictures_of(const TradeRow& row, TradeBench& bench) {
     return *html + *difference;
 }
 
-/// Reference and exact, the front, and the row that is off most.
+/// Pictures of the references, of exact, of the front, and of the row with the largest error.
 Result<std::string> all_pictures(const std::vector<TradeRow>& rows, TradeBench& bench) {
     std::string html = "<div class=\"pictures\">\n";
     std::vector<const TradeRow*> wanted{&exact_row(rows, bench.space())};
@@ -177,19 +176,18 @@ Result<std::string> trade_page(const std::vector<TradeRow>& rows, TradeBench& be
     const TradeRow& exact = exact_row(rows, bench.space());
     std::string html = fmt::format(kHead, xml_escaped(job.source.name));
     html += fmt::format(
-        "<p>{}x{} pixels, {} samples a pixel, {} of them drawn to; exact takes {:.2f} ms. Times are medians of {} frames, each drawn in "
-        "turn "
-        "with one of exact, and are given as parts of exact's time; exact against itself gave {:.2f} to {:.2f}. Errors are in 8-bit sRGB "
-        "codes "
-        "before rounding, of the worst channel of a pixel, from the float64 reference.</p>\n",
+        "<p>{}x{} pixels, {} samples per pixel; geometry covers {} pixels. The tier exact takes {:.2f} ms. Times are medians of {} frames, "
+        "each drawn in turn with a frame of exact, and divided by its time; exact against itself gave {:.2f} to {:.2f}. An error is the "
+        "difference from the float64 reference in a pixel's worst channel, in 8-bit sRGB codes before rounding. A bound is what a budget "
+        "proves beforehand. Numbered rows are the Pareto front: settings that no other setting beats in both time and error.</p>\n",
         job.width, job.height, job.settings.samples, bench.reference(std::nullopt).pixels_drawn(), bench.exact_ms(), exact.frames,
         exact.ratio_min, exact.ratio_max);
     for (std::size_t i = 0; i <= bench.space().lobes.size(); ++i) {
         const auto lobe = i == 0 ? std::nullopt : std::optional(i - 1);
-        const std::string title = lobe ? "Lobe " + bench.space().lobes[*lobe].name : "Error over time";
+        const std::string title = lobe ? "Lobe " + bench.space().lobes[*lobe].name : "Error against time";
         html += plot_svg(plot_of(rows, lobe, title));
     }
-    html += "<h2>By time</h2>\n" + table_of(rows) + "<h2>Pictures</h2>\n";
+    html += "<h2>All settings, by time</h2>\n" + table_of(rows) + "<h2>Pictures</h2>\n";
     const auto pictures = all_pictures(rows, bench);
     if (!pictures) return pictures;
     return html + *pictures + "</body>\n</html>\n";

@@ -10,11 +10,11 @@
 namespace halflit::cli {
 namespace {
 
-constexpr std::array kAllowances{0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0};  ///< codes, of the summary
+constexpr std::array kAllowances{0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0};  ///< errors in the summary, codes
 
 std::string lobe_name(const TradeRow& row, const TradeSpace& space) { return row.choice.lobe ? space.lobes[*row.choice.lobe].name : "own"; }
 
-/// A budget chooses polynomials for each material: it is no tier.
+/// The tier's name, or "budget": a budget chooses polynomials for each material, so its row has no tier.
 std::string tier_of(const TradeRow& row) { return row.bound ? "budget" : std::string(accuracy_name(row.choice.accuracy)); }
 
 std::string quoted(const std::string& text) { return text.find(',') == std::string::npos ? text : "\"" + text + "\""; }
@@ -97,14 +97,14 @@ std::string trade_summary(const std::vector<TradeRow>& rows, const TradeBench& b
     std::string text = fmt::format("{} at {}x{}, {} samples: exact takes {:.2f} ms, noise {:.2f} to {:.2f} times that\n",
                                    bench.job().source.name, bench.job().width, bench.job().height, bench.job().settings.samples,
                                    bench.exact_ms(), exact_row(rows, bench.space()).ratio_min, exact_row(rows, bench.space()).ratio_max);
-    text += "off by at most   costs   chosen by (99.9 % of the pixels, 8-bit codes)\n";
+    text += " error at most    time   flags (error of 99.9 % of the pixels in 8-bit codes; time of exact = 1)\n";
     for (const double codes : kAllowances)
         if (const TradeRow* row = cheapest_within(rows, codes); row != nullptr)
-            text += fmt::format("{:>14g}  {:>6.2f}   {}\n", codes, row->ratio, row->flags.empty() ? "no flag" : row->flags);
+            text += fmt::format("{:>14g}  {:>6.2f}   {}\n", codes, row->ratio, row->flags.empty() ? "no flags" : row->flags);
     for (const TradeRow& row : rows)
         if (!row.kept())
-            text +=
-                fmt::format("broken promise: {} is off by {:.4g} codes, promised was {:.4g}\n", row.name, row.error.max, row.bound->codes);
+            text += fmt::format("bound violated: {} has an error of {:.4g} codes, its bound is {:.4g}\n", row.name, row.error.max,
+                                row.bound->codes);
     return text;
 }
 

@@ -1,4 +1,4 @@
-// The price list as data and as a page.
+// Results of `halflit trade` as CSV, JSON, text and HTML.
 #pragma once
 
 #include "apps/halflit/run_report.hpp"
@@ -9,23 +9,24 @@
 
 namespace halflit::cli {
 
-/// A line for each row, in the order of the rows, with a head.
+/// A header line, then one line for each row, in the order of the rows.
 [[nodiscard]] std::string trade_csv(const std::vector<TradeRow>& rows, const TradeSpace& space);
 
-/// {..., "noise": [low, high], "rows": [...]}: noise is exact's time against itself.
+/// {..., "noise": [low, high], "rows": [...]}: noise is the range of exact's time divided by that of another frame of exact.
 [[nodiscard]] Json trade_json(const std::vector<TradeRow>& rows, const TradeBench& bench);
 
-/// The front and the cheapest for each error, a few lines for people.
+/// A few lines of text: the cheapest flags for each error, and the bounds that did not hold.
 [[nodiscard]] std::string trade_summary(const std::vector<TradeRow>& rows, const TradeBench& bench);
 
 /// One self-contained page; draws the pictures that it shows.
 [[nodiscard]] Result<std::string> trade_page(const std::vector<TradeRow>& rows, TradeBench& bench);
 
-/// The fastest first.
+/// Rows sorted by ratio, the fastest first.
 [[nodiscard]] std::vector<const TradeRow*> rows_by_time(const std::vector<TradeRow>& rows);
-/// The fastest row of the scene's own lobe, budgets included, of which 99.9 % of the pixels are off by no more; null: there is none.
+/// The fastest row of the scene's own lobe, budgets included and the reference not, whose error.p999 is at most `codes`; null if there is
+/// none.
 [[nodiscard]] const TradeRow* cheapest_within(const std::vector<TradeRow>& rows, double codes);
-/// The row of the scene's own lobe with nothing traded.
+/// The row of the scene's own lobe with exact settings.
 [[nodiscard]] const TradeRow& exact_row(const std::vector<TradeRow>& rows, const TradeSpace& space);
 
 }  // namespace halflit::cli

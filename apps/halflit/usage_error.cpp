@@ -25,7 +25,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return row[b.size()];
 }
 
-/// The nearest candidate, when it is near enough to be a slip of the fingers.
+/// The candidate with the least edit distance; empty if that is too large for a typing error.
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
     std::string best;
     std::size_t best_distance = std::min<std::size_t>(3, word.size() / 2 + 1);

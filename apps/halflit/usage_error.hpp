@@ -1,4 +1,4 @@
-// One line that says what is wrong with a command line, and what was probably meant.
+// The message for a wrong command line: one line with the error and the likely spelling.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ class ParseError;
 
 namespace halflit::cli {
 
-/// For a flag or sub-command that does not exist, the nearest one that does is named.
+/// Names the most similar flag or sub-command if an unknown one was given.
 [[nodiscard]] std::string usage_message(const CLI::App& root, const CLI::ParseError& error);
 
 }  // namespace halflit::cli

@@ -62,7 +62,7 @@ Result<Vec3f> parse_vec3(std::string_view text) {
 
 constexpr float kMax = std::numeric_limits<float>::max();
 
-/// Half angles in degrees to the light's radians.
+/// Reads half angles in degrees; the light holds radians.
 Result<void> set_cone(shading::Light& light, std::string_view text) {
     const auto parts = split(text, ",");
     const auto outer = parse_float(parts.back(), 0.01f, 90.0f);
@@ -80,14 +80,14 @@ Result<void> store(T& target, const Result<T>& value) {
     return {};
 }
 
-/// `intensity` is kept apart: it multiplies the colour whichever comes first.
+/// `intensity` is stored apart from the colour, so that the two keys may come in either order.
 Result<void> set_light_key(shading::Light& light, float& intensity, std::string_view key, std::string_view value) {
     using shading::LightType;
     const bool placed = light.type != LightType::directional;
     if (key == "dir" && light.type != LightType::point) {
         const auto direction = parse_vec3(value);
         if (!direction) return tl::unexpected(direction.error());
-        if (*direction == Vec3f{0, 0, 0}) return expected("a direction of some length", value);
+        if (*direction == Vec3f{0, 0, 0}) return expected("a direction that is not zero", value);
         light.direction_ws = normalize_or(*direction, {0, -1, 0});
         return {};
     }
@@ -129,10 +129,10 @@ Result<std::vector<float>> parse_floats(std::string_view text, std::size_t count
     std::vector<float> values;
     for (const std::string_view part : split(text, ",")) {
         const auto value = parse_float(part, -kMax, kMax);
-        if (!value) return expected(fmt::format("{} numbers with commas between", count), text);
+        if (!value) return expected(fmt::format("{} numbers separated by commas", count), text);
         values.push_back(*value);
     }
-    if (values.size() != count) return expected(fmt::format("{} numbers with commas between", count), text);
+    if (values.size() != count) return expected(fmt::format("{} numbers separated by commas", count), text);
     return values;
 }
 

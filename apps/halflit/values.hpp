@@ -1,4 +1,4 @@
-// Values of flags: text to numbers, sizes, colours, lights. Independent of the locale; the whole text must be used. Errors are
+// Parsers of flag values: text to numbers, sizes, colours, lights. They do not depend on the locale and accept no trailing text. Errors are
 // usage errors that say what was expected.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace halflit::cli {
 
 [[nodiscard]] Result<std::int64_t> parse_int(std::string_view text, std::int64_t min, std::int64_t max);
 
-/// Finite, in [min, max].
+/// A finite number in [min, max].
 [[nodiscard]] Result<float> parse_float(std::string_view text, float min, float max);
 
 /// "X,Y,Z": `count` finite numbers.
@@ -23,10 +23,10 @@ namespace halflit::cli {
 struct PictureSize {
     int width = 0, height = 0;
 };
-/// "1280x720". Sides from 1 to 2^31 - 1; whether it is too large a picture is not asked here.
+/// "1280x720". Sides from 1 to 2^31 - 1; make_render_job checks the number of pixels.
 [[nodiscard]] Result<PictureSize> parse_size(std::string_view text);
 
-/// "X,Y,W,H" with W and H from 1.
+/// "X,Y,W,H" with X and Y from 0, W and H from 1.
 [[nodiscard]] Result<raster::Region> parse_region(std::string_view text);
 
 /// "#rgb", "#rrggbb", "#rrggbbaa" or a name, to linear light with linear alpha.
@@ -38,8 +38,9 @@ struct PictureSize {
 ///     color=COLOR    as parse_color (default white)
 ///     intensity=N    factor; 1 makes a white surface that faces the light white: anywhere (directional), at distance 1 (point, spot)
 ///     range=N        point, spot: nothing beyond (default: no limit)
-///     radius=N       point, spot: size of the source, within which it grows no brighter
+///     radius=N       point, spot: radius of the source; attenuation treats smaller distances as N
 ///     cone=OUT or cone=IN,OUT   spot: half angles in degrees, full light within IN (default 0), none from OUT (default 45)
+///     power=N        spot: factor cos(angle to the axis)^N, 0 to 1e5 (default 0)
 [[nodiscard]] Result<shading::Light> parse_light(std::string_view text);
 
 }  // namespace halflit::cli

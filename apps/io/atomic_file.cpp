@@ -20,7 +20,7 @@ tl::unexpected<Error> system_error(const std::string& place, int error) {
     return fail(ErrorCode::io, error == EPIPE ? std::string() : place + ": " + std::strerror(error));
 }
 
-/// Temporary files that exist now, for abandon_files.
+/// The temporary files that exist now, for abandon_files.
 class Pending {
 public:
     static Pending& instance() {
@@ -28,14 +28,14 @@ public:
         return pending;
     }
 
-    /// Opens a new file; -1 with errno.
+    /// Creates a file and returns its descriptor, or -1 with errno.
     int create(const std::string& path, mode_t mode) {
         const std::lock_guard lock(mutex_);
         if (closed_to_this_thread()) return errno = EINTR, -1;
         constexpr int kFlags = O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW;
         int fd = ::open(path.c_str(), kFlags, mode);
         if (fd < 0 && errno == EEXIST) {
-            // Left over from a killed process that had our number.
+            // Left over from a killed process that had the same process id.
             ::unlink(path.c_str());
             fd = ::open(path.c_str(), kFlags, mode);
         }
@@ -43,7 +43,7 @@ public:
         return fd;
     }
 
-    /// 0 or errno; the temporary file is gone either way.
+    /// Renames the temporary file to the target. Returns 0 or errno; the temporary file is gone either way.
     int publish(const std::string& path, const std::string& target) {
         const std::lock_guard lock(mutex_);
         if (closed_to_this_thread()) return EINTR;
@@ -73,10 +73,10 @@ private:
 
     std::mutex mutex_;
     std::vector<std::string> paths_;
-    std::thread::id abandoned_by_;  ///< no thread while files may be written by all
+    std::thread::id abandoned_by_;  ///< the only thread that may write; none: all may
 };
 
-/// 0 or errno.
+/// Returns 0 or errno.
 int write_all(int fd, std::span<const std::uint8_t> bytes) {
     while (!bytes.empty()) {
         const ssize_t written = ::write(fd, bytes.data(), std::min<std::size_t>(bytes.size(), 1u << 20));
@@ -94,7 +94,7 @@ int write_in_place(const std::string& path, std::span<const std::uint8_t> bytes)
     return ::close(fd) != 0 && error == 0 ? errno : error;
 }
 
-/// File systems without fsync say EINVAL or ENOSYS; there the data is as safe as it gets.
+/// Returns 0 or errno. File systems without fsync give EINVAL or ENOSYS, which count as success.
 int flush(int fd) { return ::fsync(fd) == 0 || errno == EINVAL || errno == ENOSYS ? 0 : errno; }
 
 std::string temporary_name(const std::string& target) {

@@ -8,11 +8,11 @@ namespace halflit::io {
 namespace {
 
 constexpr int kSkyWidth = 512, kSkyHeight = 256;
-constexpr int kSamples = 8;  ///< a side, in each pixel near the sun's edge
+constexpr int kSamples = 8;  ///< per side of each pixel on or near the sun
 
 Vec3d mix(Vec3d a, Vec3d b, double t) { return a * (1.0 - t) + b * t; }
 
-/// 0 below 0, 1 above 1, without a corner.
+/// Smooth step: 0 below 0, 1 above 1.
 double smooth(double t) {
     const double x = t < 0 ? 0 : t > 1 ? 1 : t;
     return x * x * (3.0 - 2.0 * x);
@@ -20,14 +20,14 @@ double smooth(double t) {
 
 struct Sun {
     Vec3d direction;
-    double cos_radius, cos_outside;  ///< disc; where the glow begins to be looked at
+    double cos_radius, cos_outside;  ///< cosines of the radii of the disc, and of the region whose pixels are sampled
     Vec3d radiance;
 };
 
 Sun make_sun() {
     const SinCos height = sin_cos(40.0 * kPi / 180.0), side = sin_cos(35.0 * kPi / 180.0);
     const double cos_radius = sin_cos(1.5 * kPi / 180.0).cos;
-    // Radiance so that irradiance is pi times the colour: pi c / (pi sin^2 r).
+    // Irradiance pi c for the colour c: radiance pi c / (pi sin^2 r) over a disc of angular radius r.
     const double radiance = 1.0 / (1.0 - cos_radius * cos_radius);
     return {{height.cos * side.sin, height.sin, height.cos * side.cos},
             cos_radius,
@@ -35,7 +35,7 @@ Sun make_sun() {
             Vec3d{1.0, 0.92, 0.78} * radiance};
 }
 
-/// Everything but the sun's disc.
+/// Radiance from direction d without the sun's disc.
 Vec3d background(Vec3d d, const Sun& sun) {
     const Vec3d zenith{0.14, 0.29, 0.62}, horizon{0.56, 0.66, 0.78}, haze{0.62, 0.62, 0.6}, ground{0.19, 0.17, 0.15};
     const double up = d.y < 0 ? 0 : d.y;
@@ -47,7 +47,7 @@ Vec3d background(Vec3d d, const Sun& sun) {
     return mix(below, sky, smooth(0.5 + 25.0 * d.y));
 }
 
-/// Mean over the pixel; many samples only where the sun's edge may cross it.
+/// Mean radiance of a pixel. Only pixels on or near the sun take several samples.
 Vec3d sky_pixel(int x, int y, const Sun& sun) {
     const Vec3d middle = sh::equirect_direction((x + 0.5) / kSkyWidth, (y + 0.5) / kSkyHeight);
     const Vec3d color = background(middle, sun);

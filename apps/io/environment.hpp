@@ -1,4 +1,4 @@
-// Environments: images of the light that comes from all around, and a sky that needs no file. Directions: sh/equirect.hpp.
+// Environments: images of the light from all directions, and a built-in sky. Directions: sh/equirect.hpp.
 #pragma once
 
 #include "sh/equirect.hpp"
@@ -10,10 +10,10 @@
 
 namespace halflit::io {
 
-/// Equirectangular, linear rgb radiance, finite and not negative.
+/// An equirectangular image of linear rgb radiance, finite and not negative.
 struct EnvironmentImage {
     int width = 0, height = 0;
-    std::vector<float> rgb;  ///< three floats a pixel, row 0 on top
+    std::vector<float> rgb;  ///< three floats per pixel, row 0 on top
 
     [[nodiscard]] sh::EquirectView view() const { return {width, height, rgb}; }
 };
@@ -27,8 +27,8 @@ struct EnvironmentLimits {
 [[nodiscard]] Result<EnvironmentImage> read_environment(const std::string& path, const EnvironmentLimits& limits = {});
 
 /// A clear day, 512 x 256: blue towards the zenith, pale at the horizon, ground of albedo 0.2 and a sun of 1.5 degrees radius, 40 degrees
-/// high, to the right of and behind a camera that looks along -z. A white surface that faces the sun reflects about 1 of it, and one that
-/// faces up about 0.4 of the sky. Made by + - * / and sqrt alone: the same bits everywhere.
+/// high, to the right of and behind a camera that looks along -z. A white Lambert surface that faces the sun gets about 1 from the sun, and
+/// one that faces up gets about 0.4 from the sky. Computed by + - * / and sqrt alone: the same bits on every machine.
 [[nodiscard]] EnvironmentImage built_in_sky();
 
 /// "sky" is the built-in one; anything else is a file.

@@ -70,7 +70,7 @@ Result<std::vector<std::byte>> read_regular(int fd, std::size_t max_bytes, Error
     return bytes;
 }
 
-/// Component by component, no symbolic link followed at all: for kernels without openat2 (before Linux 5.6, or filtered).
+/// Opens component by component and follows no symbolic link. Used where openat2 is missing (before Linux 5.6) or filtered.
 Descriptor open_by_walk(int folder, const std::string& relative) {
     Descriptor current(::fcntl(folder, F_DUPFD_CLOEXEC, 0));
     std::size_t begin = 0;
@@ -132,7 +132,7 @@ Result<std::vector<std::byte>> ModelFolder::read(std::string_view relative, std:
     if (folders_.empty()) return refuse("the model has no folder to read other files from");
     if (relative.empty()) return refuse("expected a file name");
     if (relative.find('\0') != std::string_view::npos) return refuse("a file name cannot hold a zero byte");
-    if (relative.find('\\') != std::string_view::npos) return refuse("a reference is separated by '/', found '\\'");
+    if (relative.find('\\') != std::string_view::npos) return refuse("expected '/' between folders, found '\\'");
     if (relative.front() == '/') return refuse("absolute names are not allowed, expected one below the model's folder");
 
     int error = ENOENT;

@@ -1,4 +1,4 @@
-// Reading files: whole, into memory, with a limit. A model's own references are confined to the model's folder.
+// Reading of whole files into memory, with a limit. A model's own references are confined to the model's folder.
 #pragma once
 
 #include "shading/result.hpp"
@@ -13,8 +13,8 @@ namespace halflit::io {
 
 inline constexpr std::size_t kDefaultMaxFileBytes = std::size_t{512} << 20;
 
-/// The bytes of a regular file that the user named. Errors: io where it cannot be opened or read, limit above `max_bytes`,
-/// bad_input where it changed its size while it was read. Never maps the file: one that shrinks cannot raise SIGBUS.
+/// Reads a regular file that the user named. Errors: io if it cannot be opened or read, limit above `max_bytes`, bad_input if its size
+/// changed while it was read. The file is not mapped, so one that shrinks cannot raise SIGBUS.
 Result<std::vector<std::byte>> read_file(const std::string& path, std::size_t max_bytes = kDefaultMaxFileBytes);
 
 /// Opens files by the names that a model gives, below the model's folder only: no "..", no absolute name, no symbolic link that

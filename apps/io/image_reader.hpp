@@ -1,4 +1,4 @@
-// Pictures in: PNG and JPEG, from memory, under limits that are checked on the header, before anything is decoded.
+// Decoding of PNG and JPEG pictures in memory. Limits are checked on the header, before pixels are decoded.
 #pragma once
 
 #include "shading/result.hpp"
@@ -21,13 +21,13 @@ enum class ImageFormat : std::uint8_t { png, jpeg };
 struct ImageHeader {
     ImageFormat format = ImageFormat::png;
     int width = 0, height = 0;
-    int bits = 8;  ///< a channel: 16 for a PNG of 16 bits, else 8
+    int bits = 8;  ///< per channel: 16 for a PNG of 16 bits, else 8
 };
 
 struct DecodedImage {
     int width = 0, height = 0;
     std::vector<std::uint8_t> rgba8;    ///< width * height * 4, row 0 on top, alpha not premultiplied, as stored (no gamma applied)
-    std::vector<std::uint16_t> rgba16;  ///< the same at 16 bits, instead of rgba8, where the file has them and they were asked for
+    std::vector<std::uint16_t> rgba16;  ///< the same at 16 bits, instead of rgba8, if the file has them and `keep_16_bits`
 };
 
 /// Errors: bad_input for other formats and broken headers, limit above `limits`. Messages have no file prefix.

@@ -21,7 +21,7 @@ namespace {
 constexpr int kJpegQuality = 95;
 constexpr float kLargestRgbe = 1.69e38f;  // 255/256 * 2^127
 
-/// What the encoder's C callback fills. An exception may not pass through C code, so it is kept here.
+/// Target of the encoder's C callback. An exception may not pass through C code, so it is kept here.
 struct Sink {
     std::vector<std::uint8_t> bytes;
     std::exception_ptr failure;
@@ -79,7 +79,7 @@ std::vector<std::uint8_t> encode(const raster::Image& image, OutputFormat format
             break;
     }
     if (sink.failure) std::rethrow_exception(sink.failure);
-    if (done == 0) throw std::bad_alloc();  // the encoders fail for want of memory only
+    if (done == 0) throw std::bad_alloc();  // the encoders fail only when memory runs out
     return sink.bytes;
 }
 
@@ -97,7 +97,7 @@ Result<OutputFormat> output_format_of(std::string_view path) {
     if (extension == "tga") return OutputFormat::tga;
     if (extension == "jpg" || extension == "jpeg") return OutputFormat::jpg;
     if (extension == "hdr") return OutputFormat::hdr;
-    return fail(ErrorCode::usage, std::string(path) + ": the extension names no known format; known are .png .bmp .tga .jpg .hdr");
+    return fail(ErrorCode::usage, std::string(path) + ": unknown file extension, expected .png, .bmp, .tga, .jpg or .hdr");
 }
 
 Result<std::vector<std::uint8_t>> encode_image(const raster::Image& image, OutputFormat format) {

@@ -23,10 +23,10 @@ struct Header {
     bool columns = false;                    ///< scanlines are columns: "X" comes first in the resolution line
     bool x_reversed = false, y_upwards = false;
     int width = 0, height = 0;
-    std::size_t end = 0;  ///< where the pixels begin
+    std::size_t end = 0;  ///< offset of the first pixel
 };
 
-/// Lines of the header; the last one may lack its newline only at the end of the file, which is then too short anyway.
+/// Lines of the header. A line without a newline is an error, because the file ends within the header.
 class Lines {
 public:
     explicit Lines(std::span<const std::byte> file)
@@ -77,7 +77,7 @@ bool parse(std::string_view text, T& value) {
     return error == std::errc() && end == text.data() + text.size();
 }
 
-/// Factors that pixels have been multiplied by; each must be usable as a divisor.
+/// Reads factors that the pixels have been multiplied by; each must be usable as a divisor.
 template <std::size_t N>
 bool parse_factors(std::string_view text, std::array<double, N>& factors) {
     for (double& factor : factors)
@@ -100,7 +100,7 @@ Result<void> read_variable(const Lines& lines, std::string_view line, Header& he
     return {};
 }
 
-/// "-Y 512 +X 1024" and its seven relatives. The axis that comes first is the slow one.
+/// Reads "-Y 512 +X 1024" or one of the seven other orders. The axis named first is the slow one.
 Result<void> read_resolution(const Lines& lines, std::string_view line, Header& header) {
     std::string_view rest = line;
     std::array<std::string_view, 2> axis;
@@ -142,16 +142,16 @@ Result<Header> read_header(std::span<const std::byte> file) {
 
 using Rgbe = std::array<std::uint8_t, 4>;
 
-/// Scanlines one after the other. Every function takes at least one byte for what it gives, or fails.
+/// Reads scanlines in order. Every function consumes at least one byte for each run or pixel, or fails.
 class Scanlines {
 public:
     explicit Scanlines(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
-    /// False, with `why` set, where the data ends or contradicts itself.
+    /// Reads a scanline; false, with `why` set, if the data ends or contradicts itself.
     bool read(std::span<Rgbe> line) {
         if (bytes_.size() < 4) return ends();
         const std::uint8_t b0 = byte(0), b1 = byte(1), b2 = byte(2), b3 = byte(3);
-        // Pixels with this start are not normalised, so no flat picture has them.
+        // New run lengths begin with bytes that no normalised pixel of a flat picture has.
         const bool new_runs = line.size() >= 8 && line.size() <= 32767 && b0 == 2 && b1 == 2 && b2 < 128;
         if (!new_runs) return read_flat(line);
         if (static_cast<std::size_t>(b2) * 256 + b3 != line.size()) {
@@ -195,7 +195,8 @@ private:
         return true;
     }
 
-    /// Flat pixels and old run lengths: (1, 1, 1, n) repeats the pixel before n times; in a row of them each counts 256 times the last.
+    /// Flat pixels and old run lengths: (1, 1, 1, n) repeats the pixel before n times. Of several in a row, each counts 256 times as much
+    /// as the one before.
     bool read_flat(std::span<Rgbe> line) {
         int shift = 0;
         for (std::size_t x = 0; x < line.size();) {
@@ -224,7 +225,7 @@ private:
     std::span<const std::byte> bytes_;
 };
 
-/// Component values by exponent: 2^(e - 136) / divisor.
+/// Scale of a mantissa by channel and exponent e: 2^(e - 136) / divisor.
 std::array<std::array<double, 256>, 3> make_scales(const Header& header) {
     std::array<std::array<double, 256>, 3> scales{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -234,7 +235,7 @@ std::array<std::array<double, 256>, 3> make_scales(const Header& header) {
     return scales;
 }
 
-/// From the file's order, slow axis first, to rows from the top.
+/// Converts pixels from the file's order, slow axis first, to rows from the top.
 std::vector<float> reordered(const Header& header, std::vector<float> stored) {
     if (!header.columns && !header.x_reversed && !header.y_upwards) return stored;
     std::vector<float> rgb(stored.size());
@@ -261,7 +262,7 @@ Result<RgbeImage> decode_rgbe(std::span<const std::byte> file, const RgbeLimits&
     const int lines = header->columns ? header->width : header->height;
     std::vector<Rgbe> line(static_cast<std::size_t>(header->columns ? header->height : header->width));
     Scanlines scanlines(file.subspan(header->end));
-    std::vector<float> stored;  // grows with what has been read: a short file cannot ask for much memory
+    std::vector<float> stored;  // grows with what has been read, so that a short file cannot take much memory
     for (int i = 0; i < lines; ++i) {
         if (!scanlines.read(line)) return refuse(fmt::format("scanline {} of {}: {}", i, lines, scanlines.why));
         for (const Rgbe& pixel : line)

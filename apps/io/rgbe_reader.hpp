@@ -1,5 +1,5 @@
-// Radiance pictures (.hdr, .pic): RGBE pixels, flat or with the old or the new run lengths. Own code, because readers in circulation loop
-// without end on files that are cut off: here every step uses up input, and memory grows only with pixels that have been read.
+// Reader of Radiance pictures (.hdr, .pic): RGBE pixels, flat or with the old or the new run lengths. It is our own, because common readers
+// loop forever on truncated files. Here every step consumes input, and memory grows only with pixels that have been read.
 #pragma once
 
 #include "shading/result.hpp"
@@ -11,18 +11,18 @@
 namespace halflit::io {
 
 struct RgbeLimits {
-    int max_width = 16384, max_height = 8192;  ///< of the picture as it is shown
+    int max_width = 16384, max_height = 8192;  ///< limits of the picture as it is shown
 };
 
 struct RgbeImage {
     int width = 0, height = 0;
-    std::vector<float> rgb;  ///< linear, three floats a pixel, row 0 on top, column 0 at the left
+    std::vector<float> rgb;  ///< linear, three floats per pixel, row 0 on top, column 0 at the left
 };
 
-/// A component is mantissa * 2^(exponent - 136), and 0 for exponent 0; then divided by the product of all EXPOSURE lines and of its part of
-/// the COLORCORR lines, so that it is radiance again. Values above 1e30 become 1e30; RGBE cannot hold negative numbers or NaN.
-/// All eight orders of the resolution line are brought into the one order above. Errors: bad_input, and limit above `limits`; messages
-/// have no file prefix.
+/// A component is mantissa * 2^(exponent - 136), and 0 for exponent 0. It is divided by the product of all EXPOSURE lines and of its part
+/// of the COLORCORR lines, which gives radiance. Values above 1e30 become 1e30; RGBE cannot hold negative numbers or NaN. All eight pixel
+/// orders of the resolution line are converted to that of RgbeImage. Errors: bad_input, and limit above `limits`; messages have no file
+/// prefix.
 [[nodiscard]] Result<RgbeImage> decode_rgbe(std::span<const std::byte> file, const RgbeLimits& limits = {});
 
 }  // namespace halflit::io

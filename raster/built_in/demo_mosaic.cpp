@@ -13,7 +13,7 @@ constexpr double kBevel = 9.0;  // texels over which the glaze bends down to the
 struct Glaze {
     std::uint8_t red, green, blue;  // sRGB
     std::uint8_t roughness, metal;  // 255 is 1
-    int weight;                     // of 32
+    int weight;                     // share of the tiles, in 1/32
 };
 constexpr Glaze kGlazes[] = {
     {18, 84, 96, 70, 0, 9},      // petrol
@@ -21,10 +21,10 @@ constexpr Glaze kGlazes[] = {
     {22, 48, 84, 64, 0, 6},      // night blue
     {150, 196, 186, 80, 0, 4},   // celadon
     {226, 214, 188, 90, 0, 3},   // ivory
-    {222, 160, 66, 84, 140, 3},  // gilt: half metal, as there is nothing to mirror here
+    {222, 160, 66, 84, 140, 3},  // gilt: half metal, because there is nothing here for metal to mirror
 };
 
-/// A number from the tile's place that looks random: a round of integer mixing (Murmur3's finaliser).
+/// Hash of the tile's number: the finaliser of MurmurHash3.
 std::uint32_t scramble(std::uint32_t x) {
     x = (x ^ (x >> 16)) * 0x85EBCA6Bu;
     x = (x ^ (x >> 13)) * 0xC2B2AE35u;
@@ -38,7 +38,7 @@ const Glaze& pick_glaze(std::uint32_t number) {
     return kGlazes[0];
 }
 
-/// Slope of the cushion at `place` texels into the tile: up over the bevel, level on top, down again.
+/// Slope of the tile's surface `place` texels from its left or upper edge: up over the bevel, level on top, down again.
 double slope(double place) {
     const double edge = std::min(place, kTile - place) - kJoint;
     if (edge <= 0.0 || edge >= kBevel) return 0.0;
@@ -64,11 +64,12 @@ Mosaic make_mosaic(int columns, int rows) {
             const Glaze& glaze = pick_glaze(number);
             const double u = x % kTile + 0.5, v = y % kTile + 0.5;
             const bool joint = std::min({u, v, kTile - u, kTile - v}) < kJoint;
-            // Firing and hand: the glaze's tone varies by a tenth, the tile is set askew by a few degrees.
+            // Variation as in handmade tiles: the colour varies by a tenth, the tilt by up to 3 degrees about each axis.
             const double tone = 0.9 + 0.1 * static_cast<double>((number >> 8) & 255u) / 255.0;
             const double tilt_x = 0.10 * (static_cast<double>((number >> 16) & 15u) / 15.0 - 0.5);
             const double tilt_y = 0.10 * (static_cast<double>((number >> 20) & 15u) / 15.0 - 0.5);
-            // Height rises by `slope` to the right and down; the normal leans against it, and its y points up the picture.
+            // The height rises by slope(u) to the right and slope(v) downwards; the normal tilts the other way. Its y points up in the
+            // texture.
             const double nx = joint ? 0.0 : tilt_x - slope(u), ny = joint ? 0.0 : tilt_y + slope(v);
             const double scale = 1.0 / __builtin_sqrt(nx * nx + ny * ny + 1.0);
             const auto color = [&](std::uint8_t c) { return joint ? to_byte(0.2) : to_byte(tone * c / 255.0); };

@@ -12,7 +12,7 @@ Vec3f to_float(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.
 
 Vec3d unit(Vec3d v) { return v * (1.0 / length(v)); }
 
-/// Rows of vertices to quads: seen from the front, columns run to the right and rows down.
+/// Adds two triangles for each cell of a grid of vertices. Seen from the front, columns run to the right and rows down.
 void add_quads(Mesh& mesh, int columns, int rows) {
     for (int j = 0; j < rows; ++j)
         for (int i = 0; i < columns; ++i) {
@@ -26,16 +26,16 @@ void add_quads(Mesh& mesh, int columns, int rows) {
 double hidden_share(const Occluder& o, double distance) {
     const double r = o.radius;
     if (o.height == 0.0f) {
-        // A ball at height r: cos(angle to its middle) * sin^2(its angular radius) = (r / D) (r / D)^2.
+        // A ball at height r, D from its centre: cos(angle to the centre) * sin^2(angular radius) = (r / D) (r / D)^2.
         const double d2 = r * r + distance * distance;
         return r * r * r / (d2 * __builtin_sqrt(d2));
     }
-    // A wall of height h at distance g hides (1 - g / sqrt(g^2 + h^2)) / 2; a round one less, as it turns away.
+    // A wall of height h at distance g hides (1 - g / sqrt(g^2 + h^2)) / 2. A round one hides less, because it curves away.
     const double g = std::max(0.0, distance - r), h = o.height;
     return 0.5 * (1.0 - g / __builtin_sqrt(g * g + h * h)) * std::min(1.0, r / std::max(distance, 1e-6));
 }
 
-/// Steps of `fine` within [low, high] and of `coarse` outside, from `from` to `to`.
+/// Grid positions from `from` to `to`, with steps of `fine` within [low, high] and of `coarse` outside.
 std::vector<double> graded(double from, double low, double high, double to, double fine, double coarse) {
     std::vector<double> steps;
     const auto run = [&](double a, double b, double step) {
@@ -52,12 +52,12 @@ std::vector<double> graded(double from, double low, double high, double to, doub
 }  // namespace
 
 Mesh make_cyclorama(float half_width, Vec3f tint, std::span<const Occluder> occluders) {
-    constexpr double kFront = 8.0, kBack = -5.0, kBend = 3.5, kTop = 9.0;  // the floor from z to z, the bend's radius, the wall's top
+    constexpr double kFront = 8.0, kBack = -5.0, kBend = 3.5, kTop = 9.0;  // z of the floor's ends, radius of the bend, top of the wall
     struct Station {
         double y, z;
         Vec3f normal;
     };
-    // From the wall's top down and forward over the floor.
+    // Profile: from the wall's top down, and forward over the floor.
     std::vector<Station> profile;
     for (int i = 0; i < 8; ++i) profile.push_back({kTop + (kBend - kTop) * i / 8, kBack - kBend, {0, 0, 1}});
     for (int i = 0; i < 48; ++i) {
@@ -93,7 +93,7 @@ Mesh make_trefoil(float radius, float swing, float tube, int slices, int sides) 
             const Vec3d center{reach * around.cos, reach * around.sin, -swing * wave.sin};
             const Vec3d along = unit({-3.0 * swing * wave.sin * around.cos - 2.0 * reach * around.sin,
                                       -3.0 * swing * wave.sin * around.sin + 2.0 * reach * around.cos, -3.0 * swing * wave.cos});
-            // The torus's own normal is square to the curve and comes back to itself after one turn, unlike a carried frame.
+            // The torus's normal is perpendicular to the curve and periodic along it; a parallel-transported frame is not periodic.
             const Vec3d out{wave.cos * around.cos, wave.cos * around.sin, -wave.sin};
             const Vec3d side = cross(along, out);
             const SinCos turn = sin_cos(2.0 * kPi * (j % sides) / sides);
@@ -121,10 +121,10 @@ Mesh make_plinth_side(float radius, float height, int repeats, int slices) {
 }
 
 Mesh make_plinth_lid(float radius, float lip, int slices, const Occluder& contact) {
-    // The outline from the middle of the top outwards, down around the rim and back under it to the side.
+    // Outline: from the middle of the top outwards, down around the rim and back under it to the side.
     constexpr int kRim = 12, kTop = 24;
     struct Station {
-        double r, y, out, up;  // place, and normal
+        double r, y, out, up;  // position and normal
     };
     std::vector<Station> outline;
     for (int i = 0; i < kTop; ++i) outline.push_back({radius * static_cast<double>(i) / kTop, 2.0 * lip, 0, 1});

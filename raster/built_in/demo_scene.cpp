@@ -1,5 +1,5 @@
-// The built-in scene: five balls of one clay that differ in their lobe alone, from Lambert on the left to the full wrap on the right,
-// under a low key from the side. Behind them a lacquered trefoil on a plinth with a mosaic.
+// The built-in scene: five clay balls that differ only in their lobe, from Lambert on the left to full wrap on the right, under a low key
+// light from the side. Behind them a lacquered trefoil knot stands on a plinth with a mosaic.
 #include "raster/built_in/demo_parts.hpp"
 #include "raster/built_in/shapes.hpp"
 #include "raster/scene/scene.hpp"
@@ -39,7 +39,7 @@ void add_object(Scene& scene, Mesh mesh, int material, const Mat4& place) {
     scene.instances.push_back({static_cast<int>(scene.meshes.size()) - 1, place});
 }
 
-/// -1 when the texture cannot be made; the material then does without it.
+/// Index of the new texture; -1 if it cannot be made, and the material is drawn without it.
 int add_texture(Scene& scene, Result<shading::Texture> texture) {
     if (!texture) return -1;
     scene.textures.push_back(std::move(*texture));
@@ -80,7 +80,7 @@ void add_plinth(Scene& scene) {
     add_object(scene, detail::make_plinth_side(kPlinthRadius, kPlinthSide, 7, 128), tiles, translation(kPlinthFoot));
 }
 
-/// The trefoil, and the lid that it stands on.
+/// Adds the trefoil, and the lid that it stands on.
 void add_trefoil(Scene& scene) {
     const int lacquer = add_material(scene, "lacquer", {0.58f, 0.10f, 0.045f}, 0.0f, 0.28f);
     scene.materials[static_cast<std::size_t>(lacquer)].lobe = Lobe::sloan(0.5f);
@@ -90,7 +90,7 @@ void add_trefoil(Scene& scene) {
     Vec3f lowest{0, 1e9f, 0};
     for (const Vec3f p : trefoil.positions)
         if (p.y < lowest.y) lowest = p;
-    // A hair's breadth in the lid, so that no light shows below.
+    // The trefoil sinks 0.01 into the lid, so that no light shows below it.
     const float lift = kPlinthSide + 2 * kPlinthLip - lowest.y - 0.01f;
     add_object(scene, std::move(trefoil), lacquer, translation(kPlinthFoot + Vec3f{0, lift, 0}));
 
@@ -99,7 +99,7 @@ void add_trefoil(Scene& scene) {
                translation(kPlinthFoot + Vec3f{0, kPlinthSide, 0}));
 }
 
-/// A small bright bulb that also lights what is near it.
+/// Adds a small emissive sphere with a point light in its centre.
 void add_bulb(Scene& scene, const char* name, Vec3f place, Vec3f color, float power) {
     constexpr float kRadius = 0.06f;
     const int glass = add_material(scene, name, {0, 0, 0}, 0.0f, 1.0f);
@@ -119,7 +119,7 @@ void add_spot(Scene& scene, Vec3f place, Vec3f target, Vec3f color, float inner_
     light.type = LightType::spot;
     light.position_ws = place;
     light.direction_ws = normalize_or(target - place, {0, -1, 0});
-    // The colour is meant at the target: undo the inverse square of the distance.
+    // `color` is the light at the target: this undoes the inverse square of the distance.
     const Vec3f reach = target - place;
     light.color_linear = color * dot(reach, reach);
     light.inner_cone_rad = static_cast<float>(inner_deg * (kPi / 180.0));
@@ -132,7 +132,7 @@ void add_lights(Scene& scene) {
     key.direction_ws = normalize_or({0.90f, -0.43f, -0.28f}, {0, -1, 0});
     key.color_linear = {0.98f, 0.84f, 0.66f};
     scene.lights.push_back(key);
-    add_spot(scene, {5.0f, 3.6f, -4.6f}, {0.6f, 0.4f, 0.0f}, {0.11f, 0.21f, 0.40f}, 4, 48);  // cool rim from behind
+    add_spot(scene, {5.0f, 3.6f, -4.6f}, {0.6f, 0.4f, 0.0f}, {0.11f, 0.21f, 0.40f}, 4, 48);  // cool rim light from behind
     add_spot(scene, {0.0f, 6.5f, 0.5f}, {0.0f, 2.6f, -8.0f}, {0.30f, 0.52f, 0.66f}, 2, 36);  // a glow on the wall
     add_bulb(scene, "amber bulb", {-1.83f, 0.06f, 0.75f}, {1.0f, 0.50f, 0.12f}, 0.05f);
     add_bulb(scene, "rose bulb", {0.61f, 0.06f, 0.80f}, {1.0f, 0.22f, 0.34f}, 0.05f);

@@ -9,12 +9,12 @@
 namespace halflit::raster {
 namespace {
 
-constexpr int kSquares = 32;  ///< on a side of the floor
+constexpr int kSquares = 32;  ///< squares on a side of the floor
 constexpr float kSquare = 2.0f, kLampHeight = 0.8f, kRange = 3.0f;
-constexpr int kPillars = 13;  ///< on a side
+constexpr int kPillars = 13;  ///< pillars on a side
 constexpr Vec3f kPillarHalf{0.2f, 0.6f, 0.2f};
 
-/// The middle of the square in this column and row.
+/// Middle of the square in this column and row, at this height.
 Vec3f square(int column, int row, float height) {
     return {kSquare * (static_cast<float>(column - kSquares / 2) + 0.5f), height,
             kSquare * (static_cast<float>(row - kSquares / 2) + 0.5f)};
@@ -45,7 +45,7 @@ void add(Scene& scene, Mesh mesh, const char* name, Vec4f color, const std::vect
     for (const Vec3f place : places) scene.instances.push_back({static_cast<int>(scene.meshes.size()) - 1, translation(place)});
 }
 
-/// From above and in front, 45 degrees down to the middle of the floor.
+/// Camera above and in front, which looks 45 degrees down at the middle of the floor.
 Camera camera_over_the_middle() {
     constexpr float kHalfRoot = 0.707106781f, kAbove = 8.5f;  // 1 / sqrt(2)
     Camera camera;
@@ -64,7 +64,7 @@ Scene lights_scene(int lights, bool ranged) {
     std::vector<Vec3f> pillars;
     for (int row = 0; row < kPillars; ++row)
         for (int column = 0; column < kPillars; ++column) {
-            // Every second square's corner, so that no pillar stands below a lamp.
+            // Pillars are at every second corner of the squares, so that none stands below a lamp.
             const float x = 2 * kSquare * static_cast<float>(column - kPillars / 2),
                         z = 2 * kSquare * static_cast<float>(row - kPillars / 2);
             pillars.push_back({x, kPillarHalf.y, z});

@@ -1,4 +1,4 @@
-// A hall that shows what many lights cost: a floor with pillars, and lamps over it.
+// Scene that shows the cost of many lights: a floor with pillars, and lamps over it.
 #pragma once
 
 #include "raster/scene/scene.hpp"
@@ -7,8 +7,9 @@ namespace halflit::raster {
 
 inline constexpr int kMostHallLights = 1024;
 
-/// Some 4100 triangles; 1 to 1024 point lights, one to each square of 2 x 2, from the middle outwards: more of them are farther away, never
-/// denser. With a range each ends 3 from its lamp; without, it reaches the whole hall. The camera sees the middle, where 64 lamps hang.
+/// About 4100 triangles and 1 to 1024 point lights. Each square of 2 x 2 units has one light; squares are filled from the middle outwards,
+/// so more lights are farther away, not denser. ranged: true limits each light to a range of 3; false lets it reach the whole hall. The
+/// camera sees the middle, where 64 lights hang.
 [[nodiscard]] Scene lights_scene(int lights, bool ranged);
 
 }  // namespace halflit::raster

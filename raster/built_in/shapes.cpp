@@ -10,7 +10,7 @@ namespace {
 
 Vec3f to_float(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 
-/// Step `i` of `count` round the circle; step `count` is step 0 to the bit, so that seams close.
+/// Step `i` of `count` around the circle. Step `count` equals step 0 bit for bit, so that seams close.
 SinCos circle_step(int i, int count) { return sin_cos(2.0 * kPi * static_cast<double>(i % count) / static_cast<double>(count)); }
 
 float fraction(int i, int count) { return static_cast<float>(static_cast<double>(i) / static_cast<double>(count)); }
@@ -31,8 +31,8 @@ void add_vertex(Mesh& mesh, Vec3f position, Vec3f normal, Vec2f uv) {
 void add_triangle(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) { mesh.indices.insert(mesh.indices.end(), {a, b, c}); }
 
 /// Two triangles for each cell of a grid of (columns + 1) x (rows + 1) vertices in row order. Seen from outside, columns run to the
-/// right and rows down. `poles`: the first and the last row of vertices are one point each, where a cell is one triangle whose
-/// corner at the pole is the vertex of its own column.
+/// right and rows down. poles: the vertices of the first row are at one point, and so are those of the last row. A cell there is one
+/// triangle, whose corner at the pole is the vertex of the cell's column.
 void add_grid(Mesh& mesh, int columns, int rows, bool poles) {
     for (int j = 0; j < rows; ++j)
         for (int i = 0; i < columns; ++i) {
@@ -61,7 +61,7 @@ Mesh make_sphere(float radius, int slices, int stacks) {
         for (int i = 0; i <= slices; ++i) {
             const SinCos around = circle_step(i, slices);
             const Vec3d n{ring * around.sin, height, ring * around.cos};
-            // A pole's triangle has its corner above the middle of its base, in the texture too.
+            // In the texture the corner at the pole is above the middle of its triangle's base.
             const float u = pole ? fraction(2 * i + 1, 2 * slices) : fraction(i, slices);
             add_vertex(mesh, to_float(n * static_cast<double>(radius)), to_float(n), {u, fraction(j, stacks)});
         }
@@ -72,7 +72,7 @@ Mesh make_sphere(float radius, int slices, int stacks) {
 
 Mesh make_sphere_of(float radius, std::int64_t triangles) {
     triangles = std::clamp<std::int64_t>(triangles, 12, std::int64_t{1} << 26);
-    // Even quads have slices = 2 * stacks, so stacks is near sqrt(triangles / 4). A tenth around it is searched for the closest product.
+    // Square quads have slices = 2 * stacks, so stacks is near sqrt(triangles / 4). Values within a tenth of it are searched for the best.
     std::int64_t even = 2;
     while (4 * even * even < triangles) ++even;
     int best_slices = 3, best_stacks = 3;
@@ -107,7 +107,7 @@ Mesh make_plane(float half_size, int subdivisions) {
 }
 
 Mesh make_box(Vec3f half_extents) {
-    // Each face by the directions in which u and v grow, seen from outside; cross(down, right) is the outward normal.
+    // A face is given by the directions in which u and v grow, seen from outside. cross(down, right) is the outward normal.
     struct Face {
         Vec3f right, down;
     };

@@ -17,7 +17,7 @@
 namespace halflit::raster {
 namespace {
 
-/// Runs `loop(task)` where `loop` may call the task on threads across which an exception must not pass; rethrows the first one here.
+/// Runs `loop(task)`. The loop may use threads that an exception must not leave, so the first one is caught there and rethrown here.
 template <class Loop>
 void run_catching(const Loop& loop, const std::function<void(int)>& task) {
     std::exception_ptr failure;
@@ -48,7 +48,7 @@ struct Executor::Arena {
 
 #else
 
-/// Threads that live for one loop: some ten microseconds a loop more than oneTBB, which keeps its threads.
+/// Starts threads for each loop: about ten microseconds per loop more than oneTBB, which keeps its threads.
 struct Executor::Arena {
     explicit Arena(int thread_count) : threads(thread_count) {}
     static int all_threads() { return static_cast<int>(std::thread::hardware_concurrency()); }
@@ -63,7 +63,7 @@ struct Executor::Arena {
                 try {
                     for (int i = 1; i < std::min(threads, count); ++i) others.emplace_back(part, i);
                 } catch (const std::system_error&) {
-                    // No more threads to be had: those that run, and this one, do all the work.
+                    // No further thread can be started: those that run, and this one, do all the work.
                 }
                 part(0);
             },

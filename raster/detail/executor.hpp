@@ -1,4 +1,4 @@
-// Threads: oneTBB's, the standard library's where halflit is built without oneTBB, or the host's own loop.
+// Threads: oneTBB's, the standard library's if halflit is built without oneTBB, or the host's own loop.
 #pragma once
 
 #include "raster/parallel_for.hpp"
@@ -10,8 +10,8 @@
 
 namespace halflit::raster {
 
-/// Runs loops of a frame. Every task runs in the library's floating-point environment. The first exception of a task
-/// (only memory can run out) is rethrown by `run`.
+/// Runs the parallel loops of a frame. Every task runs in the library's floating-point environment. `run` rethrows the first exception of a
+/// task; the only cause is a lack of memory.
 class Executor {
 public:
     Executor();
@@ -19,7 +19,7 @@ public:
     Executor(const Executor&) = delete;
     Executor& operator=(const Executor&) = delete;
 
-    /// threads: 0 for one a core. An empty hook means the threads of this build.
+    /// threads: 0 for one per core. hook: the host's loop; empty: oneTBB or the standard library.
     void configure(int threads, const ParallelFor& hook);
     [[nodiscard]] int threads() const { return threads_; }
     void run(int count, const std::function<void(int)>& body);
@@ -31,7 +31,7 @@ private:
     int threads_ = 1;
 };
 
-/// Working memory lent to one task at a time; grows to as many as ran at once.
+/// Pool of working memory. An item is lent to one task at a time; the pool grows to the largest number of tasks that ran at once.
 template <class T>
 class Pool {
 public:

@@ -6,7 +6,7 @@
 
 namespace halflit::raster {
 
-/// A buffer that is not initialised when it grows, and keeps nothing of what it held.
+/// Buffer of uninitialised elements. Growing drops the old contents.
 template <class T>
 class RawBuffer {
 public:

@@ -7,7 +7,7 @@ namespace halflit::raster {
 
 class Stopwatch {
 public:
-    /// Milliseconds since the last call, or since the beginning.
+    /// Milliseconds since the last call, or since construction.
     double lap() {
         const auto now = std::chrono::steady_clock::now();
         const double ms = std::chrono::duration<double, std::milli>(now - last_).count();

@@ -1,4 +1,4 @@
-// Numbers that cameras and framing share: clamps for wild input, and tangents of angles without the C library.
+// Numerics of cameras and framing: clamps for extreme or invalid input, and tangents of angles without the C library.
 #pragma once
 
 #include "sh/trig.hpp"
@@ -7,7 +7,7 @@ namespace halflit::raster {
 
 inline constexpr double kMinFov = 1e-5, kMaxFov = 3.1415;  // rad; tan of the half angle stays within [5e-6, 2.2e4]
 
-// NaN and infinity minus themselves are not zero.
+/// True if x is finite. NaN and infinity minus themselves are NaN.
 template <class T>
 HALFLIT_INLINE bool finite(T x) {
     return x - x == T(0);

@@ -1,9 +1,10 @@
-// From visible triangles to fragment attributes: perspective-correct barycentrics of each pixel centre, computed from the
-// triangle's snapped vertices, then every vertex attribute as v0 + b1 (v1 - v0) + b2 (v2 - v0).
+// Interpolation of fragment attributes. The perspective-correct barycentric coordinates b1, b2 of each pixel centre are computed from the
+// triangle's snapped vertices. Every vertex attribute is then v0 + b1 (v1 - v0) + b2 (v2 - v0).
 //
-// The weight of vertex i is E_i / w_i, E_i the edge function opposite to it. With d_i = vertex_i - pixel (exact integers), E_0 =
-// d1 x d2 and so on; all three are clamped at 0, so that an attribute never leaves its triangle's range. Lanes of one triangle
-// load it once; other lanes load their own and meet by 4x4 transposes. Both ways do the same operations on each lane.
+// The weight of vertex i is E_i / w_i, where E_i is the edge function of the opposite edge. With d_i = vertex_i - pixel (exact integers),
+// E_0 = d1 x d2, and so on. All three are clamped at 0, so that an attribute never leaves its triangle's range. If all lanes of a vector
+// show one triangle, it is loaded once. Otherwise each lane loads its own triangle, and 4x4 transposes make rows of the attributes. Both
+// ways do the same operations on each lane.
 #pragma once
 
 #include "raster/kernels/raster_kernels.hpp"
@@ -25,7 +26,7 @@ struct TriangleLanes {
 
 struct Barycentrics {
     F b1, b2;
-    F db1_dx, db1_dy, db2_dx, db2_dy;  ///< per pixel; valid when gradients were asked for
+    F db1_dx, db1_dy, db2_dx, db2_dy;  ///< per pixel; valid if gradients were asked for
 };
 
 HALFLIT_INLINE F positive_cross(F ax, F ay, F bx, F by) { return vmax(ax * by - ay * bx, F(0.0f)); }
@@ -46,7 +47,7 @@ HALFLIT_INLINE Barycentrics barycentrics(const TriangleLanes& t, I px, I py, boo
     b.b1 = w1 * inv;
     b.b2 = w2 * inv;
     if (!gradients) return b;
-    // dE_0/dx = 256 (y1 - y2), dE_0/dy = 256 (x2 - x1), and so on round the triangle.
+    // dE_0/dx = 256 (y1 - y2), dE_0/dy = 256 (x2 - x1), and so on around the triangle.
     F gx[3], gy[3];
     for (int k = 0; k < 3; ++k) {
         const int p = (k + 1) % 3, q = (k + 2) % 3;
@@ -61,7 +62,7 @@ HALFLIT_INLINE Barycentrics barycentrics(const TriangleLanes& t, I px, I py, boo
     return b;
 }
 
-/// Where the records of a triangle's three vertices are.
+/// Records of a triangle's three vertices.
 struct VertexRecords {
     const float* v[3];
 };
@@ -78,7 +79,7 @@ HALFLIT_INLINE VertexRecords vertex_records_of(const InterpolateArgs& args, std:
     return out;
 }
 
-/// kWidth lanes of one triangle.
+/// Interpolates kWidth lanes of one triangle.
 HALFLIT_INLINE void interpolate_one(const InterpolateArgs& args, shading::FragmentBlock& block, int at) {
     const std::uint32_t id = args.ids[at];
     const TriangleRecord& record = record_of(args.triangles, id);
@@ -125,7 +126,7 @@ HALFLIT_INLINE void interpolate_one(const InterpolateArgs& args, shading::Fragme
     }
 }
 
-/// The same for kWidth lanes of different triangles.
+/// Stores the terminator offsets of kWidth lanes of different triangles.
 HALFLIT_INLINE void offset_many(const InterpolateArgs& args, const VertexRecords* records, const Barycentrics& b,
                                 shading::FragmentBlock& block, int at) {
     alignas(64) float values[6][kWidth < 4 ? 4 : kWidth];
@@ -140,7 +141,7 @@ HALFLIT_INLINE void offset_many(const InterpolateArgs& args, const VertexRecords
     store_terminator_offset(block, at, terminator_offset(corners, row3(block, shading::kPosX, at), b.b1, b.b2, side));
 }
 
-/// Lanes of different triangles.
+/// Interpolates kWidth lanes of different triangles.
 HALFLIT_INLINE void interpolate_many(const InterpolateArgs& args, shading::FragmentBlock& block, int at) {
     constexpr int kLanes = kWidth < 4 ? 4 : kWidth;
     alignas(64) std::int32_t x[3][kLanes], y[3][kLanes];

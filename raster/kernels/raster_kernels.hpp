@@ -1,5 +1,5 @@
 // The rasterizer's inner loops as a table of function pointers, one set for each instruction set, and the plain data they read
-// and write. Everything is in window coordinates of the whole picture: x to the right, y down, pixel (0, 0) on top.
+// and write. Everything is in window coordinates of the whole picture: x to the right, y down, pixel (0, 0) at the top left.
 //
 // Fixed point: 24.8, with pixel centres on whole numbers: window position p (in pixels) is stored as (p - 0.5) * 256, so the
 // centre of pixel (i, j) is (256 i, 256 j).
@@ -19,14 +19,14 @@ struct alignas(16) ScreenVertex {
     float inv_w;        ///< 1 / clip w
 };
 
-/// Why a triangle with this vertex may need more than plain set-up.
+/// Position of a vertex relative to the view, as bits. A triangle is dropped if a bit of kRejectWhenAll is set for all its vertices.
 enum Outcode : std::uint8_t {
     kLeft = 1,
     kRight = 2,
     kTop = 4,
     kBottom = 8,
-    kBeyondFar = 16,  // outside that plane: all three outside, nothing to draw
-    kNear = 32,       // in front of the near plane: clip
+    kBeyondFar = 16,  // outside that plane, like the four above
+    kNear = 32,       // before the near plane: clip
     kGuard = 64,      // outside the guard band: clip
     kNotFinite = 128  // a coordinate is NaN or infinite: drop
 };
@@ -55,19 +55,19 @@ struct TransformArgs {
 
 /// Vertex records for shading: per vertex the slots named by `slots`, four floats each, in slot order.
 struct VertexRecordArgs {
-    const float *positions, *normals, *tangents, *uv0, *uv1, *colors;  ///< packed; null: a default is written
+    const float *positions, *normals, *tangents, *uv0, *uv1, *colors;  ///< packed; null: a default value is written
     std::int64_t begin, end;
     shading::SlotMask slots;
     float world_from_object[16];
     float normal_from_object[12];  ///< three columns of four, the fourth entry unused
-    float tangent_sign;            ///< -1 when the transform mirrors
-    float* records;                ///< of vertex 0
-    int stride;                    ///< floats a record: 4 * number of slots
+    float tangent_sign;            ///< -1 if the transform mirrors, else +1
+    float* records;                ///< record of vertex 0
+    int stride;                    ///< floats per record: 4 * number of slots
 };
 
-/// One triangle in a tile's list, counter-clockwise in y-down fixed point (positive area).
+/// One triangle in a tile's list. Vertices in the order of positive area with y down: clockwise as seen on the screen.
 struct TriangleRecord {
-    std::uint32_t vertex[3];      ///< index into the frame's screen vertices; kClipVertex + index into the chunk's own
+    std::uint32_t vertex[3];      ///< index into the view's screen vertices; kClipVertex + index into the chunk's clip vertices
     std::uint32_t draw_and_back;  ///< draw * 2 + (1 for a back face)
 };
 inline constexpr std::uint32_t kClipVertex = 0x80000000u;
@@ -75,7 +75,7 @@ inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 
 inline constexpr int kMaxSamples = 8;
 inline constexpr int kMaxTileSize = 64;
-inline constexpr int kTilePadding = 16;  ///< columns to the right that a vector may spill into
+inline constexpr int kTilePadding = 16;  ///< columns right of the tile that a vector may write to
 inline constexpr int kTileStride = kMaxTileSize + kTilePadding;
 inline constexpr int kTilePixels = kTileStride * kMaxTileSize;
 
@@ -90,11 +90,11 @@ struct SamplePattern {
 struct TileBuffers {
     alignas(64) float depth[kMaxSamples][kTilePixels];
     alignas(64) std::uint32_t triangle[kMaxSamples][kTilePixels];
-    /// Bit s: sample s passed in `cover`, which only sets bits; the caller clears them again.
+    /// Bit s is set if sample s passed in `cover`. `cover` only sets bits; the caller clears them.
     alignas(64) std::uint8_t coverage[kTilePixels];
 };
 
-/// Where a tile lies in the picture, pixels.
+/// Position and size of a tile in the picture, pixels.
 struct TileRect {
     int x, y, width, height;
 };
@@ -102,8 +102,8 @@ struct TileRect {
 /// A chunk's triangles as the tile loop reads them.
 struct TriangleSource {
     const TriangleRecord* records;
-    const ScreenVertex* vertices;       ///< of the frame
-    const ScreenVertex* clip_vertices;  ///< of the chunk
+    const ScreenVertex* vertices;       ///< the view's vertices
+    const ScreenVertex* clip_vertices;  ///< the chunk's clip vertices
     std::uint32_t id_base;              ///< triangle id = id_base + index of the record
 };
 
@@ -112,13 +112,13 @@ struct CoverBox {
     int x0, y0, x1, y1;
 };
 
-/// All chunks of a frame; a triangle id is chunk << local_bits | record.
+/// All chunks of a view; a triangle id is chunk << local_bits | record.
 struct TriangleTable {
     const TriangleSource* chunks;
     int local_bits;
 };
 
-/// Where a draw's vertex records are: that of vertex v starts at base + v * stride.
+/// Vertex records of a draw: that of vertex v starts at base + v * stride.
 struct DrawRecords {
     const float* base;
 };
@@ -126,13 +126,13 @@ struct DrawRecords {
 struct InterpolateArgs {
     TriangleTable triangles;
     const DrawRecords* draws;
-    const float* const* clip_records;  ///< per chunk; records of clip vertices, kVertexFloats floats apart, slots packed as in `base`
+    const float* const* clip_records;  ///< per chunk: records of clip vertices, kVertexFloats floats apart, with the same slots
     shading::SlotMask slots;
     int stride;
     bool gradients;      ///< fill the kDu.. rows
     bool facing;         ///< fill kFacing
     bool shadow_offset;  ///< fill the kShadowX.. rows; needs slots 0 and 1
-    int count;           ///< fragments; ids and positions are padded to a multiple of 16 with copies of the last one
+    int count;           ///< fragments, padded to a multiple of 16 with copies of the last one
     const std::uint32_t* ids;
     const std::int32_t *x_px, *y_px;
 };
@@ -140,11 +140,11 @@ struct InterpolateArgs {
 struct RasterKernels {
     void (*transform)(const TransformArgs&);
     void (*vertex_records)(const VertexRecordArgs&);
-    /// Draws `count` triangles (indices of records) into depth and triangle, nearest wins, ties go to the first.
+    /// Draws `count` triangles (indices of records) into depth and triangle. The nearest wins; of equal depths the first.
     void (*rasterize)(const TileRect&, const SamplePattern&, TileBuffers&, const TriangleSource&, const std::uint32_t* list, int count);
-    /// One triangle: the samples that it covers and that are nearer than the tile's depth go to `coverage`.
+    /// Tests one triangle. Marks in `coverage` the samples that it covers and that are nearer than the tile's depth.
     CoverBox (*cover)(const TileRect&, const SamplePattern&, TileBuffers&, const TriangleSource&, std::uint32_t record);
-    /// One triangle, into depth and triangle, only where `coverage` is set: what remained after an alpha test.
+    /// Draws one triangle into depth and triangle, but only the samples set in `coverage`: those that passed the alpha test.
     void (*draw_covered)(const TileRect&, const SamplePattern&, TileBuffers&, const TriangleSource&, std::uint32_t record);
     void (*interpolate)(const InterpolateArgs&, shading::FragmentBlock&);
 };

@@ -1,10 +1,10 @@
 // Visibility inside one tile: exact integer edge functions, top-left rule, float depth, nearest wins.
 //
-// For the edge from a to b of a triangle with positive area, E(p) = A (px - ax) + B (py - ay) with A = ay - by, B = bx - ax is
-// >= 0 inside. At pixel centres all terms but the constant are multiples of 256, so E >= 0 is A i + B j + floor(C / 256) >= 0 exactly,
-// with whole pixel numbers i, j. Edges that are neither top nor left lose one unit in C, so that a pixel centre on a
-// shared edge is drawn once. C is computed in 64 bits and rebased to the box that is walked; an edge that does not cross the box
-// is dropped or rejects it, so what remains fits 32 bits (kGuardBandPx).
+// The edge from a to b of a triangle with positive area has the edge function E(p) = A (px - ax) + B (py - ay), A = ay - by, B = bx - ax.
+// Inside the triangle E >= 0. At pixel centres all terms except the constant C are multiples of 256, so E >= 0 is exactly
+// A i + B j + floor(C / 256) >= 0 with whole pixel numbers i, j. Edges that are neither top nor left lose one unit in C, so that a pixel
+// centre on a shared edge is drawn once. C is computed in 64 bits and rebased to the box that is walked. An edge that does not cross the
+// box either holds for all of it or rejects it; the values of the other edges fit 32 bits (kGuardBandPx).
 #pragma once
 
 #include "raster/kernels/raster_kernels.hpp"
@@ -15,7 +15,7 @@ inline namespace HALFLIT_ISA_NAMESPACE {
 
 struct Edge {
     std::int32_t a, b;  ///< change per pixel to the right, and down
-    std::int64_t c;     ///< value at pixel (0, 0) of the picture, times 256, with the top-left rule taken in
+    std::int64_t c;     ///< value at pixel (0, 0) of the picture, times 256, with the top-left rule included
 };
 
 HALFLIT_INLINE Edge make_edge(const ScreenVertex& from, const ScreenVertex& to) {
@@ -27,14 +27,14 @@ HALFLIT_INLINE Edge make_edge(const ScreenVertex& from, const ScreenVertex& to) 
     return e;
 }
 
-/// Depth over the window: z = za + (j - anchor_y) zy + (i - anchor_x) zx, from whole pixel numbers relative to the pixel of
-/// vertex 0, so that a depth does not depend on the tile; kept between the vertices' depths.
+/// Depth over the window: z = za + (j - anchor_y) zy + (i - anchor_x) zx at pixel (i, j), clamped to [lo, hi], the range of the vertices'
+/// depths. The anchor is the pixel of vertex 0, so that a depth does not depend on the tile. zx, zy: change per pixel.
 struct DepthPlane {
     float za, zx, zy, lo, hi;
     std::int32_t anchor_x, anchor_y;
 };
 
-/// The plane through three vertices, in double and per fixed-point unit: the same for all samples.
+/// Slopes of the plane through three vertices, per fixed-point unit; the same for all samples.
 struct DepthSlope {
     double zx, zy;
 };
@@ -69,13 +69,13 @@ HALFLIT_INLINE std::int32_t max3(std::int32_t a, std::int32_t b, std::int32_t c)
     return m > c ? m : c;
 }
 
-/// What remains of an edge inside a box: e(i, j) = e0 + a i + b j, i and j from the box's corner.
+/// Edge function inside a box: e(i, j) = e0 + a i + b j, with i and j counted from the box's corner.
 struct BoxEdge {
     std::int32_t e0, a, b;
 };
 enum class BoxTest { outside, inside, crossing };
 
-/// Over pixels [0, w) x [0, h) from (x0, y0).
+/// Tests an edge over the w x h pixels from (x0, y0) on. c: constant of the edge for the sample. out: set if the edge crosses them.
 HALFLIT_INLINE BoxTest test_edge(const Edge& e, std::int64_t c, int x0, int y0, int w, int h, BoxEdge& out) {
     const std::int64_t at = (c >> 8) + static_cast<std::int64_t>(e.a) * x0 + static_cast<std::int64_t>(e.b) * y0;
     const std::int64_t over_x = static_cast<std::int64_t>(e.a) * (w - 1), over_y = static_cast<std::int64_t>(e.b) * (h - 1);
@@ -87,7 +87,7 @@ HALFLIT_INLINE BoxTest test_edge(const Edge& e, std::int64_t c, int x0, int y0, 
     return BoxTest::crossing;
 }
 
-/// Blocks of large triangles, pixels; a multiple of every vector width.
+/// Size of the blocks that large triangles are walked in, pixels; the width is a multiple of every vector width.
 inline constexpr int kBlockW = 16, kBlockH = 8;
 
 /// Draws into depth and triangle.
@@ -120,7 +120,7 @@ struct WriteCovered {
     }
 };
 
-/// Marks what passes the depth test in the coverage plane.
+/// Marks in the coverage plane the samples that pass the depth test.
 struct MarkCoverage {
     const float* depth;
     std::uint8_t* coverage;
@@ -151,7 +151,7 @@ HALFLIT_INLINE void walk(const BoxEdge* edges, const DepthPlane& plane, int x0, 
     for (int j = 0; j < h; ++j, at += kTileStride) {
         const F z_row(mad(static_cast<float>(y0 + j - plane.anchor_y), plane.zy, plane.za));
         for (int i = 0; i < w; i += kWidth) {
-            // Lanes right of the box are outside by the last of these "edges".
+            // One more "edge" puts lanes right of the box outside.
             I outside = I(w - 1 - i) - lane;
             for (int k = 0; k < N; ++k) outside = outside | (I(row_e[k] + edges[k].a * i) + ramp[k]);
             if (N > 0 && sign_bits(outside) == (1u << kWidth) - 1u) continue;
@@ -180,7 +180,7 @@ HALFLIT_INLINE void walk_box(int n, const BoxEdge* edges, const DepthPlane& plan
     }
 }
 
-/// One sample plane of one triangle. (bx0, by0)..(bx1, by1): pixels of the picture, inside the tile.
+/// Draws one sample plane of one triangle. (bx0, by0)..(bx1, by1): pixels of the picture, inside the tile.
 template <class Sink>
 HALFLIT_INLINE void draw_sample(const TileRect& tile, const Edge* edges, const std::int64_t* c, const DepthPlane& plane, int bx0, int by0,
                                 int bx1, int by1, const Sink& sink) {
@@ -239,7 +239,7 @@ HALFLIT_INLINE void small_edges(const Edge* edges, const ScreenVertex* const* fr
     }
 }
 
-/// All samples of one triangle; `make_sink(s)` gives the sink of sample s. Returns the box walked.
+/// Draws all samples of one triangle. make_sink(s) gives the sink of sample s. Returns the box walked.
 template <class MakeSink>
 HALFLIT_INLINE CoverBox draw_triangle(const TileRect& tile, const SamplePattern& pattern, const TriangleSource& source,
                                       const TriangleRecord& record, const MakeSink& make_sink) {

@@ -1,7 +1,7 @@
-// Where coarse meshes look their shadows up: a point of a flat triangle lies below the smooth surface that its vertex normals
-// describe, and would be shaded by its neighbours before the smooth surface turns away from the light. [Hanika21]: each vertex
-// sets up a plane at a right angle to its normal; the point is moved onto those that it lies below, and the three results are blended
-// by its barycentric coordinates.
+// Shadow look-ups of coarse meshes. A point of a flat triangle lies below the smooth surface given by the vertex normals, so that
+// neighbouring triangles would shadow it before the smooth surface turns away from the light. [Hanika21]: each vertex defines a plane at a
+// right angle to its normal. The point is moved onto each plane that it lies below, and the three offsets are blended by its barycentric
+// coordinates.
 #pragma once
 
 #include "shading/kernels/vector.hpp"
@@ -14,7 +14,7 @@ struct CornerLanes {
     V3 position[3], normal[3];
 };
 
-/// From `point` up to the plane of corner k; 0 where it is above it. side: -1 where the back of the triangle is seen.
+/// Offset from `point` to the plane of corner k; 0 if the point is above the plane. side: -1 if the triangle's back is seen, else +1.
 HALFLIT_INLINE V3 onto_plane(const CornerLanes& corners, int k, V3 point, F side) {
     const V3 normal = normalize_any(corners.normal[k]) * side;
     return normal * vmax(dot(corners.position[k] - point, normal), F(0.0f));

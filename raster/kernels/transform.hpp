@@ -1,4 +1,4 @@
-// Vertices: object space to snapped window coordinates, and the records that shading interpolates.
+// Vertex kernels: from object space to snapped window coordinates, and the records that shading interpolates.
 #pragma once
 
 #include "raster/kernels/raster_kernels.hpp"
@@ -14,7 +14,7 @@ HALFLIT_INLINE F transform_row(const float* m, int r, F x, F y, F z) {
 
 HALFLIT_INLINE I outcode_bit(M m, std::int32_t bit) { return sel(m, I(bit), I(0)); }
 
-/// kWidth vertices from packed xyz at `p` (3 * kWidth floats are read).
+/// Transforms kWidth vertices from packed xyz at `p` (3 * kWidth floats are read).
 /// The window rule is that of the common software rasterizers: inv_w = 1/w by division, ndc = clip * inv_w, window = ndc * half + half with
 /// two roundings, snapped to nearest even at 8 sub-pixel bits.
 HALFLIT_INLINE void transform_vector(const TransformArgs& args, const float* p, ScreenVertex* screen, std::int32_t* outcode) {
@@ -72,7 +72,7 @@ inline void vertex_records(const VertexRecordArgs& args) {
     const Q n0 = q_load(n), n1 = q_load(n + 4), n2 = q_load(n + 8);
     for (std::int64_t v = args.begin; v < args.end; ++v) {
         float* out = args.records + v * args.stride;
-        // Slots 0 and 1 are written as position, then normal over the fourth entry, then the texture coordinates.
+        // The position is stored as four floats. The normal's x then replaces the fourth.
         if (args.slots & 1u) {
             const float* p = args.positions + 3 * v;
             q_store(out, q_add(q_mad(w2, q_set(p[2]), q_mad(w1, q_set(p[1]), q_mul(w0, q_set(p[0])))), w3));

@@ -1,5 +1,5 @@
-// The bin pass: triangle set-up and the tiles' lists. Back faces, triangles without area and those that touch no pixel of the region end
-// here; the few that cross the near plane or leave the guard band are clipped; each tile's list names its triangles in submission order.
+// The bin pass: triangle set-up and the tiles' triangle lists. Drops back faces, triangles without area, and triangles that touch no pixel
+// of the region. Clips the few that cross the near plane or leave the guard band. Each tile's list is in submission order.
 #include "raster/passes/clip.hpp"
 #include "raster/passes/view_geometry.hpp"
 #include "raster/view/culling.hpp"
@@ -11,7 +11,7 @@
 namespace halflit::raster {
 namespace {
 
-/// What binning reads of a view, and the marks that it leaves: which vertex groups drawn triangles read.
+/// Input of binning. groups_drawn is output: it marks the vertex groups that drawn triangles read.
 struct BinInput {
     const PreparedScene& scene;
     const View& view;
@@ -46,12 +46,12 @@ public:
     }
 
 private:
-    /// A triangle on its way: its draw, and its vertices as the mesh numbers them.
+    /// Origin of a triangle: its draw, and the mesh's numbers of its vertices.
     struct Source {
         const Draw& draw;
         std::uint32_t draw_index;
         const std::uint32_t* vertex;
-        std::uint32_t triangle;  ///< of the mesh
+        std::uint32_t triangle;  ///< number within the mesh
     };
 
     void add_triangles(const TriangleRun& run) {
@@ -108,14 +108,14 @@ private:
             const std::uint32_t piece[3] = {corner[0], corner[k - 1], corner[k]};
             add(piece, screen[0], screen[k - 1], screen[k], source);
         }
-        // Corners that no drawn piece uses must not stay: they would be made from parents whose records nobody made.
+        // If no piece is drawn, its corners are removed: their records would be made from vertices that may have none.
         if (chunk_.records.size() == records_before) {
             chunk_.clip_vertices.resize(corners_before);
             chunk_.clip_screen.resize(corners_before);
         }
     }
 
-    /// Culls, records and bins a triangle or a piece of one; v: its corners in the view's arrays, or clip vertices.
+    /// Culls, records and bins a triangle or a piece of one. v: its corners, in the view's arrays or clip vertices.
     void add(const std::uint32_t (&v)[3], const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, const Source& source) {
         const int least_x = std::min({a.x, b.x, c.x}), most_x = std::max({a.x, b.x, c.x});
         const int least_y = std::min({a.y, b.y, c.y}), most_y = std::max({a.y, b.y, c.y});
@@ -149,7 +149,7 @@ private:
         }
     }
 
-    /// The sample at (x, y) in fixed point, by the top-left rule; a, b, c with positive area.
+    /// True if the triangle covers the sample at (x, y) in fixed point, by the top-left rule. a, b, c: in the order of positive area.
     static bool covers(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, std::int32_t x, std::int32_t y) {
         const auto inside = [x, y](const ScreenVertex& p, const ScreenVertex& q) {
             const std::int32_t ea = p.y - q.y, eb = q.x - p.x;
@@ -159,14 +159,14 @@ private:
         return inside(a, b) && inside(b, c) && inside(c, a);
     }
 
-    /// Tiles of a block that no edge has wholly outside.
+    /// Adds the triangle to the tiles of a block, except those that lie wholly outside one of its edges.
     void push_touched_tiles(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, int tx0, int ty0, int tx1, int ty1,
                             std::uint32_t record) {
         const ScreenVertex* corner[4] = {&a, &b, &c, &a};
         const std::int64_t span = 256 * in_.view.tile_size;
         for (int ty = ty0; ty <= ty1; ++ty) {
             for (int tx = tx0; tx <= tx1; ++tx) {
-                // The tile with half a pixel around it holds all of its samples.
+                // From half a pixel before the first centre to half a pixel behind the last: all samples of the tile.
                 const std::int64_t left = 256 * (in_.view.region.x + static_cast<std::int64_t>(tx) * in_.view.tile_size) - 128;
                 const std::int64_t top = 256 * (in_.view.region.y + static_cast<std::int64_t>(ty) * in_.view.tile_size) - 128;
                 bool outside = false;
@@ -183,7 +183,7 @@ private:
 
     void push(int tile, std::uint32_t record) { chunk_.pairs.push_back(static_cast<std::uint64_t>(tile) << 32 | record); }
 
-    /// A counting sort: stable, so each tile keeps submission order.
+    /// Counting sort; it is stable, so each tile keeps submission order.
     void sort_by_tile() {
         const auto tiles = static_cast<std::size_t>(in_.view.tiles_x) * static_cast<std::size_t>(in_.view.tiles_y);
         chunk_.tile_begin.assign(tiles + 1, 0);

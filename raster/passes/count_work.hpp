@@ -1,4 +1,4 @@
-// Where the numbers of WorkCounts come from: one call a block, next to the call of the kernel that does the work.
+// Counting for WorkCounts: one call per block, next to the call of the kernel that does the work.
 #pragma once
 
 #include "raster/work_counts.hpp"
@@ -6,11 +6,11 @@
 
 namespace halflit::raster {
 
-/// What ShadeKernels::light runs when light is not evaluated at fragments.
+/// Stages that ShadeKernels::light runs if light is not evaluated at fragments.
 inline constexpr std::uint32_t kLightStages = shading::kStageNormalMap | shading::kStageMetallicRoughnessTexture |
                                               shading::kStageOcclusionTexture | shading::kStageLights | shading::kStageSpecular |
                                               shading::kStageAmbient | shading::kStageEnvironment;
-/// What ShadeKernels::alpha runs.
+/// Stages that ShadeKernels::alpha runs.
 inline constexpr std::uint32_t kAlphaStages = shading::kStageBaseColorTexture | shading::kStageVertexColor | shading::kStageGradients;
 
 inline void count_stages(WorkCounts& work, std::uint32_t stages, int lanes) {
@@ -18,13 +18,13 @@ inline void count_stages(WorkCounts& work, std::uint32_t stages, int lanes) {
         work.stage_lanes[static_cast<std::size_t>(std::countr_zero(stages))] += static_cast<std::uint64_t>(lanes);
 }
 
-/// Of a call of ShadeKernels::shade.
+/// Counts a call of ShadeKernels::shade.
 inline void count_shading(WorkCounts& work, const shading::MaterialPlan& plan, int lanes) {
     const bool prelit = (plan.stages & shading::kStagePrelit) != 0;
     count_stages(work, prelit ? plan.stages & ~kLightStages : plan.stages, lanes);
 }
 
-/// Of the lights that are handed to a kernel.
+/// Counts the lights that are passed to a kernel.
 inline void count_lights(WorkCounts& work, const shading::MaterialPlan& plan, shading::LightList lights, int lanes) {
     if ((plan.stages & shading::kStageLights) == 0) return;
     for (int i = 0; i < lights.count; ++i) {
@@ -33,13 +33,13 @@ inline void count_lights(WorkCounts& work, const shading::MaterialPlan& plan, sh
     }
 }
 
-/// Of a call of ShadeKernels::light with all of the frame's lights.
+/// Counts a call of ShadeKernels::light with all of the frame's lights.
 inline void count_prelighting(WorkCounts& work, const shading::ShadingPlan& frame, const shading::MaterialPlan& plan, int lanes) {
     count_stages(work, plan.stages & kLightStages, lanes);
     count_lights(work, plan, shading::all_lights(frame), lanes);
 }
 
-/// Of a call of ShadeKernels::alpha.
+/// Counts a call of ShadeKernels::alpha.
 inline void count_alpha_test(WorkCounts& work, const shading::MaterialPlan& plan, int lanes) {
     count_stages(work, plan.stages & kAlphaStages, lanes);
     work.alpha_test_lanes += static_cast<std::uint64_t>(lanes);

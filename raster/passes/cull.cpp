@@ -10,7 +10,7 @@ namespace halflit::raster {
 namespace {
 
 constexpr std::size_t kInstancesPerTask = 1024;
-constexpr std::int64_t kLeastClusters = 16, kMostChunks = 128;  ///< of a chunk; of a view
+constexpr std::int64_t kLeastClusters = 16, kMostChunks = 128;  ///< clusters in a chunk; chunks in a view
 
 Culler culler_of(const View& view, const Mat4& world_from_object, bool back_faces) {
     return {view, multiply_in_double(view.clip_from_world, world_from_object), determinant3(world_from_object) < 0.0, back_faces};
@@ -48,7 +48,7 @@ private:
         const bool test_boxes = mesh.cluster_count() > 1 && verdict_on(culler, mesh.bounds) != Culler::Verdict::inside;
         for (std::size_t c = begin; c < end; ++c) {
             const Cluster& cluster = mesh.clusters[c];
-            if (cluster.finite) {  // others are counted, triangle by triangle
+            if (cluster.finite) {  // others are kept: binning counts their triangles that are not finite
                 if (test_boxes && culler.box(cluster.min, cluster.max) == Culler::Verdict::outside) continue;
                 if (culler.faces_away(cluster)) continue;
             }
@@ -78,7 +78,7 @@ private:
 
 void ViewGeometry::list_draws(Executor& executor) {
     const std::vector<Instance>& instances = scene_->scene().instances;
-    // Where the view holds all there is, no instance needs a look.
+    // If the whole scene lies inside the view, no instance needs a test.
     const bool all = verdict_on(Culler(view_, view_.clip_from_world, false, false), scene_->bounds()) == Culler::Verdict::inside;
     std::uint8_t* seen = nullptr;
     if (!all) {

@@ -1,6 +1,6 @@
-// From visible pixels to full shading blocks: pixels are packed densely, one open list for each material of a tile, and a list is
-// shaded when it has kBlockSize of them. Runs of pixels of one triangle stay neighbours in a list, so interpolation
-// serves them by broadcast; the packing itself cannot change a value.
+// Packing of visible pixels into full shading blocks. A tile has one open list for each material; a list is shaded when it has kBlockSize
+// fragments. Runs of pixels of one triangle stay neighbours in a list, so that interpolation loads the triangle once. The packing cannot
+// change a value.
 #pragma once
 
 #include "shading/fragment_block.hpp"
@@ -15,7 +15,7 @@ namespace halflit::raster {
 struct FragmentList {
     int material = 0;
     int count = 0;
-    alignas(64) std::uint32_t id[shading::kBlockSize];  ///< triangle
+    alignas(64) std::uint32_t id[shading::kBlockSize];  ///< triangle id
     alignas(64) std::int32_t x_px[shading::kBlockSize], y_px[shading::kBlockSize];
     std::uint16_t at[shading::kBlockSize];      ///< y * kTileStride + x in the tile
     std::uint8_t samples[shading::kBlockSize];  ///< bit s: sample s shows this fragment

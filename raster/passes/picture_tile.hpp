@@ -1,5 +1,5 @@
-// One tile of the picture, from triangle lists to pixels: visibility first, then every visible pixel is shaded once, then transparent
-// triangles in submission order, then the framebuffer.
+// One tile of the picture, from triangle lists to pixels. Visibility comes first, then each visible pixel is shaded once per triangle that
+// it shows, then transparent triangles are blended in submission order, then the framebuffer is written.
 #pragma once
 
 #include "raster/frame_plan.hpp"
@@ -14,7 +14,7 @@ struct PicturePass {
     TilePass view;
     const FramePlan& plan;
     FramebufferView target;
-    const ReferenceShading* reference;  ///< instead of the kernels; null: none
+    const ReferenceShading* reference;  ///< shades instead of the kernels; null: the kernels shade
 };
 
 class PictureTile {
@@ -32,14 +32,14 @@ public:
 private:
     // shade.cpp
     void shade_visible();
-    void shade(FragmentList& list);  ///< to the colour rows of the scratch's block
+    void shade(FragmentList& list);  ///< writes the colour rows of the scratch's block
     // blend.cpp
     void blend_layers();
     // resolve.cpp
-    void clear();                          ///< the background behind everything, of a tile that has triangles
-    void fill_background();                ///< the picture of a tile that has none
-    void fill_samples();                   ///< every sample with the environment behind its pixel
-    void write(const FragmentList& list);  ///< the scratch's block, to the framebuffer or to its samples
+    void clear();                          ///< fills a tile that has triangles with the background
+    void fill_background();                ///< writes a tile that has no triangles
+    void fill_samples();                   ///< sets every sample to the environment behind its pixel
+    void write(const FragmentList& list);  ///< writes the scratch's block to the framebuffer or to samples
     void write_samples(const FragmentList& list, bool blend);
     void resolve();
     [[nodiscard]] float* sample_color(int s) { return scratch_.color.data() + static_cast<std::size_t>(s) * 4 * kTilePixels; }
@@ -54,7 +54,7 @@ private:
     int samples_;
     TileScratch& scratch_;
     TileCounts counts_;
-    bool direct_ = true;  ///< one opaque sample a pixel: shaded colours go straight to the framebuffer
+    bool direct_ = true;  ///< one opaque sample per pixel: shaded colours go straight to the framebuffer
 };
 
 }  // namespace halflit::raster

@@ -1,4 +1,4 @@
-// From shaded fragments to the caller's pixels: samples, the background, the mean of a pixel's samples, exposure and sRGB codes.
+// Output of shaded fragments: exposure, samples, the background, the mean of a pixel's samples, sRGB codes, the caller's pixels.
 #include "raster/passes/picture_tile.hpp"
 
 #include <cstring>
@@ -6,13 +6,13 @@
 namespace halflit::raster {
 namespace {
 
-/// NaN to 0; everything else as it is.
+/// 0 for NaN, x for everything else.
 float number_or_zero(float x) { return x == x ? x : 0.0f; }
 
 Vec4f number_or_zero(Vec4f v) { return {number_or_zero(v.x), number_or_zero(v.y), number_or_zero(v.z), number_or_zero(v.w)}; }
 
-/// What a pixel shows: the mean of its samples, `sum` of light times alpha and of alpha, no longer multiplied by alpha. Samples may hold
-/// infinities, whose sums and quotients may be NaN.
+/// Colour of a pixel, the mean of its samples, not premultiplied. sum: light times alpha, and alpha, summed over the samples. weight:
+/// 1 / number of samples. Sums and quotients of infinite samples may be NaN; that becomes 0.
 Vec4f resolved(const float (&sum)[4], float weight) {
     const float alpha = sum[3] * weight;
     if (!(alpha > 0.0f)) return {0, 0, 0, number_or_zero(alpha)};
@@ -82,7 +82,7 @@ void PictureTile::fill_samples() {
 
 void PictureTile::fill_background() {
     if (plan_.background) {
-        // By way of samples, so that an empty tile rounds as an empty pixel beside a triangle does.
+        // Goes through samples, so that an empty tile rounds as an empty pixel beside a triangle does.
         scratch_.color.reserve(static_cast<std::size_t>(samples_) * 4 * kTilePixels);
         fill_samples();
         resolve();
@@ -90,7 +90,7 @@ void PictureTile::fill_background() {
     }
     Vec4f b = number_or_zero(plan_.background_linear);
     if (!direct_) {
-        // A tile that nothing touches must round as an empty pixel beside a triangle does, or pixels would depend on the tile size.
+        // An empty tile must round as an empty pixel beside a triangle does; otherwise pixels would depend on the tile size.
         float sum[4] = {0, 0, 0, 0};
         const float back[4] = {b.x * b.w, b.y * b.w, b.z * b.w, b.w};
         for (int s = 0; s < samples_; ++s)

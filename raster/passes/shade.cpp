@@ -1,4 +1,4 @@
-// The shade pass: each visible pixel once for each triangle that it shows, packed by material into full blocks.
+// The shade pass: shades each visible pixel once for each triangle that it shows, packed by material into full blocks.
 #include "raster/passes/count_work.hpp"
 #include "raster/passes/picture_tile.hpp"
 #include "raster/passes/shading_rate.hpp"
@@ -99,7 +99,7 @@ void PictureTile::shade(FragmentList& list) {
     counts_.fragments_shaded += static_cast<std::uint64_t>(list.count);
     for (int l = 0; l < list.count; ++l) {
         const float sum = (block.red[l] + block.green[l]) + (block.blue[l] + block.alpha[l]);
-        // A sum of infinities may be NaN without a NaN term; look closer only then.
+        // A sum of infinities may be NaN although no term is: the terms are tested only if the sum is NaN.
         if (sum != sum && (block.red[l] != block.red[l] || block.green[l] != block.green[l] || block.blue[l] != block.blue[l] ||
                            block.alpha[l] != block.alpha[l]))
             ++counts_.nan_pixels;

@@ -21,7 +21,8 @@ void load_lane(FragmentBlock& block, int l, const float* record, shading::SlotMa
     }
 }
 
-/// Texture footprints are not known away from the pixels: the finest level is read. Lanes past `count` repeat the last one.
+/// Sets texture gradients to 0, so that the finest level is read: footprints are known at pixels only. Copies the last lane to the lanes
+/// from `count` on.
 void finish_lanes(FragmentBlock& block, int count) {
     for (int row = shading::kDu0Dx; row <= shading::kDv1Dy; ++row)
         for (float& v : block.lane[row]) v = 0.0f;
@@ -40,7 +41,7 @@ const float* vertex_record(const TilePass& pass, std::uint32_t id, const Triangl
     return pass.records.draws()[draw].base + static_cast<std::int64_t>(v) * pass.records.stride(draw);
 }
 
-/// One lane a triangle: the mean of its vertices, with the normal of its plane on the side of the viewer.
+/// Loads a triangle into lane `l`: the mean of its vertices, with the normal of its plane on the viewer's side.
 void load_triangle(const TilePass& pass, std::uint32_t id, shading::SlotMask slots, FragmentBlock& block, int l) {
     const TriangleRecord& triangle = pass.geometry.record(id);
     const float* v[3];
@@ -94,7 +95,7 @@ WorkCounts light_vertices(const ViewGeometry& geometry, VertexRecords& records, 
             const shading::MaterialPlan& material = material_of(group.draw);
             for (int l = 0; l < group.count; ++l) {
                 load_lane(block, l, records.record(group.draw, group.first + l), material.slots);
-                // A vertex has no face: two-sided surfaces are lit on the side that is towards the viewer.
+                // A vertex has no front or back: double-sided surfaces are lit on the viewer's side.
                 const Vec3f to_eye = plan.orthographic ? plan.view_direction_ws * -1.0f : plan.eye_ws - row3(block, shading::kPosX, l);
                 block.lane[shading::kFacing][l] = dot(row3(block, shading::kNormalX, l), to_eye) < 0.0f ? -1.0f : 1.0f;
             }

@@ -1,13 +1,13 @@
-// Shading rates below one a pixel: light once a vertex (Gouraud) or once a visible triangle (flat), by the same kernels.
-// Either way the light of a point is stored as six numbers, factor and offset of the base colour, in the place of its position and
-// normal, which nobody needs any more.
+// Shading rates below one per pixel: light once per vertex (Gouraud) or once per visible triangle (flat), by the same kernels. In both
+// cases the light of a point is six numbers, an RGB factor for the base colour and an RGB offset. They replace its position and normal,
+// which are no longer needed.
 #pragma once
 
 #include "raster/passes/tile.hpp"
 
 namespace halflit::raster {
 
-/// Gouraud: replaces position and normal in the vertex records that are in use. Returns the work that was.
+/// Gouraud: stores light in place of position and normal in the vertex records that are in use. Returns the work done.
 WorkCounts light_vertices(const ViewGeometry& geometry, VertexRecords& records, const shading::ShadingPlan& plan,
                           const shading::ShadeKernels& kernels, Executor& executor);
 

@@ -14,7 +14,7 @@ Result<void> ShadowMaps::draw_face(const PreparedScene& scene, const FramePlan& 
         return {};
     }
     if (auto ok = geometry_.make(scene, face.view, raster, executor); !ok) return ok;
-    // An alpha test reads attributes.
+    // Alpha tests read vertex records.
     const bool masks = geometry_.has(shading::AlphaMode::mask);
     if (masks) records_.make(geometry_, plan.casters, raster, executor);
     const TilePass pass{geometry_, records_, plan.casters, raster, shade};
@@ -39,7 +39,7 @@ Result<void> ShadowMaps::draw_face(const PreparedScene& scene, const FramePlan& 
 Result<void> ShadowMaps::draw(const PreparedScene& scene, const FramePlan& plan, RawBuffer<float>& texels, const RasterKernels& raster,
                               const shading::ShadeKernels& shade, Executor& executor) {
     const SceneRevision& revision = scene.revision();
-    Drawn before = std::exchange(drawn_, {});  // nothing, until all are there
+    Drawn before = std::exchange(drawn_, {});  // no map is valid until all are drawn
     if (before.capacity != texels.capacity() || before.geometry_revision != revision.geometry ||
         before.materials_revision != revision.materials || before.caster_detail != plan.caster_detail)
         before.views.clear();

@@ -1,4 +1,4 @@
-// The shadow pass: depths as the lights see them, by the same passes as the picture, as distances in world units.
+// The shadow pass: draws depth as the lights see it, by the same passes as the picture, and stores distances in world units.
 #pragma once
 
 #include "raster/frame_plan.hpp"
@@ -6,8 +6,7 @@
 
 namespace halflit::raster {
 
-/// Draws the maps of a plan to where its texels are. A map stays as it is while neither its view nor anything in the scene that casts has
-/// changed.
+/// Draws the shadow maps of a plan into `texels`. A map is kept while its view and the scene's geometry and materials stay the same.
 class ShadowMaps {
 public:
     /// The next draw() draws all maps.
@@ -17,9 +16,9 @@ public:
                       const shading::ShadeKernels& shade, Executor& executor);
 
 private:
-    /// What the texels hold, and of what.
+    /// Inputs of the maps that are in the texels.
     struct Drawn {
-        std::size_t capacity = 0;  ///< of the texels' memory: grown memory has lost them
+        std::size_t capacity = 0;  ///< size of the texels' memory; growing it drops the maps
         std::uint64_t geometry_revision = 0, materials_revision = 0;
         shading::TextureDetail caster_detail = shading::TextureDetail::full;
         std::vector<ShadowView> views;

@@ -1,4 +1,4 @@
-// What the passes over tiles read and write: a tile is drawn by one task, and all of its data fits the cache next to the core.
+// Data of the passes over tiles. One task draws a tile, and the tile's data fits the core's own cache.
 #pragma once
 
 #include "raster/passes/fragment_queue.hpp"
@@ -12,14 +12,14 @@ namespace halflit::raster {
 /// A view as its tiles read it.
 struct TilePass {
     const ViewGeometry& geometry;
-    const VertexRecords& records;  ///< unused where no material has a mask and nothing is shaded
+    const VertexRecords& records;  ///< unused if no material has a mask and nothing is shaded
     std::span<const shading::MaterialPlan> materials;
     const RasterKernels& raster;
     const shading::ShadeKernels& shade;
-    bool shadow_offset = false;  ///< fragments bring where shadows are looked up
+    bool shadow_offset = false;  ///< fill the kShadowX.. rows of fragments
 };
 
-/// What tiles report; summed over the view.
+/// Counts of a tile; summed over the view.
 struct TileCounts {
     std::uint64_t pixels_visible = 0, fragments_shaded = 0, nan_pixels = 0;
     WorkCounts work;
@@ -37,7 +37,7 @@ struct TileCounts {
 struct TileScratch {
     TileBuffers buffers{};
     FragmentQueue queue;
-    FragmentList list;  ///< of the triangle at hand: alpha test, blending
+    FragmentList list;  ///< fragments of the current triangle, for alpha test and blending
     shading::FragmentBlock block;
     LightSelection lights;
     /// Linear light times alpha, and alpha, of every sample; used only where samples or layers are combined.
@@ -47,12 +47,12 @@ struct TileScratch {
 /// Fills the attribute rows of the scratch's block for a list. The list is padded with copies of its last fragment.
 void interpolate(const TilePass& pass, FragmentList& list, shading::FragmentBlock& block);
 
-/// Visibility: afterwards the buffers hold depth and triangle of each sample. Opaque triangles, and of masked ones what their alpha test
-/// leaves; blended ones are left out.
+/// Visibility: fills the buffers with the depth and triangle of each sample. Draws opaque triangles, and masked ones where they pass the
+/// alpha test. Leaves out blended ones.
 void draw_visibility(const TilePass& pass, int tile, TileScratch& scratch, TileCounts& counts);
 
-/// The samples of one triangle that are nearer than the tile's depth, as lists of fragments: calls flush(list) for each. Whoever is done
-/// with the triangle says clear_coverage.
+/// Collects the samples of one triangle that are nearer than the tile's depth, as lists of fragments, and calls flush(list) for each list.
+/// The caller must call clear_coverage with the returned box when it is done with the triangle.
 template <class Flush>
 CoverBox collect_covered(const TilePass& pass, const TileRect& rect, std::size_t chunk, std::uint32_t record, TileScratch& scratch,
                          const Flush& flush) {

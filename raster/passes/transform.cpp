@@ -1,4 +1,4 @@
-// The transform pass: every vertex group that some cluster in view reads, to the window.
+// The transform pass: transforms to the window every vertex group that some cluster in view reads.
 #include "raster/passes/view_geometry.hpp"
 #include "raster/view/culling.hpp"
 

@@ -44,7 +44,7 @@ void VertexRecords::make(const ViewGeometry& geometry, std::span<const shading::
     std::vector<shading::SlotMask> slots;
     for (const shading::MaterialPlan& material : materials) slots.push_back(material.slots);
     if (version_ == geometry.version() && slots == slots_) return;
-    version_ = 0;  // until all is done
+    version_ = 0;  // invalid until all is done
     slots_ = std::move(slots);
 
     strides_.resize(draws.size());

@@ -1,5 +1,5 @@
-// What shading reads of vertices: world position, normal and whatever else the materials ask for, for the vertex groups that some drawn
-// triangle reads, and for the vertices that clipping made.
+// Vertex records, the vertex data that shading reads: world position, normal and the other attribute slots that the materials need. Made
+// for the vertex groups that some drawn triangle reads, and for the vertices that clipping made.
 #pragma once
 
 #include "raster/passes/view_geometry.hpp"
@@ -11,32 +11,32 @@ namespace halflit::raster {
 
 class VertexRecords {
 public:
-    /// For a view's geometry as its materials ask for; `materials` as PreparedScene counts them. Does nothing where geometry and attribute
-    /// slots are those of the last call.
+    /// Makes the records of a view's geometry. materials: indexed as in PreparedScene. Does nothing if geometry and attribute slots are
+    /// those of the last call.
     void make(const ViewGeometry& geometry, std::span<const shading::MaterialPlan> materials, const RasterKernels& kernels,
               Executor& executor);
 
-    /// Floats a record of that draw's vertices.
+    /// Floats per record of that draw's vertices.
     [[nodiscard]] int stride(std::size_t draw) const { return strides_[draw]; }
     [[nodiscard]] const DrawRecords* draws() const { return draw_records_.data(); }
     [[nodiscard]] const float* const* clip_records() const { return clip_records_.data(); }
 
-    /// The record of a vertex of a draw, counted from the mesh's first. Whoever writes it says so by changed().
+    /// Record of a vertex of a draw; vertex: number within the mesh. A caller that writes to it must call changed().
     [[nodiscard]] float* record(std::size_t draw, std::int64_t vertex) {
         return records_.data() + record_bases_[draw] + vertex * strides_[draw];
     }
     void changed() { version_ = 0; }
-    /// Makes the records of clipped vertices anew from those of their triangles.
+    /// Makes the records of clip vertices from those of their triangles' vertices.
     void make_clip_records(const ViewGeometry& geometry, Executor& executor);
 
 private:
-    std::uint64_t version_ = 0;  ///< of the geometry that the records are of; 0: none
+    std::uint64_t version_ = 0;  ///< version of the geometry that the records belong to; 0: none
     std::vector<shading::SlotMask> slots_;
     std::vector<int> strides_;
     std::vector<std::int64_t> record_bases_;
     RawBuffer<float> records_;
     std::vector<DrawRecords> draw_records_;
-    std::vector<std::vector<float>> clip_floats_;  ///< per chunk, kVertexFloats for each vertex
+    std::vector<std::vector<float>> clip_floats_;  ///< per chunk: kVertexFloats for each clip vertex
     std::vector<const float*> clip_records_;
 };
 

@@ -8,7 +8,7 @@ namespace halflit::raster {
 
 Result<void> ViewGeometry::make(const PreparedScene& scene, const View& view, const RasterKernels& kernels, Executor& executor,
                                 SubmissionNumbers* numbers) {
-    // Materials decide which faces are drawn and how; lights nothing.
+    // Materials decide which faces are drawn, and how. Lights change nothing here.
     const SceneRevision revision{scene.revision().geometry, scene.revision().materials, 0};
     times_ms_ = {};
     if (revision == revision_ && view == view_ && numbers == nullptr) {
@@ -17,7 +17,7 @@ Result<void> ViewGeometry::make(const PreparedScene& scene, const View& view, co
     }
     scene_ = &scene;
     view_ = view;
-    revision_ = {};  // until all is done
+    revision_ = {};  // invalid until all passes are done
     ++version_;
     Stopwatch watch;
     list_draws(executor);

@@ -1,7 +1,8 @@
-// The geometry of one view: which instances and clusters it may see, their vertices in its window, and each tile's triangles. Made by four
-// passes, each of which reads a PreparedScene and a View and knows nothing of light:
+// The geometry of one view: the instances and clusters that it may see, their vertices in its window, and each tile's triangles. Made by
+// three passes, which read a PreparedScene and a View and do not depend on lights:
 //     cull -> transform -> bin (set-up and tile lists)
-// It is kept from frame to frame, so that a view of a scene in which nothing moved is not made again, and a steady frame allocates nothing.
+// It is kept from frame to frame: the passes do not run again if neither scene nor view changed, and a frame like the last one allocates
+// nothing.
 #pragma once
 
 #include "raster/detail/executor.hpp"
@@ -23,11 +24,11 @@ struct Draw {
     const Mesh* mesh = nullptr;
     const PreparedMesh* prepared = nullptr;
     std::uint32_t instance = 0;
-    std::int32_t material = 0;       ///< as PreparedScene counts them
-    std::int64_t vertex_base = 0;    ///< of its first vertex, in the view's arrays
-    std::int64_t group_base = 0;     ///< of its first vertex group
-    std::int64_t cluster_base = 0;   ///< of its first cluster, over all draws
-    std::int64_t triangle_base = 0;  ///< of its first triangle in submission order, over all instances of the scene
+    std::int32_t material = 0;       ///< index as in PreparedScene
+    std::int64_t vertex_base = 0;    ///< index of its first vertex in the view's arrays
+    std::int64_t group_base = 0;     ///< index of its first vertex group
+    std::int64_t cluster_base = 0;   ///< index of its first cluster, over all draws
+    std::int64_t triangle_base = 0;  ///< number of its first triangle in submission order, over all instances of the scene
     bool mirrored = false, cull_back = true;
     shading::AlphaMode alpha_mode = shading::AlphaMode::opaque;
 
@@ -48,10 +49,10 @@ struct ClipVertex {
     float weight[3];
 };
 
-/// A part of the triangles, consecutive in submission order: culled and set up by one task, into its own lists.
+/// Consecutive triangles in submission order. One task culls them and sets them up, into the chunk's own lists.
 struct Chunk {
-    std::int64_t first_cluster = 0, end_cluster = 0;  ///< as Draw::cluster_base counts
-    std::vector<TriangleRun> runs;                    ///< what culling left
+    std::int64_t first_cluster = 0, end_cluster = 0;  ///< indices as Draw::cluster_base
+    std::vector<TriangleRun> runs;                    ///< triangles that culling kept
     std::vector<TriangleRecord> records;
     std::vector<ScreenVertex> clip_screen;
     std::vector<ClipVertex> clip_vertices;
@@ -66,16 +67,16 @@ struct Chunk {
     }
 };
 
-/// For debug views: the submission number of each record of each chunk.
+/// Submission number of each record of each chunk, for debug views.
 using SubmissionNumbers = std::vector<std::vector<std::int64_t>>;
 
 class ViewGeometry {
 public:
-    /// Runs the passes, unless scene and view are those of the last call. Fails where there are more vertices than can be numbered.
-    /// `numbers`: filled where it is not null.
+    /// Runs the passes, unless scene and view are those of the last call. Fails if there are more vertices or triangles than can be
+    /// numbered. numbers: filled if not null; the passes then always run.
     Result<void> make(const PreparedScene& scene, const View& view, const RasterKernels& kernels, Executor& executor,
                       SubmissionNumbers* numbers = nullptr);
-    /// The next make() makes all anew.
+    /// Makes the next make() run the passes.
     void forget() { revision_ = {}; }
 
     /// Milliseconds of wall clock of the last call.
@@ -83,7 +84,7 @@ public:
         double cull = 0, transform = 0, bin = 0;
     };
     [[nodiscard]] const Times& times_ms() const { return times_ms_; }
-    /// Changes whenever make() did something.
+    /// Changes whenever make() runs the passes.
     [[nodiscard]] std::uint64_t version() const { return version_; }
 
     [[nodiscard]] const View& view() const { return view_; }
@@ -91,7 +92,7 @@ public:
     [[nodiscard]] std::span<const Draw> draws() const { return draws_; }
     [[nodiscard]] std::span<const std::unique_ptr<Chunk>> chunks() const { return std::span(chunks_).first(chunk_count_); }
     [[nodiscard]] bool has(shading::AlphaMode mode) const { return has_mode_[static_cast<std::size_t>(mode)]; }
-    /// What the kernels read of a chunk's triangles.
+    /// A chunk's triangles as the kernels read them.
     [[nodiscard]] const TriangleSource& source(std::size_t chunk) const { return sources_[chunk]; }
     [[nodiscard]] TriangleTable table() const { return {sources_.data(), local_bits_}; }
     [[nodiscard]] std::size_t chunk_of(std::uint32_t id) const { return id >> local_bits_; }
@@ -101,7 +102,7 @@ public:
     [[nodiscard]] const Draw& draw_of(const TriangleRecord& record) const { return draws_[record.draw_and_back >> 1]; }
     [[nodiscard]] bool tile_is_empty(int tile) const;
 
-    /// Per vertex group: whether a drawn triangle reads it.
+    /// True if a drawn triangle reads the vertex group.
     [[nodiscard]] bool group_is_drawn(std::int64_t group) const { return groups_drawn_.data()[group] != 0; }
     [[nodiscard]] std::int64_t vertex_count() const { return vertex_count_; }
     [[nodiscard]] std::uint64_t triangles_drawn() const;

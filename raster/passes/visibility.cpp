@@ -1,4 +1,4 @@
-// Which triangle each sample of a tile shows.
+// The visibility pass: the triangle that each sample of a tile shows.
 #include "raster/passes/count_work.hpp"
 #include "raster/passes/tile.hpp"
 
@@ -9,7 +9,7 @@ namespace {
 
 using shading::AlphaMode;
 
-/// One triangle of a masked material: the samples that its alpha test leaves.
+/// Draws one triangle of a masked material: the samples that pass its alpha test.
 void draw_masked(const TilePass& pass, const TileRect& rect, std::size_t chunk, std::uint32_t record, TileScratch& scratch,
                  TileCounts& counts) {
     bool any = false;

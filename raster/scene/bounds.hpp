@@ -5,13 +5,13 @@
 
 namespace halflit::raster {
 
-/// The smallest box around points; coordinates of whatever space the points are in.
+/// Smallest box around a set of points, in the points' space.
 struct Bounds {
     Vec3f min{0, 0, 0}, max{0, 0, 0};
     bool empty = true;
-    /// A point that is not finite is left out.
+    /// Adds a point; ignores it if it is not finite.
     void add(Vec3f p);
-    /// A box, whole.
+    /// Adds a box.
     void include(const Bounds& other);
     [[nodiscard]] Vec3f center() const;
     [[nodiscard]] float radius() const;  ///< half the diagonal

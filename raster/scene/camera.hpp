@@ -12,7 +12,7 @@ struct Camera {
     Mat4 world_from_camera;  ///< rigid: rotation and translation
     bool orthographic = false;
     float fov_y_rad = 0.785398163f;  ///< perspective: full vertical angle, in (0, pi)
-    float aspect = 0.0f;             ///< perspective: width / height the view is made for; 0: that of the picture
+    float aspect = 0.0f;             ///< perspective: width / height that the view is made for; 0: that of the picture
     float half_height = 1.0f;        ///< orthographic: half the height of the view; half_width likewise, 0: from the picture's aspect
     float half_width = 0.0f;
     float near_z = 0.1f;  ///< > 0 for perspective

@@ -7,7 +7,7 @@
 namespace halflit::raster {
 namespace {
 
-constexpr float kSkyShare = 0.10f, kGroundShare = 0.05f;  // dark sides stay readable, and clearly dark
+constexpr float kSkyShare = 0.10f, kGroundShare = 0.05f;  // keeps unlit sides readable, but clearly dark
 
 Vec3d to_double(Vec3f v) { return {v.x, v.y, v.z}; }
 
@@ -20,7 +20,7 @@ Vec3d level(const Scene& scene, const Bounds& bounds) {
         if (light.type != shading::LightType::directional) {
             const double distance = length(to_double(light.position_ws) - center);
             if (light.range > 0.0f && distance - radius >= static_cast<double>(light.range)) continue;
-            // The floor keeps a lamp inside the scene, next to its centre, from being taken for the light of everything.
+            // The lower limit keeps a lamp close to the centre from dominating the sum.
             const double effective = std::max({distance, radius / 2, 1e-4});
             share = 1.0 / (effective * effective);
         }
@@ -38,7 +38,7 @@ Vec3f light_level(const Scene& scene, const Bounds& bounds) {
 
 float auto_exposure(const Scene& scene, const Bounds& bounds) {
     const double luminance = dot(level(scene, bounds), Vec3d{0.2126, 0.7152, 0.0722});  // Rec. 709
-    // Outside of this, the factor or its product with the light would leave the range of float.
+    // Beyond these limits the factor or its product with the light would leave the range of float.
     if (!(luminance > 1e-18 && luminance < 1e18)) return 1.0f;
     return static_cast<float>(1.0 / luminance);
 }

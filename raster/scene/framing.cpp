@@ -7,20 +7,20 @@ namespace halflit::raster {
 namespace {
 
 constexpr double kFrameMargin = 0.08;    // share of the half picture that stays free on the tighter side
-constexpr double kMaxCoordinate = 1e36;  // bounds are cut here so that the camera's place is a finite float
+constexpr double kMaxCoordinate = 1e36;  // bounds are clamped to this, so that the camera's position is a finite float
 
 struct Axes {
     Vec3d right, up, back;  // camera x, y, z in world space
 };
 
-/// The viewer on a sphere around the origin: no special case at the poles, and past them the view turns over.
+/// Axes of a viewer on a sphere around the origin. The poles are no special case; beyond them the view is upside down.
 Axes orbit_axes(const ViewSettings& view) {
     const SinCos az = sin_cos(finite(view.azimuth_deg) ? view.azimuth_deg * (kPi / 180.0) : 0.0);
     const SinCos el = sin_cos(finite(view.elevation_deg) ? view.elevation_deg * (kPi / 180.0) : 0.0);
     return {{az.cos, 0.0, -az.sin}, {-el.sin * az.sin, el.cos, -el.sin * az.cos}, {az.sin * el.cos, el.sin, az.cos * el.cos}};
 }
 
-/// Finite, not empty, and not smaller than what float coordinates at that place can resolve.
+/// Box that is finite, not empty, and not smaller than the resolution of float coordinates at its position.
 struct Box {
     Vec3d center, half;
 };
@@ -37,9 +37,10 @@ Box usable_box(const Bounds& bounds) {
     return box;
 }
 
-/// The nearest camera in a given direction that sees all of a set of points. It stands at origin + right ox + up oy + back d; a
-/// point (x, y, z) in those axes is inside when |x - ox| <= tan_x (d - z), i.e. ox lies in [x + tan_x z - tan_x d, x - tan_x z +
-/// tan_x d]: the smallest d leaves one ox for all points, the middle of what is left. Likewise for y.
+/// Finds the nearest camera in a given direction that sees a set of points. The camera is at origin + right ox + up oy + back d. A point
+/// (x, y, z) in these axes is in view if |x - ox| <= tan_x (d - z), where tan_x is the tangent of half the field of view, less the margin.
+/// That is, ox lies in [x + tan_x z - tan_x d, x - tan_x z + tan_x d]. With the smallest d one ox remains for all points, the middle of the
+/// intersection of these intervals. The same holds for y.
 class ViewFit {
 public:
     ViewFit(Vec3d origin, float aspect, const ViewSettings& view)
@@ -50,7 +51,7 @@ public:
           inner_x_(tan_y_ * usable_aspect(aspect) * (1.0 - kFrameMargin)),
           inner_y_(tan_y_ * (1.0 - kFrameMargin)) {}
 
-    /// A point relative to the origin.
+    /// Adds a point, given relative to the origin.
     void add(Vec3d p) {
         const double x = dot(p, axes_.right), y = dot(p, axes_.up), z = dot(p, axes_.back);
         x_ = {larger(x_.low, x + inner_x_ * z), -larger(-x_.high, -(x - inner_x_ * z))};
@@ -58,14 +59,14 @@ public:
         front_ = larger(front_, z);
     }
 
-    /// `radius`: the size of the set, for points that are seen edge on.
+    /// radius: size of the set of points; keeps the camera off a set that is seen edge on.
     [[nodiscard]] Camera camera(double radius) const {
         const double fit = larger((x_.low - x_.high) / (2.0 * inner_x_), (y_.low - y_.high) / (2.0 * inner_y_));
         const double distance = larger(fit, front_ + 1e-3 * radius);
         const Vec3d eye =
             ((origin_ + axes_.right * (0.5 * (x_.low + x_.high))) + axes_.up * (0.5 * (y_.low + y_.high))) + axes_.back * distance;
 
-        // Zoom is the lens, not the place: nothing comes nearer, and the tangent scales exactly.
+        // Zoom changes the field of view, not the position; the tangent scales exactly.
         const double zoom = finite(view_.zoom) && view_.zoom > 0.0f ? view_.zoom : 1.0;
         const auto column = [](Vec3d v, float w) {
             return Vec4f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), w};
@@ -73,7 +74,7 @@ public:
         Camera camera;
         camera.world_from_camera = {{column(axes_.right, 0), column(axes_.up, 0), column(axes_.back, 0), column(eye, 1)}};
         camera.fov_y_rad = static_cast<float>(clamped(2.0 * arc_tangent(tan_y_ / zoom), kMinFov, kMaxFov));
-        // Half way to the nearest corner at least; what lies outside the bounds in front of that is not part of the scene.
+        // Near plane: half way to the nearest point, or 1e-4 of the camera's distance if that is more.
         camera.near_z = static_cast<float>(larger(0.5 * (distance - front_), 1e-4 * distance));
         camera.far_z = 0.0f;
         return camera;
@@ -88,7 +89,7 @@ private:
     Axes axes_;
     double tan_y_, inner_x_, inner_y_;
     Slab x_, y_;
-    double front_ = -1e300;  // the nearest point, along `back`
+    double front_ = -1e300;  // coordinate of the nearest point along `back`
 };
 
 }  // namespace

@@ -18,7 +18,7 @@ void unshare(std::vector<T>& values, const std::vector<std::uint32_t>& indices) 
 
 Vec3d to_double(Vec3f v) { return {v.x, v.y, v.z}; }
 
-/// In double: the squares of any finite float edge stay finite and above zero.
+/// Normal of a triangle. In double, so that the squares of any finite float edge stay finite and above zero.
 Vec3f triangle_normal(Vec3f a, Vec3f b, Vec3f c) {
     const Vec3d n = cross(to_double(b) - to_double(a), to_double(c) - to_double(a));
     const double len = length(n);

@@ -9,7 +9,7 @@ namespace halflit::raster {
 
 namespace {
 
-/// For each vertex the number of its place: the same for vertices at one place.
+/// Number of each vertex's position: the same for vertices with equal positions.
 std::vector<std::uint32_t> places_of(const std::vector<Vec3f>& positions) {
     std::vector<std::uint32_t> order(positions.size()), place(positions.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -28,10 +28,10 @@ bool is_finite(Vec3f p) { return (p.x - p.x) + (p.y - p.y) + (p.z - p.z) == 0.0f
 }  // namespace
 
 bool is_closed(const Mesh& mesh) {
-    if (!std::all_of(mesh.positions.begin(), mesh.positions.end(), is_finite)) return false;  // no order among places
+    if (!std::all_of(mesh.positions.begin(), mesh.positions.end(), is_finite)) return false;  // NaN cannot be sorted
     const std::vector<std::uint32_t> place = places_of(mesh.positions);
     struct Edge {
-        std::uint64_t ends;  // the lower place above the higher one
+        std::uint64_t ends;  // lower position number in the upper 32 bits, higher one below
         int direction;
     };
     std::vector<Edge> edges;

@@ -1,13 +1,14 @@
-// How a mesh's triangles hang together.
+// Connectivity of a mesh's triangles.
 #pragma once
 
 #include "raster/scene/mesh.hpp"
 
 namespace halflit::raster {
 
-/// Whether the surface has no border: every edge is run through as often in one direction as in the other. Vertices at one place count as
-/// one (glTF parts them where normals or texture coordinates differ); triangles with two corners at one place do not count. A mesh without
-/// triangles is not closed. Indices are in range. Sorts the edges: about 0.4 s for a million triangles.
+/// True if the surface has no border: the triangles run along every edge as often in one direction as in the other. Vertices with equal
+/// positions count as one, because glTF splits vertices where normals or texture coordinates differ. Triangles with two corners at one
+/// position are ignored. A mesh without triangles is not closed, nor is one with a position that is not finite. Requires: indices in range.
+/// Sorts the edges: about 0.4 s for a million triangles.
 [[nodiscard]] bool is_closed(const Mesh& mesh);
 
 }  // namespace halflit::raster

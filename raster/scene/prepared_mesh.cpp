@@ -12,15 +12,15 @@ namespace {
 
 constexpr std::size_t kClustersPerTask = 64;
 
-/// Normals are computed in float32: off by less than this where the angle at a corner is not below kThinnest (sine).
+/// kNormalError: bound on the error of a normal in float32. Holds if the sine of the angle at the first corner is above kThinnest.
 constexpr float kNormalError = 2e-3f, kThinnest = 1e-3f;
 
-/// Corners of a cluster's triangles, as arrays, so that the compiler takes several triangles at a time.
+/// Corners of a cluster's triangles, as arrays, so that the compiler can vectorise over triangles.
 struct Corners {
     alignas(64) float x[3][kClusterTriangles], y[3][kClusterTriangles], z[3][kClusterTriangles];
 };
 
-/// Unit normals and altitudes, likewise. `same` is not 0 where two vertices lie at one place.
+/// Unit normals and altitudes, likewise. thinness: sine of the angle at the first corner. same: not 0 if two vertices are at one position.
 struct Shapes {
     alignas(64) float x[kClusterTriangles], y[kClusterTriangles], z[kClusterTriangles];
     alignas(64) float altitude[kClusterTriangles], thinness[kClusterTriangles];
@@ -42,7 +42,7 @@ void measure(const Corners& at, std::uint32_t count, Shapes& out) {
         const float over_area = 1.0f / (area > 1e-37f ? area : 1e-37f);
         out.x[i] = nx * over_area, out.y[i] = ny * over_area, out.z[i] = nz * over_area;
         out.altitude[i] = area / (__builtin_sqrtf(longest) + 1e-37f);
-        // The sine of the angle at the first corner; 0 where squares come near float32's limits.
+        // 0 where squares come near float32's limits.
         out.thinness[i] = area > 1e-17f && area < 1e17f ? area / (__builtin_sqrtf(aa) * __builtin_sqrtf(bb)) : 0.0f;
         const bool ab = ax == 0.0f && ay == 0.0f && az == 0.0f, ac = bx == 0.0f && by == 0.0f && bz == 0.0f;
         const bool bc = cx == 0.0f && cy == 0.0f && cz == 0.0f;
@@ -50,7 +50,7 @@ void measure(const Corners& at, std::uint32_t count, Shapes& out) {
     }
 }
 
-/// The cone around the mean normal, and the least altitude.
+/// Sets the cone around the mean normal, and the least altitude.
 void set_cone(const Shapes& shapes, std::uint32_t count, Cluster& cluster) {
     cluster.cone_sine = 2.0f;
     cluster.cone_cosine = -1.0f;
@@ -67,7 +67,7 @@ void set_cone(const Shapes& shapes, std::uint32_t count, Cluster& cluster) {
         thinness = std::min(thinness, shapes.thinness[i]);
     }
     const double size = length(sum);
-    // Not finite and zero areas fail these comparisons.
+    // Values that are not finite and triangles without area fail these comparisons.
     if (!any || !(size > 1e-3) || !(size < 1e6) || !(thinness > kThinnest)) return;
     const Vec3f axis{static_cast<float>(sum.x / size), static_cast<float>(sum.y / size), static_cast<float>(sum.z / size)};
     float cosine = 1.0f;
@@ -81,12 +81,12 @@ void set_cone(const Shapes& shapes, std::uint32_t count, Cluster& cluster) {
     cluster.least_altitude = altitude * 0.999f;
 }
 
-/// One run of clusters, by one task.
+/// Builds a run of consecutive clusters; one per task.
 class ClusterRun {
 public:
     explicit ClusterRun(const Mesh& mesh) : mesh_(mesh), stamp_((mesh.positions.size() + kVertexGroup - 1) / kVertexGroup, 0) {}
 
-    /// False where an index is out of range. Groups are numbered from the run's first one on.
+    /// Returns false if an index is out of range. Cluster::first_group counts from the run's first group.
     bool build(std::size_t begin, std::size_t end, Cluster* clusters) {
         for (std::size_t c = begin; c < end; ++c)
             if (!build(c, clusters[c])) return false;
@@ -127,13 +127,13 @@ private:
     }
 
     const Mesh& mesh_;
-    std::vector<std::uint32_t> stamp_;  // the cluster that last read each group
+    std::vector<std::uint32_t> stamp_;  // per group: 1 + number of the last cluster that reads it
     std::vector<std::uint32_t> groups_;
     Corners corners_;
     Shapes shapes_;
 };
 
-/// The largest magnitude; what is not a number is left out.
+/// Largest of components(value) over all values, and not below `least`. NaN is ignored.
 template <class T, class Components>
 float largest_of(const std::vector<T>& values, float least, const Components& components) {
     float largest = least;
@@ -154,7 +154,7 @@ const char* what_is_wrong(const Mesh& mesh) {
     return nullptr;
 }
 
-/// False where nothing in the box can change the bounds.
+/// False if nothing in the box can extend the bounds.
 bool may_grow(const Bounds& b, const PlacedBox& box) {
     return b.empty || !(box.low[0] > b.min.x && box.low[1] > b.min.y && box.low[2] > b.min.z && box.high[0] < b.max.x &&
                         box.high[1] < b.max.y && box.high[2] < b.max.z);
@@ -201,7 +201,7 @@ Bounds placed_bounds(const Mesh& mesh, const PreparedMesh& prepared, const Mat4&
         for (std::size_t c = 0; c < count; ++c) look_into(c);
         return bounds;
     }
-    // The clusters that go farthest in each direction first: what they hold rules most others out.
+    // The clusters that reach farthest in each direction come first: their vertices rule out most other clusters.
     std::vector<PlacedBox> boxes;
     boxes.reserve(count);
     std::size_t farthest[6] = {};

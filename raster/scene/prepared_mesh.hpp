@@ -1,4 +1,4 @@
-// What drawing needs to know of a mesh besides its arrays, found once: its box, and clusters of triangles that a view can leave out whole.
+// A mesh prepared for drawing: its box, and clusters of triangles that a view can leave out as a whole. Computed once.
 #pragma once
 
 #include "raster/scene/bounds.hpp"
@@ -22,24 +22,24 @@ inline constexpr std::uint32_t kVertexGroup = 64;
 
 struct Cluster {
     float min[3], max[3];  ///< object space: the box of its vertices
-    /// The normals of all triangles lie within the angle of this sine and cosine around the axis. Object space, unit. sine > 1: no such
-    /// angle below 90 degrees is known, or a triangle is too thin for one.
+    /// Cone that contains the normals of all triangles: axis (object space, unit), sine and cosine of its half angle. sine > 1: no cone of
+    /// less than 90 degrees is known, or a triangle is too thin for one.
     float cone_axis[3];
     float cone_sine, cone_cosine;
-    /// Lower bound of every triangle's least altitude: twice its area over its longest edge, object units. Triangles with two vertices at
-    /// one place are left out: they cover nothing.
+    /// Lower bound of the triangles' least altitudes, object units. A triangle's least altitude is twice its area over its longest edge.
+    /// Triangles with two vertices at one position are left out: they cover nothing.
     float least_altitude;
-    std::uint32_t first_group;  ///< of PreparedMesh::vertex_groups; the next cluster's is the end
+    std::uint32_t first_group;  ///< index into PreparedMesh::vertex_groups; the next cluster's is the end
     bool finite;                ///< every vertex is finite
 };
 
-/// Clusters are looked at this many at a time first.
+/// Clusters per supercluster: searches test the box of a supercluster before those of its clusters.
 inline constexpr std::size_t kSuperclusterSize = 32;
 
 struct PreparedMesh {
     Bounds bounds;                             ///< object space, of the finite vertices that some triangle uses
     std::vector<Cluster> clusters;             ///< one more at the end, for its first_group
-    std::vector<Bounds> superclusters;         ///< object space: of kSuperclusterSize clusters each, in order
+    std::vector<Bounds> superclusters;         ///< object space: box of kSuperclusterSize clusters each, in order
     std::vector<std::uint32_t> vertex_groups;  ///< numbers of the groups that each cluster reads, cluster after cluster
     float largest_uv = 0;                      ///< the largest magnitude of a texture coordinate
     float largest_color = 1;                   ///< the largest red, green or blue of the vertex colours, at least 1
@@ -52,10 +52,10 @@ struct PreparedMesh {
     }
 };
 
-/// Checks a mesh and takes it apart. Fails with what is wrong: an index out of range, arrays that do not fit together.
+/// Checks a mesh and cuts it into clusters. Fails for an index out of range and for arrays of different lengths.
 Result<PreparedMesh> prepare_mesh(const Mesh& mesh, Executor& executor);
 
-/// A box after a transform, in double, a little larger than float32's rounding can make what is inside.
+/// World-space box around a transformed box, in double. A margin covers float32's rounding of the points inside.
 struct PlacedBox {
     double low[3], high[3];
     PlacedBox(const float (&min)[3], const float (&max)[3], const Mat4& world_from_object);
@@ -63,8 +63,8 @@ struct PlacedBox {
     [[nodiscard]] double distance_squared(Vec3d p) const;
 };
 
-/// World-space box of the finite vertices that some triangle uses, each placed in float32 as the renderer places it. Looks only into
-/// clusters that may decide it.
+/// World-space box of the finite vertices that some triangle uses, each transformed in float32 as the renderer does it. Reads only the
+/// vertices of clusters that may extend the box.
 [[nodiscard]] Bounds placed_bounds(const Mesh& mesh, const PreparedMesh& prepared, const Mat4& world_from_object);
 
 }  // namespace halflit::raster

@@ -27,8 +27,8 @@ Result<void> check_material(const shading::Material& material, std::size_t index
     for (const shading::TextureUse* use : {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
                                            &material.occlusion_texture, &material.emissive_texture})
         if (use->used() && static_cast<std::size_t>(use->texture) >= texture_count)
-            return fail(ErrorCode::bad_input, "material " + std::to_string(index) + ": texture " + std::to_string(use->texture) + " of " +
-                                                  std::to_string(texture_count));
+            return fail(ErrorCode::bad_input, "material " + std::to_string(index) + ": refers to texture " + std::to_string(use->texture) +
+                                                  ", but the scene has " + std::to_string(texture_count));
     if (const auto lobe = shading::check_lobe(material.lobe); !lobe)
         return fail(lobe.error().code, "material " + std::to_string(index) + ": lobe: " + lobe.error().message);
     return {};
@@ -36,7 +36,7 @@ Result<void> check_material(const shading::Material& material, std::size_t index
 
 constexpr double kRootOfThree = 1.7320508075688772;
 
-/// Instances whose boxes one task finds.
+/// Instances per task that computes boxes.
 constexpr std::size_t kInstancesPerTask = 256;
 
 }  // namespace
@@ -53,7 +53,7 @@ Result<void> PreparedScene::prepare(std::size_t index, Executor& executor) {
 }
 
 Result<void> PreparedScene::prepare_meshes(Executor& executor) {
-    // Small meshes side by side, each by one task; large ones one after the other, each by all threads. The first fault counts.
+    // Small meshes in parallel, one task each; large ones one after the other, each by all threads. The first faulty mesh gives the error.
     constexpr std::size_t kLargeMesh = 1 << 16;  // indices
     std::vector<Result<void>> results(meshes_.size());
     const auto large = [&](std::size_t i) { return scene_->meshes[i].indices.size() >= kLargeMesh; };
@@ -111,8 +111,8 @@ Result<PreparedScene> PreparedScene::make(const Scene& scene, const Workers& wor
     if (auto ok = prepared.check_materials(); !ok) return tl::unexpected<Error>(ok.error());
     for (const Instance& instance : scene.instances)
         if (instance.mesh < 0 || static_cast<std::size_t>(instance.mesh) >= scene.meshes.size())
-            return fail(ErrorCode::bad_input,
-                        "an instance names mesh " + std::to_string(instance.mesh) + " of " + std::to_string(scene.meshes.size()));
+            return fail(ErrorCode::bad_input, "an instance refers to mesh " + std::to_string(instance.mesh) + ", but the scene has " +
+                                                  std::to_string(scene.meshes.size()));
     prepared.instance_bounds_.resize(scene.instances.size());
     executor.run(static_cast<int>((scene.instances.size() + kInstancesPerTask - 1) / kInstancesPerTask), [&](int task) {
         const std::size_t begin = static_cast<std::size_t>(task) * kInstancesPerTask;
@@ -132,7 +132,7 @@ Result<void> PreparedScene::update(const SceneChanges& changes, const Workers& w
     const Scene& scene = *scene_;
     if (scene.meshes.size() != meshes_.size() || scene.instances.size() != instance_bounds_.size() ||
         scene.materials.size() + 1 != drawn_materials_.size())
-        return fail(ErrorCode::usage, "the scene has other numbers of meshes, instances or materials than when it was prepared");
+        return fail(ErrorCode::usage, "the number of meshes, instances or materials has changed since the scene was prepared");
     const auto place = [&](std::size_t i) {
         const Instance& instance = scene.instances[i];
         instance_bounds_[i] =
@@ -144,7 +144,8 @@ Result<void> PreparedScene::update(const SceneChanges& changes, const Workers& w
         std::vector<bool> deformed(scene.meshes.size(), false);
         for (const std::size_t i : changes.deformed_meshes) {
             if (i >= scene.meshes.size())
-                return fail(ErrorCode::usage, "mesh " + std::to_string(i) + " of " + std::to_string(scene.meshes.size()));
+                return fail(ErrorCode::usage,
+                            "deformed mesh " + std::to_string(i) + ", but the scene has " + std::to_string(scene.meshes.size()));
             if (auto ok = prepare(i, executor); !ok) return ok;
             deformed[i] = true;
         }
@@ -153,7 +154,8 @@ Result<void> PreparedScene::update(const SceneChanges& changes, const Workers& w
     }
     for (const std::size_t i : changes.moved_instances) {
         if (i >= scene.instances.size())
-            return fail(ErrorCode::usage, "instance " + std::to_string(i) + " of " + std::to_string(scene.instances.size()));
+            return fail(ErrorCode::usage,
+                        "moved instance " + std::to_string(i) + ", but the scene has " + std::to_string(scene.instances.size()));
         place(i);
     }
     if (!changes.deformed_meshes.empty() || !changes.moved_instances.empty()) {

@@ -1,5 +1,5 @@
-// A scene made ready to draw, once: checked, its meshes cut into clusters, its instances bounded. Frames are drawn from it, and when
-// something in the scene changes it is told what, and redoes that alone.
+// A scene prepared for drawing: checked, its meshes cut into clusters, its instances bounded. Many frames are drawn from it. When the scene
+// changes, update() is told what changed, and redoes that alone.
 #pragma once
 
 #include "raster/parallel_for.hpp"
@@ -14,7 +14,7 @@
 
 namespace halflit::raster {
 
-/// What is no longer as it was when a scene was prepared. Numbers of meshes, instances and materials must be the same.
+/// Parts of a scene that changed after it was prepared. The numbers of meshes, instances and materials must stay the same.
 struct SceneChanges {
     std::vector<std::size_t> moved_instances{};  ///< Instance::world_from_object
     std::vector<std::size_t> deformed_meshes{};  ///< any array of the mesh, indices and material included
@@ -22,19 +22,19 @@ struct SceneChanges {
     bool lights = false;                         ///< lights, ambient light or environment
 };
 
-/// Grow with every change and are never the same for two scenes, so that what was made from a scene can be kept while they stay.
+/// Revision numbers. They grow with every change and differ between scenes: results made from a scene are valid while they are equal.
 struct SceneRevision {
     std::uint64_t geometry = 0, materials = 0, lights = 0;
     friend bool operator==(const SceneRevision&, const SceneRevision&) = default;
 };
 
-/// Refers to the scene that it was made from: that must stay where it is, and changes must be told. Reading is thread-safe.
+/// Refers to the scene that it was made from: that must stay at its address, and update() must be told its changes. Reading is thread-safe.
 class PreparedScene {
 public:
-    /// Fails where the scene is broken: an index out of range, arrays that do not fit together, a lobe that is none.
+    /// Fails for a faulty scene: an index out of range, arrays of different lengths, an invalid lobe.
     static Result<PreparedScene> make(const Scene& scene, const Workers& workers = {});
 
-    /// Takes the time of what changed: microseconds for a moved instance. After an error the scene is not to be drawn.
+    /// Redoes what changed, and sums over all instances: 0.01 to 1 ms for a moved instance. After an error the scene must not be drawn.
     Result<void> update(const SceneChanges& changes, const Workers& workers = {});
 
     [[nodiscard]] const Scene& scene() const { return *scene_; }
@@ -44,23 +44,24 @@ public:
     [[nodiscard]] const PreparedMesh& mesh(int index) const { return meshes_[static_cast<std::size_t>(index)]; }
     /// World-space box of each instance.
     [[nodiscard]] std::span<const Bounds> instance_bounds() const { return instance_bounds_; }
-    /// Over all instances.
+    /// Number of triangles over all instances.
     [[nodiscard]] std::uint64_t triangle_count() const { return triangle_count_; }
     /// The largest magnitude of a texture coordinate, and the largest channel of a vertex colour (at least 1), of what is drawn.
     [[nodiscard]] double largest_uv() const { return largest_uv_; }
     [[nodiscard]] double largest_color() const { return largest_color_; }
 
-    // By material; one more at the end, for meshes that have none.
-    /// The union of the vertex data that the material's meshes bring.
+    // Indexed by material, with one more entry at the end for meshes without a material:
+    /// Union of the attribute slots of the material's meshes.
     [[nodiscard]] std::span<const shading::SlotMask> available_slots() const { return available_slots_; }
-    /// Whether some instance is made of it.
+    /// True if some instance with triangles has the material.
     [[nodiscard]] const std::vector<bool>& drawn_materials() const { return drawn_materials_; }
     [[nodiscard]] std::size_t material_of(const Mesh& mesh) const {
         return mesh.material >= 0 ? static_cast<std::size_t>(mesh.material) : scene_->materials.size();
     }
-    /// Of the sphere that fits the box of the largest instance made of the material, world units; 0 where there is none.
+    /// Half the diagonal of the box of the largest instance with the material, over sqrt(3): for a sphere its radius. World units; 0 if
+    /// there is no instance.
     [[nodiscard]] std::span<const double> object_radii() const { return object_radii_; }
-    /// What materials that are not there are drawn as.
+    /// Material `index`, or the default material past the last one.
     [[nodiscard]] const shading::Material& material(std::size_t index) const {
         return index < scene_->materials.size() ? scene_->materials[index] : no_material_;
     }
@@ -70,7 +71,7 @@ private:
     Result<void> prepare(std::size_t mesh, Executor& executor);
     Result<void> prepare_meshes(Executor& executor);
     Result<void> check_materials() const;
-    void collect();  ///< what is summed up over meshes and instances
+    void collect();  ///< sums over meshes and instances
 
     const Scene* scene_ = nullptr;
     SceneRevision revision_;

@@ -4,7 +4,7 @@ namespace halflit::raster {
 
 namespace {
 
-/// Which vertices a triangle of the mesh uses: files often share one vertex array between many meshes.
+/// True for each vertex that a triangle of the mesh uses. Files often share one vertex array between many meshes.
 std::vector<bool> used_vertices(const Mesh& mesh) {
     std::vector<bool> used(mesh.positions.size(), false);
     for (const std::uint32_t index : mesh.indices)
@@ -29,13 +29,13 @@ Bounds scene_bounds(const Scene& scene) {
 }
 
 void add_default_lights(Scene& scene, const Camera& camera) {
-    // In camera space the key comes from the left, above and behind the viewer: form is modelled from the side without
-    // hiding it in the dark.
+    // In camera space the key light comes from the left, above and behind the viewer: light from the side shows the form, and little of
+    // what the viewer sees is unlit.
     const Vec3f travels_vs{0.45f, -0.60f, -0.66f};
     shading::Light key;
     key.type = shading::LightType::directional;
     key.direction_ws = normalize_or(transform_vector(camera.world_from_camera, travels_vs), {0, -1, 0});
-    // A white Lambert surface that faces the key reaches 0.82 of the display's white, and about 1 with the ambient.
+    // A white Lambert surface that faces the key light reaches 0.82 of the display's white, and about 1 with the ambient light.
     key.color_linear = {0.84f, 0.82f, 0.78f};
     scene.lights.push_back(key);
     scene.ambient.sky_linear = {0.23f, 0.25f, 0.28f};

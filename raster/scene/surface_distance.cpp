@@ -22,7 +22,7 @@ double segment_distance(Vec3d a, Vec3d b) {
     return squared(a + along * t);
 }
 
-/// Squared distance from the origin to a triangle: to its plane where the foot lies inside, otherwise to an edge.
+/// Squared distance from the origin to a triangle: to its plane if the foot of the perpendicular lies inside, otherwise to an edge.
 double triangle_distance(Vec3d a, Vec3d b, Vec3d c) {
     const Vec3d normal = cross(b - a, c - a);
     const double area = squared(normal);
@@ -37,7 +37,7 @@ double triangle_distance(Vec3d a, Vec3d b, Vec3d c) {
     return std::min({segment_distance(a, b), segment_distance(b, c), segment_distance(c, a)});
 }
 
-/// Of the box round the corners: a tenth of the work of triangle_distance.
+/// Squared distance from the origin to the box around a triangle: a tenth of the work of triangle_distance.
 double corners_distance(Vec3d a, Vec3d b, Vec3d c) {
     const auto beyond = [](double x, double y, double z) { return larger(0.0, larger(std::min({x, y, z}), -std::max({x, y, z}))); };
     return squared({beyond(a.x, b.x, c.x), beyond(a.y, b.y, c.y), beyond(a.z, b.z, c.z)});
@@ -56,7 +56,7 @@ double box_distance(const Bounds& box, Vec3d p) {
 /// Boxes by their distance, the nearest on top.
 using BoxHeap = std::vector<std::pair<double, std::size_t>>;
 
-/// Visits what may be nearer than the nearest found so far, the nearest box first.
+/// Visits the boxes that are nearer than `nearest`, the nearest one first. `visit` may lower `nearest`.
 template <class Distance, class Visit>
 void visit_nearest_first(std::size_t count, double& nearest, BoxHeap& heap, const Distance& distance, const Visit& visit) {
     heap.clear();

@@ -34,7 +34,7 @@ double angle_of_cosine(double c) {
     return 2.0 * arc_tangent(__builtin_sqrt((1.0 - c) / (1.0 + c)));
 }
 
-/// -0 and +0 are one value.
+/// Bits of f, the same for -0 and +0.
 std::uint32_t bits(float f) { return std::bit_cast<std::uint32_t>(f + 0.0f); }
 
 struct BitsHash {
@@ -54,7 +54,7 @@ struct Triangle {
     std::array<std::uint32_t, 3> neighbor{kNone, kNone, kNone};  // across the edge from corner i to corner i + 1
     std::array<std::uint32_t, 3> group{kNone, kNone, kNone};
     Vec3d tangent;            // direction of growing u, unit length or zero
-    bool degenerate = false;  // two corners at one place
+    bool degenerate = false;  // two corners at one position
     bool flat_uv = false;     // no area in texture space
     bool positive = false;    // texture space has the orientation of the triangle (with v as stored)
 };
@@ -116,7 +116,7 @@ private:
         if (along_u == Vec3d{} || along_v == Vec3d{}) triangle.flat_uv = true;
     }
 
-    /// Finds for each edge the triangle on its other side; an edge that more than two triangles share pairs them in their order.
+    /// Finds for each edge the triangle on its other side. An edge that more than two triangles share pairs them in their order.
     void connect() {
         struct Edge {
             std::uint32_t low, high, triangle;
@@ -159,7 +159,7 @@ private:
         }
     }
 
-    /// Walks from triangle to triangle around a vertex, both ways, while the orientation in texture space stays.
+    /// Walks from triangle to triangle around a vertex, in both directions, while the orientation in texture space stays the same.
     void grow_group(std::uint32_t first, std::uint32_t first_corner) {
         const auto id = static_cast<std::uint32_t>(groups_.size());
         Group& group = groups_.emplace_back();
@@ -215,13 +215,13 @@ private:
     }
 
     [[nodiscard]] Vec4f tangent_of(std::uint32_t group) const {
-        if (group == kNone) return {1, 0, 0, 1};  // what MikkTSpace gives where nothing decides
+        if (group == kNone) return {1, 0, 0, 1};  // MikkTSpace's default where no triangle defines a tangent
         const Group& g = groups_[group];
-        // v points down, so where texture space keeps the orientation, "up in the picture" is against it.
+        // v points down: if texture space has the triangle's orientation, the upward bitangent is -cross(normal, tangent).
         return {g.tangent.x, g.tangent.y, g.tangent.z, g.positive ? -1.0f : 1.0f};
     }
 
-    /// The first tangent that a vertex gets stays with it; each further one makes a copy of the vertex.
+    /// Keeps the first tangent of each vertex; copies the vertex for each other tangent.
     void write() {
         std::vector<bool> has(mesh_.positions.size(), false);
         std::unordered_map<std::array<std::uint32_t, 5>, std::uint32_t, BitsHash> copies;  // by source vertex and tangent

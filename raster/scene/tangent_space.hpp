@@ -1,5 +1,5 @@
-// Tangents for normal mapping, for meshes that bring none. The rules are MikkTSpace's [Mikk08], which glTF names as the default: what
-// tools bake normal maps against.
+// Tangents for normal mapping, for meshes that have none. The rules are those of MikkTSpace [Mikk08]: glTF names it as the default, and
+// tools bake normal maps with it.
 #pragma once
 
 #include "raster/scene/mesh.hpp"
@@ -7,14 +7,15 @@
 namespace halflit::raster {
 
 /// Fills mesh.tangents from positions, normals and a set of texture coordinates (0 or 1, v down); the mesh must have all three. A
-/// vertex whose triangles disagree (mirrored or separate charts) is split, its other attributes copied; indices change, the order of
-/// triangles does not. w is +1 or -1 by glTF's rule: bitangent = cross(normal, tangent) * w points up in the picture (along -v).
+/// vertex whose triangles disagree (mirrored or separate charts) is split, and its other attributes are copied. Indices change, the order
+/// of triangles does not. w is +1 or -1 by glTF's rule: bitangent = cross(normal, tangent) * w points up in the texture (along -v).
 ///
-/// As in MikkTSpace: equal vertices are welded first; the triangles at a vertex form groups over shared edges with the same
-/// orientation in texture space; a group's tangent is the sum of its triangles', projected to the normal's plane, weighted by the
-/// angle; triangles without an area take the tangent of a neighbour, those without an area in texture space join any group.
-/// differs: MikkTSpace splits a group where two projected tangents are exactly opposite; here the group stays one, so that the cost
-/// grows with the number of triangles and not with the square of a vertex's.
+/// As in MikkTSpace: vertices with equal position, normal and texture coordinates are welded first. The triangles at a vertex that share
+/// edges and have the same orientation in texture space form a group. A group's tangent is the sum of its triangles' tangents, projected
+/// to the normal's plane and weighted by the angle at the vertex. Triangles without area take the tangent of a neighbour. Triangles without
+/// area in texture space join any group.
+/// differs: MikkTSpace splits a group where two projected tangents are exactly opposite. Here the group is not split, so that the cost
+/// grows with the number of triangles, and not with the square of the number at a vertex.
 void generate_tangents(Mesh& mesh, int uv_set);
 
 }  // namespace halflit::raster

@@ -17,9 +17,10 @@ Background::Background(const shading::Environment& environment, const Camera& ca
 Vec4f Background::at(int x_px, int y_px) const {
     const double right = (2.0 * x_px + 1.0) / width_ - 1.0, up = 1.0 - (2.0 * y_px + 1.0) / height_;
     const sh::EquirectPoint point = sh::equirect_point((rays_.middle + rays_.right * right) + rays_.up * up);
-    // Bilinear between the pixels' middles: round the horizon, up to the poles' rows.
+    // Bilinear between pixel centres. Columns wrap around; rows end at the first and the last.
     const int w = environment_->width, h = environment_->height;
-    const double x = point.u * w + 0.5, y = point.v * h + 0.5;  // of the pixel to the right and below; not negative
+    // x, y: their whole parts are the right column and the lower row of the four pixels; not negative.
+    const double x = point.u * w + 0.5, y = point.v * h + 0.5;
     const int right_column = static_cast<int>(x), lower_row = static_cast<int>(y);
     const int x1 = right_column % w, x0 = (right_column + w - 1) % w;
     const int y1 = lower_row < h ? lower_row : h - 1, y0 = lower_row > 0 ? lower_row - 1 : 0;

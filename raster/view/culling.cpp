@@ -5,9 +5,10 @@
 namespace halflit::raster {
 namespace {
 
-/// Rounding errors of a clip coordinate, as a share of its terms' magnitudes: three products and three sums in float32, doubled.
+/// Bound on the rounding error of a clip coordinate, relative to the sum of its terms' magnitudes: twice that of three products and three
+/// sums in float32.
 constexpr double kClipError = 5e-7;
-/// From here on a clip coordinate may be infinite in float32, and its triangles are to be counted as such.
+/// From this size on a clip coordinate may be infinite in float32. Its triangles must be kept, because they are counted as not finite.
 constexpr double kHuge = 1e37;
 
 double length3(const double (&v)[3]) { return __builtin_sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
@@ -41,7 +42,7 @@ Culler::Culler(const View& view, const Mat4& m, bool mirrored, bool back_faces)
       half_height_(view.viewport.half_height),
       side_(mirrored ? -1.0 : 1.0),
       back_faces_(back_faces) {
-    // The sides of the region in ndc, a pixel farther out than what is drawn, and never beyond the window's own sides.
+    // Sides of the region in ndc, one pixel outside of what is drawn, but never outside the window.
     const Region& r = view.region;
     const auto ndc = [](int pixel, double half) { return pixel / half - 1.0; };
     const double left = larger(-1.0, ndc(r.x - 1, half_width_)), right = -larger(-1.0, -ndc(r.x + r.width + 1, half_width_));
@@ -64,8 +65,9 @@ Culler::Culler(const View& view, const Mat4& m, bool mirrored, bool back_faces)
     plane_[4] = plane(2, 1.0, 0.0);     // z >= 0: not beyond the far plane
     plane_[5] = plane(2, -1.0, 1.0);    // z <= w: not before the near plane
 
-    // Doubled area in ndc of a triangle with w > 0: D / (w0 w1 w2), D the determinant of its corners' (x, y, w). With the columns C, c3 of
-    // these three rows, D = c3 . cof(C) N + det(C) N . p for the triangle's normal N = (p1 - p0) x (p2 - p0) and any of its points p.
+    // A triangle with w > 0 has the doubled area D / (w0 w1 w2) in ndc, where D is the determinant of its corners' clip (x, y, w). Let C be
+    // the first three columns of the matrix rows x, y and w, and c3 their fourth column. Then D = c3 . cof(C) N + det(C) N . p, where
+    // N = (p1 - p0) x (p2 - p0) is the triangle's normal and p any of its points.
     const Vec3d c[4] = {
         {m.c[0].x, m.c[0].y, m.c[0].w}, {m.c[1].x, m.c[1].y, m.c[1].w}, {m.c[2].x, m.c[2].y, m.c[2].w}, {m.c[3].x, m.c[3].y, m.c[3].w}};
     determinant_ = dot(c[0], cross(c[1], c[2]));
@@ -116,13 +118,13 @@ bool Culler::faces_away(const Cluster& cluster) const {
         axis[k] = cluster.cone_axis[k];
         towards[k] = -side_ * (eye_[k] + determinant_ * middle[k]);
     }
-    // The least of N . towards over all unit normals in the cone, and all points of the box.
+    // least: lower bound of N . towards over all unit normals N in the cone and all points of the box.
     const double along = dot3(axis, towards), length = length3(towards);
     const double across = __builtin_sqrt(larger(0.0, length * length - along * along)) + 1e-6 * length;
     const double least = along * cluster.cone_cosine - across * cluster.cone_sine - magnitude(determinant_) * length3(half);
     if (!(least > 0.0)) return false;
 
-    // No triangle may be clipped, and each must be thick enough in the window to keep its side when its corners are snapped.
+    // No triangle may need clipping, and each must be so thick in the window that snapping its corners cannot turn it over.
     const Range x = range(row_[0], middle, half), y = range(row_[1], middle, half), z = range(row_[2], middle, half),
                 w = range(row_[3], middle, half);
     if (!(x.size + y.size + z.size + w.size < kHuge)) return false;
@@ -131,18 +133,19 @@ bool Culler::faces_away(const Cluster& cluster) const {
     if (!(w_min - (z.middle + z.half) > kClipError * z.size)) return false;
     const double x_most = (magnitude(x.middle) + x.half) / w_min, y_most = (magnitude(y.middle) + y.half) / w_min;
     if (!(x_most < 0.99 * guard_x_ && y_most < 0.99 * guard_y_)) return false;
-    // An edge of length 1 in object space is at most this long in the window, times w_min.
+    // dx, dy: upper bounds on the extent in the window, pixels times w_min, of an edge of length 1 in object space.
     const double w_slope = length3(row_[3].g);
     const double dx = half_width_ * (length3(row_[0].g) + x_most * w_slope), dy = half_height_ * (length3(row_[1].g) + y_most * w_slope);
     const double altitude =
         cluster.least_altitude * least * half_width_ * half_height_ * w_min / (w_max * w_max * w_max * __builtin_sqrt(dx * dx + dy * dy));
-    // Half a step of the grid, and what float32 makes of the window position: of clip x and w, of the division and the mapping.
+    // moved: bound on the displacement of a corner in x or y, pixels. Half a step of the grid, plus the float32 rounding of clip x and w,
+    // of the division and of the window mapping.
     const auto error = [&](const Range& coordinate, double most, double half_size) {
         return half_size * (1.01 * kClipError * (coordinate.size + most * w.size) / w_min + 5e-7 * (most + 1.0));
     };
     const double moved = 1.0 / 512.0 + larger(error(x, x_most, half_width_), error(y, y_most, half_height_));
-    // Moving each corner by d changes the doubled area by at most 4 d L + 4 d^2, L the longest edge: less than it is where the altitude
-    // is 5 d or more. d is up to sqrt(2) times the larger of both coordinates' errors.
+    // Moving each corner by d changes the doubled area by at most 4 d L + 4 d^2, where L is the longest edge. That is less than the doubled
+    // area if the altitude is at least 5 d. d is at most sqrt(2) times the larger of the displacements in x and y.
     return altitude > 5.0 * 1.41421357 * moved;
 }
 

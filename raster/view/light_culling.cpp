@@ -9,10 +9,10 @@ using shading::LightPlan;
 
 constexpr std::size_t kGroupSize = 16;
 
-/// Rounding of the kernel's distances, and of ours: far more than both.
+/// Safety factor for rounding errors of distances, the kernel's and those here; far larger than both.
 constexpr double kMargin = 1.0 + 1e-4;
 
-/// Squared distance from which on the light is zero; 0: none.
+/// Squared distance from which on the light is zero; 0: there is none.
 double end_squared(const LightPlan& light) {
     const double range = light.inv_range_squared > 0.0f ? 1.0 / light.inv_range_squared : 0.0, cutoff = light.cutoff_squared;
     return range > 0.0 && cutoff > 0.0 ? std::min(range, cutoff) : std::max(range, cutoff);
@@ -20,7 +20,7 @@ double end_squared(const LightPlan& light) {
 
 double cutoff_radius(const LightPlan& light) { return kMargin * __builtin_sqrt(end_squared(light)); }
 
-/// Ten bits of each coordinate, interleaved: neighbours in space are mostly neighbours in this order.
+/// Morton code: ten bits of each coordinate, interleaved. Neighbours in space are mostly neighbours in this order.
 std::uint32_t morton(const LightPlan& light, const double (&low)[3], const double (&scale)[3]) {
     std::uint32_t code = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -30,7 +30,7 @@ std::uint32_t morton(const LightPlan& light, const double (&low)[3], const doubl
     return code;
 }
 
-/// Whether the light is zero at every point of the box [low, high].
+/// True if the light is certainly zero at every point of the box [low, high].
 bool zero_in(const LightPlan& light, const double (&low)[3], const double (&high)[3]) {
     double nearest_squared = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -41,7 +41,7 @@ bool zero_in(const LightPlan& light, const double (&low)[3], const double (&high
     const double end = end_squared(light);
     if (end > 0.0 && nearest_squared > end * kMargin) return true;
     if (light.type != shading::LightType::spot || nearest_squared == 0.0) return false;
-    // Seen from the light, the box lies within its bounding sphere: in the cone of half angle asin(r / d) around the centre.
+    // The box's bounding sphere has radius r and distance d: from the light it fills a cone of half angle asin(r / d).
     double offset[3], r_squared = 0.0, d_squared = 0.0, along = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
         offset[axis] = 0.5 * (low[axis] + high[axis]) - light.position[axis];
@@ -51,7 +51,7 @@ bool zero_in(const LightPlan& light, const double (&low)[3], const double (&high
         along -= offset[axis] * light.to_light[axis];
     }
     if (r_squared * 1.0001 >= d_squared) return false;
-    // Zero when the angle to the axis exceeds outer angle + asin(r/d): compare the cosine of the difference.
+    // The light is zero if the angle between its axis and the sphere's centre exceeds outer angle + asin(r / d); compared by cosines.
     const double inv_d = 1.0 / __builtin_sqrt(d_squared);
     const double cos_axis = along * inv_d, sin_axis = __builtin_sqrt(std::max(0.0, 1.0 - cos_axis * cos_axis));
     const double sin_size = __builtin_sqrt(r_squared) * inv_d, cos_size = __builtin_sqrt(1.0 - sin_size * sin_size);

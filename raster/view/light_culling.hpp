@@ -1,5 +1,5 @@
-// Which lights can be other than zero in a block of fragments. A light is left out only where its range window or its cone gives
-// exactly zero at every fragment, so the sums keep their bits whatever the blocks are.
+// Selection of the lights that a block of fragments needs. A light is left out only if its range, cutoff radius or cone makes it exactly
+// zero at every fragment of the block. So the sums of light have the same bits however fragments are packed into blocks.
 #pragma once
 
 #include "shading/fragment_block.hpp"
@@ -11,7 +11,7 @@
 
 namespace halflit::raster {
 
-/// What a selected list lives in.
+/// Memory of a selected list.
 struct LightSelection {
     std::vector<std::uint32_t> index;
     std::vector<shading::LightPlan> lights;
@@ -20,11 +20,11 @@ struct LightSelection {
 class LightCuller {
 public:
     LightCuller() = default;
-    /// Sorts the lights that have a range into groups of neighbours.
+    /// Sorts the lights that have a range or cutoff radius into groups of neighbours.
     explicit LightCuller(std::span<const shading::LightPlan> lights);
 
-    /// Those of the same lights that `count` fragments need, from their world positions; `scratch` holds the list where it is not the
-    /// whole.
+    /// Lights that the first `count` fragments of the block need, by their world positions. lights: those of the constructor. `scratch`
+    /// holds the result if it is not the whole list.
     [[nodiscard]] shading::LightList select(std::span<const shading::LightPlan> lights, const shading::FragmentBlock& block, int count,
                                             LightSelection& scratch) const;
 
@@ -33,14 +33,14 @@ private:
         float min[3], max[3];
     };
     struct Group {
-        Box extent;  ///< of all its lights
+        Box extent;  ///< box around the reach of its lights
         std::size_t first, end;
     };
 
-    std::vector<std::uint32_t> ranged_;  ///< lights with a range, in groups
+    std::vector<std::uint32_t> ranged_;  ///< lights with a range or cutoff radius, in groups
     std::vector<Group> groups_;
-    std::vector<std::uint32_t> always_;  ///< the lights without a range, in list order
-    bool any_spot_ = false;              ///< among these
+    std::vector<std::uint32_t> always_;  ///< all other lights, in list order
+    bool any_spot_ = false;              ///< one of always_ is a spot
 };
 
 }  // namespace halflit::raster

@@ -11,7 +11,7 @@ struct HalfView {
     double x, y;
 };
 
-/// The picture shows at least what the camera asks for: of the two extents one is as asked, the other at least so.
+/// Extents that the picture shows: one is as asked, the other as asked or larger.
 HalfView widen_to(HalfView asked, double aspect) {
     if (asked.x < asked.y * aspect) return {asked.y * aspect, asked.y};
     return {asked.x, asked.x / aspect};
@@ -31,7 +31,7 @@ HalfView half_view(const Camera& camera, double aspect) {
     return widen_to(asked, aspect);
 }
 
-/// Rows 2 and 3 of the projection: clip z = z_scale * z_vs + z_offset.
+/// Row 2 of the projection: clip z = z_scale * z_vs + z_offset.
 struct DepthMap {
     double z_scale, z_offset;
 };
@@ -48,7 +48,7 @@ DepthMap perspective_depth(const Camera& camera) {
 DepthMap orthographic_depth(const Camera& camera, HalfView half) {
     const double near_z = finite(camera.near_z) ? camera.near_z : 0.0;
     double far_z = camera.far_z;
-    // Without a usable far limit: a thousand views deep, and more than the rounding of `near`.
+    // Without a usable far limit: 1000 half heights, or |near_z| if that is more, so that rounding does not lose the depth.
     if (!finite(camera.far_z) || !(far_z > near_z)) far_z = near_z + 1000.0 * larger(half.y, 1e-3 * magnitude(near_z));
     return {1.0 / (far_z - near_z), far_z / (far_z - near_z)};
 }
@@ -59,7 +59,7 @@ Mat4 clip_from_world(const Camera& camera, float picture_aspect) {
     const HalfView half = half_view(camera, usable_aspect(picture_aspect));
     const DepthMap depth = camera.orthographic ? orthographic_depth(camera, half) : perspective_depth(camera);
 
-    // Inverse of the rigid placing and the product with the projection, in double and rounded once.
+    // Projection times the inverse of the rigid world_from_camera, in double and rounded once.
     const Mat4& m = camera.world_from_camera;
     const Vec3d axis[3] = {{m.c[0].x, m.c[0].y, m.c[0].z}, {m.c[1].x, m.c[1].y, m.c[1].z}, {m.c[2].x, m.c[2].y, m.c[2].z}};
     const Vec3d eye{m.c[3].x, m.c[3].y, m.c[3].z};

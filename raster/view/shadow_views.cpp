@@ -18,7 +18,7 @@ struct Axes {
 
 Vec3d unit(Vec3d v) { return v * (1.0 / length(v)); }
 
-/// A camera's axes for looking along -back.
+/// Axes of a camera that looks along -back.
 Axes axes_for(Vec3d back) {
     const double ay = back.y < 0 ? -back.y : back.y;
     const Vec3d right = unit(cross(ay < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0}, back));
@@ -43,11 +43,12 @@ void set_row(float (&row)[4], Vec3d direction, double offset) {
     row[3] = static_cast<float>(offset);
 }
 
-/// Rows for a camera: u and v in texels (times distance when perspective), and distance along the view.
+/// Sets a map's rows: u and v in texels (perspective: times the distance), and the distance along the view. half: half the width of the
+/// view, world units (perspective: at distance 1).
 void set_rows(ShadowMapPlan& map, const Axes& axes, Vec3d eye, double half) {
     const double s = 0.5 * map.size / half;
     const Vec3d forward = axes.back * -1.0;
-    // The centre of the map, times distance in perspective.
+    // Offset to the centre of the map; perspective: times the distance.
     const Vec3d middle = map.kind == ShadowMapPlan::Kind::perspective ? forward * (0.5 * map.size) : Vec3d{};
     const double constant = map.kind == ShadowMapPlan::Kind::perspective ? 0.0 : 0.5 * map.size;
     const Vec3d u = axes.right * s + middle, v = axes.up * -s + middle;
@@ -56,7 +57,7 @@ void set_rows(ShadowMapPlan& map, const Axes& axes, Vec3d eye, double half) {
     set_row(map.rows[2], forward, -dot(forward, eye));
 }
 
-/// Whether any light can fall on the scene from there.
+/// True if the light's range reaches the scene's bounds.
 bool reaches(const LightPlan& light, const Bounds& bounds) {
     if (light.type == LightType::directional || light.inv_range_squared == 0.0f) return true;
     const Vec3f c = bounds.center();
@@ -70,14 +71,14 @@ double cone_tangent(const LightPlan& light) {
     return cosine < 0.25 ? 0.0 : __builtin_sqrt(std::max(0.0, 1.0 - cosine * cosine)) / cosine;
 }
 
-/// Whether it takes six maps.
+/// True if the light needs six maps.
 bool is_cube(const LightPlan& light) {
     return light.type == LightType::point || (light.type == LightType::spot && cone_tangent(light) == 0.0);
 }
 
 int size_of(const LightPlan& light, int side) { return is_cube(light) ? side / 2 : side; }
 
-/// Texels of all maps, `side` being the size of those that are not a cube's.
+/// Number of texels of all maps. side: texels on a side of a map that is not a cube's.
 std::size_t texel_count(std::span<const LightPlan> lights, const Bounds& bounds, int side) {
     std::size_t count = 0;
     for (const LightPlan& light : lights) {
@@ -88,7 +89,8 @@ std::size_t texel_count(std::span<const LightPlan> lights, const Bounds& bounds,
     return count;
 }
 
-/// Whether a camera with a square field of view can see anything of a box: not when all corners are behind it or beyond one side.
+/// True if a camera with a square field of view may see some of a box: not all corners are behind it or beyond one side. half: tangent of
+/// half the field of view.
 bool can_see(const Axes& axes, Vec3d eye, double half, const Bounds& bounds) {
     int behind = 0, beyond[4] = {};
     for (int k = 0; k < 8; ++k) {
@@ -127,7 +129,7 @@ public:
     }
 
 private:
-    /// The box around the scene's box, seen along the light.
+    /// Fits the view to the scene's box, seen along the light.
     void add_directional(const LightPlan& light, ShadowMapPlan& map, double usable) {
         const Axes axes = axes_for(unit(to_double(light.to_light)));
         double half = 0.0, depth = 0.0;
@@ -183,7 +185,7 @@ private:
         }
     }
 
-    /// What stands closer than the source's own radius is taken for the lamp itself.
+    /// Distance of the near plane. Geometry closer than the source's radius counts as the lamp itself.
     [[nodiscard]] double least_distance(const LightPlan& light) const {
         return std::max({1e-4 * radius_, __builtin_sqrt(static_cast<double>(light.min_distance_squared)), 1e-30});
     }

@@ -6,7 +6,7 @@ namespace halflit::raster {
 namespace {
 
 SamplePattern sample_pattern(int samples) {
-    // Rotated grids in sixteenths of a pixel, the positions that graphics hardware made standard.
+    // Standard sample positions of graphics hardware, rotated grids, in 1/16 pixel.
     static constexpr std::int8_t k4[4][2] = {{-2, -6}, {6, -2}, {-6, 2}, {2, 6}};
     static constexpr std::int8_t k8[8][2] = {{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}};
     SamplePattern p;

@@ -1,4 +1,4 @@
-// A view: a camera, a window, and the tiles that the window is drawn in. The picture is one, each face of a shadow map is one.
+// A view: a camera, a window, and the window's tiles. The picture is a view, and so is each face of a shadow map.
 #pragma once
 
 #include "raster/kernels/raster_kernels.hpp"
@@ -13,7 +13,7 @@ struct View {
     Region region;  ///< the pixels that are drawn: inside the window, never empty
     int tile_size = 64, tiles_x = 0, tiles_y = 0;
     SamplePattern samples;
-    bool cull_back_faces = true;  ///< of meshes whose material is not double sided
+    bool cull_back_faces = true;  ///< drop back faces of meshes whose material is not double sided
 
     [[nodiscard]] int tile_count() const { return tiles_x * tiles_y; }
     [[nodiscard]] TileRect tile_rect(int tile) const {
@@ -24,7 +24,7 @@ struct View {
     friend bool operator==(const View&, const View&) = default;
 };
 
-/// What a camera sees through a window of width x height pixels, of which only `region` is drawn. samples: 1, 4 or 8.
+/// View of a camera through a window of width x height pixels, of which only `region` is drawn. samples: 1, 4 or 8.
 [[nodiscard]] View make_view(const Camera& camera, int width, int height, const Region& region, int tile_size, int samples);
 
 }  // namespace halflit::raster

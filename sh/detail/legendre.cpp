@@ -3,7 +3,7 @@
 namespace halflit::sh::detail {
 namespace {
 
-/// As BasisTable in sh/basis.hpp.
+/// Recurrence factors as in BasisTable of sh/basis.hpp, but for 64 bands and indexed [m][l].
 struct Table {
     double diagonal[kSpectrumBands]{};
     double up[kSpectrumBands][kSpectrumBands]{};

@@ -1,4 +1,4 @@
-// Normalised associated Legendre functions to 64 bands, for what is done once per image. The 10 bands that shading uses: sh/basis.hpp.
+// Normalised associated Legendre functions for 64 bands, for work done once per image. Shading uses the 10 bands of sh/basis.hpp instead.
 #pragma once
 
 #include "sh/basis.hpp"
@@ -10,15 +10,16 @@ namespace halflit::sh::detail {
 
 inline constexpr int kSpectrumCoefficients = kSpectrumBands * kSpectrumBands;
 
-/// Row (m): the values p_lm for l = m..63 at l - m. Y_lm = p_lm(z) * (cos or sin of m phi), the sign convention of sh/basis.hpp.
+/// Values p_lm of one order m: p[l - m] for l = m..63. Y_lm = p_lm(z) cos(m phi) and Y_l,-m = p_lm(z) sin(m phi), with the sign convention
+/// of sh/basis.hpp.
 struct LegendreRow {
     std::array<double, kSpectrumBands> p{};
 };
 
-/// All p_lm at z = cos theta, given sin theta >= 0.
+/// Computes all p_lm at z = cos theta; row m of `rows` is order m. Requires: sin_theta >= 0.
 void legendre(double cos_theta, double sin_theta, std::array<LegendreRow, kSpectrumBands>& rows);
 
-/// The value of each band's zonal sum at a direction: sum over m of c_lm Y_lm(d), for 64 bands and three channels.
+/// Value of each band in a direction d: the sum over m of c_lm Y_lm(d), for 64 bands and three channels.
 void band_values(const Vec3d* coefficients, Vec3d direction, std::array<Vec3d, kSpectrumBands>& values);
 
 }  // namespace halflit::sh::detail

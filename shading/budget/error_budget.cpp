@@ -12,20 +12,21 @@
 namespace halflit::shading {
 namespace {
 
-/// Of N.L for a normal from three interpolated floats.
+/// Error of N.L for a normal from three interpolated floats.
 constexpr double kCosineError = 4e-7;
-/// What a mapped normal's length is taken for where its z may be less: shorter ones come of texels that point away from each other.
+/// Lower bound on the length of a mapped normal; used where the texture allows a smaller z. Shorter normals come from texels that point
+/// away from each other.
 constexpr double kShortestNormal = 0.1;
-/// Of the products and sums that follow, relative.
+/// Relative error of the products and sums that follow.
 constexpr double kProductError = 1e-5;
 
-/// What the material makes of light, at most.
+/// Upper bounds on what a surface reflects, and the errors of its inputs.
 struct Surface {
     double albedo, reflectance;      ///< diffuse with the lobe's scale; F0
-    double exponent, normalization;  ///< of the sharpest highlight
+    double exponent, normalization;  ///< those of the sharpest highlight
     double cosine_error;
     double roughness_error;                                                    ///< relative, where a texture gives it
-    double base_color_error, metallic_error, occlusion_error, emissive_error;  ///< of a texture's value
+    double base_color_error, metallic_error, occlusion_error, emissive_error;  ///< errors of a texture's value
     bool specular;
 };
 
@@ -56,7 +57,7 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
     s.normalization = plan.normalize_specular ? specular_normalization(0.5 * s.exponent) : 1.0;
     s.cosine_error = kCosineError;
     if (has(kStageNormalMap)) {
-        // Three components in [-1, 1], each off by twice its channel, of a vector that is no shorter than its z.
+        // The three components are in [-1, 1], each off by twice its channel's error. The vector is no shorter than its z.
         const double z = 2.0 * least_value(material.normal_texture, 2) - 1.0;
         s.cosine_error += 2.0 * 1.7320508 * filtered(material.normal_texture, {0, 1, 2}) *
                           std::max(1.0, std::fabs(double{material.normal_scale})) / std::max(z, kShortestNormal);
@@ -64,10 +65,10 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
     return s;
 }
 
-/// All that reaches a surface at most, in units of display white.
+/// Upper bounds on the light that reaches a surface, in units of display white.
 struct Arriving {
-    double sum = 0, largest = 0;  ///< of the lights' colours times strengths
-    double cone_error = 0;        ///< of the spots' cosines, in units of their cones
+    double sum = 0, largest = 0;  ///< sum and largest of the lights' colours times attenuation
+    double cone_error = 0;        ///< largest error of a spot's cosine, as a share of its cone's width
     int count = 0, local = 0;
 };
 
@@ -120,7 +121,7 @@ double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, con
     if (s.specular) {
         const double turning = plan.specular == SpecularModel::phong ? 2.0 : 1.0;
         double constant = 0.0, linear = 3e-7;
-        if (has(kStageMetallicRoughnessTexture)) constant = linear = 4.0 * s.roughness_error;  // alpha^4, in the exponent and in its norm
+        if (has(kStageMetallicRoughnessTexture)) constant = linear = 4.0 * s.roughness_error;  // roughness^4, in exponent and norm
         codes += codes_of_specular(s.reflectance * s.normalization * light.largest, light.count, constant, linear,
                                    turning * std::sqrt(2.0 * s.exponent) * s.cosine_error);
     }
@@ -161,7 +162,7 @@ PowTier cheapest_tier(double budget, const Codes& codes) {
     return PowTier::exact;
 }
 
-/// The cheapest way to t^n within `budget` codes; what it costs of them.
+/// Chooses the cheapest method for t^n within `budget` codes. Returns the codes that it costs.
 double spend_on_lobe(MaterialPlan& material, const Surface& s, const Arriving& light, double budget, PowerFits& fits) {
     LobePlan& lobe = material.lobe;
     if (lobe.path != LobePath::general || lobe.power_minus_one >= kSharpPowerMinusOne) return 0.0;
@@ -175,16 +176,16 @@ double spend_on_lobe(MaterialPlan& material, const Surface& s, const Arriving& l
     return lobe_tier_codes(lobe, lobe.tier);
 }
 
-/// Whether highlights are below the threshold at 45 degrees from their middle: if not, looking costs more than it saves.
+/// True if highlights are below the threshold at 45 degrees from their middle. If not, the test costs more than it saves.
 bool specular_ends(const ShadingPlan& plan, const Surface& s, double largest, double threshold) {
     const double z = 0.25 * s.exponent * (plan.specular == SpecularModel::phong ? 0.25 : 1.0), z2 = z * z, z4 = z2 * z2;
     return 40320.0 * largest * s.normalization <= threshold * z4 * z4;
 }
 
-/// The cheapest way to highlights within `budget` codes; adds to the bound what it costs of them.
+/// Chooses the cheapest method for highlights within `budget` codes. Adds the codes that it costs to the bound.
 void spend_on_specular(const ShadingPlan& plan, MaterialPlan& material, const Surface& s, const Arriving& light, double exposure,
                        double budget, PowerFits& fits, ErrorBound& bound) {
-    // Highlights below this, before the reflectance, are not seen in `codes` codes.
+    // Highlights below this, before the reflectance, can be left out at a cost of `codes` codes.
     const auto threshold_of = [&](double codes) { return codes / (kSlopeAtBlack * exposure * s.reflectance * light.count); };
     if ((material.stages & kStageMetallicRoughnessTexture) == 0) {
         const double half_exponent = s.exponent * (plan.specular == SpecularModel::phong ? 0.125 : 0.5);
@@ -208,7 +209,7 @@ void spend_on_specular(const ShadingPlan& plan, MaterialPlan& material, const Su
     }
 }
 
-/// The squared distance from which on `brightness` times strength is below `least`; 0: none, or beyond the range.
+/// The squared distance from which on `brightness` times attenuation is below `least`; 0: there is none, or it is beyond the range.
 double cutoff_squared(const LightPlan& light, double least) {
     const double range = light.inv_range_squared > 0.0f ? 1.0 / light.inv_range_squared : 0.0;
     double low = light.min_distance_squared, high = std::max(low, light.brightness / least);
@@ -232,7 +233,7 @@ void spend_error_budget(ShadingPlan& plan, double budget_codes, double exposure,
     const Arriving light = arriving(plan, exposure, facts);
     ErrorBound worst;
 
-    // The parts that nothing can change, and what the poorest material has left for the lights' reach, which is one for all.
+    // The parts that cannot be changed, and the codes that the poorest material has left for the cutoff radii, which all materials share.
     std::vector<Surface> surfaces;
     std::vector<double> rounding, fixed;
     double poorest = budget_codes, most_reflected = 0.0;
@@ -251,7 +252,7 @@ void spend_error_budget(ShadingPlan& plan, double budget_codes, double exposure,
             LightPlan& one = plan.lights[i];
             if (one.type == LightType::directional) continue;
             const double cutoff = cutoff_squared(one, least);
-            // One that ends beyond all there is would be compared with every fragment for nothing.
+            // A cutoff beyond all surfaces would cost a comparison per fragment and leave nothing out.
             one.cutoff_squared = cutoff < facts.light_farthest_squared[i] ? static_cast<float>(cutoff) : 0.0f;
             if (one.cutoff_squared > 0.0f) cutoff_codes = codes;
         }

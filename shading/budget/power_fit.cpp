@@ -11,10 +11,10 @@ namespace halflit::shading {
 namespace {
 
 constexpr int kTerms = kLobeCurveTerms;
-/// Of one operation in float32, relative.
+/// Relative error of one operation in float32.
 constexpr double kRounding = 6e-8;
 
-/// Solves the N equations whose rows are `a`, the right side in column N.
+/// Solves N linear equations, one for each row of `a`, with the right side in column N.
 template <int N>
 std::array<double, N> solve(std::array<std::array<double, N + 1>, N> a) {
     for (std::size_t k = 0; k < N; ++k) {
@@ -44,7 +44,7 @@ struct Sample {
     double weight;  ///< codes for an error of 1
 };
 
-/// Close together near 0, where the curve bends most and codes are nearest to each other: u = (i / kSamples)^2.
+/// Number of samples, u = (i / kSamples)^2. They are close together near 0, where the curve bends most and codes are nearest to each other.
 constexpr std::size_t kSamples = 256;
 
 std::vector<Sample> samples_of(double n, double amplitude) {
@@ -66,7 +66,7 @@ double fitted(const Coefficients& c, double u) {
     return u * u * sum;
 }
 
-/// Remez's exchange on the samples.
+/// Remez's exchange on the samples: the coefficients whose largest weighted error is least.
 std::array<double, kTerms> least_largest_error(const std::vector<Sample>& samples) {
     constexpr std::size_t kPoints = kTerms + 1;
     std::array<std::size_t, kPoints> at;
@@ -109,7 +109,7 @@ struct Point {
     double x, y;
 };
 
-/// The least concave function from (0, 0) that does not fall and is nowhere below the points, which come with x ascending.
+/// The least concave function from (0, 0) that does not decrease and is nowhere below the points, which are sorted by x.
 std::vector<Point> concave_majorant(const std::vector<Point>& points) {
     std::vector<Point> hull{{0.0, 0.0}};
     for (const Point& p : points) {
@@ -145,11 +145,12 @@ LobeFit fit_lobe(double n, double amplitude) {
     const std::array<double, kTerms> c = least_largest_error(samples);
     for (std::size_t k = 0; k < kTerms; ++k) fit.c[k] = static_cast<float>(c[k]);
 
-    // |error| as a function of t^n: of lights together it is no more than that of one with all their amplitude, where it is concave.
+    // |error| as a function of t^n. Where it is concave, lights together are off by no more than one light with the sum of their
+    // amplitudes.
     std::vector<Point> errors;
     double before = 0.0, last = 0.0, value_before = samples.front().value;
     for (const Sample& s : samples) {
-        // Of the error: its second derivative here, and no more than that anywhere on the way from the sample before.
+        // `bend` bounds the second derivative of the error between the sample before and this one.
         double size = 0.0, fit_bend = 0.0, fit_bends = 0.0, fit_twist = 0.0, power = 1.0;
         for (std::size_t k = 0; k < kTerms; ++k, power *= s.u) {
             const double term = static_cast<double>(fit.c[k]) * power, twice = static_cast<double>((k + 2) * (k + 1));
@@ -161,10 +162,10 @@ LobeFit fit_lobe(double n, double amplitude) {
         const double true_bend = 2.0 * n * (2.0 * n - 1.0) * s.value / (s.u * s.u), step = s.u - before;
         double bend = true_bend + fit_bends;
         if (before > 0.0) {
-            const double true_twist = true_bend * (2.0 * n - 2.0) / s.u * (n < 1.5 ? s.u / before : 1.0);  // u^(2n-3) at its largest
+            const double true_twist = true_bend * (2.0 * n - 2.0) / s.u * (n < 1.5 ? s.u / before : 1.0);  // largest u^(2n-3) in between
             bend = std::min(bend, std::fabs(true_bend - fit_bend) + step * (true_twist + fit_twist));
         }
-        // Between two samples: an eighth of the second derivative times the squared step more than at the worse of them.
+        // Between two samples the error is at most that of the worse one, plus an eighth of the second derivative times the squared step.
         const double error = std::fabs(fitted(fit.c, s.u) - s.value) + s.u * s.u * size * (2 * kTerms) * kRounding;
         errors.push_back({value_before, std::max(error, last) + 0.125 * bend * step * step});
         before = s.u, last = error, value_before = s.value;
@@ -180,7 +181,7 @@ SpecularFit fit_specular(double half_exponent, double least) {
     SpecularFit fit{};
     double power = half_exponent, times = 1.0;
     for (fit.curve.squarings = 0; power >= 2.0; ++fit.curve.squarings, power *= 0.5) times *= 2.0;
-    // Through Chebyshev's nodes: Newton's divided differences, and from them the powers of x.
+    // Interpolation at Chebyshev's nodes: Newton's divided differences, expanded into powers of x.
     constexpr double kChebyshev[kDegree + 1] = {-0.92387953251128674, -0.38268343236508977, 0.38268343236508977, 0.92387953251128674};
     const double middle = 0.5 * (1.0 + least), half = 0.5 * (1.0 - least);
     double x[kDegree + 1], difference[kDegree + 1], c[kDegree + 1] = {};
@@ -204,7 +205,8 @@ SpecularFit fit_specular(double half_exponent, double least) {
     fit.least_root = power_of(least, power);
     fit.root_error = 1e30;
     if (!(least > 1e-6 && least < 1.0)) return fit;
-    // Sampled, closer together where x^power bends most; between two samples the second derivative bounds what is missed.
+    // The error is sampled, at points that are closer together where x^power bends most. Between two samples the second derivative bounds
+    // it.
     constexpr int kSteps = 64;
     const auto error_at = [&](double at) {
         const double p = ((fit.curve.c[3] * at + fit.curve.c[2]) * at + fit.curve.c[1]) * at + fit.curve.c[0];
@@ -224,7 +226,7 @@ SpecularFit fit_specular(double half_exponent, double least) {
 }
 
 double SpecularFit::relative_error(double share) const {
-    // (r + e)^m against r^m, r the root: m e / r of it, and the rest of (1 + e / r)^m that is not straight.
+    // (r + e)^m against r^m, r being the root and e its error: a relative error of m e / r, and the higher terms of (1 + e / r)^m.
     const double m = static_cast<double>(std::int64_t{1} << std::max(0, curve.squarings));
     const double root = std::max(least_root, power_of(share, 1.0 / m)), bent = m * root_error / root;
     if (!(root > 0.0 && bent < 0.5)) return 1e30;
@@ -235,7 +237,7 @@ double SpecularFit::codes(double peak, int count) const {
     const double top = peak * count;
     if (!(top > 0.0)) return 0.0;
     if (relative_error(0.0) > 1.0) return 255.0;
-    // v times the relative error is v^(1 - 1/m) and v^(1 - 2/m), and below the cut straight: concave, so that lights add up.
+    // v times the relative error is made of v^(1 - 1/m) and v^(1 - 2/m), and is linear below the cut. It is concave, so that lights add up.
     return std::min(255.0, largest_on_curve([&](const CurvePoint& at) {
                         const double v = std::min(at.v, top);
                         return at.slope * v * relative_error(v / top);
@@ -244,7 +246,8 @@ double SpecularFit::codes(double peak, int count) const {
 
 namespace {
 
-/// A scene whose light changes all the time must not fill the memory. A deque: what was handed out stays where it is while others come.
+/// Looks up a fit, or makes it. Entries are limited, because a scene whose light changes all the time must not fill the memory. They are in
+/// a deque, so that references stay valid when entries are added.
 template <class Entries, class Same, class Make>
 auto& find_or_make(Entries& entries, const Same& same, const Make& make) {
     constexpr std::size_t kMostEntries = 1024;
@@ -257,7 +260,7 @@ auto& find_or_make(Entries& entries, const Same& same, const Make& make) {
 }  // namespace
 
 const LobeFit& PowerFits::lobe(double n, double amplitude) {
-    // The next quarter of a power of two; more light is off by more, so that is a bound for less.
+    // The amplitude is rounded up to a quarter of a power of two. More light has a larger error, so the bound holds for less light too.
     const double held = amplitude > 1e-30 && amplitude < 1e6 ? exp2_of(std::ceil(4.0 * log2_of(amplitude)) / 4.0) : 0.0;
     return find_or_make(
         lobes_, [&](const LobeEntry& e) { return e.n == n && e.amplitude == held; },

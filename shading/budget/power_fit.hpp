@@ -1,5 +1,5 @@
-// Powers as short polynomials made for one exponent: what a lobe and a highlight are computed with where an error budget allows it.
-// Everything in double, and the same on every machine.
+// Powers as short polynomials, each made for one exponent. Lobes and highlights are computed with them where an error budget allows it. The
+// fits are computed in double and are the same on every machine.
 #pragma once
 
 #include "shading/plan/plan.hpp"
@@ -8,24 +8,25 @@
 
 namespace halflit::shading {
 
-/// t^n in [0, 1] as t (c[0] + c[1] u + c[2] u^2 + ..), u = sqrt(t), kLobeCurveTerms terms: the polynomial that keeps the largest error in
-/// codes least, for light that is `amplitude` t^n (Remez). n >= 1; below, the derivative at 0 has no bound.
+/// Fit of t^n, t in [0, 1], as t (c[0] + c[1] u + c[2] u^2 + ..), u = sqrt(t), with kLobeCurveTerms terms. Its largest error in codes is
+/// the least possible for light `amplitude` t^n (Remez). n >= 1; below, the derivative at 0 has no bound.
 struct LobeFit {
     float c[kLobeCurveTerms];
-    /// No sum of lights whose amplitudes sum up to `amplitude` is off by more; the kernel's own rounding included.
+    /// Bound on the error of lights whose amplitudes sum up to `amplitude`, the kernel's own rounding included.
     double codes;
 };
 [[nodiscard]] LobeFit fit_lobe(double n, double amplitude);
 
-/// x^h for x in [least, 1] as p(x)^(2^squarings), p of degree three.
+/// Fit of x^h, x in [least, 1], as p(x)^(2^squarings), p of degree three. h is half the exponent of the cosine.
 struct SpecularFit {
     SpecularCurve curve;
     double rounding;    ///< relative error of the kernel's rounding, x's own included
-    double root_error;  ///< of p as the 2^squarings-th root of x^h
-    double least_root;  ///< the least that this root is
+    double root_error;  ///< error of p as the 2^squarings-th root of x^h
+    double least_root;  ///< least value of this root
     /// Relative error where the highlight is `share` of its peak: largest where it is weakest.
     [[nodiscard]] double relative_error(double share) const;
-    /// In 8-bit codes, for `count` lights that are `peak` at most: by concavity no more than one of `count` times the peak.
+    /// Error in 8-bit codes for `count` lights of at most `peak`. By concavity it is no more than that of one light of `count` times the
+    /// peak.
     [[nodiscard]] double codes(double peak, int count) const;
 };
 [[nodiscard]] SpecularFit fit_specular(double half_exponent, double least);
@@ -33,7 +34,7 @@ struct SpecularFit {
 /// Fits kept from frame to frame: a lobe's takes some 50 us, a highlight's 10.
 class PowerFits {
 public:
-    /// For lobes of one power under about as much light.
+    /// Fit for lobes of the power n under light of about this amplitude.
     [[nodiscard]] const LobeFit& lobe(double n, double amplitude);
     [[nodiscard]] const SpecularFit& specular(double half_exponent, double least);
 

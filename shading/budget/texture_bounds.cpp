@@ -7,13 +7,14 @@ namespace halflit::shading {
 namespace {
 
 constexpr double kUnit = 1.0 / 65535.0;
-/// Half a unit in the last place of [1/2, 1), and of 1 relative to any value.
+/// kHalfUlp: half a unit in the last place of values in [1/2, 1). kRounding: relative error of one rounding, for any value.
 constexpr double kHalfUlp = 0x1p-25, kRounding = 0x1p-24;
 
 bool power_of_two(std::int32_t size) { return (size & (size - 1)) == 0; }
 
-/// Of a coordinate in texels of the largest level: wrapped (one rounding below 1, none for a coordinate that is not negative), times the
-/// size (exact for powers of two), less a half (exact from half a texel on). A transform rounds products and sums first.
+/// Error of a coordinate in texels of the largest level. Wrapping rounds once, to a value below 1 (not at all if the coordinate is not
+/// negative). The product with the size is exact for powers of two, and the subtraction of a half from half a texel on. A transform rounds
+/// products and sums before that.
 double coordinate_error(std::int32_t size, bool transform, const float (&row)[3], double largest_uv) {
     double error = kHalfUlp + (power_of_two(size) ? 0.0 : kRounding);
     if (transform)
@@ -25,11 +26,12 @@ double coordinate_error(std::int32_t size, bool transform, const float (&row)[3]
 
 double filter_error(const TexturePlan& texture, int c, double largest_uv) {
     const double step = texture.range->step[c] * kUnit, range = (texture.range->most[c] - texture.range->least[c]) * kUnit;
-    // A filtered value changes by no more than a step from a texel to the next, in each direction.
+    // A filtered value changes by at most one step from a texel to the next, in each direction.
     const double shift = coordinate_error(texture.width[0], texture.transform, texture.row_u, largest_uv) +
                          coordinate_error(texture.height[0], texture.transform, texture.row_v, largest_uv);
-    // log2 of the footprint by the polynomial of degree 5, and its own roundings. What two levels show at a place is made of texels of the
-    // larger one that are at most 9 steps apart: one and three and a half on each axis.
+    // Error of the level: log2 of the footprint by the polynomial of degree 5, and its roundings. It counts times the difference of two
+    // levels at a point. That difference is made of texels of the larger level that are at most 9 steps apart: one and three and a half on
+    // each axis.
     const double level =
         texture.mip == MipFilter::linear && texture.level_count > 1 ? (texture.transform ? 1e-5 : 4e-6) * std::min(range, 9.0 * step) : 0.0;
     return std::min(shift * step, range) + level + 10.0 * kRounding;

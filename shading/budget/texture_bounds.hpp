@@ -1,15 +1,15 @@
-// What float32 makes of a filtered texel, at most.
+// Bounds on the float32 error of a filtered texel.
 #pragma once
 
 #include "shading/plan/plan.hpp"
 
 namespace halflit::shading {
 
-/// Largest error of channel c, of its range from 0 to 1, against filtering in exact arithmetic from the same float32 coordinates, where
-/// these are within +-largest_uv. Not counted is where a nearest texel or a nearest level is another one by a last bit.
+/// Largest error of channel c, whose range is 0 to 1, against filtering in exact arithmetic from the same float32 coordinates. These are
+/// within +-largest_uv. Cases where the last bit decides which texel or level is the nearest are not counted.
 [[nodiscard]] double filter_error(const TexturePlan& texture, int c, double largest_uv);
 
-/// The least that channel c is anywhere.
+/// The least value of channel c in the whole texture.
 [[nodiscard]] double least_value(const TexturePlan& texture, int c);
 
 }  // namespace halflit::shading

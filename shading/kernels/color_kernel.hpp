@@ -10,8 +10,9 @@ inline namespace HALFLIT_ISA_NAMESPACE {
 /// x in [0, 1] to its nearest integer code in [0, 255] (ties to even); NaN gives 0.
 HALFLIT_INLINE I unorm8(F x) { return round_to_int(clamp(x, F(0.0f), F(1.0f)) * F(255.0f)); }
 
-/// 1.055 x^(1/2.4) - 0.055 by u = x^(1/4), for x from the end of the curve's straight part to 1: minimax, within 0.0004 codes. Two roots
-/// run beside the polynomials of other lanes; a logarithm and an exponential would be three times as many operations.
+/// 1.055 x^(1/2.4) - 0.055 as a polynomial in u = x^(1/4), for x from the end of the curve's straight part to 1: minimax, within 0.0004
+/// codes. The two square roots run beside the polynomials of other lanes. A logarithm and an exponential would be three times as many
+/// operations.
 inline constexpr float kSrgbByFourthRoot[] = {-0.0595466085f, 0.139604136f,  1.36592102f,  -0.852957428f,
                                               0.657188296f,   -0.318415970f, 0.0682079792f};
 

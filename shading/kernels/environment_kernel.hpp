@@ -10,7 +10,7 @@ inline namespace HALFLIT_ISA_NAMESPACE {
 HALFLIT_INLINE V3 mad(V3 a, F b, V3 c) { return {mad(a.x, b, c.x), mad(a.y, b, c.y), mad(a.z, b, c.z)}; }
 HALFLIT_INLINE V3 three(const float* v) { return {F(v[0]), F(v[1]), F(v[2])}; }
 
-/// EnvironmentPlan::newton. Below 0, where the series rings, is 0.
+/// Evaluates EnvironmentPlan::newton. Values below 0, where the series rings, become 0.
 HALFLIT_INLINE V3 newton_environment(const shading::EnvironmentPlan& plan, int bands, V3 normal) {
     F from_node[sh::kMaxBands];
 #pragma GCC unroll 16
@@ -20,7 +20,7 @@ HALFLIT_INLINE V3 newton_environment(const shading::EnvironmentPlan& plan, int b
     a += 3;
 #pragma GCC unroll 16
     for (int k = bands - 2; k >= 0; --k, a += 3) sum = mad(sum, from_node[k], three(a));
-    F c = normal.x, s = normal.y;  // the parts of (x + iy)^m
+    F c = normal.x, s = normal.y;  // real and imaginary part of (x + iy)^m
 #pragma GCC unroll 16
     for (int m = 1; m < bands; ++m) {
         V3 real = three(a), imaginary = three(a + 3);
@@ -39,8 +39,8 @@ HALFLIT_INLINE V3 newton_environment(const shading::EnvironmentPlan& plan, int b
     return {vmax(sum.x, none), vmax(sum.y, none), vmax(sum.z, none)};
 }
 
-/// Not inlined: six calls times ten orders. Components are arguments of their own because those go in registers, while GCC 12 copies a
-/// vector of them to the stack in halves that the next load has to wait for.
+/// Not inlined: six calls times ten orders are too much code. The components are separate arguments, because those are passed in registers.
+/// GCC 12 copies a vector of them to the stack in halves, for which the next load has to wait.
 [[gnu::noinline]] static V3 environment_light(const shading::EnvironmentPlan& plan, F x, F y, F z) {
     const V3 normal{x, y, z};
     switch (plan.bands) {

@@ -4,11 +4,11 @@
 #include "shading/isa.hpp"
 #include "shading/kernels/built_isas.hpp"
 
-/// Declares NAME_scalar and its twins, which the kernels' objects define.
+/// Declares NAME_scalar and the tables of the other built sets, which the kernels' objects define.
 #define HALFLIT_DECLARE_TABLE(set, type, name) extern const type name##_##set;
 #define HALFLIT_DECLARE_TABLES(type, name) HALFLIT_FOR_BUILT_ISAS(HALFLIT_DECLARE_TABLE, type, name)
 
-/// The body of a function that returns the table of `isa`; of scalar when that set is not built.
+/// The body of a function that returns the table of `isa`, or that of scalar if the set is not built.
 #define HALFLIT_TABLE_CASE(set, name)  \
     case ::halflit::shading::Isa::set: \
         return name##_##set;

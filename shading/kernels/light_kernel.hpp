@@ -32,8 +32,8 @@ HALFLIT_INLINE LocalLight local_light(const shading::LightPlan& light, V3 positi
     F attenuation = vdiv(window, vmax(distance_squared, F(light.min_distance_squared)));
     if (light.cutoff_squared > 0.0f) attenuation = sel(distance_squared < F(light.cutoff_squared), attenuation, F(0.0f));
     if (light.type == shading::LightType::spot) {
-        // 1 - cos of the angle to the axis, as |L - A|^2 / 2: right to the last digits for narrow cones, where a difference of cosines
-        // has none left. The subtraction from the cutoff is exact near the rim.
+        // 1 - cos of the angle to the axis, as |L - A|^2 / 2, A being minus the axis. It is accurate for narrow cones, where a difference
+        // of cosines has no digits left. The subtraction from the cutoff is exact near the rim.
         const V3 off_axis = direction - broadcast(light.to_light);
         const F versine = F(0.5f) * dot(off_axis, off_axis);
         const F cone = clamp((F(light.cone_cutoff) - versine) * F(light.cone_scale), F(0.0f), F(1.0f));
@@ -47,24 +47,24 @@ HALFLIT_INLINE LocalLight local_light(const shading::LightPlan& light, V3 positi
     return {direction, attenuation};
 }
 
-/// A directional light's attenuation is 1: times that is exact.
+/// Direction and attenuation of any light. A directional light's attenuation is 1, and the product with it is exact.
 HALFLIT_INLINE LocalLight arrival(const shading::LightPlan& light, V3 position) {
     LocalLight at{broadcast(light.to_light), F(1.0f)};
     if (light.type != shading::LightType::directional) at = local_light(light, position);
     return at;
 }
 
-/// What shadows need of a fragment.
+/// Data of a fragment that shadows need.
 struct ShadowReceiver {
     const shading::ShadingPlan& frame;
-    V3 position;        ///< where shadows are looked up
+    V3 position;        ///< point at which shadows are looked up
     V3 surface_normal;  ///< before the normal map
-    ShadowFade fade;    ///< of the material
+    ShadowFade fade;    ///< the material's
 };
 
-/// The lobe and the highlight under a shadow. hard: all of it is cut; soft-split: the core, min(f, max(0, x)), is cut, and the
-/// excess over it fades with the blocker's distance. What is hidden is taken away from f, so that unhidden light keeps its bits,
-/// and light that is hidden altogether comes to exactly 0.
+/// Applies a shadow to the lobe f and to the highlight. hard: all of f is cut. soft-split: the core, min(f, max(0, x)), is cut, and the
+/// excess over it fades with the blocker's distance. The hidden part is subtracted from f, so that unhidden light keeps its bits, and light
+/// that is hidden altogether is exactly 0.
 template <bool kSpecular>
 HALFLIT_INLINE void cast_shadow(const ShadowReceiver& receiver, const shading::LightPlan& light, const LocalLight& at, F n_dot_l,
                                 F& diffuse, F& specular) {
@@ -81,8 +81,9 @@ HALFLIT_INLINE void cast_shadow(const ShadowReceiver& receiver, const shading::L
     if constexpr (kSpecular) specular = specular * (F(1.0f) - hidden.hard);
 }
 
-/// One loop over the lights. Without highlights and shadows a light is so little work that the loop must hold nothing else: in one that
-/// holds every path, GCC keeps the sums in memory, and each light waits for the store of the one before. With them it makes no difference.
+/// One loop over the lights for one choice of lobe and highlight. Without highlights and shadows a light is so little work that the loop
+/// must contain nothing else: in a loop with every path, GCC keeps the sums in memory, and each light waits for the store of the one
+/// before. With highlights or shadows it makes no difference.
 template <bool kSpecular, bool kShadows, class LobeValue, class SpecularValue>
 HALFLIT_INLINE LightSums sum_lights_by(const LobeValue& lobe_value_at, const SpecularValue& specular_value_at,
                                        const shading::LightPlan* lights, int count, const ShadowReceiver& receiver, V3 position,
@@ -91,7 +92,7 @@ HALFLIT_INLINE LightSums sum_lights_by(const LobeValue& lobe_value_at, const Spe
     for (int i = 0; i < count; ++i) {
         const shading::LightPlan& light = lights[i];
         const bool local = light.type != shading::LightType::directional;
-        LocalLight at{broadcast(light.to_light), F(1.0f)};  // not by arrival(): GCC 12 makes point lights 16 % slower of it with AVX-512
+        LocalLight at{broadcast(light.to_light), F(1.0f)};  // not arrival(): with it GCC 12 makes point lights 16 % slower on AVX-512
         if (local) at = local_light(light, position);
         const F n_dot_l = dot(normal, at.direction);
         F diffuse = lobe_value_at(n_dot_l), specular(0.0f);
@@ -106,8 +107,8 @@ HALFLIT_INLINE LightSums sum_lights_by(const LobeValue& lobe_value_at, const Spe
     return sums;
 }
 
-/// Two lights at a time through t^n, which is one chain of dependent operations, much longer than the processor can look past. They are
-/// added in list order.
+/// Sums two lights at a time. t^n is one chain of dependent operations, much longer than the processor can look ahead, so two chains run
+/// side by side. The lights are added in list order.
 template <shading::PowTier kTier>
 HALFLIT_INLINE LightSums sum_lights_by_power(const shading::LobePlan& lobe, const shading::LightPlan* lights, int count, V3 position,
                                              V3 normal) {

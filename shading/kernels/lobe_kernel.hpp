@@ -1,4 +1,4 @@
-// The wrap family for lanes of N.L. The path is the same for a whole material, so the switch costs nothing that matters.
+// The wrap family for lanes of N.L. The path is the same for a whole material, so the switch costs next to nothing.
 #pragma once
 
 #include "shading/kernels/pow.hpp"
@@ -12,7 +12,7 @@ HALFLIT_INLINE F lobe_argument(const shading::LobePlan& lobe, F x) {
     return clamp((x + F(lobe.wrap)) * F(lobe.inv_one_plus_wrap), F(0.0f), F(1.0f));
 }
 
-/// t^n on every path but the general one, without the lobe's scale. NaN gives 0, and so does x <= -w for every n, 0 included.
+/// t^n on the paths other than general and curve, without the lobe's scale. NaN gives 0, and so does x <= -w for every n, 0 included.
 HALFLIT_INLINE F simple_lobe_value(const shading::LobePlan& lobe, F x) {
     using shading::LobePath;
     const F t = lobe_argument(lobe, x);
@@ -26,7 +26,7 @@ HALFLIT_INLINE F simple_lobe_value(const shading::LobePlan& lobe, F x) {
     return lobe.integer_power == 4 ? t4 : t4 * t;
 }
 
-/// The same on the general path, for powers below and from shading::kSharpPowerMinusOne + 1 on.
+/// t^n on the general path: general_lobe_value() below the power shading::kSharpPowerMinusOne + 1, sharp_lobe_value() from it on.
 template <shading::PowTier kTier>
 HALFLIT_INLINE F general_lobe_value(const shading::LobePlan& lobe, F x) {
     const F t = lobe_argument(lobe, x);
@@ -44,7 +44,7 @@ HALFLIT_INLINE F sharp_lobe_value(const shading::LobePlan& lobe, F x) {
                                F(lobe.power_minus_one + 1.0f));
 }
 
-/// The same on the path curve: a root, which runs beside the rest, and a polynomial. Never below 0.
+/// t^n on the curve path: a polynomial and a square root, which runs beside other operations. Never below 0.
 HALFLIT_INLINE F curve_lobe_value(const shading::LobePlan& lobe, F x) {
     const F t = lobe_argument(lobe, x);
     return vmax(t * horner(lobe.curve, vsqrt(t)), F(0.0f));

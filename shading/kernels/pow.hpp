@@ -8,7 +8,8 @@
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
-/// log2(1 + u) / u on [sqrt(1/2) - 1, sqrt(2) - 1], relative error 7.4e-6, 3.5e-4, 2.1e-7 and 3.8e-8. Leading term 1/ln 2.
+/// log2(1 + u) / u on [sqrt(1/2) - 1, sqrt(2) - 1]; relative errors, in this order: 7.4e-6, 3.5e-4, 2.1e-7 and 3.8e-8. Constant term
+/// 1/ln 2.
 inline constexpr float kLog2Degree5[] = {1.44270158f, -0.721206367f, 0.479812503f, -0.366493285f, 0.318202913f, -0.206192777f};
 inline constexpr float kLog2Degree3[] = {1.4422704f, -0.724296927f, 0.511273205f, -0.327770442f};
 inline constexpr float kLog2Degree7[] = {1.44269502f,  -0.721352816f, 0.480922282f, -0.360238284f,
@@ -16,7 +17,7 @@ inline constexpr float kLog2Degree7[] = {1.44269502f,  -0.721352816f, 0.48092228
 inline constexpr float kLog2Degree8[] = {1.44269502f,   -0.721347392f, 0.48091045f,   -0.360702813f, 0.287915081f,
                                          -0.238943219f, 0.21571368f,   -0.207268372f, 0.125835732f};
 
-/// 2^r on [-1/2, 1/2] with constant term exactly 1, relative error 1.0e-4, 2.8e-6, 9.5e-8 and 5.0e-9. Second term ln 2.
+/// 2^r on [-1/2, 1/2] with constant term exactly 1; relative errors, in this order: 1.0e-4, 2.8e-6, 9.5e-8 and 5.0e-9. Second term ln 2.
 inline constexpr float kExp2Degree3[] = {1.0f, 0.693282902f, 0.242210954f, 0.055009041f};
 inline constexpr float kExp2Degree4[] = {1.0f, 0.693124175f, 0.240240976f, 0.0559065267f, 0.00958282873f};
 inline constexpr float kExp2Degree5[] = {1.0f, 0.693147004f, 0.240222439f, 0.0555071943f, 0.00967147853f, 0.00132646016f};
@@ -79,8 +80,8 @@ HALFLIT_INLINE F power_of_unit(F t, float power_minus_one, float high, float low
     return sel(y >= F(kLowestExponent), t * factor, F(0.0f));
 }
 
-/// t^n for large n, from 1 - t as well: t has lost the digits near 1 that a large power makes visible. The relative error is a few eps
-/// times |ln t^n| and no longer n eps (tests/shading/extremes_test.cpp). 1 - t = 0 gives exactly 1, t = 0 gives 0.
+/// t^n for large n, from t and 1 - t: near 1, t has lost the digits that a large power makes visible. The relative error is a few eps times
+/// |ln t^n|, not n eps (tests/shading/extremes_test.cpp). 1 - t = 0 gives exactly 1, t = 0 gives 0.
 HALFLIT_INLINE F sharp_power_of_unit(F t, F one_minus_t, F power) {
     const Log2Argument wide = log2_argument(t);
     const M near_one = one_minus_t < F(0.25f);
@@ -89,16 +90,17 @@ HALFLIT_INLINE F sharp_power_of_unit(F t, F one_minus_t, F power) {
     return sel(t > F(0.0f), exp2_floored(kExp2Degree6, power * mad(u, horner(kLog2Degree8, u), exponent)), F(0.0f));
 }
 
-/// The same with less: t * 2^((n-1) log2 t) by shorter polynomials and without the splitting. 1 gives exactly 1, 0 gives 0. The error
-/// is what shading/accuracy.hpp says of the tier.
+/// t^n as t * 2^((n-1) log2 t), by shorter polynomials and without the splitting. 1 gives exactly 1, 0 gives 0. Errors: Accuracy in
+/// shading/plan/accuracy.hpp.
 template <int L, int E>
 HALFLIT_INLINE F short_power_of_unit(const float (&log2_polynomial)[L], const float (&exp2_polynomial)[E], F t, float power_minus_one) {
     const Log2 log = log2_parts(log2_polynomial, t);
     return t * exp2_floored(exp2_polynomial, F(power_minus_one) * (log.exponent + log.fraction));
 }
 
-/// (cos^2)^half_exponent, the power of a cosine, from both squares. Near 1 log2 is taken of 1 - sin^2 as log1p would, because the
-/// cosine has lost the digits there that a large exponent makes visible; elsewhere the sine has lost them, for angles near 90 degrees.
+/// (cos^2)^half_exponent, the power of a cosine, from both squares. Near 1, log2 is taken of 1 - sin^2 as log1p would, because the cosine
+/// has lost the digits that a large exponent makes visible. Elsewhere it is taken of cos^2, because the sine has lost its digits near 90
+/// degrees.
 template <int L, int E>
 HALFLIT_INLINE F power_of_cosine(const float (&log2_polynomial)[L], const float (&exp2_polynomial)[E], F cosine_squared, F sine_squared,
                                  F half_exponent) {

@@ -72,7 +72,7 @@ bool isa_available(Isa isa) {
 }
 
 Result<Isa> default_isa() {
-    // Read here and nowhere else: the one way for the environment to reach the library.
+    // The only place where the library reads an environment variable.
     if (const char* name = std::getenv("HALFLIT_KERNEL"); name != nullptr && std::string_view(name) != "auto")
         return named_isa(name, "HALFLIT_KERNEL");
     Isa widest = Isa::scalar;

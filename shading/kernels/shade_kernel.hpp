@@ -14,23 +14,23 @@ inline namespace HALFLIT_ISA_NAMESPACE {
 
 HALFLIT_INLINE V3 lerp(V3 a, V3 b, F weight) { return a + (b - a) * weight; }
 
-/// Sky and ground light that reaches a surface facing `up`, the y component of its direction.
+/// Sky and ground light that reaches a surface; `up` is the y component of the surface's direction.
 HALFLIT_INLINE V3 hemisphere(const shading::Ambient& ambient, F up) {
     const V3 ground = broadcast(ambient.ground_linear);
     return lerp(ground, broadcast(ambient.sky_linear), F(0.5f) * (F(1.0f) + up));
 }
 
-/// Where shadows are looked up for a fragment.
+/// Point at which a fragment's shadows are looked up.
 HALFLIT_INLINE V3 looked_up(const shading::ShadingPlan& frame, const shading::FragmentBlock& block, int lane) {
     const V3 position = row3(block, shading::kPosX, lane);
     return frame.shadow_offset ? position + row3(block, shading::kShadowX, lane) : position;
 }
 
-/// All light that meets a surface point, before the base colour decides what becomes of it.
+/// All light that reaches a surface point, before the base colour is applied.
 struct IncidentLight {
     V3 diffuse;                    ///< through the lobe, its scale included
     V3 specular;                   ///< the highlight, before the reflectance
-    V3 ambient, specular_ambient;  ///< of the surroundings towards the normal, and towards the reflected view; times occlusion
+    V3 ambient, specular_ambient;  ///< surroundings' light towards the normal and towards the reflected view, times occlusion
     F metallic, roughness, grazing;
 };
 
@@ -80,7 +80,7 @@ HALFLIT_INLINE IncidentLight incident_light(const shading::ShadingPlan& frame, c
     return light;
 }
 
-/// What a surface of that base colour sends to the eye.
+/// Light that a surface of this base colour reflects to the eye.
 template <bool kSpecular>
 HALFLIT_INLINE V3 reflected(const shading::MaterialPlan& material, const IncidentLight& light, V3 base) {
     V3 albedo = base, f0{F(0.0f), F(0.0f), F(0.0f)};
@@ -138,7 +138,8 @@ HALFLIT_INLINE void shade_block(const shading::ShadingPlan& frame, const shading
     }
 }
 
-/// The reflected colour is affine in the base colour but for a clamp in the specular share, so black and white tell all.
+/// Writes the reflected colour as factor and offset of the base colour. It is affine in the base colour except for a clamp in the specular
+/// share, so the colours for black and white give both.
 template <bool kSpecular>
 HALFLIT_INLINE void light_block(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, shading::LightList lights,
                                 shading::FragmentBlock& block, int count) {

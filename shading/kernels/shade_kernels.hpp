@@ -23,19 +23,19 @@ struct ShadeKernels {
     /// when the frame's shadows are looked up off the position.
     void (*shade)(const ShadingPlan& frame, const MaterialPlan& material, LightList lights, FragmentBlock& block, int count);
 
-    /// Light alone, for shading rates below one a pixel: with base colour b the lit colour is b X + Y. X goes to the rows kPosX..
-    /// kPosZ, Y to kNormalX..kNormalZ, from where `shade` takes them when the material's plan has kStagePrelit.
+    /// Computes light alone, for shading rates below one a pixel: with base colour b the lit colour is b X + Y. X goes to the rows kPosX..
+    /// kPosZ, Y to kNormalX..kNormalZ. `shade` reads them there when the material's plan has kStagePrelit.
     void (*light)(const ShadingPlan& frame, const MaterialPlan& material, LightList lights, FragmentBlock& block, int count);
 
-    /// What a light's shadow map hides of the core and of the excess (shadow.hpp), for lanes [0, count), in [0, 1].
+    /// Shares of the core and of the excess (shadow_mode.hpp) that a light's shadow map hides, in [0, 1], for lanes [0, count).
     void (*hidden)(const ShadingPlan& frame, const MaterialPlan& material, const LightPlan& light, const FragmentBlock& block, int count,
                    float* core, float* excess);
 
-    /// Only the alpha channel that MASK compares and BLEND uses: base colour alpha * texture alpha * vertex alpha.
+    /// Computes only the alpha channel that MASK compares and BLEND uses: base colour alpha * texture alpha * vertex alpha.
     void (*alpha)(const MaterialPlan& material, FragmentBlock& block, int count);
 
-    /// count linear colours, times `exposure`, clamped to [0, 1], to sRGB 8-bit codes, packed R | G << 8 | B << 16 | A << 24 with
-    /// A = alpha linear in 8 bits; both rounded to nearest. NaN gives 0. All arrays padded to a multiple of 16 lanes.
+    /// Encodes `count` linear colours, times `exposure` and clamped to [0, 1], as 8-bit sRGB codes, packed R | G << 8 | B << 16 | A << 24.
+    /// A is the linear alpha in 8 bits. All are rounded to nearest; NaN gives 0. All arrays are padded to a multiple of 16 lanes.
     void (*encode_srgb8)(const float* red, const float* green, const float* blue, const float* alpha, float exposure, std::uint32_t* rgba8,
                          int count);
 };

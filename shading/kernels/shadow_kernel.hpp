@@ -1,7 +1,7 @@
-// Shadow-map look-ups: how much of a light is hidden at each fragment, as sums over a fixed neighbourhood of 4 x 4 texels.
+// Shadow-map look-ups: the share of a light that is hidden at each fragment, summed over a fixed neighbourhood of 4 x 4 texels.
 //
-// Each of the 16 texels is compared on its own (percentage closer); rows and columns are weighted 1-f, 1, 1, f with f the position
-// between texel centres, a box of 3 x 3 texels that slides without steps. What is summed is the hidden share, so that a fragment
+// Each of the 16 texels is compared on its own (percentage-closer filtering). Rows and columns are weighted 1-f, 1, 1, f with f the
+// position between texel centres: a box of 3 x 3 texels that slides without steps. The sum is that of the hidden shares, so that a fragment
 // that no texel hides gets exactly 0, and one that all texels hide exactly 1.
 #pragma once
 
@@ -11,12 +11,12 @@
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
-/// HiddenShares shares in [0, 1]: of light that a hard shadow cuts off, and of light that fades with the distance of the blocker.
+/// Hidden shares in [0, 1]: `hard` of light that a shadow cuts off, `soft` of light that fades with the blocker's distance.
 struct HiddenShares {
     F hard, soft;
 };
 
-/// Where a fragment falls in a map: texel coordinates, distance along the axis, and the first texel of its map.
+/// A fragment's place in a map: texel coordinates, distance along the axis, and the first texel of its face.
 struct MapPoint {
     F u, v, distance;
     I base;
@@ -25,7 +25,7 @@ struct MapPoint {
 
 HALFLIT_INLINE F row_product(const float (&row)[4], V3 p) { return ((F(row[0]) * p.x + F(row[1]) * p.y) + F(row[2]) * p.z) + F(row[3]); }
 
-/// Faces of a cube: +x, -x, +y, ..; u follows the next axis, v the one after it times the face's sign (raster/shadow_map.cpp).
+/// Faces of a cube: +x, -x, +y, ..; u follows the next axis, v the one after it times the face's sign (raster/view/shadow_views.cpp).
 HALFLIT_INLINE MapPoint cube_point(const shading::ShadowMapPlan& map, V3 offset) {
     const F ax = vabs(offset.x), ay = vabs(offset.y), az = vabs(offset.z);
     const M is_x = (ax >= ay) & (ax >= az);
@@ -59,7 +59,7 @@ HALFLIT_INLINE MapPoint map_point(const shading::ShadowMapPlan& map, V3 p) {
     return at;
 }
 
-/// How light fades with the blocker's distance: MaterialPlan::shadow_fade_scale and shadow_turn_scale. scale 0: it is cut off.
+/// Fading of wrapped light with the blocker's distance: MaterialPlan::shadow_fade_scale and shadow_turn_scale. scale 0: shadows cut it off.
 struct ShadowFade {
     float scale = 0, turn = 0;
 };
@@ -70,7 +70,7 @@ HALFLIT_INLINE F faded(F v) {
     return F(1.0f) - (t * t) * (F(3.0f) - (t + t));
 }
 
-/// `normal`: of the surface, unit.
+/// Hidden shares of a light at each lane. `normal`: unit normal of the surface.
 HALFLIT_INLINE HiddenShares hidden_share(const shading::ShadowMapPlan& map, V3 position, V3 normal, V3 to_light, ShadowFade fade,
                                          bool soft) {
     const F cosine = dot(normal, to_light);
@@ -88,8 +88,8 @@ HALFLIT_INLINE HiddenShares hidden_share(const shading::ShadowMapPlan& map, V3 p
     const I column = round_to_int(u0) - I(1);
     F left(1.0f);
     if (soft) {
-        // A blocker nearer than the body is thick itself, `own` of d0, hides no wrapped light; one at d0 hides all. Light that nothing
-        // hides keeps its bits: the reciprocal is at least 1.
+        // `own`: the body's own thickness towards the light, as a share of d0. A blocker nearer than that hides no wrapped light; one at d0
+        // hides all. Light that nothing hides keeps its bits, because the reciprocal is at least 1.
         const F own = vmin(vmax(F(0.0f) - cosine, F(0.0f)) * F(fade.turn), F(shading::kOwnThickness));
         left = vdiv(F(1.0f), F(1.0f) - own);
     }

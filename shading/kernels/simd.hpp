@@ -5,10 +5,10 @@
 //   HALFLIT_ARCH  the xsimd architecture, e.g. avx2; left undefined for scalar
 // and gets F (float lanes), I (int32 lanes), M (one truth value per lane), kWidth, and Q (four floats, one record).
 //
-// Every operation here gives the same bits on every set: one correctly rounded operation, or integer arithmetic, or
-// a fixed sequence of those. What is missing on purpose: fused multiply-add, reciprocal and square root estimates,
-// min/max with another rule for NaN and -0, float to int conversion out of range, and the C library. Do not use `!=` on
-// floats: for NaN xsimd answers false on AVX and true elsewhere; say is_nan(x) or !(a == b).
+// Every operation here gives the same bits on every set: one correctly rounded operation, or integer arithmetic, or a fixed sequence of
+// those. Missing on purpose: fused multiply-add, reciprocal and square root estimates, min/max with another rule for NaN and -0, float to
+// int conversion out of range, and the C library. Do not use `!=` on floats: for NaN xsimd answers false on AVX and true elsewhere. Use
+// is_nan(x) or !(a == b).
 //
 // All code sits in a namespace named after the instruction set, and xsimd is renamed per set, so that no inline function
 // is shared between objects built with different flags (the linker would keep one of them, for all CPUs).
@@ -295,7 +295,7 @@ HALFLIT_INLINE Q q_mad(Q a, Q b, Q c) { return q_add(q_mul(a, b), c); }
 /// a + weight * (b - a): exactly a for weight 0.
 HALFLIT_INLINE Q q_lerp(Q a, Q b, Q weight) { return q_mad(weight, q_sub(b, a), a); }
 
-// ---- QQ: two records side by side, in one register where there is one of 256 bits --------------------------------
+// ---- QQ: two records side by side, in one register where the set has 256-bit ones -------------------------------
 
 #if defined(__AVX2__)
 

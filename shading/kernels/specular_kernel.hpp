@@ -8,7 +8,7 @@
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
-/// How a material makes highlights, as its plan has it.
+/// A material's highlights, as planned.
 struct SpecularShape {
     shading::SpecularModel kind;
     shading::PowTier tier;
@@ -18,8 +18,8 @@ struct SpecularShape {
     F normalization;
 };
 
-/// The cosine between two directions: `axis` is a unit vector, `turning` is not. H = L + V and the mirrored light R = 2 (N.L) N - L are
-/// not normalised. R turns twice as fast as H, so a quarter of the exponent gives a highlight of the same width.
+/// The angle of a highlight, between the unit vector `axis` and `turning`, which is not normalised. Blinn: N and H = L + V. Phong: V and
+/// the mirrored light R = 2 (N.L) N - L. R turns twice as fast as H, so a quarter of the exponent gives a highlight of the same width.
 struct SpecularAngle {
     V3 axis, turning;
     F cosine;   ///< axis . turning
@@ -45,7 +45,8 @@ HALFLIT_INLINE F specular_value(const SpecularShape& shape, V3 normal, V3 to_eye
     if (shape.kind == shading::SpecularModel::phong) half_exponent = half_exponent * F(0.25f);
     M shines = vmin(n_dot_l, cosine) > F(0.0f);
     if (shape.threshold > 0.0f) {
-        // cos^s <= e^-z <= 8! / z^8 with z = s/2 sin^2: too little to be seen, and known before any division or logarithm.
+        // cos^s <= e^-z <= 8! / z^8 with z = s/2 sin^2. Where this bound is below the threshold, the highlight is left out before any
+        // division or logarithm.
         const F z = half_exponent * (squared - cosine * cosine);
         const F z2 = z * z, h2 = squared * squared, z4 = z2 * z2, h4 = h2 * h2;
         shines = shines & ((brightness * shape.normalization) * (h4 * h4) > F(shape.threshold * (1.0f / 40320.0f)) * (z4 * z4));
@@ -57,8 +58,8 @@ HALFLIT_INLINE F specular_value(const SpecularShape& shape, V3 normal, V3 to_eye
     return sel(shines, n_dot_l * power, F(0.0f));
 }
 
-/// The same by MaterialPlan::specular_curve: 0 where cos^2 is less than its least, and there nothing is computed when that is so for
-/// all lanes. A lane that is 0 anyway is held at the least, so that its squares do not become denormals, which are slow.
+/// The same by MaterialPlan::specular_curve: 0 where cos^2 is less than `least`. If that is so for all lanes, nothing is computed. In a
+/// lane that is 0, cos^2 is clamped to `least`, so that its squares do not become denormals, which are slow.
 HALFLIT_INLINE F curve_specular_value(const SpecularShape& shape, V3 normal, V3 to_eye, V3 to_light, F n_dot_l) {
     const shading::SpecularCurve& curve = shape.curve;
     const SpecularAngle at = specular_angle(shape, normal, to_eye, to_light, n_dot_l);

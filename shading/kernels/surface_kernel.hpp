@@ -1,4 +1,4 @@
-// What the surface is at each lane: colour and alpha, shading normal, metallic and roughness.
+// Surface properties at each lane: colour and alpha, shading normal, metallic and roughness.
 #pragma once
 
 #include "shading/kernels/texture_kernel.hpp"
@@ -23,7 +23,7 @@ HALFLIT_INLINE Sample base_color(const shading::MaterialPlan& material, const sh
     return color;
 }
 
-/// Unit normals, turned to the side that is seen: that of the surface, and the same bent by the normal map.
+/// Unit normals, turned to the visible side: `surface` without the normal map, `shading` with it.
 struct Normals {
     V3 surface, shading;
 };

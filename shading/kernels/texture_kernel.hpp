@@ -1,8 +1,8 @@
-// Texture sampling. Lanes work out level, texel addresses and weights side by side; then each lane fetches its texels as records of
-// four channels, which the vertical lerp takes two at a time, and a transpose turns records into channel rows again.
+// Texture sampling. Lanes compute level, texel addresses and weights side by side. Then each lane fetches its texels as records of four
+// channels, and the vertical lerp takes two records at a time. A transpose turns the records into channel rows again.
 //
-// A texel's centre is at (i + 0.5) / size. Every tap is a lerp a + w (b - a), first down, then right, then between levels: weight 0
-// gives a bit for bit, so leaving out taps whose weights are zero for all lanes changes nothing.
+// A texel's centre is at (i + 0.5) / size. Taps are combined by lerps a + w (b - a), first down, then right, then between levels. Weight 0
+// gives exactly a, so leaving out taps whose weights are zero for all lanes changes nothing.
 #pragma once
 
 #include "shading/fragment_block.hpp"
@@ -12,7 +12,8 @@
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
-/// Coordinates are held to this range: an even integer, so that it (and NaN, which becomes it) reads as 0 in every wrap mode.
+/// Coordinates are clamped to +-this. It is an even integer, so that repeat and mirror read it as 0. NaN becomes the lower limit, which
+/// every wrap mode reads as 0.
 inline constexpr float kCoordinateLimit = 1048576.0f;  // 2^20
 
 /// Four channels, R G B A, in [0, 1].
@@ -20,13 +21,13 @@ struct Sample {
     F r, g, b, a;
 };
 
-/// Where the bilinear taps of one level are: texel indices of the four corners, and the weights of the right and lower ones.
+/// Bilinear taps of one level: texel indices of the four corners, and the weights of the right and the lower ones.
 struct LevelTaps {
     alignas(64) std::int32_t index[4][kWidth];  // upper left, upper right, lower left, lower right
     alignas(64) float right[kWidth], down[kWidth];
 };
 
-/// How lanes filter within a level; `mixed` asks the mask.
+/// Filter of the lanes within a level; with `mixed` a mask decides.
 enum class TapMode { linear, nearest, mixed };
 
 /// Brings a coordinate into [0, 1], repeat: into [0, 1).
@@ -34,7 +35,7 @@ HALFLIT_INLINE F wrap_unit(F u, shading::Wrap mode) {
     const F held = clamp(u, F(-kCoordinateLimit), F(kCoordinateLimit));
     switch (mode) {
         case shading::Wrap::repeat:
-            // Just below a whole number the difference rounds to 1; held below it, the last texel is the one that is meant.
+            // Just below a whole number the difference rounds to 1. It is kept below 1, so that the last texel is read.
             return vmin(held - vfloor(held), F(0.99999994f));
         case shading::Wrap::mirror: {
             const F period = held - F(2.0f) * vfloor(held * F(0.5f));
@@ -46,7 +47,7 @@ HALFLIT_INLINE F wrap_unit(F u, shading::Wrap mode) {
     return clamp(held, F(0.0f), F(1.0f));
 }
 
-/// Brings a texel index into [0, size): a mirrored edge repeats its last texel, like a clamped one. Repeat takes -1 to size.
+/// Brings a texel index from [-1, size] into [0, size). Repeat wraps around; mirror and clamp repeat the texel at the edge.
 HALFLIT_INLINE I wrap_index(I i, I size, shading::Wrap mode) {
     const I last = size - I(1);
     const M below = less(i, I(0)), above = less(last, i);
@@ -56,7 +57,7 @@ HALFLIT_INLINE I wrap_index(I i, I size, shading::Wrap mode) {
 
 struct AxisTaps {
     I first, second;
-    F weight;  ///< of second
+    F weight;  ///< weight of `second`
 };
 HALFLIT_INLINE AxisTaps axis_taps(F unit, I size, shading::Wrap mode, TapMode taps, M nearest) {
     const F x = unit * to_float(size);
@@ -157,7 +158,7 @@ HALFLIT_INLINE F level_of_detail(const shading::TexturePlan& texture, const shad
     const F width(static_cast<float>(texture.width[0])), height(static_cast<float>(texture.height[0]));
     const F ux = du_dx * width, vx = dv_dx * height, uy = du_dy * width, vy = dv_dy * height;
     const F right = mad(ux, ux, vx * vx), down = mad(uy, uy, vy * vy);
-    // Held away from infinity; NaN counts as no footprint.
+    // Clamped below infinity; NaN counts as no footprint.
     const F squared = clamp(vmax(right, down), F(0.0f), F(1e30f));
     const Log2 log = log2_parts(kLog2Degree5, squared);
     return F(0.5f) * (log.exponent + log.fraction);
@@ -210,7 +211,7 @@ HALFLIT_INLINE Sample sample_levels(const shading::TexturePlan& texture, F unit_
             if (levels) return sample_levels<false>(texture, unit_u, unit_v, lod, TapMode::nearest, never);
             return sample_level0<false>(texture, unit_u, unit_v, TapMode::nearest, never);
         }
-        // Magnified lanes alone read level 0, with blend 0: the plain path, bit for bit.
+        // If all lanes are magnified they read level 0 alone, which gives the same bits as a blend of 0.
         if (levels && any(lod > F(0.0f))) return sample_levels<true>(texture, unit_u, unit_v, lod, TapMode::linear, never);
         return sample_level0<true>(texture, unit_u, unit_v, TapMode::linear, never);
     }

@@ -34,7 +34,7 @@ const std::array<CurvePoint, 61>& curve_points() {
 double codes_of_edge(double amplitude, double n, double t_error) {
     if (n <= 0.0) return 255.0;  // a step
     if (!(amplitude > 1e-300)) return 0.0;
-    // A n t^(n-1) times t's error, with t = (v / A)^(1/n) held to [t's error, 1].
+    // A n t^(n-1) times the error of t, with t = (v / A)^(1/n) clamped to [t_error, 1].
     const double log2_amplitude = log2_of(amplitude), log2_error = log2_of(std::max(t_error, 1e-300)), factor = amplitude * n * t_error;
     double codes = largest_on_curve([&](const CurvePoint& at) {
         const double log2_t = std::clamp((at.log2_v - log2_amplitude) / n, std::min(log2_error, 0.0), 0.0);

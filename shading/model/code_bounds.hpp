@@ -1,8 +1,8 @@
-// How far a code moves when light does: bounds in 8-bit sRGB codes for single parts of a pixel's light, each as if it were alone.
+// Bounds on the change of an 8-bit sRGB code by errors of light, for single parts of a pixel's light, each as if it were alone.
 //
-// The sRGB curve c(v) is concave: light that is left out shows most where nothing else shines, and a part of the light that is off by a
-// relative error r is off by at most S(v) r codes with S = dc / d ln v, which grows up to 112 at white. So errors of single parts add up
-// to a bound for all of them together, whatever the surface's colour is.
+// The sRGB curve c(v) is concave, v being linear light. An absolute error, such as light left out, therefore shows most where nothing else
+// shines. A part that is off by a relative error r changes the code by at most S(v) r, with S = dc / d ln v, which grows up to 112 at
+// white. So the bounds of single parts add up to a bound for all of them together, whatever the surface's colour is.
 #pragma once
 
 #include "sh/power.hpp"
@@ -13,10 +13,10 @@
 
 namespace halflit::shading {
 
-/// d code / d v for v up to kLinearEnd, where the curve leaves its straight part.
+/// kSlopeAtBlack: d code / d v for v up to kLinearEnd, the end of the curve's straight part.
 inline constexpr double kSlopeAtBlack = 255.0 * 12.92, kLinearEnd = kSrgbLinearEnd;
 
-/// d code / d v for v > 0; beyond white as if the curve went on.
+/// d code / d v for v > 0; the curve is continued beyond white.
 [[nodiscard]] inline double code_slope(double v) {
     return v <= kLinearEnd ? kSlopeAtBlack : (255.0 * 1.055 / 2.4) * power_of(v, 1.0 / 2.4 - 1.0);
 }
@@ -24,11 +24,11 @@ inline constexpr double kSlopeAtBlack = 255.0 * 12.92, kLinearEnd = kSrgbLinearE
 struct CurvePoint {
     double v, log2_v, slope;
 };
-/// From the end of the curve's straight part to white, v growing by a tenth from one to the next.
+/// Points from the end of the curve's straight part to white; v grows by a tenth from one to the next.
 [[nodiscard]] const std::array<CurvePoint, 61>& curve_points();
 
-/// The largest f(CurvePoint) for v from the end of the curve's straight part to white. Below, f must only fall, and from v to
-/// 1.1 v it must grow by less than a twentieth: so do slope(v) times anything concave that is 0 at 0 and does not fall.
+/// The largest f(CurvePoint) for v from the end of the curve's straight part to white. Requires: f does not rise as v falls below this
+/// range, and f(1.1 v) < 1.05 f(v) within it. This holds for slope(v) g(v) with g concave, g(0) = 0, and g not decreasing.
 template <class Function>
 double largest_on_curve(const Function& f) {
     constexpr double kBetween = 1.05;
@@ -37,16 +37,18 @@ double largest_on_curve(const Function& f) {
     return most * kBetween;
 }
 
-/// Largest change of a code when v grows by `delta` >= 0: from black.
+/// Largest change of a code when v grows by `delta` >= 0; it occurs at black.
 [[nodiscard]] double codes_of_absolute(double delta);
-/// Largest change of a code when v >= 0 is multiplied by 1 + r or divided by it, r >= 0, and white stays white.
+/// Largest change of a code when v >= 0 is multiplied by 1 + r or divided by it, r >= 0, with codes clamped at white.
 [[nodiscard]] double codes_of_relative(double r);
 
-/// v = A t^n off by t's error. Lights with A_1, A_2.. together are off by no more than one with their sum (Hoelder's inequality).
+/// Largest change of a code by v = A t^n, A = `amplitude`, when t is off by `t_error`. Lights with A_1, A_2.. together change it by no more
+/// than one light with the sum of these (Hoelder's inequality).
 [[nodiscard]] double codes_of_edge(double amplitude, double n, double t_error);
 
-/// Highlights v = K e^-z whose logarithm is off by `constant` + `linear` z + `root` sqrt(z). `count` of them together are off by no more
-/// than one of `count` times the peak (concavity, and Cauchy and Schwarz's inequality for the root).
+/// Largest change of a code by highlights v = K e^-z, K = `peak`, whose logarithm is off by `constant` + `linear` z + `root` sqrt(z).
+/// `count` of them together change it by no more than one of `count` times the peak (concavity, and Cauchy and Schwarz's inequality for the
+/// root).
 [[nodiscard]] double codes_of_specular(double peak, int count, double constant, double linear, double root);
 
 }  // namespace halflit::shading

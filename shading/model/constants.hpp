@@ -5,9 +5,9 @@ namespace halflit::shading {
 
 /// Reflectance of a dielectric seen straight on: index of refraction 1.5, as glTF fixes it.
 inline constexpr float kDielectricReflectance = 0.04f;
-/// Roughness is held to this and above: exponent 8.3e4, the sharpest highlight that float32 normals still resolve.
+/// Least roughness; smaller ones count as this. Its exponent is 8.3e4, the sharpest highlight that float32 normals still resolve.
 inline constexpr float kMinRoughness = 0.07f;
-/// Distance to a lamp is not taken below this, whatever its radius.
+/// Least distance to a lamp; smaller ones count as this, whatever the lamp's radius.
 inline constexpr float kMinSourceRadius = 1e-4f;
 /// The largest power of the cosine to a spot's axis.
 inline constexpr float kMaxConePower = 1e5f;

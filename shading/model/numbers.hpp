@@ -1,4 +1,4 @@
-// Small tests of numbers from users: values of any kind go in, usable ones come out.
+// Tests and clamps for numbers from users, which may be NaN or infinite.
 #pragma once
 
 #include "sh/vec3.hpp"

@@ -1,9 +1,10 @@
-// The sRGB curve of IEC 61966-2-1, decoded. Encoding is the kernels' (kernels/color_kernel.hpp); its slope bounds errors (code_bounds.hpp).
+// Decoding of the sRGB curve of IEC 61966-2-1. The kernels encode (kernels/color_kernel.hpp); the curve's slope bounds errors
+// (code_bounds.hpp).
 #pragma once
 
 namespace halflit::shading {
 
-/// Where the curve leaves its straight part of slope 12.92: in linear light, and as an encoded value.
+/// End of the curve's straight part, whose slope is 12.92: in linear light, and as an encoded value.
 inline constexpr double kSrgbLinearEnd = 0.0031308, kSrgbEncodedEnd = 0.04045;
 
 /// x^2.4 for x in (0, 1]: the twelfth power of the fifth root, which Newton's iteration finds with + - * / alone. The C library's pow

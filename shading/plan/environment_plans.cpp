@@ -31,13 +31,14 @@ std::array<double, sh::kMaxBands> newton_form_about_nodes(const float* coefficie
     return a;
 }
 
-/// What leaving out bands costs in codes, for 1..10 bands: a dark surface shows an absolute error most, and where the light is nowhere
-/// dark the relative error is the smaller bound, whatever the surface's colour and whatever other light is added.
+/// Bounds in codes on the error of leaving out bands, for 1..10 bands. An absolute error shows most on a surface that is dark otherwise.
+/// Where the light is nowhere dark, the relative error gives the smaller bound, which holds for any colour of the surface and with any
+/// other light added.
 std::array<double, sh::kMaxBands> bounds_in_codes(const Environment& environment, const sh::WrapLobe& lobe, const sh::OrderBounds& bounds,
                                                   const EnvironmentOrder& order) {
     constexpr int kRows = 64, kColumns = 128;
-    // Degree 9 and a point of the grid within 0.035 rad: at its minimum a function of that degree is lower than on the grid by at most
-    // half of 81 times 0.035^2, 0.05, of its largest value.
+    // The light has degree 9, and every direction is within 0.035 rad of a grid point. So its minimum is below the grid's by at most half
+    // of 81 times 0.035^2, 0.05, of its largest value.
     constexpr double kBetweenPoints = 0.05;
     const sh::PreconvolvedSh light = sh::convolve(environment.radiance, sh::zonal_bands(lobe), sh::kMaxBands);
     double least[3] = {1e300, 1e300, 1e300}, most[3] = {0, 0, 0};

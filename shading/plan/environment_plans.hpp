@@ -1,4 +1,4 @@
-// How lobes take an environment: the order that the error asks for, and the coefficients, convolved once and kept.
+// Plans of an environment's light through lobes: the order that the error requires, and the coefficients, convolved once and kept.
 #pragma once
 
 #include "shading/environment.hpp"
@@ -10,16 +10,16 @@
 
 namespace halflit::shading {
 
-/// Bands by the stable recurrence, order by the bound.
+/// Plans one lobe: bands by the stable recurrence (sh/zonal.hpp), order by the bound (sh/order.hpp).
 [[nodiscard]] EnvironmentPlan plan_environment(const Environment& environment, const sh::WrapLobe& lobe, const EnvironmentOrder& order);
 
 /// The plans of one environment, kept from frame to frame: searching its bands for their largest error takes milliseconds.
 class EnvironmentPlans {
 public:
     EnvironmentPlans() = default;
-    /// The environment must live as long.
+    /// The environment must outlive this object.
     explicit EnvironmentPlans(const Environment& environment) : environment_(std::shared_ptr<void>(), &environment) {}
-    /// For the plans that follow. Those of another environment are forgotten.
+    /// Sets the environment of the plans that follow. Plans of another environment are dropped.
     void use(std::shared_ptr<const Environment> environment);
     [[nodiscard]] EnvironmentPlan plan(const sh::WrapLobe& lobe, const EnvironmentOrder& order);
 
@@ -30,7 +30,7 @@ private:
         EnvironmentPlan plan;
     };
     std::shared_ptr<const Environment> environment_;
-    std::uint64_t id_ = 0;  ///< Environment::id: another one may come to lie where this one did
+    std::uint64_t id_ = 0;  ///< Environment::id; another environment may later have the same address
     std::vector<Entry> entries_;
 };
 

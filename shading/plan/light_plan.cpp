@@ -44,8 +44,8 @@ LightPlan plan_light(const Light& light) {
     return plan;
 }
 
-/// A point or spot light so far from the origin that float32 cannot hold the square of its distance, or its inverse, becomes a directional
-/// one, with the strength that it has there: to 1e-7 the same for a scene within 1e11 of the origin.
+/// Turns a point or spot light into a directional one if it is so far from the origin that float32 cannot hold the square of the distance,
+/// or its inverse. The light keeps the strength that it has at the origin. For a scene within 1e11 of the origin this is right to 1e-7.
 void plan_as_parallel_if_far(const Light& light, LightPlan& plan) {
     constexpr double kFar = 1e18;
     const Vec3d p{light.position_ws.x, light.position_ws.y, light.position_ws.z};

@@ -22,12 +22,12 @@ struct LightPlan {
     std::int32_t shadow_map = -1;  ///< index into ShadingPlan::shadow_maps; -1: casts no shadow
     float cone_scale;              ///< spot: 1 / (cos(inner) - cos(outer)); see kernels/light_kernel.hpp
     float half_cone_power;         ///< spot: half the power of the cosine; 0: none
-    float cutoff_squared;          ///< point, spot: left out from this distance on, squared; 0: no limit but the range
+    float cutoff_squared;          ///< point, spot: squared distance from which on the light is left out; 0: no limit but the range
     float brightness;              ///< the largest channel of the colour
 };
 
-/// In list order; black lights and those not finite are left out. A point or spot light so far away that float32 cannot hold the square of
-/// its distance becomes a directional one.
+/// Plans lights in list order; black lights and those not finite are left out. A point or spot light so far away that float32 cannot hold
+/// the square of its distance becomes a directional one.
 [[nodiscard]] std::vector<LightPlan> plan_lights(std::span<const Light> lights);
 
 }  // namespace halflit::shading

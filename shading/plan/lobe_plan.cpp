@@ -27,7 +27,7 @@ LobePlan plan_lobe(const Lobe& asked, PowTier tier) {
     } else if (lobe.power == 2.0f) {
         plan.path = LobePath::square;
     } else if (lobe.power == 3.0f || lobe.power == 4.0f || lobe.power == 5.0f) {
-        // n - 1 roundings of half an ulp: from 6 on the general path is closer.
+        // n - 1 roundings of half an ulp: from n = 6 on the general path is more accurate.
         plan.path = LobePath::integer;
         plan.integer_power = static_cast<std::int32_t>(lobe.power);
     } else {

@@ -8,8 +8,8 @@
 
 namespace halflit::shading {
 
-/// How t^n is computed, t = max(0, (x + w) / (1 + w)); the cheapest form that is within 2 ulp for this n, or, for an error budget, a
-/// curve: t times a polynomial in sqrt(t) (power_fit.hpp).
+/// Method for t^n, t = max(0, (x + w) / (1 + w)), x = N.L: the cheapest that is within about 2 ulp for this n. With an error budget it may
+/// be a curve: t times a polynomial in sqrt(t) (power_fit.hpp).
 enum class LobePath : std::uint8_t { step, linear, square, sqrt_product, integer, general, curve };
 inline constexpr int kLobeCurveTerms = 6;
 
@@ -25,7 +25,7 @@ struct LobePlan {
     float curve[kLobeCurveTerms] = {};  ///< path curve
 };
 
-/// `lobe` is one that check_lobe allows; others are held to its range.
+/// Plans a lobe. Values that check_lobe refuses are clamped to its range.
 [[nodiscard]] LobePlan plan_lobe(const Lobe& lobe, PowTier tier);
 
 }  // namespace halflit::shading

@@ -12,11 +12,11 @@
 
 namespace halflit::shading {
 
-/// (cos^2)^(s/2) as p(cos^2) squared so many times, p(x) = ((c[3] x + c[2]) x + c[1]) x + c[0] (power_fit.hpp).
+/// Curve for (cos^2)^(s/2): p(cos^2) squared `squarings` times, p(x) = ((c[3] x + c[2]) x + c[1]) x + c[0] (power_fit.hpp).
 struct SpecularCurve {
-    std::int32_t squarings = -1;  ///< -1: none, the power is taken by log2 and exp2
+    std::int32_t squarings = -1;  ///< -1: no curve; the power is computed by log2 and exp2
     float c[4] = {};
-    float least = 1;  ///< of cos^2; where it is smaller there is no highlight
+    float least = 1;  ///< least cos^2 with a highlight; below it there is none
 };
 
 /// Stages, one bit each; a block runs only those that its material's plan names.
@@ -31,8 +31,8 @@ enum Stage : std::uint32_t {
     kStageSpecular = 1u << 7,
     kStageAmbient = 1u << 8,
     kStageUnlit = 1u << 9,
-    kStageGradients = 1u << 10,    ///< some texture has mips: raster fills the kDu.. rows
-    kStagePrelit = 1u << 11,       ///< light comes in with the fragments: a shading rate below one a pixel
+    kStageGradients = 1u << 10,    ///< some texture's level or filter depends on the gradients: raster fills the kDu.. rows
+    kStagePrelit = 1u << 11,       ///< the fragments bring their light: a shading rate below one a pixel
     kStageEnvironment = 1u << 12,  ///< the ambient light is an environment's, in spherical harmonics
     kStageCount = 13
 };
@@ -49,24 +49,26 @@ struct MaterialPlan {
     bool double_sided = false;
     LobePlan lobe;
     PowTier specular_tier = PowTier::exact;
-    /// A light's highlight, before the reflectance, is left out where it is surely below this; 0: only where it is exactly 0.
+    /// A light's highlight, before the reflectance, is left out where it is surely below this. 0: only where it is exactly 0.
     float specular_threshold = 0;
     SpecularCurve specular_curve;
-    /// 1 / d0: wrapped light is gone where its blocker is d0 away; 0: no wrapped light.
+    /// 1 / d0, d0 in world units: a blocker at the distance d0 or more hides all wrapped light. 0: no fading; shadows cut wrapped light
+    /// off.
     float shadow_fade_scale = 0;
-    /// Times -N.L: the share of d0 that a body which turns away from the light by N.L is thick, and that it does not shade itself by.
+    /// Factor of -N.L that gives a body's own thickness towards the light, as a share of d0, where it turns away from the light. The body
+    /// does not shade itself within that thickness.
     float shadow_turn_scale = 0;
     int environment = -1, specular_environment = -1;  ///< indices into ShadingPlan::environments
     bool occlusion_is_metallic_roughness = false;     ///< both read the same texels the same way: one fetch serves both
     TexturePlan base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;
 };
 
-/// What of the frame decides what a material needs.
+/// Kinds of light in the frame, which decide what a material needs.
 struct LightKinds {
     bool lights = false, ambient = false, specular = false;
 };
 
-/// `available`: attribute slots that the material's meshes bring; what they do not bring is planned without.
+/// Plans a material. `available`: attribute slots that its meshes have; what the meshes lack is left out of the plan.
 [[nodiscard]] MaterialPlan plan_material(const Material& material, std::span<const Texture> textures, SlotMask available,
                                          const LightKinds& kinds, const PlanOptions& options);
 

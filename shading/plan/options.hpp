@@ -10,18 +10,18 @@
 
 namespace halflit::shading {
 
-/// Shape of the highlight. Phong looks at the mirrored light, Blinn at the half vector; both with the exponent that gives the same
-/// width, four times larger for Blinn.
+/// Shape of the highlight. Phong uses the mirrored light, Blinn the half vector. Blinn's exponent is four times Phong's, which gives the
+/// same width.
 enum class SpecularModel : std::uint8_t { none, phong, blinn };
 
-/// Which of a texture's filters are used at most.
+/// Upper limit of the texture filters.
 enum class TextureDetail : std::uint8_t {
-    full,      ///< as the sampler asks for
-    bilinear,  ///< one level of the mips, the nearest
-    nearest    ///< one texel of that
+    full,      ///< the sampler's own filters
+    bilinear,  ///< one mip level, the nearest
+    nearest    ///< one texel of that level, the nearest
 };
 
-/// How often light is evaluated. Textures and base colour are always read at every pixel.
+/// Rate at which light is evaluated. Textures and base colour are always read at every pixel.
 enum class ShadingRate : std::uint8_t {
     flat,     ///< once a visible triangle, at its centroid, with the triangle's own normal
     gouraud,  ///< once a vertex, interpolated
@@ -37,7 +37,7 @@ struct PlanOptions {
     bool normalize_specular = true;  ///< times (s + 8) / 8, so that sharper highlights are brighter; off: a peak of 1 for every exponent
     EnvironmentOrder environment_order;
     Accuracy accuracy = Accuracy::exact;
-    double max_error_codes = 0.0;  ///< 0: as `accuracy` says; otherwise the cheapest whose bound is below this (error_budget.hpp)
+    double max_error_codes = 0.0;  ///< 0: `accuracy` decides; otherwise the cheapest way whose bound is below this (error_budget.hpp)
     TextureDetail texture_detail = TextureDetail::full;
     friend bool operator==(const PlanOptions&, const PlanOptions&) = default;
 };

@@ -1,5 +1,5 @@
-// The plan of a frame's shading, as plain data that the kernels read. What the scene does not need is not in the plan, and what is not in
-// the plan is not computed. planner.hpp makes it.
+// The plan of a frame's shading, as plain data that the kernels read. It holds only what the scene needs, and only what it holds is
+// computed. planner.hpp makes it.
 #pragma once
 
 #include "shading/plan/environment_plan.hpp"
@@ -14,11 +14,11 @@ namespace halflit::shading {
 /// Everything about the frame that shading needs, the same for all fragments.
 struct ShadingPlan {
     std::vector<MaterialPlan> materials;  ///< index = index of Scene material; one more at the end for "no material"
-    std::vector<LightPlan> lights;        ///< in list order: sums keep it; black lights and those not finite are left out
+    std::vector<LightPlan> lights;        ///< in list order, which sums keep; black lights and those not finite are left out
     std::vector<ShadowMapPlan> shadow_maps;
-    std::vector<EnvironmentPlan> environments;  ///< one for each lobe that meets the environment
+    std::vector<EnvironmentPlan> environments;  ///< one for each lobe that the environment is convolved with
     ShadowMode shadow_mode = ShadowMode::off;
-    bool shadow_offset = false;  ///< shadows are looked up off the position: raster fills the kShadowX.. rows
+    bool shadow_offset = false;  ///< shadows are looked up at an offset from the position: raster fills the kShadowX.. rows
     SpecularModel specular = SpecularModel::blinn;
     bool normalize_specular = true;
     Ambient ambient;

@@ -7,14 +7,15 @@
 
 namespace halflit::shading {
 
-/// Texels between the edge of what a map must show and the edge of the map. A receiver is looked up 3 texels off its surface, among
-/// texels up to 2 away; with less, look-ups at the rim are pushed back onto the outline of what they belong to, which then hides itself.
+/// Width of the border of a map, in texels, around the part that it must show. A receiver is looked up 3 texels off its surface, among
+/// texels up to 2 away. With a narrower border, look-ups at the rim are clamped to the outline of the receiver's own object, which then
+/// hides itself.
 inline constexpr int kShadowBorder = 6;
 
-/// A receiver is moved off its surface by this many texels times the sine of the light's angle: the far corner of the 4 x 4 texels that it
-/// is compared with is 2 sqrt 2 away, and a plane that falls away from the light by that much must not hide itself.
+/// Texels by which a receiver is moved off its surface, times the sine of the angle between light and normal. The far corner of the 4 x 4
+/// texels that it is compared with is 2 sqrt 2 away. A plane that falls away from the light by that much must not hide itself.
 inline constexpr float kShadowNormalOffset = 3.0f;
-/// And towards the light by this many texels and this share of the distance, for rounding.
+/// Shift of a receiver towards the light, against rounding errors: in texels, and as a share of the distance.
 inline constexpr float kShadowDepthBias = 0.5f, kShadowRelativeBias = 4e-6f;
 
 /// Distances from a light to the nearest surface. Texel (i, j) is at j * size + i; its centre is at (i + 0.5, j + 0.5).
@@ -33,8 +34,9 @@ struct ShadowMapPlan {
 
 inline constexpr float kNoBlocker = 3e38f;
 
-/// Where a sphere of radius R turns away from the light, x = N.L < 0, it is 2 R |x| thick towards it. d0 is 2 w R over this share, so that
-/// the thickness is less than d0 wherever a lobe of wrap w leaves light, |x| < w.
+/// Largest thickness of a body towards the light, as a share of d0. A sphere of radius R that turns away from the light, x = N.L < 0, is
+/// 2 R |x| thick towards it. d0 is 2 w R over this share, so that the thickness is less than d0 wherever a lobe of wrap w leaves light,
+/// |x| < w.
 inline constexpr float kOwnThickness = 8.0f / 9.0f;
 
 }  // namespace halflit::shading

@@ -20,7 +20,7 @@ TexturePlan plan_texture(const TextureUse& use, std::span<const Texture> texture
     plan.uv_set = use.uv_set == 1 ? 1 : 0;
     Vec3f row_u = use.row_u, row_v = use.row_v;
     if (plan.uv_set == 1 && (available & kUv1Slot) == 0) {
-        // No primitive brings this set: it reads as (0, 0), which the transform moves.
+        // No mesh of the material has this set: its coordinates read as (0, 0), to which the transform still applies.
         plan.uv_set = 0;
         row_u = {0, 0, row_u.z};
         row_v = {0, 0, row_v.z};

@@ -13,7 +13,7 @@ namespace halflit::shading {
 /// A texture as a kernel sees it. Texel (x, y) of level l: data + 4 * (offset[l] + y * width[l] + x).
 struct TexturePlan {
     const std::uint16_t* data = nullptr;  ///< null: not used
-    const TextureRange* range = nullptr;  ///< for bounds alone
+    const TextureRange* range = nullptr;  ///< used for bounds only
     std::int32_t level_count = 0;
     std::int32_t width[kMaxTextureLevels], height[kMaxTextureLevels], offset[kMaxTextureLevels];
     float row_u[3], row_v[3];  ///< texture transform
@@ -25,11 +25,10 @@ struct TexturePlan {
     MipFilter mip;
 };
 
-/// The plan of one use of a texture; without data where the material has none. `available`: attribute slots that the material's meshes
-/// bring.
+/// Plans one use of a texture; `data` is null where the material has none. `available`: attribute slots that the material's meshes have.
 [[nodiscard]] TexturePlan plan_texture(const TextureUse& use, std::span<const Texture> textures, SlotMask available, TextureDetail detail);
 
-/// Whether both read the same texels in the same way, so that one fetch serves both.
+/// True if both read the same texels in the same way, so that one fetch serves both.
 [[nodiscard]] bool same_fetch(const TexturePlan& a, const TexturePlan& b);
 
 }  // namespace halflit::shading

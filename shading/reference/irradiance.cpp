@@ -9,21 +9,21 @@
 namespace halflit::shading::reference {
 namespace {
 
-/// A part of the image: its middle by solid angle, and radiance times solid angle over pi.
+/// A part of the image: its middle weighted by solid angle, and radiance times solid angle over pi.
 struct Patch {
     Vec3d direction, light;
 };
 
-/// Pixels are patches of constant radiance: large ones are cut up, small ones taken together, to some 512 x 256 in all.
+/// Cuts large pixels and merges small ones into about 512 x 256 patches. A pixel is a patch of constant radiance.
 std::vector<Patch> patches(const Environment& environment) {
-    constexpr int kWidth = 512;  // and 256 for images that are no larger themselves, whose patches are cut from constant pixels
+    constexpr int kWidth = 512;  // columns; 256 for images that are no wider, whose patches are cut from constant pixels
     const int width = environment.lit_width, height = environment.lit_height;
     const int step = std::max(1, width / kWidth), cuts = std::max(1, kWidth / 2 / width);
     const sh::EquirectView image{width, height, environment.lit_rgb};
     const sh::Rotation turn = sh::rotation_about_y(environment.rotate_rad);
     const double columns = static_cast<double>(width) * cuts, rows = static_cast<double>(height) * cuts;
     std::vector<Patch> out;
-    // In cuts of pixels: a patch is `step` of them when pixels are taken together, and one when they are cut.
+    // x and y count cuts of pixels. A patch is `step` of them along each axis where pixels are merged, and one where they are cut.
     for (int y = 0; y < height * cuts; y += step) {
         for (int x = 0; x < width * cuts; x += step) {
             Patch patch{};
@@ -59,7 +59,7 @@ private:
     std::vector<double> values_ = std::vector<double>(kSize + 2);
 };
 
-/// Face 2 axis + (negative ? 1 : 0) is seen along that axis; u and v run along the two axes that follow it.
+/// Face 2 axis + (negative ? 1 : 0) lies along that axis; u and v run along the two axes that follow it.
 Vec3d direction_of(int face, double u, double v) {
     const double side = (face & 1) != 0 ? -1.0 : 1.0;
     const int axis = face >> 1;
@@ -84,7 +84,7 @@ DirectIrradiance::DirectIrradiance(const Environment& environment, const Lobe& l
     for (int face = 0; face < 6; ++face)
         for (int j = 0; j < kNodes; ++j)
             for (int i = 0; i < kNodes; ++i) {
-                // Nodes stand at equal angles, so that the grid is about as fine in the corners as in the middle.
+                // Nodes are at equal angles, so that the grid is about as fine in the corners as in the middle.
                 const Vec3d normal = direction_of(face, std::tan(kPi / 4 * (2.0 * (i - 1) / kCells - 1.0)),
                                                   std::tan(kPi / 4 * (2.0 * (j - 1) / kCells - 1.0)));
                 Vec3d sum{};

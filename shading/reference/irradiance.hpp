@@ -1,4 +1,4 @@
-// What the float64 reference takes from an environment.
+// Environment light for the float64 reference.
 #pragma once
 
 #include "shading/environment.hpp"
@@ -10,20 +10,20 @@
 
 namespace halflit::shading::reference {
 
-/// (1/pi) integral of L f by direct summation over some 512 x 256 patches of the image, in double, at the nodes of six square grids;
-/// between them by cubic interpolation. Off by about 1e-5 of the light's largest value. Takes 2 to 3 s.
+/// (1/pi) integral of L f by direct summation in double, over some 512 x 256 patches of the image, at the nodes of six square grids, with
+/// cubic interpolation between the nodes. Error: about 1e-5 of the light's largest value. Takes 2 to 3 s.
 class DirectIrradiance final : public Irradiance {
 public:
-    /// The environment must have kept its light.
+    /// Requires: the environment was made with keep_light.
     DirectIrradiance(const Environment& environment, const Lobe& lobe);
     [[nodiscard]] Vec3d at(Vec3d normal) const override;
 
 private:
-    static constexpr int kCells = 32, kNodes = kCells + 3;  ///< a side of a face; one ring of nodes beyond each edge
+    static constexpr int kCells = 32, kNodes = kCells + 3;  ///< on a side of a face; one ring of nodes lies beyond each edge
     std::vector<Vec3d> nodes_ = std::vector<Vec3d>(std::size_t{6} * kNodes * kNodes);
 };
 
-/// The ten bands that mirrored surroundings are made of, by definition, summed in double.
+/// Reflected surroundings: by definition ten bands, summed in double.
 class BandIrradiance final : public Irradiance {
 public:
     BandIrradiance(const Environment& environment, const sh::WrapLobe& lobe);

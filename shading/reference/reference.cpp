@@ -9,7 +9,7 @@
 namespace halflit::shading::reference {
 namespace {
 
-/// As decimals, not as the floats next to them.
+/// The model's constants as decimals, not rounded to float.
 constexpr double kHeldRoughness = 0.07, kDielectric = 0.04;
 static_assert(static_cast<float>(kHeldRoughness) == kMinRoughness && static_cast<float>(kDielectric) == kDielectricReflectance);
 
@@ -26,7 +26,7 @@ Rgba mix(const Rgba& a, const Rgba& b, double t) {
     return {a.r + t * (b.r - a.r), a.g + t * (b.g - a.g), a.b + t * (b.b - a.b), a.a + t * (b.a - a.a)};
 }
 
-/// The texel that index i of the endless picture shows.
+/// Index of the texel that is read at index i of the endless picture.
 int wrapped(long long i, int size, Wrap mode) {
     const auto modulo = [](long long value, long long period) { return ((value % period) + period) % period; };
     switch (mode) {

@@ -1,5 +1,5 @@
-// The meaning of the shading kernels: the same model in float64, written the plain way, from what the user gave rather than from the
-// plan, with the C library's functions. Slow, and not the same bits everywhere: for tests and for measuring error.
+// Reference for the shading kernels: the same model in float64, written in the plainest way, with the C library's functions, and from the
+// user's data instead of the plan. It is slow and does not give the same bits everywhere. It is used for tests and for measuring errors.
 #pragma once
 
 #include "shading/fragment_block.hpp"
@@ -17,14 +17,14 @@ struct Rgba {
     double r = 0, g = 0, b = 0, a = 0;
 };
 
-/// Light from all around that reaches a direction, channel by channel.
+/// Light from all around that reaches a surface with a given normal, channel by channel.
 class Irradiance {
 public:
     virtual ~Irradiance() = default;
     [[nodiscard]] virtual Vec3d at(Vec3d normal) const = 0;
 };
 
-/// All that a frame's fragments share.
+/// Data that all fragments of a frame share.
 struct FrameInputs {
     std::span<const Texture> textures;
     std::span<const Light> lights;
@@ -36,11 +36,12 @@ struct FrameInputs {
     ShadowMode shadow_mode = ShadowMode::off;
 };
 
-/// What belongs to one fragment besides its block's rows.
+/// Data of one fragment besides its block's rows.
 struct Surroundings {
-    /// For each light, what shadows hide of it; empty: nothing.
+    /// Hidden shares of each light; empty: nothing is hidden.
     std::span<const Hidden> hidden;
-    /// Instead of the two-colour ambient light, where both are given: of a normal, and of the reflected view.
+    /// Environment light towards the normal and towards the reflected view. Where both are given, they replace the two-colour ambient
+    /// light.
     const Irradiance* diffuse = nullptr;
     const Irradiance* specular = nullptr;
 };

@@ -55,7 +55,8 @@ MapPoint map_point(const ShadowMapPlan& map, Vec3d p) {
 /// Weight of the texel whose centre is at `centre` in a box three texels wide around `at`, one side.
 double box_weight(double centre, double at) { return std::clamp(2.0 - std::fabs(centre - at), 0.0, 1.0) / 3.0; }
 
-/// What is left of wrapped light u of the way to where none is: T(u) = (1-u)^2 (1 + 2u) between 0 and 1, 1 below, 0 above.
+/// Share of wrapped light that is left at u, the blocker's distance over the distance where none is left: T(u) = (1-u)^2 (1 + 2u) between 0
+/// and 1, 1 below, 0 above.
 double fade(double u) {
     const double t = std::clamp(u, 0.0, 1.0);
     return (1 - t) * (1 - t) * (1 + 2 * t);
@@ -74,7 +75,7 @@ Hidden hidden_share(const ShadowMapPlan& map, Vec3d position, Vec3d surface_norm
     if (!at.inside) return hidden;
     const double receiver = at.distance - double{kShadowDepthBias} * texel - double{kShadowRelativeBias} * at.distance;
     const bool fades = mode == ShadowMode::soft_split && material.shadow_fade_scale > 0;
-    // What a body that turns away from the light is thick itself, as a share of d0, does not count.
+    // A body's own thickness towards the light, as a share of d0, is not counted where it turns away from the light.
     const double own = std::clamp(-cosine * double{material.shadow_turn_scale}, 0.0, double{kOwnThickness});
     // Near the rim the box stays inside the map.
     const double u = std::clamp(at.u, 2.0, map.size - 2.0), v = std::clamp(at.v, 2.0, map.size - 2.0);

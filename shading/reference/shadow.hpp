@@ -1,4 +1,4 @@
-// The meaning of shadows in float64: the hidden share of a light from the same map as the kernels read, written the plain way.
+// Reference for shadows in float64: the hidden share of a light, from the shadow map that the kernels read, written in the plainest way.
 #pragma once
 
 #include "sh/vec3.hpp"
@@ -7,21 +7,21 @@
 
 namespace halflit::shading::reference {
 
-/// Shares of a light that are hidden, in [0, 1]. Both are exact but for the float32 distances of the map.
+/// Hidden shares of a light, in [0, 1]. Both are exact except for the float32 distances of the map.
 struct Hidden {
-    double hard = 0;  ///< cut off
-    double soft = 0;  ///< of light that fades with the blocker's distance; `hard` where nothing fades
-    /// How far the receiver is from where a share jumps, world units: from a texel's distance, the rim of the map, another face of the
-    /// cube. Nearer than its own rounding, a look-up in float32 may decide otherwise.
+    double hard = 0;  ///< share of light that a shadow cuts off
+    double soft = 0;  ///< share of light that fades with the blocker's distance; `hard` where nothing fades
+    /// Distance of the receiver to the nearest jump of a share, world units: a texel's distance, the rim of the map, another face of the
+    /// cube. If it is less than the rounding error, a look-up in float32 may decide otherwise.
     double margin = 0;
 };
 
-/// `map`'s distances as seen from a point whose surface has that unit normal; `to_light` is a unit vector. `material` says over what
-/// distance shadows on wrapped light fade.
+/// Hidden shares of a light at a surface point, from `map`. `surface_normal` and `to_light` are unit vectors. `material` gives the distance
+/// over which wrapped light fades in shadows.
 [[nodiscard]] Hidden hidden_share(const ShadowMapPlan& map, Vec3d position, Vec3d surface_normal, Vec3d to_light,
                                   const MaterialPlan& material, ShadowMode mode);
 
-/// The lobe at x = N.L under a shadow, its scale included: f - hard core - soft excess. Highlights keep 1 - hard of theirs.
+/// The lobe at x = N.L under a shadow, its scale included: f - hard core - soft excess. Highlights are multiplied by 1 - hard.
 [[nodiscard]] double shadowed_lobe(const Lobe& lobe, double x, const Hidden& hidden, ShadowMode mode);
 
 }  // namespace halflit::shading::reference

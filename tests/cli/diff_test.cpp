@@ -70,7 +70,7 @@ TEST_CASE("diff: the difference image is stretched and opaque, alpha shown in al
 
 TEST_CASE("diff: a JPEG of a flat colour is within a code of it", "[cli][diff]") {
     const TemporaryFolder folder;
-    // Nothing but background: the region lies beside the sphere.
+    // The region lies beside the sphere, so it shows only background.
     const std::vector<std::string> flat = {"render",    "sphere:500",   "--size",  "160x64", "--region",
                                            "0,0,16,16", "--background", "#4080c0", "-o"};
     auto as_png = flat, as_jpg = flat;

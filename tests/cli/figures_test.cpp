@@ -15,7 +15,7 @@ const std::vector<std::string> kNames = {"wrap-form",  "backlight",    "curves",
                                          "normalized", "half-lambert", "shading-rates", "highlights",  "light-sources", "terminator"};
 const double kPi = std::acos(-1.0);
 
-/// Series by "plot / series", each as x to y.
+/// Series by "plot / series"; each maps x to y.
 using Numbers = std::map<std::string, std::map<double, double>>;
 
 Numbers read_csv(const std::string& path) {

@@ -62,7 +62,7 @@ TEST_CASE("lobe: names stand for their (w, n), --normalize scales curve and band
     CHECK(lambert["orders"][2]["min"].get<double>() == Approx(-19.0 / 480).epsilon(1e-9));
 }
 
-TEST_CASE("lobe: values out of range are refused with the reason, powers below 1 warned of", "[cli][lobe]") {
+TEST_CASE("lobe: values out of range are refused with the reason, powers below 1 give a warning", "[cli][lobe]") {
     for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{{"lobe", "sloan", "--wrap", "nan"},
                                                                                            {"lobe", "sloan", "--wrap", "1.01"},
                                                                                            {"lobe", "sloan", "--wrap", "-0.1"},
@@ -109,7 +109,7 @@ TEST_CASE("env: the built-in sky's coefficients, norms and suns agree with each 
     CHECK(sky["without_suns"]["bound_by_order"][4].get<double>() < 0.1 * sky["bound_by_order"][4].get<double>());
 }
 
-TEST_CASE("env: --bands, the picture, and what is no environment", "[cli][env]") {
+TEST_CASE("env: --bands limits the coefficients, the text shows the sun, and files that are no environment are refused", "[cli][env]") {
     const json three = json::parse(run({"env", "sky", "--bands", "3", "--json"}).out);
     CHECK(three["coefficients"].size() == 9);
     CHECK(three["band_norms"].size() == 3);

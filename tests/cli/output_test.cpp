@@ -26,7 +26,7 @@ TEST_CASE("output: - is PNG on standard output, and nothing else is", "[cli]") {
     CHECK(picture.height == 30);
 }
 
-TEST_CASE("output: the file named like the scene is written here, and is the same as standard output", "[cli]") {
+TEST_CASE("output: without -o the file is named after the scene, and is the same as standard output", "[cli]") {
     const TemporaryFolder folder;
     const Outcome outcome = run({"render", "sphere:500", "--size", "40x30"}, {.folder = folder.path()});
     CHECK(outcome.code == 0);
@@ -46,7 +46,7 @@ TEST_CASE("output: each format begins with its own mark", "[cli]") {
     }
     CHECK(run(small(folder.file("a.tga"))).code == 0);
     const std::string tga = contents(folder.file("a.tga"));
-    REQUIRE(tga.size() > 18);  // no mark: 40 x 30 in the header's fixed places
+    REQUIRE(tga.size() > 18);  // no mark: 40 x 30 at fixed places in the header
     CHECK(static_cast<int>(tga[12]) == 40);
     CHECK(static_cast<int>(tga[14]) == 30);
 }
@@ -97,7 +97,7 @@ TEST_CASE("output: a symbolic link is followed, a device written in place", "[cl
 
 TEST_CASE("output: the scene itself is never overwritten", "[cli]") {
     const TemporaryFolder folder;
-    write_contents(folder.file("scene.png"), kOld);  // whatever it holds: it is asked about before it is read
+    write_contents(folder.file("scene.png"), kOld);  // its content does not matter: the check comes before it is read
     CHECK(run({"render", folder.file("scene.png"), "-o", folder.file("scene.png")}).code == 4);
     CHECK(run({"render", folder.file("scene.png"), "-o", "-", "--report", folder.file("scene.png")}).code == 4);
     CHECK(contents(folder.file("scene.png")) == kOld);
@@ -113,7 +113,7 @@ TEST_CASE("output: a closed standard output is an error, a closed standard error
 TEST_CASE("output: a run that waits for its input ends by SIGINT and SIGTERM, with its report", "[cli]") {
     for (const int signal : {SIGINT, SIGTERM}) {
         const TemporaryFolder folder;
-        // Asked for once the program has read the first byte: it waits for the next one.
+        // Called once the program has read the first byte and waits for the next one.
         const auto now = [&]() { return std::optional(signal); };
         const Outcome outcome = run({"render", "-", "-o", folder.file("a.png"), "--report", folder.file("r.json")},
                                     {.input = "{", .signal = now, .hold_input_open = true});

@@ -81,7 +81,7 @@ TEST_CASE("pixels: a background's codes come out as they were given", "[cli]") {
 }
 
 TEST_CASE("pixels: ambient alone shows a surface's colour at every angle", "[cli]") {
-    // clay, 0.8 0.75 0.7 linear, under ambient 1: every pixel of it is the colour itself, as sRGB codes 231 225 218.
+    // The material is clay, 0.8 0.75 0.7 linear, under ambient 1: every pixel of it has this colour, as sRGB codes 231 225 218.
     const Picture picture =
         read_picture(png({"sphere:5000", "--size", "90x90", "--no-scene-lights", "--ambient", "1,1,1", "--specular", "none"}));
     for (const auto& [x, y] : std::vector<std::pair<int, int>>{{45, 45}, {20, 45}, {45, 75}, {70, 30}})

@@ -18,7 +18,7 @@
 namespace halflit::test {
 namespace {
 
-/// In the child, up to exec.
+/// Turns the child process into the program.
 [[noreturn]] void become_program(std::vector<char*>& argv, const RunSettings& settings, const int (&streams)[3]) {
     for (int fd = 0; fd < 3; ++fd) ::dup2(streams[fd], fd);
     if (settings.closed) ::close(*settings.closed);
@@ -32,7 +32,7 @@ namespace {
     ::_exit(126);
 }
 
-/// Whether what was written to a pipe has been read. `input` is its reading end, or below 0.
+/// True if all that was written to a pipe has been read. `input` is its reading end, or below 0 if there is no pipe.
 bool input_taken(int input) {
     int left = 0;
     return input < 0 || (::ioctl(input, FIONREAD, &left) == 0 && left == 0);

@@ -1,4 +1,4 @@
-// Runs the program as a shell would, and looks at what comes out.
+// Runs the program as a shell would, and reads its output.
 #pragma once
 
 #include <filesystem>
@@ -17,17 +17,17 @@ struct Outcome {
 struct RunSettings {
     std::string input{};                                             ///< its standard input
     std::vector<std::pair<std::string, std::string>> environment{};  ///< added to ours
-    std::string folder{};                                            ///< where it runs; empty: here
-    std::optional<std::size_t> largest_file{};                       ///< bytes, as a full disk would have it
+    std::string folder{};                                            ///< folder to run in; empty: the current one
+    std::optional<std::size_t> largest_file{};                       ///< bytes; a larger file fails as on a full disk
     std::optional<int> closed{};                                     ///< a standard stream that is closed
-    /// Called again and again while the program runs; a number is a signal to send, once.
+    /// Called repeatedly while the program runs. A number is a signal, which is sent once.
     std::function<std::optional<int>()> signal{};
-    bool hold_input_open = false;  ///< standard input does not end; signals are asked for once `input` has been read
+    bool hold_input_open = false;  ///< standard input does not end; `signal` is called once `input` has been read
 };
 
 [[nodiscard]] Outcome run(const std::vector<std::string>& arguments, const RunSettings& settings = {});
 
-/// A folder of its own that goes with the object.
+/// A new folder that is removed with the object.
 class TemporaryFolder {
 public:
     TemporaryFolder();
@@ -52,9 +52,9 @@ struct Picture {
     std::vector<unsigned char> rgba8;
     [[nodiscard]] std::vector<int> pixel(int x, int y) const;
 };
-/// Of a PNG or JPEG; fails the test when it cannot be read.
+/// Picture of a PNG or JPEG file; fails the test if it cannot be read.
 [[nodiscard]] Picture read_picture(const std::string& file_contents);
-/// A PNG of one colour.
+/// PNG file of these pixels.
 [[nodiscard]] std::string png_of(int width, int height, std::vector<unsigned char> rgba8);
 
 }  // namespace halflit::test

@@ -38,7 +38,7 @@ TEST_CASE("report: it counts what was drawn and names the pixels by their hash",
     CHECK(report["pixel_hash"] == hash_text(read_picture(outcome.out)));
     CHECK(report["triangles_submitted"].get<int>() > 450);
     CHECK(report["triangles_drawn"].get<int>() <= report["triangles_submitted"].get<int>());
-    // The sphere touches the upper and lower edge: a disc of half the height.
+    // The sphere touches the upper and lower edge, so it is a disc with a radius of half the height.
     CHECK(report["pixels_visible"].get<double>() == Approx(3.14159 * 24 * 24).epsilon(0.06));
     CHECK(report["warnings"].empty());
     CHECK(report["peak_memory_bytes"].get<double>() > 1e6);
@@ -53,7 +53,7 @@ TEST_CASE("report: - is standard output, the picture goes to its file", "[cli]")
     CHECK(json_of(outcome.out)["pixel_hash"] == hash_text(read_picture(contents(folder.file("a.png")))));
 }
 
-TEST_CASE("report: a failed run has one too", "[cli]") {
+TEST_CASE("report: a failed run has a report too", "[cli]") {
     const TemporaryFolder folder;
     const std::vector<std::pair<std::vector<std::string>, int>> cases = {
         {{"render", "missing.glb"}, 4},
@@ -73,7 +73,7 @@ TEST_CASE("report: a failed run has one too", "[cli]") {
     }
 }
 
-TEST_CASE("report: one that cannot be written ends the run with 4", "[cli]") {
+TEST_CASE("report: a report that cannot be written ends the run with 4", "[cli]") {
     const TemporaryFolder folder;
     CHECK(run({"render", "sphere:500", "--size", "20x20", "-o", "-", "--report", folder.file("no/r.json")}).code == 4);
 }
@@ -113,7 +113,7 @@ TEST_CASE("info: it counts the built-in sphere and plans its one material", "[cl
     CHECK(flat["materials"][0]["does_without"].dump().find("specular") != std::string::npos);
 }
 
-TEST_CASE("report: an environment's orders and bounds, as info has them", "[cli][env]") {
+TEST_CASE("report: the orders and bounds of an environment are those of info", "[cli][env]") {
     const auto environment_of = [](const std::vector<std::string>& flags) {
         std::vector<std::string> arguments{"render", "sphere:500", "--size", "16x16", "-o", "", "--env", "sky"};
         arguments.insert(arguments.end(), flags.begin(), flags.end());
@@ -134,7 +134,7 @@ TEST_CASE("report: an environment's orders and bounds, as info has them", "[cli]
     REQUIRE(one_band.size() == 1);
     CHECK(one_band[0]["order"] == 1);
     CHECK(one_band[0]["within"] == false);
-    CHECK(one_band[0]["bound_of_white"].get<double>() == Approx(2.0 * one_band[0]["bound_linear"].get<double>()));  // 2^1
+    CHECK(one_band[0]["bound_of_white"].get<double>() == Approx(2.0 * one_band[0]["bound_linear"].get<double>()));  // exposure 2^1
     CHECK(one_band[0]["tolerance_of_white"].get<double>() == Approx(1.0 / 510.0));
 
     const auto both = environment_of({});
@@ -171,7 +171,7 @@ TEST_CASE("report: lanes say which stages ran for how many fragments, and info w
     CHECK(lanes["shadow_look_ups"] == 2 * fragments);
     CHECK(lanes["alpha_test"] == 0);
 
-    // Every stage that the plan does without has no lane, and all others have all.
+    // Stages that the plan does without have no lanes; all others have all.
     std::vector<std::string> arguments{"info", "sphere:500", "--json", "--size", "64x48"};
     arguments.insert(arguments.end(), flags.begin(), flags.end());
     const auto info = json_of(run(arguments).out);
@@ -193,7 +193,7 @@ TEST_CASE("report: lanes say which stages ran for how many fragments, and info w
     CHECK(gouraud["lanes"]["stages"]["lights"].get<int>() <= 500);  // a sphere of 500 triangles has about 250 vertices
 }
 
-TEST_CASE("render: a lobe out of range is refused with the reason, one below power 1 is warned of", "[cli][lobe]") {
+TEST_CASE("render: a lobe out of range is refused with the reason, a power below 1 gives a warning", "[cli][lobe]") {
     const TemporaryFolder folder;
     const std::vector<std::pair<std::vector<std::string>, std::string>> refused = {
         {{"--wrap", "-0.5"}, "from 0 to 1"},

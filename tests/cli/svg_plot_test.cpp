@@ -40,7 +40,7 @@ TEST_CASE("plot: a linear axis keeps differences, a logarithmic one ratios", "[c
     REQUIRE(x.size() == 3);
     CHECK(x[1] - x[0] == Approx(x[0]).margin(0.02));  // 0 is the left edge
     CHECK(x[2] - x[1] == Approx(x[0]).margin(0.02));
-    CHECK(y[0] - y[2] == Approx(4 * (y[0] - y[1])).margin(0.05));  // up is less
+    CHECK(y[0] - y[2] == Approx(4 * (y[0] - y[1])).margin(0.05));  // y points down
 
     plot = scatter({{1, 0.01}, {10, 1}, {1000, 100}});
     plot.x.log = plot.y.log = true;
@@ -75,7 +75,7 @@ TEST_CASE("plot: text is escaped, and nothing refers outside or by an id", "[cli
     plot.series[0].name = "<script>";
     plot.series[0].labels = {"1 > 0", ""};
     const std::string svg = plot_svg(plot);
-    CHECK(count(svg, "a &lt; b &amp; &quot;c&quot;") == 2);  // for readers and for screen readers
+    CHECK(count(svg, "a &lt; b &amp; &quot;c&quot;") == 2);  // one is shown, one is for screen readers
     CHECK(count(svg, "<script") == 0);
     CHECK(count(svg, "1 &gt; 0") == 1);
     CHECK(count(svg, " id=") == 0);

@@ -20,12 +20,12 @@ raster::Image row_of(const std::vector<double>& codes) {
     return image;
 }
 
-// linear_of rounds to float32: 6e-8 of at most 112 codes an e-fold.
+// linear_of rounds to float32: 6e-8, times at most 112 codes per factor of e.
 constexpr double kRounding = 2e-5;
 
 }  // namespace
 
-TEST_CASE("trade error: codes before rounding, of a pixel's worst channel", "[cli][trade]") {
+TEST_CASE("trade error: codes are compared before rounding, by a pixel's worst channel", "[cli][trade]") {
     const raster::Image reference = row_of({100, 100, 100, 100});
     raster::Image picture = row_of({100, 100.25, 98.5, 100});
     picture.rgba_linear[3 * 4 + 2] = linear_of(104);
@@ -38,7 +38,7 @@ TEST_CASE("trade error: codes before rounding, of a pixel's worst channel", "[cl
     CHECK(error.psnr.value() == Approx(10 * std::log10(255 * 255 / mean_square)).margin(1e-3));
 }
 
-TEST_CASE("trade error: equal pictures have none, what is brighter than white counts as white", "[cli][trade]") {
+TEST_CASE("trade error: equal pictures have none, values above white count as white", "[cli][trade]") {
     raster::Image reference = row_of({255, 30});
     const TradeReference same(reference, reference);
     CHECK(same.error_of(reference).max == 0.0);
@@ -61,7 +61,7 @@ TEST_CASE("trade error: one pixel in a thousand may be off by more than the 99.9
     }
 }
 
-TEST_CASE("trade error: pixels that nothing was drawn to do not count, and are black in the difference", "[cli][trade]") {
+TEST_CASE("trade error: pixels where nothing was drawn do not count, and are black in the difference", "[cli][trade]") {
     const raster::Image reference = row_of({50, 60, 70});
     raster::Image coverage = reference;
     coverage.rgba_linear[1 * 4 + 3] = 0.0f;

@@ -21,7 +21,7 @@ Json rows_of(const std::string& folder) {
     return report["rows"];
 }
 
-/// A small run; its rows.
+/// Makes a small run and returns its rows.
 Json trade(const TemporaryFolder& folder, std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "trade");
     arguments.insert(arguments.end(), kSmall.begin(), kSmall.end());
@@ -56,7 +56,7 @@ double error_of(const Json& row) { return row["error"]["p999"]; }
 
 }  // namespace
 
-TEST_CASE("trade: page, table and report are complete, and tell of the same rows", "[cli][trade]") {
+TEST_CASE("trade: page, table and report are complete, and list the same rows", "[cli][trade]") {
     const TemporaryFolder folder;
     const Json rows = trade(folder, {"demo", "--quick", "--samples", "1", "--shadow-size", "1024"});
     CHECK(folder.names() == std::vector<std::string>{"index.html", "trade.csv", "trade.json"});
@@ -109,11 +109,11 @@ TEST_CASE("trade: page, table and report are complete, and tell of the same rows
     CHECK(row_named(rows, "within 0.5 codes")["flags"] == "--max-error 0.5");
     CHECK(row_named(rows, "exact, hard shadows")["flags"] == "--shadows hard");
     CHECK(row_named(rows, "exact, nearest")["flags"] == "--texture-filter nearest");
-    // Without shadows the balls cast none.
+    // Without shadows, those of the balls are missing.
     CHECK(error_of(row_named(rows, "exact, no shadows")) > 10);
 }
 
-TEST_CASE("trade: the fewer bands of an environment, the further from its integral", "[cli][trade]") {
+TEST_CASE("trade: the fewer bands of an environment, the larger the error", "[cli][trade]") {
     const TemporaryFolder folder;
     const Json rows =
         trade(folder, {"sphere:500", "--env", "sky", "--env-sun", "off", "--specular", "none", "--lobe", "lambert", "--quick"});
@@ -124,7 +124,7 @@ TEST_CASE("trade: the fewer bands of an environment, the further from its integr
         CHECK(row["order"] == order);
         CHECK(row["orders_used"] == Json{order});
         CHECK(row["flags"] == "--sh-order " + std::to_string(order));
-        // Lambert's lobe has no odd bands above the first: those add nothing. [RH01]
+        // Lambert's lobe has no odd bands above the first, so these orders add nothing. [RH01]
         const double mean = row["error"]["mean"];
         if (order == 4 || order == 6 || order == 8 || order == 10)
             CHECK(mean == Approx(before).margin(0.01));
@@ -132,11 +132,11 @@ TEST_CASE("trade: the fewer bands of an environment, the further from its integr
             CHECK(mean < before);
         before = mean;
     }
-    CHECK(before < 1);  // the sun's edge is left
+    CHECK(before < 1);  // the error at the sun's edge
     CHECK(row_named(rows, "exact")["order"] == "auto");
 }
 
-TEST_CASE("trade: exact is the measure of time, the reference that of error, and a matte sphere is within a code", "[cli][trade]") {
+TEST_CASE("trade: times are relative to exact, errors to the reference, and a matte sphere is within a code", "[cli][trade]") {
     const TemporaryFolder folder;
     const Json rows = trade(folder, {"sphere:2000", "--specular", "none", "--quick"});
     const Json& reference = row_named(rows, "reference");
@@ -145,7 +145,7 @@ TEST_CASE("trade: exact is the measure of time, the reference that of error, and
     const Json& exact = row_named(rows, "exact");
     CHECK(exact["ratio"] == 1.0);
     CHECK(exact["flags"] == "");
-    // float32 against float64: a few units in the seventh digit, of at most 112 codes.
+    // float32 against float64: a few units in the seventh digit, times at most 112 codes.
     CHECK(exact["error"]["max"].get<double>() > 0);
     CHECK(exact["error"]["max"].get<double>() < 0.01);
     CHECK(exact["error"]["psnr"].get<double>() > 100);
@@ -154,14 +154,14 @@ TEST_CASE("trade: exact is the measure of time, the reference that of error, and
     CHECK(row_named(rows, "exact, flat")["error"]["share_off_by_one"].get<double>() > 0.3);
     for (const Json& row : rows)
         if (!row["bound"].is_null()) CHECK(row["bound"]["kept"] == true);
-    // The sphere has no texture and no environment: neither is varied.
+    // The sphere has no texture and no environment, so neither is varied.
     for (const Json& row : rows) {
         CHECK(row["texture_filter"] == "full");
         CHECK(row["order"] == "auto");
     }
 }
 
-TEST_CASE("trade: nothing else is both faster and nearer than what is on the front, and all else is dominated", "[cli][trade]") {
+TEST_CASE("trade: no row beats a row of the Pareto front in time and error, and all other rows are dominated", "[cli][trade]") {
     const TemporaryFolder folder;
     const Json rows = trade(folder, {"sphere:500", "--lobes", "lambert,sloan:0.3"});
     std::size_t on_front = 0;
@@ -174,14 +174,14 @@ TEST_CASE("trade: nothing else is both faster and nearer than what is on the fro
         CHECK(row["front"] == !dominated);
         on_front += row["front"] ? 1u : 0u;
     }
-    CHECK(on_front >= 3);  // each lobe has one
+    CHECK(on_front >= 3);  // each lobe has a row on the front
     std::set<std::string> lobes;
     for (const Json& row : rows) lobes.insert(row["lobe"].get<std::string>());
     CHECK(lobes == std::set<std::string>{"own", "lambert", "sloan:0.3"});
     CHECK(row_named(rows, "exact, lobe lambert")["lobes_computed_as"] == Json{"t"});
     CHECK(row_named(rows, "lobe sloan:0.3, fast")["lobes_computed_as"] == Json{"t^n (fast)"});
     CHECK(row_named(rows, "exact, lobe sloan:0.3")["lobes_computed_as"] == Json{"t^n (exact)"});
-    // A lobe is measured from its own reference, not from the scene's own lobe.
+    // The error of a lobe is relative to its own reference, not to the scene's own lobe.
     CHECK(row_named(rows, "exact, lobe lambert")["error"]["max"].get<double>() < 0.5);
 }
 
@@ -191,7 +191,7 @@ TEST_CASE("trade: the combinations are the product of what the scene has", "[cli
         flags.insert(flags.begin(), "sphere:100");
         return trade(folder, flags).size();
     };
-    // reference; tiers x rates; five other kinds of shadow; seven budgets.
+    // Sum of: reference; tiers x rates; four other kinds of shadow; seven budgets.
     const std::size_t kinds_alone = 4, budgets = 7;  // hard, off, 1024, 512
     CHECK(rows_with({}) == 1 + 3 * 3 + kinds_alone + budgets);
     CHECK(rows_with({"--quick"}) == 1 + 1 + 2 + 2 + kinds_alone + budgets);
@@ -200,13 +200,13 @@ TEST_CASE("trade: the combinations are the product of what the scene has", "[cli
     CHECK(rows_with({"--shadow-size", "1024", "--quick"}) == 1 + 1 + 2 + 2 + (kinds_alone - 1) + budgets);
 }
 
-TEST_CASE("trade: progress is one line, and only where it is asked for or a terminal", "[cli][trade]") {
+TEST_CASE("trade: progress is one line, and only if asked for or on a terminal", "[cli][trade]") {
     const TemporaryFolder folder;
     std::vector<std::string> arguments{"trade", "sphere:100", "--quick", "-o", folder.path()};
     arguments.insert(arguments.end(), kSmall.begin(), kSmall.end());
     const Outcome silent = run(arguments);
     CHECK(silent.err.find(" left") == std::string::npos);
-    CHECK(count(silent.err, "\n") == 3);  // the files
+    CHECK(count(silent.err, "\n") == 3);  // one line for each file
     CHECK(count(silent.out, "exact takes") == 1);
     arguments.emplace_back("--progress");
     const Outcome told = run(arguments);
@@ -215,7 +215,7 @@ TEST_CASE("trade: progress is one line, and only where it is asked for or a term
     CHECK(told.err.find('\r') != std::string::npos);
 }
 
-TEST_CASE("trade: what it varies itself and what makes no sense is refused before anything is drawn", "[cli][trade]") {
+TEST_CASE("trade: flags that it varies itself and invalid values are refused before anything is drawn", "[cli][trade]") {
     const TemporaryFolder folder;
     const std::vector<std::vector<std::string>> refused = {{"--accuracy", "fast"},
                                                            {"--max-error", "1"},

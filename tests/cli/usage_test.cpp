@@ -6,7 +6,7 @@ using namespace halflit::test;
 
 namespace {
 
-/// One line, from us, with nothing on standard output.
+/// Checks for an error of one line by the program, with nothing on standard output.
 void check_error(const Outcome& outcome, int code, const std::string& part) {
     INFO(outcome.err);
     CHECK(outcome.code == code);
@@ -18,7 +18,7 @@ void check_error(const Outcome& outcome, int code, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("usage: what cannot be meant ends with 2 and says what was expected", "[cli]") {
+TEST_CASE("usage: an invalid command line ends with 2 and says what was expected", "[cli]") {
     const TemporaryFolder folder;
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
         {{}, "no command"},

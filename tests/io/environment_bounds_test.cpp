@@ -1,5 +1,5 @@
-// The bound that picks an environment's order, against brute force over the shared pictures at full size: 1,000 normals, ten lobes, orders
-// 1 to 10. The figures stand in sh/README.md; run with -s to see them.
+// Bound by which an environment's order is chosen, against brute force over the shared pictures at full size: 1,000 normals, ten lobes,
+// orders 1 to 10. The figures are in sh/README.md; run with -s to see them.
 #include "apps/io/environment.hpp"
 #include "sh/sun.hpp"
 #include "tests/sh/full_size.hpp"
@@ -19,10 +19,10 @@ using namespace halflit::test;
 
 namespace {
 
-/// The brute force is off by less than this part of the mean: twice as many points where lobes end change it by 2e-9 at most.
+/// Limit on the error of the brute force, as a fraction of the mean: twice as many points where lobes end change it by at most 2e-9.
 constexpr double kNoise = 1e-8;
-/// Errors below this part of the mean say nothing about bounds. Those are half-Lambert's from order 2 on and its square's from order 3 on,
-/// which are 0 as their bounds are; measured 1e-11. The others are above 5e-6.
+/// Errors below this fraction of the mean are not compared with bounds. Those are half-Lambert's from order 2 on and its square's from
+/// order 3 on, which are 0 as their bounds are; measured 1e-11. The others are above 5e-6.
 constexpr double kFloor = 1e-7;
 
 using Reflected = std::vector<std::array<Vec3d, FullSizeImage::kLobes>>;
@@ -44,9 +44,9 @@ struct Extreme {
 
 struct Figures {
     Extreme error_of_bound, bound_of_error;  ///< the first wherever the bound is not 0, the second above the floor
-    Extreme with_sun;                        ///< error of series and suns together, of their bounds' sum
+    Extreme with_sun;                        ///< error of series and suns together, divided by the sum of their bounds
     int picks = 0;
-    int above[kMaxBands]{};  ///< picks so many orders above the least that keeps the tolerance
+    int above[kMaxBands]{};  ///< above[i]: picks that are i orders above the least that keeps the tolerance
     int most_above = 0;
 
     [[nodiscard]] std::string text() const {
@@ -59,7 +59,7 @@ struct Figures {
     }
 };
 
-/// The series of `projection`, and `suns`, against `exact`.
+/// Largest error of each order: the series of `projection` plus `suns`, against `exact`.
 std::array<double, kMaxBands> errors_of(const Projection& projection, const std::vector<Sun>& suns, std::size_t lobe,
                                         const Reflected& exact, const std::vector<Vec3d>& normals) {
     const RadianceSh product = scaled_by_band(projection.radiance(), zonal_bands(kTenLobes[lobe]));

@@ -26,7 +26,8 @@ io::EnvironmentImage load(const char* name) {
 
 bool have_environments() { return asset_dir() && std::filesystem::is_directory(*asset_dir() / "environments"); }
 
-/// As it is and with its suns taken out at full size, averaged over blocks: patches of light again, whose integrals brute force can do.
+/// Checks the bounds of an image as it is, and with its suns taken out at full size. Both are averaged over blocks, so that they are
+/// patches of light again, which brute force can integrate.
 void check_environment_bounds(const char* name, int factor, int normal_count, Choices& as_is, Choices& without_suns) {
     INFO(name);
     const io::EnvironmentImage environment = load(name);
@@ -90,7 +91,7 @@ TEST_CASE("environment: suns of the shared pictures keep all energy and lower th
     }
 }
 
-TEST_CASE("environment: the built-in sky is lit as it says", "[io][environment]") {
+TEST_CASE("environment: the built-in sky has the sun and the colours that are documented", "[io][environment]") {
     const io::EnvironmentImage sky = io::built_in_sky();
     REQUIRE(sky.width == 512);
     REQUIRE(sky.height == 256);
@@ -114,7 +115,7 @@ TEST_CASE("environment: the built-in sky is lit as it says", "[io][environment]"
     CHECK(luminance(evaluate(lambert, {0, -1, 0})) < 0.25);
 }
 
-TEST_CASE("environment: by name, the sky or a file, a file that is not there names itself", "[io][environment]") {
+TEST_CASE("environment: a name gives the sky or a file, the error for a missing file names it", "[io][environment]") {
     CHECK(io::environment_by_name("sky")->rgb == io::built_in_sky().rgb);
     const auto missing = io::environment_by_name("no/such/file.hdr");
     REQUIRE_FALSE(missing);

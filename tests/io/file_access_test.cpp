@@ -111,7 +111,7 @@ TEST_CASE("uri: names are percent-decoded once, addresses are refused", "[io]") 
     CHECK(*decode_file_uri("a b.png") == "a b.png");
     CHECK(*decode_file_uri("%E4%BD%A0.png") == "\xE4\xBD\xA0.png");
     CHECK(*decode_file_uri("a%2520b") == "a%20b");
-    CHECK(*decode_file_uri("..%2fx") == "../x");  // what it means is refused by the folder
+    CHECK(*decode_file_uri("..%2fx") == "../x");  // refused later, by ModelFolder
     for (const char* bad : {"http://example.org/a.bin", "file:///etc/passwd", "C:/a.bin", "a%", "a%2", "a%zz", "a%00b"})
         CHECK(!decode_file_uri(bad));
 }

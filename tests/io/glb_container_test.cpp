@@ -48,7 +48,7 @@ TEST_CASE("glb: a broken header, chunk, order or length is refused", "[io]") {
         put_u32(file, at, value);
         return code_of(file);
     };
-    CHECK(changed(0, 0x46546C68) == ErrorCode::bad_input);  // magic: then it is JSON that begins with garbage
+    CHECK(changed(0, 0x46546C68) == ErrorCode::bad_input);  // magic: the file is then read as JSON, and begins with garbage
     CHECK(changed(4, 1) == ErrorCode::bad_input);           // version
     CHECK(changed(4, 3) == ErrorCode::bad_input);
     CHECK(changed(8, static_cast<std::uint32_t>(good.size() - 4)) == ErrorCode::bad_input);

@@ -24,7 +24,7 @@ inline Bytes to_bytes(std::string_view text) {
     return out;
 }
 
-/// Appends values as they lie in memory (tests run on little-endian machines, as glTF is).
+/// Appends values as they are in memory (glTF is little-endian, and so are the machines that run the tests).
 template <class T>
 void append(Bytes& out, std::initializer_list<T> values) {
     for (const T value : values) {
@@ -65,7 +65,7 @@ inline Bytes glb(std::string json, Bytes bin = {}) {
     return out;
 }
 
-/// `text` with the one place `from` changed; it must be there.
+/// `text` with the first `from` replaced; `from` must occur.
 inline std::string replaced(std::string text, std::string_view from, std::string_view to) {
     const std::size_t at = text.find(from);
     if (at == std::string::npos) FAIL("no " << from << " in " << text.substr(0, 200));
@@ -84,7 +84,7 @@ inline Result<io::LoadedScene> load(const Bytes& bytes, const io::LoadOptions& o
     return io::load_gltf_bytes(bytes, "test.glb", base_dir, options);
 }
 
-/// Loads what must load.
+/// Loads a file that must be accepted.
 inline io::LoadedScene load_ok(const Bytes& bytes, const io::LoadOptions& options = {}, const std::string& base_dir = "") {
     auto loaded = load(bytes, options, base_dir);
     if (!loaded) FAIL("refused: " << loaded.error().message);

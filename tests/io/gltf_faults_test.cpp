@@ -1,4 +1,4 @@
-// Files that are wrong: each fault is refused with the right code, one line, and a place; some are drawn as far as they go.
+// Faulty files: each fault is refused with the right code, one line, and a place; some files are drawn as far as possible.
 #include "tests/io/gltf_builder.hpp"
 
 #include <catch2/catch.hpp>
@@ -29,7 +29,7 @@ Bytes text_file(const std::string& json) { return to_bytes(json); }
 
 }  // namespace
 
-TEST_CASE("faults: JSON that is not what it should be, with line and column", "[io]") {
+TEST_CASE("faults: broken JSON is refused with line and column", "[io]") {
     CHECK(refusal(text_file("{\n\"asset\":{\"version\":NaN}}")).message ==
           "test.glb: asset.version: line 2, column 20: expected a JSON value, found \"NaN\"");
     for (const char* bad :
@@ -81,7 +81,7 @@ TEST_CASE("faults: values of a wrong type or size are refused at their path", "[
     check("\"attributes\":{\"POSITION\":0}", "\"mode\":4", "primitives[0]");
 }
 
-TEST_CASE("faults: lists of a wrong length, and objects without what their type needs", "[io]") {
+TEST_CASE("faults: lists of a wrong length, and objects without the members of their type, are refused", "[io]") {
     const auto with = [](const std::string& rest) {
         TriangleFile t;
         t.rest = "," + rest;
@@ -111,7 +111,7 @@ TEST_CASE("faults: lists of a wrong length, and objects without what their type 
     CHECK(refusal(changed(TriangleFile(), "\"count\":3", "\"count\":0.3e1")).code == ErrorCode::negative_result);
 }
 
-TEST_CASE("faults: accessors and views that leave their buffer, in any arithmetic", "[io]") {
+TEST_CASE("faults: accessors and views that leave their buffer are refused, for numbers of any size", "[io]") {
     const TriangleFile t;
     const auto code = [&](const std::string& from, const std::string& to) { return refusal(changed(t, from, to)).code; };
     for (const char* count : {"4", "2147483648", "4294967295", "715827883", "4294967299", "9007199254740992"})
@@ -132,7 +132,7 @@ TEST_CASE("faults: accessors and views that leave their buffer, in any arithmeti
               .code == ErrorCode::limit);
 }
 
-TEST_CASE("faults: sparse accessors with wrong counts, orders and places", "[io]") {
+TEST_CASE("faults: sparse accessors with wrong counts, orders and places are refused", "[io]") {
     const auto with = [](std::initializer_list<std::uint16_t> indices, const std::string& count, const std::string& offset = "0",
                          int type = 5123) {
         TriangleFile file;
@@ -222,7 +222,7 @@ TEST_CASE("faults: versions and required extensions that are not supported are r
     CHECK(refusal(with(R"("version":"2.0")", R"(,"extensionsUsed":["VENDOR_anything"])")).code == ErrorCode::negative_result);
 }
 
-TEST_CASE("faults: names from the file cannot reach the terminal", "[io]") {
+TEST_CASE("faults: control characters in names cannot reach the terminal", "[io]") {
     const Error error = refusal(text_file(R"({"asset":{"version":"2.0"},"extensionsRequired":["a\u001b[31m\n\u009bx\u007f"]})"));
     CHECK(error.message.find('\x1b') == std::string::npos);
     CHECK(error.message.find("a\\x1b[31m\\x0a\\xc2\\x9bx\\x7f") != std::string::npos);
@@ -253,7 +253,7 @@ TEST_CASE("faults: a small file cannot ask for much memory or time", "[io]") {
     CHECK(refusal(text_file(head + "\"materials\":[" + many("{}", 1'000'000) + "]}")).code == ErrorCode::limit);
     CHECK(refusal(text_file(head + "\"nodes\":[" + many("{}", 1'000'000) + "]}")).code != ErrorCode::internal);
     CHECK(refusal(text_file(head + "\"extras\":[" + many("[]", 1'000'000) + "]}")).code != ErrorCode::internal);
-    // A thousand primitives, each with the same hundred thousand vertices; then a mesh of them placed a thousand times.
+    // A thousand primitives, each with the same hundred thousand vertices; then a mesh of ten thousand primitives, placed 27,000 times.
     TriangleFile file;
     file.bin.resize(12 * 99999);
     file.views = R"({"buffer":0,"byteLength":1199988})";

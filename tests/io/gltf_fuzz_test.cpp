@@ -59,7 +59,7 @@ void damage(Bytes& file, std::mt19937& random) {
     }
 }
 
-/// Makes the container sound again, so that damage inside the chunks is reached.
+/// Corrects the container's lengths, so that damage inside the chunks is reached.
 void mend_lengths(Bytes& file, std::size_t json_size_was, std::size_t size_was) {
     if (file.size() < 28 || file.size() % 4 != 0) return;
     const std::size_t json_size = json_size_was + file.size() - size_was;
@@ -128,6 +128,6 @@ TEST_CASE("fuzz: damaged files give a sound scene or an error", "[io]") {
                 if (use.texture >= static_cast<int>(result->scene.textures.size())) FAIL("texture " << use.texture);
     }
     INFO(loaded_count << " loaded, " << refused_count << " refused");
-    CHECK(loaded_count > 500);  // damage that everything refuses would reach nothing
+    CHECK(loaded_count > 500);  // files that are refused at once would test little
     CHECK(refused_count > 5000);
 }

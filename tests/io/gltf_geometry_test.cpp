@@ -166,7 +166,7 @@ TEST_CASE("gltf: primitives that share a long list of vertices take their own pa
     CHECK(mesh.indices == Indices{0, 1, 1, 1, 2, 0});
 }
 
-TEST_CASE("gltf: morph targets are applied with the mesh's weights, and the node's before them", "[io]") {
+TEST_CASE("gltf: morph targets are applied with the node's weights, or else with the mesh's", "[io]") {
     TriangleFile file;
     Bytes delta, other;
     append<float>(delta, {0, 0, 1, 0, 0, 2, 0, 0, 3});

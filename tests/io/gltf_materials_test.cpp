@@ -35,7 +35,7 @@ Vec2f apply(const shading::TextureUse& use, Vec2f uv) {
 
 }  // namespace
 
-TEST_CASE("materials: factors, alpha and sides", "[io]") {
+TEST_CASE("materials: factors, alpha mode and sides are read", "[io]") {
     const shading::Material plain = material_of(with_material(""));
     CHECK(plain.base_color == Vec4f{1, 1, 1, 1});
     CHECK(plain.metallic == 1.0f);
@@ -165,7 +165,7 @@ TEST_CASE("materials: a broken picture is refused, or a magenta checkerboard whe
         CHECK(texels[2] == 65535);
     }
     const Bytes unused = with_material("", {broken});
-    CHECK(load_ok(unused).scene.textures.empty());  // what nothing uses is not read
+    CHECK(load_ok(unused).scene.textures.empty());  // unused images are not read
 }
 
 TEST_CASE("materials: textures have limits, each and together", "[io]") {
@@ -180,6 +180,6 @@ TEST_CASE("materials: textures have limits, each and together", "[io]") {
     CHECK(load(file, options).error().code == ErrorCode::limit);
     options = {};
     options.limits.max_texture_bytes = 2 * 64 * 64 * 32 / 3 - 10;
-    options.lenient = true;  // a limit is a limit
+    options.lenient = true;  // limits hold in lenient mode too
     CHECK(load(file, options).error().code == ErrorCode::limit);
 }

@@ -90,7 +90,7 @@ TEST_CASE("nodes: a chain of a million nodes is walked", "[io]") {
     CHECK(loaded.scene.instances[0].world_from_object.c[3].x == 1e6f);
 }
 
-TEST_CASE("nodes: a transform that leaves the range of float is not drawn, and said so", "[io]") {
+TEST_CASE("nodes: a mesh whose transform leaves the range of float is not drawn, with a warning", "[io]") {
     const io::LoadedScene loaded =
         load_ok(with_nodes(R"({"scale":[1e300,1,1],"children":[1]},{"scale":[1e300,1,1],"mesh":0},{"mesh":0})", R"({"nodes":[0,2]})"));
     CHECK(loaded.scene.instances.size() == 1);
@@ -154,7 +154,7 @@ TEST_CASE("nodes: lights shine along -z, with colour times intensity over pi", "
     refusal(with_nodes(many, "", lights), ErrorCode::limit);
 }
 
-TEST_CASE("skins: vertices follow their joints, whatever the mesh's own node says", "[io]") {
+TEST_CASE("skins: vertices follow their joints, and the transform of the mesh's own node is ignored", "[io]") {
     TriangleFile file;
     Bytes joints, weights, bind;
     append<std::uint8_t>(joints, {0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0});

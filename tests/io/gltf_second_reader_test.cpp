@@ -1,4 +1,4 @@
-// The loader's reading of a model's JSON against tinygltf's, which shares no code with it.
+// Comparison of the loader's reading of a model's JSON with tinygltf's, which shares no code with it.
 #include "apps/io/detail/glb_container.hpp"
 #include "apps/io/detail/gltf_json.hpp"
 #include "tests/io/rich_file.hpp"
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// tinygltf's structures. Buffers and images are taken out first: it would want to read them. False where it refuses the file.
+/// Reads into tinygltf's structures. Buffers and images are removed first, because it would read them too. False if it refuses the file.
 bool read_second(std::string_view text, tinygltf::Model& model) {
     nlohmann::json json = nlohmann::json::parse(text);
     json.erase("buffers");
@@ -201,7 +201,7 @@ void compare_cameras_and_lights(const file::File& a, const tinygltf::Model& b) {
     }
 }
 
-/// False where tinygltf refuses the file.
+/// Compares the two readers. False if tinygltf refuses the file.
 bool compare_readers(const Bytes& bytes) {
     std::span<const std::byte> json = bytes;
     if (io::detail::is_glb(bytes)) json = io::detail::split_glb(bytes)->json;
@@ -222,7 +222,7 @@ bool compare_readers(const Bytes& bytes) {
 
 }  // namespace
 
-TEST_CASE("second reader: a file with a bit of everything reads as tinygltf reads it", "[io]") { CHECK(compare_readers(rich_file())); }
+TEST_CASE("second reader: a file with many features reads as tinygltf reads it", "[io]") { CHECK(compare_readers(rich_file())); }
 
 TEST_CASE("second reader: the sample models read as tinygltf reads them", "[io][assets]") {
     const auto assets = asset_dir();
@@ -231,7 +231,7 @@ TEST_CASE("second reader: the sample models read as tinygltf reads them", "[io][
     for (const auto& entry : fs::recursive_directory_iterator(*assets / "models")) {
         const std::string name = entry.path().filename().string();
         if (entry.path().extension() != ".gltf" && entry.path().extension() != ".glb") continue;
-        if (!io::load_gltf(entry.path().string())) continue;  // refused by what it requires
+        if (!io::load_gltf(entry.path().string())) continue;  // refused for what it requires
         INFO(entry.path().string());
         const auto bytes = io::read_file(entry.path().string());
         REQUIRE(bytes);

@@ -45,7 +45,7 @@ Bytes make_jpeg(const JpegSpec& spec, const std::vector<std::uint8_t>& pixels) {
     jpeg_set_quality(&info, spec.quality, TRUE);
     for (int c = 0; c < info.num_components; ++c) info.comp_info[c].h_samp_factor = info.comp_info[c].v_samp_factor = 1;
     std::vector<jpeg_scan_info> script;
-    if (spec.scans > 0) {  // DC, then one AC band after the other, again and again by component
+    if (spec.scans > 0) {  // DC, then one AC band after the other, of one component
         script.push_back({1, {0}, 0, 0, 0, 0});
         for (int k = 1; k < spec.scans; ++k) script.push_back({1, {0}, k, k == spec.scans - 1 ? 63 : k, 0, 0});
         info.scan_info = script.data();
@@ -137,7 +137,7 @@ TEST_CASE("png: cut, damaged and oversized files are refused", "[io]") {
         bad[at] ^= std::byte{0x10};
         refused += decode_image(bad) ? 0 : 1;
     }
-    CHECK(refused == good.size() - 20);  // each byte is under a CRC
+    CHECK(refused == good.size() - 20);  // each byte is covered by a CRC
     const auto header_only = [](std::uint32_t width, std::uint32_t height) {
         Bytes file = plain_png(1, 1, 0, 0, 0);
         Bytes header;
@@ -159,13 +159,13 @@ TEST_CASE("png: cut, damaged and oversized files are refused", "[io]") {
     CHECK(decode_image(good, {100, 399, 64}).error().code == ErrorCode::limit);
 }
 
-TEST_CASE("jpeg: flat colour, grey and four inks give what was put in", "[io]") {
+TEST_CASE("jpeg: flat RGB, grey and CMYK colours give what was put in", "[io]") {
     const auto flat = [](const JpegSpec& spec, std::initializer_list<std::uint8_t> color) {
         std::vector<std::uint8_t> pixels;
         for (int i = 0; i < spec.width * spec.height; ++i) pixels.insert(pixels.end(), color);
         return decode_ok(make_jpeg(spec, pixels));
     };
-    // Quality 100 has quantisation steps of 1; what is left is the rounding of the colour transform (within 2 of 255).
+    // Quality 100 has quantisation steps of 1, so the error is the rounding of the colour transform (within 2 of 255).
     const auto near = [](const DecodedImage& image, int r, int g, int b) {
         for (std::size_t i = 0; i < image.rgba8.size(); i += 4)
             if (std::abs(image.rgba8[i] - r) > 2 || std::abs(image.rgba8[i + 1] - g) > 2 || std::abs(image.rgba8[i + 2] - b) > 2 ||
@@ -181,7 +181,7 @@ TEST_CASE("jpeg: flat colour, grey and four inks give what was put in", "[io]") 
     CHECK(near(flat({8, 8, 4, JCS_CMYK, 100, 0}, {255, 255, 255, 128}), 128, 128, 128));
 }
 
-TEST_CASE("jpeg: cut files, too many scans and lying sizes are refused", "[io]") {
+TEST_CASE("jpeg: cut files, too many scans and wrong sizes are refused", "[io]") {
     std::vector<std::uint8_t> pixels(64 * 64);
     for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = static_cast<std::uint8_t>(noise(static_cast<std::uint32_t>(i), 0, 0));
     const Bytes baseline = make_jpeg({64, 64, 1, JCS_GRAYSCALE, 90, 0}, pixels),

@@ -31,7 +31,7 @@ struct Collect final : JsonVisitor {
     }
 };
 
-/// The fault, or code negative_result where the text is sound.
+/// The fault, or code negative_result if the text is sound.
 JsonFault fault_of(const std::string& text, JsonScanLimits limits = {}) {
     Nothing visitor;
     try {

@@ -1,4 +1,4 @@
-// The sample models: what must load does, with the number of triangles that an independent count gives; what must not is refused.
+// Sample models: those that must load do, with the number of triangles that an independent count gives; the others are refused.
 #include "tests/io/gltf_builder.hpp"
 #include "tests/support/assets.hpp"
 #include "tests/support/skip.hpp"

@@ -1,4 +1,4 @@
-// Tangents made here against those that models bring, which other tools made: MikkTSpace's rules, as far as the tool kept to them.
+// Comparison of generated tangents with those in model files, which other tools made by MikkTSpace's rules, as far as they kept to them.
 #include "raster/scene/tangent_space.hpp"
 #include "tests/io/gltf_builder.hpp"
 #include "tests/support/assets.hpp"
@@ -48,7 +48,7 @@ Comparison compare(const raster::Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("models: tangents agree with those that models bring", "[io][assets]") {
+TEST_CASE("models: generated tangents agree with those in model files", "[io][assets]") {
     const auto assets = asset_dir();
     if (!assets) HALFLIT_SKIP("no sample models (HALFLIT_ASSETS)");
     struct Case {
@@ -57,9 +57,9 @@ TEST_CASE("models: tangents agree with those that models bring", "[io][assets]")
         double other_sign;         // share of the corners, at most
         bool opposite_sign;
     };
-    // Blender's exporter and the glTF asset generator keep MikkTSpace's rules: what is left is float rounding; but the exporter of 2018
-    // (VertexColorTest) wrote w = 1 also for the 6 of 108 corners whose chart is mirrored. Maya's exporter has rules of its own that agree
-    // on most corners. The VKTS exporter (Cube, TwoSidedPlane) stores w the other way round from all others.
+    // Blender's exporter and the glTF asset generator keep MikkTSpace's rules, so only float rounding is left. But the exporter of 2018
+    // (VertexColorTest) wrote w = 1 also for the 6 of 108 corners whose chart is mirrored. Maya's exporter has its own rules, which agree
+    // on most corners. The VKTS exporter (Cube, TwoSidedPlane) stores w with the opposite sign of all others.
     for (const Case& c : {Case{"VertexColorTest/VertexColorTest.glb", 1e-4, 1e-4, 1e-3, 6.0 / 108, false},
                           {"AlphaBlendModeTest/AlphaBlendModeTest.glb", 1e-4, 1e-4, 2e-3, 0, false},
                           {"ShadowsDirectional/shadows-directional.gltf", 1e-4, 1e-4, 1e-3, 0, false},

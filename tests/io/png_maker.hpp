@@ -1,4 +1,5 @@
-// PNG files written by hand, with stored (uncompressed) deflate blocks: any colour type, bit depth and interlacing, and room for faults.
+// PNG files written by hand, with stored (uncompressed) deflate blocks: any colour type, bit depth and interlacing. The parts can also make
+// faulty files.
 #pragma once
 
 #include "tests/io/gltf_builder.hpp"
@@ -92,7 +93,7 @@ inline Bytes make_png(const PngSpec& spec, const std::function<std::uint32_t(std
     return file;
 }
 
-/// One colour all over, 8-bit RGBA.
+/// Picture of one colour, 8-bit RGBA.
 inline Bytes plain_png(std::uint32_t width, std::uint32_t height, std::uint32_t r, std::uint32_t g, std::uint32_t b,
                        std::uint32_t a = 255) {
     return make_png({width, height, 8, 6, false, {}, {}}, [=](std::uint32_t, std::uint32_t, int c) {

@@ -17,7 +17,7 @@ namespace {
 
 using Rgbe = std::array<std::uint8_t, 4>;
 
-/// Width x height pixels, all different, no two neighbours alike unless `runs`.
+/// Pixels of a test picture. Neighbours differ; with `runs`, five in a row are alike.
 std::vector<Rgbe> test_pixels(int width, int height, bool runs) {
     std::vector<Rgbe> pixels;
     for (int y = 0; y < height; ++y)
@@ -43,7 +43,7 @@ std::string flat(const std::vector<Rgbe>& pixels) {
     return bytes;
 }
 
-/// Old run lengths, scanline by scanline; a run above 255 takes a second marker of a higher place.
+/// Encodes old run lengths, scanline by scanline. A run above 255 takes a second marker for the higher byte of its length.
 std::string old_runs(const std::vector<Rgbe>& pixels, std::size_t line) {
     std::string bytes;
     for (std::size_t begin = 0; begin < pixels.size(); begin += line)
@@ -130,7 +130,7 @@ TEST_CASE("rgbe: flat, old and new run lengths give the same pixels", "[io][rgbe
         }
 }
 
-TEST_CASE("rgbe: a scanline of one colour, in old runs of more than 255", "[io][rgbe]") {
+TEST_CASE("rgbe: a scanline of one colour is read from old runs of more than 255", "[io][rgbe]") {
     const std::vector<Rgbe> pixels(1000, Rgbe{10, 20, 30, 128});
     const auto image = decode(header("-Y 1 +X 1000") + old_runs(pixels, 1000));
     REQUIRE(image);
@@ -203,7 +203,7 @@ TEST_CASE("rgbe: #?RGBE, other names after #?RADIANCE, CRLF and no FORMAT line a
     }
 }
 
-TEST_CASE("rgbe: what is no such picture is refused with what was expected", "[io][rgbe]") {
+TEST_CASE("rgbe: other files are refused with what was expected", "[io][rgbe]") {
     const std::string body = flat({{128, 128, 128, 129}});
     const std::pair<std::string, std::string> cases[] = {
         {"", "expected a Radiance picture"},
@@ -232,7 +232,7 @@ TEST_CASE("rgbe: what is no such picture is refused with what was expected", "[i
     }
 }
 
-TEST_CASE("rgbe: too large is refused by the header, before any pixel", "[io][rgbe]") {
+TEST_CASE("rgbe: a picture that is too large is refused by its header, before any pixel", "[io][rgbe]") {
     for (const char* resolution : {"-Y 8193 +X 16384", "-Y 8192 +X 16385", "+X 16385 -Y 1", "-Y 2000000000 +X 2000000000"}) {
         const auto result = decode(header(resolution));
         REQUIRE_FALSE(result);
@@ -245,7 +245,7 @@ TEST_CASE("rgbe: too large is refused by the header, before any pixel", "[io][rg
     CHECK(milliseconds_since(start) < 10);
 }
 
-TEST_CASE("rgbe: cut off at any byte is an error, at once", "[io][rgbe]") {
+TEST_CASE("rgbe: a file cut off at any byte is an error, at once", "[io][rgbe]") {
     const auto start = std::chrono::steady_clock::now();
     int cuts = 0;
     for (const std::string& file : small_files()) {
@@ -255,7 +255,7 @@ TEST_CASE("rgbe: cut off at any byte is an error, at once", "[io][rgbe]") {
     CHECK(milliseconds_since(start) < 10.0 * cuts);
 }
 
-TEST_CASE("rgbe: 2000 damaged files end in a picture or an error, and never in a value that is not finite and at least 0", "[io][rgbe]") {
+TEST_CASE("rgbe: 2000 damaged files give an error or a picture, and all values are finite and at least 0", "[io][rgbe]") {
     test::Random random(71);
     const auto files = small_files();
     const auto start = std::chrono::steady_clock::now();

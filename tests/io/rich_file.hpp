@@ -1,4 +1,4 @@
-// A file with a bit of everything, for tests that damage it or read it twice.
+// A file with many features, for tests that damage it or read it twice.
 #pragma once
 
 #include "tests/io/png_maker.hpp"

@@ -1,8 +1,8 @@
-// Which triangle is seen at which pixel: halflit against Mesa's llvmpipe, ten scenes of random triangles at 1920 x 1080.
+// Visible triangle at each pixel: halflit against Mesa's llvmpipe, ten scenes of random triangles at 1920 x 1080.
 //
-// Both get the same clip coordinates to the bit and follow the same rules (24.8 fixed point, exact edges, top-left rule). Two
-// differences are known and allowed for. Mesa's window transform is fused where the processor can do it, so a corner may snap to the
-// neighbouring 1/256 pixel; and Mesa clips at the view volume in float, while halflit clips far outside of it.
+// Both get the same clip coordinates to the bit and follow the same rules (24.8 fixed point, exact edges, top-left rule). Two differences
+// are known and allowed for. Mesa's window transform is fused where the processor can do it, so a corner may snap to the neighbouring 1/256
+// pixel. Mesa clips at the view volume in float, while halflit clips far outside of it.
 // Exit code: 0 agreed, 1 differs by more than the limits, 4 skipped (no llvmpipe here).
 #include "mesa_ids.hpp"
 #include "peer_scenes.hpp"
@@ -16,19 +16,19 @@ using namespace halflit::peer;
 
 namespace {
 
-constexpr int kLimitInside = 10, kLimitAcross = 100;  // of 2,073,600 pixels
+constexpr int kLimitInside = 10, kLimitAcross = 100;  // differing pixels, of 2,073,600
 constexpr int kListed = 10;                           // differences printed in full
 constexpr float kGuardBandPx = 16384;                 // halflit clips triangles that reach further from the middle of the picture
 
 using Ids = std::vector<std::uint32_t>;
 
-/// True when the triangle reaches further from the middle of the picture than this; false for the background.
+/// True if the triangle reaches further from the middle of the picture than the given half sizes; false for the background.
 bool beyond(const PeerScene& scene, std::uint32_t id, float half_width_px, float half_height_px) {
     return id != 0 && reaches_beyond(std::span<const Vec4f, 3>(scene.clip_positions.data() + 3 * (id - 1), 3),
                                      half_width_px / (0.5f * kWidth), half_height_px / (0.5f * kHeight));
 }
 
-/// Why Mesa shows another triangle than halflit at pixel i; `fused` and `plain` are the rules with either window transform.
+/// Reason why Mesa shows another triangle than halflit at pixel i; `fused` and `plain` are the rules with either window transform.
 const char* explanation(const PeerScene& scene, std::size_t i, const Ids& ours, const Ids& mesa, const Ids& plain, const Ids& fused) {
     if (ours[i] != plain[i]) {
         const bool guard = beyond(scene, ours[i], kGuardBandPx, kGuardBandPx) || beyond(scene, plain[i], kGuardBandPx, kGuardBandPx);

@@ -10,8 +10,8 @@ namespace halflit::peer {
 
 namespace {
 
-// y is turned over (an exact operation) because row 0 of an off-screen target is its lowest row: so the picture in memory has row 0 on
-// top, with the top-left rule as seen in memory.
+// y is negated (an exact operation), because row 0 of an off-screen target is its lowest row. The picture in memory then has row 0 on top,
+// with the top-left rule as seen in memory.
 constexpr const char* kVertexShader = R"(#version 300 es
 in highp vec4 position;
 flat out highp uint id;

@@ -73,7 +73,7 @@ public:
     }
 
 private:
-    /// Folds a share back into the frame, a quarter of a pixel away from the border: float rounding stays inside.
+    /// Clamps a share to the frame, a quarter of a pixel away from the border, so that float rounding stays inside.
     static double inside(double share) {
         const double low = 0.25 / kHeight, high = 1.0 - low;
         return share < low ? low : share > high ? high : share;
@@ -82,7 +82,7 @@ private:
     PeerScene scene_;
     std::mt19937 random_;  // its sequence is defined by the standard; its distributions are not
     std::vector<Point> points_;
-    double half_tangent_ = sin_cos(0.392699081).sin / sin_cos(0.392699081).cos;  // of the camera's default field of view
+    double half_tangent_ = sin_cos(0.392699081).sin / sin_cos(0.392699081).cos;  // half the camera's default field of view
 };
 
 PeerScene random_scene(std::string name, bool crosses, bool perspective, int count, double radius_low, double radius_high, double thinness,

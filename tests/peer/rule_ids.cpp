@@ -25,7 +25,7 @@ Corner corner_of(Vec4f clip, int width, int height, Viewport viewport) {
 /// Twice the area of (a, b, p): positive for p to the right of a -> b as seen with y down, where a clockwise triangle has its inside.
 std::int64_t edge(Corner a, Corner b, Corner p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); }
 
-/// For a clockwise triangle with y down: a top edge runs to the right and is level, a left edge runs up.
+/// Top-left rule for a clockwise triangle with y down: a top edge runs to the right and is level, a left edge runs up.
 bool is_top_left(Corner a, Corner b) { return (a.y == b.y && b.x > a.x) || b.y < a.y; }
 
 }  // namespace

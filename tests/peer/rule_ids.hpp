@@ -1,4 +1,4 @@
-// The coverage rules once more, by brute force and without clipping: what explains a difference between two rasterizers.
+// Independent form of the coverage rules, by brute force and without clipping. It explains differences between two rasterizers.
 #pragma once
 
 #include "sh/vec3.hpp"
@@ -9,7 +9,7 @@
 
 namespace halflit::peer {
 
-/// How window = ndc * half + half is rounded: after each operation, or once (as processors with fused multiply-add do it in Mesa).
+/// Rounding of window = ndc * half + half: after each operation, or once (as Mesa does on processors with fused multiply-add).
 enum class Viewport { unfused, fused };
 
 /// Painter's order over triangles in clip coordinates, w > 0. 1 + triangle number, 0 where nothing is drawn. Integer edge functions

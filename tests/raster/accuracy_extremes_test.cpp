@@ -1,5 +1,5 @@
-// Where float32 is at its limits: pictures by the kernels against the float64 reference, and what the table of extremes in
-// shading/README.md says of them. Visibility and what is interpolated are the same for both: the difference is shading's own.
+// Pictures at the limits of float32: the kernels against the float64 reference, as in the table of extremes in shading/README.md.
+// Visibility and interpolated values are the same for both, so the difference comes from shading alone.
 #include "raster/built_in/shapes.hpp"
 #include "raster/renderer.hpp"
 #include "shading/reference/reference.hpp"
@@ -22,7 +22,7 @@ using shading::Lobe;
 
 namespace {
 
-constexpr int kWidth = 161, kHeight = 121;  // odd: the middle of the picture is a pixel's
+constexpr int kWidth = 161, kHeight = 121;  // odd: the picture's middle is the middle of a pixel
 
 struct Subject {
     Scene scene;
@@ -42,7 +42,7 @@ struct Subject {
         for (Mesh& mesh : scene.meshes)
             for (Vec3f& normal : mesh.normals) normal = normal * length;
     }
-    /// All lengths, and the lamp's light with their square.
+    /// Scales all lengths by `size`, and the lamp's light by its square.
     void set_size(float size) {
         for (Mesh& mesh : scene.meshes)
             for (Vec3f& position : mesh.positions) position = position * size;
@@ -88,12 +88,13 @@ Subject usual_subject() {
 
 struct Row {
     const char* name;
-    double codes, relative;  ///< what the test holds the worst pixel to; relative to the picture's largest value, in linear light
+    double codes, relative;  ///< bounds on the worst pixel; `relative` is to the picture's largest value, in linear light
     std::function<void(Subject&)> make;
 };
 
 const std::vector<Row>& rows() {
-    // Sums of a few roundings of float32: relative 1e-6, which is 112 times that in codes where the curve is most sensitive, at white.
+    // Sums of a few roundings of float32: 1e-6 relative. In codes that is at most 112 times as much, at white, where the curve is most
+    // sensitive.
     constexpr double kCodes = 1.2e-4, kRelative = 1e-6;
     constexpr float kUlpBelowOne = 0.99999994f, kUlpAboveZero = 1e-45f;
     static const std::vector<Row> all = {
@@ -110,7 +111,7 @@ const std::vector<Row>& rows() {
          [](Subject& s) {
              s.set_lobe({0.5f, 1.0001f, false});
          }},
-        // A power multiplies the rounding of N.L, 1e-7, by itself.
+        // A power n multiplies the rounding of N.L, 1e-7, by n.
         {"power 10000", 0.1, 1e-3,
          [](Subject& s) {
              s.set_lobe({0.5f, 1e4f, false});

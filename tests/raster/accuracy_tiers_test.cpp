@@ -1,4 +1,4 @@
-// The tiers as whole pictures: how far display and fast are from exact.
+// Tiers on whole pictures: differences of display and fast from exact.
 #include "raster/renderer.hpp"
 #include "shading/reference/reference.hpp"
 #include "tests/raster/random_trial.hpp"
@@ -37,8 +37,8 @@ Picture draw(const Scene& scene, const Camera& camera, Settings settings, Accura
 
 struct Difference {
     std::int64_t channels = 0, other_codes = 0;
-    int codes = 0;         ///< of the 8-bit picture
-    double unrounded = 0;  ///< before rounding to codes
+    int codes = 0;         ///< largest, of the 8-bit picture
+    double unrounded = 0;  ///< largest, before rounding to codes
 
     void add(const Picture& a, const Picture& b) {
         for (std::size_t i = 0; i < a.codes.size(); ++i) {
@@ -55,8 +55,9 @@ struct Difference {
     [[nodiscard]] double share() const { return static_cast<double>(other_codes) / static_cast<double>(channels); }
 };
 
-/// Codes by which the tier's polynomials alone can move any colour. A part of light that is off by a relative error r moves its sum's code
-/// by 112 ln(1 + r) at most, for t^n as for a highlight K e^-z, whose r is that of 2^x and of log2 times z = ln(K / v), v being white.
+/// Codes by which the tier's polynomials alone can move any colour. A part of the light with a relative error r moves the code of the sum
+/// by at most 112 ln(1 + r). For t^n, r follows from the power. For a highlight K e^-z, r is the error of 2^x plus z times that of log2; z
+/// = ln(K / v), where v is white.
 double bound_codes(const Scene& scene, PowTier tier, double peak) {
     double power = 1.0;
     for (const shading::Material& material : scene.materials) power = std::max(power, static_cast<double>(material.lobe.power));
@@ -78,8 +79,8 @@ TEST_CASE("tiers: display is at most one code from exact, in few places, and fas
     Difference display_all, fast_all;
     for (const NamedScene& s : all_scenes()) {
         const Picture exact = draw(s.scene, s.camera, usual_settings(), Accuracy::exact);
-        // The brightest highlight of display white 1: normalised for roughness 0.07, 1e4, by what a lamp gives from 0.1 away; the rough
-        // scene's colours go to the end of float.
+        // Peak of the brightest highlight, in units of display white: 1e4 by normalisation at roughness 0.07, times the light of a lamp 0.1
+        // away. The colours of the rough scene go up to the largest float.
         const double peak = s.name == "rough" ? 1e40 : 1e6;
         Difference display, fast;
         display.add(draw(s.scene, s.camera, usual_settings(), Accuracy::display), exact);
@@ -115,7 +116,7 @@ TEST_CASE("tiers: display is at most one code from exact, and fast within its bo
         INFO("seed " << seed << ": display " << display.codes << " codes, " << display.unrounded << " unrounded; fast " << fast.codes
                      << ", " << fast.unrounded);
         CHECK(display.codes <= 1);
-        // Light of up to 1e5 times white meets highlights of up to 5e2.
+        // Light is up to 1e5 times white, and highlights multiply it by up to 5e2.
         CHECK(display.unrounded <= bound_codes(trial.scene, PowTier::display, 1e8));
         CHECK(fast.unrounded <= bound_codes(trial.scene, PowTier::fast, 1e8));
         display_all.unrounded = std::max(display_all.unrounded, display.unrounded);

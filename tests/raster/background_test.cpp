@@ -1,4 +1,5 @@
-// The environment behind a scene: every pixel against its ray's own place in the image, and the same bits however it is drawn.
+// Environment behind a scene: every pixel is compared with the image where its view ray meets it; the bits do not depend on how it is
+// drawn.
 #include "raster/renderer.hpp"
 #include "shading/environment.hpp"
 #include "tests/raster/test_scenes.hpp"
@@ -43,8 +44,9 @@ TEST_CASE("background: directions and places in the image are each other's inver
         CHECK(angle_of(std::sin(angle), std::cos(angle)) == Approx(angle).margin(1e-12));
 }
 
-TEST_CASE("background: a pixel shows what its view ray meets, turned as the light is", "[raster][background]") {
-    // Colour is direction: a linear function of it, which bilinear look-up between pixels' middles reproduces up to their size.
+TEST_CASE("background: a pixel shows the image where its view ray meets it, rotated as the light is", "[raster][background]") {
+    // The colour is a linear function of the direction. Bilinear look-up between pixels' middles reproduces it, up to an error from their
+    // size.
     const Sky sky = painted_sky(512, 256, [](Vec3d d) { return Vec3d{2 + d.x, 2 + d.y, 2 + d.z}; });
     for (const double angle : {0.0, 0.7}) {
         Scene scene;
@@ -68,7 +70,7 @@ TEST_CASE("background: a pixel shows what its view ray meets, turned as the ligh
                     std::max({worst, std::fabs(2 * p[0] - 2 - want.x), std::fabs(2 * p[1] - 2 - want.y), std::fabs(2 * p[2] - 2 - want.z)});
                 CHECK(p[3] == 1.0f);
             }
-        CHECK(worst < 1e-4);  // a pixel of the sky is 0.012 wide; the chord's error is an eighth of its square
+        CHECK(worst < 1e-4);  // a pixel of the sky is 0.012 wide; linear interpolation errs by an eighth of its square
     }
 }
 
@@ -88,7 +90,7 @@ TEST_CASE("background: the same bits for every instruction set, tile size, threa
         const auto bare = drawn(empty, s.camera, settings);
         int seen = 0;
         for (std::size_t i = 0; i < want.size(); i += 4) seen += std::memcmp(&want[i], &bare[i], 4 * sizeof(float)) == 0;
-        CHECK(seen > 100);  // where nothing is drawn
+        CHECK(seen > 100);  // pixels where nothing is drawn
         CHECK(seen < kWidth * kHeight - 100);
         for (const shading::Isa isa : available_isas())
             for (const int tile : {16, 32, 64}) {

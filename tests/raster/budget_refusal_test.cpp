@@ -1,4 +1,4 @@
-// An error budget is refused with what has no bound, and accepted with all else.
+// Error budgets are refused with settings that have no bound, and accepted with all others.
 #include "raster/built_in/shapes.hpp"
 #include "raster/frame_plan.hpp"
 #include "raster/renderer.hpp"
@@ -51,7 +51,7 @@ bool names(const Error& error, const char* word) { return error.message.find(wor
 
 }  // namespace
 
-TEST_CASE("budget: refused with light once a triangle or a vertex, and with coarse texture filters", "[raster][budget]") {
+TEST_CASE("budget: refused with shading once a triangle or a vertex, and with coarse texture filters", "[raster][budget]") {
     for (const ShadingRate rate : kRates)
         for (const TextureDetail detail : kDetails)
             for (const double budget : kBudgets) {
@@ -67,7 +67,7 @@ TEST_CASE("budget: refused with light once a triangle or a vertex, and with coar
             }
 }
 
-TEST_CASE("budget: accepted with light at every pixel and textures as their samplers say, whatever the accuracy", "[raster][budget]") {
+TEST_CASE("budget: accepted with shading at every pixel and the samplers' own texture filters, whatever the accuracy", "[raster][budget]") {
     for (const Accuracy accuracy : {Accuracy::exact, Accuracy::display, Accuracy::fast})
         for (const double budget : kBudgets) {
             const auto report = drawn(ShadingRate::pixel, TextureDetail::full, budget, accuracy);
@@ -79,7 +79,7 @@ TEST_CASE("budget: accepted with light at every pixel and textures as their samp
         }
 }
 
-TEST_CASE("budget: none, and any rate and filter are accepted", "[raster][budget]") {
+TEST_CASE("budget: without one, any rate and filter are accepted", "[raster][budget]") {
     for (const ShadingRate rate : kRates)
         for (const TextureDetail detail : kDetails) {
             const auto report = drawn(rate, detail, 0.0);
@@ -88,7 +88,7 @@ TEST_CASE("budget: none, and any rate and filter are accepted", "[raster][budget
         }
 }
 
-TEST_CASE("budget: the reference draws at every pixel whatever is asked for, so it refuses nothing", "[raster][budget]") {
+TEST_CASE("budget: the reference shades every pixel at any rate, so it refuses nothing", "[raster][budget]") {
     for (const ShadingRate rate : kRates)
         for (const TextureDetail detail : kDetails) {
             const auto report = drawn(rate, detail, 0.5, Accuracy::reference);

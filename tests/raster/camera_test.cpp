@@ -67,7 +67,7 @@ TEST_CASE("camera: reversed depth is 1 at the near plane and 0 at the far plane"
         INFO("orthographic " << orthographic);
         CHECK(project(clip, {0.3, -0.2, -0.25}).z == Approx(1.0).epsilon(1e-6));
         CHECK(project(clip, {0.3, -0.2, -40.0}).z == Approx(0.0).margin(1e-6));
-        // Nearer is larger, all the way.
+        // Depth falls with distance everywhere.
         double last = 2.0;
         for (double z = 0.25; z < 40.0; z *= 1.1) {
             const double depth = project(clip, {0, 0, -z}).z;
@@ -107,7 +107,7 @@ TEST_CASE("camera: a placed camera sees what is in front of it in the middle", "
         CHECK(middle.x == Approx(0).margin(1e-6));
         CHECK(middle.y == Approx(0).margin(1e-6));
         CHECK(middle.w > 0);
-        CHECK(project(clip, {-4, 2.5, 3}).y > 0);  // up is up
+        CHECK(project(clip, {-4, 2.5, 3}).y > 0);  // up in the world is up in the picture
         CHECK(project(clip, {-4, 2, 2.5}).x > 0);  // looking along -x, -z is to the right
     }
 }
@@ -149,7 +149,7 @@ TEST_CASE("camera: the picture shows at least the view the camera is made for, a
             }
 }
 
-TEST_CASE("camera: senseless numbers still give a finite projection that looks ahead", "[raster][camera]") {
+TEST_CASE("camera: invalid numbers still give a finite projection that looks ahead", "[raster][camera]") {
     for (const float fov : {0.0f, -1.0f, 3.14159274f, 100.0f, kNan, kInf, 1e-30f})
         for (const float near_z : {0.0f, -1.0f, 1e-3f, 5.0f, kNan, kInf})
             for (const float far_z : {0.0f, -3.0f, 1e-3f, 5.0f, kNan, kInf})
@@ -198,7 +198,7 @@ TEST_CASE("framing: every corner is in the picture, with a margin, and one side 
                         widest = std::max({widest, std::abs(c.x), std::abs(c.y)});
                         nearest = std::min(nearest, c.w);
                     }
-                    // 8 % margin, to the rounding of the eye's float coordinates as it is seen at the nearest corner.
+                    // Margin of 8 %. The tolerance is the rounding of the eye's float coordinates, as seen at the nearest corner.
                     const Vec4f eye = camera.world_from_camera.c[3];
                     const double eye_rounding = 1e-6 * (1.0 + length(Vec3d{eye.x, eye.y, eye.z}));
                     const double tolerance = 1e-5 + eye_rounding / (std::tan(0.5 * camera.fov_y_rad) * std::min(1.0f, aspect) * nearest);
@@ -228,7 +228,7 @@ TEST_CASE("framing: a scene is fitted to its vertices, tightly for any shape", "
                     }
                 INFO("aspect " << aspect << " azimuth " << azimuth << " elevation " << elevation);
                 CHECK(std::max({left, right, top, bottom}) == Approx(0.92).margin(1e-4));
-                // The tight direction touches both margins.
+                // The direction that limits the fit touches both margins.
                 CHECK(std::max(std::min(left, right), std::min(top, bottom)) == Approx(0.92).margin(1e-4));
             }
 }

@@ -30,7 +30,7 @@ public:
             reference::cover_window(t, {window.x, window.y, window.width, window.height}, pattern.x[s], pattern.y[s], plane_[s]);
     }
     [[nodiscard]] bool at(int s, int x, int y) const { return plane_[s][y * width_ + x] != 0; }
-    /// Pixels of sample s whose triangle is not `id` where covered, or not "none" elsewhere.
+    /// Number of wrong pixels of sample s: covered, but not by `id`; or not covered, but not kNoTriangle.
     [[nodiscard]] int differing(int s, const std::uint32_t* triangle, std::uint32_t id) const {
         int wrong = 0;
         for (int y = 0; y < height_; ++y)
@@ -97,18 +97,18 @@ TEST_CASE("reference: the top-left rule on a square of two triangles", "[raster]
                 const bool in_upper = reference::covers(upper, {256 * x, 256 * y}), in_lower = reference::covers(lower, {256 * x, 256 * y});
                 CHECK((in_upper || in_lower) == in_square);
                 CHECK_FALSE((in_upper && in_lower));
-                // The diagonal is a left edge of the upper triangle: it lies to its right.
+                // The diagonal is a left edge of the upper triangle: the triangle lies to its right.
                 if (in_square) CHECK(in_upper == (x >= y));
             }
     }
     CHECK_FALSE(reference::covers({{a, c, {512, 512}}}, {256, 256}));
 }
 
-TEST_CASE("coverage: a million random triangles, every pixel as the reference says", "[raster][coverage]") {
+TEST_CASE("coverage: a million random triangles, every pixel equals the reference", "[raster][coverage]") {
     struct Part {
         int tile, samples, triangles;
     };
-    // Small windows carry the numbers, large ones the large code paths.
+    // Small windows allow many triangles; large windows run the code paths for large triangles.
     constexpr Part kParts[] = {{16, 1, 650'000}, {16, 4, 60'000}, {16, 8, 30'000}, {32, 1, 150'000}, {32, 4, 15'000},
                                {32, 8, 8'000},   {64, 1, 75'000}, {64, 4, 7'000},  {64, 8, 5'000}};
     std::int64_t triangles = 0;
@@ -117,13 +117,13 @@ TEST_CASE("coverage: a million random triangles, every pixel as the reference sa
             compare_rasterize(1000 + static_cast<std::uint64_t>(10 * part.tile + part.samples), part.tile, part.samples, part.triangles);
         INFO("tile " << part.tile << ", samples " << part.samples);
         CHECK(tally.differing_pixels == 0);
-        CHECK(tally.covered_samples > 10 * tally.triangles);  // the comparison has something to compare
+        CHECK(tally.covered_samples > 10 * tally.triangles);  // enough covered samples to compare
         triangles += tally.triangles;
     }
     CHECK(triangles >= 1'000'000);
 }
 
-TEST_CASE("coverage: each kind of difficult triangle, in every tile size", "[raster][coverage]") {
+TEST_CASE("coverage: each kind of difficult triangle equals the reference, in every tile size", "[raster][coverage]") {
     for (int kind = 0; kind < TriangleSampler::kKinds; ++kind) {
         Random random(77 + static_cast<std::uint64_t>(kind));
         const auto buffers = std::make_unique<TileBuffers>();
@@ -183,7 +183,7 @@ TEST_CASE("coverage: cover marks exactly the samples, within its box, and draw_c
                 if (want == 0) continue;
                 outside_box += x < box.x0 || x > box.x1 || y < box.y0 || y > box.y1;
                 covered += 1;
-                // As an alpha test does, per pixel.
+                // Drops half of the pixels, as an alpha test does.
                 if (keep.chance(0.5)) buffers->coverage[at] = 0;
                 kept[static_cast<std::size_t>(at)] = buffers->coverage[at];
             }
@@ -214,8 +214,8 @@ TEST_CASE("coverage: triangles that share edges cover every sample once", "[rast
         const SamplePattern pattern = standard_samples(round % 4 == 0 ? 4 : 1);
         const Place place(random, tile);
         const RasterKernels& kernels = raster_kernels(isas[static_cast<std::size_t>(round) % isas.size()]);
-        // A grid of slots with shaken corners (less than a quarter cell, so that none turns over) and random diagonals; from cells below a
-        // pixel to larger than the tile; some of it exactly on pixel centres.
+        // Grid of cells with random diagonals. The corners are moved by less than a quarter cell, so that no triangle turns over. Cells are
+        // from smaller than a pixel to larger than the tile; some grids lie exactly on pixel centres.
         const std::int64_t cell = random.chance(0.3) ? 256 * random.integer(1, 8) : random.integer(40, 256 * 24);
         const std::int64_t shake = random.chance(0.3) ? 0 : cell / 4 - 1;
         const std::int64_t x0 = 256 * (place.window.x - 1) - cell, y0 = 256 * (place.window.y - 1) - cell;
@@ -275,7 +275,7 @@ TEST_CASE("coverage: a fan around a pixel centre covers that pixel once", "[rast
             rim.push_back({hub.x + static_cast<std::int64_t>(r * std::cos(angle)), hub.y + static_cast<std::int64_t>(r * std::sin(angle))});
         }
         int times = 0;
-        bool around = true;  // every sector below half a turn, else the fan is not one
+        bool around = true;  // every sector is below half a turn, else the triangles are no fan
         for (int i = 0; i < spokes; ++i)
             around &= doubled_area({{hub, rim[static_cast<std::size_t>(i)], rim[static_cast<std::size_t>((i + 1) % spokes)]}}) > 0;
         if (!around) continue;
@@ -292,7 +292,7 @@ TEST_CASE("coverage: a fan around a pixel centre covers that pixel once", "[rast
     }
 }
 
-TEST_CASE("visibility: of many triangles each sample shows the nearest, and of equals the first", "[raster][coverage]") {
+TEST_CASE("visibility: each sample shows the nearest of many triangles, and of equally near ones the first", "[raster][coverage]") {
     Random random(31);
     const auto one = std::make_unique<TileBuffers>(), all = std::make_unique<TileBuffers>();
     const auto expected = std::make_unique<Expected>();
@@ -309,7 +309,7 @@ TEST_CASE("visibility: of many triangles each sample shows the nearest, and of e
             if (!triangles.empty() && random.chance(0.3))
                 t = triangles[static_cast<std::size_t>(random.index(static_cast<int>(triangles.size())))];
             if (doubled_area(t) == 0) continue;
-            // Few different depths, so that ties are common; some triangles are level, others lean.
+            // Few different depths, so that ties are common. Some triangles have one depth, others do not.
             const float z = 0.125f * static_cast<float>(1 + random.index(6));
             if (random.chance(0.7))
                 list.add(t, {z, z, z});

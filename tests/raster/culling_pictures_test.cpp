@@ -1,5 +1,5 @@
-// Culling changes no pixel and no count of drawn triangles: pictures of scenes whose clusters may be left out, and of the same scenes
-// when none can be.
+// Culling must change no pixel and no count of drawn triangles. Each scene is drawn as it is, so that clusters may be left out, and again
+// in a form in which none can be.
 #include "raster/renderer.hpp"
 #include "tests/raster/random_geometry.hpp"
 #include "tests/raster/test_scenes.hpp"
@@ -17,8 +17,8 @@ namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-/// The same triangles in the same order, and before every 127 of them one whose corners are NaN. It draws nothing, but is to be counted, so
-/// that no cluster, which is 128 triangles, can be left out.
+/// The same triangles in the same order, with a triangle whose corners are NaN before every 127 of them. It draws nothing but must be
+/// counted, so that no cluster (128 triangles) can be left out.
 Mesh without_culling(const Mesh& mesh) {
     Mesh out = mesh;
     out.indices.clear();
@@ -66,7 +66,7 @@ void check_culling(const Scene& scene, const Camera& camera, const Settings& set
     }
     const Picture culled = draw(scene, camera, settings, width, height), whole = draw(all, camera, settings, width, height);
     CHECK(whole.report.triangles_submitted == culled.report.triangles_submitted + added);
-    CHECK(whole.report.triangles_not_finite == culled.report.triangles_not_finite + added);  // each cluster was looked into
+    CHECK(whole.report.triangles_not_finite == culled.report.triangles_not_finite + added);  // no cluster was left out
     CHECK(culled.report.triangles_drawn == whole.report.triangles_drawn);
     CHECK(culled.report.pixels_visible == whole.report.pixels_visible);
     CHECK(culled.report.fragments_shaded == whole.report.fragments_shaded);
@@ -80,7 +80,7 @@ void check_culling(const Scene& scene, const Camera& camera, const Settings& set
     ++tally.pictures;
 }
 
-/// Three materials without light, so that a vertex's colour is what is seen: plain, two-sided and transparent.
+/// Scene of three materials without light, so that vertex colours are visible: plain, two-sided and transparent.
 Scene coloured(Random& random, std::vector<Mesh> meshes) {
     Scene scene;
     scene.materials.resize(3);
@@ -116,7 +116,7 @@ struct Window {
 };
 constexpr Window kWindows[] = {{1, 1}, {2, 3}, {40, 30}, {160, 90}, {300, 200}, {4096, 2}, {3, 1000}, {700, 20}};
 
-/// All lengths times `size`.
+/// Multiplies all lengths by `size`.
 Camera scaled(Camera camera, float size) {
     Vec4f& eye = camera.world_from_camera.c[3];
     eye = {eye.x * size, eye.y * size, eye.z * size, 1};
@@ -133,7 +133,7 @@ TEST_CASE("culling: random scenes of all sizes and from all sides have the same 
     Tally tally;
     for (int round = 0; round < 700; ++round) {
         Scene scene = coloured(random, {random_mesh(random, 12'000), random_mesh(random, 3000)});
-        // The world's unit, and the mesh's: what is huge in one is tiny in the other.
+        // Units of the world and of the mesh: a length that is huge in one may be tiny in the other.
         const float world = random.chance(0.5) ? 1.0f : random_decades(random, 1e-12, 1e12);
         const float object = random.chance(0.5) ? 1.0f : random_decades(random, 1e-12, 1e12);
         for (Mesh& mesh : scene.meshes)
@@ -199,7 +199,7 @@ TEST_CASE("culling: a wall that lies on the near plane, the far plane or a side 
         camera.orthographic = size > 1e-30f && random.chance(0.5);
         camera.half_height = size;
         camera.fov_y_rad = 1.57079637f;
-        // Across the view at a plane, or along it where it touches a side.
+        // The wall lies across the view at the near or far plane, or along the view where it touches a side.
         const Mat4 facing{{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 0}, {0, 0, 0, 1}}};
         const Mat4 place = round % 3 == 0   ? translation({0, 0, -camera.near_z * step}) * facing
                            : round % 3 == 1 ? translation({0, 0, -camera.far_z * step}) * facing

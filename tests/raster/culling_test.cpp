@@ -1,4 +1,5 @@
-// What culling leaves out would not have been drawn: asked of single clusters, whose triangles are then set up as the renderer does it.
+// Clusters that culling leaves out have no triangle that would be drawn. Single clusters are tested, and their triangles are set up as in
+// the renderer.
 #include "raster/view/culling.hpp"
 #include "raster/scene/prepared_scene.hpp"
 #include "raster/view/view.hpp"
@@ -34,7 +35,7 @@ struct Projected {
 
 enum class Fate { outside, back, drawn, clipped };
 
-/// What becomes of a triangle after the transform: bin.cpp's rules, written anew. clipped: it depends on more than its corners.
+/// Fate of a triangle after the transform, by the rules of bin.cpp, written independently. clipped: the corners alone do not decide.
 Fate fate_of(const Projected& p, const std::uint32_t* v, const View& view, bool mirrored) {
     const unsigned codes[3] = {p.outcode[v[0]], p.outcode[v[1]], p.outcode[v[2]]};
     if ((codes[0] & codes[1] & codes[2] & kRejectWhenAll) != 0) return Fate::outside;
@@ -52,8 +53,8 @@ Fate fate_of(const Projected& p, const std::uint32_t* v, const View& view, bool 
 }
 
 struct Tally {
-    int clusters = 0, outside = 0, away = 0;  ///< clusters, and what the culler says of them
-    int dropped = 0, clipped = 0, wrong = 0;  ///< triangles of those that it leaves out
+    int clusters = 0, outside = 0, away = 0;  ///< clusters, and the culler's verdicts on them
+    int dropped = 0, clipped = 0, wrong = 0;  ///< triangles of the clusters that are left out
 };
 
 void check_clusters(const Scene& scene, const View& view, Tally& tally) {
@@ -97,7 +98,7 @@ View random_view(Random& random, const Camera& camera) {
     return make_view(camera, width, height, region, 64, 1);
 }
 
-/// Each triangle for itself, with up to `height` added to its y.
+/// Mesh in which each triangle has its own vertices, moved by `height` up or down in y.
 Mesh lifted_apart(Random& random, const Mesh& mesh, float height) {
     Mesh out;
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
@@ -108,8 +109,8 @@ Mesh lifted_apart(Random& random, const Mesh& mesh, float height) {
     return out;
 }
 
-/// A cluster: a small patch, a little bent or in two layers, around `at`, whose outside points along `normal`.
-/// `origin`: so far from it the mesh has its own, and large numbers cancel. `layers`: half their distance, as a part of the size.
+/// Scene of one cluster: a small patch around `at`, slightly bent or in two layers, whose outside points along `normal`. `origin`: largest
+/// distance of the mesh's own origin, so that large numbers cancel. `layers`: half the distance of the layers, as a fraction of `size`.
 Scene patch_at(Random& random, Vec3f at, Vec3f normal, float size, float origin, float layers = 0) {
     Mesh mesh = make_plane(1, static_cast<int>(random.integer(1, 8)));
     if (layers > 0) mesh = lifted_apart(random, mesh, layers);
@@ -149,7 +150,7 @@ TEST_CASE("culling: all triangles of a cluster that is left out are outside or f
     CHECK(tally.dropped > 100'000);
 }
 
-TEST_CASE("culling: patches seen nearly edge on, down to a thousandth of a pixel", "[raster][culling]") {
+TEST_CASE("culling: patches seen nearly edge on lose no visible triangle, down to a thousandth of a pixel", "[raster][culling]") {
     Random random(2);
     Tally tally;
     for (int round = 0; round < 60'000; ++round) {
@@ -174,7 +175,7 @@ TEST_CASE("culling: patches seen nearly edge on, down to a thousandth of a pixel
     CHECK(tally.dropped > 20'000);
 }
 
-TEST_CASE("culling: patches at the sides of the view", "[raster][culling]") {
+TEST_CASE("culling: patches at the sides of the view lose no visible triangle", "[raster][culling]") {
     Random random(3);
     Tally tally;
     for (int round = 0; round < 20'000; ++round) {

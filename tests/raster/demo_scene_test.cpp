@@ -67,7 +67,7 @@ TEST_CASE("demo scene: balls and trefoil are closed", "[raster][demo]") {
     int closed = 0;
     for (const Mesh& mesh : demo_scene().meshes) {
         if (mesh.name != "sphere" && mesh.name != "trefoil") continue;
-        // By place, not by index: seams have two vertices in one place.
+        // Edges are compared by position, not by index: seams have two vertices at one position.
         using Place = std::tuple<float, float, float>;
         std::map<std::pair<Place, Place>, int> edges;
         const auto place = [&](std::uint32_t i) { return Place{mesh.positions[i].x, mesh.positions[i].y, mesh.positions[i].z}; };
@@ -131,7 +131,7 @@ TEST_CASE("demo scene: five balls differ in their lobe alone, wrap 0 to 1 from l
     }
 }
 
-TEST_CASE("demo scene: two calls give the same data, of a size to draw at once", "[raster][demo]") {
+TEST_CASE("demo scene: two calls give the same data, of less than 250000 triangles", "[raster][demo]") {
     const Scene a = demo_scene(), b = demo_scene();
     REQUIRE(a.meshes.size() == b.meshes.size());
     for (std::size_t i = 0; i < a.meshes.size(); ++i) {
@@ -157,7 +157,7 @@ TEST_CASE("scene: bounds cover placed vertices that triangles use, and finite on
     CHECK(bounds.max == Vec3f{11, 2, 0});
 }
 
-TEST_CASE("scene: the default key comes from over the viewer's left shoulder", "[raster][scene]") {
+TEST_CASE("scene: the default key light comes from over the viewer's left shoulder", "[raster][scene]") {
     for (const float azimuth : {0.0f, 90.0f, 200.0f}) {
         Scene scene;
         const Camera camera = frame_bounds({}, 1.0f, {azimuth, 20.0f, 1.0f, 35.0f});

@@ -1,4 +1,4 @@
-// The same pixels everywhere: instruction sets, threads, tiles, crops, hosts' loops, floating-point environments.
+// Pixels must be the same for every instruction set, thread count, tile size, crop, loop of a host and floating-point environment.
 #include "raster/renderer.hpp"
 #include "tests/raster/test_scenes.hpp"
 #include "tests/support/isas.hpp"
@@ -39,7 +39,7 @@ struct Picture {
 
 Picture draw(const NamedScene& s, const Settings& settings, Renderer& renderer) {
     Picture p;
-    // What is not written stays visible.
+    // Values that show which pixels were not written.
     p.rgba8.assign(4 * kWidth * kHeight, 0xCD);
     p.rgba_linear.assign(4 * kWidth * kHeight, -123.0f);
     const auto report = renderer.render(s.scene, s.camera, settings, {kWidth, kHeight, p.rgba8.data(), p.rgba_linear.data()});
@@ -55,7 +55,7 @@ Picture draw(const NamedScene& s, const Settings& settings) {
     return draw(s, settings, renderer);
 }
 
-/// A loop over threads of its own, as a host might bring it.
+/// A parallel loop with its own threads, as a host might provide it.
 ParallelFor host_loop(int thread_count) {
     return [thread_count](int count, const std::function<void(int)>& body) {
         std::atomic<int> next{0};
@@ -120,7 +120,7 @@ TEST_CASE("determinism: every instruction set, thread count and tile size gives 
     }
 }
 
-TEST_CASE("determinism: light once a triangle or once a vertex gives the same pixels everywhere too", "[raster][determinism]") {
+TEST_CASE("determinism: shading once a triangle or once a vertex gives the same pixels everywhere too", "[raster][determinism]") {
     for (const NamedScene& s : scenes()) {
         for (const shading::ShadingRate rate : {shading::ShadingRate::flat, shading::ShadingRate::gouraud}) {
             Settings settings = settings_of(shading::Isa::scalar, 1, 64, 4);
@@ -179,7 +179,7 @@ TEST_CASE("determinism: tiers, error budgets and coarser texture filters give th
             for (const int threads : {1, 3, 5}) check(available_isas().back(), threads, threads == 3 ? 32 : 16);
         }
     }
-    CHECK(changed >= 20);  // of 30: the variants did something
+    CHECK(changed >= 20);  // 30 in all: the variants have an effect
 }
 
 TEST_CASE("determinism: a region is the same part of the whole picture, and nothing else is written", "[raster][determinism]") {
@@ -211,7 +211,7 @@ TEST_CASE("determinism: a region is the same part of the whole picture, and noth
     }
 }
 
-TEST_CASE("determinism: a host's own loop, in any order and on any threads", "[raster][determinism]") {
+TEST_CASE("determinism: a host's own loop gives the same pixels, in any order and on any threads", "[raster][determinism]") {
     for (const NamedScene& s : scenes()) {
         Settings settings = settings_of(*shading::default_isa(), 1, 32, 4);
         const Picture expected = draw(s, settings);
@@ -238,7 +238,7 @@ TEST_CASE("determinism: a Renderer that drew other things before draws the same"
             }
 }
 
-TEST_CASE("determinism: two Renderers at once", "[raster][determinism]") {
+TEST_CASE("determinism: three Renderers at once draw the same", "[raster][determinism]") {
     std::vector<Picture> expected;
     for (const NamedScene& s : scenes()) expected.push_back(draw(s, settings_of(*shading::default_isa(), 1, 64, 1)));
     std::atomic<int> wrong{0}, drawn{0};
@@ -295,7 +295,7 @@ TEST_CASE("determinism: the caller's floating-point environment neither matters 
     }
 }
 
-TEST_CASE("determinism: a host's loop on threads with another floating-point environment", "[raster][determinism]") {
+TEST_CASE("determinism: a host's loop on threads with another floating-point environment gives the same pixels", "[raster][determinism]") {
     const NamedScene& s = scenes()[1];
     Settings settings = settings_of(*shading::default_isa(), 1, 32, 1);
     const Picture expected = draw(s, settings);

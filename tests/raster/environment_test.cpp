@@ -18,9 +18,9 @@ using namespace halflit::test;
 
 namespace {
 
-constexpr int kPatches = 8, kSide = 32;  // patches a side of four pixels each
+constexpr int kPatches = 8, kSide = 32;  // 8 patches a side, each 4 pixels wide
 
-/// White matte patches, one for each normal; the picture's pixels in the order of the normals.
+/// White matte patches, one for each normal. drawn() gives one pixel of each patch, in the order of the normals.
 struct Patches {
     Scene scene;
     explicit Patches(const std::vector<Vec3d>& normals, const shading::Lobe& lobe) {
@@ -115,7 +115,7 @@ TEST_CASE("environment: Valve's lobe takes three bands, and nothing above them i
     CHECK(report.environment[0].bound == 0.0);
     CHECK(report.environment[0].within);
     CHECK_FALSE(report.environment[0].specular);
-    // What the plan has above its bands is not read: not-a-number there would spread.
+    // Coefficients above the plan's bands are not read: NaN there would spread.
     shading::EnvironmentPlan plan = shading::plan_environment(*environment, {1.0, 2.0, 1.0}, {});
     shading::ShadingPlan frame;
     for (int i = 9; i < sh::kMaxCoefficients; ++i) {
@@ -160,12 +160,12 @@ TEST_CASE("environment: no pixel is farther from the integral over the image tha
             double worst = 0;
             for (std::size_t i = 0; i < normals.size(); ++i) worst = std::max(worst, largest_difference(drawn[i], exact[i]));
             INFO("w " << ideal.wrap << ", n " << ideal.power << ", order " << order);
-            CHECK(worst <= report.environment[0].bound + 1e-5);  // the brute force, and rounding
+            CHECK(worst <= report.environment[0].bound + 1e-5);  // 1e-5: error of the brute force, and rounding
         }
     }
 }
 
-TEST_CASE("environment: turning it is turning the normals the other way, at every order", "[raster][environment]") {
+TEST_CASE("environment: rotating it equals rotating the normals the other way, at every order", "[raster][environment]") {
     const Sky sky = random_sky(64, 32, 21);
     const auto normals = random_normals(200, 22);
     const auto straight = environment_of(sky, false);
@@ -188,7 +188,7 @@ TEST_CASE("environment: turning it is turning the normals the other way, at ever
 
 TEST_CASE("environment: a scene that turns with its environment keeps its light, in every kernel and at every order",
           "[raster][environment]") {
-    // Mirrored surroundings and highlights turn with the place and the eye; the sun is a light of its own.
+    // Mirrored surroundings and highlights turn with the positions and the eye; the sun is a light of its own.
     Sky sky = random_sky(64, 32, 23);
     for (std::size_t c = 0; c < 3; ++c) sky.rgb[3 * (9 * 64 + 40) + c] = 500.0f;
     const auto straight = environment_of(sky, true);
@@ -248,7 +248,8 @@ TEST_CASE("environment: a scene that turns with its environment keeps its light,
 }
 
 TEST_CASE("environment: polynomials in Newton form keep the digits of the series, at every order", "[raster][environment]") {
-    // Bands of equal size, the worst case: a real lobe weakens the upper ones. Poles and equator are the ends of the polynomials.
+    // Bands of equal size are the worst case, because a real lobe weakens the upper ones. Poles and equator are the ends of the
+    // polynomials' range.
     auto normals = random_normals(61, 52);
     normals.push_back({0, 0, 1});
     normals.push_back({0, 0, -1});
@@ -317,7 +318,8 @@ TEST_CASE("environment: every instruction set gives the same bits at every order
     }
 }
 
-TEST_CASE("environment: orders outside 1 to 10, and tolerances that no order keeps", "[raster][environment]") {
+TEST_CASE("environment: orders outside 1 to 10 are limited or chosen, and tolerances that no order keeps are reported",
+          "[raster][environment]") {
     const auto environment = environment_of(random_sky(64, 32, 41), false);
     const auto planned = [&](int fixed, double tolerance) {
         return shading::plan_environment(*environment, {0.0, 1.0, 1.0}, {fixed, tolerance, 1.0});
@@ -331,7 +333,7 @@ TEST_CASE("environment: orders outside 1 to 10, and tolerances that no order kee
     CHECK(planned(1, 1e9).within);
 }
 
-TEST_CASE("environment: suns and what is left of the sky hold all of its light", "[raster][environment]") {
+TEST_CASE("environment: suns and the rest of the sky hold all of its light", "[raster][environment]") {
     Sky sky = painted_sky(128, 64, [](Vec3d d) { return Vec3d{0.4, 0.5, 0.8 + 0.2 * d.y}; });
     for (const std::size_t pixel : {std::size_t{20 * 128 + 30}, std::size_t{20 * 128 + 31}, std::size_t{40 * 128 + 90}})
         for (std::size_t c = 0; c < 3; ++c) sky.rgb[3 * pixel + c] = 3000.0f - 500.0f * static_cast<float>(c);
@@ -370,7 +372,7 @@ TEST_CASE("environment: a renderer that has drawn other skies and lobes draws wh
     std::vector<std::vector<float>> pictures;
     for (int round = 0; round < 3; ++round)
         for (const std::uint32_t seed : {51u, 52u}) {
-            scene.environment = environment_of(random_sky(64, 32, seed), false);  // the last one's memory may well be used again
+            scene.environment = environment_of(random_sky(64, 32, seed), false);  // the memory of the previous one may be used again
             for (const float power : {1.0f, 2.0f, 1.3f})
                 for (const double codes : {0.0, 8.0}) {
                     scene.materials[0].lobe = {0.5f, power, true};

@@ -1,4 +1,4 @@
-// Errors promised beforehand, and measured afterwards against the float64 reference.
+// Errors that are promised before drawing, and measured afterwards against the float64 reference.
 #include "shading/reference/reference.hpp"
 #include "tests/raster/random_trial.hpp"
 
@@ -45,7 +45,7 @@ double largest_codes(const Picture& a, const Picture& b) {
 
 }  // namespace
 
-TEST_CASE("error budget: no random scene is off by more than was promised, nor by more than was asked for where that can be promised",
+TEST_CASE("error budget: no random scene exceeds the promised error, nor the requested one where it can be promised",
           "[raster][budget][slow]") {
     const double budgets[] = {0.1, 0.25, 0.5, 1, 2, 4, 8};
     int kept = 0, beyond = 0, exact_codes_seen = 0;
@@ -68,7 +68,7 @@ TEST_CASE("error budget: no random scene is off by more than was promised, nor b
             most_used = std::max(most_used, measured / budget);
             ++kept;
         } else {
-            // What cannot be promised is left to float32's own accuracy, which is kept in nearly all of these too.
+            // The budget cannot be promised here, so float32's own accuracy applies. Nearly all of these scenes keep the budget too.
             if (measured > budget) ++beyond;
             ++exact_codes_seen;
         }

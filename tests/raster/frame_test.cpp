@@ -1,4 +1,4 @@
-// Whole pictures against closed forms: alpha test, blending, samples, background, and numbers that are not.
+// Whole pictures against closed forms: alpha test, blending, samples, background, NaN and infinity.
 #include "raster/built_in/shapes.hpp"
 #include "raster/debug_view.hpp"
 #include "raster/renderer.hpp"
@@ -52,7 +52,7 @@ Mesh quad(float x0, float y0, float x1, float y1, float z) {
     return m;
 }
 
-/// Unlit unless changed, one instance of each mesh in the order of adding.
+/// Builds a scene of one instance of each mesh, in the order of adding; materials are unlit unless changed.
 struct Builder {
     Scene scene;
     shading::Material& add(Mesh mesh, Vec4f color, AlphaMode mode = AlphaMode::opaque) {
@@ -101,7 +101,7 @@ TEST_CASE("mask: a hole shows what is behind it, drawn before or after", "[raste
             CHECK(wrong == 0);
             CHECK(p.report.pixels_visible == kSide * kSide);
         }
-        // Depth: the hole is as deep as what is behind it.
+        // The depth in the hole is that of the surface behind it.
         Builder b;
         Mesh front = quad(-1, -1, 1, 1, 5);
         front.colors = {{1, 1, 1, 0}, {1, 1, 1, 1}, {1, 1, 1, 1}, {1, 1, 1, 0}};
@@ -109,7 +109,7 @@ TEST_CASE("mask: a hole shows what is behind it, drawn before or after", "[raste
         b.add(quad(-1, -1, 1, 1, -5), {1, 0, 0, 1});
         const auto view = visibility(b.scene, camera_flat(), {}, kSide, kSide);
         REQUIRE(view);
-        // The camera stands at z = 10 and sees 20 deep: depth is 1 - (10 - z) / 20.
+        // The camera stands at z = 10 with its far plane 20 away: depth is 1 - (10 - z) / 20.
         CHECK(view->depth[10 * kSide + 10] == Approx(0.25).epsilon(1e-6));
         CHECK(view->depth[10 * kSide + 50] == Approx(0.75).epsilon(1e-6));
         CHECK(view->triangle[10 * kSide + 10] > 2);
@@ -122,7 +122,8 @@ TEST_CASE("blend: two layers over an opaque one, in their order, by the over ope
     const double base[3] = {0.5, 0.25, 0.125};
     for (const int samples : {1, 4}) {
         Builder b;
-        // The opaque square on the left half; the layers are submitted from back to front; a hidden one behind the opaque square.
+        // An opaque square fills the left half. Of the blended layers, one is hidden behind it and two are in front; they are submitted
+        // from back to front.
         b.add(quad(-1, -1, 1, 1, -4), {1, 1, 1, 0.9f}, AlphaMode::blend);
         b.add(quad(-1, -1, 0, 1, -2), {0.5f, 0.25f, 0.125f, 1});
         b.add(quad(-1, -1, 1, 1, 0), first, AlphaMode::blend);
@@ -135,7 +136,7 @@ TEST_CASE("blend: two layers over an opaque one, in their order, by the over ope
         right[3] = 1 - (1 - 0.9) * (1 - 0.25) * (1 - 0.6);
         for (std::size_t i = 0; i < 3; ++i) {
             left[i] = 0.6 * static_cast<double>(s[i]) + 0.4 * (0.25 * static_cast<double>(f[i]) + 0.75 * base[i]);
-            // Over nothing: the sum of what each layer adds, divided by the alpha that results.
+            // Without an opaque surface: the sum of the layers' contributions, divided by the resulting alpha.
             right[i] = (0.6 * static_cast<double>(s[i]) + 0.4 * (0.25 * static_cast<double>(f[i]) + 0.75 * 0.9)) / right[3];
         }
         CHECK(close(p.at(10, 30), left, 5e-7));
@@ -153,7 +154,7 @@ TEST_CASE("blend: what is hidden by an opaque triangle submitted later stays hid
 
 namespace {
 
-/// Area of the unit square around (x, y) where a x + b y + c >= 0, by cutting the square's outline.
+/// Area of the unit square around (x, y) where a x + b y + c >= 0, by clipping the square's outline.
 double half_plane_area(double a, double b, double c, double x, double y) {
     const double corner[4][2] = {{x - 0.5, y - 0.5}, {x + 0.5, y - 0.5}, {x + 0.5, y + 0.5}, {x - 0.5, y + 0.5}};
     std::vector<std::array<double, 2>> kept;
@@ -178,7 +179,7 @@ TEST_CASE("samples: a pixel's alpha is the share of its samples inside the edge,
         int samples;
         double axis_bound, any_bound;
     };
-    // Upright and level edges: the samples stand in different columns and rows, evenly spaced, so the error is half a step at most.
+    // Vertical and horizontal edges: the samples are in different columns and rows, evenly spaced, so the error is at most half a step.
     // Other edges: measured over 80 directions 0.501, 0.306, 0.226, the last two where an edge passes two samples at once.
     for (const Row row : {Row{1, 0.5, 0.51}, Row{4, 0.125, 0.32}, Row{8, 0.0625, 0.24}}) {
         const SamplePattern pattern = standard_samples(row.samples);
@@ -187,8 +188,8 @@ TEST_CASE("samples: a pixel's alpha is the share of its samples inside the edge,
         double sum_of_errors = 0;
         for (int i = 0; i < 80; ++i) {
             const double angle = i * 0.0785398163397448, nx = std::cos(angle), ny = std::sin(angle);
-            const double offset = 0.31 * std::sin(3.7 * i);  // of the edge from the middle, in world units
-            // nx x + ny y >= offset: two corners far along the edge, one far inside.
+            const double offset = 0.31 * std::sin(3.7 * i);  // distance of the edge from the middle, in world units
+            // Triangle that covers nx x + ny y >= offset: two corners far along the edge, one far inside.
             Mesh m;
             const auto point = [&](double along, double in) {
                 return Vec3f{static_cast<float>(nx * (offset + in) - ny * along), static_cast<float>(ny * (offset + in) + nx * along), 0};
@@ -221,7 +222,7 @@ TEST_CASE("samples: a pixel's alpha is the share of its samples inside the edge,
                     }
                     if (alpha > 0 && alpha < 1) {
                         ++partial;
-                        wrong += !close(p.at(x, y), {1, 1, 1, alpha}, 2e-7);  // the colour is not darkened by what is not there
+                        wrong += !close(p.at(x, y), {1, 1, 1, alpha}, 2e-7);  // missing samples do not darken the colour
                     }
                 }
         }
@@ -252,7 +253,7 @@ TEST_CASE("background: transparent, or a colour, wherever nothing is drawn", "[r
         CHECK(p.code(2, 2)[0] == 188);  // 255 (1.055 0.5^(1/2.4) - 0.055) = 187.5
         CHECK(p.code(2, 2)[1] == 137);  // 136.9
         CHECK(p.code(2, 2)[3] == 255);
-        // Exposure is for light, not for the backdrop.
+        // Exposure scales light, not the background.
         settings.exposure = 0.5f;
         p = draw(b.scene, settings);
         CHECK(close(p.at(2, 2), {0.5, 0.25, 0, 1}));
@@ -320,7 +321,7 @@ TEST_CASE("frame: triangles with a corner that is not finite are dropped and cou
     CHECK(draw(bad.scene).report.triangles_not_finite == 131);
 }
 
-TEST_CASE("frame: what comes out as NaN is written as 0 and counted", "[raster][frame]") {
+TEST_CASE("frame: NaN results are written as 0 and counted", "[raster][frame]") {
     for (const int samples : {1, 4}) {
         Builder b;
         Mesh mesh = quad(-0.5f, -0.5f, 0.5f, 0.5f, 0);
@@ -334,11 +335,11 @@ TEST_CASE("frame: what comes out as NaN is written as 0 and counted", "[raster][
         const Picture p = draw(b.scene, settings);
         CHECK(all_finite(p));
         CHECK(close(p.at(32, 32), {0, 0, 0, 1}, 0));
-        // Counted by fragment: with samples, a pixel on the diagonal shows two triangles.
+        // The count is of fragments: with samples, a pixel on the diagonal shows two triangles.
         CHECK(p.report.nan_pixels == (samples == 1 ? 32 * 32 : 32 * 32 + 32));
         CHECK(p.report.warnings.size() == 1);
     }
-    // Infinite light is not NaN: it is the brightest code; of both signs among the samples of a pixel it has no value.
+    // Infinite light gives the brightest code, not NaN. Infinities of both signs among the samples of a pixel have no sum.
     Builder b;
     b.add(quad(-0.5f, -0.5f, 0.5f, 0.5f, 0), {kInf, 1, 1, 1});
     b.add(quad(-0.25f, -0.25f, 0.2f, 0.2f, 1), {-kInf, 0, 0, 1});
@@ -362,7 +363,7 @@ TEST_CASE("frame: each visible pixel is shaded once, whatever lies behind it", "
     CHECK(close(p.at(5, 5), {0.9, 0, 0, 1}));
 }
 
-TEST_CASE("frame: a mirrored placing keeps its outside outside and its light", "[raster][frame]") {
+TEST_CASE("frame: a mirrored instance keeps its outside and its light", "[raster][frame]") {
     Builder b;
     Mesh mesh = quad(0.2f, -0.5f, 0.8f, 0.5f, 0);
     mesh.normals.assign(4, {0.6f, 0, 0.8f});

@@ -1,5 +1,5 @@
-// The picture of today is the picture of tomorrow: hashes of small code-made scenes in many variants, one committed table for every
-// instruction set, compiler and machine. HALFLIT_UPDATE_GOLDEN=1 writes the table anew, after someone has looked at the pictures.
+// Hashes of small scenes made in code, in many variants, against one committed table for every instruction set, compiler and machine.
+// HALFLIT_UPDATE_GOLDEN=1 rewrites the table; look at the pictures first.
 #include "raster/framebuffer.hpp"
 #include "raster/renderer.hpp"
 #include "shading/environment.hpp"

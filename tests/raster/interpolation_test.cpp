@@ -30,7 +30,7 @@ struct Fragments {
     std::vector<FixedTriangle> fixed;
     std::vector<float> attributes;  ///< kFloats a vertex
     std::vector<std::array<float, 3>> z, inv_w;
-    std::vector<std::uint32_t> id;  ///< of each fragment
+    std::vector<std::uint32_t> id;  ///< triangle of each fragment
     std::vector<std::int32_t> x, y;
 
     void add_triangle(Random& random, const FixedTriangle& t, double most_w_ratio) {
@@ -81,7 +81,8 @@ struct Fragments {
         }
         return {clip, kWidth, kHeight};
     }
-    /// Longest extent squared over twice the area: 1 to 2 for a well shaped triangle, the condition of its barycentric coordinates.
+    /// Squared diagonal of the bounding box over twice the area: about 2, the least, for a well shaped triangle. It is the condition of the
+    /// barycentric coordinates.
     [[nodiscard]] double aspect(std::uint32_t t) const {
         const auto& c = fixed[t].corner;
         const double w = static_cast<double>(std::max({c[0].x, c[1].x, c[2].x}) - std::min({c[0].x, c[1].x, c[2].x}));
@@ -187,7 +188,7 @@ Fragments random_fragments(std::uint64_t seed, int triangles, double size_px, do
     while (f.list.count() < triangles) {
         FixedTriangle t = random_triangle(random, size_px);
         if (least_aspect > 100) {
-            // A sliver: the third corner within a few units of the line through the others.
+            // A sliver: the third corner within 40 units (1/256 pixel) in x and y of the line through the others.
             const double s = random.real(0, 1);
             const auto on = [&](std::int64_t a, std::int64_t b) {
                 return a + static_cast<std::int64_t>(s * static_cast<double>(b - a)) + random.integer(-40, 40);
@@ -205,7 +206,7 @@ Fragments random_fragments(std::uint64_t seed, int triangles, double size_px, do
     return f;
 }
 
-/// Rows that the kernel fills when all slots, gradients and facing are asked for.
+/// Compares, bit by bit, the rows that the kernel fills when all slots, gradients and facing are asked for.
 bool same_rows(const shading::FragmentBlock& a, int lane_a, const shading::FragmentBlock& b, int lane_b) {
     bool same = true;
     for (int row = 0; row < shading::kInputRows; ++row)
@@ -215,11 +216,11 @@ bool same_rows(const shading::FragmentBlock& a, int lane_a, const shading::Fragm
 
 }  // namespace
 
-// Errors are stated for attributes in [-1, 1]. "Conditioned" divides by what makes a triangle hard: its aspect (above) times the ratio of
-// its corners' w. The edge functions d1 x d2 are rounded products of whole numbers up to the aspect times larger than their
-// difference, so the error has a bound of that form; the figures here are measured, with the margin of the next sample of triangles.
+// Errors are stated for attributes in [-1, 1]. "Conditioned" errors are divided by the aspect (above) times the ratio of the corners' w.
+// The edge functions d1 x d2 are differences of rounded products of whole numbers; the products are up to the aspect times larger than the
+// difference, so the error has a bound of that form. The figures here are measured, with a margin for other samples of triangles.
 
-TEST_CASE("interpolation: attributes and gradients of well shaped triangles", "[raster][interpolation]") {
+TEST_CASE("interpolation: attributes and gradients of well shaped triangles agree with float64", "[raster][interpolation]") {
     struct Row {
         double size_px, w_ratio;
         double attribute, gradient;  // bounds
@@ -241,7 +242,7 @@ TEST_CASE("interpolation: slivers lose digits in proportion to their length over
         double size_px;
         double attribute, gradient;  // bounds
     };
-    // A few 1/256 pixels wide. Measured: attributes 5.6e-5, 7.4e-4, 1.3e-4; gradients 1.5e-4, 1.1e-3, 3.2e-4; conditioned 0.29.
+    // Less than a quarter of a pixel wide. Measured: attributes 5.6e-5, 7.4e-4, 1.3e-4; gradients 1.5e-4, 1.1e-3, 3.2e-4; conditioned 0.29.
     for (const Row row : {Row{50, 2e-4, 5e-4}, Row{1000, 2e-3, 3e-3}, Row{10000, 1e-2, 1e-2}}) {
         const Errors e = measure(random_fragments(22, 3000, row.size_px, 100, 1e9, 10));
         INFO("size " << row.size_px << " px: conditioned " << e.conditioned);
@@ -265,7 +266,7 @@ TEST_CASE("interpolation: at the corners the attributes are the corners', and ne
             f.x.push_back(static_cast<std::int32_t>(c.x / 256));
             f.y.push_back(static_cast<std::int32_t>(c.y / 256));
         }
-        // Samples of a pixel may be covered though its centre is not: such a centre is brought back to the triangle.
+        // The samples of a pixel may be covered although its centre is not. The kernel moves such a centre back to the triangle.
         f.id.push_back(f.id.back());
         f.x.push_back(f.x.back() + 1);
         f.y.push_back(f.y.back() + 1);
@@ -289,14 +290,14 @@ TEST_CASE("interpolation: at the corners the attributes are the corners', and ne
         }
     }
     CHECK(worst_corner <= 3 * 0x1p-24);  // v0 + (v1 - v0): two roundings of values up to 2
-    CHECK(worst_range <= 4 * 0x1p-24);   // and the weights' own
+    CHECK(worst_range <= 4 * 0x1p-24);   // the same, and the rounding of the weights
     CHECK(f.count() > 1000);
 }
 
 TEST_CASE("interpolation: one triangle or many in a vector, and every instruction set: the same bits", "[raster][interpolation]") {
     for (const bool slivers : {false, true}) {
         const Fragments f = slivers ? random_fragments(25, 600, 300, 100, 1e9, 10) : random_fragments(26, 600, 60, 0, 50, 30);
-        // Neighbours in `order` are of different triangles; in the list itself they come in runs of one.
+        // Neighbouring fragments of `mixed` belong to different triangles; in `f` they come in runs of one triangle.
         Fragments mixed = f;
         Random random(27);
         for (std::size_t i = mixed.id.size() - 1; i > 0; --i) {
@@ -312,7 +313,7 @@ TEST_CASE("interpolation: one triangle or many in a vector, and every instructio
             for (const shading::Isa isa : available_isas()) {
                 interpolate(isa, mixed, first, count, kAllSlots, *together);
                 for (int l = 0; l < count; ++l) {
-                    // A list of one fragment is padded with copies of it: the path for one triangle.
+                    // A list of one fragment is padded with copies of it, so the kernel takes the path for one triangle.
                     interpolate(shading::Isa::scalar, mixed, first + l, 1, kAllSlots, *alone);
                     differing += !same_rows(*together, l, *alone, 0);
                     interpolate(isa, mixed, first + l, 1, kAllSlots, *alone);
@@ -326,7 +327,7 @@ TEST_CASE("interpolation: one triangle or many in a vector, and every instructio
     }
 }
 
-TEST_CASE("interpolation: shadows are looked up on the planes of the vertices, blended", "[raster][interpolation]") {
+TEST_CASE("interpolation: the shadow offset moves a point to the blended tangent planes of the vertices", "[raster][interpolation]") {
     const Fragments f = random_fragments(29, 500, 60, 0, 8, 4);
     const auto block = std::make_unique<shading::FragmentBlock>();
     double worst = 0;
@@ -392,7 +393,7 @@ TEST_CASE("interpolation: any choice of slots gives the rows that all slots give
 namespace {
 
 struct DepthErrors {
-    double absolute = 0;     ///< over the largest depth of the triangle
+    double absolute = 0;     ///< relative to the largest depth of the triangle
     double conditioned = 0;  ///< the same over the aspect, in units of 2^-24
     int differing_bits = 0;  ///< between instruction sets, or tiles
     int count = 0;
@@ -442,7 +443,7 @@ DepthErrors measure_depth(std::uint64_t seed, double size_px, double least_aspec
 
 }  // namespace
 
-TEST_CASE("interpolation: depth against float64, and the same bits from every instruction set and tile", "[raster][interpolation]") {
+TEST_CASE("interpolation: depth agrees with float64 and has the same bits from every instruction set and tile", "[raster][interpolation]") {
     struct Row {
         double size_px, least_aspect, most_aspect;
         double absolute;  // bound, relative to the largest depth of the triangle

@@ -65,7 +65,7 @@ private:
     std::vector<std::uint32_t> list_;
 };
 
-/// Nothing drawn yet in the first `rows` rows.
+/// Clears the first `rows` rows.
 inline void clear_tile(TileBuffers& buffers, const SamplePattern& pattern, int rows) {
     for (int s = 0; s < pattern.count; ++s) {
         std::memset(buffers.depth[s], 0, static_cast<std::size_t>(rows) * kTileStride * sizeof(float));

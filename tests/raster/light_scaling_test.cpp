@@ -1,4 +1,4 @@
-// What many lights cost: those that reach a block of fragments, not those that there are.
+// Cost of many lights: it grows with the lights that reach a block of fragments, not with the number of lights.
 #include "raster/built_in/hall_of_lamps.hpp"
 #include "raster/renderer.hpp"
 
@@ -14,7 +14,7 @@ namespace {
 constexpr int kWidth = 480, kHeight = 270;
 
 struct Outcome {
-    double pairs = 0;  ///< of a light and a fragment, for each fragment
+    double pairs = 0;  ///< pairs of light and fragment, divided by the number of fragments
     RenderReport report;
     std::vector<float> linear = std::vector<float>(std::size_t{4} * kWidth * kHeight);
 };
@@ -37,7 +37,7 @@ Outcome draw(const Scene& scene, double codes, int tile_size = 64) {
 }  // namespace
 
 TEST_CASE("many lights: with a range, pairs of light and fragment do not grow with lamps beyond the picture", "[raster][lights]") {
-    // A point of the floor lies within the range of pi (3^2 - 0.8^2) / 2^2 = 6.6 lamps in the middle.
+    // On average, a point of the floor lies within the range of pi (3^2 - 0.8^2) / 2^2 = 6.6 lamps.
     constexpr double kInRange = 6.6;
     const double few = draw(lights_scene(64, true), 0).pairs;
     INFO("64 lamps: " << few << " pairs a fragment");
@@ -48,12 +48,12 @@ TEST_CASE("many lights: with a range, pairs of light and fragment do not grow wi
         const Outcome exact = draw(scene, 0), budget = draw(scene, 0.5);
         INFO(lights << " lamps: " << exact.pairs << " pairs a fragment, " << budget.pairs << " within half a code");
         CHECK(exact.pairs >= few);
-        CHECK(exact.pairs < 1.25 * few);  // the outermost fragments get their full number of lamps
+        CHECK(exact.pairs < 1.25 * few);  // with more lamps, the outermost fragments get their full number too
         CHECK(budget.pairs <= exact.pairs);
     }
     CHECK(draw(lights_scene(256, true), 0).pairs == Approx(draw(lights_scene(1024, true), 0).pairs).epsilon(0.02));
 }
 
-TEST_CASE("many lights: what is left out is zero: leaving lamps beyond the picture away changes no pixel", "[raster][lights]") {
+TEST_CASE("many lights: lamps beyond the picture add nothing and leaving them out changes no pixel", "[raster][lights]") {
     CHECK(draw(lights_scene(1024, true), 0).linear == draw(lights_scene(400, true), 0, 16).linear);
 }

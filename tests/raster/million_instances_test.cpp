@@ -16,7 +16,7 @@ using namespace halflit::raster;
 
 namespace {
 
-/// Bytes; of /proc/self/status.
+/// Value of the line `name` in /proc/self/status, in bytes.
 std::optional<std::uint64_t> status_bytes(const std::string& name) {
     std::ifstream status("/proc/self/status");
     for (std::string line; std::getline(status, line);)
@@ -24,7 +24,7 @@ std::optional<std::uint64_t> status_bytes(const std::string& name) {
     return {};
 }
 
-/// The peak counts from now on.
+/// Restarts the measurement of the peak; false if that is not possible.
 bool reset_peak() {
     std::ofstream clear("/proc/self/clear_refs");
     clear << "5" << std::flush;
@@ -53,7 +53,7 @@ TEST_CASE("renderer: a million instances are prepared and drawn in less than 1 G
     for (int z = 0; z < kSide; ++z)
         for (int x = 0; x < kSide; ++x)
             scene.instances.push_back({0, translation({static_cast<float>(x - kSide / 2), 0, static_cast<float>(z - kSide / 2)})});
-    // From above, all in view: each pixel has some 15 triangles.
+    // View from above that shows all instances: each pixel has some 15 triangles.
     Camera camera = halflit::test::camera_at({0, 100, 0}, {0, 0, 0});
     camera.orthographic = true;
     camera.half_height = 0.5f * kSide;
@@ -66,7 +66,7 @@ TEST_CASE("renderer: a million instances are prepared and drawn in less than 1 G
     const auto report = renderer.render(*prepared, camera, {}, {kSize, kSize, pixels.data(), nullptr});
     REQUIRE(report);
     CHECK(report->triangles_submitted == std::uint64_t{kSide} * kSide);
-    // A triangle covers 0.32 of its square, and a pixel's centre with that chance.
+    // A triangle covers 0.32 of its square, so it covers a pixel's centre with that probability.
     CHECK(report->pixels_visible == Approx(0.32 * kSize * kSize).epsilon(0.1));
     const std::uint64_t peak = status_bytes("VmHWM").value_or(0);
     INFO("peak " << peak / 1'000'000 << " MB");

@@ -81,7 +81,7 @@ TEST_CASE("pipeline: triangles around and behind the eye are cut where the near 
     Total total;
     for (int round = 0; round < 80; ++round) {
         Mesh mesh;
-        // The eye is in the midst of them: most cross the near plane, many also leave the guard band.
+        // The eye is among the triangles: most cross the near plane, many also leave the guard band.
         const double reach = random.chance(0.5) ? 2.0 : 0.3;
         for (int i = 0; i < 12; ++i)
             add_triangle(mesh, random_point(random, reach), random_point(random, reach), random_point(random, reach));
@@ -136,7 +136,7 @@ TEST_CASE("pipeline: triangles that leave the guard band keep their shape in the
     total.check(0.01, 0.2);
 }
 
-TEST_CASE("pipeline: coordinates of ten million, far from the origin and near to it", "[raster][pipeline]") {
+TEST_CASE("pipeline: coordinates of ten million agree with the reference, far from the origin and near to it", "[raster][pipeline]") {
     Random random(5);
     Total total;
     for (int round = 0; round < 40; ++round) {
@@ -151,7 +151,7 @@ TEST_CASE("pipeline: coordinates of ten million, far from the origin and near to
     total.check(0.01, 0.2);
 }
 
-TEST_CASE("pipeline: the widest picture, whose border is the guard band's", "[raster][pipeline]") {
+TEST_CASE("pipeline: the widest picture, whose border is the guard band's, agrees with the reference", "[raster][pipeline]") {
     Random random(12);
     constexpr int kWide = 2 * 16384, kTall = 40;
     Total total;
@@ -195,7 +195,7 @@ TEST_CASE("pipeline: degenerate triangles draw nothing and disturb nothing", "[r
     }
 }
 
-TEST_CASE("pipeline: a camera inside a mesh", "[raster][pipeline]") {
+TEST_CASE("pipeline: a camera inside a mesh sees what the reference does", "[raster][pipeline]") {
     Random random(7);
     Total total;
     for (int round = 0; round < 12; ++round) {
@@ -215,7 +215,7 @@ TEST_CASE("pipeline: a closed box has no crack, seen from inside", "[raster][pip
     int frames = 0;
     for (const float size : {1e-3f, 1.0f, 1e3f, 1e7f}) {
         for (int round = 0; round < 25; ++round) {
-            // Corner to corner views at wide angles put walls through the near plane and far outside the guard band.
+            // Views from corner to corner at wide angles put walls through the near plane and far outside the guard band.
             const Vec3f eye = random_point(random, 0.9) * size;
             const Camera camera = camera_at(eye, eye + random_point(random, 1) * size, random.real32(0.2, 2.8), 0.002f * size);
             const VisibilityView view = view_of(scene_of(make_box({size, size, size})), camera, 160, 100);
@@ -238,7 +238,7 @@ TEST_CASE("pipeline: a finely divided ground reaches the horizon without a hole"
                           static_cast<float>(std::sin(heading) * std::cos(pitch))};
         const Camera camera = camera_at(eye, eye + ahead, random.real32(0.4, 1.8), 0.05f);
         const VisibilityView view = view_of(scene, camera, kW, kH);
-        // The ray through each pixel meets the square or does not; pixels whose neighbourhood meets its rim are left out.
+        // A pixel shows the ground if the ray through it meets the square. Pixels within 1/64 pixel of the square's rim are left out.
         const Vec4f* axis = camera.world_from_camera.c;
         const double tan_y = std::tan(0.5 * static_cast<double>(camera.fov_y_rad)), tan_x = tan_y * kW / kH;
         int wrong = 0, ground = 0;
@@ -267,11 +267,11 @@ TEST_CASE("pipeline: a finely divided ground reaches the horizon without a hole"
 }
 
 TEST_CASE("pipeline: clipped neighbours cover each pixel once", "[raster][pipeline]") {
-    // Half transparent: a pixel that two triangles draw would have alpha 0.75.
+    // The ground is half transparent: a pixel that two triangles draw would have alpha 0.75.
     Random random(10);
     for (int round = 0; round < 10; ++round) {
         Mesh mesh = make_plane(50.0f, 24);
-        // Out of the grid's rows: shake the points in the plane, less than half a cell, and lift some off it.
+        // Moves the points in the plane by less than half a cell, so that edges do not follow the grid's rows.
         for (Vec3f& p : mesh.positions) p = p + Vec3f{random.real32(-0.9, 0.9), 0, random.real32(-0.9, 0.9)};
         Scene scene = scene_of(mesh, false);
         scene.materials[0].alpha_mode = shading::AlphaMode::blend;
@@ -310,12 +310,12 @@ TEST_CASE("pipeline: colours are perspective-correct, across the near plane and 
             for (int x = 0; x < kWidth; ++x) {
                 const auto p = triangle.shape.at(x + 0.5, y + 0.5);
                 if (std::min({p.edge_px[0], p.edge_px[1], p.edge_px[2], p.near_px}) < kEdgeTolerancePx) continue;
-                double slope = 0;  // of the steepest barycentric coordinate: what moving a corner by a part of a pixel does
+                double slope = 0;  // steepest barycentric coordinate: the effect of moving a corner by part of a pixel
                 for (int i = 0; i < 3; ++i) {
                     const auto s = triangle.shape.barycentric_slope(i, x + 0.5, y + 0.5);
                     slope = std::max(slope, std::abs(s.dx) + std::abs(s.dy));
                 }
-                if (slope > 0.5) continue;  // a corner of the triangle is not seen well enough to say
+                if (slope > 0.5) continue;  // the triangle has too few pixels across for a comparison
                 const float* pixel = &linear[static_cast<std::size_t>(4 * (y * kWidth + x))];
                 for (int c = 0; c < 3; ++c) {
                     double want = 0;

@@ -1,4 +1,4 @@
-// What preparing a scene refuses, at first and when it is told of changes.
+// Errors of preparing a scene and of updating it.
 #include "raster/built_in/shapes.hpp"
 #include "raster/scene/prepared_scene.hpp"
 
@@ -29,10 +29,10 @@ bool tells(const Error& error) { return !error.message.empty() && error.message.
 struct Fault {
     const char* what;
     void (*spoil)(Scene&);
-    SceneChanges told;  ///< how update() hears of it
+    SceneChanges told;  ///< the changes that update() is told of
 };
 
-/// Each of them breaks mesh 1 or material 1.
+/// Faults that break mesh 1 or material 1.
 const std::vector<Fault>& faults() {
     static const SceneChanges kMesh{{}, {1}}, kMaterials{{}, {}, true};
     static const std::vector<Fault> made{
@@ -120,7 +120,7 @@ TEST_CASE("prepared scene: other numbers of meshes, instances or materials are r
         }
 }
 
-TEST_CASE("prepared scene: a change of what is not there is refused", "[raster][prepared]") {
+TEST_CASE("prepared scene: a change of a mesh or an instance that does not exist is refused", "[raster][prepared]") {
     Scene scene = good_scene();
     for (const SceneChanges& changes :
          {SceneChanges{{3}}, SceneChanges{{0, 1, 99}}, SceneChanges{{std::numeric_limits<std::size_t>::max()}}, SceneChanges{{}, {2}},
@@ -133,7 +133,7 @@ TEST_CASE("prepared scene: a change of what is not there is refused", "[raster][
     }
 }
 
-TEST_CASE("prepared scene: meshes may come and go within their place", "[raster][prepared]") {
+TEST_CASE("prepared scene: a mesh may become empty and be filled again", "[raster][prepared]") {
     Scene scene = good_scene();
     auto prepared = PreparedScene::make(scene);
     REQUIRE(prepared);

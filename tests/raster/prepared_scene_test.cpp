@@ -32,7 +32,7 @@ bool same(const PreparedMesh& a, const PreparedMesh& b) {
            a.vertex_groups == b.vertex_groups && a.largest_uv == b.largest_uv && a.largest_color == b.largest_color && a.finite == b.finite;
 }
 
-/// All that is public, but for the revision.
+/// Compares all that is public, except the revision.
 void check_same(const PreparedScene& a, const PreparedScene& b) {
     CHECK(&a.scene() == &b.scene());
     CHECK(same(a.bounds(), b.bounds()));
@@ -51,7 +51,7 @@ void check_same(const PreparedScene& a, const PreparedScene& b) {
     CHECK(std::ranges::equal(a.object_radii(), b.object_radii()));
 }
 
-/// Of all kinds, some without triangles, some with vertices that are not finite or that no triangle uses.
+/// Mesh of any kind; some without triangles, some with vertices that are not finite or that no triangle uses.
 Mesh any_mesh(Random& random) {
     Mesh mesh = random_mesh(random);
     if (random.chance(0.1)) mesh.indices.clear();
@@ -93,7 +93,7 @@ Scene any_scene(Random& random) {
     return scene;
 }
 
-/// Something of each kind may change; the scene and what is told of it.
+/// Changes the scene at random, things of each kind, and returns what update() is to be told.
 SceneChanges change(Random& random, Scene& scene) {
     SceneChanges told;
     for (std::size_t i = 0; i < scene.instances.size(); ++i)
@@ -109,7 +109,7 @@ SceneChanges change(Random& random, Scene& scene) {
                 for (Vec3f& p : scene.meshes[i].positions) p = p + random_point(random, 0.1);
             told.deformed_meshes.push_back(i);
         }
-    // Any order, and twice, is as good.
+    // Order and repetition must not matter.
     std::ranges::reverse(told.moved_instances);
     if (!told.deformed_meshes.empty() && random.chance(0.2)) told.deformed_meshes.push_back(told.deformed_meshes[0]);
     told.materials = random.chance(0.2);
@@ -150,8 +150,9 @@ TEST_CASE("prepared scene: bounds are those of scene_bounds, of the whole and of
     CHECK(made({}).bounds().empty);
 }
 
-TEST_CASE("prepared scene: bounds where float32 has few digits left", "[raster][prepared]") {
-    // Below 1e-38 rounding is no longer a share of the coordinate. Rows of a grid, so that the next cluster is nearly as far out.
+TEST_CASE("prepared scene: bounds are those of scene_bounds where float32 has few digits left", "[raster][prepared]") {
+    // Below 1e-38 the rounding error is no longer proportional to the coordinate. The mesh is a grid, so that neighbouring clusters reach
+    // nearly as far out.
     Random random(2);
     for (int round = 0; round < 2500; ++round) {
         Scene scene;
@@ -165,8 +166,7 @@ TEST_CASE("prepared scene: bounds where float32 has few digits left", "[raster][
     }
 }
 
-TEST_CASE("prepared scene: after any changes it is what it would be made anew, and its revision tells of their kind",
-          "[raster][prepared]") {
+TEST_CASE("prepared scene: after any changes it equals one made anew, and its revision tells of their kind", "[raster][prepared]") {
     Random random(3);
     int updates = 0;
     for (int round = 0; round < 60; ++round) {
@@ -193,7 +193,7 @@ TEST_CASE("prepared scene: after any changes it is what it would be made anew, a
     CHECK(updates > 200);
 }
 
-TEST_CASE("prepared scene: a mesh for all threads, deformed", "[raster][prepared]") {
+TEST_CASE("prepared scene: a deformed mesh that all threads work on equals one made anew", "[raster][prepared]") {
     Scene scene;
     scene.materials.resize(kMaterials);
     scene.meshes.push_back(make_sphere_of(1, 40'000));
@@ -205,7 +205,7 @@ TEST_CASE("prepared scene: a mesh for all threads, deformed", "[raster][prepared
     CHECK(same(prepared.bounds(), scene_bounds(scene)));
 }
 
-TEST_CASE("prepared scene: sums are of what is drawn", "[raster][prepared]") {
+TEST_CASE("prepared scene: counts and maxima include only what is drawn", "[raster][prepared]") {
     Scene scene;
     scene.materials.resize(kMaterials);
     scene.meshes = {make_box({1, 1, 1}), make_sphere(1, 8, 5), make_plane(1, 1)};
@@ -231,7 +231,7 @@ TEST_CASE("prepared scene: sums are of what is drawn", "[raster][prepared]") {
     CHECK(prepared.largest_color() == 9.0);
 }
 
-TEST_CASE("prepared scene: no revision is that of another scene", "[raster][prepared]") {
+TEST_CASE("prepared scene: no revision is used twice", "[raster][prepared]") {
     Random random(4);
     std::vector<std::uint64_t> geometry, materials, lights;
     for (int round = 0; round < 30; ++round) {
@@ -250,6 +250,6 @@ TEST_CASE("prepared scene: no revision is that of another scene", "[raster][prep
     for (std::vector<std::uint64_t>* numbers : {&geometry, &materials, &lights}) {
         std::ranges::sort(*numbers);
         CHECK(std::ranges::adjacent_find(*numbers) == numbers->end());
-        CHECK(numbers->front() > 0);  // 0 is that of nothing
+        CHECK(numbers->front() > 0);  // 0 stands for no scene
     }
 }

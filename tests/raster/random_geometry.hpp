@@ -1,4 +1,4 @@
-// Random meshes, placings and cameras of all shapes and sizes, for tests of what is known of geometry before it is drawn.
+// Random meshes, instances and cameras of all shapes and sizes, for tests of bounds and culling.
 #pragma once
 
 #include "raster/built_in/shapes.hpp"
@@ -17,7 +17,7 @@ inline Vec3f random_point(Random& random, double reach) {
     return {random.real32(-reach, reach), random.real32(-reach, reach), random.real32(-reach, reach)};
 }
 
-/// Spread evenly over the powers of ten from low to high.
+/// Number from low to high whose logarithm is evenly distributed.
 inline float random_decades(Random& random, double low, double high) {
     return static_cast<float>(std::pow(10.0, random.real(std::log10(low), std::log10(high))));
 }
@@ -108,7 +108,7 @@ inline Mesh random_mesh(Random& random, int most_triangles = 6000) {
     return mesh;
 }
 
-/// Looks at something near the origin from any distance, inside things of size 1 too.
+/// Camera that looks at a point near the origin from any distance, also from inside objects of size 1.
 inline Camera random_camera(Random& random) {
     const Vec3f eye = random_point(random, random_decades(random, 0.1, 30)), target = random_point(random, 1);
     Camera camera = halflit::test::camera_at(eye, target, random.real32(0.2, 2.2), random_decades(random, 1e-3, 0.3));

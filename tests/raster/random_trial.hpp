@@ -1,4 +1,4 @@
-// Random scenes that errors are promised for: lobes, lights, skies, normal maps.
+// Random scenes for tests of promised errors: lobes, lights, skies, normal maps.
 #pragma once
 
 #include "raster/built_in/shapes.hpp"
@@ -22,7 +22,7 @@ public:
     explicit Numbers(std::uint32_t seed) : engine_(seed) {}
     float in(float low, float high) { return low + (high - low) * static_cast<float>(engine_() >> 8) * 0x1p-24f; }
     std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(engine_()) % n; }
-    /// Spread evenly over the powers of ten from low to high.
+    /// Number from low to high whose logarithm is evenly distributed.
     float decades(float low, float high) { return std::pow(10.0f, in(std::log10(low), std::log10(high))); }
     Vec3f color(float brightness) { return {brightness * in(0.2f, 1), brightness * in(0.2f, 1), brightness * in(0.2f, 1)}; }
 
@@ -80,7 +80,7 @@ struct Trial {
     Settings settings;
 };
 
-/// A floor with three bodies: lobes, 1 to 64 lights of all kinds, skies, normal maps, intensities over eight powers of ten.
+/// Floor with three bodies: lobes, 1 to 64 lights of all kinds, skies, normal maps, intensities over eight powers of ten.
 inline Trial random_trial(std::uint32_t seed) {
     Numbers make(seed);
     Trial t;
@@ -125,7 +125,7 @@ inline Trial random_trial(std::uint32_t seed) {
     }
     if (make.below(5) == 0) {
         scene.environment = some_sky(make);
-        for (shading::Material& material : scene.materials) material.lobe = scene.materials[0].lobe;  // the truth takes a second for each
+        for (shading::Material& material : scene.materials) material.lobe = scene.materials[0].lobe;  // the reference takes a second each
         scene.lights.insert(scene.lights.end(), scene.environment->suns.begin(), scene.environment->suns.end());
     } else if (make.below(2) == 0) {
         scene.ambient = {make.color(0.4f), make.color(0.2f)};

@@ -65,7 +65,7 @@ public:
                 return held(a, b, step(on, 2));
             }
             case on_grid: {
-                // Corners, and with them often edges, on pixel centres or on sixteenths, where samples lie.
+                // Corners on multiples of a pixel, of half a pixel or of a sixteenth, where pixel centres and samples lie; often edges too.
                 const std::int64_t grid = random_.chance(0.5) ? 256 : random_.chance(0.5) ? 128 : 16;
                 return held(snapped(around(w, h), grid), snapped(around(w, h), grid), snapped(around(w, h), grid));
             }
@@ -93,7 +93,7 @@ private:
     FixedTriangle held(FixedPoint a, FixedPoint b, FixedPoint c) const {
         return {{place_.in_guard_band(a), place_.in_guard_band(b), place_.in_guard_band(c)}};
     }
-    /// In the window, or up to (margin_x, margin_y) outside of it.
+    /// Point in the window, or up to (margin_x, margin_y) outside of it.
     FixedPoint around(std::int64_t margin_x, std::int64_t margin_y) {
         const TileRect& r = place_.window;
         return {random_.integer(256 * r.x - 128 - margin_x, 256 * (r.x + r.width) - 128 + margin_x),
@@ -101,7 +101,7 @@ private:
     }
     FixedPoint step(FixedPoint p, std::int64_t most) { return {p.x + random_.integer(-most, most), p.y + random_.integer(-most, most)}; }
     FixedPoint anywhere() { return {random_.integer(place_.low_x(), place_.high_x()), random_.integer(place_.low_y(), place_.high_y())}; }
-    /// On the other side of p, so that the edge crosses the window.
+    /// Point on the other side of p, so that the edge from a to it crosses the window.
     FixedPoint through(FixedPoint a, FixedPoint p) {
         const double t = random_.real(0.1, 1.0);
         return {p.x + static_cast<std::int64_t>(t * static_cast<double>(p.x - a.x)),

@@ -6,12 +6,12 @@
 namespace halflit::raster::reference {
 namespace {
 
-/// Twice the area of a, b, p with the sign of its sense of rotation. Differences are below 2^31, so nothing overflows.
+/// Twice the signed area of the triangle a, b, p. Differences are below 2^31, so nothing overflows.
 std::int64_t doubled_area(FixedPoint a, FixedPoint b, FixedPoint p) { return (b.x - a.x) * (p.y - a.y) - (p.x - a.x) * (b.y - a.y); }
 
 int sign(std::int64_t v) { return v > 0 ? 1 : v < 0 ? -1 : 0; }
 
-/// Whether the line through a and b is a left or a top edge of the triangle whose third corner is c.
+/// True if the line through a and b is a left or a top edge of the triangle whose third corner is c.
 bool owns_its_points(FixedPoint a, FixedPoint b, FixedPoint c) {
     if (a.y == b.y) return c.y > a.y;  // level: y points down, so the triangle lies below it
     // Going down the line with y down, everything on its right has negative area: (0, 0), (0, 1), (1, 0) gives -1.
@@ -19,7 +19,7 @@ bool owns_its_points(FixedPoint a, FixedPoint b, FixedPoint c) {
     return doubled_area(upper, lower, c) < 0;
 }
 
-/// An edge, and what it asks of the points of its triangle: the same side as the third corner, or a place on the line if it owns that.
+/// An edge, with its test of a point of the triangle: on the same side as the third corner, or on the line if the edge owns its points.
 struct Side {
     FixedPoint a, b;
     int inner_sign;

@@ -1,5 +1,5 @@
-// The meaning of the rasterizer, written for clarity and not for speed: coverage by asking every pixel about every triangle in exact
-// integers, depth and attributes by solving the projection equation in float64. Nothing here is shared with the kernels. For tests.
+// Reference rasterizer for tests, written for clarity and not for speed. Coverage tests every pixel against every triangle in exact
+// integers; depth and attributes solve the projection equation in float64. Nothing here is shared with the kernels.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@ struct FixedTriangle {
     FixedPoint corner[3];
 };
 
-/// The rule in its own words: a point inside is covered; a point on an edge is covered when that edge is a left edge (the triangle lies
-/// to its right) or a top edge (level, and the triangle lies below it); a corner when both its edges are such edges.
+/// Fill rule: a point inside is covered. A point on an edge is covered if that edge is a left edge (the triangle lies to its right) or a
+/// top edge (level, and the triangle lies below it). A corner is covered if both its edges are such edges.
 [[nodiscard]] bool covers(const FixedTriangle& triangle, FixedPoint p);
 
-/// Pixels of the picture, one after the other row by row.
+/// Window of pixels in the picture, stored row by row.
 struct PixelWindow {
     int x = 0, y = 0, width = 0, height = 0;
 };
@@ -38,7 +38,7 @@ public:
     /// clip[i] = x, y, z, w of corner i. Picture of width x height pixels.
     HomogeneousTriangle(const double (&clip)[3][4], int width, int height);
 
-    /// The triangle is seen edge on, or has no extent.
+    /// True if the triangle is seen edge on, or has no extent.
     [[nodiscard]] bool degenerate() const { return degenerate_; }
     /// Counter-clockwise as seen by the viewer (y up).
     [[nodiscard]] bool front_facing() const { return front_facing_; }
@@ -49,7 +49,7 @@ public:
         double edge_px[3];       ///< distance to the line of the edge opposite corner i; positive on the triangle's side
         double near_px, far_px;  ///< distance to the lines where the triangle's plane has depth 1 and depth 0; positive between
     };
-    /// At window position (x, y), pixels, y down; the centre of the first pixel is (0.5, 0.5).
+    /// Values at window position (x, y), pixels, y down; the centre of the first pixel is (0.5, 0.5).
     [[nodiscard]] Point at(double x_px, double y_px) const;
 
     /// Change of depth for a step of one pixel to the right, and down.

@@ -76,7 +76,7 @@ TEST_CASE("renderer: the shadow of a masked surface follows the texture filter",
     }
 }
 
-TEST_CASE("renderer: an environment that changed where it lies, and was told", "[raster][retention]") {
+TEST_CASE("renderer: an environment changed in place is used after the update that tells of it", "[raster][retention]") {
     NamedScene s = materials_scene();
     shading::Environment environment = sky(1);
     s.scene.environment = shading::borrowed(environment);
@@ -90,7 +90,7 @@ TEST_CASE("renderer: an environment that changed where it lies, and was told", "
     CHECK(differing(draw(renderer, prepared, s.camera, small_shadows()), expected) == 0);
 }
 
-TEST_CASE("renderer: scenes one after the other whose environments lie at one place", "[raster][retention]") {
+TEST_CASE("renderer: successive scenes whose environments have one address are told apart", "[raster][retention]") {
     Renderer renderer;
     for (const std::uint64_t seed : {1, 2, 3}) {
         const shading::Environment environment = sky(seed);
@@ -101,7 +101,7 @@ TEST_CASE("renderer: scenes one after the other whose environments lie at one pl
     }
 }
 
-TEST_CASE("renderer: reference accuracy after its environment was freed and another came to lie there", "[raster][retention]") {
+TEST_CASE("renderer: reference accuracy uses a new environment at the address of a freed one", "[raster][retention]") {
     alignas(shading::Environment) static std::byte place[sizeof(shading::Environment)];
     int alive = 0;
     const auto at_the_place = [&alive](std::uint64_t seed) {
@@ -125,14 +125,14 @@ TEST_CASE("renderer: reference accuracy after its environment was freed and anot
     s.scene.environment = std::make_shared<const shading::Environment>(sky(2));
     REQUIRE(prepared.update(kLights));
     draw(renderer, prepared, s.camera, small_shadows());
-    if (alive == 0) s.scene.environment = at_the_place(3);  // otherwise the Renderer holds the first, and nothing can lie there
+    if (alive == 0) s.scene.environment = at_the_place(3);  // otherwise the Renderer holds the first one, and its place is not free
     REQUIRE(prepared.update(kLights));
     const Pixels expected = draw_anew(s.scene, s.camera, reference);
     CHECK(differing(before, expected) > 1000);
     CHECK(differing(draw(renderer, prepared, s.camera, reference), expected) == 0);
 }
 
-TEST_CASE("renderer: light once a vertex leaves nothing behind", "[raster][retention]") {
+TEST_CASE("renderer: shading once a vertex does not affect later frames", "[raster][retention]") {
     for (const NamedScene& s : all_scenes()) {
         const PreparedScene prepared = made(s.scene);
         Renderer renderer;
@@ -147,7 +147,7 @@ TEST_CASE("renderer: light once a vertex leaves nothing behind", "[raster][reten
     }
 }
 
-TEST_CASE("renderer: vertex attributes that only light asks for are there when light comes", "[raster][retention]") {
+TEST_CASE("renderer: vertex attributes that only light needs are present when a light is added", "[raster][retention]") {
     for (NamedScene s : all_scenes()) {
         const Scene lit = s.scene;
         s.scene.lights.clear();

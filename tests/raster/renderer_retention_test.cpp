@@ -1,5 +1,5 @@
-// What a Renderer keeps from frame to frame never shows: whatever changed in between, the next frame is that of a new Renderer with a newly
-// prepared scene.
+// Data that a Renderer keeps from frame to frame must not be visible: whatever changed in between, the next frame equals that of a new
+// Renderer with a newly prepared scene.
 #include "raster/renderer.hpp"
 #include "raster/scene/tangent_space.hpp"
 #include "tests/raster/random_geometry.hpp"
@@ -37,7 +37,7 @@ int differing_pixels(const Picture& a, const Picture& b) {
     return count;
 }
 
-/// The frame of a Renderer that drew others before, and that of a new one.
+/// Checks that the frame of a Renderer that drew others before equals that of a new one.
 void check_same(const Picture& kept, const Picture& fresh) {
     CHECK(differing_pixels(kept, fresh) == 0);
     REQUIRE(kept.report.has_value() == fresh.report.has_value());
@@ -71,7 +71,7 @@ shading::Texture noise(Random& random) {
     return *shading::Texture::from_rgba8(rgba, 16, 16, shading::ColorSpace::srgb);
 }
 
-/// A scene that changes, and is told so.
+/// A scene that changes, and its prepared scene, which is told of the changes.
 struct Stage {
     NamedScene given;
     Scene scene;
@@ -79,7 +79,7 @@ struct Stage {
     std::optional<PreparedScene> prepared;
 
     explicit Stage(NamedScene s) : given(std::move(s)) { restart(); }
-    /// All anew, at the same places in memory.
+    /// Makes all anew, at the same places in memory.
     void restart() {
         prepared.reset();
         scene = given.scene;
@@ -175,7 +175,7 @@ struct Frame {
     int width = 96, height = 64;
 };
 
-/// Of two or three values each, so that what was kept fits again every now and then.
+/// Changes one setting to one of two or three values, so that kept data fits again now and then.
 void change_frame(Random& random, Frame& frame) {
     using shading::Accuracy, shading::ShadingRate, shading::TextureDetail;
     Settings& s = frame.settings;
@@ -217,7 +217,7 @@ void change_frame(Random& random, Frame& frame) {
     changes[random.index(std::size(changes))]();
 }
 
-/// A frame that cannot be drawn: refused at once, when shadows are planned, for the camera, or stopped half way.
+/// Renders a frame that cannot be drawn: refused at once, when shadows are planned, for the camera, or stopped half way.
 void fail_once(Random& random, Renderer& renderer, const Stage& stage, Frame frame) {
     Camera camera = stage.camera;
     Settings& s = frame.settings;
@@ -240,7 +240,7 @@ void fail_once(Random& random, Renderer& renderer, const Stage& stage, Frame fra
 
 }  // namespace
 
-TEST_CASE("renderer: frames of a long and varied life are those of a new one", "[raster][retention]") {
+TEST_CASE("renderer: after many random changes every frame equals that of a new Renderer", "[raster][retention]") {
     int drawn = 0, refused = 0;
     for (const std::uint64_t seed : {1, 2, 3}) {
         Random random(seed);
@@ -273,5 +273,5 @@ TEST_CASE("renderer: frames of a long and varied life are those of a new one", "
         }
     }
     CHECK(drawn > 350);
-    CHECK(refused < 100);  // those with a budget, and a setting that excludes one
+    CHECK(refused < 100);  // frames with a budget and a setting that excludes budgets
 }

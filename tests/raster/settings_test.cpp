@@ -1,4 +1,4 @@
-// What a frame refuses, with which code, and how it stops.
+// Settings that a frame refuses, their error codes, and the ways to stop a frame.
 #include "raster/built_in/shapes.hpp"
 #include "raster/renderer.hpp"
 #include "tests/support/cameras.hpp"
@@ -52,7 +52,7 @@ bool refused(const Outcome& o, ErrorCode code) {
 
 }  // namespace
 
-TEST_CASE("settings: sizes that are none are usage errors, sizes beyond the guard band a limit", "[raster][settings]") {
+TEST_CASE("settings: sizes below 1 are usage errors, sizes beyond the guard band exceed a limit", "[raster][settings]") {
     for (const int side : {0, -1, -kMost}) {
         CHECK(refused(outcome(box_scene(), {}, side, 30), ErrorCode::usage));
         CHECK(refused(outcome(box_scene(), {}, 40, side), ErrorCode::usage));
@@ -111,7 +111,7 @@ TEST_CASE("settings: an instruction set that this CPU does not run is a usage er
     CHECK(o.message.find("nonsense") != std::string::npos);
 }
 
-TEST_CASE("settings: any number of threads draws", "[raster][settings]") {
+TEST_CASE("settings: any number of threads is accepted", "[raster][settings]") {
     for (const int threads : {-5, 0, 1, 64, 100'000, kMost}) {
         Settings s;
         s.threads = threads;
@@ -152,14 +152,14 @@ TEST_CASE("scene: a camera that is not finite is bad input", "[raster][settings]
     camera = kCamera;
     camera.world_from_camera.c[0].y = kInf;
     CHECK(refused(outcome(box_scene(), {}, 40, 30, camera), ErrorCode::bad_input));
-    // A lens that is not finite has a neutral value.
+    // Lens values that are not finite are replaced by neutral ones.
     camera = kCamera;
     camera.fov_y_rad = kNan;
     camera.near_z = -kInf;
     CHECK(outcome(box_scene(), {}, 40, 30, camera).ok);
 }
 
-TEST_CASE("frame: a target without pixels is drawn into nothing", "[raster][settings]") {
+TEST_CASE("frame: a target without pixels is accepted", "[raster][settings]") {
     const auto report = render(box_scene(), kCamera, {}, {40, 30, nullptr, nullptr});
     REQUIRE(report);
     CHECK(report->pixels_visible > 50);
@@ -182,7 +182,7 @@ TEST_CASE("frame: stops when asked to, and draws again afterwards", "[raster][se
             REQUIRE_FALSE(stopped);
             CHECK(stopped.error().code == ErrorCode::negative_result);
             CHECK(asked >= after);
-            CHECK(asked <= after + 1 + threads);  // of 169 tiles: each thread notices at its next one
+            CHECK(asked <= after + 1 + threads);  // 169 tiles: each thread notices at its next one
         }
         const std::function<bool()> never = [] { return false; };
         Settings s;

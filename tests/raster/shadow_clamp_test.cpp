@@ -1,5 +1,5 @@
-// Shadows where things degenerate: lights inside meshes and in planes, casters without area, maps' edges, equal depths, maps that are too
-// large. All instruction sets draw the same.
+// Shadows in degenerate cases: lights inside meshes and in planes, casters without area, maps' edges, equal depths, maps that are too
+// large. All instruction sets must draw the same.
 #include "tests/raster/shadow_setup.hpp"
 #include "tests/support/isas.hpp"
 
@@ -16,7 +16,7 @@ using shading::ShadowMode;
 
 namespace {
 
-/// The same picture with every instruction set, free of NaN.
+/// Picture that must be the same with every instruction set, finite and not negative.
 std::vector<float> on_all_sets(ShadowSetup& setup, int size) {
     std::vector<float> first;
     for (const shading::Isa isa : available_isas()) {
@@ -64,7 +64,7 @@ TEST_CASE("shadows: a light inside a closed mesh lights nothing outside it", "[r
                 int dark = 0, was_lit = 0;
                 for (int j = 0; j < 64; ++j)
                     for (int i = 0; i < 64; ++i) {
-                        if (i > 20 && i < 43 && j > 20 && j < 43) continue;  // where the mesh itself is seen
+                        if (i > 20 && i < 43 && j > 20 && j < 43) continue;  // the mesh itself is seen here
                         const auto at = static_cast<std::size_t>(4 * (j * 64 + i));
                         dark += floor[at] == 0.0f, was_lit += lit[at] > 0.0f;
                     }
@@ -93,7 +93,7 @@ TEST_CASE("shadows: a light in a surface's own plane leaves it as it is without 
     }
 }
 
-TEST_CASE("shadows: faces of a cube that see nothing are as if they were drawn", "[raster][shadow]") {
+TEST_CASE("shadows: leaving out faces of a cube that see nothing changes no pixel", "[raster][shadow]") {
     for (const Vec3f position : {Vec3f{2, 2, 0.5f}, Vec3f{0.3f, 2.5f, -0.2f}, Vec3f{-1.2f, 0.7f, -1.3f}}) {
         ShadowSetup setup(Lobe::sloan(0.5f), ShadowMode::hard);
         setup.settings.shadow_size = 256;
@@ -102,7 +102,7 @@ TEST_CASE("shadows: faces of a cube that see nothing are as if they were drawn",
         setup.add(make_box({0.2f, 0.2f, 0.2f}), translation({0.1f, 0.3f, 0}));
         look_down(setup);
         const std::vector<float> few_faces = on_all_sets(setup, 64);
-        // Crumbs on all sides, out of sight, bring every face into the scene's box.
+        // Tiny boxes on all sides, out of sight, extend the scene's box so that it meets every face.
         for (const float x : {-6.0f, 6.0f})
             for (const float y : {-6.0f, 6.0f}) setup.add(make_box({0.01f, 0.01f, 0.01f}), translation({x, y, x * y / 6}));
         CHECK(differing(few_faces, on_all_sets(setup, 64)) == 0);
@@ -169,7 +169,7 @@ TEST_CASE("shadows: a box's shadow begins within four texels of where it stands"
         setup.scene.lights[0].direction_ws = {-s, -c, 0};
         setup.add(make_plane(1, 1));
         setup.add(make_box({0.1f, 0.2f, 0.3f}), translation({0, 0.2f, 0}));
-        // Seen from the shadow's side and below the horizon of the box's own outline: straight down, the box hides nothing of it.
+        // View straight down: the box hides nothing of its shadow.
         setup.camera = camera_at({0, 5, 0}, {0, 0, 0});
         setup.camera.orthographic = true;
         setup.camera.half_width = 0;

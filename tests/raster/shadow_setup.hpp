@@ -1,4 +1,4 @@
-// A white matte surface under one light of colour 1, so that a pixel is V f(N.L).
+// White matte surface under one light of colour 1, so that a pixel is V f(N.L): V the visibility of the light, f the lobe.
 #pragma once
 
 #include "raster/built_in/shapes.hpp"
@@ -55,7 +55,7 @@ inline int differing(const std::vector<float>& a, const std::vector<float>& b) {
     return count;
 }
 
-/// f(0), where the surface turns away from the light.
+/// Value of the lobe at N.L = 0, where the surface turns away from the light.
 inline double boundary_value(const shading::Lobe& lobe) {
     return static_cast<double>(lobe.scale()) * std::pow(lobe.wrap / (1.0 + lobe.wrap), static_cast<double>(lobe.power));
 }

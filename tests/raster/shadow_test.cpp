@@ -1,5 +1,6 @@
-// Shadows on wrapped light, in pictures: the step of hard shadows at the terminator, what soft_split makes of it, and that shadow maps
-// leave alone what nothing hides. White matte surfaces under one directional light of colour 1, so that a pixel is V f(N.L).
+// Pictures of shadows on wrapped light: the step of hard shadows at the terminator, the effect of soft_split on it, and surfaces that
+// nothing hides. White matte surfaces under one directional light of colour 1, so that a pixel is V f(N.L): V the visibility of the light,
+// f the lobe.
 #include "tests/raster/shadow_setup.hpp"
 
 #include <catch2/catch.hpp>
@@ -29,7 +30,7 @@ const std::vector<std::pair<const char*, Lobe>>& lobes() {
     return all;
 }
 
-/// One value a pixel: the red of row `y`.
+/// Red values of row `y`.
 std::vector<float> row(const std::vector<float>& rgba, int y = kHeight / 2, int width = kWidth) {
     std::vector<float> values;
     for (int x = 0; x < width; ++x) values.push_back(rgba[static_cast<std::size_t>(4 * (y * width + x))]);
@@ -55,9 +56,9 @@ float steepest(const std::vector<float>& profile, float low, float high) {
 
 }  // namespace
 
-TEST_CASE("shadows: hard ones step by (w / (1 + w))^n where a sphere turns away from the light", "[raster][shadow]") {
-    // Filtering and the offset that keeps a surface from hiding itself put the step at N.L = -sqrt(3 t) to -sqrt(9 t), t the texel over
-    // the radius: the receiver stands 3 t off the sphere, of which texels 1.5 t to either side are looked at.
+TEST_CASE("shadows: hard shadows step by (w / (1 + w))^n where a sphere turns away from the light", "[raster][shadow]") {
+    // Filtering, and the offset that keeps a surface from hiding itself, put the step at N.L = -sqrt(3 t) to -sqrt(9 t), where t is the
+    // texel size over the radius. The look-up is 3 t off the sphere, and the filter reads texels up to 1.5 t to either side.
     const float texel = 2.0f / (2048 - 2 * shading::kShadowBorder);
     const float lit_from = -std::sqrt(2.0f * texel), dark_to = -std::sqrt(11.0f * texel);
     for (const auto& [name, lobe] : lobes()) {
@@ -70,15 +71,14 @@ TEST_CASE("shadows: hard ones step by (w / (1 + w))^n where a sphere turns away 
         }
         CHECK(lit_wrong == 0);
         CHECK(dark_wrong == 0);
-        // Plateau to plateau: the value at N.L = 0, between the two pixels beside it, less the 0 where nothing is left.
+        // Height of the step: the value at N.L = 0, between the two pixels beside it, less the value on the dark side, 0.
         const float at_terminator = 0.5f * (hard[kWidth / 2 - 1] + hard[kWidth / 2]);
         CHECK(at_terminator - hard[kWidth / 2 - 100] == Approx(boundary_value(lobe)).margin(1e-3));
     }
 }
 
 TEST_CASE("shadows: soft-split is as smooth across a sphere's terminator as no shadow", "[raster][shadow]") {
-    // A blocker that is the sphere's own bulk hides no wrapped light, and the offset of look-ups keeps it out of the filter's reach
-    // elsewhere.
+    // The sphere's own body hides no wrapped light. Elsewhere the offset of look-ups keeps it out of the filter's reach.
     std::vector<std::pair<const char*, Lobe>> all = lobes();
     all.insert(all.end(), {{"mcauley .5, 2", Lobe::mcauley(0.5f, 2)}, {"sloan .1", Lobe::sloan(0.1f)}, {"green .25", Lobe::green(0.25f)}});
     for (const int size : {2048, 256}) {
@@ -101,14 +101,15 @@ TEST_CASE("shadows: soft-split is as smooth across a sphere's terminator as no s
             CHECK(darkened <= 1e-4);
         }
     }
-    // The step that hard shadows make of it: many times steeper.
+    // The step of hard shadows is several times as steep.
     const Lobe lobe = Lobe::sloan(0.5f);
     CHECK(steepest(sphere_profile(lobe, ShadowMode::hard), -0.5f, 0.1f) > 4 * steepest(sphere_profile(lobe, ShadowMode::off), -0.5f, 0.1f));
 }
 
 TEST_CASE("shadows: a body hides its own wrapped light only where it is thicker than a sphere", "[raster][shadow]") {
-    // The side of a bar that is turned away by x = -0.6, half-Lambert. The light's way through the bar is 0.2 / 0.6 = 0.33. By default d0
-    // is 2.25 R = 1.31, R = sqrt(1.02 / 3) from its box, of which a sphere so turned would be 0.70 thick: nothing is hidden.
+    // Side of a bar that is turned away from the light by x = N.L = -0.6, half-Lambert. The light's path through the bar is 0.2 / 0.6 =
+    // 0.33 long. The fade distance d0 is 2.25 R = 1.31 by default, R = sqrt(1.02 / 3) from the bar's box. A sphere of radius R would be
+    // 0.70 thick there; the bar is thinner, so nothing is hidden.
     ShadowSetup setup(Lobe::half_lambert(), ShadowMode::soft_split);
     setup.scene.lights[0].direction_ws = {-0.8f, 0, 0.6f};  // from behind
     setup.add(make_box({1, 0.1f, 0.1f}));
@@ -117,7 +118,7 @@ TEST_CASE("shadows: a body hides its own wrapped light only where it is thicker 
     const std::vector<float> off = row(setup.draw());
     CHECK(off[kWidth / 4] == Approx(0.2f).margin(1e-5));  // (1 - 0.6) / 2
     CHECK(soft[kWidth / 4] == off[kWidth / 4]);
-    setup.settings.shadow_fade = 0.3f;  // less than the way through
+    setup.settings.shadow_fade = 0.3f;  // less than the path through the bar
     setup.settings.shadows = ShadowMode::soft_split;
     CHECK(row(setup.draw())[kWidth / 4] == 0.0f);
 }
@@ -157,8 +158,8 @@ TEST_CASE("shadows: a far caster's shadow is exactly 0 in soft-split too", "[ras
     }
 }
 
-TEST_CASE("shadows: what leaks in below a caster that touches is at most the lobe's value at the terminator", "[raster][shadow]") {
-    // A wall on a floor, light from 45 degrees over the wall: in the corner the blocker is as near as can be.
+TEST_CASE("shadows: light that leaks in below a touching caster is at most the lobe's value at the terminator", "[raster][shadow]") {
+    // A wall on a floor, light from 45 degrees over the wall: in the corner the blocker is as near as possible.
     for (const auto& [name, lobe] : lobes()) {
         ShadowSetup setup(lobe, ShadowMode::soft_split);
         setup.scene.lights[0].direction_ws = {-0.70710678f, -0.70710678f, 0};
@@ -171,7 +172,7 @@ TEST_CASE("shadows: what leaks in below a caster that touches is at most the lob
         setup.camera.far_z = 20;
         ShadowSetup plain = setup;
         plain.settings.shadows = ShadowMode::off;
-        // Up in the picture is +x for a vertical view: draw a column, then.
+        // Up in the picture is +x for a vertical view, so a column is drawn.
         setup.camera.half_height = 1, setup.camera.half_width = static_cast<float>(kHeight) / kWidth;
         plain.camera = setup.camera;
         const std::vector<float> soft = setup.draw(kHeight, kWidth), off = plain.draw(kHeight, kWidth);
@@ -180,7 +181,7 @@ TEST_CASE("shadows: what leaks in below a caster that touches is at most the lob
         for (int i = 0; i < kWidth; ++i) {
             const float x = -x_of(i);
             const float value = soft[static_cast<std::size_t>(4 * (i * kHeight + 1))];
-            // From the foot of the wall to 4 texels before the end of its shadow.
+            // Range: from the foot of the wall to 4 texels before the end of its shadow.
             if (x < 0.278f && x > -0.11f) leak = std::max(leak, value), ++shadowed;
             if (x < -0.2f && x > -0.99f) CHECK(value == off[static_cast<std::size_t>(4 * (i * kHeight + 1))]);
         }
@@ -191,9 +192,9 @@ TEST_CASE("shadows: what leaks in below a caster that touches is at most the lob
 }
 
 TEST_CASE("shadows: on a coarse sphere soft-split is no rougher than no shadow", "[raster][shadow]") {
-    // 32 facets round the equator, which is seen whole; the light meets them at several angles. Where a facet turns away from the light as
-    // one, its normals still reach N.L = 0.084, so that in theory hard shadows jump by f(0.084) = .243, or .140 with look-ups moved to the
-    // smooth surface, where only f(0) is cut. Of Lambert's light .084 is cut there, and .012 with the move.
+    // The equator has 32 facets, all in view, and the light meets them at several angles. A facet turns away from the light as a whole
+    // while its normals still reach N.L = 0.084. So in theory hard shadows jump by f(0.084) = .243. With look-ups moved to the smooth
+    // surface, where only f(0) is cut, they jump by .140. Of Lambert's light .084 is cut there, and .012 with the move.
     struct Jumps {
         float whole = 0, over_unshadowed = 0;
     };
@@ -209,7 +210,7 @@ TEST_CASE("shadows: on a coarse sphere soft-split is no rougher than no shadow",
             setup.add(make_sphere(1, 32, 32), place);
             open.add(make_sphere(1, 32, 32), place);
             const std::vector<float> p = row(setup.draw()), off = row(open.draw());
-            // Samples 1/32 of the radius apart: the filter makes of a step a ramp of that width.
+            // Samples are 1/32 of the radius apart, because the filter turns a step into a ramp of that width.
             for (int i = kWidth / 4; i + 16 < kWidth * 3 / 4; ++i) {
                 const float change = p[i + 16] - p[i];
                 jumps.whole = std::max(jumps.whole, std::fabs(change));
@@ -225,7 +226,7 @@ TEST_CASE("shadows: on a coarse sphere soft-split is no rougher than no shadow",
     INFO("hard " << hard.whole << ", moved " << hard_moved.whole << "; soft-split " << soft.whole << " (over the unshadowed change "
                  << soft.over_unshadowed << "), moved " << soft_moved.whole << " (" << soft_moved.over_unshadowed << "); Lambert "
                  << plain.whole << " (" << plain.over_unshadowed << ")");
-    CHECK(hard.whole <= 0.243f);  // measured: .183; the look-up is 3 texels off the facet, which is .0048 below the sphere: two of them
+    CHECK(hard.whole <= 0.243f);  // measured: .183; the look-up is 3 texels off a facet that is .0048 of its radius below the sphere
     CHECK(hard.whole >= 0.15f);
     CHECK(hard_moved.whole <= 0.16f);  // .142
     CHECK(hard_moved.whole >= 0.12f);

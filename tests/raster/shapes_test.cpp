@@ -33,7 +33,7 @@ double area(const Mesh& mesh) {
     return sum / 2;
 }
 
-/// Every directed edge, by the positions of its ends, is met once and its opposite once: the surface has no hole and no flipped triangle.
+/// True if every directed edge, by the positions of its ends, occurs once and its opposite once: no hole and no flipped triangle.
 bool is_closed(const Mesh& mesh) {
     using Point = std::tuple<float, float, float>;
     std::map<std::pair<Point, Point>, int> edges;
@@ -50,7 +50,7 @@ bool is_closed(const Mesh& mesh) {
     return !edges.empty();
 }
 
-/// Largest angle cosine deficit between a triangle's plane and the normals of its corners, and the normals' distance from length 1.
+/// Checks that normals have length 1, and that the cosine between a triangle's plane normal and those of its corners is large enough.
 void check_normals(const Mesh& mesh, double smallest_cosine) {
     REQUIRE(mesh.normals.size() == mesh.positions.size());
     REQUIRE(mesh.uv0.size() == mesh.positions.size());
@@ -68,7 +68,7 @@ void check_normals(const Mesh& mesh, double smallest_cosine) {
     CHECK(worst_cosine > smallest_cosine);
 }
 
-/// u and v grow to the right and down when seen from outside: their plane is mirrored nowhere.
+/// Checks that u grows to the right and v down when seen from outside, so that no texture is mirrored.
 void check_texture_is_not_mirrored(const Mesh& mesh) {
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
         const Vec2f a = mesh.uv0[mesh.indices[i]], b = mesh.uv0[mesh.indices[i + 1]], c = mesh.uv0[mesh.indices[i + 2]];

@@ -1,4 +1,4 @@
-// Distances to the nearest and the farthest surface against all triangles, one by one.
+// Distances to the nearest and the farthest surface, compared with all triangles one by one.
 #include "raster/scene/surface_distance.hpp"
 #include "tests/raster/random_geometry.hpp"
 
@@ -19,14 +19,15 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 long double squared(Vec3l v) { return dot(v, v); }
 
-/// Of the point a + b s nearest to the origin, s in [0, 1].
+/// Squared distance from the origin to the segment a + b s, s in [0, 1].
 long double to_segment(Vec3l a, Vec3l b) {
     const long double length = squared(b), s = length > 0 ? std::clamp(-dot(a, b) / length, 0.0L, 1.0L) : 0.0L;
     return squared(a + b * s);
 }
 
-/// Squared distance from the origin to a triangle: of points that surely lie on it, the nearest. One is the foot on its plane by the normal
-/// equations, where they give a point within; where they are nearly singular an edge is as near.
+/// Squared distance from the origin to the nearest of several points that surely lie on a triangle. One is the foot of the perpendicular on
+/// its plane by the normal equations, if it is within the triangle. The others are on the edges: if the equations are nearly singular, an
+/// edge is as near.
 long double to_triangle(const std::array<Vec3l, 3>& p) {
     const Vec3l e = p[1] - p[0], f = p[2] - p[0];
     long double nearest = std::min({to_segment(p[0], e), to_segment(p[0], f), to_segment(p[1], p[2] - p[1])});
@@ -38,12 +39,12 @@ long double to_triangle(const std::array<Vec3l, 3>& p) {
     return nearest;
 }
 
-/// Squared. drawn: of the surfaces as they are drawn, with vertices that float32 has placed.
+/// Squared distances. drawn: to the surfaces as they are drawn, with vertices that float32 has placed.
 struct Distances {
     long double exact = std::numeric_limits<double>::max(), drawn = exact, farthest_drawn = 0;
 };
 
-/// By all triangles whose corners are finite.
+/// Distances by all triangles whose corners are finite.
 Distances by_all(const Scene& scene, Vec3d point) {
     Distances d;
     for (const Instance& instance : scene.instances) {
@@ -75,7 +76,7 @@ PreparedScene made(const Scene& scene) {
     return std::move(*prepared);
 }
 
-/// Inside, around, far away, on a vertex, close above one, or wherever a light might be.
+/// Point inside the scene, around it, far away, on a vertex or close to one.
 Vec3d any_point(Random& random, const Scene& scene, double reach) {
     const double away = random.chance(0.5) ? reach : reach * std::pow(10.0, random.real(-2, 3));
     Vec3d point{random.real(-away, away), random.real(-away, away), random.real(-away, away)};
@@ -91,13 +92,13 @@ Vec3d any_point(Random& random, const Scene& scene, double reach) {
     return point;
 }
 
-/// Rounding of distances as a share of all coordinates: by some 10 units of 2^-53; and where triangles are thin, by their aspect times that
-/// (measured: 9e-11 above and 2e-9 below, aspects of 1e4 and more, at distances of 1e-8).
+/// Rounding errors of distances relative to all coordinates: some 10 units of 2^-53; for thin triangles, their aspect times that (measured:
+/// 9e-11 above and 2e-9 below, aspects of 1e4 and more, at distances of 1e-8).
 constexpr double kRounding = 2e-15, kThinRounding = 1e-8;
 
 struct Comparison {
     double rounding;
-    int points = 0, too_near = 0, too_far = 0;  ///< than the scene's surfaces, exact or as they are drawn
+    int points = 0, too_near = 0, too_far = 0;  ///< compared with the scene's surfaces, exact or as they are drawn
     int beyond_drawn = 0, beyond_farthest = 0;
 
     void add(const Scene& scene, const PreparedScene& prepared, Vec3d point, double size) {
@@ -107,7 +108,8 @@ struct Comparison {
         const double slack = 1e-9 * exact + rounding * (size + std::abs(point.x) + std::abs(point.y) + std::abs(point.z));
         too_near += found < std::min(exact, drawn) - slack;
         too_far += found > std::max(exact, drawn) + slack;
-        // The least that an error budget allows for; point lights are not nearer than 1e-4 where nothing else is said.
+        // Error budgets take 0.999 of the squared distance as its least. Point lights have a radius of 1e-4 by default, so nearer is no
+        // error.
         beyond_drawn += 0.999 * found * found > std::max(drawn * drawn, 1e-8);
         beyond_farthest += static_cast<double>(truth.farthest_drawn) > farthest_surface_squared(prepared, point) * (1 + 1e-14);
         ++points;
@@ -129,7 +131,7 @@ Mesh sound_mesh(Random& random) {
 
 }  // namespace
 
-TEST_CASE("surface distance: the nearest triangle of random scenes, and none farther than the farthest", "[raster][distance]") {
+TEST_CASE("surface distance: that of the nearest triangle of random scenes, and none farther than the farthest", "[raster][distance]") {
     Random random(1);
     Comparison sum{kRounding};
     for (int round = 0; round < 120; ++round) {
@@ -150,7 +152,7 @@ TEST_CASE("surface distance: the nearest triangle of random scenes, and none far
     CHECK(sum.points == 600);
 }
 
-TEST_CASE("surface distance: never beyond the nearest triangle, for triangles that are lines or nearly so", "[raster][distance]") {
+TEST_CASE("surface distance: that of the nearest triangle, for triangles that are lines or nearly so", "[raster][distance]") {
     Random random(2);
     Comparison sum{kThinRounding};
     for (int round = 0; round < 4000; ++round) {
@@ -175,7 +177,7 @@ TEST_CASE("surface distance: never beyond the nearest triangle, for triangles th
 }
 
 TEST_CASE("surface distance: no surface is drawn nearer, far from the origin too", "[raster][distance]") {
-    // float32 has steps of 1/128 out there, and the things are not much larger.
+    // float32 has steps of 1/128 to 1/64 at that distance, and the objects are not much larger.
     Random random(3);
     Comparison sum{kRounding};
     for (int round = 0; round < 100; ++round) {
@@ -219,7 +221,7 @@ TEST_CASE("surface distance: vertices that are not finite hide no surface", "[ra
     CHECK(sum.points == 200);
 }
 
-TEST_CASE("surface distance: closed forms", "[raster][distance]") {
+TEST_CASE("surface distance: a box has the distances of the closed form", "[raster][distance]") {
     Scene scene;
     scene.meshes.push_back(make_box({1, 2, 3}));
     scene.instances.push_back({0, {}});

@@ -81,11 +81,11 @@ TEST_CASE("tangents: on a sphere they point east, within the size of a facet", "
         worst = std::max(worst, angle_deg(mesh.tangents[v], {p.z, 0, -p.x}));
         CHECK(mesh.tangents[v].w == 1.0f);  // cross(outwards, east) is north, the picture's top
     }
-    CHECK(worst < 3.0);  // half a facet is 2.8 degrees; 2.8 at the seam, where only one side counts
+    CHECK(worst < 3.0);  // half a facet is 2.8 degrees; measured 2.8 at the seam, where only one side counts
 }
 
 TEST_CASE("tangents: a mirrored seam splits its vertices, a plain one does not", "[raster]") {
-    Mesh mesh;  // two slots side by side; u runs away from the common edge on both
+    Mesh mesh;  // two quads side by side; on both, u grows away from the common edge
     mesh.positions = {{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {-1, 1, 0}, {0, 1, 0}, {1, 1, 0}};
     mesh.normals.assign(6, Vec3f{0, 0, 1});
     mesh.uv0 = {{1, 1}, {0, 1}, {1, 1}, {1, 0}, {0, 0}, {1, 0}};
@@ -103,7 +103,7 @@ TEST_CASE("tangents: a mirrored seam splits its vertices, a plain one does not",
     }
 }
 
-TEST_CASE("tangents: unshared vertices get what shared ones get", "[raster]") {
+TEST_CASE("tangents: unshared vertices get the tangents of shared ones", "[raster]") {
     Mesh shared = sphere(24, 12), apart = shared;
     std::mt19937 random(7);
     for (Vec2f& uv : shared.uv0) uv = {uv.x + float(random() % 1000) * 2e-5f, uv.y + float(random() % 1000) * 2e-5f};
@@ -127,7 +127,7 @@ TEST_CASE("tangents: an uneven fan is weighted by angle, not by area or count", 
     const auto at = [&](double a, double r) { return Vec3f{float(r * std::cos(a * deg)), float(r * std::sin(a * deg)), 0}; };
     mesh.positions = {{0, 0, 0}, at(0, 1), at(90, 5), at(150, 1), at(180, 30)};
     mesh.normals.assign(5, Vec3f{0, 0, 1});
-    // u = x + 0.3 y at the first two rims, then shear: each triangle has its own gradient.
+    // u = x + 0.3 y at the first two points of the rim, then sheared: each triangle has its own gradient.
     mesh.uv0 = {{0, 0}, {1, -0.2f}, {1.5f, -5}, {-0.5f, -0.6f}, {-20, -4}};
     mesh.indices = {0, 1, 2, 0, 2, 3, 0, 3, 4};
     Vec3d sum{};

@@ -111,7 +111,7 @@ NamedScene materials_scene() {
     generate_tangents(ball, 0);
     const int metal_index = add_material(s, metal);
     add(s, ball, metal_index, translation({-0.9f, 0, 0.2f}));
-    // Mirrored, uneven and turned: winding, normals and tangent frames turn over.
+    // Mirrored, scaled unevenly and rotated: winding, normals and tangent frames turn over.
     add(s, ball, metal_index, translation({0.8f, 0.1f, -0.6f}) * turned(0.2f, 0.5f, 0.1f, 0.8f) * scaling({-1.2f, 0.6f, 0.9f}));
 
     Material clay;
@@ -151,7 +151,7 @@ NamedScene materials_scene() {
     flag.unlit = true;
     flag.double_sided = true;
     flag.base_color = {0.9f, 0.2f, 0.1f, 1};
-    Mesh through;  // from the far ground past the eye
+    Mesh through;  // reaches from the far ground past the eye
     through.positions = {{2.2f, 1.4f, 3.6f}, {-3, 1.8f, -3}, {-3, 2.4f, -3}};
     through.indices = {0, 1, 2};
     add(s, through, add_material(s, flag), {});

@@ -1,4 +1,4 @@
-// Scenes made by code that together use all that the renderer can do. Each brings its camera.
+// Scenes made by code that together use all that the renderer can do, each with a camera.
 #pragma once
 
 #include "raster/scene/scene.hpp"
@@ -16,7 +16,7 @@ struct NamedScene {
 };
 
 /// Textures with mips, normal maps, every wrap and filter; opaque, MASK and BLEND; metal and clay; all kinds of lights and lobes; mirrored
-/// and uneven placings; vertex colours and a second set of texture coordinates; a triangle through the near plane.
+/// and unevenly scaled instances; vertex colours and a second set of texture coordinates; a triangle through the near plane.
 [[nodiscard]] NamedScene materials_scene();
 
 /// Thousands of triangles of about a pixel, and some across the whole picture behind them.
@@ -25,7 +25,7 @@ struct NamedScene {
 /// Transparent layers that cross each other, over a masked fence.
 [[nodiscard]] NamedScene layers_scene();
 
-/// Numbers at the edge of float: huge and tiny placings, degenerate normals, vertices that are not finite.
+/// Numbers at the limits of float: huge and tiny instances, degenerate normals, vertices that are not finite.
 [[nodiscard]] NamedScene rough_scene();
 
 /// Some fifty small lights, each of which reaches a few tiles, and some that reach all.

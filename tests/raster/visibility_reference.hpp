@@ -1,5 +1,5 @@
-// What a picture should show, by asking each pixel about every triangle in float64, without clipping; and a comparison with what the
-// renderer shows that forgives only what fixed point must be forgiven.
+// Reference visibility: each pixel is tested against every triangle in float64, without clipping. The comparison with the renderer allows
+// only for the differences that fixed point makes.
 #pragma once
 
 #include "raster/debug_view.hpp"
@@ -17,8 +17,8 @@ namespace halflit::raster::test {
 /// before that (3 half ulps, 0.003). A pixel centre nearer than this to an edge may fall on either side of it.
 inline constexpr double kEdgeTolerancePx = 1.0 / 128;
 
-/// A triangle as the reference sees it. Corners in clip coordinates are those that the renderer computes in float, so that the comparison
-/// is about clipping and rasterization, not about the last digits of a matrix product.
+/// A triangle of the reference. Its clip coordinates are those that the renderer computes in float, so that the comparison is about
+/// clipping and rasterization, not about the last digits of a matrix product.
 struct ReferenceTriangle {
     reference::HomogeneousTriangle shape;
     bool drawn;             ///< not culled
@@ -40,8 +40,8 @@ inline std::vector<ReferenceTriangle> reference_triangles(const Scene& scene, co
                 clip[k][0] = c.x, clip[k][1] = c.y, clip[k][2] = c.z, clip[k][3] = c.w;
             }
             const reference::HomogeneousTriangle shape(clip, width, height);
-            // Depth is a float plane over the window: its terms are as large as the slope times the way to the corner it starts from, at
-            // most across the guard band; the result is held between the corners' depths.
+            // The renderer's depth is a float plane over the window. Its terms are as large as the slope times the distance to the corner
+            // where it starts, which is at most the width of the guard band. The result is clamped to the corners' depths.
             const double reach = (std::abs(shape.depth_dx()) + std::abs(shape.depth_dy())) * 2 * 16384;
             out.push_back(
                 {shape, !shape.degenerate() && (double_sided || shape.front_facing()), 8 * 0x1p-24 * std::min(1.0, reach) + 1e-7});
@@ -52,7 +52,7 @@ inline std::vector<ReferenceTriangle> reference_triangles(const Scene& scene, co
 
 struct Comparison {
     int pixels = 0;     ///< compared
-    int covered = 0;    ///< of these, those that show a triangle
+    int covered = 0;    ///< compared pixels that show a triangle
     int undecided = 0;  ///< not compared: an edge within kEdgeTolerancePx, or two triangles at one depth
     int wrong = 0;      ///< another triangle than the reference's
     int wrong_depth = 0;
@@ -71,7 +71,7 @@ inline Comparison compare_visibility(const VisibilityView& view, const Region& r
                 const auto p = r.shape.at(x + 0.5, y + 0.5);
                 const double inside = std::min({p.edge_px[0], p.edge_px[1], p.edge_px[2], p.near_px, p.far_px});
                 if (!(inside > -kEdgeTolerancePx)) continue;
-                // The snapped triangle leans a little differently.
+                // The plane of the snapped triangle is slightly different.
                 const double z_allowed =
                     r.depth_rounding + (std::abs(r.shape.depth_dx()) + std::abs(r.shape.depth_dy())) * 2 * kEdgeTolerancePx;
                 if (inside < kEdgeTolerancePx) {

@@ -1,5 +1,5 @@
-// What a frame's shading did, counted: a square that fills the picture has as many fragments as the picture has pixels, so every count has
-// a closed form.
+// Counts of a frame's shading work. A square that fills the picture has as many fragments as the picture has pixels, so every count has a
+// closed form.
 #include "raster/built_in/shapes.hpp"
 #include "raster/renderer.hpp"
 #include "raster/scene/tangent_space.hpp"
@@ -69,7 +69,7 @@ struct Square {
 
 std::uint64_t pairs(const WorkCounts& work, LightType type) { return work.light_lanes[static_cast<std::size_t>(type)]; }
 
-/// Everything but `expected` must be zero.
+/// Checks that the stages in `expected` ran on `lanes` lanes, and no other stage on any.
 void check_stages(const WorkCounts& work, std::uint32_t expected, std::uint64_t lanes = kPixels) {
     for (std::size_t bit = 0; bit < work.stage_lanes.size(); ++bit) {
         INFO("stage bit " << bit);
@@ -169,7 +169,7 @@ TEST_CASE("work: Gouraud lights the vertices, flat shading the triangles, both l
     CHECK(pairs(work, LightType::point) == 4);
     CHECK(work.shadow_lookup_lanes == 4);
     CHECK(work.lanes(shading::kStagePrelit) == kPixels);
-    // A triangle is lit once for every block in which it follows another one or none.
+    // A triangle is lit once for each run of its fragments in a block.
     square.settings.shading.rate = shading::ShadingRate::flat;
     work = square.work();
     CHECK(work.lanes(shading::kStageLights) >= 2);
@@ -229,12 +229,12 @@ TEST_CASE("work: counts do not depend on threads or instruction set, nor those o
     }
 }
 
-TEST_CASE("renderer: a lobe out of range is refused with the reason, one below power 1 is warned of", "[raster][lobe]") {
+TEST_CASE("renderer: a lobe out of range is refused with the reason, a power below 1 gives a warning", "[raster][lobe]") {
     const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
     const std::pair<shading::Lobe, std::string> refused[] = {
         {{-0.1f, 1.0f, false}, "wrap: expected a number from 0 to 1, found -0.1"},
         {{1.5f, 1.0f, false},
-         "wrap: expected a number from 0 to 1, found 1.5: from 1 on light reaches everything, and the norm is another"},
+         "wrap: expected a number from 0 to 1, found 1.5: above 1 every normal is lit, and the norm has another formula"},
         {{nan, 1.0f, false}, "wrap: expected a number from 0 to 1, found nan"},
         {{0.5f, -1.0f, false}, "power: expected a number from 0 to 10000, found -1: below 0 the lobe grows without bound at its boundary"},
         {{0.5f, nan, true}, "power: expected a number from 0 to 10000, found nan"},
@@ -251,7 +251,7 @@ TEST_CASE("renderer: a lobe out of range is refused with the reason, one below p
         CHECK(by_material.error().message == "material 0: lobe: " + message);
         square.scene.materials[0].lobe = {};
         square.settings.shading.lobe = lobe;
-        CHECK(render(square.scene, camera_flat(), square.settings, target));  // nobody asked for it
+        CHECK(render(square.scene, camera_flat(), square.settings, target));  // not used without override_lobe
         square.settings.shading.override_lobe = true;
         const auto by_setting = render(square.scene, camera_flat(), square.settings, target);
         REQUIRE(!by_setting);
@@ -265,6 +265,6 @@ TEST_CASE("renderer: a lobe out of range is refused with the reason, one below p
     CHECK(square.draw().warnings == std::vector<std::string>{"power 0.5: below 1 the curve has an infinite slope at its boundary"});
     square.scene.materials[0].lobe.power = 0.0f;
     CHECK(square.draw().warnings == std::vector<std::string>{"power 0: below 1 the curve jumps at its boundary"});
-    square.scene.materials[0].unlit = true;  // nobody sees it
+    square.scene.materials[0].unlit = true;  // an unlit material does not use its lobe
     CHECK(square.draw().warnings.empty());
 }

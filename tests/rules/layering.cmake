@@ -1,9 +1,10 @@
-# Rules about sources that no compiler checks: includes point left only, among layers and among the rooms of a layer, third-party types stay out of public headers, the vocabulary
-# alone names xsimd and intrinsics, and kernels call nothing whose result depends on the machine.
+# Rules about sources that no compiler checks. Includes point left only, among layers and among the subfolders of a layer. Third-party
+# types stay out of public headers. Only the vocabulary names xsimd and intrinsics. Kernels call nothing whose result depends on the
+# machine.
 #   cmake -DROOT=source-tree -P layering.cmake
 set(layers sh shading raster apps)
-# The rooms of a layer, and what a file of each does not include.
-set(rooms
+# Subfolders of a layer, with the includes that a file of each must not have.
+set(subfolders
     "shading/model/=shading/((plan|budget|reference|kernels)/|planner)"
     "shading/plan/=shading/((budget|reference|kernels)/|planner)"
     "shading/budget/=shading/((reference|kernels)/|planner)"
@@ -18,7 +19,7 @@ set(rooms
 set(failures "")
 set(file_count 0)
 
-# The lines of a file without what follows //, as a list; semicolons and brackets would break a CMake list.
+# Reads the lines of a file into a list, without what follows //. Semicolons and brackets are replaced: they would break a CMake list.
 function(read_code file out)
     file(READ ${file} text)
     string(REGEX REPLACE "[][;]" " " text "${text}")
@@ -36,11 +37,11 @@ foreach(layer IN LISTS layers)
         set(in_vocabulary FALSE)
         set(in_kernel FALSE)
         set(public FALSE)
-        set(other_rooms "")
-        foreach(room IN LISTS rooms)
-            string(REGEX MATCH "^([^=]*)=(.*)$" ignored "${room}")
+        set(other_subfolders "")
+        foreach(subfolder IN LISTS subfolders)
+            string(REGEX MATCH "^([^=]*)=(.*)$" ignored "${subfolder}")
             if(file MATCHES "^${CMAKE_MATCH_1}")
-                string(REGEX REPLACE "^[^=]*=" "" other_rooms "${room}")
+                string(REGEX REPLACE "^[^=]*=" "" other_subfolders "${subfolder}")
             endif()
         endforeach()
         if(file MATCHES "^shading/kernels/simd[a-z_]*\\.hpp$")
@@ -54,8 +55,8 @@ foreach(layer IN LISTS layers)
             if(forbidden AND line MATCHES "^ *#include \"(${forbidden})/")
                 list(APPEND failures "${file}: include points right: ${line}")
             endif()
-            if(other_rooms AND line MATCHES "^ *#include \"${other_rooms}")
-                list(APPEND failures "${file}: include points into a room to the right: ${line}")
+            if(other_subfolders AND line MATCHES "^ *#include \"${other_subfolders}")
+                list(APPEND failures "${file}: include points into a subfolder to the right: ${line}")
             endif()
             if(line MATCHES "^ *#include \"(bench|tests)/")
                 list(APPEND failures "${file}: include points out of the layers: ${line}")

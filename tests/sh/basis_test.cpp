@@ -99,7 +99,8 @@ TEST_CASE("basis: near a pole, m = 1 keeps its relative accuracy", "[sh][basis]"
     for (const double e : {1e-3, 1e-8, 1e-15}) {
         double b[kMaxCoefficients];
         evaluate_basis<kMaxBands>(Vec3d{e, 0, std::sqrt(1 - e * e)}, b);
-        // p_l1 / sin theta -> -sqrt((2l+1)/4pi) sqrt(l(l+1)/2) at the pole, to e^2.
+        // The function of order 1 divided by e, the sine of the polar angle, tends to -sqrt((2l+1)/4pi) sqrt(l(l+1)/2) at the pole; the
+        // error is of order e^2.
         for (int l = 1; l < kMaxBands; ++l)
             CHECK(b[coefficient_index(l, 1)] ==
                   Approx(-e * std::sqrt((2 * l + 1) / (4 * kPi)) * std::sqrt(l * (l + 1) / 2.0)).epsilon(50 * e * e + 1e-14));
@@ -121,7 +122,7 @@ TEST_CASE("basis: the sum of squares of a band is (2l+1)/4pi everywhere, float i
             double sum = 0;
             for (int k = l * l; k < (l + 1) * (l + 1); ++k) {
                 sum += b[k] * b[k];
-                // 25 eps sqrt((2l+1)/4pi) at l = 9
+                // 25 eps times the largest value of the band, sqrt((2l+1)/4pi); band 9 sets the figure.
                 CHECK(std::abs(bf[k] - exact_at_float[k]) < 25 * 0x1p-24 * std::sqrt((2 * l + 1) / (4 * kPi)));
             }
             CHECK(sum == Approx((2 * l + 1) / (4 * kPi)).epsilon(2e-14));

@@ -1,4 +1,4 @@
-// The bound on the error of a series, against brute force over an image.
+// Checks of the bounds on a series' error against brute force over an image.
 #pragma once
 
 #include "sh/order.hpp"
@@ -16,7 +16,7 @@ inline const WrapLobe kTenLobes[] = {{0.0, 1.0, 1.0}, {0.25, 1.0, 1.0},  {0.5, 1
                                      {1.0, 2.0, 1.0}, {0.25, 1.25, 1.0}, {0.5, 1.5, normalizing_scale(0.5, 1.5)}, {0.9, 1.9, 1.0},
                                      {0.0, 2.0, 1.0}, {0.5, 4.0, 1.0}};
 
-/// The largest error of each order over the normals, any channel.
+/// Largest error of each order over all normals and channels.
 inline std::array<double, kMaxBands> true_errors(const RadianceSh& radiance, const std::vector<LightSample>& samples, const WrapLobe& lobe,
                                                  const std::vector<Vec3d>& normals) {
     const RadianceSh product = scaled_by_band(radiance, zonal_bands(lobe));
@@ -35,14 +35,14 @@ inline std::array<double, kMaxBands> true_errors(const RadianceSh& radiance, con
     return worst;
 }
 
-/// How far the orders chosen were above the least that would have done.
+/// Number of orders chosen, and of those that are more than two above the least order that keeps the tolerance.
 struct Choices {
     int made = 0;
     int more_than_two_above = 0;
 };
 
-/// Checks that bounds hold and are at most ten times the truth, and that what is chosen by them keeps the tolerance. `noise` is the error
-/// of the brute force itself, as a part of the mean.
+/// Checks that the bounds hold, that they are at most 5 times the true error (those from norms: 10 times), and that the orders chosen by
+/// them keep the tolerance. `noise` is the error of the brute force itself, as a fraction of the mean.
 inline void check_bounds(const Sky& sky, const std::vector<Vec3d>& normals, double noise, Choices& choices) {
     const Projection projection(sky.view());
     const RadianceSh radiance = projection.radiance();

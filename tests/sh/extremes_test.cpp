@@ -1,5 +1,5 @@
-// Where float32 breaks spherical harmonics: the form with angles at the poles, and a sun in the series. The measured figures stand in
-// sh/README.md ("Extremes"); run with -s to see them.
+// Cases where float32 fails for spherical harmonics: the formula by angles at the poles, and a sun within the series. The measured figures
+// are in sh/README.md ("Extremes"); run with -s to see them.
 #include "sh/lobe_error.hpp"
 #include "sh/sun.hpp"
 #include "tests/sh/sky_images.hpp"
@@ -14,7 +14,7 @@ using namespace halflit::test;
 
 namespace {
 
-/// The usual way by way of angles, in float: cos and sin of the azimuth from x / sin theta, y / sin theta.
+/// Usual formula by angles, in float: cosine and sine of the azimuth are x / sin theta and y / sin theta.
 float by_angles(int l, int m, Vec3f d) {
     const int order = std::abs(m);
     const float theta = std::acos(d.z), sine = std::sqrt(1.0f - d.z * d.z);
@@ -34,7 +34,7 @@ struct Errors {
     int samples = 0, not_finite = 0;
 };
 
-/// In units of the largest value a function of band l has, sqrt((2l+1)/4pi).
+/// Adds an error in units of sqrt((2l+1)/4pi), the largest value that a function of band l has.
 void add(Errors& errors, float got, double want, int l) {
     ++errors.samples;
     if (std::isfinite(got))
@@ -69,14 +69,15 @@ TEST_CASE("extremes: the basis by recurrence is as good at the poles as elsewher
                           << after_pole.worst << ". elsewhere: before " << before_far.worst << ", after " << after_far.worst);
     CHECK(before_pole.not_finite > 0);
     CHECK(after_pole.not_finite + after_far.not_finite == 0);
-    // 25 eps of the recurrence in band 9, and 45 times what rounding to float takes from |d|, at most sqrt(3) 2^-25.
+    // 25 eps from the recurrence in band 9, plus 45 times the error in |d| from rounding to float, which is at most sqrt(3) 2^-25.
     CHECK(after_pole.worst <= (25 + 45) * 0x1p-24);
     CHECK(after_far.worst <= (25 + 45) * 0x1p-24);
 }
 
-TEST_CASE("extremes: a sun of 100000 times the sky in the series makes light of -3960, as a light of its own it makes none below the sky's",
+TEST_CASE("extremes: a sun of 100000 times the sky gives light of -3960 inside the series and none below the sky's as a light of its own",
           "[sh][extremes]") {
-    // A sky of 1 and a sun whose light on a surface that faces it is 1e5, as one direction: f_l (2l+1) / 4 P_l in the series.
+    // Sky of 1, and a sun from one direction whose light on a surface that faces it is 1e5. Its band l in the series is f_l (2l+1)/4 P_l:
+    // f_l the lobe's factor, P_l the Legendre polynomial.
     constexpr double kSun = 1e5;
     for (const double a : {0.0, 0.9}) {
         const WrapLobe lobe{a, 1 + a, 1.0};
@@ -103,7 +104,7 @@ TEST_CASE("extremes: a sun of 100000 times the sky in the series makes light of 
 }
 
 TEST_CASE("extremes: a sun of 100000 times the sky taken out of an image leaves the sky alone", "[sh][extremes]") {
-    // The same through the functions that a frame uses: an image with a sun of 1e5 times the sky's light.
+    // Same case through the functions that a frame uses: an image with a sun of 1e5 times the sky's light.
     const double radius = 1.2, edge = std::cos(radius * kPi / 180), solid = 2 * kPi * (1 - edge);
     const Vec3d towards{0.36, 0.48, 0.8};
     const Sky image = painted_sky(512, 256, [&](Vec3d d) {
@@ -130,7 +131,7 @@ TEST_CASE("extremes: a sun of 100000 times the sky taken out of an image leaves 
                 << lowest_after << ", off by at most " << worst);
     CHECK(sun == Approx(1e5).epsilon(0.05));
     CHECK(lowest_before < -0.035 * sun);
-    // What stays are the sun's pixels at up to eight times the sky, 0.0013 sr of them.
+    // Pixels of the sun that stay in the sky, at up to eight times the sky's radiance: 0.0013 sr of them.
     CHECK(lowest_after > 0.999);
     CHECK(worst < 0.003);
     const double energy = parts.residual.mean().x * 4 * kPi + parts.suns[0].irradiance.x;

@@ -1,10 +1,10 @@
-// What surfaces under an environment image of full size reflect, by brute force in double, fast enough for a thousand normals and ten
+// Light that surfaces reflect under an environment image of full size, by brute force in double; fast enough for a thousand normals and ten
 // lobes.
 //
-// All lobes of one normal N see the image through x = N.d alone. So each normal sorts the light into narrow bins of x once, with its first
-// and second moments about the bin's middle, and a lobe is then a table: value and derivatives in the middles, with bins that end where the
-// lobe does. A pixel is a patch of constant radiance, taken by 2 x 2 Gauss points, and by 16 x 16 (64 x 64 where it holds much of the
-// light) where a lobe ends within it.
+// For one normal N, every lobe sees the image through x = N.d alone, where d is the direction of the light. So each normal sorts the light
+// into narrow bins of x once, with its first and second moments about the bin's middle. A lobe is then a table of its value and derivatives
+// in the middles of the bins; every lobe ends at the edge of a bin. A pixel is a patch of constant radiance, integrated by 2 x 2 Gauss
+// points. Where a lobe ends within the pixel, it takes 16 x 16 points, or 64 x 64 if the pixel holds more than 1e-4 of the light.
 #pragma once
 
 #include "tests/sh/bound_check.hpp"
@@ -17,7 +17,8 @@ class FullSizeImage {
 public:
     static constexpr std::size_t kLobes = std::size(kTenLobes);
 
-    /// `finer` times as many points where a lobe ends: what changes with it is the error of the brute force.
+    /// `finer`: factor on the number of points along each side of a pixel where a lobe ends. The change that it makes is the error of the
+    /// brute force.
     explicit FullSizeImage(const EquirectView& image, int finer = 1)
         : image_(image),
           coarse_(gauss_legendre(2)),
@@ -30,11 +31,11 @@ public:
             for (std::size_t b = 0; b < kBins; ++b) table_[i * kBins + b] = derivatives(kTenLobes[i], middle(b));
     }
 
-    /// (1/pi) times the integral of L(d) f(N.d), for each of the ten lobes.
+    /// (1/pi) times the integral over directions d of L(d) f(N.d), for each of the ten lobes. L: radiance, f: lobe.
     [[nodiscard]] std::array<Vec3d, kLobes> reflected(Vec3d normal) const {
         std::vector<Bin> bins(kBins);
         const int columns = 2 * image_.width;
-        std::vector<double> across(static_cast<std::size_t>(columns));  // N.d at the equator, without N's height
+        std::vector<double> across(static_cast<std::size_t>(columns));  // horizontal part of N.d at the equator
         for (int i = 0; i < columns; ++i)
             across[static_cast<std::size_t>(i)] = level(normal, i / 2 + at(coarse_[static_cast<std::size_t>(i % 2)]));
         for (int y = 0; y < image_.height; ++y) {
@@ -68,7 +69,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t kBins = 4000;  // lobes end at 0, -1/4, -1/2, -9/10: between two bins
+    static constexpr std::size_t kBins = 4000;  // bin edges lie where lobes end: 0, -1/4, -1/2, -9/10
 
     struct Bin {
         Vec3d flux, first, second;
@@ -76,7 +77,7 @@ private:
 
     /// One latitude of the image, in rows from the top.
     struct Row {
-        double sine, height, solid_angle;  ///< of a pixel that were all at this latitude
+        double sine, height, solid_angle;  ///< sine of the polar angle; vertical part of N.d; of a pixel that lay wholly at this latitude
         Row(const EquirectView& image, Vec3d normal, double y)
             : sine(std::sin(kPi * y / image.height)),
               height(normal.y * std::cos(kPi * y / image.height)),
@@ -86,7 +87,7 @@ private:
     static double middle(std::size_t bin) { return -1 + (static_cast<double>(bin) + 0.5) * (2.0 / kBins); }
     static double at(const GaussNode& node) { return 0.5 + 0.5 * node.x; }
 
-    /// f, f' and f'' by x.
+    /// The lobe f(x) and its first and second derivatives.
     static Vec3d derivatives(const WrapLobe& lobe, double x) {
         const double inner = 1 / (1 + lobe.wrap), t = (x + lobe.wrap) * inner, n = lobe.power;
         if (!(t > 0)) return {};
@@ -99,7 +100,7 @@ private:
         return false;
     }
 
-    /// N.d without N's height for a column, in columns from the left, at the equator.
+    /// Horizontal part of N.d at the equator; x in columns from the left.
     [[nodiscard]] double level(Vec3d normal, double x) const {
         const double phi = 2 * kPi * (x / image_.width - 0.5);
         return normal.x * std::sin(phi) - normal.z * std::cos(phi);

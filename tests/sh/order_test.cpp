@@ -31,8 +31,8 @@ TEST_CASE("order: a sky of one colour needs one band, and a lobe of three bands 
     CHECK(pick_order(order_bounds(sky.spectrum(), lobe_spectrum({1.0, 1.0, 1.0})), 0.0).order == 2);
 }
 
-TEST_CASE("order: one direction of irradiance pi, from above by the sum of |f_l| (2l+1)/4", "[sh][order]") {
-    // A pixel of 0.35 degrees is a direction as far as 64 bands can tell; the sum over all bands is then known.
+TEST_CASE("order: the bound for one direction of irradiance pi is the sum of |f_l| (2l+1)/4", "[sh][order]") {
+    // A pixel of 0.35 degrees acts as a single direction in 64 bands; the sum over all bands is then known.
     Sky sky = painted_sky(1024, 512, [](Vec3d) { return Vec3d{}; });
     const double radiance = kPi / pixel_solid_angle(1024, 512, 200);
     for (std::size_t i = 0; i < 3; ++i) sky.rgb[(200 * 1024 + 300) * 3 + i] = static_cast<float>(radiance);
@@ -43,12 +43,12 @@ TEST_CASE("order: one direction of irradiance pi, from above by the sum of |f_l|
     for (std::size_t l = kSpectrumBands; l-- > 1;) {
         sum += std::abs(spectrum.f[l]) * (2.0 * static_cast<double>(l) + 1) / 4;
         if (l <= kMaxBands) CHECK(bounds.by_order[l - 1].y == Approx(sum).epsilon(2e-3));
-        // and the true error, at some angle, is that of the lobe's own series
+        // The true error, at the worst angle, is that of the lobe's own series.
         if (l <= kMaxBands) CHECK(truncation_error(lobe, static_cast<int>(l)).sup <= sum);
     }
 }
 
-TEST_CASE("order: the tolerance is a part of the scale, without an order that keeps it, 10 and the bound", "[sh][order]") {
+TEST_CASE("order: the tolerance is a fraction of the scale, and where no order keeps it the choice is 10 with its bound", "[sh][order]") {
     OrderBounds bounds;
     for (std::size_t i = 0; i < kMaxBands; ++i)
         bounds.by_order[i] = {0.0, 1.0 / static_cast<double>(1 + i), 0.5 / static_cast<double>(1 + i)};
@@ -61,7 +61,7 @@ TEST_CASE("order: the tolerance is a part of the scale, without an order that ke
     CHECK_FALSE(none.within);
 }
 
-TEST_CASE("order: darkness needs nothing", "[sh][order]") {
+TEST_CASE("order: darkness needs one band", "[sh][order]") {
     for (const WrapLobe& lobe : {WrapLobe{0.0, 0.0, 1.0}, WrapLobe{0.0, 1.0, 1.0}}) {
         CHECK(pick_order(order_bounds(Projection().spectrum(), lobe_spectrum(lobe)), 0.0).order == 1);
         CHECK(pick_order(BandGrid(Projection()).order_bounds(lobe_spectrum(lobe)), 0.0).order == 1);

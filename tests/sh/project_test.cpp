@@ -18,7 +18,7 @@ double worst_difference(const RadianceSh& a, const RadianceSh& b) {
     return worst;
 }
 
-/// The image's coefficients from Gauss points in each pixel, 40 x 40 in large ones.
+/// Coefficients of the image from Gauss points in each pixel: 40 x 40 in images less than 10 pixels wide, else 14 x 14.
 RadianceSh by_samples(const EquirectView& image) {
     RadianceSh out{kMaxBands, {}};
     const auto rule = gauss_legendre(image.width < 10 ? 40 : 14);
@@ -70,7 +70,7 @@ TEST_CASE("project: coefficients are the exact integrals over patches, for every
     }
 }
 
-TEST_CASE("project: a sky of one colour has only its mean, its norm is sqrt(4 pi) of it", "[sh][project]") {
+TEST_CASE("project: a sky of one colour has band 0 alone, its norm is sqrt(4 pi) times the colour", "[sh][project]") {
     for (const auto& [width, height] : {std::pair{1, 1}, {5, 3}, {64, 32}}) {
         const Projection p(painted_sky(width, height, [](Vec3d) { return Vec3d{1, 0.5, 2}; }).view());
         const RadianceSh sh = p.radiance();
@@ -92,7 +92,7 @@ TEST_CASE("project: mean radiance equals the sum over pixels, and band 0 that ti
     CHECK(largest_difference(p.radiance(1).c[0], sum * std::sqrt(4 * kPi)) < 1e-12);
 }
 
-TEST_CASE("project: the norms are those of the coefficients, and with the tail hold the whole image", "[sh][project]") {
+TEST_CASE("project: the norms are those of the coefficients, and with the tail they give the norm of the image", "[sh][project]") {
     const Sky sky = random_sky(48, 24, 13);
     const Projection p(sky.view());
     const Spectrum spectrum = p.spectrum();
@@ -109,7 +109,7 @@ TEST_CASE("project: the norms are those of the coefficients, and with the tail h
     CHECK(all == Approx(exact).epsilon(1e-12));
 }
 
-TEST_CASE("project: what a band is worth in a direction is the sum of its terms there", "[sh][project]") {
+TEST_CASE("project: the value of a band in a direction is the sum of its terms there", "[sh][project]") {
     const Projection p(random_sky(30, 15, 14).view());
     const RadianceSh sh = p.radiance();
     for (const Vec3d& d : random_normals(20, 5)) {
@@ -157,7 +157,7 @@ TEST_CASE("convolve: white furnace, a constant sky of 1 gives scale * f_0 for ev
         }
 }
 
-TEST_CASE("convolve: equals brute force where the lobe has no bands beyond", "[sh][project]") {
+TEST_CASE("convolve: equals brute force if the lobe has no bands above the order", "[sh][project]") {
     const Sky sky = random_sky(32, 16, 17);
     const auto samples = light_samples(sky.view());
     const RadianceSh radiance = Projection(sky.view()).radiance();
@@ -169,15 +169,15 @@ TEST_CASE("convolve: equals brute force where the lobe has no bands beyond", "[s
 }
 
 TEST_CASE("convolve: half-Lambert is Lambert under a hemisphere of 1, its square under 2 cos^2", "[sh][project]") {
-    // The skies stand around the normal; what Lambert reflects as the light turns is the lobe: a sky rotated by theta is the same as a
-    // normal rotated by theta. Gauss quadrature over the hemisphere, Lambert clamped.
+    // The skies are symmetric about an axis at an angle theta to the normal. The light that Lambert reflects, as a function of theta, is
+    // the lobe: rotating the sky by theta is the same as rotating the normal. Gauss quadrature over the hemisphere, Lambert clamped.
     const auto rule = gauss_legendre(48);
     for (int step = 0; step <= 16; ++step) {
         const double angle = kPi * step / 16, x = std::cos(angle), across = std::sin(angle);
         double uniform = 0, square = 0;
         for (const GaussNode& node : rule) {
             const double z = 0.5 * (node.x + 1), ring = std::sqrt(1 - z * z), weight = 0.5 * node.weight;
-            // Around the axis: the integral over phi of max(0, x z + across ring cos phi), in closed form.
+            // Integral over phi, around the axis, of max(0, x z + across ring cos phi), in closed form.
             const double level = x * z, swing = across * ring;
             double around = level > 0 ? 2 * kPi * level : 0.0;
             if (swing > std::abs(level)) {
@@ -187,7 +187,7 @@ TEST_CASE("convolve: half-Lambert is Lambert under a hemisphere of 1, its square
             uniform += weight * around / kPi;
             square += weight * around / kPi * 2 * z * z;
         }
-        CHECK(uniform == Approx((1 + x) / 2).margin(2e-5));  // the edge of the closed form costs the rule its last digits
+        CHECK(uniform == Approx((1 + x) / 2).margin(2e-5));  // the kink of the closed form limits the quadrature's accuracy
         CHECK(square == Approx((1 + x) * (1 + x) / 4).margin(2e-5));
     }
 }

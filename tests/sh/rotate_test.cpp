@@ -47,7 +47,7 @@ double smallest_value(const RadianceSh& sh) {
 
 }  // namespace
 
-TEST_CASE("rotate: what stood in direction d stands in r d", "[sh][rotate]") {
+TEST_CASE("rotate: the value in direction d moves to direction r d", "[sh][rotate]") {
     Random random(21);
     for (int i = 0; i < 20; ++i) {
         const RadianceSh sh = random_expansion(1 + i % kMaxBands, random);
@@ -57,7 +57,7 @@ TEST_CASE("rotate: what stood in direction d stands in r d", "[sh][rotate]") {
     }
 }
 
-TEST_CASE("rotate: there and back, one after the other as their product, none as nothing, to 1e-13", "[sh][rotate]") {
+TEST_CASE("rotate: a rotation and its inverse, two rotations as their product, and the identity agree to 1e-13", "[sh][rotate]") {
     Random random(23);
     for (int i = 0; i < 20; ++i) {
         const RadianceSh sh = random_expansion(kMaxBands, random);
@@ -99,7 +99,7 @@ TEST_CASE("rotate: a quarter turn about y carries +z to +x, and an image's colum
     CHECK(largest_difference(rotation_about_y(kPi / 2) * Vec3d{0, 0, 1}, {1, 0, 0}) < 1e-15);
     const Sky sky = random_sky(32, 16, 26);
     Sky turned = sky;
-    // +z is the image's left edge, +x stands at three quarters: a quarter turn moves columns to the left by a quarter.
+    // +z is the image's left edge and +x is at three quarters of its width: a quarter turn moves columns to the left by a quarter.
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 32; ++x)
             for (int k = 0; k < 3; ++k)
@@ -113,7 +113,7 @@ TEST_CASE("product: equals the product of the values, projected by an independen
     Random random(27);
     for (const auto& [m, n] : {std::pair{1, 1}, {3, 3}, {2, 5}, {6, 5}, {10, 10}}) {
         const RadianceSh a = random_expansion(m, random), b = random_expansion(n, random);
-        // A rule of 41 degrees has other nodes than any that product() uses.
+        // A quadrature of degree 41 has other nodes than any that product() uses.
         const RadianceSh direct = project_function(kMaxBands, 41, [&](Vec3d d) { return evaluate(a, d) * evaluate(b, d); });
         const RadianceSh sh = product(a, b, kMaxBands);
         INFO(m << " times " << n << " bands");
@@ -125,7 +125,7 @@ TEST_CASE("product: equals the product of the values, projected by an independen
     }
 }
 
-TEST_CASE("product: Gaunt's integrals that have closed forms", "[sh][product]") {
+TEST_CASE("product: agrees with the Gaunt integrals that have closed forms", "[sh][product]") {
     // Y_10^2 = (Y_00 + 2/sqrt(5) Y_20) / sqrt(4 pi); times Y_00 only scales.
     RadianceSh y10{2, {}}, y00{1, {}};
     y10.c[2] = {1, 1, 1};
@@ -148,7 +148,8 @@ TEST_CASE("window: Hann's and Lanczos' factors", "[sh][window]") {
     CHECK(laplacian_window(0.25)[2] == Approx(1.0 / 10));
 }
 
-TEST_CASE("window: dering lifts the lowest value to the floor with the weakest window, and leaves the rest alone", "[sh][window]") {
+TEST_CASE("window: dering lifts the lowest value to 0 with the weakest window, and leaves a series without negative values alone",
+          "[sh][window]") {
     // Lambert under a directional light of irradiance pi at order 3: its lowest value is -19/480.
     RadianceSh ringing{3, {}};
     const BandFactors lambert[] = {{1, 2.0 / 3, 0.25}};

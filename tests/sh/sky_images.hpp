@@ -1,4 +1,4 @@
-// Environment images for tests, and what a surface under them reflects, by brute force.
+// Environment images for tests, and the light that a surface reflects under them, by brute force.
 #pragma once
 
 #include "sh/equirect.hpp"
@@ -42,7 +42,7 @@ inline Sky random_sky(int width, int height, std::uint64_t seed) {
     return sky;
 }
 
-/// The mean over blocks of factor x factor pixels, each weighted with its solid angle: all integrals over blocks stay.
+/// Mean over blocks of factor x factor pixels, each weighted with its solid angle, so that the integral over a block does not change.
 inline Sky downsampled(const sh::EquirectView& image, int factor) {
     Sky out{image.width / factor, image.height / factor, {}};
     for (int y = 0; y < out.height; ++y)
@@ -60,7 +60,7 @@ inline Sky downsampled(const sh::EquirectView& image, int factor) {
     return out;
 }
 
-/// A direction with the light that comes from there: radiance times solid angle.
+/// Direction with the light that comes from there: radiance times solid angle.
 struct LightSample {
     Vec3d direction, flux;
 };
@@ -96,7 +96,7 @@ inline double quick_lobe_value(const sh::WrapLobe& lobe, double x) {
     return lobe.scale * std::pow(t, lobe.power);
 }
 
-/// (1/pi) times the integral of L(d) f(N.d), sample by sample.
+/// (1/pi) times the integral over directions d of L(d) f(N.d), sample by sample. L: radiance, f: lobe, N: normal.
 inline Vec3d reflected(const std::vector<LightSample>& samples, const sh::WrapLobe& lobe, Vec3d normal) {
     Vec3d sum{};
     for (const LightSample& s : samples) {

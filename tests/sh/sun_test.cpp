@@ -12,7 +12,7 @@ using namespace halflit::test;
 
 namespace {
 
-/// A disc of this radiance over a soft sky.
+/// Disc of this radiance over a soft sky.
 Sky sky_with_sun(Vec3d towards, double radius_deg, Vec3d radiance, int width = 256) {
     const double edge = std::cos(radius_deg * kPi / 180);
     return painted_sky(width, width / 2, [&](Vec3d d) {
@@ -33,7 +33,7 @@ double degrees_between(Vec3d a, Vec3d b) { return std::acos(std::min(1.0, dot(a,
 }  // namespace
 
 TEST_CASE("sun: a disc is found where it stands, with its irradiance, colour and size", "[sh][sun]") {
-    // Across the image's seam (+z), next to a pole, at a pole, and in the open.
+    // Positions: across the image's seam (+z), next to a pole, at a pole, and away from both.
     for (const Vec3d towards : {Vec3d{0, 0.6, 0.8}, Vec3d{0.0199986667, 0.9998, 0}, Vec3d{0, -1, 0}, Vec3d{-0.48, 0.64, -0.6}}) {
         const Vec3d radiance{900, 800, 600};
         const Sky sky = sky_with_sun(towards, 2.5, radiance);
@@ -52,7 +52,7 @@ TEST_CASE("sun: a disc is found where it stands, with its irradiance, colour and
     }
 }
 
-TEST_CASE("sun: energy is kept, and the residual's projection is that of the residual", "[sh][sun]") {
+TEST_CASE("sun: energy is kept, and the returned projection is that of the residual image", "[sh][sun]") {
     const Sky sky = sky_with_sun({0.36, 0.48, 0.8}, 1.5, {3000, 2500, 1500});
     const Projection full(sky.view());
     const SunExtraction found = extract_suns(sky.view(), full);
@@ -67,7 +67,7 @@ TEST_CASE("sun: energy is kept, and the residual's projection is that of the res
     for (std::size_t i = 0; i < kMaxCoefficients; ++i) CHECK(largest_difference(a.c[i], b.c[i]) < 1e-10);
 }
 
-TEST_CASE("sun: the bound falls wherever one is taken", "[sh][sun]") {
+TEST_CASE("sun: the bound falls wherever a sun is taken out", "[sh][sun]") {
     const LobeSpectrum lambert = lobe_spectrum({0.0, 1.0, 1.0});
     for (const double radius : {0.5, 1.0, 2.0, 4.0, 8.0, 16.0})
         for (const double radiance : {3.0, 30.0, 300.0, 3000.0}) {
@@ -85,7 +85,7 @@ TEST_CASE("sun: the bound falls wherever one is taken", "[sh][sun]") {
         }
 }
 
-TEST_CASE("sun: a soft sky has none, two lamps are two", "[sh][sun]") {
+TEST_CASE("sun: a soft sky has no sun, two lamps are two suns", "[sh][sun]") {
     const Sky soft = sky_with_sun({0, 1, 0}, 2, {});
     const SunExtraction none = extract_suns(soft.view(), Projection(soft.view()));
     CHECK(none.suns.empty());

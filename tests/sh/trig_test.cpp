@@ -45,7 +45,7 @@ TEST_CASE("trig: arguments that are not numbers, or too large, give (0, 1)", "[s
     }
 }
 
-TEST_CASE("trig: the compiler can run it", "[sh][trig]") {
+TEST_CASE("trig: sin_cos runs at compile time", "[sh][trig]") {
     constexpr SinCos right_angle = sin_cos(kPi / 2);
     static_assert(right_angle.sin == 1.0);
     CHECK(std::fabs(right_angle.cos) < 1e-16);

@@ -1,4 +1,4 @@
-// The bands of the wrap family against the lists of the papers (with the correction that one of them needs), and against integrals.
+// Bands of the wrap family, compared with the lists of the papers (with the correction that one of them needs) and with integrals.
 #include "sh/zonal.hpp"
 
 #include "sh/lobe_error.hpp"
@@ -36,7 +36,8 @@ std::array<double, 6> green_list(double w) {
             -(w - 1) * (w - 1) * w * (w + 1) * (3 * w * w - 1) / 8};
 }
 
-/// 2 integral f P_l dx for powers that are multiples of 1/4: with x = -w + (1+w) u^4 the integrand is a polynomial in u.
+/// 2 times the integral of f P_l dx, for powers n that are multiples of 1/4. P_l: Legendre polynomial. With x = -w + (1+w) u^4 the
+/// integrand is a polynomial in u.
 double integral(double w, double n, int l) {
     static const std::vector<GaussNode> rule = gauss_legendre(64);
     double sum = 0;
@@ -66,7 +67,7 @@ TEST_CASE("zonal: the general lobe's order-6 list, band 5 with the missing (a + 
         for (std::size_t l = 0; l < 6; ++l) CHECK(f[l] == Approx(expected[l]).margin(1e-14));
     }
     CHECK(zonal_bands({0.5, 1.5, 1.0})[5] == Approx(0.005994005994).epsilon(1e-9));
-    // As printed it would be 7.5 times as large at a = 1/2; the integral decides.
+    // The printed band 5 is 7.5 times as large at a = 1/2; the integral shows that (a + 7) is missing.
     CHECK(integral(0.5, 1.5, 5) == Approx(general_list(0.5)[5]).epsilon(1e-11));
 }
 
@@ -130,7 +131,7 @@ TEST_CASE("zonal: scaled by (n+1)/(2(1+w)), band 0 is 1", "[sh][zonal]") {
             CHECK(zonal_bands({w, n, normalizing_scale(w, n)})[0] == Approx(1.0).epsilon(1e-15));
 }
 
-TEST_CASE("zonal: bands and tail together hold the lobe's whole norm, from above by little", "[sh][zonal]") {
+TEST_CASE("zonal: the square of the claimed tail is at least that of the lobe beyond 64 bands, at most 1.3 times as much", "[sh][zonal]") {
     for (const double w : {0.0, 0.2, 0.5, 0.9, 0.99, 1.0})
         for (const double n : {0.0, 0.5, 1.0, 1.1, 1.5, 2.0, 3.0, 10.0, 300.0}) {
             const LobeSpectrum spectrum = lobe_spectrum({w, n, 1.0});
@@ -157,7 +158,7 @@ TEST_CASE("zonal: the claimed slope is at least the lobe's", "[sh][zonal]") {
     CHECK(std::isinf(lobe_spectrum({0.5, 0.5, 1.0}).slope));
 }
 
-TEST_CASE("zonal: the claimed largest error of each order is the series', from above by little", "[sh][zonal]") {
+TEST_CASE("zonal: the claimed largest error of each order is at least the series', at most 1e-3 of the slope above it", "[sh][zonal]") {
     for (const double w : {0.0, 0.25, 0.5, 0.9, 1.0})
         for (const double n : {1.0, 1.3, 2.0, 4.0}) {
             const WrapLobe lobe{w, n, 1.5};
@@ -191,7 +192,7 @@ TEST_CASE("lobe error: the L2 errors of the general lobe at order 3 and 6", "[sh
 TEST_CASE("lobe error: Lambert at order 3 is off by 3/32 at most and reaches -.0396", "[sh][zonal]") {
     const TruncationError error = truncation_error({0.0, 1.0, 1.0}, 3);
     CHECK(error.sup == Approx(3.0 / 32).epsilon(1e-12));     // at x = 0: 1/4 - 5/32
-    CHECK(error.min == Approx(-19.0 / 480).epsilon(1e-12));  // of 3/32 + x/2 + 15/32 x^2, at x = -8/15
+    CHECK(error.min == Approx(-19.0 / 480).epsilon(1e-12));  // minimum of 3/32 + x/2 + 15/32 x^2, at x = -8/15
     const struct {
         double a, sup, min;
     } rows[] = {{0.1, .0708, -.0308}, {0.25, .0483, -.0212}, {0.4, .0364, -.0153}, {0.5, .0286, -.0129},

@@ -1,4 +1,4 @@
-// Linear light to codes.
+// Encoding of linear light as 8-bit sRGB codes.
 #include "floats.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 #include "shading/reference/reference.hpp"
@@ -56,7 +56,7 @@ TEST_CASE("color: values outside [0, 1] are clamped, NaN gives 0", "[shading][co
     const std::vector<std::uint32_t> codes = encode(values);
     for (const std::size_t i : {0, 1, 2, 3, 4, 9, 10, 11, 13, 14}) CHECK(codes[i] == 0u);
     for (const std::size_t i : {5, 6, 7, 8, 12}) CHECK(codes[i] == 0xffffffffu);
-    CHECK(codes[15] == 0x80bcbcbcu);  // 0.5: code 188, alpha 127.5 to even
+    CHECK(codes[15] == 0x80bcbcbcu);  // 0.5: code 188; alpha 127.5 rounds to even
 }
 
 TEST_CASE("color: exposure scales colour and not alpha", "[shading][color]") {

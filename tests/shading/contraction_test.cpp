@@ -1,4 +1,4 @@
-// Guards the guard: without -ffp-contract=off the results would differ, so tests that compare them can see when the flag is lost.
+// Test of the flag -ffp-contract=off: without it the results differ, so tests that compare results notice when the flag is lost.
 #include "elementary/contraction.hpp"
 #include "elementary/elementary.hpp"
 #include "floats.hpp"
@@ -11,7 +11,7 @@ using namespace halflit::testing;
 
 namespace {
 
-/// Whether the two objects may be run: on x86-64 they are built for processors with FMA.
+/// True if the two objects may be run: on x86-64 they are built for processors with FMA.
 bool has_fma() {
 #if defined(__x86_64__)
     __builtin_cpu_init();

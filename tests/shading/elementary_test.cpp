@@ -1,4 +1,4 @@
-// Every operation that kernels use, on each instruction set against scalar, and the elementary functions against long double.
+// Tests of every operation that kernels use, on each instruction set against scalar, and of the elementary functions against long double.
 #include "elementary/elementary.hpp"
 #include "floats.hpp"
 #include "shading/plan/accuracy.hpp"
@@ -17,7 +17,7 @@ using namespace halflit::testing;
 
 namespace {
 
-/// Every 64th float or so of all 2^32, and the special values.
+/// Every 4093rd of all 2^32 floats, and the special values.
 std::vector<float> spread_of_floats() {
     std::vector<float> values = special_floats();
     for (std::uint64_t i = 0; i < (1ull << 32); i += 4093) values.push_back(std::bit_cast<float>(static_cast<std::uint32_t>(i)));
@@ -25,7 +25,7 @@ std::vector<float> spread_of_floats() {
     return values;
 }
 
-/// Where sets differ from scalar: [set][operation].
+/// Difference of one set from scalar in one operation. Differences are indexed [set][operation].
 struct Difference {
     std::int64_t count = 0;
     float x = 0, want = 0, got = 0;  ///< the first that was found
@@ -88,7 +88,7 @@ TEST_CASE("vocabulary: every unary operation gives scalar's bits on every set", 
 TEST_CASE("vocabulary: every unary operation gives scalar's bits on every set for all 2^32 floats", "[shading][simd][deep]") {
     const std::vector<shading::Isa> isas = other_isas();
     if (isas.empty()) HALFLIT_SKIP("no set but scalar here");
-    constexpr std::int64_t kRun = 1 << 14;  // x, want and got stay in the first caches
+    constexpr std::int64_t kRun = 1 << 14;  // x, want and got stay in the inner caches: 192 KB
     constexpr std::int64_t kRuns = (std::int64_t{1} << 32) / kRun;
     Differences all = no_differences(isas.size());
     std::mutex mutex;
@@ -169,7 +169,7 @@ TEST_CASE("vocabulary: min and max return the second operand for NaN and for equ
 }
 
 TEST_CASE("power: within 2.4 ulp of t^n for the exponents of the wrap family", "[shading][pow]") {
-    // The figure that the wrap family promises, over t from 2^-24 to 1 in even steps of the bit pattern.
+    // 2.4 ulp is the bound of the wrap family. The samples are t from 2^-24 to 1 in even steps of the bit pattern.
     std::vector<float> t;
     for (std::uint32_t i = std::bit_cast<std::uint32_t>(0x1p-24f); i <= std::bit_cast<std::uint32_t>(1.0f); i += 1021)
         t.push_back(std::bit_cast<float>(i));
@@ -222,7 +222,7 @@ TEST_CASE("highlight power: cos^s is right to 4e-7 for exponents from 0.5 to 8e4
     std::vector<long double> exact(1 << 16);
     for (std::size_t i = 0; i < half.size(); ++i) {
         half[i] = std::exp2(make.ordinary(-2.0f, 15.5f));
-        // Angles where the result matters: down to 2^-20 for large exponents, up to 90 degrees for small ones.
+        // Angles at which the result matters: for large exponents until it falls to about 2^-20, for small exponents up to 90 degrees.
         const double sine_squared = std::min(1.0, static_cast<double>(make.ordinary(0.0f, 1.0f)) * 14.0 / half[i]);
         sine[i] = static_cast<float>(sine_squared), cosine[i] = static_cast<float>(1.0 - sine_squared);
         exact[i] = std::exp(static_cast<long double>(half[i]) * std::log1p(-static_cast<long double>(sine_squared)));
@@ -235,9 +235,9 @@ TEST_CASE("highlight power: cos^s is right to 4e-7 for exponents from 0.5 to 8e4
     CHECK(worst <= 4e-7);
 }
 
-TEST_CASE("power tiers: display and fast are off by what accuracy.hpp says of their polynomials", "[shading][pow]") {
-    // t^n = t 2^((n-1) log2 t): 2^r as far as its own error, and log2's on a fraction of at most 1/2, times ln 2 (n - 1). The exponent
-    // itself is a float32 of up to 24 here, rounded three times.
+TEST_CASE("power tiers: errors of display and fast are within those that accuracy.hpp states for their polynomials", "[shading][pow]") {
+    // t^n = t 2^((n-1) log2 t). The relative error is that of 2^r, plus that of log2 on a fraction of at most 1/2, times ln 2 (n - 1). The
+    // exponent itself is a float32 of up to 24 here, rounded three times.
     struct Row {
         const char* name;
         double n;
@@ -269,15 +269,16 @@ TEST_CASE("power tiers: display and fast are off by what accuracy.hpp says of th
             }
             INFO(row.name << ": relative error " << worst << ", of its bound " << worst_of_bound);
             CHECK(worst_of_bound <= 1.0);
-            CHECK(worst_of_bound > 0.4);  // and no better than that: the tier did run
+            CHECK(worst_of_bound > 0.4);  // close to the bound, so the tier did run
             CHECK(worst <=
-                  (row.tier == shading::PowTier::display ? 2.6e-6 * row.n + 3e-6 : 1.3e-4 * row.n + 1e-4));  // in the tiers' own words
+                  (row.tier == shading::PowTier::display ? 2.6e-6 * row.n + 3e-6 : 1.3e-4 * row.n + 1e-4));  // as documented at Accuracy
         }
     CHECK(found == 4);
 }
 
-TEST_CASE("power tiers: highlights are off by what accuracy.hpp says of their polynomials", "[shading][pow]") {
-    // cos^s = e^-z with z off by log2's relative error: e^-z z <= 1/e, so the peak bounds the sum of both.
+TEST_CASE("power tiers: errors of highlights are within those that accuracy.hpp states for their polynomials", "[shading][pow]") {
+    // cos^s = e^-z, where z has the relative error of log2. Because e^-z z <= 1/e, that error adds at most 1/e of itself, relative to the
+    // peak.
     struct Row {
         const char* name;
         double half_exponent;

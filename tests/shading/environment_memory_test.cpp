@@ -1,4 +1,4 @@
-// What an environment holds in memory: nothing by default, and of an image no more than was asked for.
+// Memory that an environment holds: none by default, and of an image only what was asked for.
 #include "shading/environment.hpp"
 
 #include <catch2/catch.hpp>
@@ -16,12 +16,12 @@ using namespace halflit::shading;
 
 namespace {
 
-/// Bytes in use of the heap, or nothing where the C library does not say. One thread.
+/// Bytes of the heap in use, or nullopt if the C library does not tell. Valid for one thread.
 std::optional<std::int64_t> heap_bytes() {
 #if defined(HALFLIT_HAS_MALLINFO)
     const struct mallinfo2 info = mallinfo2();
     const auto bytes = static_cast<std::int64_t>(info.uordblks + info.hblkhd);
-    if (bytes > 0) return bytes;  // a sanitizer's allocator counts elsewhere
+    if (bytes > 0) return bytes;  // a sanitizer's allocator is not counted
 #endif
     return {};
 }
@@ -34,7 +34,7 @@ Environment of_image(int width, int height, const EnvironmentOptions& options = 
 
 }  // namespace
 
-TEST_CASE("environment: one that was not made holds nothing, and is dark", "[shading][environment]") {
+TEST_CASE("environment: one that was not made holds no memory and is dark", "[shading][environment]") {
     const Environment none;
     CHECK(none.suns.capacity() == 0);
     CHECK(none.rgb.capacity() == 0);
@@ -55,7 +55,7 @@ TEST_CASE("environment: a default one, and a default grid, allocate nothing", "[
     CHECK(copy.width == 0);
 }
 
-TEST_CASE("environment: of a small image it holds its bands' grid of 5 MB and little else", "[shading][environment]") {
+TEST_CASE("environment: made from a small image it holds the 5 MB grid of its bands and little else", "[shading][environment]") {
     if (!heap_bytes()) HALFLIT_SKIP("no count of the heap's bytes");
     constexpr std::int64_t kGrid = 24 * 96 * 192 * sizeof(Vec3f), kLittle = 64 << 10;
     const std::int64_t before = *heap_bytes();
@@ -67,7 +67,7 @@ TEST_CASE("environment: of a small image it holds its bands' grid of 5 MB and li
     CHECK(*heap_bytes() - before <= kLittle);
 }
 
-TEST_CASE("environment: the image is kept where it is asked for, and nowhere else", "[shading][environment]") {
+TEST_CASE("environment: the image is kept only if it is asked for", "[shading][environment]") {
     const Environment neither = of_image(32, 16), image = of_image(32, 16, {.keep_image = true}),
                       light = of_image(32, 16, {.keep_light = true});
     CHECK(neither.rgb.capacity() == 0);

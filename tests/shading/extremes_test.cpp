@@ -1,5 +1,5 @@
-// Where float32 breaks: each quantity in its plain form, written here, and as the kernels compute it, both against float64. The measured
-// figures stand in shading/README.md ("Extremes"); run with -s to see them.
+// Cases where float32 fails: each quantity in its plain form, written here, and as the kernels compute it, both against float64. The
+// measured figures are in shading/README.md ("Extremes"); run with -s to see them.
 #include "elementary/elementary.hpp"
 #include "floats.hpp"
 #include "lobe_curve/lobe_curve.hpp"
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
-/// The worst of many errors, and how often there was none to measure: NaN, infinity.
+/// Largest of many errors, and the number of results without an error to measure: NaN, infinity.
 struct Worst {
     double error = 0;
     int broken = 0;
@@ -103,7 +103,7 @@ TEST_CASE("extremes: t = (x + w) / (1 + w) stays in [0, 1], also for the dot pro
     CHECK(highest_before > 1.0);
     CHECK(highest_after == 1.0);
     CHECK(after.broken == 0);
-    CHECK(after.error <= 2.5 * 0x1p-24);  // half an ulp each of the sum, of 1 / (1 + w) rounded up, and of the product
+    CHECK(after.error <= 2.5 * 0x1p-24);  // rounding: half an ulp each of the sum, of 1 / (1 + w) rounded up, and of the product
 }
 
 TEST_CASE("extremes: t^n up to n = 10000 has no NaN, no lit back side and no denormal", "[shading][extremes]") {
@@ -111,7 +111,7 @@ TEST_CASE("extremes: t^n up to n = 10000 has no NaN, no lit back side and no den
     for (const float n : {1.3f, 2.0f, 100.0f, 1000.0f, 10000.0f}) {
         const float w = 0.5f;
         std::vector<float> x;
-        const double span = std::min(2.0, 80.0 / n);  // where the lobe is above 1e-20, and the back side
+        const double span = std::min(2.0, 80.0 / n);  // part where the lobe is above 1e-20; the back side is added
         for (int i = 0; i < 32768; ++i)
             x.push_back(static_cast<float>(1.0 - span * i / 32768)), x.push_back(static_cast<float>(1.0 - 2.0 * i / 32767));
         Worst before, after;
@@ -138,8 +138,9 @@ TEST_CASE("extremes: t^n up to n = 10000 has no NaN, no lit back side and no den
                   << " lit behind; after " << after.error << ", " << after.broken << " NaN");
         CHECK(before.broken + denormals + lit_behind > 0);
         CHECK(after.broken == 0);
-        // Four roundings of t, and 2.3 ulp of the power or, from n = 64 on, five roundings of an exponent that is 46 (natural) at 1e-20.
-        // From n = 160 on only t near 1 counts, whose roundings are not taken n times.
+        // Error: four roundings of t, which the power multiplies by n, plus 2.3 ulp of the power. From n = 64 on, in place of the latter,
+        // five roundings of an exponent of size 46 (ln 1e-20). From n = 160 on only t near 1 counts, where roundings of t are not
+        // multiplied by n.
         CHECK(after.error <= (n < 160 ? 4 * n : 0) * 0x1p-24 + (n < 64 ? 2 * 2.3 : 5 * 46) * 0x1p-24);
         if (n > 200) CHECK(before.error >= 5 * after.error);
     }
@@ -170,7 +171,7 @@ TEST_CASE("extremes: normalising keeps the direction of every finite vector", "[
     CHECK(before.error > 0.5);
     CHECK(before.broken > 0);
     CHECK(after.broken == 0);
-    CHECK(after.error <= 3 * 0x1p-24);  // the root of the sum, its reciprocal, the product: of components up to 1
+    CHECK(after.error <= 3 * 0x1p-24);  // roundings of the root of the sum, its reciprocal and the product, for components up to 1
 }
 
 TEST_CASE("extremes: 1 / d^2 is finite at every distance, 0 included", "[shading][extremes]") {
@@ -195,7 +196,7 @@ TEST_CASE("extremes: 1 / d^2 is finite at every distance, 0 included", "[shading
                 const float d = distances[first + static_cast<std::size_t>(l)];
                 const Vec3f offset{0, 0, d}, direction = plain_normalize(offset);
                 const float plain = direction.z / (d * d);
-                // The source has a radius of 1e-4 unless told otherwise; plain light has none, so it is judged beyond it.
+                // A light has a radius of 1e-4 by default. The plain form has none, so it is compared beyond that distance only.
                 const double held = std::max(static_cast<double>(d), 1e-4), exact = 1.0 / (held * held);
                 const float got = value[static_cast<std::size_t>(l)];
                 if (!std::isfinite(plain)) ++before.broken;
@@ -208,7 +209,7 @@ TEST_CASE("extremes: 1 / d^2 is finite at every distance, 0 included", "[shading
     INFO("before " << before.error << ", " << before.broken << " not finite; after " << after.error);
     CHECK(before.broken > 0);
     CHECK(wrong == 0);
-    CHECK(after.error <= 8 * 0x1p-24);  // direction: 3 roundings; square, quotient, products; the radius squared as a float
+    CHECK(after.error <= 8 * 0x1p-24);  // roundings: 3 of the direction; square, quotient, products; the radius squared as a float
 }
 
 TEST_CASE("extremes: a spot of a fiftieth of a degree has a smooth cone", "[shading][extremes]") {
@@ -243,7 +244,7 @@ TEST_CASE("extremes: a spot of a fiftieth of a degree has a smooth cone", "[shad
         INFO("outer " << outer_deg << " degrees: before " << before.error << ", " << before.broken << " NaN; after " << after.error);
         if (outer_deg < 0.06) CHECK((before.error > 0.2 || before.broken > 0));
         CHECK(after.broken == 0);
-        CHECK(after.error <= 4e-6);  // twice that of the cone, a few eps of the versine over the cone's relative width of 3/4
+        CHECK(after.error <= 4e-6);  // twice the error of the cone: a few eps of the versine over the cone's relative width of 3/4
     }
 }
 
@@ -256,7 +257,7 @@ TEST_CASE("extremes: a highlight's power up to s = 100000 keeps its digits and d
         shot.material.roughness = static_cast<float>(std::pow(2.0 / (asked + 2.0), 0.25));
         shot.light.direction_ws = to_light * -1.0f;
         shot.make_plan();
-        const bool by_kernel = shot.material.roughness > 0.07f;  // the smallest that materials have: s = 83,300
+        const bool by_kernel = shot.material.roughness > 0.07f;  // 0.07: the smallest roughness of materials, s = 83,300
         const double r = shot.material.roughness, s = by_kernel ? 2.0 / (r * r * r * r) - 2.0 : asked;
         const Vec3d half = unit(Vec3f{shot.plan.lights[0].to_light[0], 0, shot.plan.lights[0].to_light[2] + 1.0f});
         FragmentBlock block{};
@@ -298,14 +299,15 @@ TEST_CASE("extremes: a highlight's power up to s = 100000 keeps its digits and d
                   << peak_after);
         CHECK(after.broken == 0);
         CHECK(peak_after <= 1.0 + 1e-6);
-        // An angle between unit vectors of floats is good to 1e-7; s/2 sin^2 has the slope s sin, at most sqrt(2 s 13.8).
+        // The angle between unit vectors of floats is accurate to 1e-7. The exponent s/2 sin^2 has a slope of s sin, at most sqrt(2 s
+        // 13.8).
         CHECK(after.error <= 1.5e-7 * std::sqrt(2 * s * 13.8) + 2e-5);
         CHECK(before.error >= 5 * after.error);
     }
 }
 
-TEST_CASE("extremes: a light exactly opposite the viewer has no half vector, and no highlight by it", "[shading][extremes]") {
-    // [CMSC] divides L + e by its length, which is 0 here.
+TEST_CASE("extremes: a light exactly opposite the viewer has no half vector and gives no highlight", "[shading][extremes]") {
+    // [CMSC] divides L + e, the sum of the directions to the light and to the eye, by its length, which is 0 here.
     Shot shot;
     shot.material.metallic = 1.0f;
     shot.light.direction_ws = {0, 0, 1};  // L = (0, 0, -1), the view is (0, 0, 1)
@@ -321,7 +323,7 @@ TEST_CASE("extremes: a light exactly opposite the viewer has no half vector, and
         for (const float value : shot.shade(isa, block)) CHECK(value == 0.0f);
 }
 
-TEST_CASE("extremes: light from all around is as good at the poles of its basis as elsewhere, on every set", "[shading][extremes]") {
+TEST_CASE("extremes: environment light is as accurate at the poles of its basis as elsewhere, on every set", "[shading][extremes]") {
     FloatMaker make(17);
     Environment environment;
     environment.radiance.bands = sh::kMaxBands;
@@ -335,7 +337,7 @@ TEST_CASE("extremes: light from all around is as good at the poles of its basis 
     REQUIRE(shot.plan.environments[0].bands == sh::kMaxBands);
     const sh::BandFactors bands = sh::zonal_bands({0.0, 1.0, 1.0});
     const sh::PreconvolvedSh sum = sh::convolve(environment.radiance, bands, sh::kMaxBands);
-    double size = 0;  // what the sum could be at most
+    double size = 0;  // upper bound on the sum
     for (int i = 0; i < sh::kMaxCoefficients; ++i)
         size += std::fabs(environment.radiance.c[static_cast<std::size_t>(i)].x * bands[static_cast<std::size_t>(sh::band_of(i))]) *
                 std::sqrt((2 * sh::band_of(i) + 1) / (4 * kPi));

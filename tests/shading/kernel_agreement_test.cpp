@@ -32,13 +32,13 @@ void roughen_vectors(FloatMaker& make, FragmentBlock& block) {
     }
 }
 
-/// What a run of random cases has seen.
+/// Counts over a run of random cases.
 struct Agreement {
     std::int64_t fragments = 0;  ///< each compared on every set
     std::int64_t nan_fragments = 0;
     std::int64_t differing = 0;
     std::uint32_t stages_seen = 0;
-    std::string first;  ///< the first difference, with what repeats it
+    std::string first;  ///< the first difference, with the numbers that repeat it
 
     void add(const Agreement& other) {
         fragments += other.fragments, nan_fragments += other.nan_fragments, differing += other.differing;
@@ -49,7 +49,7 @@ struct Agreement {
 
 constexpr int kBlocksPerCase = 8;
 
-/// Shades blocks of one random case by scalar and by every set. NaNs must be where scalar has them; their bits do not count.
+/// Shades blocks of one random case by scalar and by every set. NaNs must be in the same places as scalar's; their bits do not count.
 Agreement compare_case(std::uint32_t number, const std::vector<Isa>& isas) {
     FloatMaker make(20240607 + number);
     Case c = make_case(make, false);
@@ -104,12 +104,12 @@ Agreement compare_cases(int case_count) {
     return all;
 }
 
-/// Every fragment of `case_count` random cases agrees, and the cases were as hard as they are meant to be.
+/// Checks that every fragment of `case_count` random cases agrees, that every stage occurred, and that the share of NaNs was as intended.
 void check_cases(int case_count) {
     const Agreement all = compare_cases(case_count);
     INFO(all.fragments << " fragments, " << all.nan_fragments << " with NaN; " << all.first);
     CHECK(all.differing == 0);
-    // All that a plan names from materials and lights alone.
+    // All stages that materials and lights alone can bring into a plan.
     CHECK(all.stages_seen == 2u * kStageGradients - 1u);
     CHECK(all.fragments > std::int64_t{case_count} * kBlocksPerCase * kBlockSize / 2);
     CHECK(all.nan_fragments > all.fragments / 1000);
@@ -133,7 +133,8 @@ TEST_CASE("kernels: shade and alpha give scalar's bits on every set, for 10^8 fr
     check_cases(270000);
 }
 
-TEST_CASE("kernels: light alone gives scalar's bits on every set, and shade takes it up", "[shading][kernels]") {
+TEST_CASE("kernels: light alone gives scalar's bits on every set, and shade with its result agrees with plain shade",
+          "[shading][kernels]") {
     FloatMaker make(55);
     int compared = 0;
     for (int round = 0; round < 200; ++round) {

@@ -1,4 +1,4 @@
-// The kernel against the float64 reference.
+// Tests of the kernel against the float64 reference.
 #include "random_case.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 #include "shading/planner.hpp"
@@ -12,8 +12,8 @@ using namespace halflit::shading;
 using namespace halflit::testing;
 
 TEST_CASE("kernels: shade agrees with the float64 reference for every kind of scene", "[shading][reference]") {
-    // Textures with small steps between texels, nearest filters left out: there a coordinate's last bit picks another texel, which is
-    // no error of the arithmetic. sampling_test has those.
+    // Textures have small steps between texels, and nearest filters are left out: there the last bit of a coordinate selects another texel,
+    // which is no error of the arithmetic. sampling_test covers those.
     FloatMaker make(31);
     double worst = 0, sum = 0;
     int compared = 0;
@@ -25,10 +25,10 @@ TEST_CASE("kernels: shade agrees with the float64 reference for every kind of sc
             use->sampler.mag = use->sampler.min = Filter::linear;
             if (use->sampler.mip == MipFilter::nearest) use->sampler.mip = MipFilter::linear;
         }
-        // Below power 1 the lobe has no bounded slope at its edge, so neither has the error.
+        // A lobe with a power below 1 has an unbounded slope at its edge, so its error is unbounded too.
         material.lobe.power = std::max(material.lobe.power, 1.0f);
         c.options.lobe.power = std::max(c.options.lobe.power, 1.0f);
-        material.roughness = std::max(material.roughness, 0.2f);  // exponents up to 1250: beyond, a normal's last bit shows
+        material.roughness = std::max(material.roughness, 0.2f);  // exponents up to 1250: above, the last bit of a normal is visible
         const ShadingPlan old = c.plan;
         c.plan = plan_shading({c.materials, c.textures, c.available, c.lights, c.ambient, c.options});
         c.plan.eye_ws = old.eye_ws, c.plan.view_direction_ws = old.view_direction_ws, c.plan.orthographic = old.orthographic;
@@ -82,7 +82,7 @@ TEST_CASE("kernels: a highlight at the sharpest roughness agrees with the refere
 }
 
 TEST_CASE("kernels: Phong with a quarter of Blinn's exponent has the same peak and half width", "[shading][reference]") {
-    // Seen along the light, on a slope of angle d: N.H = cos d and R.V = cos 2d.
+    // View along the light, on a surface tilted by an angle d: N.H = cos d and R.V = cos 2d. H: half vector, R: mirrored light, V: view.
     Material material;
     material.metallic = 1.0f, material.roughness = 0.3f;  // s = 2 / 0.09^2 - 2 = 244.9
     const Light light{.direction_ws = {0, 0, -1}};
@@ -107,7 +107,7 @@ TEST_CASE("kernels: Phong with a quarter of Blinn's exponent has the same peak a
         CHECK(std::fabs(blocks[0].red[lane] - blocks[1].red[lane]) <= 0.01 * peak);
 }
 
-TEST_CASE("kernels: no highlight where the light is behind the surface, whatever the lobe wraps", "[shading]") {
+TEST_CASE("kernels: no highlight where the light is behind the surface, however far the lobe wraps", "[shading]") {
     Material material;
     material.metallic = 1.0f, material.roughness = 0.8f, material.lobe = Lobe::valve();
     const Light light{.direction_ws = {0, 0, -1}};
@@ -124,12 +124,13 @@ TEST_CASE("kernels: no highlight where the light is behind the surface, whatever
         block.lane[kNormalX][lane] = static_cast<float>(std::sqrt(1 - x * x)), block.lane[kNormalZ][lane] = static_cast<float>(x);
     }
     shade_kernels(Isa::scalar).shade(plan, plan.materials[0], all_lights(plan), block, kBlockSize);
-    // A metal has no diffuse light: what is left would be the highlight.
+    // A metal has no diffuse light, so any light here would be the highlight.
     for (int lane = 0; lane < kBlockSize; ++lane) CHECK(block.red[lane] == 0.0f);
 }
 
 TEST_CASE("kernels: a spot's cosine power falls off as cos(angle)^power inside the cone", "[shading][reference]") {
-    // [CMSC]: intensity (-L.d)^f. Points on a plane at distance 1 below the light; the plane faces the light at every point.
+    // [CMSC]: intensity (-L.d)^f. L: direction to the light, d: direction of the spot, f: cone_power. The points lie on a sphere of radius
+    // 1 around the light, and the surface faces the light at every point.
     Material material;
     Light light{.type = LightType::spot, .position_ws = {0, 0, 0}, .direction_ws = {0, 0, -1}};
     light.inner_cone_rad = 1.4f, light.outer_cone_rad = 1.45f;

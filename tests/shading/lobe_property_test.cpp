@@ -34,8 +34,8 @@ std::vector<Lobe> many_lobes() {
     return all;
 }
 
-/// Ascending: a grid over [-1, 1]; where the lobe begins and ends, and at 0, all neighbours one by one; and a little beyond 1, where the
-/// dot product of two unit vectors may lie.
+/// Values of x in ascending order: a grid over [-1, 1], and 256 neighbouring floats on each side of the lobe's beginning, of 0 and of 1.
+/// They go up to 4 ulp above 1, because the dot product of two unit vectors may lie there.
 std::vector<float> cosines(float wrap) {
     std::vector<float> all;
     for (int i = -2048; i <= 2048; ++i) all.push_back(static_cast<float>(i) / 2048.0f);
@@ -78,8 +78,8 @@ TEST_CASE("lobe: on every set 0 up to x = -w, the scale from 1 on, and between t
 }
 
 TEST_CASE("lobe: on every set it never falls by more than 4 ulp, and not at all where n is 1, 3/2, 2, .. 5", "[shading][lobe]") {
-    // Sums, products and square roots round monotonically; the two polynomials of the general path do not where neighbours are as close
-    // as its error, which grows with n as that of t^n does: n ulp from the rounding of t alone.
+    // Sums, products and square roots round monotonically. The two polynomials of the general path do not, if neighbours are as close as
+    // their error. That error grows with n as that of t^n does: n ulp from the rounding of t alone.
     for (const Isa isa : test::available_isas())
         for (const Lobe& lobe : many_lobes()) {
             const std::vector<float> x = cosines(lobe.wrap), f = curve(isa, lobe, x);
@@ -130,7 +130,7 @@ TEST_CASE("lobe: sloan(0) is Lambert, sloan(1) is Valve, and mcauley(a, 1 + a) i
             Lobe normalized = Lobe::sloan(a);
             normalized.normalize = true;
             CHECK(same(isa, Lobe::mcauley(a, 1.0f + a), normalized));
-            // And the normalised lobe is the other one times (2 + a) / (2 (1 + a)) in a single rounding.
+            // The normalised lobe is the plain one times (2 + a) / (2 (1 + a)), rounded once.
             const std::vector<float> x = cosines(a), plain = curve(isa, Lobe::sloan(a), x), scaled = curve(isa, normalized, x);
             const float scale = (2.0f + a) / (2.0f * (1.0f + a));
             int wrong = 0;
@@ -141,8 +141,8 @@ TEST_CASE("lobe: sloan(0) is Lambert, sloan(1) is Valve, and mcauley(a, 1 + a) i
 }
 
 TEST_CASE("lobe: derivatives in the angle at 0 are 1, 0, -1 for sloan at every a, and -n / (1 + w) in general", "[shading][lobe]") {
-    // [SNY11]: "matches the first two derivatives" is true of d/d(theta). The fourth, (4a + 1) / (a + 1), differs from the cosine's 1; in
-    // x = cos theta only the first matches: d2f/dx2 = a / (1 + a), and 0 for the cosine.
+    // [SNY11]: "matches the first two derivatives" is true of d/d(theta). The fourth, (4a + 1) / (a + 1), differs from the cosine's 1. With
+    // respect to x = cos theta only the first matches: d2f/dx2 = a / (1 + a), and 0 for the cosine.
     const auto at = [](const Lobe& lobe, double theta) { return reference::lobe_value(lobe, std::cos(theta)); };
     const auto second = [&](const Lobe& lobe, double h) { return (at(lobe, h) - 2 * at(lobe, 0) + at(lobe, -h)) / (h * h); };
     for (int i = 0; i <= 100; ++i) {
@@ -151,7 +151,7 @@ TEST_CASE("lobe: derivatives in the angle at 0 are 1, 0, -1 for sloan at every a
         INFO("a " << a);
         CHECK(at(lobe, 0) == 1.0);
         CHECK((at(lobe, 1e-4) - at(lobe, -1e-4)) / 2e-4 == Approx(0.0).margin(1e-10));
-        // Richardson's step takes out the h^2 term: what is left is h^4 and the rounding of 1 + a to float.
+        // Richardson extrapolation removes the h^2 term of the error; h^4 and the rounding of 1 + a to float remain.
         const double d2 = (4 * second(lobe, 1e-3) - second(lobe, 2e-3)) / 3;
         CHECK(d2 == Approx(-1.0).margin(2e-7));
         const double h = 0.03,
@@ -170,8 +170,8 @@ TEST_CASE("lobe: derivatives in the angle at 0 are 1, 0, -1 for sloan at every a
         }
 }
 
-TEST_CASE("lobe: normalised, its peak passes 1 where n > 1 + 2w, and it outshines Lambert past the terminator", "[shading][lobe]") {
-    // [McA13] is normalised, not energy-conserving: the mean over light directions is Lambert's, single directions are not bounded by it.
+TEST_CASE("lobe: normalised, its peak exceeds 1 if n > 1 + 2w, and past the terminator it is brighter than Lambert", "[shading][lobe]") {
+    // [McA13] is normalised, not energy-conserving: its mean over light directions is Lambert's, but single directions may be brighter.
     CHECK(Lobe::mcauley(0.5f, 4.0f).scale() == Approx(5.0 / 3));
     for (const float w : {0.0f, 0.25f, 0.5f, 1.0f})
         for (const float n : {1.0f, 1.5f, 2.0f, 3.5f, 8.0f}) {
@@ -181,9 +181,10 @@ TEST_CASE("lobe: normalised, its peak passes 1 where n > 1 + 2w, and it outshine
         }
 }
 
-TEST_CASE("lobe: ((1 + x) / 2)^2 is the cubic through max(0, x) and its slopes at both ends, and not its best fit", "[shading][lobe]") {
-    // [Lis]. Values 0 and 1, slopes 0 and 1 at x = -1 and 1 determine a cubic; this one has them. Its largest error to max(0, x) is 1/4 (at
-    // 0), that of the order-3 series 3/32, and it gathers 4/3 as much light.
+TEST_CASE("lobe: ((1 + x) / 2)^2 is the cubic with the values and slopes of max(0, x) at both ends, and not its best fit",
+          "[shading][lobe]") {
+    // [Lis]. The values 0 and 1 and the slopes 0 and 1 at x = -1 and 1 determine a cubic; this one has them. Its largest difference from
+    // max(0, x) is 1/4, at 0; that of the order-3 series is 3/32. Its integral is 4/3 of that of max(0, x).
     const auto f = [](double x) { return reference::lobe_value(Lobe::valve(), x); };
     const double h = 1e-6;
     CHECK(f(-1) == 0.0);
@@ -201,14 +202,14 @@ TEST_CASE("lobe: ((1 + x) / 2)^2 is the cubic through max(0, x) and its slopes a
     CHECK(sum / 0.5 == Approx(4.0 / 3).epsilon(1e-5));
 }
 
-TEST_CASE("lobe: out of range is refused with the reason, below power 1 warned of", "[shading][lobe]") {
+TEST_CASE("lobe: wraps and powers out of range are refused with the reason, powers below 1 give a warning", "[shading][lobe]") {
     CHECK(check_lobe(Lobe::sloan(0.0f)));
     CHECK(check_lobe({1.0f, kMaxLobePower, true}));
     CHECK(check_lobe({0.5f, 0.0f, false}));
     const std::pair<Lobe, std::string> refused[] = {
         {{-0.5f, 1.0f, false}, "wrap: expected a number from 0 to 1, found -0.5"},
         {{1.0000001f, 1.0f, false},
-         "wrap: expected a number from 0 to 1, found 1.0000001: from 1 on light reaches everything, and the norm is another"},
+         "wrap: expected a number from 0 to 1, found 1.0000001: above 1 every normal is lit, and the norm has another formula"},
         {{kNan, 1.0f, false}, "wrap: expected a number from 0 to 1, found nan"},
         {{0.5f, -0.5f, false},
          "power: expected a number from 0 to 10000, found -0.5: below 0 the lobe grows without bound at its boundary"},

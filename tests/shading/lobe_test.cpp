@@ -12,8 +12,8 @@ using namespace halflit::testing;
 
 namespace {
 
-/// f(x) for x = N.L of 64 values: normals (x, 0, 0) against a light along +x, so that the dot product is x itself. Lengths are
-/// restored by normalising, therefore the normal is (x, sqrt(1 - x^2), 0) except where `x` is to be exact: 0, 1, -1.
+/// Lobe f(x) at 64 values of x = N.L. The normals are (x, sqrt(1 - x^2), 0) and the light comes from +x, so that the dot product is x. It
+/// is exact for x = -1, 0 and 1.
 struct Curve {
     float x[kBlockSize], value[kBlockSize];
 };
@@ -37,7 +37,7 @@ Curve curve_of(const Lobe& lobe) {
     block.lane[kNormalX][31] = 0.0f, block.lane[kNormalY][31] = 1.0f;
     shade_kernels(Isa::scalar).shade(plan, plan.materials[0], all_lights(plan), block, kBlockSize);
     for (int i = 0; i < kBlockSize; ++i) {
-        // What normalising makes of it, in double.
+        // x of the normalised normal, in double.
         const double nx = block.lane[kNormalX][i], ny = block.lane[kNormalY][i];
         curve.x[i] = static_cast<float>(nx / std::hypot(nx, ny));
         curve.value[i] = block.red[i];
@@ -67,7 +67,7 @@ TEST_CASE("lobe: every path agrees with scale * max(0, (x + w) / (1 + w))^n", "[
         const Curve curve = curve_of(lobe);
         for (int i = 0; i < kBlockSize; ++i) {
             INFO("w " << lobe.wrap << ", n " << lobe.power << ", x " << curve.x[i]);
-            // x is good to 1e-7; the slope of the lobe, at most n / (1 + w), carries that to the value (n < 1: no bound at the edge).
+            // x is accurate to 1e-7. The slope of the lobe, at most n / (1 + w), multiplies that error (n < 1: no bound at the edge).
             const double slope = std::max(1.0, static_cast<double>(lobe.power)) * lobe.scale();
             const double allowed = lobe.power < 1.0f ? 1e-3 : 5e-7 * slope;
             CHECK(std::fabs(curve.value[i] - reference::lobe_value(lobe, curve.x[i])) <= allowed);
@@ -91,7 +91,7 @@ TEST_CASE("lobe: zero up to x = -w, positive beyond, and never falling", "[shadi
         for (int i = 0; i < kBlockSize; ++i) {
             INFO("w " << lobe.wrap << ", n " << lobe.power << ", x " << curve.x[i]);
             if (curve.x[i] < -lobe.wrap - 1e-6f) CHECK(curve.value[i] == 0.0f);
-            // 2^-100 is where the general path rounds to zero.
+            // The general path rounds to zero below 2^-100.
             if (curve.x[i] > -lobe.wrap + 1e-3f && reference::lobe_value(lobe, curve.x[i]) > 1e-27) CHECK(curve.value[i] > 0.0f);
             CHECK(curve.value[i] >= previous);
             previous = curve.value[i];
@@ -100,7 +100,7 @@ TEST_CASE("lobe: zero up to x = -w, positive beyond, and never falling", "[shadi
 }
 
 TEST_CASE("lobe: the clamp is max(0, x + w), not max(0, x) + w", "[shading][lobe]") {
-    // A light 90 degrees off gives (w / (1 + w))^n, and the back side of a half wrapped ball is dark.
+    // A light at 90 degrees to the normal gives (w / (1 + w))^n, and the back side of a half wrapped ball is dark.
     const Curve half = curve_of(Lobe::green(0.5f));
     CHECK(half.value[kAtZero] == Approx(1.0 / 3.0).epsilon(1e-6));
     CHECK(half.value[0] == 0.0f);
@@ -132,7 +132,8 @@ TEST_CASE("lobe: power 0 is a step that leaves the back side dark", "[shading][l
 }
 
 TEST_CASE("lobe: the normalised family has Lambert's mean over all light directions", "[shading][lobe]") {
-    // The integral of f over x in [-1, 1] is 1/2 for Lambert; with scale (n+1) / (2 (1+w)) it is for all. Simpson's rule on the reference.
+    // The integral of f over x in [-1, 1] is 1/2 for Lambert; with scale (n+1) / (2 (1+w)) it is for every lobe. Simpson's rule on the
+    // reference.
     for (const Lobe& lobe : many_lobes()) {
         if (lobe.power < 1.0f) continue;
         Lobe normalized = lobe;

@@ -91,7 +91,7 @@ TEST_CASE("plan: without light a material only emits", "[shading][plan]") {
     CHECK((scene.first().stages & kStageBaseColorTexture) != 0);
 }
 
-TEST_CASE("plan: a texture nobody sees is not fetched", "[shading][plan]") {
+TEST_CASE("plan: a texture without effect is not fetched", "[shading][plan]") {
     Scene scene;
     scene.materials[0].emissive_texture.texture = 0;   // emissive factor 0
     scene.materials[0].occlusion_texture.texture = 0;  // no ambient light
@@ -147,7 +147,7 @@ TEST_CASE("plan: each power takes its cheapest lobe path", "[shading][plan]") {
     CHECK(path(std::numeric_limits<float>::quiet_NaN()) == LobePath::step);
 }
 
-TEST_CASE("plan: a setting's lobe replaces all but those that the file chose", "[shading][plan]") {
+TEST_CASE("plan: the lobe of the settings replaces all but those that the file chose", "[shading][plan]") {
     Scene scene;
     scene.options.override_lobe = true;
     scene.options.lobe = Lobe::valve();
@@ -156,7 +156,7 @@ TEST_CASE("plan: a setting's lobe replaces all but those that the file chose", "
     CHECK(scene.first().lobe.path == LobePath::linear);
 }
 
-TEST_CASE("plan: lights keep their order, black ones and those that are not numbers are left out", "[shading][plan]") {
+TEST_CASE("plan: lights keep their order, black ones and those with NaN are left out", "[shading][plan]") {
     Scene scene;
     Light red, black, broken, blue;
     red.color_linear = {1, 0, 0};

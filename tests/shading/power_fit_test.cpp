@@ -1,4 +1,4 @@
-// Powers as curves made for one exponent: never off by more than their fits say, on every instruction set.
+// Powers by curves that are fitted to one exponent: the errors stay within those that the fits state, on every instruction set.
 #include "shading/budget/power_fit.hpp"
 
 #include "floats.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kPoints = 4096;
 
-/// t, closer together near 0.
+/// Values of t, closer together near 0.
 std::vector<float> spread() {
     std::vector<float> t(kPoints);
     for (int i = 0; i < kPoints; ++i) {
@@ -39,7 +39,7 @@ double code(double linear) { return reference::srgb_code(std::min(linear, 1.0));
 
 }  // namespace
 
-TEST_CASE("curves: no lobe is off by more codes than its fit says, by one light or by several", "[shading][pow][curve]") {
+TEST_CASE("curves: no lobe is off by more codes than its fit states, under one light or under several", "[shading][pow][curve]") {
     const std::vector<float> t = spread();
     FloatMaker make(77);
     for (const double n : {1.0001, 1.02, 1.1, 1.3, 1.4999, 1.7, 2.2, 2.5, 3.2, 4.4, 6.3})
@@ -67,17 +67,17 @@ TEST_CASE("curves: no lobe is off by more codes than its fit says, by one light 
                 }
                 INFO(isa_name(isa) << ", n = " << n << ", amplitude " << amplitude << ": off by " << worst << ", said " << fit.codes);
                 CHECK(worst <= fit.codes);
-                // A bound that says nothing would hold too.
+                // The bound is not far above the error.
                 if (fit.codes > 0.01 && fit.codes < 50.0) CHECK(worst > 0.1 * fit.codes);
             }
         }
 }
 
-TEST_CASE("curves: a lobe of half-integer power is a polynomial, and other fits are close where budgets use them",
+TEST_CASE("curves: a lobe of half-integer power is a polynomial, and other fits are accurate where budgets use them",
           "[shading][pow][curve]") {
     for (const double n : {1.5, 2.5, 3.5}) CHECK(fit_lobe(n, 1.0).codes < 0.005);
     for (const double n : {1.1, 1.3, 1.7}) CHECK(fit_lobe(n, 2.0).codes < 0.2);
-    // What has no bound is not promised.
+    // A power or an amplitude without a bound gives 255 codes.
     CHECK(fit_lobe(0.9, 1.0).codes == 255.0);
     CHECK(fit_lobe(70.0, 1.0).codes == 255.0);
     CHECK(fit_lobe(1.3, 0.0).codes == 255.0);
@@ -85,14 +85,14 @@ TEST_CASE("curves: a lobe of half-integer power is a polynomial, and other fits 
     CHECK(fit_lobe(std::nan(""), 1.0).codes == 255.0);
 }
 
-TEST_CASE("curves: a highlight without a range or without an exponent is not promised", "[shading][pow][curve]") {
+TEST_CASE("curves: a highlight whose range is empty or reaches 0 has no bound", "[shading][pow][curve]") {
     CHECK(fit_specular(16.0, 1.0).codes(1.0, 1) == 255.0);
     CHECK(fit_specular(16.0, 0.0).codes(1.0, 1) == 255.0);
     CHECK(fit_specular(0.0, 0.0).codes(1.0, 1) == 255.0);
     CHECK(fit_specular(0.0, 0.5).codes(1.0, 1) < 0.01);  // x^0 is 1
 }
 
-TEST_CASE("curves: highlights are off by no more than their fits say", "[shading][pow][curve]") {
+TEST_CASE("curves: highlights are off by no more than their fits state", "[shading][pow][curve]") {
     for (const double half_exponent : {0.7, 1.0, 3.3, 8.0, 16.0, 24.5, 65.3, 131.0, 700.0, 5000.0})
         for (const double cut : {0.3, 1e-2, 1e-4, 1e-6}) {
             const double least = std::pow(cut, 1.0 / half_exponent);

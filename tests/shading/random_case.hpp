@@ -10,8 +10,8 @@
 
 namespace halflit::testing {
 
-/// Textures of odd, even, tiny and larger sizes. `smooth` ones change little between neighbours, so that a coordinate's last bit matters
-/// little to the value.
+/// Textures of odd, even, tiny and larger sizes. `smooth` ones change little between neighbours, so that a coordinate's last bit hardly
+/// changes the value.
 inline std::vector<shading::Texture> make_textures(FloatMaker& make, bool smooth) {
     std::vector<shading::Texture> textures;
     for (const auto& [width, height] : {std::pair{1, 1}, {2, 3}, {8, 8}, {13, 7}, {64, 32}, {1, 9}}) {
@@ -112,7 +112,7 @@ inline shading::Light make_light(FloatMaker& make) {
 /// Attribute rows for all lanes. `wild`: mixed with infinities, NaNs, denormals and random bits.
 inline void fill_block(FloatMaker& make, shading::FragmentBlock& block, bool wild) {
     using namespace shading;
-    const bool around = make.below(2) == 0;  // gradients around one texel a pixel, or any size
+    const bool around = make.below(2) == 0;  // gradients of up to 0.1 or up to 0.01 a pixel
     for (int row = 0; row < kInputRows; ++row) {
         for (float& value : block.lane[row]) {
             float low = -1, high = 1;
@@ -128,7 +128,7 @@ inline void fill_block(FloatMaker& make, shading::FragmentBlock& block, bool wil
         }
     }
     if (!wild) return;
-    // Whole zero vectors, and coordinates far out.
+    // Adds zero vectors and coordinates far out.
     for (int lane = 0; lane < kBlockSize; lane += 5) {
         const int row = make.below(2) == 0 ? kNormalX : kTangentX;
         for (int i = 0; i < 3; ++i) block.lane[row + i][lane] = 0.0f;
@@ -137,7 +137,7 @@ inline void fill_block(FloatMaker& make, shading::FragmentBlock& block, bool wil
     }
 }
 
-/// Everything that a frame shares.
+/// All that a frame shares.
 struct Case {
     std::vector<shading::Texture> textures;
     std::vector<shading::Material> materials;
@@ -169,7 +169,7 @@ inline Case make_case(FloatMaker& make, bool smooth_textures) {
     return c;
 }
 
-/// What tiers and error budgets make of a plan: shorter polynomials, curves, reaches and thresholds, whatever they are off by.
+/// Changes a plan as tiers and error budgets do: shorter polynomials, curves, cutoff radii and thresholds, however large their errors.
 inline void shorten(FloatMaker& make, Case& c) {
     using namespace shading;
     for (MaterialPlan& material : c.plan.materials) {
@@ -189,7 +189,7 @@ inline void shorten(FloatMaker& make, Case& c) {
         if (light.type != LightType::directional && make.below(3) == 0) light.cutoff_squared = make.ordinary(0, 9);
 }
 
-/// The reference's view of a case; valid while the case stays where it is.
+/// Inputs of the reference for a case; valid as long as the case is not moved.
 inline shading::reference::FrameInputs reference_frame(const Case& c) {
     return {c.textures, c.lights, c.ambient, c.options, c.plan.eye_ws, c.plan.view_direction_ws, c.plan.orthographic};
 }

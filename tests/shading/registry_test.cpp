@@ -92,7 +92,7 @@ TEST_CASE("isa: this processor runs every set that is built", "[shading][isa]") 
 }
 
 TEST_CASE("isa: the set in use is the one that HALFLIT_EXPECTED_KERNEL names", "[shading][isa]") {
-    // For emulated processors, of which the caller knows what they can do.
+    // Used on emulated processors: the caller knows which set such a processor must choose.
     const char* const expected = std::getenv("HALFLIT_EXPECTED_KERNEL");
     if (expected == nullptr) HALFLIT_SKIP("HALFLIT_EXPECTED_KERNEL is not set");
     const KernelVariable none(nullptr);

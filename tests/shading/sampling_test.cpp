@@ -120,7 +120,7 @@ TEST_CASE("sampling: wrap modes, filters and levels agree with a brute-force sam
             }
         }
     }
-    // Largest where the level of detail's 4e-6 and a coordinate's 2e-7 * size meet texels a full range apart.
+    // The largest errors come from the level of detail (4e-6) and from a coordinate (2e-7 * size) between texels a full range apart.
     INFO("worst " << worst);
     CHECK(worst > 0);
     CHECK(compared == 6 * 108 * 64);
@@ -148,7 +148,7 @@ TEST_CASE("sampling: a footprint beyond the picture gives its mean", "[shading][
     for (const auto& color : colors) CHECK(color.b == Approx(unorm(texture, 4, 0, 0, 2)).epsilon(1.2e-7));
 }
 
-TEST_CASE("sampling: coordinates that are not numbers, or endless, read as (0, 0)", "[shading][sampling]") {
+TEST_CASE("sampling: coordinates that are NaN, infinite or huge read as (0, 0)", "[shading][sampling]") {
     const Texture texture = random_texture(4, 4, 5);
     for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp}) {
         TextureUse use;
@@ -181,7 +181,7 @@ TEST_CASE("sampling: just below zero a repeated picture shows its last texel", "
             use.sampler.mag = mag;
             use.sampler.min = Filter::nearest;
             use.sampler.mip = MipFilter::none;
-            // Minified, so that the filter is nearest; with a linear mag the lanes share the path of both filters.
+            // Minified, so that the filter is nearest. With a linear mag filter the lanes take the code path for both filters.
             const auto colors = sample_all(texture, use, {{-1e-9f, -1e-20f, 2.0f}, {-1e-45f, -6e-8f, 2.0f}});
             for (const auto& color : colors) {
                 INFO("size " << size);

@@ -1,5 +1,5 @@
 // Shadow-map look-ups in the kernels, on small maps made by hand: the same bits on every instruction set for any input, exact values at
-// boundaries, and the float64 meaning of the sums.
+// boundaries, and sums compared with float64.
 #include "random_case.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 #include "shading/planner.hpp"
@@ -111,7 +111,7 @@ TEST_CASE("shadow kernel: random maps and any fragments give scalar's bits on ev
         int different = 0, nans = 0;
         for (int lane = 0; lane < kBlockSize; ++lane) {
             hidden += want.red[lane] < open.red[lane];
-            // A shadow makes no NaN of what was none.
+            // A shadow must not turn a finite value into NaN.
             nans += std::isnan(want.red[lane]) && std::isfinite(open.red[lane]);
         }
         for (const Isa isa : other_isas()) {
@@ -129,7 +129,7 @@ TEST_CASE("shadow kernel: random maps and any fragments give scalar's bits on ev
     CHECK(hidden > 10000);
 }
 
-TEST_CASE("shadow kernel: all, nothing and depth by the texel are exact", "[shading][shadow]") {
+TEST_CASE("shadow kernel: an empty map, full shadow and depths at the limits are exact", "[shading][shadow]") {
     for (const auto kind : kKinds) {
         for (const ShadowMode mode : {ShadowMode::hard, ShadowMode::soft_split}) {
             for (const Lobe& lobe : {Lobe::lambert(), Lobe::sloan(0.5f), Lobe::valve(), Lobe{0.5f, 1, true}}) {
@@ -161,11 +161,11 @@ TEST_CASE("shadow kernel: all, nothing and depth by the texel are exact", "[shad
                     setup.plan.lights[0].shadow_map = 0;
                     CHECK(open >= 0.0f);
                     CHECK(same_bits(red(here, n), open));  // nothing in the map
-                    setup.fill(10.5f);                     // all of it behind the receiver
+                    setup.fill(10.5f);                     // all of the map behind the receiver
                     CHECK(same_bits(red(here, n), open));
-                    setup.fill(1.0f);  // far in front: d > d0 = 2
+                    setup.fill(1.0f);  // far in front: distance d > fade distance d0 = 2
                     CHECK(red(here, n) == 0.0f);
-                    setup.fill(9.0f);  // half of d0 in front: at most what is open, never below 0
+                    setup.fill(9.0f);  // half of d0 in front: between 0 and the open value
                     CHECK(red(here, n) >= 0.0f);
                     CHECK(red(here, n) <= open);
                 }
@@ -195,7 +195,7 @@ TEST_CASE("shadow kernel: a lit share is the weighted mean over 3 x 3 texels", "
             const float sine = std::sqrt(1 - cosine * cosine);
             FragmentBlock block = uniform({x, y, 0}, {sine, 0, cosine});
             setup.shade(Isa::scalar, block);
-            // In double: 3 texels along the normal times the sine, then a box 3 texels wide around the point.
+            // In double: the point moves along the normal by 3 texels times the sine; the box around it is 3 texels wide.
             const double texel = 2.0 / kSize, offset = 3 * texel * double{sine};
             const double u = (x + offset * double{sine} + 1) / texel, v = (1 - double{y}) / texel;
             const double receiver = 10 - offset * double{cosine} - 0.5 * texel;
@@ -219,9 +219,10 @@ TEST_CASE("shadow kernel: a lit share is the weighted mean over 3 x 3 texels", "
     }
 }
 
-TEST_CASE("shadow kernel: no wrapped light comes back where a surface turns away below a caster", "[shading][shadow]") {
-    // A sphere of radius 1 behind a plane blocker at distance d from its terminator. As it turns away by x, its surface is |x| farther from
-    // the blocker and, seen alone, 2 |x| thick. What is left must not grow with |x|, and must be 0 from d0 on and f where d is 0.
+TEST_CASE("shadow kernel: wrapped light does not return where a surface turns away below a caster", "[shading][shadow]") {
+    // Sphere of radius 1 behind a plane blocker at distance d from the sphere's terminator. Where x = N.L is negative, the surface is |x|
+    // farther from the blocker, and the sphere itself is 2 |x| thick towards the light. The light that is left must not grow with |x|. It
+    // must be 0 from d0 on, and the lobe's f where d is 0.
     int compared = 0;
     for (const Lobe& lobe : {Lobe::sloan(0.25f), Lobe::sloan(0.5f), Lobe::sloan(1), Lobe::green(0.5f), Lobe::half_lambert()}) {
         Setup setup(ShadowMapPlan::Kind::orthographic, lobe, ShadowMode::soft_split);
@@ -233,18 +234,18 @@ TEST_CASE("shadow kernel: no wrapped light comes back where a surface turns away
             float before = kInf;
             for (int k = 0; k < 200; ++k) {
                 const float x = -lobe.wrap * static_cast<float>(k) / 200;
-                // Where the look-up, 3 texels of the small map off the surface, is |x| farther.
+                // Position whose look-up, 3 texels of the small map off the surface, is |x| farther.
                 const float sine = std::sqrt(1 - x * x), off = kShadowNormalOffset * setup.plan.shadow_maps[0].texel_size * sine * x;
                 FragmentBlock block = uniform({0, 0, x - off}, {sine, 0, x});
                 setup.shade(Isa::scalar, block);
                 const float left = block.red[0];
                 INFO("wrap " << lobe.wrap << ", d " << d << ", x " << x << ", left " << left);
                 ++compared;
-                // Where hardly any is left, the last bit of what was taken away shows.
+                // The last bit of the light taken away is visible if hardly any light is left.
                 if (!(left <= before + 1e-7f)) CHECK(left <= before);
                 if (i == 0 && !(left >= 0.999f * static_cast<float>(reference::lobe_value(lobe, double{x}))))
                     CHECK(left == Approx(reference::lobe_value(lobe, double{x})));
-                // Half a texel is taken off the distance.
+                // The kernel takes half a texel off the distance.
                 if (d - x > d0 + setup.plan.shadow_maps[0].texel_size && left != 0.0f) CHECK(left == 0.0f);
                 before = left;
             }
@@ -253,7 +254,7 @@ TEST_CASE("shadow kernel: no wrapped light comes back where a surface turns away
     CHECK(compared == 5 * 17 * 200);
 }
 
-TEST_CASE("shadow kernel: shares agree with the float64 reference off the places where they jump", "[shading][shadow][reference]") {
+TEST_CASE("shadow kernel: shares agree with the float64 reference away from their jumps", "[shading][shadow][reference]") {
     FloatMaker make(4711);
     double worst = 0;
     int compared = 0, partly = 0, skipped = 0;
@@ -261,12 +262,13 @@ TEST_CASE("shadow kernel: shares agree with the float64 reference off the places
         const auto kind = kKinds[round % 3];
         const ShadowMode mode = kModes[1 + round / 3 % 2];
         Lobe lobe = make_lobe(make);
-        lobe.power = std::max(lobe.power, 1.0f);  // below, the lobe has no bounded slope, and neither has the error
+        lobe.power = std::max(lobe.power, 1.0f);  // below 1 the lobe has an unbounded slope, and so has the error
         Setup setup(kind, lobe, mode);
         for (float& d : setup.texels) d = make.below(3) == 0 ? kNoBlocker : make.ordinary(7, 11);
         FragmentBlock block{};
         for (int lane = 0; lane < kBlockSize; ++lane) {
-            // Round the map's middle and, one in four, its rim; a cube's light is in reach of all faces.
+            // Positions around the map's middle; one in four may lie beyond its rim. For a cube they surround the light, so that every face
+            // is used.
             const float reach = lane % 4 == 0 ? 1.2f : 0.8f, spread = kind == ShadowMapPlan::Kind::cube ? 12.0f : 9 * reach;
             const Vec3d n = [&] {
                 const Vec3d v{make.ordinary(-1, 1), make.ordinary(-1, 1), make.ordinary(-1, 1)};
@@ -293,7 +295,7 @@ TEST_CASE("shadow kernel: shares agree with the float64 reference off the places
             to_light = to_light * (1 / std::sqrt(dot(to_light, to_light)));
             const auto hidden =
                 reference::hidden_share(setup.plan.shadow_maps[0], position, normal, to_light, setup.plan.materials[0], mode);
-            if (hidden.margin < 1e-5 * 25) {  // distances are up to 25, and good to some 1e-6 of that
+            if (hidden.margin < 1e-5 * 25) {  // distances are up to 25, with errors of some 1e-6 of that
                 ++skipped;
                 continue;
             }
@@ -309,7 +311,7 @@ TEST_CASE("shadow kernel: shares agree with the float64 reference off the places
         }
     }
     INFO("worst " << worst << " of " << compared << ", " << partly << " partly hidden, " << skipped << " near a jump");
-    CHECK(worst <= 4e-6);  // measured: 1.5e-6, of white surfaces under light of colour 1
+    CHECK(worst <= 4e-6);  // measured: 1.5e-6, for white surfaces under light of colour 1
     CHECK(compared > 40000);
     CHECK(partly > 5000);
 }

@@ -1,4 +1,4 @@
-// What a texture's channels range over, and what filtering them in float32 is off by: never more than the bound.
+// Ranges of a texture's channels, and the error of filtering them in float32, which never exceeds its bound.
 #include "shading/budget/texture_bounds.hpp"
 #include "shading/planner.hpp"
 
@@ -16,7 +16,7 @@ using namespace halflit::testing;
 
 namespace {
 
-/// Waves of `periods` across the picture, and `noise` of the range on top.
+/// Texture of `periods` waves across the picture, with noise added: `noise` is its share of the range.
 Texture wavy(int width, int height, double periods, double noise, FloatMaker& make) {
     std::vector<std::uint16_t> texels;
     for (int y = 0; y < height; ++y)

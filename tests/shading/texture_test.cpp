@@ -1,4 +1,4 @@
-// Textures as they are made: decoding, levels, limits.
+// Creation of textures: decoding, levels, limits.
 #include "shading/texture.hpp"
 
 #include "floats.hpp"
@@ -31,7 +31,7 @@ TEST_CASE("texture: sRGB codes decode to the nearest 16-bit value, alpha stays l
         const long double linear = 65535.0L * (c <= 0.04045L ? c / 12.92L : std::pow((c + 0.055L) / 1.055L, 2.4L));
         INFO("code " << code);
         CHECK(static_cast<long double>(texel_value(texture, 0, code, 0, 0)) == std::floor(linear + 0.5L));
-        // No tie, so the rounding does not hang on the last bit of anyone's arithmetic.
+        // No value is near a tie, so the rounding does not depend on the last bit of the arithmetic.
         CHECK(std::fabs(static_cast<double>(linear - std::floor(linear)) - 0.5) > 1e-6);
         CHECK(texel_value(texture, 0, code, 0, 3) == code * 257);
     }
@@ -117,7 +117,7 @@ TEST_CASE("texture: a checkerboard is averaged in linear light", "[shading][text
     for (int y = 0; y < 4; ++y)
         for (int x = 0; x < 4; ++x) checker.insert(checker.end(), 4, static_cast<std::uint8_t>((x + y) % 2 == 0 ? 255 : 0));
     const Texture texture = Texture::from_rgba8(checker, 4, 4, ColorSpace::srgb).value();
-    CHECK(texel_value(texture, 1, 0, 0, 0) == 32768);  // (0 + 65535) / 2, halves up; code 188, not 128
+    CHECK(texel_value(texture, 1, 0, 0, 0) == 32768);  // (0 + 65535) / 2, halves rounded up; code 188, not 128
     CHECK(texel_value(texture, 2, 0, 0, 0) == 32768);
 }
 

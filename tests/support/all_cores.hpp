@@ -8,8 +8,8 @@
 
 namespace halflit::test {
 
-/// body(i) for every i in [0, count), in any order, on as many threads as there are cores. Catch2's assertions are not for other threads:
-/// the body collects, the caller checks.
+/// Calls body(i) for every i in [0, count), in any order, on as many threads as there are cores. Catch2's assertions are not thread-safe:
+/// the body collects results, and the caller checks them.
 template <class Body>
 void on_all_cores(std::int64_t count, const Body& body) {
     std::atomic<std::int64_t> next{0};

@@ -1,4 +1,4 @@
-// Models and pictures that are too large to live in the project.
+// Models and pictures that are too large for the repository.
 #pragma once
 
 #include <cstdlib>
@@ -7,7 +7,7 @@
 
 namespace halflit::test {
 
-/// The folder that HALFLIT_ASSETS names, or ../shared/assets beside the source tree; nothing when it is not there (see HALFLIT_SKIP).
+/// Folder that HALFLIT_ASSETS names, or ../shared/assets beside the source tree; nullopt if it does not exist (see HALFLIT_SKIP).
 inline std::optional<std::filesystem::path> asset_dir() {
     const char* named = std::getenv("HALFLIT_ASSETS");
     const std::filesystem::path folder = named != nullptr ? named : std::filesystem::path(HALFLIT_SOURCE_DIR) / ".." / "shared" / "assets";

@@ -7,7 +7,7 @@
 
 namespace halflit::test {
 
-/// At `eye`, looking at `target`. No up vector is needed: the picture's up is as near to +y as can be, or to +x for a vertical view.
+/// Camera at `eye` that looks at `target`. The picture's up is as close as possible to +y, or to +x for a vertical view.
 inline raster::Camera camera_at(Vec3f eye, Vec3f target, float fov_y_rad = 0.9f, float near_z = 0.1f) {
     const Vec3f back = normalize_or(eye - target, {0, 0, 1});
     const Vec3f up_hint = std::abs(back.y) > 0.999f ? Vec3f{1, 0, 0} : Vec3f{0, 1, 0};
@@ -21,7 +21,8 @@ inline raster::Camera camera_at(Vec3f eye, Vec3f target, float fov_y_rad = 0.9f,
     return camera;
 }
 
-/// Looks along -z at the square of half size `half_height` around the origin, so that world (x, y) maps to the picture by a scale alone.
+/// Orthographic camera that looks along -z at the square of half size `half_height` around the origin: world (x, y) maps to the picture by
+/// a scale alone.
 inline raster::Camera camera_flat(float half_height = 1.0f) {
     raster::Camera camera;
     camera.world_from_camera = translation({0, 0, 10});

@@ -1,4 +1,4 @@
-// The instruction sets to test.
+// Instruction sets to test.
 #pragma once
 
 #include "shading/isa.hpp"
@@ -7,7 +7,7 @@
 
 namespace halflit::test {
 
-/// All that are built in and that this CPU runs, scalar first.
+/// Instruction sets that are built in and that this CPU runs, scalar first.
 inline std::vector<shading::Isa> available_isas() {
     std::vector<shading::Isa> isas;
     for (const shading::Isa isa : shading::built_isas())

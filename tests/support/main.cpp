@@ -1,5 +1,5 @@
-// The runner of all test programs: Catch2's, with exit codes that ctest can tell apart. Catch2 2 returns the number of failed
-// assertions, which could be the number that means "skipped".
+// Runner of all test programs: Catch2's, with exit codes that ctest can tell apart. Catch2 2 returns the number of failed assertions, which
+// could equal the code for "skipped".
 #define CATCH_CONFIG_RUNNER
 #include "tests/support/skip.hpp"
 

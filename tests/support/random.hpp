@@ -10,12 +10,12 @@ class Random {
 public:
     explicit Random(std::uint64_t seed) : engine_(seed) {}
 
-    /// In [low, high]. The bias of the remainder is below 2^-32 for the ranges that tests use.
+    /// Integer in [low, high]. The bias of the remainder is below 2^-32 for the ranges that tests use.
     std::int64_t integer(std::int64_t low, std::int64_t high) {
         return low + static_cast<std::int64_t>(engine_() % static_cast<std::uint64_t>(high - low + 1));
     }
     int index(int count) { return static_cast<int>(integer(0, count - 1)); }
-    /// In [low, high).
+    /// Number in [low, high).
     double real(double low, double high) { return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53); }
     float real32(double low, double high) { return static_cast<float>(real(low, high)); }
     bool chance(double probability) { return real(0, 1) < probability; }

@@ -25,7 +25,7 @@ public:
 
     /// `out` takes components() values. Normalised integers become c/255, max(c/127, -1) and so on; others keep their value.
     void read_floats(std::size_t index, float* out) const;
-    /// For one-component accessors and joints: `out` takes components() values of an unsigned component type.
+    /// Reads one-component accessors and joints. `out` takes components() values of an unsigned component type.
     void read_unsigned(std::size_t index, std::uint32_t* out) const;
 
 private:

@@ -13,8 +13,8 @@ namespace halflit::io::detail {
 
 namespace {
 
-constexpr std::uint64_t kFreeBytes = std::uint64_t{32} << 20;  // that any file may cost
-constexpr std::uint64_t kBytesPerByte = 96;                    // and for each of its own; a flat-shaded u8 index becomes 76
+constexpr std::uint64_t kFreeBytes = std::uint64_t{32} << 20;  // memory that any file may use
+constexpr std::uint64_t kBytesPerByte = 96;  // more for each byte of the file; the most that one needs is 76, a flat-shaded u8 index
 
 std::vector<std::byte> fetch(const Document& document, const file::Buffer& entry, std::string_view where) {
     const std::size_t limit = document.options.limits.max_file_bytes;

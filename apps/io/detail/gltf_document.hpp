@@ -1,4 +1,4 @@
-// A glTF file between its bytes and the scene: what its JSON says, the buffers, and what was said about it.
+// A glTF file while it is loaded: its parsed JSON, its buffers, and the warnings.
 #pragma once
 
 #include "apps/io/detail/gltf_file.hpp"
@@ -28,9 +28,9 @@ struct Document {
     Document(const LoadOptions& load_options, const std::string& base_dir)
         : options(load_options), folder(base_dir, load_options.allow_external) {}
 
-    /// Keeps the first hundred different ones.
+    /// Adds a warning; the first hundred different ones are kept.
     void warn(std::string what);
-    [[nodiscard]] const std::byte* view_data(int buffer_view) const;  ///< after check_buffer_views
+    [[nodiscard]] const std::byte* view_data(int buffer_view) const;  ///< requires: check_buffer_views has run
 };
 
 /// Parses, checks and fetches buffers; throws LoadFailure. `bytes` must outlive the document.

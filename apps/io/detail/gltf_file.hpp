@@ -1,5 +1,5 @@
-// What a glTF file says, as the loader needs it: one struct for each kind of object, named and defaulted as the glTF 2.0 schema has them.
-// An index of -1 means "not there". Filled by read_gltf_json, which has checked every type, range and index.
+// Contents of a glTF file, as the loader needs them: one struct for each kind of object, with names and defaults of the glTF 2.0 schema.
+// An index of -1 means "not there". Filled by read_gltf_json, which checks every type, range and index.
 #pragma once
 
 #include "apps/io/detail/gltf_transform.hpp"
@@ -38,13 +38,13 @@ struct Sparse {
 struct Accessor {
     int buffer_view = -1;
     int component_type = 0;
-    int components = 1;  ///< of an element: 1, 2, 3, 4, 9 or 16
+    int components = 1;  ///< components of an element: 1, 2, 3, 4, 9 or 16
     int sparse = -1;     ///< into File::sparse
     std::uint64_t byte_offset = 0, count = 0;
     bool normalized = false;
 };
 
-/// Accessors by attribute name. A handful: a list is as quick as a map, and smaller.
+/// Accessors by attribute name. There are few, so a list is as fast as a map, and smaller.
 using Attributes = std::vector<std::pair<std::string_view, int>>;
 [[nodiscard]] int find(const Attributes& attributes, std::string_view name);  ///< -1: not there
 
@@ -72,8 +72,8 @@ struct Node {
     std::string_view name;
     int mesh = -1, skin = -1, camera = -1, light = -1;
     int transform = -1;  ///< into File::transforms; -1: none
-    Run children;        ///< of File::children
-    Run weights;         ///< of File::weights
+    Run children;        ///< entries of File::children
+    Run weights;         ///< entries of File::weights
 };
 
 struct Skin {
@@ -124,8 +124,8 @@ struct TextureTransform {
 
 struct TexturePlace {
     int index = -1, tex_coord = 0;
-    double scale = 1;     ///< of a normal texture
-    double strength = 1;  ///< of an occlusion texture
+    double scale = 1;     ///< scale of a normal texture
+    double strength = 1;  ///< strength of an occlusion texture
     std::optional<TextureTransform> transform;
 };
 
@@ -173,7 +173,7 @@ struct File {
     std::vector<Scene> scenes;
     int scene = -1;
     std::size_t animations = 0, primitives = 0, morph_targets = 0;
-    std::deque<std::string> texts;  ///< strings that held escapes; all others lie in the JSON text
+    std::deque<std::string> texts;  ///< strings that had escapes, decoded; all others point into the JSON text
 
     [[nodiscard]] bool uses(std::string_view extension) const;
 };

@@ -1,4 +1,4 @@
-// What the schema's actions write to: the file so far, and the object that is being read.
+// Target of the schema's actions: the file as read so far, and the object that is being read.
 #pragma once
 
 #include "apps/io/detail/gltf_file.hpp"
@@ -17,21 +17,21 @@ public:
 
     file::File& file;
     file::TexturePlace* place = nullptr;                       ///< the texture place that is being read
-    std::vector<double> matrix, translation, rotation, scale;  ///< of the node that is being read
+    std::vector<double> matrix, translation, rotation, scale;  ///< values of the node that is being read
 
-    /// A new last element. Takes twice its size from the budget: a vector that grows has two copies for a moment.
+    /// Appends an element. Takes twice its size from the budget, because a growing vector holds two copies for a moment.
     template <class T>
     T& append(std::vector<T>& list, T value = {}) {
         memory_.take(2 * sizeof(T));
         return list.emplace_back(std::move(value));
     }
 
-    /// The text of a string, for as long as the file lives.
+    /// Returns the text of a string, valid for as long as the file lives.
     std::string_view keep(const JsonValue& value) {
         return value.in_place ? value.text : std::string_view(file.texts.emplace_back(value.text));
     }
 
-    std::string_view key;  ///< of the value that is being read; lives as long as the file
+    std::string_view key;  ///< key of the value that is being read; lives as long as the file
 
 private:
     Budget& memory_;

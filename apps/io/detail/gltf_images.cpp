@@ -10,12 +10,12 @@ namespace halflit::io::detail {
 
 namespace {
 
-/// RGBA at 16 bits, and a third on top for the smaller levels.
+/// Memory of a texture: RGBA at 16 bits, and a third more for the smaller mip levels.
 std::uint64_t texture_bytes(const ImageHeader& header) {
     return static_cast<std::uint64_t>(header.width) * static_cast<std::uint64_t>(header.height) * 32 / 3;
 }
 
-/// What is drawn in place of a picture that cannot be read: 8x8 magenta and black.
+/// The texture in place of a picture that cannot be read: 8x8 magenta and black.
 shading::Texture checkerboard(shading::ColorSpace space) {
     std::vector<std::uint8_t> rgba(8 * 8 * 4, 255);
     for (std::size_t i = 0; i < 64; ++i) {

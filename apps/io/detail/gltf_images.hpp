@@ -25,7 +25,7 @@ private:
     Document& document_;
     std::vector<shading::Texture>& textures_;
     Budget texture_memory_;
-    std::map<std::pair<std::string, shading::ColorSpace>, int> made_;  // by what the picture is read from
+    std::map<std::pair<std::string, shading::ColorSpace>, int> made_;  // indexed by the picture's source
 };
 
 }  // namespace halflit::io::detail

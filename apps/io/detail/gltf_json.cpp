@@ -84,7 +84,7 @@ public:
         if (node->put != nullptr) node->put(filler_, value);
     }
 
-    /// After the scan, when the lengths of all arrays are known.
+    /// Called after the scan, when the lengths of all arrays are known.
     void check_indices() const {
         for (const Index& index : indices_) {
             const std::size_t count = count_of(index.target, file_);
@@ -96,10 +96,10 @@ public:
 private:
     struct Level {
         const SchemaNode* node;
-        const SchemaNode* next;  // of the coming value
+        const SchemaNode* next;  // schema of the next value
         std::uint32_t seen;
         std::size_t count;
-        bool extras, in_extras;  // inside "extras": this value; the coming one
+        bool extras, in_extras;  // true inside "extras": for this value; for the next one
         JsonValue value;         // its type and offset
     };
     struct Index {
@@ -147,7 +147,7 @@ private:
                 limit = 2147483647.0;
                 [[fallthrough]];
             case Rule::size:
-                if (!numeric || value.number != std::trunc(value.number)) break;  // 10.0 is an integer of JSON Schema
+                if (!numeric || value.number != std::trunc(value.number)) break;  // 10.0 is an integer in JSON Schema
                 if (!(value.number >= 0 && value.number <= limit))
                     fault(value.offset, fmt::format("expected an integer from 0 to {:.0f}, found {:.0f}", limit, value.number));
                 if (node.rule == Rule::index) indices_.push_back({node.target, static_cast<std::uint32_t>(value.number), value.offset});

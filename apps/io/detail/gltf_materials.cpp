@@ -18,7 +18,7 @@ float clamp01(double value) { return static_cast<float>(std::clamp(value, 0.0, 1
 
 constexpr double kMostScale = 1e6;  // beyond it, float texture coordinates have no fraction left
 
-/// values[index], or `otherwise` where the file says less.
+/// values[index], held within kMostScale, or `otherwise` if the list is shorter.
 double number_at(const std::vector<double>& values, std::size_t index, double otherwise) {
     return index < values.size() ? std::clamp(values[index], -kMostScale, kMostScale) : otherwise;
 }
@@ -61,13 +61,14 @@ shading::Sampler sampler_of(Document& document, int index) {
             sampler.min = shading::Filter::nearest;
             break;
         default:
-            break;  // linear within and between levels, also where nothing is said
+            break;  // linear within and between levels, also without a filter
     }
     return sampler;
 }
 
 /// KHR_texture_transform: uv' = T R S uv, with rows R = [cos sin; -sin cos]: counter-clockwise as seen, where v points down.
-/// differs: the shader in the extension's text, read column by column, has the transpose; its test model and its viewers have this one.
+/// differs: the shader in the extension's text, whose matrices are given by columns, has the transpose. The extension's test model and
+/// viewers agree with R as it is here.
 void apply_transform(const file::TextureTransform& source, shading::TextureUse& use, int& uv_set) {
     const double su = number_at(source.scale, 0, 1.0), sv = number_at(source.scale, 1, 1.0);
     const SinCos angle = sin_cos(source.rotation);
@@ -125,7 +126,7 @@ private:
         if (info.index < 0) return use;
         const file::Texture& texture = document_.file.textures[static_cast<std::size_t>(info.index)];
         if (texture.source < 0) {
-            document_.warn(fmt::format("textures[{}]: has no picture that can be read (source), left out", info.index));
+            document_.warn(fmt::format("textures[{}]: has no source picture that can be read, left out", info.index));
             return use;
         }
         int uv_set = info.tex_coord;

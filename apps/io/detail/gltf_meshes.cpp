@@ -28,7 +28,7 @@ public:
 
 private:
     struct Made {
-        std::vector<int> meshes;  // of the scene
+        std::vector<int> meshes;  // indices into the scene's meshes
         bool in_world = false;    // skinned
     };
     using Key = std::tuple<int, int, std::vector<double>>;  // mesh, skin, morph weights
@@ -76,7 +76,7 @@ private:
         return made;
     }
 
-    /// Flat normals where there are none, and tangents where the material needs them.
+    /// Adds flat normals if there are none, and tangents if the material needs them.
     void complete(ReadMesh& read) {
         raster::Mesh& mesh = read.mesh;
         const std::uint64_t corners = mesh.indices.size();
@@ -90,7 +90,7 @@ private:
         if (!normal_map.used()) return;
         if ((normal_map.uv_set == 1 ? mesh.uv1 : mesh.uv0).empty()) {
             document_.warn(
-                fmt::format("{}: the material has a normal texture, but the mesh no TEXCOORD_{}", read.where, normal_map.uv_set));
+                fmt::format("{}: the material has a normal texture, but the mesh has no TEXCOORD_{}", read.where, normal_map.uv_set));
             return;
         }
         document_.geometry.take(corners * 16);

@@ -9,10 +9,10 @@
 
 namespace halflit::io::detail {
 
-/// For each material of the file, whether a drawn primitive has it.
+/// One flag for each material of the file: true if a drawn primitive has it.
 std::vector<bool> find_used_materials(const Document& document, const NodeTree& tree);
 
-/// Fills scene.meshes and scene.instances; scene.materials must be there. Throws LoadFailure.
+/// Fills scene.meshes and scene.instances. Requires scene.materials. Throws LoadFailure.
 void place_meshes(Document& document, const std::vector<Accessor>& accessors, const NodeTree& tree, raster::Scene& scene);
 
 }  // namespace halflit::io::detail

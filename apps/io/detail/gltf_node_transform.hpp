@@ -1,4 +1,4 @@
-// A node's own transform from what the file says of it.
+// A node's local transform, from its matrix or its translation, rotation and scale.
 #pragma once
 
 #include "apps/io/detail/gltf_transform.hpp"
@@ -7,8 +7,8 @@
 
 namespace halflit::io::detail {
 
-/// Each list is whole (16, 3, 4 and 3 numbers) or empty. A matrix, column by column, stands alone; otherwise T R S. A rotation of any
-/// length but zero is taken as its unit quaternion; zero means none.
+/// Each list is complete (16, 3, 4 and 3 numbers) or empty. A matrix, column by column, is taken alone; otherwise the transform is T R S.
+/// Quaternions are normalised; one of length zero means no rotation.
 [[nodiscard]] Affine node_transform(std::span<const double> matrix, std::span<const double> translation, std::span<const double> rotation,
                                     std::span<const double> scale);
 

@@ -28,7 +28,8 @@ std::vector<int> find_parents(const file::File& file) {
     return parent;
 }
 
-/// Appends the trees of `roots`, parents first and children in their order, leaving out what is there already.
+/// Appends the trees of `roots`, parents first and children in their order. Leaves out nodes that are marked in `seen`, and marks the
+/// others.
 void append_trees(const file::File& file, const std::vector<int>& roots, std::vector<bool>& seen, std::vector<int>& out) {
     std::vector<int> open(roots.rbegin(), roots.rend());
     while (!open.empty()) {

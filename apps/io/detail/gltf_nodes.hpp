@@ -10,11 +10,11 @@ namespace halflit::io::detail {
 
 struct NodeTree {
     std::vector<int> drawn;               ///< nodes of the scene, parents before children, in the file's order
-    std::vector<Affine> world_from_node;  ///< of every node of the file
+    std::vector<Affine> world_from_node;  ///< transforms of all nodes of the file
 };
 
-/// The default scene, or the first, or every node without a parent where the file has no scenes. Throws LoadFailure for a cycle, a
-/// node with two parents, or a broken transform.
+/// Places all nodes. Those of the default scene are drawn; without one those of the first scene, and all nodes if the file has no scenes.
+/// Throws LoadFailure for a cycle or a node with two parents.
 NodeTree place_nodes(const Document& document);
 
 }  // namespace halflit::io::detail

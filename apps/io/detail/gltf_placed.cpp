@@ -20,7 +20,7 @@ Vec3d unit_or(Vec3d v, Vec3d otherwise) {
 /// The node's place and its view direction (-z), with scale, shear and mirroring taken out: z is kept, y is made orthogonal to it.
 Mat4 rigid_part(const Affine& world) {
     const Vec3d z = unit_or(world.c[2], {0, 0, 1});
-    const Vec3d side = z.y > 0.9 || z.y < -0.9 ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0};  // for a node whose y lies along z, or is zero
+    const Vec3d side = z.y > 0.9 || z.y < -0.9 ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0};  // replaces a y that lies along z or is zero
     const Vec3d y_in_plane = world.c[1] - z * dot(z, world.c[1]);
     const bool usable = length(y_in_plane) > 1e-9 * length(world.c[1]);
     const Vec3d y = unit_or(usable ? y_in_plane : side - z * dot(z, side), {0, 1, 0});
@@ -51,7 +51,7 @@ bool set_projection(const file::Camera& source, raster::Camera& camera) {
     return true;
 }
 
-/// KHR_lights_punctual gives lux (directional) and candela (point, spot); colours here are those over pi.
+/// KHR_lights_punctual gives lux (directional) and candela (point, spot); colours here are those values divided by pi.
 std::optional<shading::Light> light_of(const file::Light& source) {
     shading::Light light;
     if (source.type == "point")
@@ -83,7 +83,7 @@ void place_cameras(Document& document, const NodeTree& tree, raster::Scene& scen
         raster::Camera camera;
         const Affine& world = tree.world_from_node[static_cast<std::size_t>(n)];
         if (!is_finite(world) || !set_projection(source, camera)) {
-            document.warn(fmt::format("cameras[{}]: its numbers make no view, left out", node.camera));
+            document.warn(fmt::format("cameras[{}]: its projection or its node's transform is not valid, left out", node.camera));
             continue;
         }
         camera.name = source.name.empty() ? node.name : source.name;
@@ -102,7 +102,7 @@ void place_lights(Document& document, const NodeTree& tree, raster::Scene& scene
         const Affine& world = tree.world_from_node[static_cast<std::size_t>(n)];
         if (!light || !is_finite(world)) {
             document.warn(!light ? fmt::format("lights[{}]: the type \"{}\" is unknown, left out", node.light, printable(source.type, 40))
-                                 : fmt::format("nodes[{}]: its transform is not finite, its light left out", n));
+                                 : fmt::format("nodes[{}]: its transform is not finite, its light is left out", n));
             continue;
         }
         light->position_ws = to_float(world.c[3]);

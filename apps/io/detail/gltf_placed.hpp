@@ -1,4 +1,4 @@
-// What nodes place besides meshes: cameras and lights.
+// Cameras and lights, placed by the nodes.
 #pragma once
 
 #include "apps/io/detail/gltf_nodes.hpp"
@@ -6,7 +6,7 @@
 
 namespace halflit::io::detail {
 
-/// In the order of the drawn nodes. A camera or light that makes no sense is left out with a warning.
+/// Add cameras and lights in the order of the drawn nodes. One with invalid values is left out with a warning.
 void place_cameras(Document& document, const NodeTree& tree, raster::Scene& scene);
 void place_lights(Document& document, const NodeTree& tree, raster::Scene& scene);
 

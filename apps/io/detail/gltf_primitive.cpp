@@ -45,7 +45,7 @@ std::vector<Vec2f> read_vec2(const Accessor& accessor, std::span<const std::uint
     return out;
 }
 
-/// `w` is what three-component values get as their fourth.
+/// `w` is the fourth component of values that have three.
 std::vector<Vec4f> read_vec4(const Accessor& accessor, std::span<const std::uint32_t> vertices, float w) {
     std::vector<Vec4f> out(vertices.size());
     float value[4] = {0, 0, 0, w};
@@ -56,7 +56,7 @@ std::vector<Vec4f> read_vec4(const Accessor& accessor, std::span<const std::uint
     return out;
 }
 
-/// Strips and fans as triangles, the winding of the first kept throughout (glTF 2.0, 3.7.2.1).
+/// Converts strips and fans to triangles, all with the winding of the first (glTF 2.0, 3.7.2.1).
 std::vector<std::uint32_t> as_triangles(file::Mode mode, std::vector<std::uint32_t> run) {
     if (mode == file::Mode::triangles) return run;
     std::vector<std::uint32_t> out;
@@ -147,8 +147,8 @@ std::vector<std::uint32_t> PrimitiveReader::triangle_indices(const file::Primiti
     return triangles;
 }
 
-/// The file's vertices that the mesh needs. All of them, in order, unless there are more vertices than indices: then only those in use
-/// (many primitives may share one long list of vertices), and the indices are changed.
+/// Returns the file's vertices that the mesh needs. If there are more vertices than indices, these are only the ones in use, and the
+/// indices are changed to match, because many primitives may share one long list of vertices. Otherwise they are all vertices, in order.
 std::vector<std::uint32_t> PrimitiveReader::gather_vertices(std::vector<std::uint32_t>& indices, std::size_t vertex_count) {
     std::vector<std::uint32_t> vertices;
     if (vertex_count <= indices.size()) {

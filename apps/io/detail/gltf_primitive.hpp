@@ -11,7 +11,7 @@
 
 namespace halflit::io::detail {
 
-/// Which types an attribute may have.
+/// Types that an attribute may have.
 struct AttributeRule {
     const char* name;
     int min_components, max_components;
@@ -29,10 +29,10 @@ class PrimitiveReader {
 public:
     PrimitiveReader(Document& document, const std::vector<Accessor>& accessors);
 
-    /// No value where there is nothing to draw (points, lines, no positions, no triangles). `morph_weights` may be empty.
+    /// Reads a primitive; empty if there is nothing to draw (points, lines, no positions, no triangles). `morph_weights` may be empty.
     std::optional<ReadMesh> read(std::size_t mesh, std::size_t primitive, std::span<const double> morph_weights);
 
-    /// Null where there is no such attribute. Throws where its type or its count does not fit.
+    /// The accessor of an attribute, or null if there is none. Throws if its type or its count is wrong.
     [[nodiscard]] const Accessor* attribute(const std::string& where, const file::Attributes& attributes, const AttributeRule& rule,
                                             std::optional<std::size_t> count) const;
 
@@ -45,7 +45,7 @@ private:
     Document& document_;
     const std::vector<Accessor>& accessors_;
     bool quantized_ = false;
-    std::vector<std::uint32_t> new_number_, stamp_of_;  // of the file's vertices; a number counts where its stamp is the current one
+    std::vector<std::uint32_t> new_number_, stamp_of_;  // indexed by the file's vertex; a number is valid if its stamp is stamp_
     std::uint32_t stamp_ = 0;
 };
 

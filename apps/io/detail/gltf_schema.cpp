@@ -49,7 +49,7 @@ private:
     }
     SchemaNode& child(const SchemaNode*& every) {
         if (every == nullptr) every = &nodes_.emplace_back();
-        return const_cast<SchemaNode&>(*every);  // all nodes are ours, in nodes_
+        return const_cast<SchemaNode&>(*every);  // every node is in nodes_, which is not const
     }
     SchemaNode& member(SchemaNode& node, std::string_view key) {
         const int at = node.find(key);

@@ -1,5 +1,5 @@
-// The parts of the glTF 2.0 schema that this loader reads, as a tree over keys: what type a value must have, which numbers are
-// references and to what, and where each value goes in a file::File.
+// The parts of the glTF 2.0 schema that this loader reads, as a tree over keys. It gives each value's type, the array that an index refers
+// to, and the place of each value in a file::File.
 #pragma once
 
 #include "apps/io/detail/gltf_file.hpp"
@@ -38,7 +38,7 @@ enum class Target : std::uint8_t {
 
 enum class Rule : std::uint8_t {
     any,
-    open,  ///< any, and its members are followed where it is an object
+    open,  ///< any; the members of an object are followed
     object,
     array,
     string,
@@ -49,18 +49,18 @@ enum class Rule : std::uint8_t {
     index    ///< integer in [0, length of the target array)
 };
 
-/// Takes a value, or the start or the end of an object or array (then `value` holds its type and its offset alone).
+/// Takes a value, or the start or the end of an object or array. For these, `value` holds only type and offset.
 using Action = void (*)(GltfFiller& filler, const JsonValue& value);
 
 struct SchemaNode {
     Rule rule = Rule::any;
     Target target = Target::none;
     bool required = false;   ///< within its parent object
-    bool closed = false;     ///< an object: keys that are not in `members` are refused
-    std::size_t length = 0;  ///< an array: empty, or so many elements; 0: any
+    bool closed = false;     ///< an object that refuses keys outside `members`
+    std::size_t length = 0;  ///< elements of an array that is not empty; 0: any number
     Action put = nullptr, end = nullptr;
-    std::uint32_t required_mask = 0;    ///< of the children, by position
-    const SchemaNode* every = nullptr;  ///< for each element, or each member with a free name
+    std::uint32_t required_mask = 0;    ///< bit i: members[i] is required
+    const SchemaNode* every = nullptr;  ///< schema of each element, or of each member with a free name
     std::vector<std::pair<std::string_view, const SchemaNode*>> members;
 
     [[nodiscard]] int find(std::string_view key) const;  ///< position in members, or -1

@@ -28,13 +28,13 @@ void assign(F f, std::vector<T>& out, V value) {
     assign(f, f.append(out), value);
 }
 
-/// A new element of a list of the file.
+/// Appends an element to a list of the file.
 template <auto List>
 void add(F f, V) {
     f.append(f.file.*List);
 }
 
-/// A value of the list's last element; a member that is a list itself gets one more.
+/// Stores a value in a member of the list's last element; a member that is a list itself has it appended.
 template <auto List, auto Member>
 void put(F f, V value) {
     assign(f, (f.file.*List).back().*Member, value);
@@ -55,13 +55,13 @@ void put_primitive(F f, V value) {
     assign(f, f.file.meshes.back().primitives.back().*Member, value);
 }
 
-/// A number of the transform of the node that is being read.
+/// Appends a number to the transform of the node that is being read.
 template <auto Member>
 void put_transform(F f, V value) {
     (f.*Member).push_back(value.number);
 }
 
-/// One more entry of a node's run of an array of the file.
+/// Appends an entry to an array of the file and to the node's run of it.
 template <auto Array, auto Member>
 void put_run(F f, V value) {
     assign(f, f.append(f.file.*Array), value);

@@ -1,4 +1,4 @@
-// The table of the schema: which values are read, of what type, and where they go. Keys that are not here are not looked at.
+// The table of the schema: the values that are read, their types, and where they go. Keys that are not in it are ignored.
 #pragma once
 
 #include "apps/io/detail/gltf_schema.hpp"
@@ -8,7 +8,7 @@
 namespace halflit::io::detail {
 
 [[nodiscard]] std::span<const SchemaRow> schema_rows();
-[[nodiscard]] std::span<const SchemaRow> texture_place_rows();  ///< where a material names a texture
-[[nodiscard]] std::span<const SchemaRow> texture_rows();        ///< below each of these places
+[[nodiscard]] std::span<const SchemaRow> texture_place_rows();  ///< places where a material names a texture
+[[nodiscard]] std::span<const SchemaRow> texture_rows();        ///< values below each of these places
 
 }  // namespace halflit::io::detail

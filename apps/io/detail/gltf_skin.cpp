@@ -17,7 +17,7 @@ std::vector<Affine> joint_matrices(Document& document, const std::vector<Accesso
     if (inverse_bind != nullptr && (inverse_bind->components() != 16 || inverse_bind->component() != f32))
         refuse(where, fmt::format("inverseBindMatrices ({}): expected MAT4 of float", inverse_bind->name()));
     if (inverse_bind != nullptr && inverse_bind->count() < skin.joints.size())
-        refuse(where, fmt::format("inverseBindMatrices ({}): expected {} matrices, one a joint, found {}", inverse_bind->name(),
+        refuse(where, fmt::format("inverseBindMatrices ({}): expected {} matrices, one per joint, found {}", inverse_bind->name(),
                                   skin.joints.size(), inverse_bind->count()));
     document.geometry.take(skin.joints.size() * sizeof(Affine));
     std::vector<Affine> matrices;

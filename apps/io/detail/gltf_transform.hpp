@@ -7,14 +7,14 @@
 
 namespace halflit::io::detail {
 
-/// Columns: the images of x, y and z, then the origin's.
+/// Columns: the images of x, y and z, then that of the origin.
 struct Affine {
     Vec3d c[4]{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
 };
 
 inline Vec3d transform_direction(const Affine& m, Vec3d v) { return (m.c[0] * v.x + m.c[1] * v.y) + m.c[2] * v.z; }
 
-/// a after b.
+/// The transform that applies b, then a.
 inline Affine operator*(const Affine& a, const Affine& b) {
     return {{transform_direction(a, b.c[0]), transform_direction(a, b.c[1]), transform_direction(a, b.c[2]),
              transform_direction(a, b.c[3]) + a.c[3]}};

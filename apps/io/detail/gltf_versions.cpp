@@ -15,7 +15,7 @@ namespace halflit::io::detail {
 
 namespace {
 
-/// Extensions that a file may require. What they change is either read or, for quantised data, part of how accessors are read.
+/// Extensions that a file may require. Their values are read; for quantised data, the reading of accessors covers it.
 constexpr std::string_view kSupportedExtensions[] = {"KHR_lights_punctual", "KHR_materials_unlit", "KHR_texture_transform",
                                                      "KHR_materials_emissive_strength", "KHR_mesh_quantization"};
 

@@ -1,4 +1,4 @@
-// Which glTF files this loader is for: the version, and the extensions that a file may require.
+// Check of a file's glTF version, and of the extensions that it requires.
 #pragma once
 
 #include "apps/io/detail/gltf_file.hpp"
@@ -6,7 +6,7 @@
 namespace halflit::io::detail {
 
 /// Throws LoadFailure for another major version, a minimum above 2.0, or a required extension that is not supported.
-/// A later minor version without a minimum loads: it promises that a 2.0 reader can draw it.
+/// A later minor version without a minimum loads: by the specification a 2.0 reader can draw it.
 void check_versions(const file::File& file);
 
 }  // namespace halflit::io::detail

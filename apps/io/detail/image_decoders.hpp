@@ -1,4 +1,4 @@
-// The decoders behind image_reader, one a format.
+// The decoders behind image_reader, one per format.
 #pragma once
 
 #include "apps/io/image_reader.hpp"
@@ -10,7 +10,7 @@ Result<DecodedImage> decode_png(std::span<const std::byte> file, const ImageLimi
 Result<ImageHeader> read_jpeg_header(std::span<const std::byte> file, const ImageLimits& limits);
 Result<DecodedImage> decode_jpeg(std::span<const std::byte> file, const ImageLimits& limits);
 
-/// An error where width and height are not within the limits.
+/// Fails unless width and height are at least 1 and within the limits.
 Result<void> check_image_size(std::uint64_t width, std::uint64_t height, const ImageLimits& limits);
 
 }  // namespace halflit::io::detail

@@ -1,4 +1,4 @@
-// JPEG by libjpeg-turbo. The slow integer DCT is the one whose SIMD and plain versions give the same bits.
+// JPEG by libjpeg-turbo, with the slow integer DCT, because its SIMD and plain versions give the same bits.
 #include "apps/io/detail/image_decoders.hpp"
 
 #include <fmt/format.h>
@@ -14,8 +14,8 @@ namespace halflit::io::detail {
 
 namespace {
 
-/// libjpeg reports errors by a call that must not return: the way out is longjmp to where the decoder was called. Nothing between
-/// the two has a destructor: all objects live in the caller's frame, above setjmp.
+/// libjpeg reports errors by a callback that must not return. It jumps (longjmp) to the setjmp in the method that called libjpeg. The
+/// frames between the two hold no object with a destructor: all objects live in the caller's frame, above setjmp.
 struct Decoder {
     jpeg_decompress_struct info{};
     jpeg_error_mgr errors{};
@@ -37,7 +37,7 @@ struct Decoder {
             // Extra bytes between segments are common and harmless; every other warning means wrong pixels.
             if (level >= 0 || common->err->msg_code == JWRN_EXTRANEOUS_DATA || common->err->msg_code == JWRN_ADOBE_XFORM) return;
             common->err->format_message(common, self->message);
-            std::longjmp(self->escape, 1);  // libjpeg would go on with grey
+            std::longjmp(self->escape, 1);  // libjpeg would fill the rest with grey
         };
         errors.output_message = [](j_common_ptr) {};
         info.client_data = this;
@@ -55,7 +55,7 @@ struct Decoder {
         return true;
     }
 
-    /// After read_header. `rgba` holds width * height * 4 bytes, `row` width * 4.
+    /// Called after read_header. `rgba` holds width * height * 4 bytes, `row` width * 4.
     bool read_pixels(std::uint8_t* rgba, std::uint8_t* row, int scan_limit) {
         if (setjmp(escape) != 0) return false;
         max_scans = scan_limit;

@@ -11,7 +11,7 @@ namespace halflit::io::detail {
 
 namespace {
 
-/// Follows the scan up to a given offset and knows the path there.
+/// Follows the scan up to a given offset and gives the path there.
 class PathFinder final : public JsonVisitor {
 public:
     explicit PathFinder(std::size_t offset) : wanted_(offset) {}
@@ -64,7 +64,7 @@ std::string json_path_at(std::string_view text, std::size_t offset, const JsonSc
     PathFinder finder(offset);
     try {
         scan_json(text, limits, finder);
-    } catch (const JsonFault&) {  // the fault itself, or the wanted place passed
+    } catch (const JsonFault&) {  // the fault itself, or the offset was reached
     }
     return finder.path();
 }

@@ -1,4 +1,4 @@
-// Where in a JSON text an offset lies, for messages: line and column, and the path of keys.
+// Position of an offset in a JSON text, for messages: line and column, and the path of keys.
 #pragma once
 
 #include "apps/io/detail/json_scan.hpp"
@@ -15,7 +15,8 @@ struct TextPlace {
 };
 [[nodiscard]] TextPlace place_of(std::string_view text, std::size_t offset);
 
-/// "accessors[3].byteOffset" for the value (or key) at or before `offset`; empty for the root. Scans again: for messages only.
+/// "accessors[3].byteOffset" for the value (or key) at or before `offset`; empty for the root. Scans the text again, so it is for messages
+/// only.
 [[nodiscard]] std::string json_path_at(std::string_view text, std::size_t offset, const JsonScanLimits& limits);
 
 }  // namespace halflit::io::detail

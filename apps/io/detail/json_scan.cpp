@@ -36,7 +36,7 @@ private:
     struct Open {
         bool object;
         bool empty;
-        std::size_t first_key;  // of this object in keys_
+        std::size_t first_key;  // index of this object's first key in keys_
     };
 
     [[noreturn]] void refuse(std::size_t offset, std::string what, ErrorCode code = ErrorCode::bad_input) const {
@@ -59,7 +59,7 @@ private:
         while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\n' || text_[at_] == '\r' || text_[at_] == '\t')) ++at_;
     }
 
-    // One member or element of the innermost open object or array, or its end.
+    // Reads one member or element of the innermost open object or array, or its end.
     void step() {
         Open& top = open_.back();
         skip_space();
@@ -152,7 +152,7 @@ private:
         else
             digits();
         if (zero && peek() >= '0' && peek() <= '9') unexpected("a number without leading zeros");
-        bool tiny = zero;  // a number that leaves double's range on this side rounds to zero, which is no fault
+        bool tiny = zero;  // true: a number out of range is too small for double and rounds to zero, which is no fault
         if (peek() == '.') {
             v.type = JsonType::number;
             ++at_;

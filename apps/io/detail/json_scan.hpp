@@ -1,5 +1,5 @@
-// A strict, iterative pass over JSON text (RFC 8259) that runs before any tree is built. It stops at the first fault with its offset:
-// nesting and token limits, UTF-8, duplicate keys, literals such as NaN, numbers outside double. Uses no recursion.
+// A strict pass over JSON text (RFC 8259), without recursion and without building a tree: a visitor gets the values. It stops at the first
+// fault with its offset: nesting and token limits, UTF-8, duplicate keys, literals such as NaN, numbers outside double.
 #pragma once
 
 #include "shading/result.hpp"
@@ -24,15 +24,15 @@ enum class JsonType : std::uint8_t { object, array, string, integer, number, boo
 
 struct JsonValue {
     JsonType type = JsonType::null;
-    std::size_t offset = 0;   ///< of the first byte; a string begins at its quote
+    std::size_t offset = 0;   ///< offset of the first byte; a string begins at its quote
     double number = 0;        ///< integer and number
     bool truth = false;       ///< boolean
-    bool exact = true;        ///< false for an integer beyond 2^53, which not every reader keeps
-    std::string_view text{};  ///< string: decoded, valid during the call, and as long as the scanned text where `in_place`
+    bool exact = true;        ///< false for an integer beyond 2^53, which not every reader keeps exactly
+    std::string_view text{};  ///< string: decoded; valid during the call, or if `in_place` as long as the scanned text
     bool in_place = false;
 };
 
-/// What the scan reports, in document order. Any call may throw JsonFault.
+/// Receives what the scan finds, in document order. Any call may throw JsonFault.
 class JsonVisitor {
 public:
     virtual ~JsonVisitor() = default;
@@ -47,7 +47,7 @@ struct JsonScanLimits {
     std::size_t max_tokens = 50'000'000;  ///< keys and values
 };
 
-/// Throws JsonFault.
+/// Scans `text`. Throws JsonFault.
 void scan_json(std::string_view text, const JsonScanLimits& limits, JsonVisitor& visitor);
 
 }  // namespace halflit::io::detail

@@ -1,4 +1,4 @@
-// How loading ends early: a fault with its place in the model, or a limit reached.
+// Failures of loading: a fault with its place in the model, or a limit reached.
 #pragma once
 
 #include "shading/result.hpp"
@@ -17,14 +17,14 @@ struct LoadFailure {
 /// Throws LoadFailure "where: what".
 [[noreturn]] void refuse(std::string_view where, std::string_view what, ErrorCode code = ErrorCode::bad_input);
 
-/// Throws what `result` holds if it is an error, behind "where: ".
+/// Returns the value of `result`, or throws its error as a LoadFailure "where: message".
 template <class T>
 T take(Result<T>&& result, std::string_view where) {
     if (!result) refuse(where, result.error().message, result.error().code);
     return *std::move(result);
 }
 
-/// Memory that a file may still cost.
+/// Memory that a file may still use.
 class Budget {
 public:
     Budget() = default;

@@ -16,7 +16,7 @@ struct ContextDeleter {
 };
 using Context = std::unique_ptr<spng_ctx, ContextDeleter>;
 
-constexpr std::size_t kMaxChunkBytes = std::size_t{16} << 20;  // of the chunks that libspng stores (text, profiles)
+constexpr std::size_t kMaxChunkBytes = std::size_t{16} << 20;  // limit of the chunks that libspng stores (text, profiles)
 constexpr std::uint64_t kMaxDeflateRatio = 1032;               // deflate cannot expand more: 258 bytes from 2 bits
 
 tl::unexpected<Error> png_error(int code) { return fail(ErrorCode::bad_input, fmt::format("PNG: {}", spng_strerror(code))); }
@@ -81,11 +81,12 @@ Result<DecodedImage> decode_png(std::span<const std::byte> file, const ImageLimi
     const std::size_t bytes = pixels * 4 * (deep ? 2 : 1);
     if (const int e = spng_decode_image(png->context.get(), out, bytes, deep ? SPNG_FMT_RGBA16 : SPNG_FMT_RGBA8, SPNG_DECODE_TRNS); e != 0)
         return png_error(e);
-    if (const int e = spng_decode_chunks(png->context.get()); e != 0) return png_error(e);  // the last checksum, and that IEND is there
+    if (const int e = spng_decode_chunks(png->context.get()); e != 0)
+        return png_error(e);  // checks the last checksum, and that IEND is there
     if (!deep || keep_16_bits) return image;
     image.rgba8.resize(pixels * 4);
     for (std::size_t i = 0; i < image.rgba8.size(); ++i)
-        image.rgba8[i] = static_cast<std::uint8_t>((image.rgba16[i] * 255u + 32767u) / 65535u);  // to nearest
+        image.rgba8[i] = static_cast<std::uint8_t>((image.rgba16[i] * 255u + 32767u) / 65535u);  // rounds to nearest
     image.rgba16 = {};
     return image;
 }

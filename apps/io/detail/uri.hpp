@@ -12,7 +12,7 @@ namespace halflit::io::detail {
 
 [[nodiscard]] bool is_data_uri(std::string_view uri);
 
-/// The bytes of a data: URI, base64 or percent-encoded. Strict: every character counts, padding may be left out.
+/// The bytes of a data: URI, base64 or percent-encoded. Every character must be valid; padding may be left out.
 Result<std::vector<std::byte>> decode_data_uri(std::string_view uri, std::size_t max_bytes);
 
 /// The file name that a relative reference means: percent sequences decoded once, other characters (also spaces) as they are.

@@ -1,5 +1,5 @@
-// t^1.3 for t in [0, 1] from the kernels' source, where the processor can multiply and add with one rounding: compiled under the project's
-// flags, which forbid that, and under the compiler's own, which do it. CMake gives the two objects their names and flags.
+// t^1.3 for t in [0, 1] from the kernels' source, on a processor with fused multiply-add. It is compiled twice: under the project's flags,
+// which forbid fusing, and under the compiler's own, which fuse. CMake gives the two objects their names and flags.
 #pragma once
 
 namespace halflit::testing {

@@ -25,7 +25,7 @@ inline namespace HALFLIT_ISA_NAMESPACE {
     }
 
 HALFLIT_INLINE F sum(Log2 log) { return log.exponent + log.fraction; }
-/// n - 1 with the part of it that power_of_unit multiplies exactly.
+/// n - 1, split into a part that power_of_unit multiplies exactly and the rest.
 struct SplitPower {
     explicit SplitPower(float n)
         : minus_one(n - 1.0f), high(from_bits(bits(minus_one) & static_cast<std::int32_t>(0xffffffc0u))), low(minus_one - high) {}

@@ -6,7 +6,7 @@
 
 namespace halflit::testing {
 
-/// f(x), scale included. count: a multiple of 16.
+/// Lobe values f(x), scale included. count: a multiple of 16.
 using LobeCurve = void (*)(const shading::LobePlan& lobe, const float* x, float* out, int count);
 
 LobeCurve lobe_curve(shading::Isa isa);
