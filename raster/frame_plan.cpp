@@ -1,6 +1,6 @@
 #include "raster/frame_plan.hpp"
 
-#include "raster/detail/fp_environment.hpp"
+#include "raster/detail/guarded.hpp"
 #include "raster/detail/view_math.hpp"
 #include "raster/scene/surface_distance.hpp"
 
@@ -20,26 +20,6 @@ shading::PlanOptions effective(shading::PlanOptions options) {
     return options;
 }
 
-Result<void> check_settings(const Settings& settings, int width, int height) {
-    if (width < 1 || height < 1) return fail(ErrorCode::usage, "the picture has no pixels");
-    if (width > 2 * kGuardBandPx || height > 2 * kGuardBandPx)
-        return fail(ErrorCode::limit, "picture size: " + std::to_string(width) + " x " + std::to_string(height) +
-                                          " pixels, expected at most " + std::to_string(2 * kGuardBandPx) + " on a side");
-    if (settings.samples != 1 && settings.samples != 4 && settings.samples != 8)
-        return fail(ErrorCode::usage, "samples: " + std::to_string(settings.samples) + ", expected 1, 4 or 8");
-    if (settings.tile_size != 16 && settings.tile_size != 32 && settings.tile_size != 64)
-        return fail(ErrorCode::usage, "tile size: " + std::to_string(settings.tile_size) + ", expected 16, 32 or 64");
-    if (!(settings.exposure > 0.0f && settings.exposure < 3e38f)) return fail(ErrorCode::usage, "the exposure is not a positive number");
-    if (auto ok = shading::check_options(settings.shading); !ok) return ok;
-    const Region& r = settings.region;
-    if (r.width != 0 && (r.x < 0 || r.y < 0 || r.width < 1 || r.height < 1 || r.width > width - r.x || r.height > height - r.y))
-        return fail(ErrorCode::usage, "the region is not inside the picture");
-    if (!settings.isa) return tl::unexpected<Error>(settings.isa.error());
-    if (!shading::isa_available(*settings.isa))
-        return fail(ErrorCode::usage, "this CPU does not run the instruction set " + std::string(shading::isa_name(*settings.isa)));
-    return {};
-}
-
 bool all_finite(const Mat4& m) {
     for (const Vec4f& c : m.c)
         for (const float e : {c.x, c.y, c.z, c.w})
@@ -52,6 +32,16 @@ shading::Viewer viewer_of(const Camera& camera) {
     return {{eye.x, eye.y, eye.z}, normalize_or({-back.x, -back.y, -back.z}, {0, 0, -1}), camera.orthographic};
 }
 
+/// Error of a fragment's interpolated position, as a share of the largest coordinate: some ten roundings of float32 on each axis.
+constexpr double kPositionError = 1e-6;
+
+double largest_coordinate(const Bounds& b) {
+    if (b.empty) return 0.0;
+    double largest = 0.0;
+    for (const float v : {b.min.x, b.min.y, b.min.z, b.max.x, b.max.y, b.max.z}) largest = larger(largest, magnitude(double{v}));
+    return largest;
+}
+
 /// Facts that an error budget needs of a scene: distances from lights to surfaces, largest vertex colour and texture coordinate.
 shading::SceneFacts scene_facts(const PreparedScene& scene, std::span<const LightPlan> lights, FramePlanMemory& memory) {
     shading::SceneFacts facts;
@@ -62,6 +52,7 @@ shading::SceneFacts scene_facts(const PreparedScene& scene, std::span<const Ligh
     memory.geometry_revision = scene.revision().geometry;
     constexpr std::size_t kMostDistances = 4096;  // limits the memory for lights that move every frame
     if (memory.light_distances.size() > kMostDistances) memory.light_distances.clear();
+    const double position_error = kPositionError * largest_coordinate(scene.bounds());
     for (const LightPlan& light : lights) {
         if (light.type == shading::LightType::directional) {
             facts.light_attenuation.push_back(1.0);
@@ -71,8 +62,9 @@ shading::SceneFacts scene_facts(const PreparedScene& scene, std::span<const Ligh
         const Vec3d position{light.position[0], light.position[1], light.position[2]};
         const auto [known, is_new] = memory.light_distances.try_emplace({position.x, position.y, position.z});
         if (is_new) known->second = nearest_surface_squared(scene, position);
-        // 0.999: drawing rounds positions to float, so a surface may be a little nearer than found.
-        facts.light_attenuation.push_back(1.0 / std::max(0.999 * known->second, static_cast<double>(light.min_distance_squared)));
+        // Interpolated positions are off by roundings of the coordinates, so a fragment may lie nearer than its triangle.
+        const double nearest = std::max(0.0, 0.9995 * __builtin_sqrt(known->second) - position_error);
+        facts.light_attenuation.push_back(1.0 / std::max(nearest * nearest, static_cast<double>(light.min_distance_squared)));
         facts.light_farthest_squared.push_back(1.001 * farthest_surface_squared(scene, position));
     }
     return facts;
@@ -119,12 +111,10 @@ std::vector<MaterialPlan> plan_casters(const PreparedScene& scene, const shading
     return casters;
 }
 
-}  // namespace
-
-Result<FramePlan> plan_frame(const PreparedScene& prepared, const Camera& camera, const Settings& settings, int width, int height,
-                             FramePlanMemory& memory) {
-    const FpEnvironment fp_environment;
+Result<FramePlan> make_plan(const PreparedScene& prepared, const Camera& camera, const Settings& settings, int width, int height,
+                            FramePlanMemory& memory) {
     if (auto ok = check_settings(settings, width, height); !ok) return tl::unexpected<Error>(ok.error());
+    if (!prepared.up_to_date()) return fail(ErrorCode::usage, "the last update of the scene failed; no frame is drawn until one succeeds");
     const Scene& scene = prepared.scene();
     const shading::PlanOptions options = effective(settings.shading);
     const std::vector<LightPlan> lights = shading::plan_lights(scene.lights);
@@ -172,6 +162,13 @@ Result<FramePlan> plan_frame(const PreparedScene& prepared, const Camera& camera
     add_lobe_warnings(prepared, plan.shading, options, plan.warnings);
     if (!shadows->warning.empty()) plan.warnings.push_back(std::move(shadows->warning));
     return plan;
+}
+
+}  // namespace
+
+Result<FramePlan> plan_frame(const PreparedScene& scene, const Camera& camera, const Settings& settings, int width, int height,
+                             FramePlanMemory& memory) {
+    return guarded("planning a frame", [&] { return make_plan(scene, camera, settings, width, height, memory); });
 }
 
 Result<FramePlan> plan_frame(const PreparedScene& scene, const Camera& camera, const Settings& settings, int width, int height) {

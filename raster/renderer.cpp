@@ -1,6 +1,6 @@
 #include "raster/renderer.hpp"
 
-#include "raster/detail/fp_environment.hpp"
+#include "raster/detail/guarded.hpp"
 #include "raster/detail/stopwatch.hpp"
 #include "raster/frame_plan.hpp"
 #include "raster/passes/picture_tile.hpp"
@@ -9,7 +9,6 @@
 
 #include <atomic>
 #include <mutex>
-#include <new>
 #include <optional>
 #include <string>
 
@@ -62,6 +61,7 @@ struct Renderer::Impl {
         PlanKey key{scene.revision(), camera, settings, target.width, target.height};
         key.settings.parallel_for = {};  // valid for this call only
         key.settings.cancelled = nullptr;
+        if (auto ok = check_settings(settings, target.width, target.height); !ok) return ok;  // the instruction set is no part of the key
         if (plan_key && plan_key->same(key)) return {};
         plan_key.reset();
         auto made = plan_frame(scene, camera, settings, target.width, target.height, plan_memory);
@@ -131,7 +131,8 @@ struct Renderer::Impl {
         report.warnings.insert(report.warnings.end(), plan.warnings.begin(), plan.warnings.end());
         add_counts(geometry, *tiles, report);
         // An empty region is common; an empty whole picture is rarely intended.
-        const bool whole_picture = settings.region.width == 0;
+        const Region& drawn = plan.picture.region;
+        const bool whole_picture = drawn.width == target.width && drawn.height == target.height;
         if (report.triangles_submitted == 0 || (whole_picture && report.triangles_drawn == 0))
             report.warnings.emplace_back("nothing to draw");
         return report;
@@ -153,31 +154,25 @@ void Renderer::forget_frames() {
 
 namespace {
 
-/// No exception leaves the library.
 template <class Body>
-Result<RenderReport> guarded(const Body& body) {
-    const FpEnvironment environment;
-    try {
+Result<RenderReport> timed(const Body& body) {
+    return guarded("rendering", [&] {
         Stopwatch total;
         Result<RenderReport> report = body();
         if (report) report->total_ms = total.lap();
         return report;
-    } catch (const std::bad_alloc&) {
-        return fail(ErrorCode::limit, "out of memory while rendering");
-    } catch (const std::exception& e) {
-        return fail(ErrorCode::internal, e.what());
-    }
+    });
 }
 
 }  // namespace
 
 Result<RenderReport> Renderer::render(const PreparedScene& scene, const Camera& camera, const Settings& settings,
                                       const FramebufferView& target) {
-    return guarded([&] { return impl_->render(scene, camera, settings, target, {}); });
+    return timed([&] { return impl_->render(scene, camera, settings, target, {}); });
 }
 
 Result<RenderReport> Renderer::render(const Scene& scene, const Camera& camera, const Settings& settings, const FramebufferView& target) {
-    return guarded([&]() -> Result<RenderReport> {
+    return timed([&]() -> Result<RenderReport> {
         Stopwatch watch;
         RenderReport report;
         const auto prepared = PreparedScene::make(scene, {settings.threads, settings.parallel_for});

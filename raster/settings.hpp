@@ -37,6 +37,9 @@ struct Settings {
     const std::function<bool()>* cancelled = nullptr;  ///< called before each tile; true stops the frame with an error
 };
 
+/// Fails if a setting is out of range, excludes another one, or names an instruction set that this CPU does not run.
+[[nodiscard]] Result<void> check_settings(const Settings& settings, int width, int height);
+
 /// True if two frames of one scene, camera and size have the same plan: all that changes pixels is equal, and so is the tile size.
 [[nodiscard]] bool same_plan(const Settings& a, const Settings& b);
 

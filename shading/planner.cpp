@@ -110,8 +110,8 @@ ShadingPlan plan_shading(const PlanInputs& inputs, PlanMemory& memory) {
                                                inputs.available_slots[i], kinds, options));
     plan_environments(inputs, memory, plan);
     plan_shadows(inputs.shadows, plan);
-    if (options.max_error_codes > 0.0 && inputs.facts != nullptr)
-        spend_error_budget(plan, options.max_error_codes, inputs.exposure, *inputs.facts, memory.fits);
+    HALFLIT_ASSERT((options.max_error_codes > 0.0) == (inputs.facts != nullptr));
+    if (inputs.facts != nullptr) spend_error_budget(plan, options.max_error_codes, inputs.exposure, *inputs.facts, memory.fits);
     return plan;
 }
 

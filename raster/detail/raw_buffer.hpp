@@ -13,6 +13,7 @@ public:
     T* reserve(std::size_t count) {
         if (count > capacity_) {
             data_.reset();
+            capacity_ = 0;  // also if the allocation throws
             data_ = std::make_unique_for_overwrite<T[]>(count);
             capacity_ = count;
         }

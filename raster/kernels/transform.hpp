@@ -12,6 +12,8 @@ HALFLIT_INLINE F transform_row(const float* m, int r, F x, F y, F z) {
     return ((F(m[r]) * x + F(m[4 + r]) * y) + F(m[8 + r]) * z) + F(m[12 + r]);
 }
 
+inline constexpr float kLeastW = 1e-37f;
+
 HALFLIT_INLINE I outcode_bit(M m, std::int32_t bit) { return sel(m, I(bit), I(0)); }
 
 /// Transforms kWidth vertices from packed xyz at `p` (3 * kWidth floats are read).
@@ -26,7 +28,8 @@ HALFLIT_INLINE void transform_vector(const TransformArgs& args, const float* p, 
 
     const F huge(3.0e38f);
     const M finite = (vabs(cx) < huge) & (vabs(cy) < huge) & (vabs(cz) < huge) & (vabs(cw) < huge);
-    const M in_guard = (vabs(cx) <= F(args.viewport.guard_x) * cw) & (vabs(cy) <= F(args.viewport.guard_y) * cw);
+    // A w whose inverse is infinite, or nearly so, is left to the clipper, which computes in double.
+    const M in_guard = (vabs(cx) <= F(args.viewport.guard_x) * cw) & (vabs(cy) <= F(args.viewport.guard_y) * cw) & (cw > F(kLeastW));
     const M behind = cz > cw;
     I code =
         outcode_bit(cx < vneg(cw), kLeft) | outcode_bit(cx > cw, kRight) | outcode_bit(cy > cw, kTop) | outcode_bit(cy < vneg(cw), kBottom);
@@ -35,7 +38,7 @@ HALFLIT_INLINE void transform_vector(const TransformArgs& args, const float* p, 
     code = sel(finite, code, I(kNotFinite));
 
     // Lanes that will be clipped get 0, so that no conversion is out of range.
-    const M plain = finite & in_guard & (cw > F(0.0f));
+    const M plain = finite & in_guard;
     const F inv_w = vdiv(F(1.0f), sel(plain, cw, F(1.0f)));
     const F half_w(args.viewport.half_width), half_h(args.viewport.half_height);
     const F win_x = (cx * inv_w) * half_w + half_w;

@@ -66,7 +66,7 @@ ScreenVertex project(const double (&clip)[4], const Viewport& viewport) {
     const double x = clip[0] * inv_w * viewport.half_width + viewport.half_width;
     const double y = -(clip[1] * inv_w) * viewport.half_height + viewport.half_height;
     return {static_cast<std::int32_t>(__builtin_lrint((x - 0.5) * 256.0)), static_cast<std::int32_t>(__builtin_lrint((y - 0.5) * 256.0)),
-            static_cast<float>(clip[2] * inv_w), static_cast<float>(inv_w)};
+            static_cast<float>(clip[2] * inv_w), static_cast<float>(inv_w < 3e38 ? inv_w : 3e38)};
 }
 
 }  // namespace halflit::raster

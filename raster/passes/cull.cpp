@@ -34,7 +34,7 @@ public:
                     1;
         for (std::int64_t c = chunk_.first_cluster; c < chunk_.end_cluster; ++draw) {
             const std::int64_t end =
-                std::min(chunk_.end_cluster, draw->cluster_base + static_cast<std::int64_t>(draw->prepared->cluster_count()));
+                std::min(chunk_.end_cluster, draw->cluster_base + static_cast<std::int64_t>(scene_.mesh(draw->mesh).cluster_count()));
             cull(*draw, static_cast<std::uint32_t>(draw - draws.begin()), static_cast<std::size_t>(c - draw->cluster_base),
                  static_cast<std::size_t>(end - draw->cluster_base));
             c = end;
@@ -43,7 +43,7 @@ public:
 
 private:
     void cull(const Draw& draw, std::uint32_t number, std::size_t begin, std::size_t end) {
-        const PreparedMesh& mesh = *draw.prepared;
+        const PreparedMesh& mesh = scene_.mesh(draw.mesh);
         const Culler culler = culler_of(view_, scene_.scene().instances[draw.instance].world_from_object, draw.cull_back);
         const bool test_boxes = mesh.cluster_count() > 1 && verdict_on(culler, mesh.bounds) != Culler::Verdict::inside;
         for (std::size_t c = begin; c < end; ++c) {
@@ -58,13 +58,13 @@ private:
 
     void keep(const Draw& draw, std::uint32_t number, std::size_t cluster) {
         const auto first = static_cast<std::uint32_t>(cluster * kClusterTriangles);
-        const auto end =
-            static_cast<std::uint32_t>(std::min<std::size_t>(first + std::size_t{kClusterTriangles}, draw.mesh->indices.size() / 3));
+        const Mesh& mesh = scene_.scene().meshes[static_cast<std::size_t>(draw.mesh)];
+        const auto end = static_cast<std::uint32_t>(std::min<std::size_t>(first + std::size_t{kClusterTriangles}, mesh.indices.size() / 3));
         if (!chunk_.runs.empty() && chunk_.runs.back().draw == number && chunk_.runs.back().end == first)
             chunk_.runs.back().end = end;
         else
             chunk_.runs.push_back({number, first, end});
-        for (const std::uint32_t group : draw.prepared->groups_of(cluster))
+        for (const std::uint32_t group : scene_.mesh(draw.mesh).groups_of(cluster))
             std::atomic_ref(groups_seen_[draw.group_base + group]).store(1, std::memory_order_relaxed);
     }
 
@@ -102,9 +102,9 @@ void ViewGeometry::list_draws(Executor& executor) {
         triangle_base += triangles;
         if (triangles == 0 || (seen != nullptr && seen[i] == 0)) continue;
         Draw& draw = draws_.emplace_back();
-        draw.mesh = &mesh;
-        draw.prepared = &scene_->mesh(instances[i].mesh);
         draw.instance = static_cast<std::uint32_t>(i);
+        draw.mesh = instances[i].mesh;
+        draw.vertex_count = static_cast<std::int64_t>(mesh.positions.size());
         draw.material = static_cast<std::int32_t>(scene_->material_of(mesh));
         draw.vertex_base = vertex_count_;
         draw.group_base = group_count_;
@@ -116,9 +116,9 @@ void ViewGeometry::list_draws(Executor& executor) {
         draw.alpha_mode = material.alpha_mode;
         has_mode_[static_cast<std::size_t>(draw.alpha_mode)] = true;
         triangle_count_ += triangles;
-        vertex_count_ += draw.vertex_count();
+        vertex_count_ += draw.vertex_count;
         group_count_ += draw.group_count();
-        cluster_count_ += static_cast<std::int64_t>(draw.prepared->cluster_count());
+        cluster_count_ += static_cast<std::int64_t>(scene_->mesh(draw.mesh).cluster_count());
     }
 }
 

@@ -12,8 +12,8 @@ const float* floats(const std::vector<T>& v) {
     return v.empty() ? nullptr : &v[0].x;
 }
 
-VertexRecordArgs record_args(const Draw& draw, const Mat4& world_from_object, shading::SlotMask slots, float* records, int stride) {
-    const Mesh& mesh = *draw.mesh;
+VertexRecordArgs record_args(const Draw& draw, const Mesh& mesh, const Mat4& world_from_object, shading::SlotMask slots, float* records,
+                             int stride) {
     VertexRecordArgs args{};
     args.positions = floats(mesh.positions);
     args.normals = floats(mesh.normals);
@@ -54,7 +54,7 @@ void VertexRecords::make(const ViewGeometry& geometry, std::span<const shading::
     for (std::size_t d = 0; d < draws.size(); ++d) {
         strides_[d] = 4 * std::popcount(slots_[static_cast<std::size_t>(draws[d].material)]);
         record_bases_[d] = size;
-        size += draws[d].vertex_count() * strides_[d];
+        size += draws[d].vertex_count * strides_[d];
     }
     float* records = records_.reserve(static_cast<std::size_t>(size));
     for (std::size_t d = 0; d < draws.size(); ++d) draw_records_[d] = {records + record_bases_[d] - draws[d].vertex_base * strides_[d]};
@@ -72,10 +72,10 @@ void VertexRecords::make(const ViewGeometry& geometry, std::span<const shading::
             for (; group < draw_end; ++group) {
                 if (strides_[d] == 0 || !geometry.group_is_drawn(group)) continue;
                 if (args.records == nullptr)
-                    args = record_args(*draw, geometry.scene().scene().instances[draw->instance].world_from_object,
+                    args = record_args(*draw, geometry.mesh_of(*draw), geometry.scene().scene().instances[draw->instance].world_from_object,
                                        slots_[static_cast<std::size_t>(draw->material)], records + record_bases_[d], strides_[d]);
                 args.begin = (group - draw->group_base) * kVertexGroup;
-                args.end = std::min(args.begin + kVertexGroup, draw->vertex_count());
+                args.end = std::min(args.begin + kVertexGroup, draw->vertex_count);
                 kernels.vertex_records(args);
             }
         }

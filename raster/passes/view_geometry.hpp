@@ -21,9 +21,8 @@ namespace halflit::raster {
 
 /// One instance that the view may see.
 struct Draw {
-    const Mesh* mesh = nullptr;
-    const PreparedMesh* prepared = nullptr;
     std::uint32_t instance = 0;
+    std::int32_t mesh = 0;           ///< a number, as the scene's arrays may be moved between frames
     std::int32_t material = 0;       ///< index as in PreparedScene
     std::int64_t vertex_base = 0;    ///< index of its first vertex in the view's arrays
     std::int64_t group_base = 0;     ///< index of its first vertex group
@@ -32,8 +31,8 @@ struct Draw {
     bool mirrored = false, cull_back = true;
     shading::AlphaMode alpha_mode = shading::AlphaMode::opaque;
 
-    [[nodiscard]] std::int64_t vertex_count() const { return static_cast<std::int64_t>(mesh->positions.size()); }
-    [[nodiscard]] std::int64_t group_count() const { return (vertex_count() + kVertexGroup - 1) / kVertexGroup; }
+    std::int64_t vertex_count = 0;
+    [[nodiscard]] std::int64_t group_count() const { return (vertex_count + kVertexGroup - 1) / kVertexGroup; }
 };
 
 /// Consecutive triangles of one draw.
@@ -90,6 +89,7 @@ public:
     [[nodiscard]] const View& view() const { return view_; }
     [[nodiscard]] const PreparedScene& scene() const { return *scene_; }
     [[nodiscard]] std::span<const Draw> draws() const { return draws_; }
+    [[nodiscard]] const Mesh& mesh_of(const Draw& draw) const { return scene_->scene().meshes[static_cast<std::size_t>(draw.mesh)]; }
     [[nodiscard]] std::span<const std::unique_ptr<Chunk>> chunks() const { return std::span(chunks_).first(chunk_count_); }
     [[nodiscard]] bool has(shading::AlphaMode mode) const { return has_mode_[static_cast<std::size_t>(mode)]; }
     /// A chunk's triangles as the kernels read them.
@@ -104,7 +104,6 @@ public:
 
     /// True if a drawn triangle reads the vertex group.
     [[nodiscard]] bool group_is_drawn(std::int64_t group) const { return groups_drawn_.data()[group] != 0; }
-    [[nodiscard]] std::int64_t vertex_count() const { return vertex_count_; }
     [[nodiscard]] std::uint64_t triangles_drawn() const;
     [[nodiscard]] std::uint64_t triangles_not_finite() const;
 

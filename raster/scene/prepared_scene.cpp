@@ -1,10 +1,11 @@
 #include "raster/scene/prepared_scene.hpp"
 
 #include "raster/detail/executor.hpp"
-#include "raster/detail/fp_environment.hpp"
+#include "raster/detail/guarded.hpp"
 
 #include <algorithm>
 #include <atomic>
+#include <numeric>
 #include <string>
 
 namespace halflit::raster {
@@ -52,22 +53,35 @@ Result<void> PreparedScene::prepare(std::size_t index, Executor& executor) {
     return {};
 }
 
-Result<void> PreparedScene::prepare_meshes(Executor& executor) {
-    // Small meshes in parallel, one task each; large ones one after the other, each by all threads. The first faulty mesh gives the error.
+Result<void> PreparedScene::prepare_meshes(std::span<const std::size_t> which, Executor& executor) {
+    // Small meshes side by side, each by one task; large ones one after the other, each by all threads. The first fault counts.
     constexpr std::size_t kLargeMesh = 1 << 16;  // indices
-    std::vector<Result<void>> results(meshes_.size());
-    const auto large = [&](std::size_t i) { return scene_->meshes[i].indices.size() >= kLargeMesh; };
-    executor.run(static_cast<int>(meshes_.size()), [&](int i) {
-        const auto index = static_cast<std::size_t>(i);
-        if (large(index)) return;
+    std::vector<Result<void>> results(which.size());
+    const auto large = [&](std::size_t mesh) { return scene_->meshes[mesh].indices.size() >= kLargeMesh; };
+    executor.run(static_cast<int>(which.size()), [&](int i) {
+        const auto k = static_cast<std::size_t>(i);
+        if (large(which[k])) return;
         Executor alone;
-        results[index] = prepare(index, alone);
+        results[k] = prepare(which[k], alone);
     });
-    for (std::size_t i = 0; i < meshes_.size(); ++i) {
-        if (large(i)) results[i] = prepare(i, executor);
-        if (!results[i]) return results[i];
+    for (std::size_t k = 0; k < which.size(); ++k) {
+        if (large(which[k])) results[k] = prepare(which[k], executor);
+        if (!results[k]) return results[k];
     }
     return {};
+}
+
+Result<void> PreparedScene::check_instance(std::size_t index) const {
+    const int mesh = scene_->instances[index].mesh;
+    if (mesh >= 0 && static_cast<std::size_t>(mesh) < scene_->meshes.size()) return {};
+    return fail(ErrorCode::bad_input, "instance " + std::to_string(index) + " names mesh " + std::to_string(mesh) + " of " +
+                                          std::to_string(scene_->meshes.size()));
+}
+
+void PreparedScene::place(std::size_t index) {
+    const Instance& instance = scene_->instances[index];
+    const Mesh& placed = scene_->meshes[static_cast<std::size_t>(instance.mesh)];
+    instance_bounds_[index] = placed_bounds(placed, mesh(instance.mesh), instance.world_from_object);
 }
 
 Result<void> PreparedScene::check_materials() const {
@@ -101,72 +115,90 @@ void PreparedScene::collect() {
 }
 
 Result<PreparedScene> PreparedScene::make(const Scene& scene, const Workers& workers) {
-    const FpEnvironment environment;
-    Executor executor;
-    executor.configure(workers.threads, workers.parallel_for);
-    PreparedScene prepared;
-    prepared.scene_ = &scene;
-    prepared.meshes_.resize(scene.meshes.size());
-    if (auto ok = prepared.prepare_meshes(executor); !ok) return tl::unexpected<Error>(ok.error());
-    if (auto ok = prepared.check_materials(); !ok) return tl::unexpected<Error>(ok.error());
-    for (const Instance& instance : scene.instances)
-        if (instance.mesh < 0 || static_cast<std::size_t>(instance.mesh) >= scene.meshes.size())
-            return fail(ErrorCode::bad_input, "an instance refers to mesh " + std::to_string(instance.mesh) + ", but the scene has " +
-                                                  std::to_string(scene.meshes.size()));
-    prepared.instance_bounds_.resize(scene.instances.size());
-    executor.run(static_cast<int>((scene.instances.size() + kInstancesPerTask - 1) / kInstancesPerTask), [&](int task) {
-        const std::size_t begin = static_cast<std::size_t>(task) * kInstancesPerTask;
-        for (std::size_t i = begin; i < std::min(begin + kInstancesPerTask, scene.instances.size()); ++i) {
-            const Instance& instance = scene.instances[i];
-            prepared.instance_bounds_[i] = placed_bounds(scene.meshes[static_cast<std::size_t>(instance.mesh)],
-                                                         prepared.mesh(instance.mesh), instance.world_from_object);
-        }
+    return guarded("preparing a scene", [&]() -> Result<PreparedScene> {
+        Executor executor;
+        executor.configure(workers.threads, workers.parallel_for);
+        PreparedScene prepared;
+        prepared.scene_ = &scene;
+        prepared.meshes_.resize(scene.meshes.size());
+        std::vector<std::size_t> all(scene.meshes.size());
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        if (auto ok = prepared.prepare_meshes(all, executor); !ok) return tl::unexpected<Error>(ok.error());
+        if (auto ok = prepared.check_materials(); !ok) return tl::unexpected<Error>(ok.error());
+        for (std::size_t i = 0; i < scene.instances.size(); ++i)
+            if (auto ok = prepared.check_instance(i); !ok) return tl::unexpected<Error>(ok.error());
+        prepared.instance_bounds_.resize(scene.instances.size());
+        executor.run(static_cast<int>((scene.instances.size() + kInstancesPerTask - 1) / kInstancesPerTask), [&](int task) {
+            const std::size_t begin = static_cast<std::size_t>(task) * kInstancesPerTask;
+            for (std::size_t i = begin; i < std::min(begin + kInstancesPerTask, scene.instances.size()); ++i) prepared.place(i);
+        });
+        prepared.collect();
+        prepared.revision_ = {next_revision(), next_revision(), next_revision()};
+        return prepared;
     });
-    prepared.collect();
-    prepared.revision_ = {next_revision(), next_revision(), next_revision()};
-    return prepared;
 }
 
 Result<void> PreparedScene::update(const SceneChanges& changes, const Workers& workers) {
-    const FpEnvironment environment;
+    up_to_date_ = false;
+    auto result = guarded("updating a scene", [&]() -> Result<void> {
+        if (auto ok = note(changes); !ok) return ok;
+        return apply_pending(workers);
+    });
+    if (result) {
+        pending_ = {};
+        up_to_date_ = true;
+    } else {
+        revision_ = {next_revision(), next_revision(), next_revision()};  // nothing made before is used again
+    }
+    return result;
+}
+
+Result<void> PreparedScene::note(const SceneChanges& changes) {
+    Result<void> result;
+    const auto add = [&](const char* what, const std::vector<std::size_t>& told, std::size_t count, std::vector<std::size_t>& to) {
+        for (const std::size_t i : told) {
+            if (i < count)
+                to.push_back(i);
+            else
+                result = fail(ErrorCode::usage, std::string(what) + " " + std::to_string(i) +
+                                                    " is told to have changed, but the scene has " + std::to_string(count));
+        }
+    };
+    add("mesh", changes.deformed_meshes, meshes_.size(), pending_.deformed_meshes);
+    add("instance", changes.moved_instances, instance_bounds_.size(), pending_.moved_instances);
+    pending_.materials |= changes.materials;
+    pending_.lights |= changes.lights;
+    return result;
+}
+
+Result<void> PreparedScene::apply_pending(const Workers& workers) {
     const Scene& scene = *scene_;
     if (scene.meshes.size() != meshes_.size() || scene.instances.size() != instance_bounds_.size() ||
         scene.materials.size() + 1 != drawn_materials_.size())
-        return fail(ErrorCode::usage, "the number of meshes, instances or materials has changed since the scene was prepared");
-    const auto place = [&](std::size_t i) {
-        const Instance& instance = scene.instances[i];
-        instance_bounds_[i] =
-            placed_bounds(scene.meshes[static_cast<std::size_t>(instance.mesh)], mesh(instance.mesh), instance.world_from_object);
-    };
-    if (!changes.deformed_meshes.empty()) {
+        return fail(ErrorCode::usage, "the scene has other numbers of meshes, instances or materials than when it was prepared");
+    const bool deformed = !pending_.deformed_meshes.empty();
+    if (deformed) {
         Executor executor;
         executor.configure(workers.threads, workers.parallel_for);
-        std::vector<bool> deformed(scene.meshes.size(), false);
-        for (const std::size_t i : changes.deformed_meshes) {
-            if (i >= scene.meshes.size())
-                return fail(ErrorCode::usage,
-                            "deformed mesh " + std::to_string(i) + ", but the scene has " + std::to_string(scene.meshes.size()));
-            if (auto ok = prepare(i, executor); !ok) return ok;
-            deformed[i] = true;
-        }
+        std::vector<std::size_t>& which = pending_.deformed_meshes;
+        std::sort(which.begin(), which.end());
+        which.erase(std::unique(which.begin(), which.end()), which.end());
+        if (auto ok = prepare_meshes(which, executor); !ok) return ok;
         for (std::size_t i = 0; i < scene.instances.size(); ++i)
-            if (deformed[static_cast<std::size_t>(scene.instances[i].mesh)]) place(i);
+            if (std::binary_search(which.begin(), which.end(), static_cast<std::size_t>(scene.instances[i].mesh))) place(i);
     }
-    for (const std::size_t i : changes.moved_instances) {
-        if (i >= scene.instances.size())
-            return fail(ErrorCode::usage,
-                        "moved instance " + std::to_string(i) + ", but the scene has " + std::to_string(scene.instances.size()));
+    for (const std::size_t i : pending_.moved_instances) {
+        if (auto ok = check_instance(i); !ok) return ok;
         place(i);
     }
-    if (!changes.deformed_meshes.empty() || !changes.moved_instances.empty()) {
+    if (deformed || pending_.materials)
+        if (auto ok = check_materials(); !ok) return ok;
+    if (deformed || !pending_.moved_instances.empty()) {
         collect();
         revision_.geometry = next_revision();
     }
-    if (changes.materials || !changes.deformed_meshes.empty()) {
-        if (auto ok = check_materials(); !ok) return ok;
-        revision_.materials = next_revision();
-    }
-    if (changes.lights) revision_.lights = next_revision();
+    if (deformed || pending_.materials) revision_.materials = next_revision();
+    if (pending_.lights) revision_.lights = next_revision();
     return {};
 }
 

@@ -32,13 +32,16 @@ struct SceneRevision {
 class PreparedScene {
 public:
     /// Fails for a faulty scene: an index out of range, arrays of different lengths, an invalid lobe.
-    static Result<PreparedScene> make(const Scene& scene, const Workers& workers = {});
+    [[nodiscard]] static Result<PreparedScene> make(const Scene& scene, const Workers& workers = {});
 
-    /// Redoes what changed, and sums over all instances: 0.01 to 1 ms for a moved instance. After an error the scene must not be drawn.
-    Result<void> update(const SceneChanges& changes, const Workers& workers = {});
+    /// Redoes what changed, and sums over all instances: 0.03 ms for one of 1,000 moved instances, 14 ms for one of a million. After an
+    /// error no frame is drawn until an update succeeds; that one also redoes what the failed ones were told.
+    [[nodiscard]] Result<void> update(const SceneChanges& changes, const Workers& workers = {});
 
     [[nodiscard]] const Scene& scene() const { return *scene_; }
     [[nodiscard]] const SceneRevision& revision() const { return revision_; }
+    /// False after an update that failed.
+    [[nodiscard]] bool up_to_date() const { return up_to_date_; }
     /// World-space box of everything drawn; the same as scene_bounds.
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }
     [[nodiscard]] const PreparedMesh& mesh(int index) const { return meshes_[static_cast<std::size_t>(index)]; }
@@ -69,12 +72,18 @@ public:
 private:
     PreparedScene() = default;
     Result<void> prepare(std::size_t mesh, Executor& executor);
-    Result<void> prepare_meshes(Executor& executor);
+    Result<void> prepare_meshes(std::span<const std::size_t> which, Executor& executor);
+    Result<void> check_instance(std::size_t index) const;
     Result<void> check_materials() const;
+    void place(std::size_t instance);                ///< finds its box
+    Result<void> note(const SceneChanges& changes);  ///< adds them to pending_
+    Result<void> apply_pending(const Workers& workers);
     void collect();  ///< sums over meshes and instances
 
     const Scene* scene_ = nullptr;
     SceneRevision revision_;
+    SceneChanges pending_;  ///< told, and not yet applied
+    bool up_to_date_ = true;
     std::vector<PreparedMesh> meshes_;
     std::vector<Bounds> instance_bounds_;
     Bounds bounds_;

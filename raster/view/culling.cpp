@@ -8,6 +8,8 @@ namespace {
 /// Bound on the rounding error of a clip coordinate, relative to the sum of its terms' magnitudes: twice that of three products and three
 /// sums in float32.
 constexpr double kClipError = 5e-7;
+/// Bound on the rounding error of a clip coordinate among denormals: six roundings to multiples of 1.4e-45.
+constexpr double kDenormalError = 1e-44;
 /// From this size on a clip coordinate may be infinite in float32. Its triangles must be kept, because they are counted as not finite.
 constexpr double kHuge = 1e37;
 
@@ -93,7 +95,7 @@ Culler::Verdict Culler::box(const float (&min)[3], const float (&max)[3]) const 
         half[k] = 0.5 * (static_cast<double>(max[k]) - min[k]);
         most[k] = larger(magnitude(min[k]), magnitude(max[k]));
     }
-    bool inside = true;
+    bool inside = true, outside = false;
     for (const Plane& p : plane_) {
         double value = p.offset, spread = 0.0, size = p.size_offset;
         for (int k = 0; k < 3; ++k) {
@@ -102,11 +104,11 @@ Culler::Verdict Culler::box(const float (&min)[3], const float (&max)[3]) const 
             size += p.size[k] * most[k];
         }
         if (!(size < kHuge)) return Verdict::crossing;
-        const double error = kClipError * size;
-        if (value + spread < -error) return Verdict::outside;
+        const double error = kClipError * size + kDenormalError;
+        outside |= value + spread < -error;
         inside &= value - spread > error;
     }
-    return inside ? Verdict::inside : Verdict::crossing;
+    return outside ? Verdict::outside : inside ? Verdict::inside : Verdict::crossing;
 }
 
 bool Culler::faces_away(const Cluster& cluster) const {
@@ -128,9 +130,9 @@ bool Culler::faces_away(const Cluster& cluster) const {
     const Range x = range(row_[0], middle, half), y = range(row_[1], middle, half), z = range(row_[2], middle, half),
                 w = range(row_[3], middle, half);
     if (!(x.size + y.size + z.size + w.size < kHuge)) return false;
-    const double error_w = kClipError * w.size, w_min = w.middle - w.half - error_w, w_max = w.middle + w.half;
-    if (!(w_min > 4.0 * error_w)) return false;
-    if (!(w_min - (z.middle + z.half) > kClipError * z.size)) return false;
+    const double error_w = kClipError * w.size + kDenormalError, w_min = w.middle - w.half - error_w, w_max = w.middle + w.half;
+    if (!(w_min > 4.0 * error_w && w_min > 1e-36)) return false;  // smaller w is clipped
+    if (!(w_min - (z.middle + z.half) > kClipError * z.size + kDenormalError)) return false;
     const double x_most = (magnitude(x.middle) + x.half) / w_min, y_most = (magnitude(y.middle) + y.half) / w_min;
     if (!(x_most < 0.99 * guard_x_ && y_most < 0.99 * guard_y_)) return false;
     // dx, dy: upper bounds on the extent in the window, pixels times w_min, of an edge of length 1 in object space.

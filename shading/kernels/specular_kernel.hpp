@@ -46,10 +46,11 @@ HALFLIT_INLINE F specular_value(const SpecularShape& shape, V3 normal, V3 to_eye
     M shines = vmin(n_dot_l, cosine) > F(0.0f);
     if (shape.threshold > 0.0f) {
         // cos^s <= e^-z <= 8! / z^8 with z = s/2 sin^2. Where this bound is below the threshold, the highlight is left out before any
-        // division or logarithm.
+        // division or logarithm. Short turning vectors are kept, because the eighth power of their length underflows.
         const F z = half_exponent * (squared - cosine * cosine);
         const F z2 = z * z, h2 = squared * squared, z4 = z2 * z2, h4 = h2 * h2;
-        shines = shines & ((brightness * shape.normalization) * (h4 * h4) > F(shape.threshold * (1.0f / 40320.0f)) * (z4 * z4));
+        const M bright = (brightness * shape.normalization) * (h4 * h4) > F(shape.threshold * (1.0f / 40320.0f)) * (z4 * z4);
+        shines = shines & (bright | (squared < F(0.01f)));
     }
     if (!any(shines)) return F(0.0f);
     const V3 sine = cross(at.axis, at.turning);

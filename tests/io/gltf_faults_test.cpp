@@ -50,6 +50,26 @@ TEST_CASE("faults: broken JSON is refused with line and column", "[io]") {
     CHECK(refusal(text_file(good), small).code == ErrorCode::limit);
 }
 
+TEST_CASE("faults: numbers of any length are read, and refused only where double or the field cannot hold them", "[io]") {
+    const auto with = [](const std::string& members) { return text_file(std::string("{") + kAsset + "," + members + "}"); };
+    const std::string zeros(400, '0');
+    const auto camera = [&](const std::string& zfar) {
+        return with("\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":1,\"znear\":1,\"zfar\":" + zfar + "}}]");
+    };
+    for (const std::string& good : {std::string("100000000000000000000"), "1" + zeros + "e-399", std::string("2.5e1")}) {
+        INFO(good);
+        CHECK(load(camera(good)));
+    }
+    CHECK(load(with("\"extensions\":{\"ZZ_y\":{\"id\":18446744073709551615}}")));
+    CHECK(load(with("\"extras\":[0." + zeros + "e1,0." + zeros + "1e1,1e-999,-0]")));
+    for (const std::string& bad : {"1" + zeros, "1" + zeros + "e-1", "0.001" + zeros + "e999", std::string("1e999")}) {
+        INFO(bad);
+        CHECK(refusal(camera(bad)).message.find("range of double") != std::string::npos);
+    }
+    CHECK(refusal(with("\"nodes\":[{\"translation\":[]}]")).message.find("expected 3 numbers, found 0") != std::string::npos);
+    CHECK(refusal(with("\"buffers\":[{\"byteLength\":9007199254740993}]")).message.find("2^53") != std::string::npos);
+}
+
 TEST_CASE("faults: values of a wrong type or size are refused at their path", "[io]") {
     const TriangleFile t;
     const auto check = [&](const std::string& from, const std::string& to, const std::string& path) {

@@ -3,6 +3,7 @@
 #include "raster/renderer.hpp"
 #include "tests/raster/random_geometry.hpp"
 #include "tests/raster/test_scenes.hpp"
+#include "tests/support/isas.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -223,4 +224,49 @@ TEST_CASE("culling: the test scenes, with shadows, have the same pictures withou
     }
     CHECK(tally.pictures == 6);
     CHECK(tally.visible > 30'000);
+}
+
+TEST_CASE("culling: triangles that are not finite are counted wherever the view looks", "[raster][culling]") {
+    for (const float x : {0.0f, 10.0f}) {
+        Scene scene;
+        scene.meshes = {make_box({1, 1, 1})};
+        Mat4 place = scaling({1, 3e38f, 1});
+        place.c[3].x = x;
+        scene.instances = {{0, place}};
+        Camera camera;
+        camera.orthographic = true;
+        camera.half_height = 0.5f;
+        camera.near_z = -5;
+        camera.far_z = 5;
+        CHECK(draw(scene, camera, {}, 32, 32).report.triangles_not_finite == 12);
+    }
+}
+
+TEST_CASE("culling: coordinates among the denormals have the same pictures by every instruction set", "[raster][culling]") {
+    Random random(4);
+    int pictures = 0;
+    for (int round = 0; round < 150; ++round) {
+        Scene scene = coloured(random, {random_mesh(random, 400), random_mesh(random, 400)});
+        const float world = random_decades(random, 1e-40, 1e-35);
+        for (int i = 0; i < 4; ++i) {
+            Mat4 place = random_place(random, 1, random_decades(random, 0.1, 3));
+            for (Vec4f& c : place.c) c = {c.x * world, c.y * world, c.z * world, c.w};
+            scene.instances.push_back({random.index(2), place});
+        }
+        const Camera camera = scaled(random_camera(random), world);
+        Settings settings = any_settings(random, 60, 40);
+        const auto pixels = [&](shading::Isa isa) {
+            std::vector<std::uint8_t> rgba8(std::size_t{4} * 60 * 40);
+            settings.isa = isa;
+            const bool drawn = render(scene, camera, settings, {60, 40, rgba8.data(), nullptr}).has_value();
+            return drawn ? rgba8 : std::vector<std::uint8_t>{};  // a matrix that is not finite is refused
+        };
+        const std::vector<std::uint8_t> first = pixels(shading::Isa::scalar);
+        pictures += !first.empty();
+        for (const shading::Isa isa : halflit::test::available_isas()) {
+            INFO("round " << round << ", unit " << world << ", " << shading::isa_name(isa));
+            CHECK(pixels(isa) == first);
+        }
+    }
+    CHECK(pictures > 50);
 }

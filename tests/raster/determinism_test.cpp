@@ -179,7 +179,7 @@ TEST_CASE("determinism: tiers, error budgets and coarser texture filters give th
             for (const int threads : {1, 3, 5}) check(available_isas().back(), threads, threads == 3 ? 32 : 16);
         }
     }
-    CHECK(changed >= 20);  // 30 in all: the variants have an effect
+    CHECK(changed >= 15);  // 30 in all: the variants have an effect
 }
 
 TEST_CASE("determinism: a region is the same part of the whole picture, and nothing else is written", "[raster][determinism]") {

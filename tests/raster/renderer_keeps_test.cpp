@@ -1,4 +1,5 @@
 // Single things that a Renderer keeps from frame to frame, each changed in a way that is easily missed.
+#include "raster/detail/raw_buffer.hpp"
 #include "raster/renderer.hpp"
 #include "tests/raster/test_scenes.hpp"
 #include "tests/support/random.hpp"
@@ -6,7 +7,9 @@
 #include <catch2/catch.hpp>
 
 #include <cstring>
+#include <functional>
 #include <new>
+#include <utility>
 
 using namespace halflit;
 using namespace halflit::raster;
@@ -168,4 +171,89 @@ TEST_CASE("renderer: vertex attributes that only light needs are present when a 
         REQUIRE(prepared.update(kLights));
         CHECK(differing(draw(renderer, prepared, s.camera, settings), dark) == 0);
     }
+}
+
+TEST_CASE("renderer: meshes that moved in memory are found again", "[raster][retention]") {
+    NamedScene s = materials_scene();
+    const PreparedScene prepared = made(s.scene);
+    Renderer renderer;
+    draw(renderer, prepared, s.camera, small_shadows());
+    s.scene.meshes.reserve(4 * s.scene.meshes.capacity() + 100);
+    for (Mesh& mesh : s.scene.meshes) mesh.positions.reserve(4 * mesh.positions.capacity());
+    Settings settings = small_shadows();
+    settings.shading.rate = shading::ShadingRate::gouraud;
+    CHECK(differing(draw(renderer, prepared, s.camera, settings), draw_anew(s.scene, s.camera, settings)) == 0);
+}
+
+TEST_CASE("renderer: settings are checked although the plan is kept", "[raster][retention]") {
+    const NamedScene s = materials_scene();
+    const PreparedScene prepared = made(s.scene);
+    Renderer renderer;
+    const Pixels first = draw(renderer, prepared, s.camera, small_shadows());
+    Pixels pixels(first.size());
+    Settings settings = small_shadows();
+    settings.isa = fail(ErrorCode::usage, "isa: none");
+    const auto report = renderer.render(prepared, s.camera, settings, {kWidth, kHeight, nullptr, pixels.data()});
+    REQUIRE_FALSE(report);
+    CHECK(report.error().message == "isa: none");
+    CHECK(differing(draw(renderer, prepared, s.camera, small_shadows()), first) == 0);
+}
+
+TEST_CASE("renderer: an exception of the host becomes an error, and the next frame is right", "[raster][retention]") {
+    const NamedScene s = materials_scene();
+    const PreparedScene prepared = made(s.scene);
+    Renderer renderer;
+    const std::function<bool()> throws = []() -> bool { throw 42; };
+    Settings settings = small_shadows();
+    settings.cancelled = &throws;
+    settings.threads = 1;
+    Pixels pixels(std::size_t{4} * kWidth * kHeight);
+    const auto report = renderer.render(prepared, s.camera, settings, {kWidth, kHeight, nullptr, pixels.data()});
+    REQUIRE_FALSE(report);
+    CHECK(report.error().code == ErrorCode::internal);
+    CHECK(differing(draw(renderer, prepared, s.camera, small_shadows()), draw_anew(s.scene, s.camera, small_shadows())) == 0);
+}
+
+TEST_CASE("renderer: working memory that could not grow is empty, not lost", "[raster][retention]") {
+    RawBuffer<double> buffer;
+    REQUIRE(buffer.reserve(4) != nullptr);
+    CHECK_THROWS_AS(buffer.reserve(std::size_t{1} << 58), std::bad_alloc);
+    CHECK(buffer.capacity() == 0);
+    CHECK(buffer.reserve(2) != nullptr);
+}
+
+TEST_CASE("renderer: no frame after a failed update until one succeeds, which redoes what was told before", "[raster][retention]") {
+    NamedScene s = materials_scene();
+    PreparedScene prepared = made(s.scene);
+    Renderer renderer;
+    draw(renderer, prepared, s.camera, small_shadows());
+    const auto drawn = [&] {
+        Pixels pixels(std::size_t{4} * kWidth * kHeight);
+        return renderer.render(prepared, s.camera, small_shadows(), {kWidth, kHeight, nullptr, pixels.data()}).has_value();
+    };
+    const auto is_new = [&] {
+        return differing(draw(renderer, prepared, s.camera, small_shadows()), draw_anew(s.scene, s.camera, small_shadows())) == 0;
+    };
+
+    s.scene.instances[1].world_from_object = s.scene.instances[1].world_from_object * translation({0.2f, 0.1f, 0});
+    REQUIRE_FALSE(prepared.update({.moved_instances = {1, 999}}));
+    CHECK_FALSE(drawn());
+    REQUIRE(prepared.update(kLights));
+    CHECK(is_new());
+
+    Mesh& mesh = s.scene.meshes[0];
+    for (Vec3f& p : mesh.positions) p.y *= 1.1f;
+    const std::uint32_t index = std::exchange(s.scene.meshes[1].indices[0], 1u << 30);
+    REQUIRE_FALSE(prepared.update({.deformed_meshes = {0, 1}}));
+    CHECK_FALSE(drawn());
+    s.scene.meshes[1].indices[0] = index;
+    REQUIRE(prepared.update({.deformed_meshes = {1}}));
+    CHECK(is_new());
+
+    const shading::Texture texture = s.scene.textures.back();
+    s.scene.textures.pop_back();
+    CHECK_FALSE(prepared.update({.materials = true}));
+    s.scene.textures.push_back(texture);
+    REQUIRE(prepared.update({}));
+    CHECK(is_new());
 }

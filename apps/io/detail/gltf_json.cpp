@@ -48,18 +48,16 @@ public:
             top.next = at < 0 ? nullptr : top.node->members[static_cast<std::size_t>(at)].second;
             if (at >= 0) top.seen |= 1u << at;
         }
-        top.in_extras = top.extras || key.text == "extras";
     }
 
     void on_begin(JsonType type, std::size_t offset) override {
         const SchemaNode* node = enter();
-        const bool extras = !levels_.empty() && levels_.back().in_extras;
         const JsonValue value{.type = type, .offset = offset};
         if (node != nullptr) {
             check(*node, value);
             if (node->put != nullptr) node->put(filler_, value);
         }
-        levels_.push_back({node, node != nullptr ? node->every : nullptr, 0, 0, extras, extras, value});
+        levels_.push_back({node, node != nullptr ? node->every : nullptr, 0, 0, value});
     }
 
     void on_end(std::size_t) override {
@@ -70,15 +68,13 @@ public:
             const auto which = static_cast<std::size_t>(std::countr_zero(missing));
             fault(top.value.offset, fmt::format("expected the key \"{}\", which is not there", top.node->members[which].first));
         }
-        if (top.node->length > 0 && top.count > 0 && top.count != top.node->length)
+        if (top.node->length > 0 && top.count != top.node->length)
             fault(top.value.offset, fmt::format("expected {} numbers, found {}", top.node->length, top.count));
         if (top.node->end != nullptr) top.node->end(filler_, top.value);
     }
 
     void on_value(const JsonValue& value, std::size_t) override {
-        const bool extras = !levels_.empty() && levels_.back().in_extras;
         const SchemaNode* node = enter();
-        if (!extras && !value.exact) fault(value.offset, "expected an integer of at most 2^53 in size");
         if (node == nullptr) return;
         check(*node, value);
         if (node->put != nullptr) node->put(filler_, value);
@@ -99,7 +95,6 @@ private:
         const SchemaNode* next;  // schema of the next value
         std::uint32_t seen;
         std::size_t count;
-        bool extras, in_extras;  // true inside "extras": for this value; for the next one
         JsonValue value;         // its type and offset
     };
     struct Index {
@@ -148,6 +143,7 @@ private:
                 [[fallthrough]];
             case Rule::size:
                 if (!numeric || value.number != std::trunc(value.number)) break;  // 10.0 is an integer in JSON Schema
+                if (!value.exact) fault(value.offset, "expected an integer of at most 2^53 in size");
                 if (!(value.number >= 0 && value.number <= limit))
                     fault(value.offset, fmt::format("expected an integer from 0 to {:.0f}, found {:.0f}", limit, value.number));
                 if (node.rule == Rule::index) indices_.push_back({node.target, static_cast<std::uint32_t>(value.number), value.offset});

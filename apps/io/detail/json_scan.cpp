@@ -142,6 +142,21 @@ private:
         while (peek() >= '0' && peek() <= '9') ++at_;
     }
 
+    /// True if the magnitude of a number that double cannot hold is below 1: it rounds to zero, which is no fault.
+    static bool is_tiny(std::string_view number) {
+        const std::size_t e = number.find_first_of("eE");
+        const std::string_view mantissa = number.substr(0, e), exponent = e == number.npos ? "" : number.substr(e + 1);
+        const std::size_t first = mantissa.find_first_of("123456789"), point = std::min(mantissa.find('.'), mantissa.size());
+        if (first == mantissa.npos) return true;
+        // Decimal exponent of the first digit that is not 0. An exponent out of range decides alone.
+        const auto place = first < point ? static_cast<std::int64_t>(point - first) - 1 : -static_cast<std::int64_t>(first - point);
+        const bool negative = exponent.starts_with('-');
+        std::int64_t shift = 0;
+        const std::string_view digits = exponent.substr(!exponent.empty() && (negative || exponent[0] == '+') ? 1 : 0);
+        if (!digits.empty() && std::from_chars(digits.data(), digits.data() + digits.size(), shift).ec != std::errc{}) return negative;
+        return place + (negative ? -shift : shift) < 0;
+    }
+
     void number(JsonValue& v) {
         const std::size_t begin = at_;
         v.type = JsonType::integer;
@@ -152,7 +167,6 @@ private:
         else
             digits();
         if (zero && peek() >= '0' && peek() <= '9') unexpected("a number without leading zeros");
-        bool tiny = zero;  // true: a number out of range is too small for double and rounds to zero, which is no fault
         if (peek() == '.') {
             v.type = JsonType::number;
             ++at_;
@@ -161,13 +175,12 @@ private:
         if (peek() == 'e' || peek() == 'E') {
             v.type = JsonType::number;
             ++at_;
-            tiny = peek() == '-';
             if (peek() == '+' || peek() == '-') ++at_;
             digits();
         }
         const auto parsed = std::from_chars(text_.data() + begin, text_.data() + at_, v.number);
         if (parsed.ec == std::errc::result_out_of_range) {
-            if (!tiny)
+            if (!is_tiny(text_.substr(begin, at_ - begin)))
                 refuse(begin, fmt::format("the number {} is outside the range of double", printable(text_.substr(begin, at_ - begin), 40)));
             v.number = 0;
         }

@@ -1,0 +1,28 @@
+// The boundary of the library: sets the floating-point environment and lets no exception through.
+#pragma once
+
+#include "raster/detail/fp_environment.hpp"
+#include "shading/result.hpp"
+
+#include <exception>
+#include <new>
+#include <string>
+
+namespace halflit::raster {
+
+/// Returns what `body` returns, a Result. An exception becomes an error; `doing` completes the message "out of memory while ...".
+template <class Body>
+auto guarded(const char* doing, const Body& body) -> decltype(body()) {
+    const FpEnvironment environment;
+    try {
+        return body();
+    } catch (const std::bad_alloc&) {
+        return fail(ErrorCode::limit, std::string("out of memory while ") + doing);
+    } catch (const std::exception& e) {
+        return fail(ErrorCode::internal, e.what());
+    } catch (...) {
+        return fail(ErrorCode::internal, std::string("a function of the caller threw an exception while ") + doing);
+    }
+}
+
+}  // namespace halflit::raster

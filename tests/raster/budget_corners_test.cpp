@@ -1,0 +1,105 @@
+// Error budgets in the corners of float32: views opposite a light at grazing angles, and lamps next to surfaces far from the origin.
+#include "raster/built_in/shapes.hpp"
+#include "raster/renderer.hpp"
+#include "shading/reference/reference.hpp"
+#include "tests/support/cameras.hpp"
+#include "tests/support/random.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace halflit;
+using namespace halflit::raster;
+
+namespace {
+
+constexpr int kWidth = 64, kHeight = 48;
+
+/// Checks that the report's bound, if within the budget, holds against the float64 reference. Returns the largest linear value.
+float check_bound(const Scene& scene, const Camera& camera, double budget) {
+    const auto draw = [&](shading::Accuracy accuracy, double codes, std::vector<float>& linear) {
+        linear.assign(std::size_t{4} * kWidth * kHeight, 0.0f);
+        Settings settings;
+        settings.shadows = shading::ShadowMode::off;
+        settings.shading.accuracy = accuracy;
+        settings.shading.max_error_codes = codes;
+        const auto report = render(scene, camera, settings, {kWidth, kHeight, nullptr, linear.data()});
+        REQUIRE(report);
+        return report->error;
+    };
+    std::vector<float> truth, fast;
+    draw(shading::Accuracy::reference, 0, truth);
+    const shading::ErrorBound bound = draw(shading::Accuracy::exact, budget, fast);
+    const auto code = [](float v) { return shading::reference::srgb_code(static_cast<double>(v)); };
+    double worst = 0;
+    float largest = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        if (i % 4 == 3) continue;
+        worst = std::max(worst, std::fabs(code(truth[i]) - code(fast[i])));
+        largest = std::max(largest, truth[i]);
+    }
+    INFO("bound " << bound.codes << ", measured " << worst << ", rounding " << bound.rounding);
+    CHECK((!bound.within || worst <= bound.codes));
+    return largest;
+}
+
+}  // namespace
+
+TEST_CASE("error budget: highlights opposite a light at grazing angles keep to the bound", "[raster][budget]") {
+    int seen = 0;
+    for (const float angle : {0.01f, 0.0005f, 0.0001f})
+        for (const float roughness : {0.05f, 0.158f, 0.3f})
+            for (const double budget : {0.05, 0.5, 2.0})
+                for (const bool textured : {false, true}) {
+                    Scene scene;
+                    scene.materials.resize(1);
+                    scene.materials[0].metallic = 1.0f;
+                    scene.materials[0].roughness = roughness;
+                    if (textured) {
+                        const std::vector<std::uint8_t> white(16, 255);
+                        scene.textures.push_back(*shading::Texture::from_rgba8(white, 2, 2, shading::ColorSpace::linear));
+                        scene.materials[0].metallic_roughness_texture.texture = 0;
+                    }
+                    scene.meshes = {make_plane(100, 1)};
+                    scene.meshes[0].material = 0;
+                    scene.instances = {{0, {}}};
+                    scene.lights.resize(1);
+                    scene.lights[0].direction_ws = {1, -angle, 0};
+                    scene.lights[0].color_linear = {11, 11, 11};
+                    const Camera camera = halflit::test::camera_at({40, 40 * angle, 0}, {0, 0, 0}, 6 * angle, 0.01f);
+                    INFO("angle " << angle << ", roughness " << roughness << ", budget " << budget << ", textured " << textured);
+                    seen += check_bound(scene, camera, budget) > 1e-4f;
+                }
+    CHECK(seen > 20);
+}
+
+TEST_CASE("error budget: lamps next to surfaces far from the origin keep to the bound", "[raster][budget]") {
+    halflit::test::Random random(1);
+    for (int round = 0; round < 150; ++round) {
+        const auto origin = static_cast<float>(std::pow(10.0, random.real(4, 6.5)));
+        const float step = origin * 1.2e-7f, height = step * random.real32(0.5, 4), size = 40 * step;
+        Scene scene;
+        scene.materials.resize(1);
+        scene.materials[0].metallic = 0.0f;
+        Mesh mesh;
+        for (int k = 0; k < 3; ++k)
+            mesh.positions.push_back(
+                {origin + random.real32(-1, 1) * size, random.real32(-0.1, 0.1) * size, origin + random.real32(-1, 1) * size});
+        mesh.normals.assign(3, {0, 1, 0});
+        mesh.indices = {0, 1, 2};
+        mesh.material = 0;
+        scene.meshes = {mesh};
+        scene.materials[0].double_sided = true;
+        scene.instances = {{0, {}}};
+        const Vec3f middle = (mesh.positions[0] + mesh.positions[1] + mesh.positions[2]) * (1.0f / 3.0f);
+        scene.lights.resize(1);
+        scene.lights[0].type = shading::LightType::point;
+        scene.lights[0].position_ws = middle + Vec3f{0, height, 0};
+        scene.lights[0].color_linear = Vec3f{1, 1, 1} * (height * height * random.real32(0.05, 0.3));
+        const Camera camera = halflit::test::camera_at(middle + Vec3f{0, 3 * size, step}, middle, 0.8f, 0.01f * size);
+        INFO("round " << round << ", origin " << origin << ", height " << height);
+        check_bound(scene, camera, random.real(0.1, 2));
+    }
+}
