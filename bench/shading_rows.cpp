@@ -123,8 +123,8 @@ shading::ShadingPlan plan(const shading::Material& material, const std::vector<s
     shading::PlanOptions options;
     options.specular = specular ? SpecularModel::blinn : SpecularModel::none;
     options.environment_order.fixed = order;
-    shading::ShadingPlan frame =
-        plan_shading({{&material, 1}, textures, slots, lights, {}, options, order > 0 ? shading::borrowed(some_environment()) : nullptr});
+    shading::ShadingPlan frame = plan_shading(
+        {{&material, 1}, textures, slots, plan_lights(lights), {}, options, order > 0 ? shading::borrowed(some_environment()) : nullptr});
     frame.eye_ws = {0.2f, 0.3f, 6.0f};
     return frame;
 }

@@ -50,8 +50,7 @@ shading::SceneFacts scene_facts(const PreparedScene& scene, std::span<const Ligh
     facts.vertex_color = scene.largest_color();
     if (memory.geometry_revision != scene.revision().geometry) memory.light_distances.clear();
     memory.geometry_revision = scene.revision().geometry;
-    constexpr std::size_t kMostDistances = 4096;  // limits the memory for lights that move every frame
-    if (memory.light_distances.size() > kMostDistances) memory.light_distances.clear();
+    std::map<std::array<double, 3>, double> distances;  // of this plan alone: lights that move all the time must not fill the memory
     const double position_error = kPositionError * largest_coordinate(scene.bounds());
     for (const LightPlan& light : lights) {
         if (light.type == shading::LightType::directional) {
@@ -60,13 +59,17 @@ shading::SceneFacts scene_facts(const PreparedScene& scene, std::span<const Ligh
             continue;
         }
         const Vec3d position{light.position[0], light.position[1], light.position[2]};
-        const auto [known, is_new] = memory.light_distances.try_emplace({position.x, position.y, position.z});
-        if (is_new) known->second = nearest_surface_squared(scene, position);
+        const auto [known, is_new] = distances.try_emplace({position.x, position.y, position.z});
+        if (is_new) {
+            const auto before = memory.light_distances.find(known->first);
+            known->second = before != memory.light_distances.end() ? before->second : nearest_surface_squared(scene, position);
+        }
         // Interpolated positions are off by roundings of the coordinates, so a fragment may lie nearer than its triangle.
         const double nearest = std::max(0.0, 0.9995 * __builtin_sqrt(known->second) - position_error);
         facts.light_attenuation.push_back(1.0 / std::max(nearest * nearest, static_cast<double>(light.min_distance_squared)));
         facts.light_farthest_squared.push_back(1.001 * farthest_surface_squared(scene, position));
     }
+    memory.light_distances = std::move(distances);
     return facts;
 }
 
@@ -139,7 +142,7 @@ Result<FramePlan> make_plan(const PreparedScene& prepared, const Camera& camera,
         {.materials = scene.materials,
          .textures = scene.textures,
          .available_slots = prepared.available_slots(),
-         .lights = scene.lights,
+         .lights = lights,
          .ambient = scene.ambient,
          .options = options,
          .environment = scene.environment,

@@ -21,12 +21,14 @@ inline double log2_of(double x) {
     return exponent + 2.8853900817779268 * (s * sum);  // 2 / ln 2
 }
 
+inline constexpr double kLn2 = 0.69314718055994531;
+
 /// 2^y for y in [-1000, 1000], relative error below 1e-15. Smaller y give 0, larger ones 2^1000.
 inline double exp2_of(double y) {
     if (!(y >= -1000.0)) return 0.0;
     if (y > 1000.0) y = 1000.0;
     const auto k = static_cast<int>(y + (y < 0 ? -0.5 : 0.5));
-    const double r = (y - k) * 0.69314718055994531;  // |r| <= 0.35: the first dropped term is below 1e-19
+    const double r = (y - k) * kLn2;  // |r| <= 0.35: the first dropped term is below 1e-19
     double sum = 1.0;
     for (int i = 15; i >= 1; --i) sum = 1.0 + sum * r / i;
     return sum * std::bit_cast<double>(static_cast<std::uint64_t>(k + 1023) << 52);

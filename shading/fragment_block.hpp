@@ -30,8 +30,9 @@ inline constexpr int kSlotCount = 5;
 
 /// A set of attribute slots; bit s for slot s.
 using SlotMask = std::uint32_t;
-inline constexpr SlotMask kPositionSlots = 1u | 2u;  ///< position, normal and the first texture coordinates, which every mesh has
-inline constexpr SlotMask kUv0Slot = 2u, kTangentSlot = 4u, kColorSlot = 8u, kUv1Slot = 16u;
+inline constexpr SlotMask kPositionSlot = 1u, kUv0Slot = 2u, kTangentSlot = 4u, kColorSlot = 8u, kUv1Slot = 16u;
+inline constexpr SlotMask kBaseSlots =
+    kPositionSlot | kUv0Slot;  ///< position, normal and the first texture coordinates, which every mesh has
 
 struct alignas(64) FragmentBlock {
     float lane[kInputRows][kBlockSize];

@@ -93,7 +93,7 @@ ShadingPlan plan_shading(const PlanInputs& inputs, PlanMemory& memory) {
     HALFLIT_ASSERT(inputs.available_slots.size() == inputs.materials.size() + 1);
     const PlanOptions& options = inputs.options;
     ShadingPlan plan;
-    plan.lights = plan_lights(inputs.lights);
+    plan.lights = inputs.lights;
     plan.ambient = inputs.ambient;
     plan.specular = options.specular;
     plan.normalize_specular = options.normalize_specular;

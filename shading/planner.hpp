@@ -1,5 +1,5 @@
 // The planner: makes a ShadingPlan, with all data that the kernels read, from the user's data, the viewer and the shadow maps. It also
-// spends an error budget. Nothing else makes plans.
+// spends an error budget. Only the alpha tests of shadow maps are planned elsewhere (raster/frame_plan.cpp).
 #pragma once
 
 #include "shading/budget/error_budget.hpp"
@@ -44,7 +44,7 @@ struct PlanInputs {
     /// Attribute slots that the meshes of each material have: materials.size() + 1 entries, the last for "no material". The plan leaves out
     /// texture coordinates, colours and tangents that the meshes lack.
     std::span<const SlotMask> available_slots;
-    std::span<const Light> lights;
+    std::vector<LightPlan> lights;  ///< of plan_lights()
     Ambient ambient;
     PlanOptions options;
     std::shared_ptr<const Environment> environment = nullptr;

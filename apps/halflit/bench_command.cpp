@@ -55,9 +55,9 @@ Result<Measured> measure(const RenderJob& job, int frames, bool keep, raster::Im
 std::string table(const Json& report) {
     std::string text = fmt::format("{} frames of {}x{}, {}, {} threads\n", report["frames"].get<int>(), report["size"][0].get<int>(),
                                    report["size"][1].get<int>(), report["isa"].get<std::string>(), report["threads"].get<int>());
-    text +=
-        fmt::format("  min     {:10.3f} ms\n  median  {:10.3f} ms\n", report["min_ms"].get<double>(), report["median_ms"].get<double>());
+    text += fmt::format("  min     {:10.3f} ms, of which\n", report["min_ms"].get<double>());
     for (const auto& [stage, ms] : report["stages"].items()) text += fmt::format("    {:<10}{:6.3f} ms\n", stage, ms.get<double>());
+    text += fmt::format("  median  {:10.3f} ms\n", report["median_ms"].get<double>());
     text += fmt::format("  load    {:10.3f} ms\n  prepare {:10.3f} ms\n  encode  {:10.3f} ms (PNG)\n", report["load_ms"].get<double>(),
                         report["prepare_ms"].get<double>(), report["encode_ms"].get<double>());
     return text;

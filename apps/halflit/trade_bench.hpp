@@ -6,7 +6,6 @@
 #include "apps/halflit/trade_grid.hpp"
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>

@@ -5,7 +5,6 @@
 #include "raster/framebuffer.hpp"
 
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace halflit::cli {

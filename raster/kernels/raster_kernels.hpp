@@ -5,6 +5,7 @@
 // centre of pixel (i, j) is (256 i, 256 j).
 #pragma once
 
+#include "sh/config.hpp"
 #include "shading/fragment_block.hpp"
 #include "shading/isa.hpp"
 
@@ -38,6 +39,10 @@ struct Viewport {
     float guard_x = 0, guard_y = 0;  ///< |clip x| <= guard_x * w stays inside the guard band
     friend bool operator==(const Viewport&, const Viewport&) = default;
 };
+
+/// Top-left rule: true if pixel centres on the edge a x + b y + c = 0 of a triangle with a x + b y + c > 0 inside belong to it. y points
+/// down.
+HALFLIT_INLINE constexpr bool is_top_left(std::int32_t a, std::int32_t b) { return a > 0 || (a == 0 && b > 0); }
 
 /// Half the width of the guard band around the middle of the picture, in pixels. Edge coefficients of triangles inside it
 /// are below 2^23, so an edge function inside a tile of 64 plus a vector's overhang stays below 2^31:

@@ -22,7 +22,7 @@ HALFLIT_INLINE Edge make_edge(const ScreenVertex& from, const ScreenVertex& to) 
     Edge e;
     e.a = from.y - to.y;
     e.b = to.x - from.x;
-    const bool top_left = e.a > 0 || (e.a == 0 && e.b > 0);
+    const bool top_left = is_top_left(e.a, e.b);
     e.c = -(static_cast<std::int64_t>(e.a) * from.x + static_cast<std::int64_t>(e.b) * from.y) - (top_left ? 0 : 1);
     return e;
 }
@@ -234,7 +234,7 @@ inline constexpr int kSmallTriangle = 64 * 256;
 /// Edge functions at pixel (x0, y0) of a small triangle.
 HALFLIT_INLINE void small_edges(const Edge* edges, const ScreenVertex* const* from, std::int32_t x, std::int32_t y, BoxEdge* out) {
     for (int k = 0; k < 3; ++k) {
-        const bool top_left = edges[k].a > 0 || (edges[k].a == 0 && edges[k].b > 0);
+        const bool top_left = is_top_left(edges[k].a, edges[k].b);
         out[k] = {(edges[k].a * (x - from[k]->x) + edges[k].b * (y - from[k]->y) - (top_left ? 0 : 1)) >> 8, edges[k].a, edges[k].b};
     }
 }

@@ -76,7 +76,7 @@ inline void vertex_records(const VertexRecordArgs& args) {
     for (std::int64_t v = args.begin; v < args.end; ++v) {
         float* out = args.records + v * args.stride;
         // The position is stored as four floats. The normal's x then replaces the fourth.
-        if (args.slots & 1u) {
+        if (args.slots & shading::kPositionSlot) {
             const float* p = args.positions + 3 * v;
             q_store(out, q_add(q_mad(w2, q_set(p[2]), q_mad(w1, q_set(p[1]), q_mul(w0, q_set(p[0])))), w3));
         }
@@ -85,18 +85,18 @@ inline void vertex_records(const VertexRecordArgs& args) {
             const float* p = args.normals + 3 * v;
             q_store(normal, q_mad(n2, q_set(p[2]), q_mad(n1, q_set(p[1]), q_mul(n0, q_set(p[0])))));
         }
-        if (args.slots & 1u) {
+        if (args.slots & shading::kPositionSlot) {
             out[3] = normal[0];
             out += 4;
         }
-        if (args.slots & 2u) {
+        if (args.slots & shading::kUv0Slot) {
             out[0] = normal[1];
             out[1] = normal[2];
             out[2] = args.uv0 ? args.uv0[2 * v] : 0.0f;
             out[3] = args.uv0 ? args.uv0[2 * v + 1] : 0.0f;
             out += 4;
         }
-        if (args.slots & 4u) {
+        if (args.slots & shading::kTangentSlot) {
             if (args.tangents) {
                 const float* t = args.tangents + 4 * v;
                 q_store(out, q_mad(w2, q_set(t[2]), q_mad(w1, q_set(t[1]), q_mul(w0, q_set(t[0])))));
@@ -107,11 +107,11 @@ inline void vertex_records(const VertexRecordArgs& args) {
             }
             out += 4;
         }
-        if (args.slots & 8u) {
+        if (args.slots & shading::kColorSlot) {
             q_store(out, args.colors ? q_load(args.colors + 4 * v) : q_set(1.0f));
             out += 4;
         }
-        if (args.slots & 16u) {
+        if (args.slots & shading::kUv1Slot) {
             out[0] = args.uv1 ? args.uv1[2 * v] : 0.0f;
             out[1] = args.uv1 ? args.uv1[2 * v + 1] : 0.0f;
             out[2] = out[3] = 0.0f;

@@ -156,7 +156,7 @@ private:
         const auto inside = [x, y](const ScreenVertex& p, const ScreenVertex& q) {
             const std::int32_t ea = p.y - q.y, eb = q.x - p.x;
             const std::int64_t e = static_cast<std::int64_t>(ea) * (x - p.x) + static_cast<std::int64_t>(eb) * (y - p.y);
-            return e > 0 || (e == 0 && (ea > 0 || (ea == 0 && eb > 0)));
+            return e > 0 || (e == 0 && is_top_left(ea, eb));
         };
         return inside(a, b) && inside(b, c) && inside(c, a);
     }

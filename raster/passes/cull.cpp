@@ -57,9 +57,8 @@ private:
     }
 
     void keep(const Draw& draw, std::uint32_t number, std::size_t cluster) {
-        const auto first = static_cast<std::uint32_t>(cluster * kClusterTriangles);
-        const Mesh& mesh = scene_.scene().meshes[static_cast<std::size_t>(draw.mesh)];
-        const auto end = static_cast<std::uint32_t>(std::min<std::size_t>(first + std::size_t{kClusterTriangles}, mesh.indices.size() / 3));
+        const IndexRange indices = indices_of_cluster(scene_.scene().meshes[static_cast<std::size_t>(draw.mesh)], cluster);
+        const auto first = static_cast<std::uint32_t>(indices.begin / 3), end = static_cast<std::uint32_t>(indices.end / 3);
         if (!chunk_.runs.empty() && chunk_.runs.back().draw == number && chunk_.runs.back().end == first)
             chunk_.runs.back().end = end;
         else

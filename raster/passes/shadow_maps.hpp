@@ -19,7 +19,7 @@ private:
     /// Inputs of the maps that are in the texels.
     struct Drawn {
         std::size_t capacity = 0;  ///< size of the texels' memory; growing it drops the maps
-        std::uint64_t geometry_revision = 0, materials_revision = 0;
+        std::uint64_t geometry_revision = 0, coverage_revision = 0;
         shading::TextureDetail caster_detail = shading::TextureDetail::full;
         std::vector<ShadowView> views;
     };

@@ -8,8 +8,8 @@ namespace halflit::raster {
 
 Result<void> ViewGeometry::make(const PreparedScene& scene, const View& view, const RasterKernels& kernels, Executor& executor,
                                 SubmissionNumbers* numbers) {
-    // Materials decide which faces are drawn, and how. Lights change nothing here.
-    const SceneRevision revision{scene.revision().geometry, scene.revision().materials, 0};
+    // Colours and lights change nothing here.
+    const SceneRevision revision{scene.revision().geometry, 0, 0, scene.revision().coverage};
     times_ms_ = {};
     if (revision == revision_ && view == view_ && numbers == nullptr) {
         scene_ = &scene;

@@ -1,5 +1,6 @@
 #include "raster/scene/exposure.hpp"
 
+#include "sh/equirect.hpp"
 #include "sh/power.hpp"
 
 #include <algorithm>
@@ -37,7 +38,7 @@ Vec3f light_level(const Scene& scene, const Bounds& bounds) {
 }
 
 float auto_exposure(const Scene& scene, const Bounds& bounds) {
-    const double luminance = dot(level(scene, bounds), Vec3d{0.2126, 0.7152, 0.0722});  // Rec. 709
+    const double luminance = sh::luminance(level(scene, bounds));
     // Beyond these limits the factor or its product with the light would leave the range of float.
     if (!(luminance > 1e-18 && luminance < 1e18)) return 1.0f;
     return static_cast<float>(1.0 / luminance);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 
 namespace halflit::raster {
 namespace {
@@ -84,7 +83,10 @@ void set_cone(const Shapes& shapes, std::uint32_t count, Cluster& cluster) {
 /// Builds a run of consecutive clusters; one per task.
 class ClusterRun {
 public:
-    explicit ClusterRun(const Mesh& mesh) : mesh_(mesh), stamp_((mesh.positions.size() + kVertexGroup - 1) / kVertexGroup, 0) {}
+    /// stamp: 0 at first, then shared by runs of the same mesh that follow each other.
+    ClusterRun(const Mesh& mesh, std::vector<std::uint32_t>& stamp) : mesh_(mesh), stamp_(stamp) {
+        stamp_.resize((mesh.positions.size() + kVertexGroup - 1) / kVertexGroup, 0);
+    }
 
     /// Returns false if an index is out of range. Cluster::first_group counts from the run's first group.
     bool build(std::size_t begin, std::size_t end, Cluster* clusters) {
@@ -96,9 +98,9 @@ public:
 
 private:
     bool build(std::size_t number, Cluster& cluster) {
-        const std::size_t first = number * kClusterTriangles;
-        const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(kClusterTriangles, mesh_.indices.size() / 3 - first));
-        const std::uint32_t* index = mesh_.indices.data() + 3 * first;
+        const auto [first, last] = indices_of_cluster(mesh_, number);
+        const auto count = static_cast<std::uint32_t>((last - first) / 3);
+        const std::uint32_t* index = mesh_.indices.data() + first;
         std::uint32_t largest = 0;
         for (std::uint32_t i = 0; i < 3 * count; ++i) largest = std::max(largest, index[i]);
         if (largest >= mesh_.positions.size()) return false;
@@ -127,7 +129,7 @@ private:
     }
 
     const Mesh& mesh_;
-    std::vector<std::uint32_t> stamp_;  // per group: 1 + number of the last cluster that reads it
+    std::vector<std::uint32_t>& stamp_;  // per group: 1 + number of the last cluster that reads it
     std::vector<std::uint32_t> groups_;
     Corners corners_;
     Shapes shapes_;
@@ -152,6 +154,16 @@ const char* what_is_wrong(const Mesh& mesh) {
         !fits(mesh.colors.size()))
         return "an attribute array is not as long as the positions";
     return nullptr;
+}
+
+double box_distance_squared(const double (&low)[3], const double (&high)[3], Vec3d p) {
+    const double at[3] = {p.x, p.y, p.z};
+    double sum = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double d = larger(0.0, larger(low[axis] - at[axis], at[axis] - high[axis]));
+        sum += d * d;
+    }
+    return sum;
 }
 
 /// False if nothing in the box can extend the bounds.
@@ -179,21 +191,16 @@ PlacedBox::PlacedBox(const float (&min)[3], const float (&max)[3], const Mat4& m
     }
 }
 
-double PlacedBox::distance_squared(Vec3d p) const {
-    const double at[3] = {p.x, p.y, p.z};
-    double sum = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double d = larger(0.0, larger(low[axis] - at[axis], at[axis] - high[axis]));
-        sum += d * d;
-    }
-    return sum;
+double PlacedBox::distance_squared(Vec3d p) const { return box_distance_squared(low, high, p); }
+
+double distance_squared(const Bounds& box, Vec3d p) {
+    return box_distance_squared({box.min.x, box.min.y, box.min.z}, {box.max.x, box.max.y, box.max.z}, p);
 }
 
 Bounds placed_bounds(const Mesh& mesh, const PreparedMesh& prepared, const Mat4& world_from_object) {
     Bounds bounds;
     const auto look_into = [&](std::size_t cluster) {
-        const std::size_t begin = 3 * cluster * kClusterTriangles,
-                          end = std::min(begin + std::size_t{3} * kClusterTriangles, mesh.indices.size());
+        const auto [begin, end] = indices_of_cluster(mesh, cluster);
         for (std::size_t i = begin; i < end; ++i) bounds.add(transform_point(world_from_object, mesh.positions[mesh.indices[i]]));
     };
     const std::size_t count = prepared.cluster_count();
@@ -231,10 +238,12 @@ Result<PreparedMesh> prepare_mesh(const Mesh& mesh, Executor& executor) {
     prepared.clusters.resize(count + 1);
     const std::size_t tasks = (count + kClustersPerTask - 1) / kClustersPerTask;
     std::vector<std::vector<std::uint32_t>> groups(tasks);
+    Pool<std::vector<std::uint32_t>> stamps;
     std::atomic<bool> out_of_range{false};
     executor.run(static_cast<int>(tasks), [&](int task) {
         const std::size_t begin = static_cast<std::size_t>(task) * kClustersPerTask;
-        ClusterRun run(mesh);
+        Pool<std::vector<std::uint32_t>>::Loan stamp(stamps);
+        ClusterRun run(mesh, *stamp);
         if (!run.build(begin, std::min(begin + kClustersPerTask, count), prepared.clusters.data())) out_of_range = true;
         groups[static_cast<std::size_t>(task)] = run.groups();
     });

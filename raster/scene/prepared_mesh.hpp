@@ -5,9 +5,9 @@
 #include "raster/scene/mesh.hpp"
 #include "shading/result.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace halflit::raster {
@@ -52,8 +52,17 @@ struct PreparedMesh {
     }
 };
 
+/// Entries [begin, end) of Mesh::indices.
+struct IndexRange {
+    std::size_t begin, end;
+};
+[[nodiscard]] inline IndexRange indices_of_cluster(const Mesh& mesh, std::size_t cluster) {
+    const std::size_t begin = 3 * cluster * kClusterTriangles;
+    return {begin, std::min(begin + std::size_t{3} * kClusterTriangles, mesh.indices.size())};
+}
+
 /// Checks a mesh and cuts it into clusters. Fails for an index out of range and for arrays of different lengths.
-Result<PreparedMesh> prepare_mesh(const Mesh& mesh, Executor& executor);
+[[nodiscard]] Result<PreparedMesh> prepare_mesh(const Mesh& mesh, Executor& executor);
 
 /// World-space box around a transformed box, in double. A margin covers float32's rounding of the points inside.
 struct PlacedBox {
@@ -62,6 +71,9 @@ struct PlacedBox {
     /// Squared distance from a point; 0 inside.
     [[nodiscard]] double distance_squared(Vec3d p) const;
 };
+
+/// Squared distance from a point to a box that is not empty; 0 inside.
+[[nodiscard]] double distance_squared(const Bounds& box, Vec3d p);
 
 /// World-space box of the finite vertices that some triangle uses, each transformed in float32 as the renderer does it. Reads only the
 /// vertices of clusters that may extend the box.

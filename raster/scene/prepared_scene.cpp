@@ -17,7 +17,7 @@ std::uint64_t next_revision() {
 }
 
 shading::SlotMask slots_of(const Mesh& mesh) {
-    shading::SlotMask slots = shading::kPositionSlots;
+    shading::SlotMask slots = shading::kBaseSlots;
     if (!mesh.tangents.empty()) slots |= shading::kTangentSlot;
     if (!mesh.colors.empty()) slots |= shading::kColorSlot;
     if (!mesh.uv1.empty()) slots |= shading::kUv1Slot;
@@ -90,10 +90,22 @@ Result<void> PreparedScene::check_materials() const {
     return {};
 }
 
+bool PreparedScene::note_coverage() {
+    std::vector<std::pair<shading::AlphaMode, bool>> coverage;
+    bool masks = false;  // they cover what their textures say, which are not compared
+    for (const shading::Material& material : scene_->materials) {
+        coverage.emplace_back(material.alpha_mode, material.double_sided);
+        masks |= material.alpha_mode == shading::AlphaMode::mask;
+    }
+    const bool same = coverage == coverage_ && !masks;
+    coverage_ = std::move(coverage);
+    return !same;
+}
+
 void PreparedScene::collect() {
     bounds_ = {};
     triangle_count_ = 0;
-    available_slots_.assign(scene_->materials.size() + 1, shading::kPositionSlots);
+    available_slots_.assign(scene_->materials.size() + 1, shading::kBaseSlots);
     drawn_materials_.assign(scene_->materials.size() + 1, false);
     object_radii_.assign(scene_->materials.size() + 1, 0.0);
     largest_uv_ = 0;
@@ -133,7 +145,8 @@ Result<PreparedScene> PreparedScene::make(const Scene& scene, const Workers& wor
             for (std::size_t i = begin; i < std::min(begin + kInstancesPerTask, scene.instances.size()); ++i) prepared.place(i);
         });
         prepared.collect();
-        prepared.revision_ = {next_revision(), next_revision(), next_revision()};
+        prepared.note_coverage();
+        prepared.revision_ = {next_revision(), next_revision(), next_revision(), next_revision()};
         return prepared;
     });
 }
@@ -148,7 +161,7 @@ Result<void> PreparedScene::update(const SceneChanges& changes, const Workers& w
         pending_ = {};
         up_to_date_ = true;
     } else {
-        revision_ = {next_revision(), next_revision(), next_revision()};  // nothing made before is used again
+        revision_ = {next_revision(), next_revision(), next_revision(), next_revision()};  // nothing made before is used again
     }
     return result;
 }
@@ -197,7 +210,10 @@ Result<void> PreparedScene::apply_pending(const Workers& workers) {
         collect();
         revision_.geometry = next_revision();
     }
-    if (deformed || pending_.materials) revision_.materials = next_revision();
+    if (deformed || pending_.materials) {
+        revision_.materials = next_revision();
+        if (note_coverage()) revision_.coverage = next_revision();
+    }
     if (pending_.lights) revision_.lights = next_revision();
     return {};
 }

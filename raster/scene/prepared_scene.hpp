@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace halflit::raster {
@@ -25,6 +26,7 @@ struct SceneChanges {
 /// Revision numbers. They grow with every change and differ between scenes: results made from a scene are valid while they are equal.
 struct SceneRevision {
     std::uint64_t geometry = 0, materials = 0, lights = 0;
+    std::uint64_t coverage = 0;  ///< changes with the materials' sides, alpha modes and masks, but not with their colours
     friend bool operator==(const SceneRevision&, const SceneRevision&) = default;
 };
 
@@ -75,6 +77,7 @@ private:
     Result<void> prepare_meshes(std::span<const std::size_t> which, Executor& executor);
     Result<void> check_instance(std::size_t index) const;
     Result<void> check_materials() const;
+    bool note_coverage();                            ///< returns true if it may differ from the last call's
     void place(std::size_t instance);                ///< finds its box
     Result<void> note(const SceneChanges& changes);  ///< adds them to pending_
     Result<void> apply_pending(const Workers& workers);
@@ -92,6 +95,7 @@ private:
     std::vector<double> object_radii_;
     std::vector<shading::SlotMask> available_slots_;
     std::vector<bool> drawn_materials_;
+    std::vector<std::pair<shading::AlphaMode, bool>> coverage_;  ///< of each material: alpha mode, and whether both sides are drawn
     shading::Material no_material_;
 };
 

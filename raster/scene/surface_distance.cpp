@@ -43,16 +43,6 @@ double corners_distance(Vec3d a, Vec3d b, Vec3d c) {
     return squared({beyond(a.x, b.x, c.x), beyond(a.y, b.y, c.y), beyond(a.z, b.z, c.z)});
 }
 
-double box_distance(const Bounds& box, Vec3d p) {
-    const double low[3] = {box.min.x, box.min.y, box.min.z}, high[3] = {box.max.x, box.max.y, box.max.z}, at[3] = {p.x, p.y, p.z};
-    double sum = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double d = larger(0.0, larger(low[axis] - at[axis], at[axis] - high[axis]));
-        sum += d * d;
-    }
-    return sum;
-}
-
 /// Boxes by their distance, the nearest on top.
 using BoxHeap = std::vector<std::pair<double, std::size_t>>;
 
@@ -79,7 +69,7 @@ public:
         const auto bounds = scene_.instance_bounds();
         BoxHeap heap;
         visit_nearest_first(
-            bounds.size(), nearest_, heap, [&](std::size_t i) { return bounds[i].empty ? kFar : box_distance(bounds[i], point_); },
+            bounds.size(), nearest_, heap, [&](std::size_t i) { return bounds[i].empty ? kFar : distance_squared(bounds[i], point_); },
             [&](std::size_t i) { look_into(scene_.scene().instances[i]); });
         return nearest_;
     }
@@ -109,8 +99,7 @@ private:
     }
 
     void look_into(const Mesh& mesh, std::size_t cluster, const Mat4& m) {
-        const std::size_t begin = 3 * cluster * kClusterTriangles,
-                          end = std::min(begin + std::size_t{3} * kClusterTriangles, mesh.indices.size());
+        const auto [begin, end] = indices_of_cluster(mesh, cluster);
         const auto vertex = [&](std::uint32_t index) {
             const Vec3f p = transform_point(m, mesh.positions[index]);  // in float32, as it is drawn
             return Vec3d{p.x - point_.x, p.y - point_.y, p.z - point_.z};

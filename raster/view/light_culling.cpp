@@ -63,6 +63,7 @@ bool zero_in(const LightPlan& light, const double (&low)[3], const double (&high
 }  // namespace
 
 LightCuller::LightCuller(std::span<const LightPlan> lights) {
+    light_count_ = lights.size();
     double low[3] = {1e300, 1e300, 1e300}, high[3] = {-1e300, -1e300, -1e300};
     for (std::uint32_t i = 0; i < lights.size(); ++i) {
         const LightPlan& light = lights[i];
@@ -99,6 +100,7 @@ LightCuller::LightCuller(std::span<const LightPlan> lights) {
 
 shading::LightList LightCuller::select(std::span<const LightPlan> lights, const shading::FragmentBlock& block, int count,
                                        LightSelection& scratch) const {
+    HALFLIT_ASSERT(lights.size() == light_count_);
     const shading::LightList all{lights.data(), static_cast<int>(lights.size())};
     if (ranged_.empty() && !any_spot_) return all;
     double low[3], high[3];

@@ -37,6 +37,7 @@ private:
         std::size_t first, end;
     };
 
+    std::size_t light_count_ = 0;
     std::vector<std::uint32_t> ranged_;  ///< lights with a range or cutoff radius, in groups
     std::vector<Group> groups_;
     std::vector<std::uint32_t> always_;  ///< all other lights, in list order

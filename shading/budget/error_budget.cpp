@@ -145,7 +145,7 @@ double lobe_tier_codes(const LobePlan& lobe, PowTier tier) {
     if (lobe.path != LobePath::general || lobe.power_minus_one >= kSharpPowerMinusOne || tier == PowTier::exact) return 0.0;
     const PowErrors errors = pow_errors(tier);
     const double a = std::fabs(static_cast<double>(lobe.power_minus_one));
-    return codes_of_relative(0.5 * 0.69314718055994531 * a * errors.log2 + errors.exp2 + 4e-6);
+    return codes_of_relative(0.5 * kLn2 * a * errors.log2 + errors.exp2 + 4e-6);
 }
 
 double specular_tier_codes(const Surface& s, const Arriving& light, PowTier tier) {

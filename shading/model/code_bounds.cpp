@@ -5,7 +5,6 @@
 namespace halflit::shading {
 namespace {
 
-constexpr double kLn2 = 0.69314718055994531;
 /// S at white: 255 * 1.055 / 2.4.
 constexpr double kSensitivity = 112.1;
 

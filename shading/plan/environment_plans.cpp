@@ -118,6 +118,7 @@ EnvironmentPlan plan_environment(const Environment& environment, const sh::WrapL
 }
 
 void EnvironmentPlans::use(std::shared_ptr<const Environment> environment) {
+    ++frame_;
     const std::uint64_t id = environment != nullptr ? environment->id : 0;
     if (environment == environment_ && id == id_) return;
     id_ = id;
@@ -126,11 +127,14 @@ void EnvironmentPlans::use(std::shared_ptr<const Environment> environment) {
 }
 
 EnvironmentPlan EnvironmentPlans::plan(const sh::WrapLobe& lobe, const EnvironmentOrder& order) {
-    constexpr std::size_t kMostEntries = 256;  // a scene whose lobes change all the time must not fill the memory
-    for (const Entry& entry : entries_)
-        if (entry.lobe == lobe && entry.order == order) return entry.plan;
-    if (entries_.size() == kMostEntries) entries_.clear();
-    return entries_.emplace_back(Entry{lobe, order, plan_environment(*environment_, lobe, order)}).plan;
+    constexpr std::size_t kMostEntries = 256;  // from here on only those of this frame and the last one are kept
+    for (Entry& entry : entries_)
+        if (entry.lobe == lobe && entry.order == order) {
+            entry.last_frame = frame_;
+            return entry.plan;
+        }
+    if (entries_.size() >= kMostEntries) std::erase_if(entries_, [&](const Entry& e) { return e.last_frame + 1 < frame_; });
+    return entries_.emplace_back(Entry{lobe, order, plan_environment(*environment_, lobe, order), frame_}).plan;
 }
 
 }  // namespace halflit::shading

@@ -16,10 +16,7 @@ namespace halflit::shading {
 /// The plans of one environment, kept from frame to frame: searching its bands for their largest error takes milliseconds.
 class EnvironmentPlans {
 public:
-    EnvironmentPlans() = default;
-    /// The environment must outlive this object.
-    explicit EnvironmentPlans(const Environment& environment) : environment_(std::shared_ptr<void>(), &environment) {}
-    /// Sets the environment of the plans that follow. Plans of another environment are dropped.
+    /// Begins a frame: sets the environment of the plans that follow. Plans of another environment are dropped.
     void use(std::shared_ptr<const Environment> environment);
     [[nodiscard]] EnvironmentPlan plan(const sh::WrapLobe& lobe, const EnvironmentOrder& order);
 
@@ -28,9 +25,11 @@ private:
         sh::WrapLobe lobe;
         EnvironmentOrder order;
         EnvironmentPlan plan;
+        std::uint64_t last_frame;  ///< that asked for it
     };
     std::shared_ptr<const Environment> environment_;
     std::uint64_t id_ = 0;  ///< Environment::id; another environment may later have the same address
+    std::uint64_t frame_ = 0;
     std::vector<Entry> entries_;
 };
 

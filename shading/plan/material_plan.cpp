@@ -19,7 +19,7 @@ PowTier tier_of(Accuracy accuracy) {
 }
 
 SlotMask slots_of(const MaterialPlan& plan, bool lit) {
-    SlotMask slots = lit ? kPositionSlots : 0u;
+    SlotMask slots = lit ? kBaseSlots : 0u;
     if ((plan.stages & kStageNormalMap) != 0) slots |= kTangentSlot;
     if ((plan.stages & kStageVertexColor) != 0) slots |= kColorSlot;
     const auto add = [&](Stage stage, const TexturePlan& texture) {

@@ -5,7 +5,6 @@
 #include "shading/lobe.hpp"
 #include "shading/reference/reference.hpp"
 
-#include <array>
 #include <vector>
 
 namespace halflit::shading::reference {

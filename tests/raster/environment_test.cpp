@@ -210,7 +210,8 @@ TEST_CASE("environment: a scene that turns with its environment keeps its light,
             options.environment_order.fixed = order;
             const auto shaded = [&](const shading::Environment& environment, const sh::Rotation& by, std::size_t material,
                                     shading::Isa isa) {
-                auto plan = shading::plan_shading({materials, {}, slots, environment.suns, {}, options, shading::borrowed(environment)});
+                auto plan = shading::plan_shading(
+                    {materials, {}, slots, shading::plan_lights(environment.suns), {}, options, shading::borrowed(environment)});
                 const auto narrow = [](Vec3d v) {
                     return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
                 };
@@ -296,8 +297,8 @@ TEST_CASE("environment: every instruction set gives the same bits at every order
     for (int order = 1; order <= sh::kMaxBands; ++order) {
         shading::PlanOptions options;
         options.environment_order.fixed = order;
-        const auto plan =
-            shading::plan_shading({{&material, 1}, {}, slots, environment->suns, {}, options, shading::borrowed(*environment)});
+        const auto plan = shading::plan_shading(
+            {{&material, 1}, {}, slots, shading::plan_lights(environment->suns), {}, options, shading::borrowed(*environment)});
         REQUIRE(plan.environments.front().bands == order);
         for (int round = 0; round < 20; ++round) {
             shading::FragmentBlock input{};

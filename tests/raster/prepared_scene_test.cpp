@@ -253,3 +253,31 @@ TEST_CASE("prepared scene: no revision is used twice", "[raster][prepared]") {
         CHECK(numbers->front() > 0);  // 0 stands for no scene
     }
 }
+
+TEST_CASE("prepared scene: a material's colour leaves coverage as it was, its sides, alpha mode and mask do not", "[raster][prepared]") {
+    Scene scene;
+    scene.materials.resize(2);
+    scene.meshes = {make_box({1, 1, 1})};
+    scene.meshes[0].material = 0;
+    scene.instances = {{0, {}}};
+    PreparedScene prepared = made(scene);
+    const auto changes_coverage = [&] {
+        const SceneRevision before = prepared.revision();
+        REQUIRE(prepared.update({.materials = true}));
+        CHECK(prepared.revision().materials != before.materials);
+        CHECK(prepared.revision().geometry == before.geometry);
+        return prepared.revision().coverage != before.coverage;
+    };
+    scene.materials[0].base_color = {1, 0, 0, 1};
+    scene.materials[0].roughness = 0.2f;
+    CHECK_FALSE(changes_coverage());
+    scene.materials[0].double_sided = true;
+    CHECK(changes_coverage());
+    scene.materials[1].alpha_mode = shading::AlphaMode::blend;
+    CHECK(changes_coverage());
+    CHECK_FALSE(changes_coverage());
+    scene.materials[1].alpha_mode = shading::AlphaMode::mask;
+    CHECK(changes_coverage());
+    scene.materials[1].alpha_cutoff = 0.7f;
+    CHECK(changes_coverage());
+}

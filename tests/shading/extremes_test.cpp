@@ -41,7 +41,7 @@ struct Shot {
 
     void make_plan() {
         const std::vector<SlotMask> available{3u, 3u};
-        plan = plan_shading({std::span(&material, 1), {}, available, std::span(&light, 1), {}, options});
+        plan = plan_shading({std::span(&material, 1), {}, available, plan_lights(std::span(&light, 1)), {}, options});
         plan.orthographic = true;
         plan.view_direction_ws = {0, 0, -1};
     }

@@ -30,7 +30,7 @@ TEST_CASE("kernels: shade agrees with the float64 reference for every kind of sc
         c.options.lobe.power = std::max(c.options.lobe.power, 1.0f);
         material.roughness = std::max(material.roughness, 0.2f);  // exponents up to 1250: above, the last bit of a normal is visible
         const ShadingPlan old = c.plan;
-        c.plan = plan_shading({c.materials, c.textures, c.available, c.lights, c.ambient, c.options});
+        c.plan = plan_shading({c.materials, c.textures, c.available, plan_lights(c.lights), c.ambient, c.options});
         c.plan.eye_ws = old.eye_ws, c.plan.view_direction_ws = old.view_direction_ws, c.plan.orthographic = old.orthographic;
         const reference::FrameInputs frame = reference_frame(c);
         const double bound =
@@ -63,7 +63,7 @@ TEST_CASE("kernels: a highlight at the sharpest roughness agrees with the refere
     material.metallic = 1.0f, material.roughness = 0.0f;
     const Light light{.direction_ws = {0, 0, -1}};
     const std::vector<SlotMask> available{3u, 3u};
-    ShadingPlan plan = plan_shading({std::span(&material, 1), {}, available, std::span(&light, 1), {}, options});
+    ShadingPlan plan = plan_shading({std::span(&material, 1), {}, available, plan_lights(std::span(&light, 1)), {}, options});
     plan.orthographic = true;
     reference::FrameInputs frame{{}, std::span(&light, 1), {}, options, {}, {0, 0, -1}, true};
     FragmentBlock block{};
@@ -91,7 +91,7 @@ TEST_CASE("kernels: Phong with a quarter of Blinn's exponent has the same peak a
     for (int i = 0; i < 2; ++i) {
         PlanOptions options;
         options.specular = i == 0 ? SpecularModel::blinn : SpecularModel::phong;
-        ShadingPlan plan = plan_shading({std::span(&material, 1), {}, available, std::span(&light, 1), {}, options});
+        ShadingPlan plan = plan_shading({std::span(&material, 1), {}, available, plan_lights(std::span(&light, 1)), {}, options});
         plan.orthographic = true;
         for (int lane = 0; lane < kBlockSize; ++lane) {
             const double angle = 0.15 * lane / kBlockSize;
@@ -115,7 +115,7 @@ TEST_CASE("kernels: no highlight where the light is behind the surface, however 
     const SpecularModel highlight = GENERATE(SpecularModel::blinn, SpecularModel::phong);
     PlanOptions options;
     options.specular = highlight;
-    ShadingPlan plan = plan_shading({std::span(&material, 1), {}, available, std::span(&light, 1), {}, options});
+    ShadingPlan plan = plan_shading({std::span(&material, 1), {}, available, plan_lights(std::span(&light, 1)), {}, options});
     plan.orthographic = true;
     plan.view_direction_ws = {-1, 0, 0};
     FragmentBlock block{};
@@ -139,7 +139,7 @@ TEST_CASE("kernels: a spot's cosine power falls off as cos(angle)^power inside t
     const std::vector<SlotMask> available{3u, 3u};
     PlanOptions options;
     options.specular = SpecularModel::none;
-    const ShadingPlan plan = plan_shading({std::span(&material, 1), {}, available, std::span(&light, 1), {}, options});
+    const ShadingPlan plan = plan_shading({std::span(&material, 1), {}, available, plan_lights(std::span(&light, 1)), {}, options});
     FragmentBlock block{};
     for (int lane = 0; lane < kBlockSize; ++lane) {
         const double angle = 1.35 * lane / kBlockSize / std::sqrt(static_cast<double>(power));

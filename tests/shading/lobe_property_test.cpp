@@ -20,7 +20,7 @@ LobePlan plan_of(const Lobe& lobe) {
     material.lobe = lobe;
     const Light light;
     const std::vector<SlotMask> available{3u, 3u};
-    return plan_shading({std::span(&material, 1), {}, available, std::span(&light, 1), {}, {}}).materials[0].lobe;
+    return plan_shading({std::span(&material, 1), {}, available, plan_lights(std::span(&light, 1)), {}, {}}).materials[0].lobe;
 }
 
 std::vector<Lobe> many_lobes() {

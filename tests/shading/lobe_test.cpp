@@ -26,7 +26,7 @@ Curve curve_of(const Lobe& lobe) {
     const std::vector<SlotMask> available{3u, 3u};
     PlanOptions options;
     options.specular = SpecularModel::none;
-    const ShadingPlan plan = plan_shading({std::span(&material, 1), {}, available, std::span(&light, 1), {}, options});
+    const ShadingPlan plan = plan_shading({std::span(&material, 1), {}, available, plan_lights(std::span(&light, 1)), {}, options});
     FragmentBlock block{};
     Curve curve{};
     for (int i = 0; i < kBlockSize; ++i) {

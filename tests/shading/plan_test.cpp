@@ -24,7 +24,7 @@ struct Scene {
     std::vector<SlotMask> available{kAll, kPlain};
     Ambient ambient;
     PlanOptions options;
-    [[nodiscard]] ShadingPlan plan() const { return plan_shading({materials, textures, available, lights, ambient, options}); }
+    [[nodiscard]] ShadingPlan plan() const { return plan_shading({materials, textures, available, plan_lights(lights), ambient, options}); }
     [[nodiscard]] MaterialPlan first() const { return plan().materials[0]; }
 };
 

@@ -162,7 +162,7 @@ inline Case make_case(FloatMaker& make, bool smooth_textures) {
     c.options.override_lobe = make.below(4) == 0;
     c.options.lobe = make_lobe(make);
     c.available = {3u | (make.below(8) << 2), 3u};
-    c.plan = plan_shading({c.materials, c.textures, c.available, c.lights, c.ambient, c.options});
+    c.plan = plan_shading({c.materials, c.textures, c.available, plan_lights(c.lights), c.ambient, c.options});
     c.plan.eye_ws = {make.ordinary(-4, 4), make.ordinary(-4, 4), 5.0f};
     c.plan.view_direction_ws = {0.6f, 0.0f, -0.8f};
     c.plan.orthographic = make.below(3) == 0;

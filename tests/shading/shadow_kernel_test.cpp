@@ -39,7 +39,7 @@ struct Setup {
         const std::vector<SlotMask> available{3u, 3u};
         PlanOptions options;
         options.specular = specular ? SpecularModel::blinn : SpecularModel::none;
-        plan = plan_shading({std::span(&material, 1), {}, available, std::span(&light, 1), {}, options});
+        plan = plan_shading({std::span(&material, 1), {}, available, plan_lights(std::span(&light, 1)), {}, options});
         plan.shadow_mode = mode;
         plan.orthographic = true;
         plan.materials[0].shadow_fade_scale = lobe.wrap > 0 ? 0.5f : 0.0f;

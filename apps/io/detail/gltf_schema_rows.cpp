@@ -105,7 +105,8 @@ void put_generator(F f, V value) {
 
 void put_byte_stride(F f, V value) {
     const int stride = static_cast<int>(value.number);
-    if (stride > 252 || stride % 4 != 0) fault(value, fmt::format("expected a multiple of 4 from 4 to 252, found {}", stride));
+    if (stride < 4 || stride > 252 || stride % 4 != 0)
+        fault(value, fmt::format("expected a multiple of 4 from 4 to 252, found {}", stride));
     f.file.buffer_views.back().byte_stride = stride;
 }
 
