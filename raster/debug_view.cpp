@@ -1,13 +1,14 @@
 #include "raster/debug_view.hpp"
 
-#include "raster/detail/fp_environment.hpp"
+#include "raster/detail/guarded.hpp"
 #include "raster/frame_plan.hpp"
 #include "raster/passes/tile.hpp"
 
 namespace halflit::raster {
 
-Result<VisibilityView> visibility(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height) {
-    const FpEnvironment environment;
+namespace {
+
+Result<VisibilityView> draw_view(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height) {
     const auto prepared = PreparedScene::make(scene, {settings.threads, settings.parallel_for});
     if (!prepared) return tl::unexpected<Error>(prepared.error());
     const auto plan = plan_frame(*prepared, camera, settings, width, height);
@@ -45,6 +46,12 @@ Result<VisibilityView> visibility(const Scene& scene, const Camera& camera, cons
         }
     });
     return view;
+}
+
+}  // namespace
+
+Result<VisibilityView> visibility(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height) {
+    return guarded("finding what is visible", [&] { return draw_view(scene, camera, settings, width, height); });
 }
 
 Result<std::vector<std::uint32_t>> triangle_ids(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height) {

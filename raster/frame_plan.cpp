@@ -123,6 +123,7 @@ Result<FramePlan> make_plan(const PreparedScene& prepared, const Camera& camera,
     const std::vector<LightPlan> lights = shading::plan_lights(scene.lights);
 
     FramePlan plan;
+    plan.options = options;
     plan.picture = make_view(camera, width, height, settings.region, settings.tile_size, settings.samples);
     auto shadows = plan_shadow_views(lights, prepared.bounds(), settings);
     if (!shadows) return tl::unexpected<Error>(shadows.error());
@@ -153,14 +154,11 @@ Result<FramePlan> make_plan(const PreparedScene& prepared, const Camera& camera,
          .facts = budget ? &facts : nullptr},
         memory.shading);
     if (!plan.shadow_views.empty()) plan.casters = plan_casters(prepared, options);
-    plan.caster_detail = options.texture_detail;
     plan.light_culler = LightCuller(plan.shading.lights);
     if (settings.background_environment && scene.environment != nullptr && !scene.environment->rgb.empty())
         plan.background = Background(*scene.environment, camera, width, height, settings.exposure);
     plan.background_linear = settings.background_linear;
     plan.exposure = settings.exposure;
-    plan.rate = options.rate;
-    plan.reference = options.accuracy == Accuracy::reference;
     plan.environment_uses = environment_uses(prepared, plan.shading);
     add_lobe_warnings(prepared, plan.shading, options, plan.warnings);
     if (!shadows->warning.empty()) plan.warnings.push_back(std::move(shadows->warning));

@@ -22,17 +22,15 @@ namespace halflit::raster {
 
 struct FramePlan {
     View picture;
+    shading::PlanOptions options;          ///< options in effect: accuracy reference overrides some of those that were asked for
     shading::ShadingPlan shading;          ///< input of the kernels: materials, lights, environments, shadow maps, error bound
     std::vector<ShadowView> shadow_views;  ///< views that the shadow maps are drawn from
     /// Materials as the alpha test of the shadow pass reads them; empty if no material has a mask.
     std::vector<shading::MaterialPlan> casters;
-    shading::TextureDetail caster_detail = shading::TextureDetail::full;  ///< texture filter of that alpha test
-    LightCuller light_culler;                                             ///< selects the lights of a block of fragments
-    Background background;                                                ///< replaces background_linear if it has an environment
+    LightCuller light_culler;  ///< selects the lights of a block of fragments
+    Background background;     ///< replaces background_linear if it has an environment
     Vec4f background_linear{0, 0, 0, 0};
     float exposure = 1.0f;
-    shading::ShadingRate rate = shading::ShadingRate::pixel;
-    bool reference = false;  ///< fragments are shaded by the float64 reference
     std::vector<EnvironmentUse> environment_uses;
     std::vector<std::string> warnings;
 };

@@ -61,8 +61,8 @@ struct Renderer::Impl {
         PlanKey key{scene.revision(), camera, settings, target.width, target.height};
         key.settings.parallel_for = {};  // valid for this call only
         key.settings.cancelled = nullptr;
-        if (auto ok = check_settings(settings, target.width, target.height); !ok) return ok;  // the instruction set is no part of the key
-        if (plan_key && plan_key->same(key)) return {};
+        // The key leaves out the instruction set and other settings that change no plan.
+        if (plan_key && plan_key->same(key)) return check_settings(settings, target.width, target.height);
         plan_key.reset();
         auto made = plan_frame(scene, camera, settings, target.width, target.height, plan_memory);
         if (!made) return tl::unexpected<Error>(made.error());
@@ -98,8 +98,9 @@ struct Renderer::Impl {
         const RasterKernels& raster = raster_kernels(*settings.isa);
         const shading::ShadeKernels& shade = shading::shade_kernels(*settings.isa);
         executor.configure(settings.threads, settings.parallel_for);
-        if (plan.reference)
-            if (auto ok = reference.build(scene, plan.shading, settings.shading); !ok) return tl::unexpected<Error>(ok.error());
+        const bool by_reference = plan.options.accuracy == shading::Accuracy::reference;
+        if (by_reference)
+            if (auto ok = reference.build(scene, plan.shading, plan.options); !ok) return tl::unexpected<Error>(ok.error());
         report.ms.plan = watch.lap();
 
         if (auto ok = shadow_maps.draw(scene, plan, *plan_memory.shadow_texels, raster, shade, executor); !ok)
@@ -113,13 +114,14 @@ struct Renderer::Impl {
         watch.lap();
 
         records.make(geometry, plan.shading.materials, raster, executor);
-        if (plan.rate == shading::ShadingRate::gouraud) report.work = light_vertices(geometry, records, plan.shading, shade, executor);
+        if (plan.options.rate == shading::ShadingRate::gouraud)
+            report.work = light_vertices(geometry, records, plan.shading, shade, executor);
         report.ms.transform += watch.lap();
 
         const PicturePass pass{{geometry, records, plan.shading.materials, raster, shade, plan.shading.shadow_offset},
                                plan,
                                target,
-                               plan.reference ? &reference : nullptr};
+                               by_reference ? &reference : nullptr};
         const auto tiles = draw_tiles(pass, settings.cancelled);
         if (!tiles) return tl::unexpected<Error>(tiles.error());
         report.ms.tiles = watch.lap();

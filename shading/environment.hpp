@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace halflit::shading {
@@ -46,6 +47,24 @@ struct EnvironmentOptions {
 [[nodiscard]] inline std::shared_ptr<const Environment> borrowed(const Environment& environment) {
     return {std::shared_ptr<void>(), &environment};
 }
+
+/// The environment that something kept was made of. Its address does not tell it from others: another one may come to lie there.
+class EnvironmentSlot {
+public:
+    /// Returns true if the environment is another one than before.
+    bool replace(std::shared_ptr<const Environment> environment) {
+        const std::uint64_t id = environment != nullptr ? environment->id : 0;
+        const bool other = environment != environment_ || id != id_;
+        environment_ = std::move(environment);
+        id_ = id;
+        return other;
+    }
+    [[nodiscard]] const Environment& operator*() const { return *environment_; }
+
+private:
+    std::shared_ptr<const Environment> environment_;
+    std::uint64_t id_ = 0;
+};
 
 [[nodiscard]] Environment make_environment(const sh::EquirectView& image, const EnvironmentOptions& options = {});
 

@@ -11,7 +11,7 @@
 namespace halflit::raster {
 
 /// Runs the parallel loops of a frame. Every task runs in the library's floating-point environment. `run` rethrows the first exception of a
-/// task; the only cause is a lack of memory.
+/// task: a lack of memory, or an exception of one of the host's functions.
 class Executor {
 public:
     Executor();

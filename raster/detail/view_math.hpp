@@ -2,16 +2,13 @@
 #pragma once
 
 #include "sh/trig.hpp"
+#include "shading/model/numbers.hpp"
 
 namespace halflit::raster {
 
 inline constexpr double kMinFov = 1e-5, kMaxFov = 3.1415;  // rad; tan of the half angle stays within [5e-6, 2.2e4]
 
-/// True if x is finite. NaN and infinity minus themselves are NaN.
-template <class T>
-HALFLIT_INLINE bool finite(T x) {
-    return x - x == T(0);
-}
+using shading::finite;
 
 HALFLIT_INLINE double magnitude(double x) { return x < 0 ? -x : x; }
 HALFLIT_INLINE double larger(double a, double b) { return a < b ? b : a; }

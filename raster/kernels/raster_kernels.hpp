@@ -49,6 +49,9 @@ HALFLIT_INLINE constexpr bool is_top_left(std::int32_t a, std::int32_t b) { retu
 /// (63 + 15 + 63) * 2^23 = 1.18e9.
 inline constexpr int kGuardBandPx = 16384;
 
+/// Vertices with a smaller clip w are left to the clipper: the inverse of w overflows float32 below 3e-39.
+inline constexpr float kLeastW = 1e-37f;
+
 struct TransformArgs {
     const float* positions;      ///< x y z of each vertex, packed
     std::int64_t begin, end;     ///< vertices

@@ -12,8 +12,6 @@ HALFLIT_INLINE F transform_row(const float* m, int r, F x, F y, F z) {
     return ((F(m[r]) * x + F(m[4 + r]) * y) + F(m[8 + r]) * z) + F(m[12 + r]);
 }
 
-inline constexpr float kLeastW = 1e-37f;
-
 HALFLIT_INLINE I outcode_bit(M m, std::int32_t bit) { return sel(m, I(bit), I(0)); }
 
 /// Transforms kWidth vertices from packed xyz at `p` (3 * kWidth floats are read).

@@ -54,11 +54,9 @@ private:
         std::uint32_t triangle;  ///< number within the mesh
     };
 
-    [[nodiscard]] const Mesh& mesh_of(const Draw& draw) const { return in_.scene.scene().meshes[static_cast<std::size_t>(draw.mesh)]; }
-
     void add_triangles(const TriangleRun& run) {
         const Draw& draw = in_.draws[run.draw];
-        const std::uint32_t* index = mesh_of(draw).indices.data() + std::size_t{3} * run.first;
+        const std::uint32_t* index = in_.scene.source_mesh(draw.mesh).indices.data() + std::size_t{3} * run.first;
         const auto base = static_cast<std::uint32_t>(draw.vertex_base);
         for (std::uint32_t t = run.first; t < run.end; ++t, index += 3) {
             const std::uint32_t v[3] = {base + index[0], base + index[1], base + index[2]};
@@ -80,7 +78,7 @@ private:
         const Mat4 m = multiply_in_double(in_.view.clip_from_world, in_.scene.scene().instances[source.draw.instance].world_from_object);
         float clip[3][4];
         for (int k = 0; k < 3; ++k) {
-            const Vec3f p = mesh_of(source.draw).positions[source.vertex[k]];
+            const Vec3f p = in_.scene.source_mesh(source.draw.mesh).positions[source.vertex[k]];
             const Vec4f c = ((m.c[0] * p.x + m.c[1] * p.y) + m.c[2] * p.z) + m.c[3];
             clip[k][0] = c.x;
             clip[k][1] = c.y;

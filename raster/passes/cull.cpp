@@ -57,7 +57,7 @@ private:
     }
 
     void keep(const Draw& draw, std::uint32_t number, std::size_t cluster) {
-        const IndexRange indices = indices_of_cluster(scene_.scene().meshes[static_cast<std::size_t>(draw.mesh)], cluster);
+        const IndexRange indices = indices_of_cluster(scene_.source_mesh(draw.mesh), cluster);
         const auto first = static_cast<std::uint32_t>(indices.begin / 3), end = static_cast<std::uint32_t>(indices.end / 3);
         if (!chunk_.runs.empty() && chunk_.runs.back().draw == number && chunk_.runs.back().end == first)
             chunk_.runs.back().end = end;
@@ -96,7 +96,7 @@ void ViewGeometry::list_draws(Executor& executor) {
     vertex_count_ = group_count_ = cluster_count_ = triangle_count_ = 0;
     std::int64_t triangle_base = 0;
     for (std::size_t i = 0; i < instances.size(); ++i) {
-        const Mesh& mesh = scene_->scene().meshes[static_cast<std::size_t>(instances[i].mesh)];
+        const Mesh& mesh = scene_->source_mesh(instances[i].mesh);
         const auto triangles = static_cast<std::int64_t>(mesh.indices.size() / 3);
         triangle_base += triangles;
         if (triangles == 0 || (seen != nullptr && seen[i] == 0)) continue;

@@ -14,20 +14,14 @@ std::shared_ptr<const reference::Irradiance> ReferenceShading::diffuse(const sha
     return known_.back().light;
 }
 
-Result<void> ReferenceShading::build(const PreparedScene& prepared, const shading::ShadingPlan& plan, const shading::PlanOptions& asked) {
-    shading::PlanOptions options = asked;
-    options.rate = shading::ShadingRate::pixel;
-    options.texture_detail = shading::TextureDetail::full;
+Result<void> ReferenceShading::build(const PreparedScene& prepared, const shading::ShadingPlan& plan, const shading::PlanOptions& options) {
     const Scene& scene = prepared.scene();
     if (scene.environment != nullptr && scene.environment->lit_rgb.empty())
         return fail(ErrorCode::usage, "accuracy reference: the environment was made without keep_light");
     scene_ = &prepared;
     frame_ = {scene.textures, scene.lights,           scene.ambient,     options,
               plan.eye_ws,    plan.view_direction_ws, plan.orthographic, plan.shadow_mode};
-    const std::uint64_t environment_id = scene.environment != nullptr ? scene.environment->id : 0;
-    if (scene.environment != environment_ || environment_id != environment_id_) known_.clear();
-    environment_ = scene.environment;
-    environment_id_ = environment_id;
+    if (environment_.replace(scene.environment)) known_.clear();
     diffuse_.assign(plan.materials.size(), nullptr);
     specular_.assign(plan.materials.size(), nullptr);
     if (scene.environment == nullptr) return {};
@@ -58,12 +52,10 @@ void ReferenceShading::shade(const shading::ShadeKernels& kernels, const shading
     reference::Surroundings around;
     around.diffuse = diffuse_[index].get();
     around.specular = specular_[index].get();
-    reference::FrameInputs frame = frame_;
-    frame.shadow_mode = plan.shadow_mode;
     for (int lane = 0; lane < count; ++lane) {
         if (!hidden.empty()) around.hidden = std::span(hidden).subspan(static_cast<std::size_t>(lane) * light_count, light_count);
         const reference::Rgba color =
-            reference::shade(frame, scene_->material(index), scene_->available_slots()[index], block, lane, around);
+            reference::shade(frame_, scene_->material(index), scene_->available_slots()[index], block, lane, around);
         block.red[lane] = static_cast<float>(color.r);
         block.green[lane] = static_cast<float>(color.g);
         block.blue[lane] = static_cast<float>(color.b);

@@ -13,6 +13,7 @@ namespace halflit::raster {
 class ReferenceShading {
 public:
     /// Prepares a frame of `scene` by `plan`. Keeps the irradiance of each lobe while the environment stays the same.
+    /// options: those in effect (FramePlan::options).
     Result<void> build(const PreparedScene& scene, const shading::ShadingPlan& plan, const shading::PlanOptions& options);
 
     /// Writes the colour rows of lanes [0, count). The visibility of lights is that of the kernels' shadow maps.
@@ -29,9 +30,8 @@ private:
 
     const PreparedScene* scene_ = nullptr;
     shading::reference::FrameInputs frame_;
-    std::shared_ptr<const shading::Environment> environment_;  ///< environment of known_
-    std::uint64_t environment_id_ = 0;
-    std::vector<Around> known_;
+    shading::EnvironmentSlot environment_;
+    std::vector<Around> known_;                                                              ///< of environment_
     std::vector<std::shared_ptr<const shading::reference::Irradiance>> diffuse_, specular_;  ///< per material
 };
 

@@ -86,7 +86,7 @@ void PictureTile::shade(FragmentList& list) {
     interpolate(pass_.view, list, block);
     shading::LightList lights;
     if ((material.stages & shading::kStagePrelit) != 0) {
-        if (plan_.rate == shading::ShadingRate::flat) light_triangles(pass_.view, shading, list, block, counts_.work);
+        if (plan_.options.rate == shading::ShadingRate::flat) light_triangles(pass_.view, shading, list, block, counts_.work);
     } else if ((material.stages & shading::kStageLights) != 0) {
         lights = plan_.light_culler.select(shading.lights, block, list.count, scratch_.lights);
         count_lights(counts_.work, material, lights, list.count);

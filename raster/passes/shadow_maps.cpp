@@ -41,14 +41,14 @@ Result<void> ShadowMaps::draw(const PreparedScene& scene, const FramePlan& plan,
     const SceneRevision& revision = scene.revision();
     Drawn before = std::exchange(drawn_, {});  // no map is valid until all are drawn
     if (before.capacity != texels.capacity() || before.geometry_revision != revision.geometry ||
-        before.coverage_revision != revision.coverage || before.caster_detail != plan.caster_detail)
+        before.coverage_revision != revision.coverage || before.caster_detail != plan.options.texture_detail)
         before.views.clear();
     for (std::size_t i = 0; i < plan.shadow_views.size(); ++i) {
         const ShadowView& face = plan.shadow_views[i];
         if (i < before.views.size() && before.views[i] == face) continue;
         if (auto ok = draw_face(scene, plan, face, texels.data(), raster, shade, executor); !ok) return ok;
     }
-    drawn_ = {texels.capacity(), revision.geometry, revision.coverage, plan.caster_detail, plan.shadow_views};
+    drawn_ = {texels.capacity(), revision.geometry, revision.coverage, plan.options.texture_detail, plan.shadow_views};
     return {};
 }
 

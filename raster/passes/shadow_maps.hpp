@@ -6,7 +6,7 @@
 
 namespace halflit::raster {
 
-/// Draws the shadow maps of a plan into `texels`. A map is kept while its view and the scene's geometry and materials stay the same.
+/// Draws the shadow maps of a plan into `texels`. A map is kept while its view and the scene's geometry and coverage stay the same.
 class ShadowMaps {
 public:
     /// The next draw() draws all maps.
@@ -20,7 +20,7 @@ private:
     struct Drawn {
         std::size_t capacity = 0;  ///< size of the texels' memory; growing it drops the maps
         std::uint64_t geometry_revision = 0, coverage_revision = 0;
-        shading::TextureDetail caster_detail = shading::TextureDetail::full;
+        shading::TextureDetail caster_detail = shading::TextureDetail::full;  ///< texture filter of the alpha tests
         std::vector<ShadowView> views;
     };
     Result<void> draw_face(const PreparedScene& scene, const FramePlan& plan, const ShadowView& face, float* texels,

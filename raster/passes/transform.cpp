@@ -31,7 +31,7 @@ void ViewGeometry::transform(const RasterKernels& kernels, Executor& executor) {
                     const Mat4 clip_from_object =
                         multiply_in_double(view_.clip_from_world, scene_->scene().instances[draw->instance].world_from_object);
                     std::memcpy(args.clip_from_object, clip_from_object.c, sizeof args.clip_from_object);
-                    args.positions = &mesh_of(*draw).positions[0].x;
+                    args.positions = &scene_->source_mesh(draw->mesh).positions[0].x;
                     args.viewport = view_.viewport;
                     args.screen = screen + draw->vertex_base;
                     args.outcodes = outcodes + draw->vertex_base;

@@ -72,7 +72,8 @@ void VertexRecords::make(const ViewGeometry& geometry, std::span<const shading::
             for (; group < draw_end; ++group) {
                 if (strides_[d] == 0 || !geometry.group_is_drawn(group)) continue;
                 if (args.records == nullptr)
-                    args = record_args(*draw, geometry.mesh_of(*draw), geometry.scene().scene().instances[draw->instance].world_from_object,
+                    args = record_args(*draw, geometry.scene().source_mesh(draw->mesh),
+                                       geometry.scene().scene().instances[draw->instance].world_from_object,
                                        slots_[static_cast<std::size_t>(draw->material)], records + record_bases_[d], strides_[d]);
                 args.begin = (group - draw->group_base) * kVertexGroup;
                 args.end = std::min(args.begin + kVertexGroup, draw->vertex_count);

@@ -89,7 +89,6 @@ public:
     [[nodiscard]] const View& view() const { return view_; }
     [[nodiscard]] const PreparedScene& scene() const { return *scene_; }
     [[nodiscard]] std::span<const Draw> draws() const { return draws_; }
-    [[nodiscard]] const Mesh& mesh_of(const Draw& draw) const { return scene_->scene().meshes[static_cast<std::size_t>(draw.mesh)]; }
     [[nodiscard]] std::span<const std::unique_ptr<Chunk>> chunks() const { return std::span(chunks_).first(chunk_count_); }
     [[nodiscard]] bool has(shading::AlphaMode mode) const { return has_mode_[static_cast<std::size_t>(mode)]; }
     /// A chunk's triangles as the kernels read them.

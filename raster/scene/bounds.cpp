@@ -7,7 +7,7 @@
 namespace halflit::raster {
 
 void Bounds::add(Vec3f p) {
-    if (!finite(p.x) || !finite(p.y) || !finite(p.z)) return;
+    if (!finite(p)) return;
     if (empty) {
         min = max = p;
         empty = false;

@@ -119,7 +119,7 @@ Camera frame_scene(const Scene& scene, const Bounds& bounds, float aspect, const
             if (index < used.size()) used[index] = true;
         for (std::size_t v = 0; v < used.size(); ++v) {
             const Vec3f p = transform_point(instance.world_from_object, mesh.positions[v]);
-            if (used[v] && finite(p.x) && finite(p.y) && finite(p.z)) fit.add(Vec3d{p.x, p.y, p.z} - box.center);
+            if (used[v] && finite(p)) fit.add(Vec3d{p.x, p.y, p.z} - box.center);
         }
     }
     return fit.camera(length(box.half));

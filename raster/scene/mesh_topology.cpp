@@ -1,5 +1,7 @@
 #include "raster/scene/mesh_topology.hpp"
 
+#include "shading/model/numbers.hpp"
+
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
@@ -23,12 +25,11 @@ std::vector<std::uint32_t> places_of(const std::vector<Vec3f>& positions) {
     return place;
 }
 
-bool is_finite(Vec3f p) { return (p.x - p.x) + (p.y - p.y) + (p.z - p.z) == 0.0f; }
-
 }  // namespace
 
 bool is_closed(const Mesh& mesh) {
-    if (!std::all_of(mesh.positions.begin(), mesh.positions.end(), is_finite)) return false;  // NaN cannot be sorted
+    for (const Vec3f& p : mesh.positions)
+        if (!shading::finite(p)) return false;  // NaN cannot be sorted
     const std::vector<std::uint32_t> place = places_of(mesh.positions);
     struct Edge {
         std::uint64_t ends;  // lower position number in the upper 32 bits, higher one below

@@ -64,19 +64,4 @@ struct IndexRange {
 /// Checks a mesh and cuts it into clusters. Fails for an index out of range and for arrays of different lengths.
 [[nodiscard]] Result<PreparedMesh> prepare_mesh(const Mesh& mesh, Executor& executor);
 
-/// World-space box around a transformed box, in double. A margin covers float32's rounding of the points inside.
-struct PlacedBox {
-    double low[3], high[3];
-    PlacedBox(const float (&min)[3], const float (&max)[3], const Mat4& world_from_object);
-    /// Squared distance from a point; 0 inside.
-    [[nodiscard]] double distance_squared(Vec3d p) const;
-};
-
-/// Squared distance from a point to a box that is not empty; 0 inside.
-[[nodiscard]] double distance_squared(const Bounds& box, Vec3d p);
-
-/// World-space box of the finite vertices that some triangle uses, each transformed in float32 as the renderer does it. Reads only the
-/// vertices of clusters that may extend the box.
-[[nodiscard]] Bounds placed_bounds(const Mesh& mesh, const PreparedMesh& prepared, const Mat4& world_from_object);
-
 }  // namespace halflit::raster

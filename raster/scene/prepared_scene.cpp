@@ -2,6 +2,7 @@
 
 #include "raster/detail/executor.hpp"
 #include "raster/detail/guarded.hpp"
+#include "raster/scene/placed_box.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -15,6 +16,8 @@ std::uint64_t next_revision() {
     static std::atomic<std::uint64_t> last{0};
     return ++last;
 }
+
+SceneRevision all_new_revisions() { return {next_revision(), next_revision(), next_revision(), next_revision()}; }
 
 shading::SlotMask slots_of(const Mesh& mesh) {
     shading::SlotMask slots = shading::kBaseSlots;
@@ -80,8 +83,7 @@ Result<void> PreparedScene::check_instance(std::size_t index) const {
 
 void PreparedScene::place(std::size_t index) {
     const Instance& instance = scene_->instances[index];
-    const Mesh& placed = scene_->meshes[static_cast<std::size_t>(instance.mesh)];
-    instance_bounds_[index] = placed_bounds(placed, mesh(instance.mesh), instance.world_from_object);
+    instance_bounds_[index] = placed_bounds(source_mesh(instance.mesh), mesh(instance.mesh), instance.world_from_object);
 }
 
 Result<void> PreparedScene::check_materials() const {
@@ -112,7 +114,7 @@ void PreparedScene::collect() {
     largest_color_ = 1;
     for (const Mesh& mesh : scene_->meshes) available_slots_[material_of(mesh)] |= slots_of(mesh);
     for (std::size_t i = 0; i < scene_->instances.size(); ++i) {
-        const Mesh& mesh = scene_->meshes[static_cast<std::size_t>(scene_->instances[i].mesh)];
+        const Mesh& mesh = source_mesh(scene_->instances[i].mesh);
         if (mesh.indices.empty()) continue;
         bounds_.include(instance_bounds_[i]);
         triangle_count_ += mesh.indices.size() / 3;
@@ -120,7 +122,7 @@ void PreparedScene::collect() {
         drawn_materials_[material] = true;
         const Bounds& box = instance_bounds_[i];
         if (!box.empty) object_radii_[material] = std::max(object_radii_[material], static_cast<double>(box.radius()) / kRootOfThree);
-        const PreparedMesh& prepared = meshes_[static_cast<std::size_t>(scene_->instances[i].mesh)];
+        const PreparedMesh& prepared = this->mesh(scene_->instances[i].mesh);
         largest_uv_ = std::max(largest_uv_, static_cast<double>(prepared.largest_uv));
         largest_color_ = std::max(largest_color_, static_cast<double>(prepared.largest_color));
     }
@@ -146,7 +148,7 @@ Result<PreparedScene> PreparedScene::make(const Scene& scene, const Workers& wor
         });
         prepared.collect();
         prepared.note_coverage();
-        prepared.revision_ = {next_revision(), next_revision(), next_revision(), next_revision()};
+        prepared.revision_ = all_new_revisions();
         return prepared;
     });
 }
@@ -161,7 +163,7 @@ Result<void> PreparedScene::update(const SceneChanges& changes, const Workers& w
         pending_ = {};
         up_to_date_ = true;
     } else {
-        revision_ = {next_revision(), next_revision(), next_revision(), next_revision()};  // nothing made before is used again
+        revision_ = all_new_revisions();  // nothing made before is used again
     }
     return result;
 }

@@ -41,6 +41,7 @@ public:
     [[nodiscard]] Result<void> update(const SceneChanges& changes, const Workers& workers = {});
 
     [[nodiscard]] const Scene& scene() const { return *scene_; }
+    [[nodiscard]] const Mesh& source_mesh(int index) const { return scene_->meshes[static_cast<std::size_t>(index)]; }
     [[nodiscard]] const SceneRevision& revision() const { return revision_; }
     /// False after an update that failed.
     [[nodiscard]] bool up_to_date() const { return up_to_date_; }

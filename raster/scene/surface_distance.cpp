@@ -1,6 +1,7 @@
 #include "raster/scene/surface_distance.hpp"
 
 #include "raster/detail/view_math.hpp"
+#include "raster/scene/placed_box.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -39,8 +40,8 @@ double triangle_distance(Vec3d a, Vec3d b, Vec3d c) {
 
 /// Squared distance from the origin to the box around a triangle: a tenth of the work of triangle_distance.
 double corners_distance(Vec3d a, Vec3d b, Vec3d c) {
-    const auto beyond = [](double x, double y, double z) { return larger(0.0, larger(std::min({x, y, z}), -std::max({x, y, z}))); };
-    return squared({beyond(a.x, b.x, c.x), beyond(a.y, b.y, c.y), beyond(a.z, b.z, c.z)});
+    return box_distance_squared({std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
+                                {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}, {0, 0, 0});
 }
 
 /// Boxes by their distance, the nearest on top.
@@ -69,7 +70,11 @@ public:
         const auto bounds = scene_.instance_bounds();
         BoxHeap heap;
         visit_nearest_first(
-            bounds.size(), nearest_, heap, [&](std::size_t i) { return bounds[i].empty ? kFar : distance_squared(bounds[i], point_); },
+            bounds.size(), nearest_, heap,
+            [&](std::size_t i) {
+                const Vec3f low = bounds[i].min, high = bounds[i].max;
+                return bounds[i].empty ? kFar : box_distance_squared({low.x, low.y, low.z}, {high.x, high.y, high.z}, point_);
+            },
             [&](std::size_t i) { look_into(scene_.scene().instances[i]); });
         return nearest_;
     }
@@ -77,14 +82,14 @@ public:
 private:
     void look_into(const Instance& instance) {
         const PreparedMesh& prepared = scene_.mesh(instance.mesh);
-        const Mesh& mesh = scene_.scene().meshes[static_cast<std::size_t>(instance.mesh)];
+        const Mesh& mesh = scene_.source_mesh(instance.mesh);
         const Mat4& m = instance.world_from_object;
         BoxHeap superclusters, clusters;
         visit_nearest_first(
             prepared.superclusters.size(), nearest_, superclusters,
             [&](std::size_t i) {
                 const Bounds& b = prepared.superclusters[i];
-                return b.empty ? kFar : distance_to({b.min.x, b.min.y, b.min.z}, {b.max.x, b.max.y, b.max.z}, m);
+                return b.empty ? kFar : distance_to(PlacedBox({b.min.x, b.min.y, b.min.z}, {b.max.x, b.max.y, b.max.z}, m));
             },
             [&](std::size_t i) {
                 const std::size_t first = i * kSuperclusterSize, count = std::min(kSuperclusterSize, prepared.cluster_count() - first);
@@ -92,7 +97,7 @@ private:
                     count, nearest_, clusters,
                     [&](std::size_t c) {
                         const Cluster& cluster = prepared.clusters[first + c];
-                        return cluster.min[0] > cluster.max[0] ? kFar : PlacedBox(cluster.min, cluster.max, m).distance_squared(point_);
+                        return cluster.min[0] > cluster.max[0] ? kFar : distance_to(PlacedBox(cluster.min, cluster.max, m));
                     },
                     [&](std::size_t c) { look_into(mesh, first + c, m); });
             });
@@ -110,9 +115,7 @@ private:
         }
     }
 
-    [[nodiscard]] double distance_to(const float (&&min)[3], const float (&&max)[3], const Mat4& m) const {
-        return PlacedBox(min, max, m).distance_squared(point_);
-    }
+    [[nodiscard]] double distance_to(const PlacedBox& box) const { return box_distance_squared(box.low, box.high, point_); }
 
     const PreparedScene& scene_;
     Vec3d point_;

@@ -131,7 +131,7 @@ bool Culler::faces_away(const Cluster& cluster) const {
                 w = range(row_[3], middle, half);
     if (!(x.size + y.size + z.size + w.size < kHuge)) return false;
     const double error_w = kClipError * w.size + kDenormalError, w_min = w.middle - w.half - error_w, w_max = w.middle + w.half;
-    if (!(w_min > 4.0 * error_w && w_min > 1e-36)) return false;  // smaller w is clipped
+    if (!(w_min > 4.0 * error_w && w_min > 10.0 * kLeastW)) return false;  // smaller w is clipped
     if (!(w_min - (z.middle + z.half) > kClipError * z.size + kDenormalError)) return false;
     const double x_most = (magnitude(x.middle) + x.half) / w_min, y_most = (magnitude(y.middle) + y.half) / w_min;
     if (!(x_most < 0.99 * guard_x_ && y_most < 0.99 * guard_y_)) return false;

@@ -119,11 +119,7 @@ EnvironmentPlan plan_environment(const Environment& environment, const sh::WrapL
 
 void EnvironmentPlans::use(std::shared_ptr<const Environment> environment) {
     ++frame_;
-    const std::uint64_t id = environment != nullptr ? environment->id : 0;
-    if (environment == environment_ && id == id_) return;
-    id_ = id;
-    entries_.clear();
-    environment_ = std::move(environment);
+    if (environment_.replace(std::move(environment))) entries_.clear();
 }
 
 EnvironmentPlan EnvironmentPlans::plan(const sh::WrapLobe& lobe, const EnvironmentOrder& order) {

@@ -27,10 +27,9 @@ private:
         EnvironmentPlan plan;
         std::uint64_t last_frame;  ///< that asked for it
     };
-    std::shared_ptr<const Environment> environment_;
-    std::uint64_t id_ = 0;  ///< Environment::id; another environment may later have the same address
+    EnvironmentSlot environment_;
     std::uint64_t frame_ = 0;
-    std::vector<Entry> entries_;
+    std::vector<Entry> entries_;  ///< of environment_
 };
 
 /// Makes `newton` from the series' coefficients.

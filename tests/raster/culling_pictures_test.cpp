@@ -103,12 +103,7 @@ Settings any_settings(Random& random, int width, int height) {
     settings.threads = static_cast<int>(random.integer(1, 2));
     settings.samples = random.chance(0.5) ? 1 : random.chance(0.5) ? 4 : 8;
     settings.tile_size = 16 << random.index(3);
-    if (random.chance(0.3)) {
-        settings.region.width = static_cast<int>(random.integer(1, width));
-        settings.region.height = static_cast<int>(random.integer(1, height));
-        settings.region.x = static_cast<int>(random.integer(0, width - settings.region.width));
-        settings.region.y = static_cast<int>(random.integer(0, height - settings.region.height));
-    }
+    if (random.chance(0.3)) settings.region = random_region(random, width, height);
     return settings;
 }
 

@@ -88,13 +88,7 @@ void check_clusters(const Scene& scene, const View& view, Tally& tally) {
 View random_view(Random& random, const Camera& camera) {
     static constexpr int kSides[] = {1, 2, 16, 100, 640, 4096};
     const int width = kSides[random.index(6)], height = kSides[random.index(6)];
-    Region region{};
-    if (random.chance(0.3)) {
-        region.width = static_cast<int>(random.integer(1, width));
-        region.height = static_cast<int>(random.integer(1, height));
-        region.x = static_cast<int>(random.integer(0, width - region.width));
-        region.y = static_cast<int>(random.integer(0, height - region.height));
-    }
+    const Region region = random.chance(0.3) ? random_region(random, width, height) : Region{};
     return make_view(camera, width, height, region, 64, 1);
 }
 

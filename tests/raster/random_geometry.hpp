@@ -3,6 +3,7 @@
 
 #include "raster/built_in/shapes.hpp"
 #include "raster/scene/scene.hpp"
+#include "raster/settings.hpp"
 #include "tests/support/cameras.hpp"
 #include "tests/support/random.hpp"
 
@@ -118,6 +119,16 @@ inline Camera random_camera(Random& random) {
         camera.half_height = random_decades(random, 0.1, 5);
     }
     return camera;
+}
+
+/// Part of a picture, of any size and place.
+inline Region random_region(Random& random, int width, int height) {
+    Region region;
+    region.width = static_cast<int>(random.integer(1, width));
+    region.height = static_cast<int>(random.integer(1, height));
+    region.x = static_cast<int>(random.integer(0, width - region.width));
+    region.y = static_cast<int>(random.integer(0, height - region.height));
+    return region;
 }
 
 }  // namespace halflit::raster::test

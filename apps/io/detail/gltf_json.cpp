@@ -95,7 +95,7 @@ private:
         const SchemaNode* next;  // schema of the next value
         std::uint32_t seen;
         std::size_t count;
-        JsonValue value;         // its type and offset
+        JsonValue value;  // its type and offset
     };
     struct Index {
         Target target;

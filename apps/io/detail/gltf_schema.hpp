@@ -57,7 +57,7 @@ struct SchemaNode {
     Target target = Target::none;
     bool required = false;   ///< within its parent object
     bool closed = false;     ///< an object that refuses keys outside `members`
-    std::size_t length = 0;  ///< elements of an array that is not empty; 0: any number
+    std::size_t length = 0;  ///< elements of an array; 0: any number
     Action put = nullptr, end = nullptr;
     std::uint32_t required_mask = 0;    ///< bit i: members[i] is required
     const SchemaNode* every = nullptr;  ///< schema of each element, or of each member with a free name
