@@ -4,7 +4,7 @@
 // budget buys accuracy, not speed.
 //
 //     halflit_budget_bench [SCENES [WIDTH [CODES [SEED]]]]      60 scenes, 320 pixels wide, 0.5 codes, seeds from 1 on
-#include "raster/renderer.hpp"
+#include "halflit/renderer.hpp"
 #include "tests/raster/random_trial.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ public:
     Subject(std::uint32_t seed, int width, double codes) : trial_(test::random_trial(seed)), width_(width), height_(width * 3 / 4) {
         trial_.settings.threads = 1;
         // Shadow maps take most of the frame and are the same for both.
-        trial_.settings.shadows = shading::ShadowMode::off;
+        trial_.settings.shadows = ShadowMode::off;
         rgba8_.resize(static_cast<std::size_t>(4 * width_ * height_));
         budget_ = trial_.settings;
         budget_.shading.max_error_codes = codes;

@@ -2,9 +2,9 @@
 // budgets, on every instruction set that this processor has. All are measured in turn, in short slices; the shortest slice of each counts.
 //
 //     halflit_eight_lights_bench [SLICES [POWER [ROUGHNESS]]]      400 slices, t^1.3, highlights of exponent 32
-#include "raster/built_in/shapes.hpp"
+#include "halflit/isa.hpp"
+#include "halflit/shapes.hpp"
 #include "raster/frame_plan.hpp"
-#include "shading/isa.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 
 #include <algorithm>
@@ -21,27 +21,27 @@ namespace {
 
 constexpr int kPatches = 16;  ///< patches on a side of the floor; each is one block of 8 x 8 fragments, as in a tile
 
-raster::Scene eight_lamps(float power, float roughness) {
-    raster::Scene scene;
-    shading::Material material;
+Scene eight_lamps(float power, float roughness) {
+    Scene scene;
+    Material material;
     material.name = "floor";
     material.base_color = {0.8f, 0.6f, 0.5f, 1};
     material.metallic = 0.0f;
     material.roughness = roughness;
     material.lobe = {0.5f, power, true};
     scene.materials.push_back(material);
-    raster::Mesh floor = raster::make_plane(2.0f, 8);
+    Mesh floor = make_plane(2.0f, 8);
     floor.material = 0;
     scene.meshes.push_back(std::move(floor));
     scene.instances.push_back({0, translation({0, 0, 0})});
     for (int i = 0; i < 8; ++i) {
-        shading::Light lamp;
-        lamp.type = shading::LightType::point;
+        Light lamp;
+        lamp.type = LightType::point;
         lamp.position_ws = {0.9f * static_cast<float>(i % 4) - 1.35f, 0.7f + 0.05f * static_cast<float>(i), i < 4 ? -0.8f : 0.8f};
         lamp.color_linear = {0.16f, 0.14f + 0.01f * static_cast<float>(i % 3), 0.13f};
         scene.lights.push_back(lamp);
     }
-    raster::Camera camera;  // looks down from above, so that only the floor is seen
+    Camera camera;  // looks down from above, so that only the floor is seen
     camera.world_from_camera = {{{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}, {0, 3, 0, 1}}};
     camera.fov_y_rad = 0.8f;
     scene.cameras.push_back(camera);
@@ -90,16 +90,16 @@ int main(int argc, char** argv) {
     const int slices = argc > 1 ? std::atoi(argv[1]) : 400;
     const float power = argc > 2 ? static_cast<float>(std::atof(argv[2])) : 1.3f;
     const float roughness = argc > 3 ? static_cast<float>(std::atof(argv[3])) : 0.4925f;
-    const raster::Scene scene = eight_lamps(power, roughness);
+    const Scene scene = eight_lamps(power, roughness);
     const auto prepared = raster::PreparedScene::make(scene);
     if (!prepared) {
         std::fprintf(stderr, "%s\n", prepared.error().message.c_str());
         return 1;
     }
     std::vector<Way> ways;
-    const auto add = [&](std::string name, shading::Accuracy accuracy, double codes) {
-        raster::Settings settings;
-        settings.shadows = shading::ShadowMode::off;
+    const auto add = [&](std::string name, Accuracy accuracy, double codes) {
+        Settings settings;
+        settings.shadows = ShadowMode::off;
         settings.shading.accuracy = accuracy;
         settings.shading.max_error_codes = codes;
         const auto plan = raster::plan_frame(*prepared, scene.cameras.front(), settings, 1920, 1080);
@@ -109,14 +109,13 @@ int main(int argc, char** argv) {
         }
         ways.push_back({std::move(name), plan->shading});
     };
-    add("exact", shading::Accuracy::exact, 0);
-    add("display", shading::Accuracy::display, 0);
-    add("fast", shading::Accuracy::fast, 0);
-    for (const double codes : {0.1, 0.25, 0.5, 1.0, 2.0, 4.0})
-        add(std::to_string(codes).substr(0, 4) + " codes", shading::Accuracy::exact, codes);
+    add("exact", Accuracy::exact, 0);
+    add("display", Accuracy::display, 0);
+    add("fast", Accuracy::fast, 0);
+    for (const double codes : {0.1, 0.25, 0.5, 1.0, 2.0, 4.0}) add(std::to_string(codes).substr(0, 4) + " codes", Accuracy::exact, codes);
 
-    for (const shading::Isa isa : shading::built_isas()) {
-        if (!shading::isa_available(isa)) continue;
+    for (const Isa isa : built_isas()) {
+        if (!isa_available(isa)) continue;
         const shading::ShadeKernels& kernels = shading::shade_kernels(isa);
         std::vector<shading::FragmentBlock> blocks = floor_blocks();
         for (Way& way : ways) way.shortest = 1e30;
@@ -129,7 +128,7 @@ int main(int argc, char** argv) {
                 const std::chrono::duration<double, std::nano> passed = std::chrono::steady_clock::now() - start;
                 way.shortest = std::min(way.shortest, passed.count() / static_cast<double>(blocks.size() * shading::kBlockSize));
             }
-        std::printf("%s\n", std::string(shading::isa_name(isa)).c_str());
+        std::printf("%s\n", std::string(isa_name(isa)).c_str());
         for (const Way& way : ways)
             std::printf("  %-10s %7.2f ns   %.2fx   bound %6.3f   %s\n", way.name.c_str(), way.shortest,
                         ways.front().shortest / way.shortest, way.plan.error.codes, described(way.plan).c_str());

@@ -3,10 +3,10 @@
 // counts.
 //
 //     halflit_next_frame_bench [FRAMES [THREADS]]      9 frames, all threads
+#include "halflit/camera.hpp"
+#include "halflit/renderer.hpp"
+#include "halflit/shapes.hpp"
 #include "raster/built_in/hall_of_lamps.hpp"
-#include "raster/built_in/shapes.hpp"
-#include "raster/renderer.hpp"
-#include "raster/scene/framing.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -28,16 +28,16 @@ using Clock = std::chrono::steady_clock;
 double ms_since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
 
 void light(Scene& scene) {
-    shading::Light key, rim;
+    Light key, rim;
     key.direction_ws = normalize_or({-1, -1, -1}, {0, -1, 0});
     key.color_linear = {0.9f, 0.9f, 0.9f};
     rim.direction_ws = normalize_or({2, -1, -1}, {0, -1, 0});
     rim.color_linear = {0.1f, 0.15f, 0.25f};
     scene.lights = {key, rim};
-    shading::Material clay;
+    Material clay;
     clay.metallic = 0.0f;
     clay.roughness = 0.6f;
-    clay.lobe = shading::Lobe::sloan(0.5f);
+    clay.lobe = Lobe::sloan(0.5f);
     scene.materials.push_back(clay);
     for (Mesh& mesh : scene.meshes) mesh.material = 0;
 }

@@ -33,15 +33,14 @@ struct Column {
     const shading::ShadeKernels* shade;
 };
 
-const BareKernels& bare_kernels(shading::Isa isa){HALFLIT_RETURN_TABLE_OF(isa, bare_kernels)}
+const BareKernels& bare_kernels(Isa isa){HALFLIT_RETURN_TABLE_OF(isa, bare_kernels)}
 
 std::vector<Column> columns() {
     std::vector<Column> all;
-    for (const shading::Isa isa : shading::built_isas())
-        if (shading::isa_available(isa))
-            all.push_back({std::string(shading::isa_name(isa)), &bare_kernels(isa), &shading::shade_kernels(isa)});
+    for (const Isa isa : built_isas())
+        if (isa_available(isa)) all.push_back({std::string(isa_name(isa)), &bare_kernels(isa), &shading::shade_kernels(isa)});
 #ifdef HALFLIT_FUSED
-    if (shading::isa_available(shading::Isa::avx2) && __builtin_cpu_supports("fma"))
+    if (isa_available(Isa::avx2) && __builtin_cpu_supports("fma"))
         all.push_back({kFused, &bare_kernels_avx2_fma, &shading::shade_kernels_avx2_fma});
 #endif
     return all;

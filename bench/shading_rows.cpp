@@ -10,10 +10,7 @@
 namespace halflit::bench {
 namespace {
 
-using shading::LightType;
-using shading::Lobe;
 using shading::LobePath;
-using shading::SpecularModel;
 
 /// Deterministic numbers in [-1, 1): a linear congruential generator's upper bits.
 class Numbers {
@@ -89,11 +86,11 @@ Operations specular_operations(LightType type) {
 
 // ---- rows ----------------------------------------------------------------------------------------------------------
 
-std::vector<shading::Light> some_lights(LightType type, int count) {
+std::vector<Light> some_lights(LightType type, int count) {
     Numbers numbers;
-    std::vector<shading::Light> lights;
+    std::vector<Light> lights;
     for (int i = 0; i < count; ++i) {
-        shading::Light light;
+        Light light;
         light.type = type;
         light.color_linear = {1.0f, 0.9f, 0.8f};
         const Vec3f from = numbers.unit();
@@ -106,8 +103,8 @@ std::vector<shading::Light> some_lights(LightType type, int count) {
     return lights;
 }
 
-const shading::Environment& some_environment() {
-    static const shading::Environment environment = [] {
+const Environment& some_environment() {
+    static const Environment environment = [] {
         Numbers numbers;
         std::vector<float> rgb(std::size_t{32} * 16 * 3);
         for (float& x : rgb) x = 1.0f + numbers.next();
@@ -116,11 +113,11 @@ const shading::Environment& some_environment() {
     return environment;
 }
 
-shading::ShadingPlan plan(const shading::Material& material, const std::vector<shading::Light>& lights, bool specular, int order = 0,
-                          std::span<const shading::Texture> textures = {}) {
+shading::ShadingPlan plan(const Material& material, const std::vector<Light>& lights, bool specular, int order = 0,
+                          std::span<const Texture> textures = {}) {
     const shading::SlotMask all = ((1u << shading::kSlotCount) - 1u) & ~(1u << 3);  // all slots except the vertex colour
     const shading::SlotMask slots[] = {all, all};
-    shading::PlanOptions options;
+    ShadingSettings options;
     options.specular = specular ? SpecularModel::blinn : SpecularModel::none;
     options.environment_order.fixed = order;
     shading::ShadingPlan frame = plan_shading(
@@ -133,7 +130,7 @@ void add_light_rows(std::vector<Row>& rows, Work work) {
     for (const bool specular : {false, true})
         for (const auto& [type_name, type] : kTypes)
             for (const NamedLobe& lobe : kLobes) {
-                shading::Material material;
+                Material material;
                 material.lobe = lobe.lobe;
                 material.roughness = 0.4f;
                 Row row;
@@ -178,12 +175,12 @@ Row pixel_row() {
     Numbers numbers;
     std::vector<std::uint8_t> rgba8(std::size_t{64} * 64 * 4);
     for (std::uint8_t& byte : rgba8) byte = static_cast<std::uint8_t>(128.0f + 60.0f * numbers.next());
-    static const shading::Texture normals[] = {shading::Texture::from_rgba8(rgba8, 64, 64, shading::ColorSpace::linear).value()};
-    shading::Material material;
+    static const Texture normals[] = {Texture::from_rgba8(rgba8, 64, 64, ColorSpace::linear).value()};
+    Material material;
     material.lobe = Lobe::sloan(0.3f);
     material.roughness = 0.4f;
     material.normal_texture.texture = 0;
-    material.normal_texture.sampler.mip = shading::MipFilter::none;
+    material.normal_texture.sampler.mip = MipFilter::none;
     Row row;
     row.name = "whole pixel";
     row.work = Work::pixel;

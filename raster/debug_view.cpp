@@ -1,5 +1,6 @@
 #include "raster/debug_view.hpp"
 
+#include "raster/check_execution.hpp"
 #include "raster/detail/guarded.hpp"
 #include "raster/frame_plan.hpp"
 #include "raster/passes/tile.hpp"
@@ -8,17 +9,19 @@ namespace halflit::raster {
 
 namespace {
 
-Result<VisibilityView> draw_view(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height) {
-    const auto prepared = PreparedScene::make(scene, {settings.threads, settings.parallel_for});
+Result<VisibilityView> draw_view(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height,
+                                 const Execution& execution) {
+    const auto prepared = PreparedData::make(scene, execution);
     if (!prepared) return tl::unexpected<Error>(prepared.error());
-    const auto plan = plan_frame(*prepared, camera, settings, width, height);
+    const auto plan = plan_frame(*prepared, camera, settings, width, height, execution.tile_size);
     if (!plan) return tl::unexpected<Error>(plan.error());
-    const RasterKernels& raster = raster_kernels(*settings.isa);
+    const auto isa = check_execution(execution);
+    if (!isa) return tl::unexpected<Error>(isa.error());
+    const RasterKernels& raster = raster_kernels(*isa);
     Executor executor;
-    executor.configure(settings.threads, settings.parallel_for);
+    executor.configure(execution.threads, execution.parallel_for);
     ViewGeometry geometry;
-    SubmissionNumbers numbers;
-    if (auto ok = geometry.make(*prepared, plan->picture, raster, executor, &numbers); !ok) return tl::unexpected<Error>(ok.error());
+    if (auto ok = geometry.make(*prepared, plan->picture, raster, executor, true); !ok) return tl::unexpected<Error>(ok.error());
     VertexRecords records;
     records.make(geometry, plan->shading.materials, raster, executor);
 
@@ -27,7 +30,7 @@ Result<VisibilityView> draw_view(const Scene& scene, const Camera& camera, const
     view.triangle.assign(pixels, 0);
     view.depth.assign(pixels, 0.0f);
     Pool<TileScratch> scratch;
-    const TilePass pass{geometry, records, plan->shading.materials, raster, shading::shade_kernels(*settings.isa)};
+    const TilePass pass{geometry, records, plan->shading.materials, raster, shading::shade_kernels(*isa)};
     executor.run(plan->picture.tile_count(), [&](int tile) {
         Pool<TileScratch>::Loan loan(scratch);
         TileCounts ignored;
@@ -39,8 +42,7 @@ Result<VisibilityView> draw_view(const Scene& scene, const Camera& camera, const
                 if (id == kNoTriangle) continue;
                 const std::size_t at =
                     static_cast<std::size_t>(rect.y + y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(rect.x + x);
-                const std::size_t chunk = geometry.chunk_of(id);
-                view.triangle[at] = static_cast<std::uint32_t>(numbers[chunk][id - geometry.source(chunk).id_base] + 1);
+                view.triangle[at] = static_cast<std::uint32_t>(geometry.submission_of(id) + 1);
                 view.depth[at] = loan->buffers.depth[0][y * kTileStride + x];
             }
         }
@@ -50,12 +52,14 @@ Result<VisibilityView> draw_view(const Scene& scene, const Camera& camera, const
 
 }  // namespace
 
-Result<VisibilityView> visibility(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height) {
-    return guarded("finding what is visible", [&] { return draw_view(scene, camera, settings, width, height); });
+Result<VisibilityView> visibility(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height,
+                                  const Execution& execution) {
+    return guarded("finding what is visible", [&] { return draw_view(scene, camera, settings, width, height, execution); });
 }
 
-Result<std::vector<std::uint32_t>> triangle_ids(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height) {
-    auto view = visibility(scene, camera, settings, width, height);
+Result<std::vector<std::uint32_t>> triangle_ids(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height,
+                                                const Execution& execution) {
+    auto view = visibility(scene, camera, settings, width, height, execution);
     if (!view) return tl::unexpected<Error>(view.error());
     return std::move(view->triangle);
 }

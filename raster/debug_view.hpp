@@ -1,9 +1,9 @@
 // Debug views of the visibility stage, before any shading: for tests and tools.
 #pragma once
 
-#include "raster/scene/camera.hpp"
-#include "raster/scene/scene.hpp"
-#include "raster/settings.hpp"
+#include "halflit/camera.hpp"
+#include "halflit/scene.hpp"
+#include "halflit/settings.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -18,10 +18,11 @@ struct VisibilityView {
     std::vector<float> depth;  ///< reversed: 1 at the near plane, 0 at the far plane or background
 };
 
-[[nodiscard]] Result<VisibilityView> visibility(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height);
+[[nodiscard]] Result<VisibilityView> visibility(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height,
+                                                const Execution& execution = {});
 
 /// The triangle numbers alone.
 [[nodiscard]] Result<std::vector<std::uint32_t>> triangle_ids(const Scene& scene, const Camera& camera, const Settings& settings, int width,
-                                                              int height);
+                                                              int height, const Execution& execution = {});
 
 }  // namespace halflit::raster

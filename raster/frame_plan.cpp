@@ -9,13 +9,13 @@
 namespace halflit::raster {
 namespace {
 
-using shading::Accuracy, shading::LightPlan, shading::MaterialPlan;
+using shading::LightPlan, shading::MaterialPlan;
 
 /// Options in effect. Accuracy::reference implies light at every pixel, full texture filtering and no error budget.
-shading::PlanOptions effective(shading::PlanOptions options) {
+ShadingSettings effective(ShadingSettings options) {
     if (options.accuracy != Accuracy::reference) return options;
-    options.rate = shading::ShadingRate::pixel;
-    options.texture_detail = shading::TextureDetail::full;
+    options.rate = ShadingRate::pixel;
+    options.texture_detail = TextureDetail::full;
     options.max_error_codes = 0.0;
     return options;
 }
@@ -43,7 +43,7 @@ double largest_coordinate(const Bounds& b) {
 }
 
 /// Facts that an error budget needs of a scene: distances from lights to surfaces, largest vertex colour and texture coordinate.
-shading::SceneFacts scene_facts(const PreparedScene& scene, std::span<const LightPlan> lights, FramePlanMemory& memory) {
+shading::SceneFacts scene_facts(const PreparedData& scene, std::span<const LightPlan> lights, FramePlanMemory& memory) {
     shading::SceneFacts facts;
     facts.drawn = scene.drawn_materials();
     facts.largest_uv = scene.largest_uv();
@@ -53,7 +53,7 @@ shading::SceneFacts scene_facts(const PreparedScene& scene, std::span<const Ligh
     std::map<std::array<double, 3>, double> distances;  // of this plan alone: lights that move all the time must not fill the memory
     const double position_error = kPositionError * largest_coordinate(scene.bounds());
     for (const LightPlan& light : lights) {
-        if (light.type == shading::LightType::directional) {
+        if (light.type == LightType::directional) {
             facts.light_attenuation.push_back(1.0);
             facts.light_farthest_squared.push_back(0.0);
             continue;
@@ -74,7 +74,7 @@ shading::SceneFacts scene_facts(const PreparedScene& scene, std::span<const Ligh
 }
 
 /// Environments that drawn materials use, in the plan's order.
-std::vector<EnvironmentUse> environment_uses(const PreparedScene& scene, const shading::ShadingPlan& plan) {
+std::vector<EnvironmentUse> environment_uses(const PreparedData& scene, const shading::ShadingPlan& plan) {
     enum : unsigned { kDiffuse = 1, kSpecular = 2 };
     std::vector<unsigned> uses(plan.environments.size(), 0);
     for (std::size_t i = 0; i < plan.materials.size(); ++i) {
@@ -92,39 +92,39 @@ std::vector<EnvironmentUse> environment_uses(const PreparedScene& scene, const s
 }
 
 /// Adds the warnings about lobes of materials that are drawn and lit, each warning once.
-void add_lobe_warnings(const PreparedScene& scene, const shading::ShadingPlan& plan, const shading::PlanOptions& options,
+void add_lobe_warnings(const PreparedData& scene, const shading::ShadingPlan& plan, const ShadingSettings& options,
                        std::vector<std::string>& warnings) {
     for (std::size_t i = 0; i < plan.materials.size(); ++i) {
-        if (!scene.drawn_materials()[i] || (plan.materials[i].stages & (shading::kStageLights | shading::kStageEnvironment)) == 0) continue;
-        std::string warning = shading::lobe_warning(shading::lobe_of(scene.material(i), options));
+        if (!scene.drawn_materials()[i] || (plan.materials[i].stages & (kStageLights | kStageEnvironment)) == 0) continue;
+        std::string warning = lobe_warning(shading::lobe_of(scene.material(i), options));
         if (!warning.empty() && std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
             warnings.push_back(std::move(warning));
     }
 }
 
 /// Material plans for the alpha test of the shadow pass; empty if no material has a mask.
-std::vector<MaterialPlan> plan_casters(const PreparedScene& scene, const shading::PlanOptions& options) {
+std::vector<MaterialPlan> plan_casters(const PreparedData& scene, const ShadingSettings& options) {
     std::vector<MaterialPlan> casters;
     for (std::size_t i = 0; i < scene.drawn_materials().size(); ++i) {
-        const shading::Material& material = scene.material(i);
-        if (!scene.drawn_materials()[i] || material.alpha_mode != shading::AlphaMode::mask) continue;
+        const Material& material = scene.material(i);
+        if (!scene.drawn_materials()[i] || material.alpha_mode != AlphaMode::mask) continue;
         casters.resize(scene.drawn_materials().size());
-        casters[i] = plan_material(material, scene.scene().textures, scene.available_slots()[i], {}, options);
+        casters[i] = shading::plan_material(material, scene.scene().textures, scene.available_slots()[i], {}, options);
     }
     return casters;
 }
 
-Result<FramePlan> make_plan(const PreparedScene& prepared, const Camera& camera, const Settings& settings, int width, int height,
-                            FramePlanMemory& memory) {
+Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, const Settings& settings, int width, int height,
+                            int tile_size, FramePlanMemory& memory) {
     if (auto ok = check_settings(settings, width, height); !ok) return tl::unexpected<Error>(ok.error());
     if (!prepared.up_to_date()) return fail(ErrorCode::usage, "the last update of the scene failed; no frame is drawn until one succeeds");
     const Scene& scene = prepared.scene();
-    const shading::PlanOptions options = effective(settings.shading);
+    const ShadingSettings options = effective(settings.shading);
     const std::vector<LightPlan> lights = shading::plan_lights(scene.lights);
 
     FramePlan plan;
     plan.options = options;
-    plan.picture = make_view(camera, width, height, settings.region, settings.tile_size, settings.samples);
+    plan.picture = make_view(camera, width, height, settings.region, tile_size, settings.samples);
     auto shadows = plan_shadow_views(lights, prepared.bounds(), settings);
     if (!shadows) return tl::unexpected<Error>(shadows.error());
     bool finite_views = all_finite(plan.picture.clip_from_world);
@@ -159,6 +159,7 @@ Result<FramePlan> make_plan(const PreparedScene& prepared, const Camera& camera,
         plan.background = Background(*scene.environment, camera, width, height, settings.exposure);
     plan.background_linear = settings.background_linear;
     plan.exposure = settings.exposure;
+    plan.depth = depth_map(camera, static_cast<float>(width) / static_cast<float>(height));
     plan.environment_uses = environment_uses(prepared, plan.shading);
     add_lobe_warnings(prepared, plan.shading, options, plan.warnings);
     if (!shadows->warning.empty()) plan.warnings.push_back(std::move(shadows->warning));
@@ -167,14 +168,15 @@ Result<FramePlan> make_plan(const PreparedScene& prepared, const Camera& camera,
 
 }  // namespace
 
-Result<FramePlan> plan_frame(const PreparedScene& scene, const Camera& camera, const Settings& settings, int width, int height,
-                             FramePlanMemory& memory) {
-    return guarded("planning a frame", [&] { return make_plan(scene, camera, settings, width, height, memory); });
+Result<FramePlan> plan_frame(const PreparedData& scene, const Camera& camera, const Settings& settings, int width, int height,
+                             int tile_size, FramePlanMemory& memory) {
+    return guarded("planning a frame", [&] { return make_plan(scene, camera, settings, width, height, tile_size, memory); });
 }
 
-Result<FramePlan> plan_frame(const PreparedScene& scene, const Camera& camera, const Settings& settings, int width, int height) {
+Result<FramePlan> plan_frame(const PreparedData& scene, const Camera& camera, const Settings& settings, int width, int height,
+                             int tile_size) {
     FramePlanMemory memory;
-    return plan_frame(scene, camera, settings, width, height, memory);
+    return plan_frame(scene, camera, settings, width, height, tile_size, memory);
 }
 
 }  // namespace halflit::raster

@@ -2,12 +2,13 @@
 // callers read from it what a frame requires.
 #pragma once
 
+#include "halflit/report.hpp"
+#include "halflit/settings.hpp"
 #include "raster/detail/raw_buffer.hpp"
-#include "raster/report.hpp"
-#include "raster/scene/prepared_scene.hpp"
-#include "raster/settings.hpp"
+#include "raster/scene/prepared_data.hpp"
 #include "raster/view/background.hpp"
 #include "raster/view/light_culling.hpp"
+#include "raster/view/projection.hpp"
 #include "raster/view/shadow_views.hpp"
 #include "raster/view/view.hpp"
 #include "shading/planner.hpp"
@@ -22,7 +23,7 @@ namespace halflit::raster {
 
 struct FramePlan {
     View picture;
-    shading::PlanOptions options;          ///< options in effect: accuracy reference overrides some of those that were asked for
+    ShadingSettings options;               ///< options in effect: accuracy reference overrides some of those that were asked for
     shading::ShadingPlan shading;          ///< input of the kernels: materials, lights, environments, shadow maps, error bound
     std::vector<ShadowView> shadow_views;  ///< views that the shadow maps are drawn from
     /// Materials as the alpha test of the shadow pass reads them; empty if no material has a mask.
@@ -31,6 +32,7 @@ struct FramePlan {
     Background background;     ///< replaces background_linear if it has an environment
     Vec4f background_linear{0, 0, 0, 0};
     float exposure = 1.0f;
+    DepthMap depth;  ///< of the picture's depths
     std::vector<EnvironmentUse> environment_uses;
     std::vector<std::string> warnings;
 };
@@ -47,10 +49,11 @@ struct FramePlanMemory {
 
 /// Plans a picture of width x height pixels. Fails for settings that are out of range or exclude each other, and for a camera without a
 /// finite matrix.
-Result<FramePlan> plan_frame(const PreparedScene& scene, const Camera& camera, const Settings& settings, int width, int height,
-                             FramePlanMemory& memory);
+Result<FramePlan> plan_frame(const PreparedData& scene, const Camera& camera, const Settings& settings, int width, int height,
+                             int tile_size, FramePlanMemory& memory);
 
 /// The same for callers that only read the plan: its shadow maps have no texels.
-Result<FramePlan> plan_frame(const PreparedScene& scene, const Camera& camera, const Settings& settings, int width, int height);
+Result<FramePlan> plan_frame(const PreparedData& scene, const Camera& camera, const Settings& settings, int width, int height,
+                             int tile_size = Execution{}.tile_size);
 
 }  // namespace halflit::raster

@@ -1,5 +1,6 @@
-#include "raster/renderer.hpp"
+#include "halflit/renderer.hpp"
 
+#include "raster/check_execution.hpp"
 #include "raster/detail/guarded.hpp"
 #include "raster/detail/stopwatch.hpp"
 #include "raster/frame_plan.hpp"
@@ -12,7 +13,10 @@
 #include <optional>
 #include <string>
 
-namespace halflit::raster {
+namespace halflit {
+
+using namespace raster;
+
 namespace {
 
 /// Inputs of a plan.
@@ -20,12 +24,8 @@ struct PlanKey {
     SceneRevision scene;
     Camera camera;
     Settings settings;
-    int width, height;
-
-    [[nodiscard]] bool same(const PlanKey& other) const {
-        return scene == other.scene && camera == other.camera && same_plan(settings, other.settings) && width == other.width &&
-               height == other.height;
-    }
+    int width, height, tile_size;
+    friend bool operator==(const PlanKey&, const PlanKey&) = default;
 };
 
 void add_counts(const ViewGeometry& geometry, const TileCounts& tiles, RenderReport& report) {
@@ -57,48 +57,56 @@ struct Renderer::Impl {
 
     Impl() { plan_memory.shadow_texels.emplace(); }
 
-    Result<void> make_plan(const PreparedScene& scene, const Camera& camera, const Settings& settings, const FramebufferView& target) {
-        PlanKey key{scene.revision(), camera, settings, target.width, target.height};
-        key.settings.parallel_for = {};  // valid for this call only
-        key.settings.cancelled = nullptr;
-        // The key leaves out the instruction set and other settings that change no plan.
-        if (plan_key && plan_key->same(key)) return check_settings(settings, target.width, target.height);
+    Result<void> make_plan(const PreparedData& scene, const Camera& camera, const Settings& settings, const Target& target, int tile_size) {
+        PlanKey key{scene.revision(), camera, settings, target.width, target.height, tile_size};
+        if (plan_key && *plan_key == key) return {};
         plan_key.reset();
-        auto made = plan_frame(scene, camera, settings, target.width, target.height, plan_memory);
+        auto made = plan_frame(scene, camera, settings, target.width, target.height, tile_size, plan_memory);
         if (!made) return tl::unexpected<Error>(made.error());
         plan = std::move(*made);
         plan_key = std::move(key);
         return {};
     }
 
-    /// Draws all tiles of the picture. Fails if the caller cancels.
-    Result<TileCounts> draw_tiles(const PicturePass& pass, const std::function<bool()>* cancelled) {
+    /// Draws all tiles of the picture. Fails if the caller cancels, and if the host's loop leaves a tile out.
+    Result<TileCounts> draw_tiles(const PicturePass& pass, const Execution& execution) {
         std::mutex counting;
         TileCounts sum;
+        int done = 0;
         std::atomic<bool> stopped{false};
-        executor.run(plan.picture.tile_count(), [&](int tile) {
+        const int count = plan.picture.tile_count();
+        executor.run(count, [&](int tile) {
             if (stopped.load(std::memory_order_relaxed)) return;
-            if (cancelled != nullptr && (*cancelled)()) {
+            if (execution.cancelled && execution.cancelled()) {
                 stopped = true;
                 return;
             }
             Pool<TileScratch>::Loan loan(scratch);
             const TileCounts counts = PictureTile(pass, tile, *loan).draw();
+            if (execution.on_tile) {
+                const TileRect rect = plan.picture.tile_rect(tile);
+                execution.on_tile({rect.x, rect.y, rect.width, rect.height});
+            }
             const std::lock_guard lock(counting);
             sum += counts;
+            ++done;
+            if (execution.progress) execution.progress(static_cast<double>(done) / count);
         });
-        if (stopped) return fail(ErrorCode::negative_result, "stopped on request");
+        if (stopped) return fail(ErrorCode::cancelled, "stopped on request");
         return sum;
     }
 
-    Result<RenderReport> render(const PreparedScene& scene, const Camera& camera, const Settings& settings, const FramebufferView& target,
-                                RenderReport report) {
+    Result<RenderReport> render(const PreparedData& scene, const Camera& camera, const Settings& settings, const Target& target,
+                                const Execution& execution, RenderReport report) {
         Stopwatch watch;
-        if (auto ok = make_plan(scene, camera, settings, target); !ok) return tl::unexpected<Error>(ok.error());
-        const RasterKernels& raster = raster_kernels(*settings.isa);
-        const shading::ShadeKernels& shade = shading::shade_kernels(*settings.isa);
-        executor.configure(settings.threads, settings.parallel_for);
-        const bool by_reference = plan.options.accuracy == shading::Accuracy::reference;
+        const auto isa = check_execution(execution);
+        if (!isa) return tl::unexpected<Error>(isa.error());
+        if (auto ok = check_target(target, settings.region); !ok) return tl::unexpected<Error>(ok.error());
+        if (auto ok = make_plan(scene, camera, settings, target, execution.tile_size); !ok) return tl::unexpected<Error>(ok.error());
+        const RasterKernels& raster = raster_kernels(*isa);
+        const shading::ShadeKernels& shade = shading::shade_kernels(*isa);
+        executor.configure(execution.threads, execution.parallel_for);
+        const bool by_reference = plan.options.accuracy == Accuracy::reference;
         if (by_reference)
             if (auto ok = reference.build(scene, plan.shading, plan.options); !ok) return tl::unexpected<Error>(ok.error());
         report.ms.plan = watch.lap();
@@ -107,27 +115,27 @@ struct Renderer::Impl {
             return tl::unexpected<Error>(ok.error());
         report.ms.shadows = watch.lap();
 
-        if (auto ok = geometry.make(scene, plan.picture, raster, executor); !ok) return tl::unexpected<Error>(ok.error());
+        if (auto ok = geometry.make(scene, plan.picture, raster, executor, target.triangle != nullptr); !ok)
+            return tl::unexpected<Error>(ok.error());
         report.ms.cull = geometry.times_ms().cull;
         report.ms.transform = geometry.times_ms().transform;
         report.ms.bin = geometry.times_ms().bin;
         watch.lap();
 
         records.make(geometry, plan.shading.materials, raster, executor);
-        if (plan.options.rate == shading::ShadingRate::gouraud)
-            report.work = light_vertices(geometry, records, plan.shading, shade, executor);
+        if (plan.options.rate == ShadingRate::gouraud) report.work = light_vertices(geometry, records, plan.shading, shade, executor);
         report.ms.transform += watch.lap();
 
         const PicturePass pass{{geometry, records, plan.shading.materials, raster, shade, plan.shading.shadow_offset},
                                plan,
-                               target,
+                               Output(target, plan.picture.region),
                                by_reference ? &reference : nullptr};
-        const auto tiles = draw_tiles(pass, settings.cancelled);
+        const auto tiles = draw_tiles(pass, execution);
         if (!tiles) return tl::unexpected<Error>(tiles.error());
         report.ms.tiles = watch.lap();
 
         report.threads = executor.threads();
-        report.isa = *settings.isa;
+        report.isa = *isa;
         report.environment = plan.environment_uses;
         report.error = plan.shading.error;
         report.warnings.insert(report.warnings.end(), plan.warnings.begin(), plan.warnings.end());
@@ -168,24 +176,26 @@ Result<RenderReport> timed(const Body& body) {
 
 }  // namespace
 
-Result<RenderReport> Renderer::render(const PreparedScene& scene, const Camera& camera, const Settings& settings,
-                                      const FramebufferView& target) {
-    return timed([&] { return impl_->render(scene, camera, settings, target, {}); });
+Result<RenderReport> Renderer::render(const PreparedScene& scene, const Camera& camera, const Settings& settings, const Target& target,
+                                      const Execution& execution) {
+    return timed([&] { return impl_->render(scene.data(), camera, settings, target, execution, {}); });
 }
 
-Result<RenderReport> Renderer::render(const Scene& scene, const Camera& camera, const Settings& settings, const FramebufferView& target) {
+Result<RenderReport> Renderer::render(const Scene& scene, const Camera& camera, const Settings& settings, const Target& target,
+                                      const Execution& execution) {
     return timed([&]() -> Result<RenderReport> {
         Stopwatch watch;
         RenderReport report;
-        const auto prepared = PreparedScene::make(scene, {settings.threads, settings.parallel_for});
+        const auto prepared = PreparedData::make(scene, execution);
         if (!prepared) return tl::unexpected<Error>(prepared.error());
         report.ms.prepare = watch.lap();
-        return impl_->render(*prepared, camera, settings, target, std::move(report));
+        return impl_->render(*prepared, camera, settings, target, execution, std::move(report));
     });
 }
 
-Result<RenderReport> render(const Scene& scene, const Camera& camera, const Settings& settings, const FramebufferView& target) {
-    return Renderer().render(scene, camera, settings, target);
+Result<RenderReport> render(const Scene& scene, const Camera& camera, const Settings& settings, const Target& target,
+                            const Execution& execution) {
+    return Renderer().render(scene, camera, settings, target, execution);
 }
 
-}  // namespace halflit::raster
+}  // namespace halflit

@@ -7,8 +7,8 @@
 // sign convention differ by a factor -1 for odd m.
 #pragma once
 
+#include "halflit/math.hpp"
 #include "sh/trig.hpp"
-#include "sh/vec3.hpp"
 
 namespace halflit::sh {
 

@@ -5,9 +5,9 @@
 // A pixel is a patch of constant radiance, not a point sample: every integral in this folder is exact for that function.
 #pragma once
 
+#include "halflit/math.hpp"
 #include "sh/arc.hpp"
 #include "sh/trig.hpp"
-#include "sh/vec3.hpp"
 
 #include <cstddef>
 #include <span>

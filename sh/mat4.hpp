@@ -1,21 +1,11 @@
-// 4x4 matrices for node and camera transforms, column major: m.c[j] is the image of basis vector j, and
-// a point p maps to ((c0 x + c1 y) + c2 z) + c3. Only + - * / are used: the same bits on every machine.
+// Transforms by 4x4 matrices, for the inner loops. Only + - * / are used: the same bits on every machine.
 #pragma once
 
-#include "sh/vec3.hpp"
+#include "halflit/math.hpp"
 
 #include <initializer_list>
 
 namespace halflit {
-
-struct Mat4 {
-    Vec4f c[4]{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
-    friend constexpr bool operator==(const Mat4&, const Mat4&) = default;
-};
-
-HALFLIT_INLINE Vec4f operator*(const Mat4& m, Vec4f v) { return ((m.c[0] * v.x + m.c[1] * v.y) + m.c[2] * v.z) + m.c[3] * v.w; }
-
-HALFLIT_INLINE Mat4 operator*(const Mat4& a, const Mat4& b) { return {{a * b.c[0], a * b.c[1], a * b.c[2], a * b.c[3]}}; }
 
 HALFLIT_INLINE Vec3f transform_point(const Mat4& m, Vec3f p) {
     const Vec4f r = ((m.c[0] * p.x + m.c[1] * p.y) + m.c[2] * p.z) + m.c[3];
@@ -52,19 +42,6 @@ HALFLIT_INLINE NormalMatrix normal_matrix(const Mat4& m) {
     for (int j = 0; j < 3; ++j)
         n.c[j] = {static_cast<float>(cof[j].x * scale), static_cast<float>(cof[j].y * scale), static_cast<float>(cof[j].z * scale)};
     return n;
-}
-
-HALFLIT_INLINE Mat4 translation(Vec3f t) { return {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {t.x, t.y, t.z, 1}}}; }
-HALFLIT_INLINE Mat4 scaling(Vec3f s) { return {{{s.x, 0, 0, 0}, {0, s.y, 0, 0}, {0, 0, s.z, 0}, {0, 0, 0, 1}}}; }
-
-/// Rotation by the unit quaternion (x, y, z, w), as glTF stores it.
-HALFLIT_INLINE Mat4 rotation(Vec4f q) {
-    const float x2 = q.x + q.x, y2 = q.y + q.y, z2 = q.z + q.z;
-    const float xx = q.x * x2, yy = q.y * y2, zz = q.z * z2;
-    const float xy = q.x * y2, xz = q.x * z2, yz = q.y * z2;
-    const float wx = q.w * x2, wy = q.w * y2, wz = q.w * z2;
-    return {
-        {{1 - (yy + zz), xy + wz, xz - wy, 0}, {xy - wz, 1 - (xx + zz), yz + wx, 0}, {xz + wy, yz - wx, 1 - (xx + yy), 0}, {0, 0, 0, 1}}};
 }
 
 /// Inverse of a rigid transform (rotation and translation, no scale).

@@ -2,7 +2,7 @@
 
 #include "sh/sun.hpp"
 #include "sh/trig.hpp"
-#include "shading/material.hpp"
+#include "shading/model/scalar.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -59,3 +59,30 @@ Environment make_environment(const sh::EquirectView& image, const EnvironmentOpt
 }
 
 }  // namespace halflit::shading
+
+namespace halflit {
+
+Result<std::shared_ptr<const Environment>> make_environment(const EnvironmentImage& image, const EnvironmentOptions& options) {
+    if (image.width < 1 || image.height < 1) return fail(ErrorCode::bad_input, "environment: the image has no pixels");
+    const std::size_t expected = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 3;
+    if (image.rgb.size() != expected)
+        return fail(ErrorCode::bad_input, "environment: " + std::to_string(image.rgb.size()) + " values, expected " +
+                                              std::to_string(expected) + " for " + std::to_string(image.width) + " x " +
+                                              std::to_string(image.height) + " pixels");
+    for (const float value : image.rgb)
+        if (!(value >= 0.0f && value < 3e38f))
+            return fail(ErrorCode::bad_input, "environment: found a value that is negative or not finite");
+    auto environment = std::make_shared<Environment>(shading::make_environment(shading::view_of(image), options));
+    environment->calibrated = image.calibrated;
+    return environment;
+}
+
+std::span<const Light> environment_suns(const Environment& environment) { return environment.suns; }
+
+double environment_level(const Environment& environment) {
+    double level = 0.28209479177387814 * sh::luminance(environment.radiance.c[0]);  // times Y_0 = 1/(2 sqrt(pi)): the mean radiance
+    for (const Light& sun : environment.suns) level += 0.25 * sh::luminance({sun.color_linear.x, sun.color_linear.y, sun.color_linear.z});
+    return level;
+}
+
+}  // namespace halflit

@@ -1,18 +1,18 @@
 // Light from all around: an environment as shading uses it, ready to be convolved with any lobe at the order that the error requires.
 #pragma once
 
+#include "halflit/environment.hpp"
 #include "sh/coefficients.hpp"
 #include "sh/order.hpp"
 #include "sh/project.hpp"
 #include "sh/rotate.hpp"
-#include "shading/light.hpp"
 
 #include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
 
-namespace halflit::shading {
+namespace halflit {
 
 /// An environment image in ten bands, and the data that bound the error of leaving bands out. Suns taken out of the image are separate
 /// lights: the caller adds them to the scene's lights.
@@ -22,6 +22,7 @@ struct Environment {
     std::uint64_t id = 0;
     sh::RadianceSh radiance;  ///< turned by rotate_rad
     sh::BandGrid grid;
+    bool calibrated = false;  ///< as in EnvironmentImage
     std::vector<Light> suns;  ///< directional, colour premultiplied by 1/pi
     /// The original image with the suns, before any rotation, for the background of pictures; rotate_rad turns it. Empty unless kept.
     std::vector<float> rgb;
@@ -32,12 +33,9 @@ struct Environment {
     int lit_width = 0, lit_height = 0;
 };
 
-struct EnvironmentOptions {
-    bool extract_suns = true;  ///< take suns out where that lowers the bound on the error
-    double rotate_rad = 0.0;   ///< about +y, counterclockwise seen from above
-    bool keep_image = false;   ///< keep `rgb`, for a background
-    bool keep_light = false;   ///< keep `lit_rgb`, for Accuracy::reference
-};
+}  // namespace halflit
+
+namespace halflit::shading {
 
 /// Lobe of the reflected environment: a normalised cosine power about the mirrored view direction. Its exponent is a quarter of the
 /// highlight's, because the mirrored direction turns twice as fast as the half vector.
@@ -66,6 +64,9 @@ private:
     std::uint64_t id_ = 0;
 };
 
+[[nodiscard]] inline sh::EquirectView view_of(const EnvironmentImage& image) { return {image.width, image.height, image.rgb}; }
+
+/// The same as halflit::make_environment, for images that are known to be valid.
 [[nodiscard]] Environment make_environment(const sh::EquirectView& image, const EnvironmentOptions& options = {});
 
 }  // namespace halflit::shading

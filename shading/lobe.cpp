@@ -1,9 +1,21 @@
-#include "shading/lobe.hpp"
+#include "halflit/lobe.hpp"
+
+#include "shading/lobe_range.hpp"
 
 #include <charconv>
 #include <iterator>
 
 namespace halflit::shading {
+
+const char* why_not_wrap(double wrap) {
+    return wrap > kMaxLobeWrap ? ": above 1 every normal is lit, and the norm has another formula" : "";
+}
+
+const char* why_not_power(double power) { return power < 0 ? ": below 0 the lobe grows without bound at its boundary" : ""; }
+
+}  // namespace halflit::shading
+
+namespace halflit {
 namespace {
 
 /// The shortest text that reads back as the same number; never with a comma.
@@ -20,16 +32,11 @@ Result<void> check_lobe(const Lobe& lobe) {
         return fail(ErrorCode::bad_input,
                     std::string(what) + ": expected a number from 0 to " + text_of(most) + ", found " + text_of(found) + why);
     };
-    if (!(lobe.wrap >= 0.0f && lobe.wrap <= kMaxLobeWrap)) return refuse("wrap", kMaxLobeWrap, lobe.wrap, why_not_wrap(lobe.wrap));
-    if (!(lobe.power >= 0.0f && lobe.power <= kMaxLobePower)) return refuse("power", kMaxLobePower, lobe.power, why_not_power(lobe.power));
+    if (!(lobe.wrap >= 0.0f && lobe.wrap <= kMaxLobeWrap)) return refuse("wrap", kMaxLobeWrap, lobe.wrap, shading::why_not_wrap(lobe.wrap));
+    if (!(lobe.power >= 0.0f && lobe.power <= kMaxLobePower))
+        return refuse("power", kMaxLobePower, lobe.power, shading::why_not_power(lobe.power));
     return {};
 }
-
-const char* why_not_wrap(double wrap) {
-    return wrap > kMaxLobeWrap ? ": above 1 every normal is lit, and the norm has another formula" : "";
-}
-
-const char* why_not_power(double power) { return power < 0 ? ": below 0 the lobe grows without bound at its boundary" : ""; }
 
 const NamedLobe* find_named_lobe(std::string_view name) {
     for (const NamedLobe& lobe : kNamedLobes)
@@ -50,4 +57,4 @@ std::string lobe_warning(const Lobe& lobe) {
            " at its boundary";
 }
 
-}  // namespace halflit::shading
+}  // namespace halflit

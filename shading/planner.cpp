@@ -40,7 +40,9 @@ private:
 
 void plan_environments(const PlanInputs& inputs, PlanMemory& memory, ShadingPlan& plan) {
     if (inputs.environment == nullptr) return;
-    EnvironmentOrder order = inputs.options.environment_order;
+    EnvironmentOrder order;
+    order.fixed = inputs.options.environment_bands;
+    order.tolerance = inputs.options.environment_tolerance;
     order.exposure = inputs.exposure;
     if (inputs.options.max_error_codes > 0.0) order.codes = inputs.options.max_error_codes * kBudgetShares.each_environment();
     memory.environments.use(inputs.environment);
@@ -78,20 +80,27 @@ void plan_shadows(const ShadowInputs& shadows, ShadingPlan& plan) {
 
 }  // namespace
 
-Result<void> check_options(const PlanOptions& options) {
-    if (options.override_lobe)
-        if (const auto lobe = check_lobe(options.lobe); !lobe) return fail(ErrorCode::usage, "lobe: " + lobe.error().message);
-    if (!(options.max_error_codes > 0.0) || options.accuracy == Accuracy::reference) return {};
+Result<void> check_options(const ShadingSettings& options) {
+    if (options.lobe)
+        if (const auto lobe = check_lobe(*options.lobe); !lobe) return fail(ErrorCode::usage, "lobe: " + lobe.error().message);
+    if (options.environment_bands < 0 || options.environment_bands > sh::kMaxBands)
+        return fail(ErrorCode::usage, "sh-order: expected auto or 1 to 10, found " + std::to_string(options.environment_bands));
+    if (!(options.environment_tolerance >= 0.0)) return fail(ErrorCode::usage, "environment_tolerance: expected a number from 0");
+    if (options.max_error_codes == 0.0) return {};
+    if (!(options.max_error_codes > 0.0 && options.max_error_codes <= 255.0))
+        return fail(ErrorCode::usage, "max-error: expected a number of codes above 0, up to 255");
+    if (options.accuracy != Accuracy::exact)
+        return fail(ErrorCode::usage, "max-error: cannot be combined with an accuracy other than exact");
     if (options.rate != ShadingRate::pixel)
-        return fail(ErrorCode::usage, "max_error: expected the shading rate pixel; the error of other rates has no bound");
+        return fail(ErrorCode::usage, "max-error: expected shading pixel; the error of other rates has no bound");
     if (options.texture_detail != TextureDetail::full)
-        return fail(ErrorCode::usage, "max_error: expected the texture filter full; the error of other filters has no bound");
+        return fail(ErrorCode::usage, "max-error: expected texture-filter full; the error of other filters has no bound");
     return {};
 }
 
 ShadingPlan plan_shading(const PlanInputs& inputs, PlanMemory& memory) {
     HALFLIT_ASSERT(inputs.available_slots.size() == inputs.materials.size() + 1);
-    const PlanOptions& options = inputs.options;
+    const ShadingSettings& options = inputs.options;
     ShadingPlan plan;
     plan.lights = inputs.lights;
     plan.ambient = inputs.ambient;

@@ -2,11 +2,11 @@
 // spends an error budget. Only the alpha tests of shadow maps are planned elsewhere (raster/frame_plan.cpp).
 #pragma once
 
+#include "halflit/texture.hpp"
 #include "shading/budget/error_budget.hpp"
 #include "shading/environment.hpp"
 #include "shading/plan/environment_plans.hpp"
 #include "shading/plan/plan.hpp"
-#include "shading/texture.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -46,7 +46,7 @@ struct PlanInputs {
     std::span<const SlotMask> available_slots;
     std::vector<LightPlan> lights;  ///< of plan_lights()
     Ambient ambient;
-    PlanOptions options;
+    ShadingSettings options;
     std::shared_ptr<const Environment> environment = nullptr;
     double exposure = 1.0;  ///< display white is 1 / exposure
     Viewer viewer = {};
@@ -55,7 +55,7 @@ struct PlanInputs {
 };
 
 /// Fails (usage) for a lobe that check_lobe refuses, and for an error budget with options whose error has no bound.
-[[nodiscard]] Result<void> check_options(const PlanOptions& options);
+[[nodiscard]] Result<void> check_options(const ShadingSettings& options);
 
 [[nodiscard]] ShadingPlan plan_shading(const PlanInputs& inputs, PlanMemory& memory);
 [[nodiscard]] ShadingPlan plan_shading(const PlanInputs& inputs);

@@ -1,4 +1,4 @@
-#include "shading/texture.hpp"
+#include "halflit/texture.hpp"
 
 #include "shading/model/srgb.hpp"
 
@@ -7,14 +7,14 @@
 #include <new>
 #include <string>
 
-namespace halflit::shading {
+namespace halflit {
 namespace {
 
 /// IEC 61966-2-1: 8-bit sRGB code to linear light in 16 bits, rounded to nearest (no code lies near a tie: texture_test).
 constexpr std::array<std::uint16_t, 256> make_decode_table() {
     std::array<std::uint16_t, 256> table{};
     for (int code = 0; code < 256; ++code) {
-        table[static_cast<std::size_t>(code)] = static_cast<std::uint16_t>(linear_from_srgb(code / 255.0) * 65535.0 + 0.5);
+        table[static_cast<std::size_t>(code)] = static_cast<std::uint16_t>(shading::linear_from_srgb(code / 255.0) * 65535.0 + 0.5);
     }
     return table;
 }
@@ -161,4 +161,4 @@ Result<Texture> Texture::from_rgba16(std::span<const std::uint16_t> rgba16, int 
     return make(width, height, [&](std::size_t i, std::uint16_t* texel) { std::copy_n(&rgba16[4 * i], 4, texel); });
 }
 
-}  // namespace halflit::shading
+}  // namespace halflit

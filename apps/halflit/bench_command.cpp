@@ -6,7 +6,7 @@
 #include "apps/halflit/run_report.hpp"
 #include "apps/halflit/stopwatch.hpp"
 #include "apps/io/atomic_file.hpp"
-#include "apps/io/image_writer.hpp"
+#include "halflit/image.hpp"
 
 #include <fmt/format.h>
 
@@ -32,18 +32,18 @@ double median(std::vector<double> values) {
 
 struct Measured {
     std::vector<double> ms;
-    raster::RenderReport fastest;  ///< gives the reported times of stages
+    RenderReport fastest;  ///< gives the reported times of stages
 };
 
 /// Draws all frames with one Renderer, so that its memory is allocated from the second frame on. Each frame is drawn completely, as if the
 /// scene had moved. With `keep`, frames after the first reuse what did not change; for a scene at rest that is everything but the tiles.
-Result<Measured> measure(const RenderJob& job, int frames, bool keep, raster::Image& image) {
+Result<Measured> measure(const RenderJob& job, int frames, bool keep, Image& image) {
     Measured measured;
-    raster::Renderer renderer;
+    Renderer renderer;
     for (int i = 0; i < frames; ++i) {
         if (!keep) renderer.forget_frames();
         const Stopwatch watch;
-        const auto rendered = renderer.render(*job.prepared, job.camera, job.settings, view_of(image));
+        const auto rendered = renderer.render(*job.prepared, job.camera, job.settings, target_of(image), job.execution);
         const double ms = watch.ms();
         if (!rendered) return tl::unexpected(rendered.error());
         if (measured.ms.empty() || ms < *std::min_element(measured.ms.begin(), measured.ms.end())) measured.fastest = *rendered;
@@ -66,14 +66,14 @@ std::string table(const Json& report) {
 Result<int> run_bench(const BenchOptions& options) {
     const auto job = make_render_job(options, kUsualSize);
     if (!job) return tl::unexpected(job.error());
-    raster::Image image = make_image(*job, false);
+    Image image = make_image(*job, false);
     const auto measured = measure(*job, options.frames, options.keep, image);
     if (!measured) return tl::unexpected(measured.error());
     for (const std::string& warning : job->warnings) print_warning(warning);
 
-    const raster::Image picture = cropped(std::move(image), job->settings.region);
+    const Image picture = cropped(std::move(image), job->settings.region);
     const Stopwatch encoding;
-    const auto bytes = io::encode_image(picture, io::OutputFormat::png);
+    const auto bytes = encode_image(picture, OutputFormat::png);
     if (!bytes) return tl::unexpected(bytes.error());
     const double encode_ms = encoding.ms();
 

@@ -1,8 +1,8 @@
 #include "apps/halflit/built_in_scenes.hpp"
 
 #include "apps/halflit/values.hpp"
+#include "halflit/shapes.hpp"
 #include "raster/built_in/hall_of_lamps.hpp"
-#include "raster/built_in/shapes.hpp"
 #include "sh/trig.hpp"
 
 #include <string>
@@ -12,11 +12,11 @@ namespace {
 
 constexpr std::string_view kSpherePrefix = "sphere:", kLightsPrefix = "lights:", kEndless = ":endless";
 
-raster::Camera touching_camera(double radius) {
+Camera touching_camera(double radius) {
     constexpr double kFovDeg = 35.0;
     // The ray at half the field of view is tangent to the sphere: sin(fov / 2) = radius / distance.
     const double distance = radius / sin_cos(kFovDeg / 2 * (kPi / 180.0)).sin;
-    raster::Camera camera;
+    Camera camera;
     camera.name = "front";
     camera.world_from_camera = translation({0, 0, static_cast<float>(distance)});
     camera.fov_y_rad = static_cast<float>(kFovDeg * (kPi / 180.0));
@@ -24,19 +24,19 @@ raster::Camera touching_camera(double radius) {
     return camera;
 }
 
-raster::Scene sphere_scene(std::int64_t triangles) {
-    raster::Scene scene;
-    scene.meshes.push_back(raster::make_sphere_of(1.0f, triangles));
+Scene sphere_scene(std::int64_t triangles) {
+    Scene scene;
+    scene.meshes.push_back(make_sphere_of(1.0f, triangles));
     scene.meshes[0].material = 0;
     scene.instances.push_back({0, {}});
-    shading::Material clay;
+    Material clay;
     clay.name = "clay";
     clay.base_color = {0.8f, 0.75f, 0.7f, 1.0f};
     clay.metallic = 0.0f;
     clay.roughness = 0.6f;
-    clay.lobe = shading::Lobe::sloan(0.5f);
+    clay.lobe = Lobe::sloan(0.5f);
     scene.materials.push_back(clay);
-    shading::Light key, rim;
+    Light key, rim;
     key.direction_ws = normalize_or({-1, -1, -1}, {0, -1, 0});
     key.color_linear = {0.9f, 0.9f, 0.9f};
     rim.direction_ws = normalize_or({2, 0, -1}, {0, -1, 0});
@@ -48,8 +48,8 @@ raster::Scene sphere_scene(std::int64_t triangles) {
 
 }  // namespace
 
-Result<std::optional<raster::Scene>> built_in_scene(std::string_view name) {
-    if (name == "demo") return raster::demo_scene();
+Result<std::optional<Scene>> built_in_scene(std::string_view name) {
+    if (name == "demo") return demo_scene();
     if (name.starts_with(kLightsPrefix)) {
         const bool endless = name.ends_with(kEndless);
         const std::string_view number =

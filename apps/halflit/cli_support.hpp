@@ -1,7 +1,7 @@
 // CLI11 with our own reading of values, so that every flag is checked in one way (apps/halflit/values.hpp).
 #pragma once
 
-#include "shading/result.hpp"
+#include "halflit/error.hpp"
 
 #include <CLI/CLI.hpp>
 

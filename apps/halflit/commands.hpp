@@ -1,7 +1,7 @@
 // The sub-commands. Each adds itself to the command line and returns the function that runs it.
 #pragma once
 
-#include "shading/result.hpp"
+#include "halflit/error.hpp"
 
 #include <functional>
 

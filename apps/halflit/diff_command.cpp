@@ -7,7 +7,7 @@
 #include "apps/io/atomic_file.hpp"
 #include "apps/io/file_access.hpp"
 #include "apps/io/image_reader.hpp"
-#include "apps/io/image_writer.hpp"
+#include "halflit/image.hpp"
 
 #include <fmt/format.h>
 
@@ -23,19 +23,19 @@ struct DiffOptions {
     std::string output;  ///< empty: no difference image
 };
 
-Result<raster::Image> read_picture(const std::string& path) {
+Result<Image> read_picture(const std::string& path) {
     const auto file = io::read_file(path);
     if (!file) return tl::unexpected(file.error());
     auto decoded = io::decode_image(*file);
     if (!decoded) return fail(decoded.error().code, path + ": " + decoded.error().message);
-    return raster::Image{decoded->width, decoded->height, std::move(decoded->rgba8), {}};
+    return Image{decoded->width, decoded->height, std::move(decoded->rgba8), {}};
 }
 
-Result<void> write_difference(const std::string& path, const raster::Image& a, const raster::Image& b) {
-    const auto format = io::output_format_of(path);
+Result<void> write_difference(const std::string& path, const Image& a, const Image& b) {
+    const auto format = output_format_of(path);
     if (!format) return tl::unexpected(format.error());
-    if (io::is_linear(*format)) return fail(ErrorCode::usage, path + ": expected a picture of 8-bit codes (.png .jpg .bmp .tga)");
-    const auto bytes = io::encode_image(difference_image(a, b), *format);
+    if (is_linear(*format)) return fail(ErrorCode::usage, path + ": expected a picture of 8-bit codes (.png .jpg .bmp .tga)");
+    const auto bytes = encode_image(difference_image(a, b), *format);
     if (!bytes) return tl::unexpected(bytes.error());
     return io::write_file(path, *bytes);
 }

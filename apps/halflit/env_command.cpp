@@ -3,11 +3,13 @@
 #include "apps/halflit/commands.hpp"
 #include "apps/halflit/messages.hpp"
 #include "apps/halflit/run_report.hpp"
+#include "apps/halflit/scene_source.hpp"
 #include "apps/halflit/values.hpp"
 #include "apps/io/atomic_file.hpp"
-#include "apps/io/environment.hpp"
+#include "halflit/image.hpp"
 #include "sh/order.hpp"
 #include "sh/sun.hpp"
+#include "shading/environment.hpp"
 
 #include <fmt/format.h>
 
@@ -26,7 +28,7 @@ struct EnvOptions {
 
 /// An environment and everything that is computed from it.
 struct Description {
-    io::EnvironmentImage environment;
+    EnvironmentImage environment;
     sh::Projection whole;
     sh::SunExtraction extraction;
     sh::LobeSpectrum lambert = sh::lobe_spectrum({0.0, 1.0, 1.0});
@@ -34,9 +36,9 @@ struct Description {
     float max = 0;
 };
 
-Description look_at(io::EnvironmentImage environment) {
-    sh::Projection whole(environment.view());
-    sh::SunExtraction extraction = sh::extract_suns(environment.view(), whole);
+Description look_at(EnvironmentImage environment) {
+    sh::Projection whole(shading::view_of(environment));
+    sh::SunExtraction extraction = sh::extract_suns(shading::view_of(environment), whole);
     Description out;
     out.mean = whole.mean();
     out.max = *std::max_element(environment.rgb.begin(), environment.rgb.end());
@@ -130,7 +132,7 @@ std::string text_of(const Description& d, int bands) {
 }
 
 Result<int> run_env(const EnvOptions& options) {
-    auto environment = io::environment_by_name(options.name);
+    auto environment = find_environment(options.name);
     if (!environment) return tl::unexpected(environment.error());
     const Description description = look_at(std::move(*environment));
     const std::string text = options.json ? to_text(json_of(description, options.bands)) : text_of(description, options.bands);

@@ -1,7 +1,8 @@
 #include "apps/halflit/lobe_model.hpp"
 
 #include "apps/halflit/messages.hpp"
-#include "shading/lobe.hpp"
+#include "halflit/lobe.hpp"
+#include "shading/lobe_range.hpp"
 
 #include <fmt/format.h>
 
@@ -37,15 +38,15 @@ Result<double> parse_parameter(const std::string& text, double most, const char*
 
 }  // namespace
 
-Result<double> parse_wrap(const std::string& text) { return parse_parameter(text, shading::kMaxLobeWrap, &shading::why_not_wrap); }
+Result<double> parse_wrap(const std::string& text) { return parse_parameter(text, kMaxLobeWrap, &shading::why_not_wrap); }
 
-Result<double> parse_power(const std::string& text) { return parse_parameter(text, shading::kMaxLobePower, &shading::why_not_power); }
+Result<double> parse_power(const std::string& text) { return parse_parameter(text, kMaxLobePower, &shading::why_not_power); }
 
 Result<LobeModel> make_lobe_model(const LobeModelOptions& options) {
-    const shading::NamedLobe* model = shading::find_named_lobe(options.name);
+    const NamedLobe* model = find_named_lobe(options.name);
     if (model == nullptr)
-        return fail(ErrorCode::usage, fmt::format("MODEL: expected {}, found '{}'", shading::lobe_names(), printable(options.name)));
-    const double own_wrap = model->takes_wrap ? options.wrap.value_or(double{shading::kUsualWrap}) : double{model->wrap};
+        return fail(ErrorCode::usage, fmt::format("MODEL: expected {}, found '{}'", lobe_names(), printable(options.name)));
+    const double own_wrap = model->takes_wrap ? options.wrap.value_or(double{kUsualWrap}) : double{model->wrap};
     const double own_power = double{model->power} + double{model->power_per_wrap} * own_wrap;
     const double w = options.wrap.value_or(own_wrap), n = options.power.value_or(own_power);
     const double scale = options.normalize.value_or(model->normalize) ? sh::normalizing_scale(w, n) : 1.0;

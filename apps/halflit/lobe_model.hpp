@@ -2,8 +2,8 @@
 // float.
 #pragma once
 
+#include "halflit/error.hpp"
 #include "sh/zonal.hpp"
-#include "shading/result.hpp"
 
 #include <optional>
 #include <string>

@@ -3,7 +3,7 @@
 #include "apps/halflit/interrupt.hpp"
 #include "apps/halflit/messages.hpp"
 #include "apps/halflit/usage_error.hpp"
-#include "raster/pixel_epoch.hpp"
+#include "halflit/version.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -47,7 +47,7 @@ int parse_and_run(int argc, char** argv) {
         "Exit codes: 0 ok, 1 negative result, 2 usage, 3 bad input, 4 cannot read or write, 5 limit hit, 6 internal error, 128+n signal "
         "n.");
     root.require_subcommand(1);
-    root.set_version_flag("--version", fmt::format("halflit {} (pixel_epoch {})", HALFLIT_VERSION, raster::kPixelEpoch));
+    root.set_version_flag("--version", fmt::format("halflit {} (pixel_epoch {})", version(), kPixelEpoch));
     const Command commands[] = {add_render_command(root), add_bench_command(root), add_info_command(root),    add_diff_command(root),
                                 add_lobe_command(root),   add_env_command(root),   add_figures_command(root), add_trade_command(root)};
     try {

@@ -16,7 +16,7 @@ std::optional<double> PictureDiff::psnr() const {
     return 10.0 * std::log10(255.0 * 255.0 / mean_square);
 }
 
-PictureDiff compare_pictures(const raster::Image& a, const raster::Image& b) {
+PictureDiff compare_pictures(const Image& a, const Image& b) {
     HALFLIT_ASSERT(a.rgba8.size() == b.rgba8.size());
     PictureDiff diff;
     diff.pixels = a.rgba8.size() / 4;
@@ -34,7 +34,7 @@ PictureDiff compare_pictures(const raster::Image& a, const raster::Image& b) {
     return diff;
 }
 
-raster::Image difference_image(const raster::Image& a, const raster::Image& b) {
+Image difference_image(const Image& a, const Image& b) {
     HALFLIT_ASSERT(a.rgba8.size() == b.rgba8.size());
     std::vector<int> differences;
     differences.reserve(a.rgba8.size());
@@ -43,7 +43,7 @@ raster::Image difference_image(const raster::Image& a, const raster::Image& b) {
     int largest = 1;
     for (std::size_t i = 0; i < differences.size(); i += 4)
         for (std::size_t c = 0; c < 3; ++c) largest = std::max(largest, shown(i, c));
-    raster::Image image{a.width, a.height, {}, {}};
+    Image image{a.width, a.height, {}, {}};
     image.rgba8.reserve(a.rgba8.size());
     for (std::size_t i = 0; i < differences.size(); i += 4) {
         for (std::size_t c = 0; c < 3; ++c) image.rgba8.push_back(static_cast<std::uint8_t>((shown(i, c) * 255 + largest / 2) / largest));

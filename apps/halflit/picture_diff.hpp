@@ -1,7 +1,7 @@
 // The difference of two pictures of the same size, in 8-bit codes over red, green, blue and alpha.
 #pragma once
 
-#include "raster/framebuffer.hpp"
+#include "halflit/target.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -21,9 +21,9 @@ struct PictureDiff {
     [[nodiscard]] std::optional<double> psnr() const;
 };
 
-[[nodiscard]] PictureDiff compare_pictures(const raster::Image& a, const raster::Image& b);
+[[nodiscard]] PictureDiff compare_pictures(const Image& a, const Image& b);
 
 /// Absolute differences of colour, with that of alpha added to each channel, stretched so that the largest is 255; opaque.
-[[nodiscard]] raster::Image difference_image(const raster::Image& a, const raster::Image& b);
+[[nodiscard]] Image difference_image(const Image& a, const Image& b);
 
 }  // namespace halflit::cli

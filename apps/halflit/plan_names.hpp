@@ -8,28 +8,28 @@
 
 namespace halflit::cli {
 
-/// Indexed by the bit of shading::Stage.
-inline constexpr std::string_view kStageNames[shading::kStageCount] = {"base colour texture",
-                                                                       "vertex colour",
-                                                                       "normal map",
-                                                                       "metallic roughness texture",
-                                                                       "occlusion texture",
-                                                                       "emissive texture",
-                                                                       "lights",
-                                                                       "specular",
-                                                                       "ambient",
-                                                                       "unlit",
-                                                                       "texture gradients",
-                                                                       "light at vertices or triangles",
-                                                                       "environment"};
+/// Indexed by the bit of Stage.
+inline constexpr std::string_view kStageNames[kStageCount] = {"base colour texture",
+                                                              "vertex colour",
+                                                              "normal map",
+                                                              "metallic roughness texture",
+                                                              "occlusion texture",
+                                                              "emissive texture",
+                                                              "lights",
+                                                              "specular",
+                                                              "ambient",
+                                                              "unlit",
+                                                              "texture gradients",
+                                                              "light at vertices or triangles",
+                                                              "environment"};
 
-/// Indexed by shading::LightType.
+/// Indexed by LightType.
 inline constexpr std::string_view kLightTypeNames[] = {"directional", "point", "spot"};
 
 inline constexpr std::string_view kAccuracyNames[] = {"reference", "exact", "display", "fast"};
-constexpr std::string_view accuracy_name(shading::Accuracy accuracy) { return kAccuracyNames[static_cast<std::size_t>(accuracy)]; }
+constexpr std::string_view accuracy_name(Accuracy accuracy) { return kAccuracyNames[static_cast<std::size_t>(accuracy)]; }
 
-/// Indexed by shading::SpecularModel.
+/// Indexed by SpecularModel.
 inline constexpr std::string_view kSpecularNames[] = {"none", "phong", "blinn"};
 
 constexpr std::string_view tier_name(shading::PowTier tier) {
@@ -49,14 +49,12 @@ constexpr std::string_view lobe_path_name(shading::LobePath path) {
 }
 
 inline constexpr std::string_view kRateNames[] = {"flat", "gouraud", "pixel"};
-constexpr std::string_view rate_name(shading::ShadingRate rate) { return kRateNames[static_cast<std::size_t>(rate)]; }
+constexpr std::string_view rate_name(ShadingRate rate) { return kRateNames[static_cast<std::size_t>(rate)]; }
 
 inline constexpr std::string_view kTextureDetailNames[] = {"full", "bilinear", "nearest"};
-constexpr std::string_view texture_detail_name(shading::TextureDetail detail) {
-    return kTextureDetailNames[static_cast<std::size_t>(detail)];
-}
+constexpr std::string_view texture_detail_name(TextureDetail detail) { return kTextureDetailNames[static_cast<std::size_t>(detail)]; }
 
 inline constexpr std::string_view kShadowModeNames[] = {"off", "hard", "soft-split"};
-constexpr std::string_view shadow_mode_name(shading::ShadowMode mode) { return kShadowModeNames[static_cast<std::size_t>(mode)]; }
+constexpr std::string_view shadow_mode_name(ShadowMode mode) { return kShadowModeNames[static_cast<std::size_t>(mode)]; }
 
 }  // namespace halflit::cli

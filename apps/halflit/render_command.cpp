@@ -7,7 +7,7 @@
 #include "apps/halflit/run_report.hpp"
 #include "apps/halflit/stopwatch.hpp"
 #include "apps/io/atomic_file.hpp"
-#include "apps/io/image_writer.hpp"
+#include "halflit/image.hpp"
 
 #include <sys/stat.h>
 
@@ -58,20 +58,20 @@ Result<void> check_paths(const RenderCommandOptions& options) {
 
 Result<void> render_and_write(const RenderCommandOptions& options, Json& report) {
     if (is_directory(options.output)) return fail(ErrorCode::io, options.output + ": " + std::strerror(EISDIR));
-    const auto format = io::output_format_of(options.output);
+    const auto format = output_format_of(options.output);
     if (!format) return tl::unexpected(format.error());
     if (const auto checked = check_paths(options); !checked) return checked;
     auto job = make_render_job(options, kUsualSize);
     if (!job) return tl::unexpected(job.error());
-    raster::Image image = make_image(*job, io::is_linear(*format));
-    const auto rendered = raster::Renderer().render(*job->prepared, job->camera, job->settings, view_of(image));
+    Image image = make_image(*job, is_linear(*format));
+    const auto rendered = Renderer().render(*job->prepared, job->camera, job->settings, target_of(image), job->execution);
     if (!rendered) return tl::unexpected(rendered.error());
     for (const auto& warnings : {job->warnings, rendered->warnings})
         for (const std::string& warning : warnings) print_warning(warning);
 
-    const raster::Image picture = cropped(std::move(image), job->settings.region);
+    const Image picture = cropped(std::move(image), job->settings.region);
     const Stopwatch encoding;
-    const auto bytes = io::encode_image(picture, *format);
+    const auto bytes = encode_image(picture, *format);
     if (!bytes) return tl::unexpected(bytes.error());
     const double encode_ms = encoding.ms();
     if (const auto written = io::write_file(options.output, *bytes); !written) return written;

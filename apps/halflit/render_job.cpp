@@ -1,10 +1,10 @@
 #include "apps/halflit/render_job.hpp"
 
 #include "apps/halflit/stopwatch.hpp"
-#include "apps/io/environment.hpp"
-#include "apps/io/image_writer.hpp"
-#include "raster/scene/exposure.hpp"
-#include "raster/scene/framing.hpp"
+#include "halflit/auto_setup.hpp"
+#include "halflit/camera.hpp"
+#include "halflit/image.hpp"
+#include "halflit/scene.hpp"
 #include "sh/trig.hpp"
 #include "shading/environment.hpp"
 
@@ -15,8 +15,8 @@
 namespace halflit::cli {
 namespace {
 
-Result<void> check_size(PictureSize size, const raster::Region& region) {
-    if (std::int64_t{size.width} * size.height > io::kMaxImagePixels)
+Result<void> check_size(PictureSize size, const Region& region) {
+    if (std::int64_t{size.width} * size.height > kMaxImagePixels)
         return fail(ErrorCode::limit, fmt::format("--size: {}x{} is more than 2^28 pixels", size.width, size.height));
     if (std::int64_t{region.x} + region.width > size.width || std::int64_t{region.y} + region.height > size.height)
         return fail(ErrorCode::usage, fmt::format("--region: expected a part of the {}x{} picture, found {},{},{},{}", size.width,
@@ -25,7 +25,7 @@ Result<void> check_size(PictureSize size, const raster::Region& region) {
 }
 
 /// The largest size with the camera's aspect ratio that fits into the usual one.
-PictureSize shaped(PictureSize usual, const raster::Camera& camera) {
+PictureSize shaped(PictureSize usual, const Camera& camera) {
     double aspect = static_cast<double>(camera.aspect);
     if (camera.orthographic) aspect = camera.half_width > 0.0f ? static_cast<double>(camera.half_width / camera.half_height) : 0.0;
     if (!(aspect > 1e-3 && aspect < 1e3)) return usual;
@@ -34,8 +34,8 @@ PictureSize shaped(PictureSize usual, const raster::Camera& camera) {
     return {side(fitted), side(fitted / aspect)};
 }
 
-Result<const raster::Camera*> find_camera(const std::vector<raster::Camera>& cameras, const std::string& wanted) {
-    for (const raster::Camera& camera : cameras)
+Result<const Camera*> find_camera(const std::vector<Camera>& cameras, const std::string& wanted) {
+    for (const Camera& camera : cameras)
         if (camera.name == wanted) return &camera;
     const auto index = parse_int(wanted, 0, std::int64_t{1} << 31);
     if (index && *index < static_cast<std::int64_t>(cameras.size())) return &cameras[static_cast<std::size_t>(*index)];
@@ -44,10 +44,13 @@ Result<const raster::Camera*> find_camera(const std::vector<raster::Camera>& cam
                 fmt::format("--camera: expected an index below {} or a camera's name, found '{}'", cameras.size(), wanted));
 }
 
-/// Chooses the camera, and the size unless --size gave it. A camera of the file is used unchanged.
-Result<void> choose_view(RenderJob& job, const RenderOptions& options, PictureSize usual) {
-    const std::vector<raster::Camera>& cameras = job.scene().cameras;
-    const raster::Camera* chosen = cameras.empty() || options.own_view ? nullptr : &cameras.front();
+/// Chooses the size unless --size gave it. Returns the file's camera to draw with, which is used unchanged; null: a view of the scene.
+Result<const Camera*> choose_view(RenderJob& job, const RenderOptions& options, PictureSize usual) {
+    const std::vector<Camera>& cameras = job.scene().cameras;
+    const Camera* chosen = options.own_view ? nullptr : choose_camera(job.scene(), job.prepared->bounds());
+    if (chosen == nullptr && !cameras.empty() && !options.own_view && !options.camera)
+        job.warnings.push_back(
+            "the file's camera shows almost nothing of the scene: drawn from a camera of its own (--camera 0: the file's)");
     if (options.camera) {
         const auto found = find_camera(cameras, *options.camera);
         if (!found) return tl::unexpected(found.error());
@@ -56,73 +59,55 @@ Result<void> choose_view(RenderJob& job, const RenderOptions& options, PictureSi
     const PictureSize size = options.size ? *options.size : chosen != nullptr ? shaped(usual, *chosen) : usual;
     job.width = size.width;
     job.height = size.height;
-    const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
-    job.camera = chosen != nullptr ? *chosen : raster::frame_scene(job.scene(), job.prepared->bounds(), aspect, options.view);
-    return check_size(size, options.settings.region);
+    if (const auto checked = check_size(size, options.settings.region); !checked) return tl::unexpected(checked.error());
+    return chosen;
 }
 
-/// Replaces the ambient light by the environment, and adds its suns as lights. Returns the automatic exposure. A picture's unit is not
-/// known, so its mean light, suns included, makes a white surface 0.5. The built-in sky has exposure 1.
-Result<float> add_environment(raster::Scene& scene, const RenderOptions& options) {
-    const auto image = io::environment_by_name(options.environment);
+/// Replaces the ambient light by the environment, and adds its suns as lights.
+Result<void> add_environment(Scene& scene, const RenderOptions& options) {
+    const auto image = find_environment(options.environment);
     if (!image) return tl::unexpected(image.error());
-    auto environment = std::make_shared<shading::Environment>(shading::make_environment(
-        image->view(), {options.environment_sun, static_cast<double>(options.environment_rotate_deg) * (kPi / 180.0),
-                        options.settings.background_environment, options.settings.shading.accuracy == shading::Accuracy::reference}));
-    scene.ambient = {};
-    double level = 0.28209479177387814 * sh::luminance(environment->radiance.c[0]);  // times Y_0 = 1/(2 sqrt(pi)): the mean radiance
-    for (const shading::Light& sun : environment->suns) {
-        scene.lights.push_back(sun);
-        level += 0.25 * sh::luminance({sun.color_linear.x, sun.color_linear.y, sun.color_linear.z});
-    }
-    scene.environment = std::move(environment);
-    if (options.environment == "sky" || !(level > 1e-18 && level < 1e18)) return 1.0f;
-    return static_cast<float>(0.5 / level);
-}
-
-/// Chooses lights, ambient light and exposure. The unit of a file's own lights is not known, so the exposure is chosen from them; ambient
-/// light is added if the file has none. Lights from flags and built-in scenes are made for exposure 1.
-Result<void> choose_light(RenderJob& job, const RenderOptions& options, const raster::Bounds& bounds) {
-    raster::Scene& scene = job.scene();
-    if (!options.scene_lights) {
-        scene.lights.clear();
-        scene.ambient = {};
-    }
-    if (!options.environment.empty()) {
-        const auto exposure = add_environment(scene, options);
-        if (!exposure) return tl::unexpected(exposure.error());
-        scene.lights.insert(scene.lights.end(), options.lights.begin(), options.lights.end());
-        job.settings.exposure = options.exposure.value_or(*exposure);
-        return {};
-    }
-    const bool foreign = job.source.file && !scene.lights.empty();
-    scene.lights.insert(scene.lights.end(), options.lights.begin(), options.lights.end());
-    const bool ambient_alone = !options.scene_lights && options.ambient_linear;
-    if (scene.lights.empty() && !ambient_alone) raster::add_default_lights(scene, job.camera);
-    if (options.ambient_linear)
-        scene.ambient = {*options.ambient_linear, *options.ambient_linear};
-    else if (foreign && scene.ambient.sky_linear == Vec3f{} && scene.ambient.ground_linear == Vec3f{})
-        scene.ambient = raster::soft_ambient(scene, bounds);
-    const float automatic = foreign ? raster::auto_exposure(scene, bounds) : 1.0f;
-    job.settings.exposure = options.exposure.value_or(automatic);
+    const auto environment =
+        make_environment(*image, {options.environment_sun, static_cast<double>(options.environment_rotate_deg) * (kPi / 180.0),
+                                  options.settings.background_environment, options.settings.shading.accuracy == Accuracy::reference});
+    if (!environment) return tl::unexpected(environment.error());
+    set_environment(scene, *environment);
     return {};
 }
 
-Result<void> choose_settings(raster::Settings& settings, const RenderOptions& options) {
-    settings = options.settings;
-    const shading::PlanOptions& s = settings.shading;
-    if (s.max_error_codes > 0.0) {
-        if (s.accuracy != shading::Accuracy::exact) return fail(ErrorCode::usage, "--max-error: cannot be combined with --accuracy");
-        if (s.rate != shading::ShadingRate::pixel)
-            return fail(ErrorCode::usage, "--max-error: expected --shading pixel; the error of other rates has no bound");
-        if (s.texture_detail != shading::TextureDetail::full)
-            return fail(ErrorCode::usage, "--max-error: expected --texture-filter full; the error of other filters has no bound");
+/// Chooses camera, lights, ambient light and exposure: what the flags say, and auto_setup for the rest.
+Result<void> choose_setup(RenderJob& job, const RenderOptions& options, const Camera* camera) {
+    Scene& scene = job.scene();
+    AutoOptions choice;
+    if (!options.scene_lights) {
+        scene.lights.clear();
+        scene.ambient = {};
+        scene.calibrated = true;
+        choice.add_lights = !options.ambient_linear;
     }
+    if (!options.environment.empty())
+        if (const auto added = add_environment(scene, options); !added) return added;
+    if (camera != nullptr) choice.camera = *camera;
+    choice.frame = camera == nullptr;
+    choice.view = options.view;
+    choice.ambient_linear = options.ambient_linear;
+    choice.exposure = options.exposure;
+    scene.lights.insert(scene.lights.end(), options.lights.begin(), options.lights.end());
+    const AutoSetup setup = auto_setup(scene, job.prepared->bounds(), job.width, job.height, choice);
+    job.camera = setup.camera;
+    job.settings.exposure = setup.settings.exposure;
+    return {};
+}
+
+Result<void> choose_settings(Settings& settings, const RenderOptions& options) {
+    settings = options.settings;
     const auto lobe = chosen_lobe(options);
     if (!lobe) return tl::unexpected(lobe.error());
-    if (!settings.isa) return fail(ErrorCode::usage, settings.isa.error().message);
-    settings.shading.override_lobe = lobe->has_value();
-    settings.shading.lobe = lobe->value_or(shading::Lobe{});
+    settings.shading.lobe = *lobe;
+    // The size is not known yet.
+    Settings anywhere = settings;
+    anywhere.region = {};
+    if (const auto checked = check_settings(anywhere, 1, 1); !checked) return fail(checked.error().code, "--" + checked.error().message);
     return {};
 }
 
@@ -137,6 +122,12 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
     if (options.size)
         if (const auto checked = check_size(*options.size, options.settings.region); !checked) return tl::unexpected(checked.error());
     RenderJob job;
+    job.execution = options.execution;
+    if (!job.execution.isa) {
+        const auto isa = default_isa();
+        if (!isa) return fail(ErrorCode::usage, isa.error().message);
+        job.execution.isa = *isa;
+    }
     if (const auto chosen = choose_settings(job.settings, options); !chosen) return tl::unexpected(chosen.error());
 
     const Stopwatch loading;
@@ -147,35 +138,36 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
     job.warnings = job.source.warnings;
 
     const Stopwatch preparing;
-    auto prepared = raster::PreparedScene::make(job.scene(), {job.settings.threads, {}});
+    auto prepared = PreparedScene::make(job.scene(), job.execution);
     if (!prepared) return tl::unexpected(prepared.error());
     job.prepared = std::move(*prepared);
     job.prepare_ms = preparing.ms();
-    const raster::Bounds bounds = job.prepared->bounds();
+    const Bounds bounds = job.prepared->bounds();
     const bool loader_said_so = job.source.file && job.source.file->triangles_drawn == 0;
     if (bounds.empty && !loader_said_so) job.warnings.push_back("nothing to draw: no vertex has finite coordinates");
-    if (const auto viewed = choose_view(job, options, usual); !viewed) return tl::unexpected(viewed.error());
-    if (const auto lit = choose_light(job, options, bounds); !lit) return tl::unexpected(lit.error());
+    const auto camera = choose_view(job, options, usual);
+    if (!camera) return tl::unexpected(camera.error());
+    if (const auto set_up = choose_setup(job, options, *camera); !set_up) return tl::unexpected(set_up.error());
     if (const auto updated = job.prepared->update({.lights = true}); !updated) return tl::unexpected(updated.error());
-    job.settings.region = options.settings.region.width > 0 ? options.settings.region : raster::Region{0, 0, job.width, job.height};
+    job.settings.region = options.settings.region.width > 0 ? options.settings.region : Region{0, 0, job.width, job.height};
     return job;
 }
 
-raster::Image make_image(const RenderJob& job, bool linear) {
-    raster::Image image{job.width, job.height, {}, {}};
+Image make_image(const RenderJob& job, bool linear) {
+    Image image{job.width, job.height, {}, {}};
     const std::size_t values = static_cast<std::size_t>(job.width) * static_cast<std::size_t>(job.height) * 4;
     image.rgba8.resize(values);
     if (linear) image.rgba_linear.resize(values);
     return image;
 }
 
-raster::FramebufferView view_of(raster::Image& image) {
+Target target_of(Image& image) {
     return {image.width, image.height, image.rgba8.data(), image.rgba_linear.empty() ? nullptr : image.rgba_linear.data()};
 }
 
-raster::Image cropped(raster::Image image, const raster::Region& region) {
+Image cropped(Image image, const Region& region) {
     if (region.width == image.width && region.height == image.height) return image;
-    raster::Image part{region.width, region.height, {}, {}};
+    Image part{region.width, region.height, {}, {}};
     const auto copy_rows = [&](const auto& from, auto& to) {
         if (from.empty()) return;
         const std::ptrdiff_t stride = std::ptrdiff_t{4} * image.width, length = std::ptrdiff_t{4} * region.width;

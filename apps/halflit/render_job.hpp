@@ -3,8 +3,8 @@
 
 #include "apps/halflit/render_options.hpp"
 #include "apps/halflit/scene_source.hpp"
-#include "raster/renderer.hpp"
-#include "shading/result.hpp"
+#include "halflit/error.hpp"
+#include "halflit/renderer.hpp"
 
 #include <optional>
 #include <string>
@@ -13,16 +13,17 @@
 namespace halflit::cli {
 
 struct RenderJob {
-    SceneSource source;                             ///< has the job's lights and ambient light
-    std::optional<raster::PreparedScene> prepared;  ///< made from that scene
-    raster::Camera camera;
-    raster::Settings settings;  ///< the region is never empty
+    SceneSource source;                     ///< has the job's lights and ambient light
+    std::optional<PreparedScene> prepared;  ///< made from that scene
+    Camera camera;
+    Settings settings;  ///< the region is never empty
+    Execution execution;
     int width = 0, height = 0;
     double load_ms = 0, prepare_ms = 0;
     std::vector<std::string> warnings;
 
-    [[nodiscard]] raster::Scene& scene() { return *source.scene; }
-    [[nodiscard]] const raster::Scene& scene() const { return *source.scene; }
+    [[nodiscard]] Scene& scene() { return *source.scene; }
+    [[nodiscard]] const Scene& scene() const { return *source.scene; }
 };
 
 /// `usual`: the picture size without --size; it is reduced to the aspect ratio of the file's camera. Errors that can be found without the
@@ -30,10 +31,10 @@ struct RenderJob {
 [[nodiscard]] Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usual);
 
 /// Allocates the whole picture: 8-bit codes, and linear floats if `linear`.
-[[nodiscard]] raster::Image make_image(const RenderJob& job, bool linear);
-[[nodiscard]] raster::FramebufferView view_of(raster::Image& image);
+[[nodiscard]] Image make_image(const RenderJob& job, bool linear);
+[[nodiscard]] Target target_of(Image& image);
 
 /// The region of the picture that was drawn; the picture itself when that is all of it.
-[[nodiscard]] raster::Image cropped(raster::Image image, const raster::Region& region);
+[[nodiscard]] Image cropped(Image image, const Region& region);
 
 }  // namespace halflit::cli

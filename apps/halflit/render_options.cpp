@@ -2,7 +2,7 @@
 
 #include "apps/halflit/cli_support.hpp"
 #include "apps/halflit/plan_names.hpp"
-#include "raster/scene/exposure.hpp"
+#include "halflit/scene.hpp"
 
 #include <fmt/format.h>
 
@@ -53,7 +53,7 @@ std::string_view name_of(T value, const std::string_view (&names)[N]) {
 
 void add_picture_flags(CLI::App& app, RenderOptions& o, PictureSize usual) {
     constexpr const char* kGroup = "Picture";
-    raster::Settings& s = o.settings;
+    Settings& s = o.settings;
     add_value(app, "--size", "WxH",
               fmt::format("Size in pixels (default {}x{}, reduced to the aspect ratio of the file's camera)", usual.width, usual.height),
               [&o](const std::string& text) { return assign(o.size, parse_size(text)); })
@@ -80,7 +80,7 @@ void add_picture_flags(CLI::App& app, RenderOptions& o, PictureSize usual) {
             if (text == "auto") return Result<void>();
             const auto ev = parse_float(text, -64.0f, 64.0f);
             if (!ev) return Result<void>(fail(ErrorCode::usage, fmt::format("expected auto or a number from -64 to 64, found '{}'", text)));
-            o.exposure = raster::exposure_factor(*ev);
+            o.exposure = exposure_factor(*ev);
             return Result<void>();
         })
         ->group(kGroup);
@@ -148,7 +148,7 @@ void add_environment_flags(CLI::App& app, RenderOptions& o) {
               fmt::format("Replace suns in the environment by directional lights (default {})", name_of(o.environment_sun, kOffOn)),
               named(o.environment_sun, kOffOn))
         ->group(kGroup);
-    int& order = o.settings.shading.environment_order.fixed;
+    int& order = o.settings.shading.environment_bands;
     add_value(app, "--sh-order", fmt::format("auto|1..{}", sh::kMaxBands),
               "Bands of spherical harmonics for the environment; auto: as few as keep the error within 1/510 of white (default)",
               [&order](const std::string& text) -> Result<void> {
@@ -162,7 +162,7 @@ void add_environment_flags(CLI::App& app, RenderOptions& o) {
         ->group(kGroup);
 }
 
-void add_shadow_flags(CLI::App& app, raster::Settings& s) {
+void add_shadow_flags(CLI::App& app, Settings& s) {
     constexpr const char* kGroup = "Shadows";
     constexpr std::size_t kMib = 1u << 20;
     add_value(app, "--shadows", form_of(kShadowModeNames),
@@ -197,20 +197,19 @@ void add_shadow_flags(CLI::App& app, raster::Settings& s) {
 
 void add_surface_flags(CLI::App& app, RenderOptions& o) {
     constexpr const char* kGroup = "Surface";
-    shading::PlanOptions& s = o.settings.shading;
+    ShadingSettings& s = o.settings.shading;
     add_value(app, "--lobe", "NAME",
-              fmt::format("Diffuse lobe, reflected light over the angle to the light: {} (default lambert)", shading::lobe_names()),
+              fmt::format("Diffuse lobe, reflected light over the angle to the light: {} (default lambert)", lobe_names()),
               [&o](const std::string& text) {
                   o.lobe_name = text;
                   return Result<void>();
               })
         ->group(kGroup);
-    add_value(app, "--wrap", "W",
-              fmt::format("Wrap, 0 to {}: light reaches surfaces whose cosine to the light is above -W", shading::kMaxLobeWrap),
-              [&o](const std::string& text) { return assign(o.lobe.wrap, parse_float(text, 0.0f, shading::kMaxLobeWrap)); })
+    add_value(app, "--wrap", "W", fmt::format("Wrap, 0 to {}: light reaches surfaces whose cosine to the light is above -W", kMaxLobeWrap),
+              [&o](const std::string& text) { return assign(o.lobe.wrap, parse_float(text, 0.0f, kMaxLobeWrap)); })
         ->group(kGroup);
-    add_value(app, "--power", "N", fmt::format("Exponent of the lobe, 0 to {}", shading::kMaxLobePower), [&o](const std::string& text) {
-        return assign(o.lobe.power, parse_float(text, 0.0f, shading::kMaxLobePower));
+    add_value(app, "--power", "N", fmt::format("Exponent of the lobe, 0 to {}", kMaxLobePower), [&o](const std::string& text) {
+        return assign(o.lobe.power, parse_float(text, 0.0f, kMaxLobePower));
     })->group(kGroup);
     app.add_flag_callback(
            "--normalize", [&o] { o.lobe.normalize = true; }, "Scale the lobe so that its mean over all light directions is Lambert's")
@@ -228,7 +227,7 @@ void add_surface_flags(CLI::App& app, RenderOptions& o) {
         ->group(kGroup);
 }
 
-void add_accuracy_flags(CLI::App& app, shading::PlanOptions& s) {
+void add_accuracy_flags(CLI::App& app, ShadingSettings& s) {
     constexpr const char* kGroup = "Accuracy";
     add_value(app, "--accuracy", form_of(kAccuracyNames),
               fmt::format(
@@ -252,23 +251,23 @@ void add_accuracy_flags(CLI::App& app, shading::PlanOptions& s) {
         ->group(kGroup);
 }
 
-void add_machine_flags(CLI::App& app, raster::Settings& s) {
+void add_machine_flags(CLI::App& app, Execution& e) {
     constexpr const char* kGroup = "Speed (never changes a pixel)";
-    add_value(app, "--isa", "NAME", "Instruction set: auto, " + shading::isa_names(), [&s](const std::string& text) -> Result<void> {
-        s.isa = shading::isa_by_name(text);
+    add_value(app, "--isa", "NAME", "Instruction set: auto, " + isa_names(), [&e](const std::string& text) -> Result<void> {
+        const auto isa = isa_by_name(text);
         constexpr std::string_view kPlace = "isa: ";  // the flag's own name says it already
-        if (!s.isa)
-            return fail(ErrorCode::usage, s.isa.error().message.substr(s.isa.error().message.starts_with(kPlace) ? kPlace.size() : 0));
+        if (!isa) return fail(ErrorCode::usage, isa.error().message.substr(isa.error().message.starts_with(kPlace) ? kPlace.size() : 0));
+        e.isa = *isa;
         return {};
     })->group(kGroup);
-    add_value(app, "--threads", "N", "Number of threads, 0 for one per core (default)", [&s](const std::string& text) -> Result<void> {
+    add_value(app, "--threads", "N", "Number of threads, 0 for one per core (default)", [&e](const std::string& text) -> Result<void> {
         const auto threads = parse_int(text, 0, 1024);
         if (!threads) return tl::unexpected(threads.error());
-        s.threads = static_cast<int>(*threads);
+        e.threads = static_cast<int>(*threads);
         return {};
     })->group(kGroup);
-    add_value(app, "--tile", "N", fmt::format("Side of a tile in pixels: 16, 32 or 64 (default {})", s.tile_size),
-              choice(s.tile_size, {16, 32, 64}))
+    add_value(app, "--tile", "N", fmt::format("Side of a tile in pixels: 16, 32 or 64 (default {})", e.tile_size),
+              choice(e.tile_size, {16, 32, 64}))
         ->group(kGroup);
 }
 
@@ -290,12 +289,12 @@ void add_file_flags(CLI::App& app, RenderOptions& o) {
         add_value(app, name, "N", help, read)->group(kGroup);
     };
     constexpr std::int64_t kAny = std::numeric_limits<std::int64_t>::max();
-    io::LoadLimits& limits = o.load.limits;
+    LoadLimits& limits = o.load.limits;
     limit("--max-file-bytes", limits.max_file_bytes, "a larger model, buffer or picture file", kAny);
     limit("--max-total-bytes", limits.max_total_bytes, "more bytes in all buffers together", kAny);
     limit("--max-json-depth", limits.max_json_depth, "JSON nested deeper", 1000);
     limit("--max-json-tokens", limits.max_json_tokens, "JSON of more tokens", kAny);
-    limit("--max-texture-side", limits.max_texture_side, "textures with longer sides", shading::kMaxTextureSide);
+    limit("--max-texture-side", limits.max_texture_side, "textures with longer sides", kMaxTextureSide);
     limit("--max-texture-pixels", limits.max_texture_pixels, "textures of more pixels", std::int64_t{1} << 28);
     limit("--max-texture-bytes", limits.max_texture_bytes, "more memory for all textures", kAny);
     limit("--max-jpeg-scans", limits.max_jpeg_scans, "JPEG files of more scans", 1 << 20);
@@ -305,23 +304,15 @@ void add_file_flags(CLI::App& app, RenderOptions& o) {
 
 }  // namespace
 
-Result<std::optional<shading::Lobe>> chosen_lobe(const RenderOptions& o) {
+Result<std::optional<Lobe>> chosen_lobe(const RenderOptions& o) {
     if (o.lobe_name) {
         auto lobe = io::lobe_from_name(*o.lobe_name, o.lobe);
         if (!lobe) return fail(ErrorCode::usage, "--" + lobe.error().message);  // begins with the parameter's name, which is the flag's
         return *lobe;
     }
-    if (o.lobe.wrap || o.lobe.power)
-        return shading::Lobe{o.lobe.wrap.value_or(0.0f), o.lobe.power.value_or(1.0f), o.lobe.normalize.has_value()};
+    if (o.lobe.wrap || o.lobe.power) return Lobe{o.lobe.wrap.value_or(0.0f), o.lobe.power.value_or(1.0f), o.lobe.normalize.has_value()};
     if (o.lobe.normalize) return fail(ErrorCode::usage, "--normalize: expected together with --lobe, --wrap or --power");
     return std::nullopt;
-}
-
-raster::Settings RenderOptions::usual_settings() {
-    raster::Settings settings;
-    settings.samples = 4;
-    settings.background_linear = *parse_color(kUsualBackground);
-    return settings;
 }
 
 void add_render_options(CLI::App& app, RenderOptions& o, bool scene_required, PictureSize usual) {
@@ -337,7 +328,7 @@ void add_render_options(CLI::App& app, RenderOptions& o, bool scene_required, Pi
     add_shadow_flags(app, o.settings);
     add_surface_flags(app, o);
     add_accuracy_flags(app, o.settings.shading);
-    add_machine_flags(app, o.settings);
+    add_machine_flags(app, o.execution);
     add_file_flags(app, o);
 }
 

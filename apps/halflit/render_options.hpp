@@ -2,11 +2,12 @@
 #pragma once
 
 #include "apps/halflit/values.hpp"
-#include "apps/io/gltf_loader.hpp"
 #include "apps/io/lobe_name.hpp"
-#include "raster/scene/framing.hpp"
-#include "raster/settings.hpp"
-#include "shading/light.hpp"
+#include "halflit/auto_setup.hpp"
+#include "halflit/camera.hpp"
+#include "halflit/gltf.hpp"
+#include "halflit/light.hpp"
+#include "halflit/settings.hpp"
 
 #include <optional>
 #include <string>
@@ -22,29 +23,28 @@ namespace halflit::cli {
 struct RenderOptions {
     std::string scene;  ///< a file, "-" for standard input, or a built-in scene
     std::optional<PictureSize> size;
-    raster::Settings settings = usual_settings();  ///< the flags' values; lobe and exposure are chosen later, with the scene
+    Settings settings = usual_settings();  ///< the flags' values; lobe and exposure are chosen later, with the scene
+    Execution execution;
 
     std::optional<std::string> camera;
-    raster::ViewSettings view;
+    ViewSettings view;
     bool own_view = false;  ///< --azimuth, --elevation, --zoom or --fov was given
 
     std::optional<std::string> lobe_name;
     io::LobeParameters lobe;
     std::optional<Vec3f> ambient_linear;
-    std::vector<shading::Light> lights;
+    std::vector<Light> lights;
     bool scene_lights = true;
     std::string environment;  ///< a file, "sky", or empty
     bool environment_sun = true;
     float environment_rotate_deg = 0.0f;
     std::optional<float> exposure;  ///< a factor; none: chosen from the lights
 
-    io::LoadOptions load;
-
-    [[nodiscard]] static raster::Settings usual_settings();
+    LoadOptions load;
 };
 
 /// The lobe that the flags choose for materials without one of their own; empty if they choose none.
-[[nodiscard]] Result<std::optional<shading::Lobe>> chosen_lobe(const RenderOptions& options);
+[[nodiscard]] Result<std::optional<Lobe>> chosen_lobe(const RenderOptions& options);
 
 /// Adds the flags to a sub-command; `options` must outlive it. `scene_required`: the SCENE argument must be given. `usual`: the default
 /// picture size, which is reduced to the aspect ratio of the file's camera.

@@ -2,7 +2,7 @@
 
 #include "apps/halflit/plan_names.hpp"
 #include "apps/io/atomic_file.hpp"
-#include "raster/pixel_epoch.hpp"
+#include "halflit/version.hpp"
 
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ std::int64_t peak_memory() {
 
 /// Counts of fragments (vertices or triangles at lower shading rates): those that each stage ran for, and those that each type of light was
 /// evaluated for.
-Json work_json(const raster::WorkCounts& work) {
+Json work_json(const WorkCounts& work) {
     Json stages = Json::object(), lights = Json::object();
     for (std::size_t bit = 0; bit < work.stage_lanes.size(); ++bit) stages[std::string(kStageNames[bit])] = work.stage_lanes[bit];
     for (std::size_t type = 0; type < work.light_lanes.size(); ++type) lights[std::string(kLightTypeNames[type])] = work.light_lanes[type];
@@ -32,7 +32,7 @@ Json work_json(const raster::WorkCounts& work) {
 
 }  // namespace
 
-Json report_head() { return {{"status", "ok"}, {"halflit", HALFLIT_VERSION}, {"pixel_epoch", raster::kPixelEpoch}}; }
+Json report_head() { return {{"status", "ok"}, {"halflit", version()}, {"pixel_epoch", kPixelEpoch}}; }
 
 Json error_report(int code, const std::string& message) {
     Json report = report_head();
@@ -41,12 +41,12 @@ Json error_report(int code, const std::string& message) {
     return report;
 }
 
-void add_frame(Json& report, const RenderJob& job, const raster::RenderReport& rendered, const raster::Image& picture) {
+void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered, const Image& picture) {
     report["size"] = {job.width, job.height};
-    const raster::Region& region = job.settings.region;
+    const Region& region = job.settings.region;
     report["region"] = {region.x, region.y, region.width, region.height};
-    report["pixel_hash"] = fmt::format("{:016x}", raster::pixel_hash(picture.rgba8));
-    report["isa"] = shading::isa_name(rendered.isa);
+    report["pixel_hash"] = fmt::format("{:016x}", pixel_hash(picture.rgba8));
+    report["isa"] = isa_name(rendered.isa);
     report["threads"] = rendered.threads;
     report["samples"] = job.settings.samples;
     report["exposure"] = job.settings.exposure;
@@ -65,7 +65,7 @@ void add_frame(Json& report, const RenderJob& job, const raster::RenderReport& r
     report["lanes"] = work_json(rendered.work);
     if (job.scene().environment != nullptr) {
         Json uses = Json::array();
-        for (const raster::EnvironmentUse& use : rendered.environment) {
+        for (const EnvironmentUse& use : rendered.environment) {
             Json one{{"light", use.specular ? "specular" : "diffuse"}};
             one.update(environment_use_json(use, job.settings));
             uses.push_back(std::move(one));
@@ -77,7 +77,7 @@ void add_frame(Json& report, const RenderJob& job, const raster::RenderReport& r
     report["peak_memory_bytes"] = peak_memory();
 }
 
-Json error_bound_json(const shading::ErrorBound& error) {
+Json error_bound_json(const ErrorBound& error) {
     return {{"budget_codes", error.budget},
             {"bound_codes", error.codes},
             {"within", error.within},
@@ -89,17 +89,17 @@ Json error_bound_json(const shading::ErrorBound& error) {
               {"left_out", error.left_out}}}};
 }
 
-Json stages_ms(const raster::RenderReport& rendered) {
+Json stages_ms(const RenderReport& rendered) {
     const auto& ms = rendered.ms;
     return {{"plan", ms.plan},           {"shadows", ms.shadows}, {"cull", ms.cull},
             {"transform", ms.transform}, {"bin", ms.bin},         {"tiles", ms.tiles}};
 }
 
-Json environment_use_json(const raster::EnvironmentUse& use, const raster::Settings& settings) {
+Json environment_use_json(const EnvironmentUse& use, const Settings& settings) {
     return {{"order", use.bands},
             {"bound_linear", use.bound},
             {"bound_of_white", use.bound * static_cast<double>(settings.exposure)},
-            {"tolerance_of_white", settings.shading.environment_order.tolerance * (use.specular ? 2.0 : 1.0)},
+            {"tolerance_of_white", settings.shading.environment_tolerance * (use.specular ? 2.0 : 1.0)},
             {"within", use.within}};
 }
 

@@ -17,17 +17,17 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json error_report(int code, const std::string& message);
 
 /// Adds the frame: size, hash, instruction set, threads, times, counts, warnings, peak memory.
-void add_frame(Json& report, const RenderJob& job, const raster::RenderReport& rendered, const raster::Image& picture);
+void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered, const Image& picture);
 
 /// {"budget_codes", "bound_codes", "within", "parts"}: the budget of --max-error, and the proven bound with its parts.
-[[nodiscard]] Json error_bound_json(const shading::ErrorBound& error);
+[[nodiscard]] Json error_bound_json(const ErrorBound& error);
 
 /// {"plan": ms, ...}: the renderer's stages.
-[[nodiscard]] Json stages_ms(const raster::RenderReport& rendered);
+[[nodiscard]] Json stages_ms(const RenderReport& rendered);
 
 /// {"order", "bound_linear", "bound_of_white", "tolerance_of_white", "within"}: the number of bands in use, and the bound on the error of
 /// leaving out the others: in linear light before exposure, and as a fraction of display white.
-[[nodiscard]] Json environment_use_json(const raster::EnvironmentUse& use, const raster::Settings& settings);
+[[nodiscard]] Json environment_use_json(const EnvironmentUse& use, const Settings& settings);
 
 /// Text with a newline at the end. Bytes that are not UTF-8 are replaced.
 [[nodiscard]] std::string to_text(const Json& json);

@@ -26,19 +26,19 @@ Json number(float value) {
 
 Json vector_json(Vec3f v) { return {number(v.x), number(v.y), number(v.z)}; }
 
-std::string_view name_of(shading::AlphaMode mode) {
+std::string_view name_of(AlphaMode mode) {
     switch (mode) {
-        case shading::AlphaMode::opaque:
+        case AlphaMode::opaque:
             return "opaque";
-        case shading::AlphaMode::mask:
+        case AlphaMode::mask:
             return "mask";
-        case shading::AlphaMode::blend:
+        case AlphaMode::blend:
             return "blend";
     }
     return "";
 }
 
-Json file_json(const io::SceneInfo& file) {
+Json file_json(const SceneInfo& file) {
     return {{"version", file.version},
             {"generator", file.generator},
             {"scenes", file.scenes},
@@ -58,15 +58,14 @@ Json file_json(const io::SceneInfo& file) {
             {"extensions_required", file.extensions_required}};
 }
 
-Json counts_json(const raster::Scene& scene) {
+Json counts_json(const Scene& scene) {
     std::uint64_t vertices = 0, stored = 0, drawn = 0, closed = 0;
-    for (const raster::Mesh& mesh : scene.meshes) {
+    for (const Mesh& mesh : scene.meshes) {
         closed += raster::is_closed(mesh) ? 1 : 0;
         vertices += mesh.positions.size();
         stored += mesh.indices.size() / 3;
     }
-    for (const raster::Instance& instance : scene.instances)
-        drawn += scene.meshes[static_cast<std::size_t>(instance.mesh)].indices.size() / 3;
+    for (const Instance& instance : scene.instances) drawn += scene.meshes[static_cast<std::size_t>(instance.mesh)].indices.size() / 3;
     return {{"meshes", scene.meshes.size()},       {"closed_meshes", closed},
             {"instances", scene.instances.size()}, {"materials", scene.materials.size()},
             {"textures", scene.textures.size()},   {"cameras", scene.cameras.size()},
@@ -74,19 +73,19 @@ Json counts_json(const raster::Scene& scene) {
             {"triangles_stored", stored},          {"triangles_drawn", drawn}};
 }
 
-Json lights_json(const raster::Scene& scene) {
+Json lights_json(const Scene& scene) {
     Json lights = Json::array();
-    for (const shading::Light& light : scene.lights) {
+    for (const Light& light : scene.lights) {
         Json one{{"type", kLightTypeNames[static_cast<std::size_t>(light.type)]}, {"color", vector_json(light.color_linear)}};
-        if (light.type != shading::LightType::directional) one["position"] = vector_json(light.position_ws);
-        if (light.type != shading::LightType::point) one["direction"] = vector_json(light.direction_ws);
+        if (light.type != LightType::directional) one["position"] = vector_json(light.position_ws);
+        if (light.type != LightType::point) one["direction"] = vector_json(light.direction_ws);
         if (light.range > 0) one["range"] = number(light.range);
         lights.push_back(std::move(one));
     }
     return lights;
 }
 
-Json environment_json(const shading::ShadingPlan& frame, int index, bool specular, const raster::Settings& settings) {
+Json environment_json(const shading::ShadingPlan& frame, int index, bool specular, const Settings& settings) {
     const shading::EnvironmentPlan& plan = frame.environments[static_cast<std::size_t>(index)];
     return environment_use_json({plan.bands, plan.bound, plan.within, specular}, settings);
 }
@@ -95,7 +94,7 @@ Json environment_json(const shading::ShadingPlan& frame, int index, bool specula
 Json savings_json(const shading::ShadingPlan& frame, const shading::MaterialPlan& plan) {
     const bool power = plan.lobe.path == shading::LobePath::general, curve = plan.lobe.path == shading::LobePath::curve;
     Json savings{{"lobe_power", power ? tier_name(plan.lobe.tier) : curve ? "curve" : "not needed"}};
-    if ((plan.stages & shading::kStageSpecular) != 0) {
+    if ((plan.stages & kStageSpecular) != 0) {
         savings["specular_power"] = specular_power_name(plan);
         savings["specular_left_out_below"] = number(plan.specular_threshold);
     }
@@ -105,15 +104,14 @@ Json savings_json(const shading::ShadingPlan& frame, const shading::MaterialPlan
     return savings;
 }
 
-Json material_json(const shading::Material& source, const shading::ShadingPlan& frame, const shading::MaterialPlan& plan,
-                   const raster::Settings& settings) {
-    const shading::PlanOptions& options = settings.shading;
+Json material_json(const Material& source, const shading::ShadingPlan& frame, const shading::MaterialPlan& plan, const Settings& settings) {
+    const ShadingSettings& options = settings.shading;
     Json needed = Json::array(), not_needed = Json::array();
     for (std::size_t bit = 0; bit < std::size(kStageNames); ++bit)
         ((plan.stages >> bit & 1u) != 0 ? needed : not_needed).push_back(kStageNames[bit]);
     Json material{{"name", source.name}, {"alpha", name_of(plan.alpha_mode)}, {"double_sided", plan.double_sided}};
-    if (plan.stages & (shading::kStageLights | shading::kStageEnvironment)) {
-        const shading::Lobe& lobe = shading::lobe_of(source, options);
+    if (plan.stages & (kStageLights | kStageEnvironment)) {
+        const Lobe& lobe = shading::lobe_of(source, options);
         material["lobe"] = {{"wrap", number(lobe.wrap)},
                             {"power", number(lobe.power)},
                             {"normalize", lobe.normalize},
@@ -138,7 +136,7 @@ Json planned_lights_json(const shading::ShadingPlan& plan) {
 }
 
 /// The frame's shadow maps: one per light that casts shadows, with the number of faces that see the scene.
-Json shadows_json(const raster::FramePlan& frame, const raster::Settings& settings) {
+Json shadows_json(const raster::FramePlan& frame, const Settings& settings) {
     constexpr std::string_view kKinds[] = {"orthographic", "perspective", "cube"};
     Json maps = Json::array();
     std::size_t view = 0;
@@ -152,7 +150,7 @@ Json shadows_json(const raster::FramePlan& frame, const raster::Settings& settin
 }
 
 Json materials_json(const RenderJob& job, const shading::ShadingPlan& plan) {
-    const raster::PreparedScene& scene = *job.prepared;
+    const raster::PreparedData& scene = job.prepared->data();
     const std::vector<bool>& used = scene.drawn_materials();
     Json materials = Json::array();
     for (std::size_t i = 0; i < used.size(); ++i)
@@ -182,20 +180,20 @@ void append_lines(std::string& text, const std::string& label, const Json& value
 }  // namespace
 
 Result<Json> describe_scene(const RenderJob& job) {
-    const raster::Scene& scene = job.scene();
+    const Scene& scene = job.scene();
     Json description{{"scene", job.source.name}};
     if (job.source.file) description["file"] = file_json(*job.source.file);
     description["drawn"] = counts_json(scene);
-    const raster::Bounds& bounds = job.prepared->bounds();
+    const Bounds& bounds = job.prepared->bounds();
     description["bounds"] = bounds.empty ? Json(nullptr) : Json{{"min", vector_json(bounds.min)}, {"max", vector_json(bounds.max)}};
     Json cameras = Json::array();
-    for (const raster::Camera& camera : scene.cameras) cameras.push_back(camera.name);
+    for (const Camera& camera : scene.cameras) cameras.push_back(camera.name);
     description["cameras"] = std::move(cameras);
     description["size"] = {job.width, job.height};
     description["exposure"] = number(job.settings.exposure);
     description["lights"] = lights_json(scene);
     description["ambient"] = {{"sky", vector_json(scene.ambient.sky_linear)}, {"ground", vector_json(scene.ambient.ground_linear)}};
-    const auto frame = raster::plan_frame(*job.prepared, job.camera, job.settings, job.width, job.height);
+    const auto frame = raster::plan_frame(job.prepared->data(), job.camera, job.settings, job.width, job.height);
     if (!frame) return tl::unexpected(frame.error());
     const shading::ShadingPlan& plan = frame->shading;
     if (plan.error.budget > 0.0) description["error_bound"] = error_bound_json(plan.error);

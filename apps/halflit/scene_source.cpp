@@ -32,11 +32,11 @@ Result<std::vector<std::byte>> read_standard_input(std::size_t max_bytes) {
     }
 }
 
-Result<io::LoadedScene> load_model(const RenderOptions& options) {
-    if (options.scene != "-") return io::load_gltf(options.scene, options.load);
+Result<LoadedScene> load_model(const RenderOptions& options) {
+    if (options.scene != "-") return load_gltf(options.scene, options.load);
     const auto bytes = read_standard_input(options.load.limits.max_file_bytes);
     if (!bytes) return tl::unexpected(bytes.error());
-    return io::load_gltf_bytes(*bytes, kStandardInput, "", options.load);
+    return load_gltf_bytes(*bytes, kStandardInput, "", options.load);
 }
 
 }  // namespace
@@ -45,11 +45,16 @@ Result<SceneSource> load_scene(const RenderOptions& options) {
     const std::string name = options.scene.empty() ? "demo" : options.scene;
     auto built_in = built_in_scene(name);
     if (!built_in) return tl::unexpected(built_in.error());
-    if (*built_in) return SceneSource{name, std::make_unique<raster::Scene>(std::move(**built_in)), std::nullopt, {}};
+    if (*built_in) return SceneSource{name, std::make_unique<Scene>(std::move(**built_in)), std::nullopt, {}};
     auto loaded = load_model(options);
     if (!loaded) return tl::unexpected(loaded.error());
-    return SceneSource{name == "-" ? kStandardInput : name, std::make_unique<raster::Scene>(std::move(loaded->scene)),
-                       std::move(loaded->info), std::move(loaded->warnings)};
+    return SceneSource{name == "-" ? kStandardInput : name, std::make_unique<Scene>(std::move(loaded->scene)), std::move(loaded->info),
+                       std::move(loaded->warnings)};
+}
+
+Result<EnvironmentImage> find_environment(const std::string& name) {
+    if (name == "sky") return built_in_sky();
+    return read_environment(name);
 }
 
 }  // namespace halflit::cli

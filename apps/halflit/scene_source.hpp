@@ -2,9 +2,10 @@
 #pragma once
 
 #include "apps/halflit/render_options.hpp"
-#include "apps/io/gltf_loader.hpp"
-#include "raster/scene/scene.hpp"
-#include "shading/result.hpp"
+#include "halflit/error.hpp"
+#include "halflit/gltf.hpp"
+#include "halflit/image.hpp"
+#include "halflit/scene.hpp"
 
 #include <memory>
 #include <optional>
@@ -14,13 +15,16 @@
 namespace halflit::cli {
 
 struct SceneSource {
-    std::string name;                      ///< name for messages: the path, "standard input", or the built-in name
-    std::unique_ptr<raster::Scene> scene;  ///< keeps its address when the source is moved
-    std::optional<io::SceneInfo> file;     ///< counts for a file or standard input; the unit of such a scene's lights is not known
+    std::string name;               ///< name for messages: the path, "standard input", or the built-in name
+    std::unique_ptr<Scene> scene;   ///< keeps its address when the source is moved
+    std::optional<SceneInfo> file;  ///< counts for a file or standard input; the unit of such a scene's lights is not known
     std::vector<std::string> warnings;
 };
 
 /// An empty name is the demo scene. Built-in names come before files: a file called "demo" is given as "./demo".
 [[nodiscard]] Result<SceneSource> load_scene(const RenderOptions& options);
+
+/// "sky" is the built-in environment; anything else is a file.
+[[nodiscard]] Result<EnvironmentImage> find_environment(const std::string& name);
 
 }  // namespace halflit::cli

@@ -63,7 +63,7 @@ Result<Vec3f> parse_vec3(std::string_view text) {
 constexpr float kMax = std::numeric_limits<float>::max();
 
 /// Reads half angles in degrees; the light holds radians.
-Result<void> set_cone(shading::Light& light, std::string_view text) {
+Result<void> set_cone(Light& light, std::string_view text) {
     const auto parts = split(text, ",");
     const auto outer = parse_float(parts.back(), 0.01f, 90.0f);
     const auto inner = parts.size() == 2 ? parse_float(parts[0], 0.0f, 90.0f) : Result<float>(0.0f);
@@ -81,8 +81,7 @@ Result<void> store(T& target, const Result<T>& value) {
 }
 
 /// `intensity` is stored apart from the colour, so that the two keys may come in either order.
-Result<void> set_light_key(shading::Light& light, float& intensity, std::string_view key, std::string_view value) {
-    using shading::LightType;
+Result<void> set_light_key(Light& light, float& intensity, std::string_view key, std::string_view value) {
     const bool placed = light.type != LightType::directional;
     if (key == "dir" && light.type != LightType::point) {
         const auto direction = parse_vec3(value);
@@ -144,7 +143,7 @@ Result<PictureSize> parse_size(std::string_view text) {
     return PictureSize{static_cast<int>(*width), static_cast<int>(*height)};
 }
 
-Result<raster::Region> parse_region(std::string_view text) {
+Result<Region> parse_region(std::string_view text) {
     const auto parts = split(text, ",");
     int values[4] = {};
     for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -152,7 +151,7 @@ Result<raster::Region> parse_region(std::string_view text) {
         if (parts.size() != 4 || !value) return expected("X,Y,WIDTH,HEIGHT in pixels from the upper left corner, as in 0,0,64,64", text);
         values[i] = static_cast<int>(*value);
     }
-    return raster::Region{values[0], values[1], values[2], values[3]};
+    return Region{values[0], values[1], values[2], values[3]};
 }
 
 Result<Vec4f> parse_color(std::string_view text) {
@@ -178,15 +177,15 @@ Result<Vec4f> parse_color(std::string_view text) {
     }
 }
 
-Result<shading::Light> parse_light(std::string_view text) {
+Result<Light> parse_light(std::string_view text) {
     const auto parts = split(text, ":;");
-    shading::Light light;
+    Light light;
     if (parts[0] == "directional")
-        light.type = shading::LightType::directional;
+        light.type = LightType::directional;
     else if (parts[0] == "point")
-        light.type = shading::LightType::point;
+        light.type = LightType::point;
     else if (parts[0] == "spot")
-        light.type = shading::LightType::spot;
+        light.type = LightType::spot;
     else
         return expected("directional, point or spot, as in directional:dir=-1,-2,-1:color=#fff:intensity=1", parts[0]);
     float intensity = 1.0f;

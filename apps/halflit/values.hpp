@@ -2,9 +2,9 @@
 // usage errors that say what was expected.
 #pragma once
 
-#include "raster/renderer.hpp"
-#include "shading/light.hpp"
-#include "shading/result.hpp"
+#include "halflit/error.hpp"
+#include "halflit/light.hpp"
+#include "halflit/renderer.hpp"
 
 #include <cstdint>
 #include <string_view>
@@ -27,7 +27,7 @@ struct PictureSize {
 [[nodiscard]] Result<PictureSize> parse_size(std::string_view text);
 
 /// "X,Y,W,H" with X and Y from 0, W and H from 1.
-[[nodiscard]] Result<raster::Region> parse_region(std::string_view text);
+[[nodiscard]] Result<Region> parse_region(std::string_view text);
 
 /// "#rgb", "#rrggbb", "#rrggbbaa" or a name, to linear light with linear alpha.
 [[nodiscard]] Result<Vec4f> parse_color(std::string_view text);
@@ -41,6 +41,6 @@ struct PictureSize {
 ///     radius=N       point, spot: radius of the source; attenuation treats smaller distances as N
 ///     cone=OUT or cone=IN,OUT   spot: half angles in degrees, full light within IN (default 0), none from OUT (default 45)
 ///     power=N        spot: factor cos(angle to the axis)^N, 0 to 1e5 (default 0)
-[[nodiscard]] Result<shading::Light> parse_light(std::string_view text);
+[[nodiscard]] Result<Light> parse_light(std::string_view text);
 
 }  // namespace halflit::cli

@@ -2,7 +2,7 @@
 // disk; then the temporary file is renamed to the target. If a step fails, the old file stays and the temporary one is removed.
 #pragma once
 
-#include "shading/result.hpp"
+#include "halflit/error.hpp"
 
 #include <cstdint>
 #include <span>

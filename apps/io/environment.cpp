@@ -1,10 +1,14 @@
-#include "apps/io/environment.hpp"
+#include "halflit/image.hpp"
 
 #include "apps/io/file_access.hpp"
 #include "apps/io/rgbe_reader.hpp"
 #include "apps/io/text.hpp"
+#include "sh/equirect.hpp"
+#include "sh/trig.hpp"
 
-namespace halflit::io {
+namespace halflit {
+
+using namespace io;
 namespace {
 
 constexpr int kSkyWidth = 512, kSkyHeight = 256;
@@ -68,11 +72,11 @@ Result<EnvironmentImage> read_environment(const std::string& path, const Environ
     if (!file) return tl::unexpected(file.error());
     auto image = decode_rgbe(*file, {limits.max_width, limits.max_height});
     if (!image) return fail(image.error().code, printable(path) + ": " + image.error().message);
-    return EnvironmentImage{image->width, image->height, std::move(image->rgb)};
+    return EnvironmentImage{image->width, image->height, std::move(image->rgb), false};
 }
 
 EnvironmentImage built_in_sky() {
-    EnvironmentImage sky{kSkyWidth, kSkyHeight, {}};
+    EnvironmentImage sky{kSkyWidth, kSkyHeight, {}, true};
     sky.rgb.reserve(static_cast<std::size_t>(kSkyWidth) * kSkyHeight * 3);
     const Sun sun = make_sun();
     for (int y = 0; y < kSkyHeight; ++y)
@@ -83,9 +87,4 @@ EnvironmentImage built_in_sky() {
     return sky;
 }
 
-Result<EnvironmentImage> environment_by_name(const std::string& name, const EnvironmentLimits& limits) {
-    if (name == "sky") return built_in_sky();
-    return read_environment(name, limits);
-}
-
-}  // namespace halflit::io
+}  // namespace halflit

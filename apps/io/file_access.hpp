@@ -1,7 +1,7 @@
 // Reading of whole files into memory, with a limit. A model's own references are confined to the model's folder.
 #pragma once
 
-#include "shading/result.hpp"
+#include "halflit/error.hpp"
 
 #include <cstddef>
 #include <span>

@@ -1,4 +1,4 @@
-#include "apps/io/gltf_loader.hpp"
+#include "halflit/gltf.hpp"
 
 #include "apps/io/detail/gltf_accessor.hpp"
 #include "apps/io/detail/gltf_document.hpp"
@@ -7,6 +7,7 @@
 #include "apps/io/detail/gltf_meshes.hpp"
 #include "apps/io/detail/gltf_nodes.hpp"
 #include "apps/io/detail/gltf_placed.hpp"
+#include "apps/io/file_access.hpp"
 #include "apps/io/text.hpp"
 
 #include <fmt/format.h>
@@ -14,11 +15,13 @@
 #include <exception>
 #include <new>
 
-namespace halflit::io {
+namespace halflit {
+
+using namespace io;
 
 namespace {
 
-using namespace detail;
+using namespace io::detail;
 
 LoadedScene build(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
     const std::unique_ptr<Document> document = open_document(bytes, base_dir, options);
@@ -30,6 +33,7 @@ LoadedScene build(std::span<const std::byte> bytes, const std::string& base_dir,
     place_meshes(*document, accessors, tree, loaded.scene);
     place_cameras(*document, tree, loaded.scene);
     place_lights(*document, tree, loaded.scene);
+    loaded.scene.calibrated = loaded.scene.lights.empty();
     if (loaded.scene.instances.empty()) document->warn("the model has nothing to draw");
     if (document->warnings_left_out > 0) document->warnings.push_back(fmt::format("and {} further warnings", document->warnings_left_out));
     loaded.warnings = std::move(document->warnings);
@@ -72,4 +76,4 @@ Result<LoadedScene> load_gltf(const std::string& path, const LoadOptions& option
     }
 }
 
-}  // namespace halflit::io
+}  // namespace halflit

@@ -1,7 +1,7 @@
 // Decoding of PNG and JPEG pictures in memory. Limits are checked on the header, before pixels are decoded.
 #pragma once
 
-#include "shading/result.hpp"
+#include "halflit/error.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,7 @@
-#include "apps/io/image_writer.hpp"
+#include "halflit/image.hpp"
+
+#include "apps/io/atomic_file.hpp"
+#include "apps/io/text.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -15,7 +18,9 @@
 #include <stb/stb_image_write.h>
 #pragma GCC diagnostic pop
 
-namespace halflit::io {
+namespace halflit {
+
+using namespace io;
 namespace {
 
 constexpr int kJpegQuality = 95;
@@ -38,7 +43,7 @@ struct Sink {
     }
 };
 
-std::vector<std::uint8_t> rgb8_over_black(const raster::Image& image) {
+std::vector<std::uint8_t> rgb8_over_black(const Image& image) {
     std::vector<std::uint8_t> rgb;
     rgb.reserve(image.rgba8.size() / 4 * 3);
     for (std::size_t i = 0; i < image.rgba8.size(); i += 4)
@@ -46,7 +51,7 @@ std::vector<std::uint8_t> rgb8_over_black(const raster::Image& image) {
     return rgb;
 }
 
-std::vector<float> rgb_linear_over_black(const raster::Image& image) {
+std::vector<float> rgb_linear_over_black(const Image& image) {
     std::vector<float> rgb;
     rgb.reserve(image.rgba_linear.size() / 4 * 3);
     for (std::size_t i = 0; i < image.rgba_linear.size(); i += 4)
@@ -57,7 +62,7 @@ std::vector<float> rgb_linear_over_black(const raster::Image& image) {
     return rgb;
 }
 
-std::vector<std::uint8_t> encode(const raster::Image& image, OutputFormat format) {
+std::vector<std::uint8_t> encode(const Image& image, OutputFormat format) {
     const int w = image.width, h = image.height;
     Sink sink;
     int done = 0;
@@ -100,7 +105,7 @@ Result<OutputFormat> output_format_of(std::string_view path) {
     return fail(ErrorCode::usage, std::string(path) + ": unknown file extension, expected .png, .bmp, .tga, .jpg or .hdr");
 }
 
-Result<std::vector<std::uint8_t>> encode_image(const raster::Image& image, OutputFormat format) {
+Result<std::vector<std::uint8_t>> encode_image(const Image& image, OutputFormat format) {
     const int w = image.width, h = image.height;
     if (w < 1 || h < 1) return fail(ErrorCode::usage, "a picture needs at least one pixel");
     const std::int64_t pixels = std::int64_t{w} * h;
@@ -117,4 +122,12 @@ Result<std::vector<std::uint8_t>> encode_image(const raster::Image& image, Outpu
     }
 }
 
-}  // namespace halflit::io
+Result<void> write_image(const std::string& path, const Image& image) {
+    const auto format = output_format_of(path);
+    if (!format) return tl::unexpected(format.error());
+    const auto bytes = encode_image(image, *format);
+    if (!bytes) return fail(bytes.error().code, printable(path) + ": " + bytes.error().message);
+    return write_file(path, *bytes);
+}
+
+}  // namespace halflit

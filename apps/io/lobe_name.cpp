@@ -6,18 +6,18 @@
 
 namespace halflit::io {
 
-Result<shading::Lobe> lobe_from_name(std::string_view name, const LobeParameters& parameters) {
-    const shading::NamedLobe* model = shading::find_named_lobe(name);
+Result<Lobe> lobe_from_name(std::string_view name, const LobeParameters& parameters) {
+    const NamedLobe* model = find_named_lobe(name);
     if (model == nullptr)
-        return fail(ErrorCode::bad_input, fmt::format("lobe: expected {}, found \"{}\"", shading::lobe_names(), printable(name, 40)));
-    shading::Lobe lobe;
-    lobe.wrap = model->takes_wrap ? parameters.wrap.value_or(shading::kUsualWrap) : model->wrap;
+        return fail(ErrorCode::bad_input, fmt::format("lobe: expected {}, found \"{}\"", lobe_names(), printable(name, 40)));
+    Lobe lobe;
+    lobe.wrap = model->takes_wrap ? parameters.wrap.value_or(kUsualWrap) : model->wrap;
     lobe.power = model->power + model->power_per_wrap * lobe.wrap;
     lobe.normalize = model->normalize;
     if (parameters.wrap) lobe.wrap = *parameters.wrap;
     if (parameters.power) lobe.power = *parameters.power;
     if (parameters.normalize) lobe.normalize = *parameters.normalize;
-    if (const auto ok = shading::check_lobe(lobe); !ok) return tl::unexpected(ok.error());
+    if (const auto ok = check_lobe(lobe); !ok) return tl::unexpected(ok.error());
     return lobe;
 }
 

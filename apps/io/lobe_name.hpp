@@ -1,8 +1,8 @@
 // Lobes by the names users type, in flags and in a material's extras.halflit.
 #pragma once
 
-#include "shading/lobe.hpp"
-#include "shading/result.hpp"
+#include "halflit/error.hpp"
+#include "halflit/lobe.hpp"
 
 #include <optional>
 #include <string_view>
@@ -18,6 +18,6 @@ struct LobeParameters {
 
 /// lambert, green, half-lambert, valve, sloan or mcauley. green, sloan and mcauley have wrap 0.5 unless one is given; the power of sloan
 /// and mcauley is 1 + wrap unless one is given. The error (bad_input) lists what is allowed.
-Result<shading::Lobe> lobe_from_name(std::string_view name, const LobeParameters& parameters = {});
+Result<Lobe> lobe_from_name(std::string_view name, const LobeParameters& parameters = {});
 
 }  // namespace halflit::io

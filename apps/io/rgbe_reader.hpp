@@ -2,7 +2,7 @@
 // loop forever on truncated files. Here every step consumes input, and memory grows only with pixels that have been read.
 #pragma once
 
-#include "shading/result.hpp"
+#include "halflit/error.hpp"
 
 #include <cstddef>
 #include <span>

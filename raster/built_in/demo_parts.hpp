@@ -2,8 +2,8 @@
 // and sh/trig.hpp, so that the picture has the same pixels everywhere.
 #pragma once
 
-#include "raster/scene/mesh.hpp"
-#include "shading/texture.hpp"
+#include "halflit/mesh.hpp"
+#include "halflit/texture.hpp"
 
 #include <cstdint>
 #include <span>

@@ -1,20 +1,15 @@
 // The built-in scene: five clay balls that differ only in their lobe, from Lambert on the left to full wrap on the right, under a low key
 // light from the side. Behind them a lacquered trefoil knot stands on a plinth with a mosaic.
+#include "halflit/scene.hpp"
+#include "halflit/shapes.hpp"
 #include "raster/built_in/demo_parts.hpp"
-#include "raster/built_in/shapes.hpp"
-#include "raster/scene/scene.hpp"
 #include "sh/trig.hpp"
 
 #include <utility>
 
-namespace halflit::raster {
+namespace halflit {
 
 namespace {
-
-using shading::Light;
-using shading::LightType;
-using shading::Lobe;
-using shading::Material;
 
 constexpr float kBallRadius = 0.5f, kBallStep = 1.22f;
 constexpr int kBalls = 5;
@@ -40,18 +35,18 @@ void add_object(Scene& scene, Mesh mesh, int material, const Mat4& place) {
 }
 
 /// Index of the new texture; -1 if it cannot be made, and the material is drawn without it.
-int add_texture(Scene& scene, Result<shading::Texture> texture) {
+int add_texture(Scene& scene, Result<Texture> texture) {
     if (!texture) return -1;
     scene.textures.push_back(std::move(*texture));
     return static_cast<int>(scene.textures.size()) - 1;
 }
 
 void add_backdrop(Scene& scene) {
-    std::vector<detail::Occluder> occluders;
+    std::vector<raster::detail::Occluder> occluders;
     for (int i = 0; i < kBalls; ++i) occluders.push_back({ball_foot(i), kBallRadius, 0.0f});
     occluders.push_back({kPlinthFoot, kPlinthRadius, kPlinthSide});
     const int paper = add_material(scene, "paper", {1, 1, 1}, 0.0f, 1.0f);
-    add_object(scene, detail::make_cyclorama(16.0f, {0.17f, 0.215f, 0.27f}, occluders), paper, {});
+    add_object(scene, raster::detail::make_cyclorama(16.0f, {0.17f, 0.215f, 0.27f}, occluders), paper, {});
 }
 
 void add_balls(Scene& scene) {
@@ -67,17 +62,17 @@ void add_balls(Scene& scene) {
 
 void add_plinth(Scene& scene) {
     const int tiles = add_material(scene, "mosaic", {1, 1, 1}, 1.0f, 1.0f);
-    const detail::Mosaic mosaic = detail::make_mosaic(8, 6);
-    const auto make = [&](const std::vector<std::uint8_t>& texels, shading::ColorSpace space) {
-        return add_texture(scene, shading::Texture::from_rgba8(texels, mosaic.width, mosaic.height, space));
+    const raster::detail::Mosaic mosaic = raster::detail::make_mosaic(8, 6);
+    const auto make = [&](const std::vector<std::uint8_t>& texels, ColorSpace space) {
+        return add_texture(scene, Texture::from_rgba8(texels, mosaic.width, mosaic.height, space));
     };
-    const int color = make(mosaic.color_srgb, shading::ColorSpace::srgb), normal = make(mosaic.normal, shading::ColorSpace::linear);
-    const int roughness_metal = make(mosaic.roughness_metal, shading::ColorSpace::linear);
+    const int color = make(mosaic.color_srgb, ColorSpace::srgb), normal = make(mosaic.normal, ColorSpace::linear);
+    const int roughness_metal = make(mosaic.roughness_metal, ColorSpace::linear);
     Material& material = scene.materials[static_cast<std::size_t>(tiles)];
     material.base_color_texture.texture = color;
     material.normal_texture.texture = normal;
     material.metallic_roughness_texture.texture = roughness_metal;
-    add_object(scene, detail::make_plinth_side(kPlinthRadius, kPlinthSide, 7, 128), tiles, translation(kPlinthFoot));
+    add_object(scene, raster::detail::make_plinth_side(kPlinthRadius, kPlinthSide, 7, 128), tiles, translation(kPlinthFoot));
 }
 
 /// Adds the trefoil, and the lid that it stands on.
@@ -86,7 +81,7 @@ void add_trefoil(Scene& scene) {
     scene.materials[static_cast<std::size_t>(lacquer)].lobe = Lobe::sloan(0.5f);
     scene.materials[static_cast<std::size_t>(lacquer)].has_own_lobe = true;
     constexpr float kTube = 0.175f;
-    Mesh trefoil = detail::make_trefoil(0.66f, 0.33f, kTube, 320, 40);
+    Mesh trefoil = raster::detail::make_trefoil(0.66f, 0.33f, kTube, 320, 40);
     Vec3f lowest{0, 1e9f, 0};
     for (const Vec3f p : trefoil.positions)
         if (p.y < lowest.y) lowest = p;
@@ -95,7 +90,7 @@ void add_trefoil(Scene& scene) {
     add_object(scene, std::move(trefoil), lacquer, translation(kPlinthFoot + Vec3f{0, lift, 0}));
 
     const int stone = add_material(scene, "stone", {0.62f, 0.58f, 0.52f}, 0.0f, 0.6f);
-    add_object(scene, detail::make_plinth_lid(kPlinthRadius, kPlinthLip, 128, {{lowest.x, 2 * kPlinthLip, lowest.z}, kTube}), stone,
+    add_object(scene, raster::detail::make_plinth_lid(kPlinthRadius, kPlinthLip, 128, {{lowest.x, 2 * kPlinthLip, lowest.z}, kTube}), stone,
                translation(kPlinthFoot + Vec3f{0, kPlinthSide, 0}));
 }
 
@@ -167,4 +162,4 @@ Scene demo_scene() {
     return scene;
 }
 
-}  // namespace halflit::raster
+}  // namespace halflit

@@ -1,6 +1,6 @@
 #include "raster/built_in/hall_of_lamps.hpp"
 
-#include "raster/built_in/shapes.hpp"
+#include "halflit/shapes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -33,12 +33,12 @@ std::vector<std::array<int, 2>> squares_outwards() {
 }
 
 void add(Scene& scene, Mesh mesh, const char* name, Vec4f color, const std::vector<Vec3f>& places) {
-    shading::Material material;
+    Material material;
     material.name = name;
     material.base_color = color;
     material.metallic = 0.0f;
     material.roughness = 0.6f;
-    material.lobe = shading::Lobe::sloan(0.3f);
+    material.lobe = Lobe::sloan(0.3f);
     mesh.material = static_cast<int>(scene.materials.size());
     scene.materials.push_back(std::move(material));
     scene.meshes.push_back(std::move(mesh));
@@ -74,8 +74,8 @@ Scene lights_scene(int lights, bool ranged) {
     constexpr Vec3f kColors[] = {{0.40f, 0.32f, 0.22f}, {0.22f, 0.34f, 0.42f}, {0.36f, 0.24f, 0.36f}};
     for (int i = 0; i < std::clamp(lights, 1, kMostHallLights); ++i) {
         const std::array<int, 2> at = squares[static_cast<std::size_t>(i)];
-        shading::Light lamp;
-        lamp.type = shading::LightType::point;
+        Light lamp;
+        lamp.type = LightType::point;
         lamp.position_ws = square(at[0], at[1], kLampHeight);
         lamp.color_linear = kColors[(at[0] + 2 * at[1]) % 3];
         lamp.range = ranged ? kRange : 0.0f;

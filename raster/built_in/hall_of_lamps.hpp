@@ -1,7 +1,7 @@
 // Scene that shows the cost of many lights: a floor with pillars, and lamps over it.
 #pragma once
 
-#include "raster/scene/scene.hpp"
+#include "halflit/scene.hpp"
 
 namespace halflit::raster {
 

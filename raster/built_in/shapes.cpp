@@ -1,11 +1,11 @@
-#include "raster/built_in/shapes.hpp"
+#include "halflit/shapes.hpp"
 
 #include "sh/trig.hpp"
 
 #include <algorithm>
 #include <cstdlib>
 
-namespace halflit::raster {
+namespace halflit {
 namespace {
 
 Vec3f to_float(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
@@ -150,4 +150,4 @@ Mesh make_torus(float radius, float tube, int slices, int sides) {
     return mesh;
 }
 
-}  // namespace halflit::raster
+}  // namespace halflit

@@ -6,12 +6,12 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #else
-#include <atomic>
 #include <system_error>
 #include <thread>
 #endif
 
 #include <algorithm>
+#include <atomic>
 #include <exception>
 
 namespace halflit::raster {
@@ -90,12 +90,19 @@ void Executor::run(int count, const std::function<void(int)>& body) {
         const FpEnvironment environment;
         body(i);
     };
-    if (hook_)
-        run_catching([&](const std::function<void(int)>& caught) { hook_(count, caught); }, task);
-    else if (arena_ && count > 1)
+    if (hook_) {
+        std::atomic<int> done{0};
+        run_catching([&](const std::function<void(int)>& caught) { hook_(count, caught); },
+                     [&](int i) {
+                         task(i);
+                         ++done;
+                     });
+        if (done != count) throw IncompleteLoop();
+    } else if (arena_ && count > 1) {
         arena_->run(count, task);
-    else
+    } else {
         for (int i = 0; i < count; ++i) task(i);
+    }
 }
 
 }  // namespace halflit::raster

@@ -1,14 +1,20 @@
 // Threads: oneTBB's, the standard library's if halflit is built without oneTBB, or the host's own loop.
 #pragma once
 
-#include "raster/parallel_for.hpp"
+#include "halflit/settings.hpp"
 
+#include <exception>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <vector>
 
 namespace halflit::raster {
+
+/// Thrown where a host's loop returns before every item was done.
+struct IncompleteLoop : std::exception {
+    [[nodiscard]] const char* what() const noexcept override { return "parallel_for returned before every item was done"; }
+};
 
 /// Runs the parallel loops of a frame. Every task runs in the library's floating-point environment. `run` rethrows the first exception of a
 /// task: a lack of memory, or an exception of one of the host's functions.

@@ -1,8 +1,9 @@
 // The boundary of the library: sets the floating-point environment and lets no exception through.
 #pragma once
 
+#include "halflit/error.hpp"
+#include "raster/detail/executor.hpp"
 #include "raster/detail/fp_environment.hpp"
-#include "shading/result.hpp"
 
 #include <exception>
 #include <new>
@@ -18,6 +19,8 @@ auto guarded(const char* doing, const Body& body) -> decltype(body()) {
         return body();
     } catch (const std::bad_alloc&) {
         return fail(ErrorCode::limit, std::string("out of memory while ") + doing);
+    } catch (const IncompleteLoop& e) {
+        return fail(ErrorCode::usage, e.what());
     } catch (const std::exception& e) {
         return fail(ErrorCode::internal, e.what());
     } catch (...) {

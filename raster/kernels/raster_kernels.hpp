@@ -5,9 +5,9 @@
 // centre of pixel (i, j) is (256 i, 256 j).
 #pragma once
 
+#include "halflit/isa.hpp"
 #include "sh/config.hpp"
 #include "shading/fragment_block.hpp"
-#include "shading/isa.hpp"
 
 #include <cstdint>
 
@@ -157,6 +157,6 @@ struct RasterKernels {
     void (*interpolate)(const InterpolateArgs&, shading::FragmentBlock&);
 };
 
-[[nodiscard]] const RasterKernels& raster_kernels(shading::Isa isa);
+[[nodiscard]] const RasterKernels& raster_kernels(Isa isa);
 
 }  // namespace halflit::raster

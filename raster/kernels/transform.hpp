@@ -2,6 +2,7 @@
 #pragma once
 
 #include "raster/kernels/raster_kernels.hpp"
+#include "sh/mat4.hpp"
 #include "shading/kernels/simd_records.hpp"
 
 namespace halflit::raster {

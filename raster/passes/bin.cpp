@@ -13,17 +13,18 @@ namespace {
 
 /// Input of binning. groups_drawn is output: it marks the vertex groups that drawn triangles read.
 struct BinInput {
-    const PreparedScene& scene;
+    const PreparedData& scene;
     const View& view;
     std::span<const Draw> draws;
     const ScreenVertex* screen;
     const std::uint8_t* outcodes;
     std::uint8_t* groups_drawn;
+    bool numbered;  ///< keep each record's submission number
 };
 
 class ChunkBuilder {
 public:
-    ChunkBuilder(const BinInput& input, Chunk& chunk, std::vector<std::int64_t>* numbers) : in_(input), chunk_(chunk), numbers_(numbers) {
+    ChunkBuilder(const BinInput& input, Chunk& chunk) : in_(input), chunk_(chunk) {
         const SamplePattern& samples = in_.view.samples;
         for (int s = 0; s < samples.count; ++s) {
             sample_min_x_ = std::min<int>(sample_min_x_, samples.x[s]);
@@ -40,7 +41,7 @@ public:
         chunk_.clip_vertices.clear();
         chunk_.pairs.clear();
         chunk_.not_finite = 0;
-        if (numbers_ != nullptr) numbers_->clear();
+        chunk_.numbers.clear();
         for (const TriangleRun& run : chunk_.runs) add_triangles(run);
         sort_by_tile();
     }
@@ -135,7 +136,7 @@ private:
 
         const auto record = static_cast<std::uint32_t>(chunk_.records.size());
         chunk_.records.push_back({{v[0], swap ? v[2] : v[1], swap ? v[1] : v[2]}, source.draw_index * 2 + (back ? 1u : 0u)});
-        if (numbers_ != nullptr) numbers_->push_back(source.draw.triangle_base + source.triangle);
+        if (in_.numbered) chunk_.numbers.push_back(source.draw.triangle_base + source.triangle);
         for (int k = 0; k < 3; ++k)
             std::atomic_ref(in_.groups_drawn[source.draw.group_base + source.vertex[k] / kVertexGroup]).store(1, std::memory_order_relaxed);
 
@@ -198,19 +199,17 @@ private:
 
     const BinInput& in_;
     Chunk& chunk_;
-    std::vector<std::int64_t>* numbers_;
     int sample_min_x_ = 0, sample_max_x_ = 0, sample_min_y_ = 0, sample_max_y_ = 0;
     int tile_shift_ = 6;
 };
 
 }  // namespace
 
-void ViewGeometry::bin(Executor& executor, SubmissionNumbers* numbers) {
-    const BinInput input{*scene_, view_, draws_, screen_.data(), outcodes_.data(), groups_drawn_.data()};
-    if (numbers != nullptr) numbers->assign(chunk_count_, {});
+void ViewGeometry::bin(Executor& executor) {
+    const BinInput input{*scene_, view_, draws_, screen_.data(), outcodes_.data(), groups_drawn_.data(), numbered_};
     executor.run(static_cast<int>(chunk_count_), [&](int i) {
         const auto index = static_cast<std::size_t>(i);
-        ChunkBuilder(input, *chunks_[index], numbers != nullptr ? &(*numbers)[index] : nullptr).build();
+        ChunkBuilder(input, *chunks_[index]).build();
     });
     std::int64_t most = 0;
     for (const std::unique_ptr<Chunk>& chunk : chunks()) most = std::max(most, static_cast<std::int64_t>(chunk->records.size()));

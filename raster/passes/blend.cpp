@@ -5,11 +5,11 @@ namespace halflit::raster {
 
 void PictureTile::blend_layers() {
     const ViewGeometry& geometry = pass_.view.geometry;
-    if (!geometry.has(shading::AlphaMode::blend)) return;
+    if (!geometry.has(AlphaMode::blend)) return;
     const auto chunks = geometry.chunks();
     for (std::size_t c = 0; c < chunks.size(); ++c) {
         for (const std::uint32_t record : chunks[c]->tile(tile_)) {
-            if (geometry.draw_of(chunks[c]->records[record]).alpha_mode != shading::AlphaMode::blend) continue;
+            if (geometry.draw_of(chunks[c]->records[record]).alpha_mode != AlphaMode::blend) continue;
             const CoverBox box = collect_covered(pass_.view, rect_, c, record, scratch_, [&](FragmentList& list) {
                 shade(list);
                 write_samples(list, true);

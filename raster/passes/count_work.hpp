@@ -1,17 +1,16 @@
 // Counting for WorkCounts: one call per block, next to the call of the kernel that does the work.
 #pragma once
 
-#include "raster/work_counts.hpp"
+#include "halflit/report.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 
 namespace halflit::raster {
 
 /// Stages that ShadeKernels::light runs if light is not evaluated at fragments.
-inline constexpr std::uint32_t kLightStages = shading::kStageNormalMap | shading::kStageMetallicRoughnessTexture |
-                                              shading::kStageOcclusionTexture | shading::kStageLights | shading::kStageSpecular |
-                                              shading::kStageAmbient | shading::kStageEnvironment;
+inline constexpr std::uint32_t kLightStages = kStageNormalMap | kStageMetallicRoughnessTexture | kStageOcclusionTexture | kStageLights |
+                                              kStageSpecular | kStageAmbient | kStageEnvironment;
 /// Stages that ShadeKernels::alpha runs.
-inline constexpr std::uint32_t kAlphaStages = shading::kStageBaseColorTexture | shading::kStageVertexColor | shading::kStageGradients;
+inline constexpr std::uint32_t kAlphaStages = kStageBaseColorTexture | kStageVertexColor | kStageGradients;
 
 inline void count_stages(WorkCounts& work, std::uint32_t stages, int lanes) {
     for (; stages != 0; stages &= stages - 1)
@@ -20,13 +19,13 @@ inline void count_stages(WorkCounts& work, std::uint32_t stages, int lanes) {
 
 /// Counts a call of ShadeKernels::shade.
 inline void count_shading(WorkCounts& work, const shading::MaterialPlan& plan, int lanes) {
-    const bool prelit = (plan.stages & shading::kStagePrelit) != 0;
+    const bool prelit = (plan.stages & kStagePrelit) != 0;
     count_stages(work, prelit ? plan.stages & ~kLightStages : plan.stages, lanes);
 }
 
 /// Counts the lights that are passed to a kernel.
 inline void count_lights(WorkCounts& work, const shading::MaterialPlan& plan, shading::LightList lights, int lanes) {
-    if ((plan.stages & shading::kStageLights) == 0) return;
+    if ((plan.stages & kStageLights) == 0) return;
     for (int i = 0; i < lights.count; ++i) {
         work.light_lanes[static_cast<std::size_t>(lights.lights[i].type)] += static_cast<std::uint64_t>(lanes);
         if (lights.lights[i].shadow_map >= 0) work.shadow_lookup_lanes += static_cast<std::uint64_t>(lanes);

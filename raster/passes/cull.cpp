@@ -1,6 +1,7 @@
 // The cull pass: instances first, then the clusters of those that remain.
 #include "raster/passes/view_geometry.hpp"
 #include "raster/view/culling.hpp"
+#include "sh/mat4.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -24,7 +25,7 @@ Culler::Verdict verdict_on(const Culler& culler, const Bounds& bounds) {
 /// Culls the clusters of one chunk.
 class ChunkCuller {
 public:
-    ChunkCuller(const PreparedScene& scene, const View& view, Chunk& chunk, std::uint8_t* groups_seen)
+    ChunkCuller(const PreparedData& scene, const View& view, Chunk& chunk, std::uint8_t* groups_seen)
         : scene_(scene), view_(view), chunk_(chunk), groups_seen_(groups_seen) {}
 
     void cull(const std::vector<Draw>& draws) {
@@ -67,7 +68,7 @@ private:
             std::atomic_ref(groups_seen_[draw.group_base + group]).store(1, std::memory_order_relaxed);
     }
 
-    const PreparedScene& scene_;
+    const PreparedData& scene_;
     const View& view_;
     Chunk& chunk_;
     std::uint8_t* groups_seen_;
@@ -110,7 +111,7 @@ void ViewGeometry::list_draws(Executor& executor) {
         draw.cluster_base = cluster_count_;
         draw.triangle_base = triangle_base - triangles;
         draw.mirrored = determinant3(instances[i].world_from_object) < 0.0;
-        const shading::Material& material = scene_->material(scene_->material_of(mesh));
+        const Material& material = scene_->material(scene_->material_of(mesh));
         draw.cull_back = view_.cull_back_faces && !material.double_sided;
         draw.alpha_mode = material.alpha_mode;
         has_mode_[static_cast<std::size_t>(draw.alpha_mode)] = true;

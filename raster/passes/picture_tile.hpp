@@ -3,7 +3,7 @@
 #pragma once
 
 #include "raster/frame_plan.hpp"
-#include "raster/framebuffer.hpp"
+#include "raster/passes/output.hpp"
 #include "raster/passes/reference_shading.hpp"
 #include "raster/passes/tile.hpp"
 
@@ -13,7 +13,7 @@ namespace halflit::raster {
 struct PicturePass {
     TilePass view;
     const FramePlan& plan;
-    FramebufferView target;
+    Output output;
     const ReferenceShading* reference;  ///< shades instead of the kernels; null: the kernels shade
 };
 
@@ -33,6 +33,10 @@ private:
     // shade.cpp
     void shade_visible();
     void shade(FragmentList& list);  ///< writes the colour rows of the scratch's block
+    // planes.cpp
+    void write_planes();                           ///< depth and numbers of what each pixel's first sample shows
+    void write_empty_planes();                     ///< of a tile that has no triangles
+    void write_normals(const FragmentList& list);  ///< of the scratch's block
     // blend.cpp
     void blend_layers();
     // resolve.cpp
@@ -43,9 +47,6 @@ private:
     void write_samples(const FragmentList& list, bool blend);
     void resolve();
     [[nodiscard]] float* sample_color(int s) { return scratch_.color.data() + static_cast<std::size_t>(s) * 4 * kTilePixels; }
-    [[nodiscard]] std::size_t pixel_offset(int x_px, int y_px) const {
-        return static_cast<std::size_t>(y_px) * static_cast<std::size_t>(pass_.target.width) + static_cast<std::size_t>(x_px);
-    }
 
     const PicturePass& pass_;
     const FramePlan& plan_;

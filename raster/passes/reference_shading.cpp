@@ -6,7 +6,7 @@ namespace halflit::raster {
 
 namespace reference = shading::reference;
 
-std::shared_ptr<const reference::Irradiance> ReferenceShading::diffuse(const shading::Lobe& lobe) {
+std::shared_ptr<const reference::Irradiance> ReferenceShading::diffuse(const Lobe& lobe) {
     const auto same = [&](const Around& a) { return a.lobe == lobe; };
     const auto found = std::find_if(known_.begin(), known_.end(), same);
     if (found != known_.end()) return found->light;
@@ -14,7 +14,7 @@ std::shared_ptr<const reference::Irradiance> ReferenceShading::diffuse(const sha
     return known_.back().light;
 }
 
-Result<void> ReferenceShading::build(const PreparedScene& prepared, const shading::ShadingPlan& plan, const shading::PlanOptions& options) {
+Result<void> ReferenceShading::build(const PreparedData& prepared, const shading::ShadingPlan& plan, const ShadingSettings& options) {
     const Scene& scene = prepared.scene();
     if (scene.environment != nullptr && scene.environment->lit_rgb.empty())
         return fail(ErrorCode::usage, "accuracy reference: the environment was made without keep_light");

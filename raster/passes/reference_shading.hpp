@@ -1,7 +1,7 @@
 // Shading of visible fragments by the float64 reference instead of the kernels. Errors are measured against it.
 #pragma once
 
-#include "raster/scene/prepared_scene.hpp"
+#include "raster/scene/prepared_data.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 #include "shading/reference/irradiance.hpp"
 
@@ -14,7 +14,7 @@ class ReferenceShading {
 public:
     /// Prepares a frame of `scene` by `plan`. Keeps the irradiance of each lobe while the environment stays the same.
     /// options: those in effect (FramePlan::options).
-    Result<void> build(const PreparedScene& scene, const shading::ShadingPlan& plan, const shading::PlanOptions& options);
+    Result<void> build(const PreparedData& scene, const shading::ShadingPlan& plan, const ShadingSettings& options);
 
     /// Writes the colour rows of lanes [0, count). The visibility of lights is that of the kernels' shadow maps.
     void shade(const shading::ShadeKernels& kernels, const shading::ShadingPlan& plan, int material, shading::FragmentBlock& block,
@@ -23,12 +23,12 @@ public:
 private:
     /// Irradiance of the environment for the materials of one lobe.
     struct Around {
-        shading::Lobe lobe;
+        Lobe lobe;
         std::shared_ptr<const shading::reference::Irradiance> light;
     };
-    std::shared_ptr<const shading::reference::Irradiance> diffuse(const shading::Lobe& lobe);
+    std::shared_ptr<const shading::reference::Irradiance> diffuse(const Lobe& lobe);
 
-    const PreparedScene* scene_ = nullptr;
+    const PreparedData* scene_ = nullptr;
     shading::reference::FrameInputs frame_;
     shading::EnvironmentSlot environment_;
     std::vector<Around> known_;                                                              ///< of environment_

@@ -39,22 +39,18 @@ void PictureTile::write(const FragmentList& list) {
         return;
     }
     const shading::FragmentBlock& block = scratch_.block;
-    const FramebufferView& target = pass_.target;
+    const Output& output = pass_.output;
     const float exposure = plan_.exposure;
-    if (target.rgba8) {
+    if (output.codes) {
         alignas(64) std::uint32_t code[shading::kBlockSize];
         pass_.view.shade.encode_srgb8(block.red, block.green, block.blue, block.alpha, exposure, code, list.count);
-        for (int l = 0; l < list.count; ++l) std::memcpy(target.rgba8 + 4 * pixel_offset(list.x_px[l], list.y_px[l]), &code[l], 4);
+        for (int l = 0; l < list.count; ++l) output.write_codes(list.x_px[l], list.y_px[l], &code[l], 1);
     }
-    if (target.rgba_linear) {
-        for (int l = 0; l < list.count; ++l) {
-            float* p = target.rgba_linear + 4 * pixel_offset(list.x_px[l], list.y_px[l]);
-            p[0] = number_or_zero(block.red[l] * exposure);
-            p[1] = number_or_zero(block.green[l] * exposure);
-            p[2] = number_or_zero(block.blue[l] * exposure);
-            p[3] = number_or_zero(block.alpha[l]);
-        }
-    }
+    if (output.linear)
+        for (int l = 0; l < list.count; ++l)
+            output.write_linear(list.x_px[l], list.y_px[l], number_or_zero(block.red[l] * exposure),
+                                number_or_zero(block.green[l] * exposure), number_or_zero(block.blue[l] * exposure),
+                                number_or_zero(block.alpha[l]));
 }
 
 void PictureTile::write_samples(const FragmentList& list, bool blend) {
@@ -97,8 +93,8 @@ void PictureTile::fill_background() {
             for (int i = 0; i < 4; ++i) sum[i] += back[i];
         b = resolved(sum, 1.0f / static_cast<float>(samples_));
     }
-    const FramebufferView& target = pass_.target;
-    if (target.rgba8) {
+    const Output& output = pass_.output;
+    if (output.codes) {
         alignas(64) float red[16], green[16], blue[16], alpha[16];
         for (int l = 0; l < 16; ++l) {
             red[l] = b.x;
@@ -106,21 +102,18 @@ void PictureTile::fill_background() {
             blue[l] = b.z;
             alpha[l] = b.w;
         }
-        std::uint32_t code[16];
+        std::uint32_t code[kTileStride];
         pass_.view.shade.encode_srgb8(red, green, blue, alpha, 1.0f, code, 1);
-        for (int y = 0; y < rect_.height; ++y)
-            for (int x = 0; x < rect_.width; ++x) std::memcpy(target.rgba8 + 4 * pixel_offset(rect_.x + x, rect_.y + y), &code[0], 4);
+        for (int x = 1; x < rect_.width; ++x) code[x] = code[0];
+        for (int y = 0; y < rect_.height; ++y) output.write_codes(rect_.x, rect_.y + y, code, rect_.width);
     }
-    if (target.rgba_linear) {
-        const float back[4] = {b.x, b.y, b.z, b.w};
+    if (output.linear)
         for (int y = 0; y < rect_.height; ++y)
-            for (int x = 0; x < rect_.width; ++x)
-                std::memcpy(target.rgba_linear + 4 * pixel_offset(rect_.x + x, rect_.y + y), back, sizeof back);
-    }
+            for (int x = 0; x < rect_.width; ++x) output.write_linear(rect_.x + x, rect_.y + y, b.x, b.y, b.z, b.w);
 }
 
 void PictureTile::resolve() {
-    const FramebufferView& target = pass_.target;
+    const Output& output = pass_.output;
     const float weight = 1.0f / static_cast<float>(samples_);
     alignas(64) float row[4][kTileStride] = {};
     alignas(64) std::uint32_t code[kTileStride];
@@ -135,15 +128,12 @@ void PictureTile::resolve() {
             row[2][x] = pixel.z;
             row[3][x] = pixel.w;
         }
-        const std::size_t first = pixel_offset(rect_.x, rect_.y + y);
-        if (target.rgba8) {
+        if (output.codes) {
             pass_.view.shade.encode_srgb8(row[0], row[1], row[2], row[3], 1.0f, code, rect_.width);
-            std::memcpy(target.rgba8 + 4 * first, code, 4 * static_cast<std::size_t>(rect_.width));
+            output.write_codes(rect_.x, rect_.y + y, code, rect_.width);
         }
-        if (target.rgba_linear)
-            for (int x = 0; x < rect_.width; ++x)
-                for (int i = 0; i < 4; ++i)
-                    target.rgba_linear[4 * (first + static_cast<std::size_t>(x)) + static_cast<std::size_t>(i)] = row[i][x];
+        if (output.linear)
+            for (int x = 0; x < rect_.width; ++x) output.write_linear(rect_.x + x, rect_.y + y, row[0][x], row[1][x], row[2][x], row[3][x]);
     }
 }
 

@@ -6,13 +6,15 @@
 namespace halflit::raster {
 
 TileCounts PictureTile::draw() {
-    direct_ = samples_ == 1 && !pass_.view.geometry.has(shading::AlphaMode::blend);
+    direct_ = samples_ == 1 && !pass_.view.geometry.has(AlphaMode::blend);
     if (pass_.view.geometry.tile_is_empty(tile_)) {
         fill_background();
+        if (pass_.output.has_planes()) write_empty_planes();
         return counts_;
     }
     draw_visibility(pass_.view, tile_, scratch_, counts_);
     clear();
+    if (pass_.output.has_planes()) write_planes();
     shade_visible();
     if (!direct_) {
         blend_layers();
@@ -26,6 +28,7 @@ void PictureTile::shade_visible() {
     queue.begin(pass_.view.materials.size());
     const auto flush = [&](FragmentList& list) {
         shade(list);
+        if (pass_.output.normal) write_normals(list);
         write(list);
         list.count = 0;
     };
@@ -85,9 +88,9 @@ void PictureTile::shade(FragmentList& list) {
     const shading::MaterialPlan& material = shading.materials[static_cast<std::size_t>(list.material)];
     interpolate(pass_.view, list, block);
     shading::LightList lights;
-    if ((material.stages & shading::kStagePrelit) != 0) {
-        if (plan_.options.rate == shading::ShadingRate::flat) light_triangles(pass_.view, shading, list, block, counts_.work);
-    } else if ((material.stages & shading::kStageLights) != 0) {
+    if ((material.stages & kStagePrelit) != 0) {
+        if (plan_.options.rate == ShadingRate::flat) light_triangles(pass_.view, shading, list, block, counts_.work);
+    } else if ((material.stages & kStageLights) != 0) {
         lights = plan_.light_culler.select(shading.lights, block, list.count, scratch_.lights);
         count_lights(counts_.work, material, lights, list.count);
     }

@@ -75,7 +75,7 @@ WorkCounts light_vertices(const ViewGeometry& geometry, VertexRecords& records, 
     std::vector<Group> groups;
     for (std::size_t d = 0; d < geometry.draws().size(); ++d) {
         const Draw& draw = geometry.draws()[d];
-        if ((material_of(d).stages & shading::kStagePrelit) == 0) continue;
+        if ((material_of(d).stages & kStagePrelit) == 0) continue;
         for (std::int64_t g = 0; g < draw.group_count(); ++g)
             if (geometry.group_is_drawn(draw.group_base + g)) {
                 const std::int64_t first = g * kVertexGroup;

@@ -5,7 +5,7 @@
 
 namespace halflit::raster {
 
-Result<void> ShadowMaps::draw_face(const PreparedScene& scene, const FramePlan& plan, const ShadowView& face, float* texels,
+Result<void> ShadowMaps::draw_face(const PreparedData& scene, const FramePlan& plan, const ShadowView& face, float* texels,
                                    const RasterKernels& raster, const shading::ShadeKernels& shade, Executor& executor) {
     const auto size = static_cast<std::size_t>(face.view.region.width);
     float* distance = texels + face.first_texel;
@@ -15,7 +15,7 @@ Result<void> ShadowMaps::draw_face(const PreparedScene& scene, const FramePlan& 
     }
     if (auto ok = geometry_.make(scene, face.view, raster, executor); !ok) return ok;
     // Alpha tests read vertex records.
-    const bool masks = geometry_.has(shading::AlphaMode::mask);
+    const bool masks = geometry_.has(AlphaMode::mask);
     if (masks) records_.make(geometry_, plan.casters, raster, executor);
     const TilePass pass{geometry_, records_, plan.casters, raster, shade};
     executor.run(face.view.tile_count(), [&](int tile) {
@@ -36,7 +36,7 @@ Result<void> ShadowMaps::draw_face(const PreparedScene& scene, const FramePlan& 
     return {};
 }
 
-Result<void> ShadowMaps::draw(const PreparedScene& scene, const FramePlan& plan, RawBuffer<float>& texels, const RasterKernels& raster,
+Result<void> ShadowMaps::draw(const PreparedData& scene, const FramePlan& plan, RawBuffer<float>& texels, const RasterKernels& raster,
                               const shading::ShadeKernels& shade, Executor& executor) {
     const SceneRevision& revision = scene.revision();
     Drawn before = std::exchange(drawn_, {});  // no map is valid until all are drawn

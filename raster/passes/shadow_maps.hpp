@@ -12,7 +12,7 @@ public:
     /// The next draw() draws all maps.
     void forget() { drawn_ = {}; }
 
-    Result<void> draw(const PreparedScene& scene, const FramePlan& plan, RawBuffer<float>& texels, const RasterKernels& raster,
+    Result<void> draw(const PreparedData& scene, const FramePlan& plan, RawBuffer<float>& texels, const RasterKernels& raster,
                       const shading::ShadeKernels& shade, Executor& executor);
 
 private:
@@ -20,10 +20,10 @@ private:
     struct Drawn {
         std::size_t capacity = 0;  ///< size of the texels' memory; growing it drops the maps
         std::uint64_t geometry_revision = 0, coverage_revision = 0;
-        shading::TextureDetail caster_detail = shading::TextureDetail::full;  ///< texture filter of the alpha tests
+        TextureDetail caster_detail = TextureDetail::full;  ///< texture filter of the alpha tests
         std::vector<ShadowView> views;
     };
-    Result<void> draw_face(const PreparedScene& scene, const FramePlan& plan, const ShadowView& face, float* texels,
+    Result<void> draw_face(const PreparedData& scene, const FramePlan& plan, const ShadowView& face, float* texels,
                            const RasterKernels& raster, const shading::ShadeKernels& shade, Executor& executor);
 
     Drawn drawn_;

@@ -1,10 +1,10 @@
 // Data of the passes over tiles. One task draws a tile, and the tile's data fits the core's own cache.
 #pragma once
 
+#include "halflit/report.hpp"
 #include "raster/passes/fragment_queue.hpp"
 #include "raster/passes/vertex_records.hpp"
 #include "raster/view/light_culling.hpp"
-#include "raster/work_counts.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 
 namespace halflit::raster {

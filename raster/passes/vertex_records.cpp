@@ -1,4 +1,5 @@
 #include "raster/passes/vertex_records.hpp"
+#include "sh/mat4.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -11,7 +11,7 @@ namespace halflit::raster {
 
 class VertexRecords {
 public:
-    /// Makes the records of a view's geometry. materials: indexed as in PreparedScene. Does nothing if geometry and attribute slots are
+    /// Makes the records of a view's geometry. materials: indexed as in PreparedData. Does nothing if geometry and attribute slots are
     /// those of the last call.
     void make(const ViewGeometry& geometry, std::span<const shading::MaterialPlan> materials, const RasterKernels& kernels,
               Executor& executor);

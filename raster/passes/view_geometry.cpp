@@ -6,17 +6,18 @@
 
 namespace halflit::raster {
 
-Result<void> ViewGeometry::make(const PreparedScene& scene, const View& view, const RasterKernels& kernels, Executor& executor,
-                                SubmissionNumbers* numbers) {
+Result<void> ViewGeometry::make(const PreparedData& scene, const View& view, const RasterKernels& kernels, Executor& executor,
+                                bool numbered) {
     // Colours and lights change nothing here.
     const SceneRevision revision{scene.revision().geometry, 0, 0, scene.revision().coverage};
     times_ms_ = {};
-    if (revision == revision_ && view == view_ && numbers == nullptr) {
+    if (revision == revision_ && view == view_ && (numbered_ || !numbered)) {
         scene_ = &scene;
         return {};
     }
     scene_ = &scene;
     view_ = view;
+    numbered_ = numbered;
     revision_ = {};  // invalid until all passes are done
     ++version_;
     Stopwatch watch;
@@ -27,7 +28,7 @@ Result<void> ViewGeometry::make(const PreparedScene& scene, const View& view, co
     times_ms_.cull = watch.lap();
     transform(kernels, executor);
     times_ms_.transform = watch.lap();
-    bin(executor, numbers);
+    bin(executor);
     times_ms_.bin = watch.lap();
     revision_ = revision;
     return {};

@@ -1,16 +1,16 @@
 // The geometry of one view: the instances and clusters that it may see, their vertices in its window, and each tile's triangles. Made by
-// three passes, which read a PreparedScene and a View and do not depend on lights:
+// three passes, which read a PreparedData and a View and do not depend on lights:
 //     cull -> transform -> bin (set-up and tile lists)
 // It is kept from frame to frame: the passes do not run again if neither scene nor view changed, and a frame like the last one allocates
 // nothing.
 #pragma once
 
+#include "halflit/material.hpp"
 #include "raster/detail/executor.hpp"
 #include "raster/detail/raw_buffer.hpp"
 #include "raster/kernels/raster_kernels.hpp"
-#include "raster/scene/prepared_scene.hpp"
+#include "raster/scene/prepared_data.hpp"
 #include "raster/view/view.hpp"
-#include "shading/material.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -23,13 +23,13 @@ namespace halflit::raster {
 struct Draw {
     std::uint32_t instance = 0;
     std::int32_t mesh = 0;           ///< a number, as the scene's arrays may be moved between frames
-    std::int32_t material = 0;       ///< index as in PreparedScene
+    std::int32_t material = 0;       ///< index as in PreparedData
     std::int64_t vertex_base = 0;    ///< index of its first vertex in the view's arrays
     std::int64_t group_base = 0;     ///< index of its first vertex group
     std::int64_t cluster_base = 0;   ///< index of its first cluster, over all draws
     std::int64_t triangle_base = 0;  ///< number of its first triangle in submission order, over all instances of the scene
     bool mirrored = false, cull_back = true;
-    shading::AlphaMode alpha_mode = shading::AlphaMode::opaque;
+    AlphaMode alpha_mode = AlphaMode::opaque;
 
     std::int64_t vertex_count = 0;
     [[nodiscard]] std::int64_t group_count() const { return (vertex_count + kVertexGroup - 1) / kVertexGroup; }
@@ -53,6 +53,7 @@ struct Chunk {
     std::int64_t first_cluster = 0, end_cluster = 0;  ///< indices as Draw::cluster_base
     std::vector<TriangleRun> runs;                    ///< triangles that culling kept
     std::vector<TriangleRecord> records;
+    std::vector<std::int64_t> numbers;  ///< submission number of each record; empty unless asked for
     std::vector<ScreenVertex> clip_screen;
     std::vector<ClipVertex> clip_vertices;
     std::vector<std::uint64_t> pairs;       ///< tile << 32 | record, in submission order; scratch
@@ -66,15 +67,11 @@ struct Chunk {
     }
 };
 
-/// Submission number of each record of each chunk, for debug views.
-using SubmissionNumbers = std::vector<std::vector<std::int64_t>>;
-
 class ViewGeometry {
 public:
     /// Runs the passes, unless scene and view are those of the last call. Fails if there are more vertices or triangles than can be
-    /// numbered. numbers: filled if not null; the passes then always run.
-    Result<void> make(const PreparedScene& scene, const View& view, const RasterKernels& kernels, Executor& executor,
-                      SubmissionNumbers* numbers = nullptr);
+    /// numbered. numbered: keep each record's submission number, for triangle_of().
+    Result<void> make(const PreparedData& scene, const View& view, const RasterKernels& kernels, Executor& executor, bool numbered = false);
     /// Makes the next make() run the passes.
     void forget() { revision_ = {}; }
 
@@ -87,10 +84,10 @@ public:
     [[nodiscard]] std::uint64_t version() const { return version_; }
 
     [[nodiscard]] const View& view() const { return view_; }
-    [[nodiscard]] const PreparedScene& scene() const { return *scene_; }
+    [[nodiscard]] const PreparedData& scene() const { return *scene_; }
     [[nodiscard]] std::span<const Draw> draws() const { return draws_; }
     [[nodiscard]] std::span<const std::unique_ptr<Chunk>> chunks() const { return std::span(chunks_).first(chunk_count_); }
-    [[nodiscard]] bool has(shading::AlphaMode mode) const { return has_mode_[static_cast<std::size_t>(mode)]; }
+    [[nodiscard]] bool has(AlphaMode mode) const { return has_mode_[static_cast<std::size_t>(mode)]; }
     /// A chunk's triangles as the kernels read them.
     [[nodiscard]] const TriangleSource& source(std::size_t chunk) const { return sources_[chunk]; }
     [[nodiscard]] TriangleTable table() const { return {sources_.data(), local_bits_}; }
@@ -99,6 +96,13 @@ public:
         return sources_[chunk_of(id)].records[id & ((1u << local_bits_) - 1u)];
     }
     [[nodiscard]] const Draw& draw_of(const TriangleRecord& record) const { return draws_[record.draw_and_back >> 1]; }
+    /// Number of a triangle in submission order, over all instances of the scene; of its mesh. Only if `numbered`.
+    [[nodiscard]] std::int64_t submission_of(std::uint32_t id) const {
+        return chunks_[chunk_of(id)]->numbers[id & ((1u << local_bits_) - 1u)];
+    }
+    [[nodiscard]] std::uint32_t triangle_of(std::uint32_t id) const {
+        return static_cast<std::uint32_t>(submission_of(id) - draw_of(record(id)).triangle_base);
+    }
     [[nodiscard]] bool tile_is_empty(int tile) const;
 
     /// True if a drawn triangle reads the vertex group.
@@ -110,11 +114,12 @@ private:
     void list_draws(Executor& executor);
     void cull_clusters(Executor& executor);
     void transform(const RasterKernels& kernels, Executor& executor);
-    void bin(Executor& executor, SubmissionNumbers* numbers);
+    void bin(Executor& executor);
 
-    const PreparedScene* scene_ = nullptr;
+    const PreparedData* scene_ = nullptr;
     SceneRevision revision_;
     View view_;
+    bool numbered_ = false;
     std::uint64_t version_ = 0;
     Times times_ms_;
 

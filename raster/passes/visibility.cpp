@@ -7,8 +7,6 @@
 namespace halflit::raster {
 namespace {
 
-using shading::AlphaMode;
-
 /// Draws one triangle of a masked material: the samples that pass its alpha test.
 void draw_masked(const TilePass& pass, const TileRect& rect, std::size_t chunk, std::uint32_t record, TileScratch& scratch,
                  TileCounts& counts) {
@@ -45,9 +43,9 @@ void interpolate(const TilePass& pass, FragmentList& list, shading::FragmentBloc
     args.clip_records = pass.records.clip_records();
     args.slots = material.slots;
     args.stride = 4 * __builtin_popcount(material.slots);
-    args.gradients = (material.stages & shading::kStageGradients) != 0;
+    args.gradients = (material.stages & kStageGradients) != 0;
     args.facing = material.double_sided;
-    args.shadow_offset = pass.shadow_offset && (material.stages & (shading::kStageLights | shading::kStagePrelit)) == shading::kStageLights;
+    args.shadow_offset = pass.shadow_offset && (material.stages & (kStageLights | kStagePrelit)) == kStageLights;
     args.count = padded;
     args.ids = list.id;
     args.x_px = list.x_px;

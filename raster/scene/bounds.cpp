@@ -1,10 +1,12 @@
-#include "raster/scene/bounds.hpp"
+#include "halflit/mesh.hpp"
 
 #include "raster/detail/view_math.hpp"
 
 #include <limits>
 
-namespace halflit::raster {
+namespace halflit {
+
+using namespace raster;
 
 void Bounds::add(Vec3f p) {
     if (!finite(p)) return;
@@ -34,4 +36,4 @@ float Bounds::radius() const {
     return static_cast<float>(clamped(0.5 * length(b - a), 0.0, std::numeric_limits<float>::max()));
 }
 
-}  // namespace halflit::raster
+}  // namespace halflit

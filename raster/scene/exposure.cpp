@@ -1,11 +1,11 @@
-#include "raster/scene/exposure.hpp"
+#include "halflit/scene.hpp"
 
 #include "sh/equirect.hpp"
 #include "sh/power.hpp"
 
 #include <algorithm>
 
-namespace halflit::raster {
+namespace halflit {
 namespace {
 
 constexpr float kSkyShare = 0.10f, kGroundShare = 0.05f;  // keeps unlit sides readable, but clearly dark
@@ -16,9 +16,9 @@ Vec3d level(const Scene& scene, const Bounds& bounds) {
     const Vec3d center = bounds.empty ? Vec3d{} : to_double(bounds.center());
     const double radius = bounds.empty ? 0.0 : static_cast<double>(bounds.radius());
     Vec3d sum{};
-    for (const shading::Light& light : scene.lights) {
+    for (const Light& light : scene.lights) {
         double share = 1.0;
-        if (light.type != shading::LightType::directional) {
+        if (light.type != LightType::directional) {
             const double distance = length(to_double(light.position_ws) - center);
             if (light.range > 0.0f && distance - radius >= static_cast<double>(light.range)) continue;
             // The lower limit keeps a lamp close to the centre from dominating the sum.
@@ -44,7 +44,7 @@ float auto_exposure(const Scene& scene, const Bounds& bounds) {
     return static_cast<float>(1.0 / luminance);
 }
 
-shading::Ambient soft_ambient(const Scene& scene, const Bounds& bounds) {
+Ambient soft_ambient(const Scene& scene, const Bounds& bounds) {
     const Vec3f sum = light_level(scene, bounds);
     if (!(dot(sum, sum) < 1e36f)) return {};  // NaN, infinite, or beyond what can be squared
     return {sum * kSkyShare, sum * kGroundShare};
@@ -52,4 +52,4 @@ shading::Ambient soft_ambient(const Scene& scene, const Bounds& bounds) {
 
 float exposure_factor(float ev) { return static_cast<float>(exp2_of(std::clamp(static_cast<double>(ev), -64.0, 64.0))); }
 
-}  // namespace halflit::raster
+}  // namespace halflit

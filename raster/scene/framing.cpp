@@ -1,9 +1,13 @@
-#include "raster/scene/framing.hpp"
+#include "halflit/camera.hpp"
 
+#include "halflit/scene.hpp"
 #include "raster/detail/view_math.hpp"
 #include "sh/arc.hpp"
+#include "sh/mat4.hpp"
 
-namespace halflit::raster {
+namespace halflit {
+
+using namespace raster;
 namespace {
 
 constexpr double kFrameMargin = 0.08;    // share of the half picture that stays free on the tighter side
@@ -125,4 +129,4 @@ Camera frame_scene(const Scene& scene, const Bounds& bounds, float aspect, const
     return fit.camera(length(box.half));
 }
 
-}  // namespace halflit::raster
+}  // namespace halflit

@@ -1,9 +1,9 @@
-#include "raster/scene/mesh_normals.hpp"
+#include "halflit/mesh.hpp"
 
 #include <cstddef>
 #include <utility>
 
-namespace halflit::raster {
+namespace halflit {
 
 namespace {
 
@@ -42,4 +42,4 @@ void generate_flat_normals(Mesh& mesh) {
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) mesh.indices[i] = static_cast<std::uint32_t>(i);
 }
 
-}  // namespace halflit::raster
+}  // namespace halflit

@@ -1,7 +1,7 @@
 // Connectivity of a mesh's triangles.
 #pragma once
 
-#include "raster/scene/mesh.hpp"
+#include "halflit/mesh.hpp"
 
 namespace halflit::raster {
 

@@ -1,6 +1,7 @@
 #include "raster/scene/placed_box.hpp"
 
 #include "raster/detail/view_math.hpp"
+#include "sh/mat4.hpp"
 
 #include <vector>
 

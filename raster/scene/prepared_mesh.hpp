@@ -1,9 +1,8 @@
 // A mesh prepared for drawing: its box, and clusters of triangles that a view can leave out as a whole. Computed once.
 #pragma once
 
-#include "raster/scene/bounds.hpp"
-#include "raster/scene/mesh.hpp"
-#include "shading/result.hpp"
+#include "halflit/error.hpp"
+#include "halflit/mesh.hpp"
 
 #include <algorithm>
 #include <cstdint>

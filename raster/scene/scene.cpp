@@ -1,6 +1,7 @@
-#include "raster/scene/scene.hpp"
+#include "halflit/scene.hpp"
+#include "sh/mat4.hpp"
 
-namespace halflit::raster {
+namespace halflit {
 
 namespace {
 
@@ -32,8 +33,8 @@ void add_default_lights(Scene& scene, const Camera& camera) {
     // In camera space the key light comes from the left, above and behind the viewer: light from the side shows the form, and little of
     // what the viewer sees is unlit.
     const Vec3f travels_vs{0.45f, -0.60f, -0.66f};
-    shading::Light key;
-    key.type = shading::LightType::directional;
+    Light key;
+    key.type = LightType::directional;
     key.direction_ws = normalize_or(transform_vector(camera.world_from_camera, travels_vs), {0, -1, 0});
     // A white Lambert surface that faces the key light reaches 0.82 of the display's white, and about 1 with the ambient light.
     key.color_linear = {0.84f, 0.82f, 0.78f};
@@ -42,4 +43,13 @@ void add_default_lights(Scene& scene, const Camera& camera) {
     scene.ambient.ground_linear = {0.13f, 0.12f, 0.105f};
 }
 
-}  // namespace halflit::raster
+void set_environment(Scene& scene, std::shared_ptr<const Environment> environment) {
+    scene.ambient = {};
+    if (environment != nullptr) {
+        const std::span<const Light> suns = environment_suns(*environment);
+        scene.lights.insert(scene.lights.end(), suns.begin(), suns.end());
+    }
+    scene.environment = std::move(environment);
+}
+
+}  // namespace halflit

@@ -2,6 +2,7 @@
 
 #include "raster/detail/view_math.hpp"
 #include "raster/scene/placed_box.hpp"
+#include "sh/mat4.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -64,7 +65,7 @@ void visit_nearest_first(std::size_t count, double& nearest, BoxHeap& heap, cons
 
 class NearestSurface {
 public:
-    NearestSurface(const PreparedScene& scene, Vec3d point) : scene_(scene), point_(point) {}
+    NearestSurface(const PreparedData& scene, Vec3d point) : scene_(scene), point_(point) {}
 
     double find() {
         const auto bounds = scene_.instance_bounds();
@@ -117,16 +118,16 @@ private:
 
     [[nodiscard]] double distance_to(const PlacedBox& box) const { return box_distance_squared(box.low, box.high, point_); }
 
-    const PreparedScene& scene_;
+    const PreparedData& scene_;
     Vec3d point_;
     double nearest_ = kFar;
 };
 
 }  // namespace
 
-double nearest_surface_squared(const PreparedScene& scene, Vec3d point) { return NearestSurface(scene, point).find(); }
+double nearest_surface_squared(const PreparedData& scene, Vec3d point) { return NearestSurface(scene, point).find(); }
 
-double farthest_surface_squared(const PreparedScene& scene, Vec3d point) {
+double farthest_surface_squared(const PreparedData& scene, Vec3d point) {
     const Bounds& box = scene.bounds();
     if (box.empty) return 0.0;
     const double low[3] = {box.min.x, box.min.y, box.min.z}, high[3] = {box.max.x, box.max.y, box.max.z},

@@ -1,4 +1,4 @@
-#include "raster/scene/tangent_space.hpp"
+#include "halflit/mesh.hpp"
 
 #include "sh/arc.hpp"
 
@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <unordered_map>
 
-namespace halflit::raster {
+namespace halflit {
 
 namespace {
 
@@ -275,4 +275,4 @@ void generate_tangents(Mesh& mesh, int uv_set) {
     TangentMaker(mesh, uv_set).run();
 }
 
-}  // namespace halflit::raster
+}  // namespace halflit

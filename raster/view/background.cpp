@@ -4,7 +4,7 @@
 
 namespace halflit::raster {
 
-Background::Background(const shading::Environment& environment, const Camera& camera, int width, int height, float exposure)
+Background::Background(const Environment& environment, const Camera& camera, int width, int height, float exposure)
     : environment_(&environment),
       rays_(view_rays(camera, static_cast<float>(width) / static_cast<float>(height))),
       width_(width),

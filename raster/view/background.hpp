@@ -10,7 +10,7 @@ class Background {
 public:
     Background() = default;
     /// width, height: of the whole picture, pixels. Requires: `environment` has its image (Environment::rgb) and outlives this object.
-    Background(const shading::Environment& environment, const Camera& camera, int width, int height, float exposure);
+    Background(const Environment& environment, const Camera& camera, int width, int height, float exposure);
 
     /// False if there is no environment; at() must not be called then.
     [[nodiscard]] explicit operator bool() const { return environment_ != nullptr; }
@@ -19,7 +19,7 @@ public:
     [[nodiscard]] Vec4f at(int x_px, int y_px) const;
 
 private:
-    const shading::Environment* environment_ = nullptr;
+    const Environment* environment_ = nullptr;
     ViewRays rays_;  ///< in the coordinate frame of the environment's image
     double width_ = 1, height_ = 1;
     float exposure_ = 1;

@@ -31,18 +31,13 @@ HalfView half_view(const Camera& camera, double aspect) {
     return widen_to(asked, aspect);
 }
 
-/// Row 2 of the projection: clip z = z_scale * z_vs + z_offset.
-struct DepthMap {
-    double z_scale, z_offset;
-};
-
 DepthMap perspective_depth(const Camera& camera) {
     const bool has_far = finite(camera.far_z) && camera.far_z > 0.0f;
     double near_z = camera.near_z;
     if (!finite(camera.near_z) || !(camera.near_z > 0.0f)) near_z = has_far ? clamped(camera.far_z * 1e-3, 1e-6, 0.1) : 0.1;
     const double far_z = camera.far_z;
-    if (!has_far || !(far_z > near_z)) return {0.0, near_z};
-    return {near_z / (far_z - near_z), near_z * far_z / (far_z - near_z)};
+    if (!has_far || !(far_z > near_z)) return {0.0, near_z, false};
+    return {near_z / (far_z - near_z), near_z * far_z / (far_z - near_z), false};
 }
 
 DepthMap orthographic_depth(const Camera& camera, HalfView half) {
@@ -50,14 +45,19 @@ DepthMap orthographic_depth(const Camera& camera, HalfView half) {
     double far_z = camera.far_z;
     // Without a usable far limit: 1000 half heights, or |near_z| if that is more, so that rounding does not lose the depth.
     if (!finite(camera.far_z) || !(far_z > near_z)) far_z = near_z + 1000.0 * larger(half.y, 1e-3 * magnitude(near_z));
-    return {1.0 / (far_z - near_z), far_z / (far_z - near_z)};
+    return {1.0 / (far_z - near_z), far_z / (far_z - near_z), true};
 }
 
 }  // namespace
 
+DepthMap depth_map(const Camera& camera, float picture_aspect) {
+    if (!camera.orthographic) return perspective_depth(camera);
+    return orthographic_depth(camera, half_view(camera, usable_aspect(picture_aspect)));
+}
+
 Mat4 clip_from_world(const Camera& camera, float picture_aspect) {
     const HalfView half = half_view(camera, usable_aspect(picture_aspect));
-    const DepthMap depth = camera.orthographic ? orthographic_depth(camera, half) : perspective_depth(camera);
+    const DepthMap depth = depth_map(camera, picture_aspect);
 
     // Projection times the inverse of the rigid world_from_camera, in double and rounded once.
     const Mat4& m = camera.world_from_camera;

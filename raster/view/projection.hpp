@@ -1,9 +1,9 @@
 // Projection of a camera: its matrix to clip space, and the view ray of each point of the picture.
 #pragma once
 
-#include "raster/scene/camera.hpp"
+#include "halflit/camera.hpp"
+#include "halflit/math.hpp"
 #include "sh/mat4.hpp"
-#include "sh/vec3.hpp"
 
 namespace halflit::raster {
 
@@ -12,6 +12,16 @@ struct ViewRays {
     Vec3d middle{0, 0, -1}, right, up;
 };
 [[nodiscard]] ViewRays view_rays(const Camera& camera, float aspect);
+
+/// Depths of a camera. Clip z is z_scale * z_vs + z_offset, and clip w is -z_vs, or 1 if orthographic.
+struct DepthMap {
+    double z_scale = 0, z_offset = 1;
+    bool orthographic = false;
+
+    /// Distance along the view axis, world units, of a reversed depth; infinite for that of an infinite distance.
+    [[nodiscard]] double distance(double depth) const { return orthographic ? (z_offset - depth) / z_scale : z_offset / (depth + z_scale); }
+};
+[[nodiscard]] DepthMap depth_map(const Camera& camera, float aspect);
 
 /// clip_from_world with reversed depth: z/w is 1 at the near plane and 0 at the far plane (or at infinity), so that float depth keeps
 /// its precision at any range. x and y in [-w, w], y up. `aspect` is the picture's width / height. A camera made for another aspect shows

@@ -1,8 +1,8 @@
 // Shadow maps of a frame, and the views that they are drawn from.
 #pragma once
 
-#include "raster/scene/bounds.hpp"
-#include "raster/settings.hpp"
+#include "halflit/mesh.hpp"
+#include "halflit/settings.hpp"
 #include "raster/view/view.hpp"
 #include "shading/plan/light_plan.hpp"
 #include "shading/plan/shadow_map_plan.hpp"

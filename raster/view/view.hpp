@@ -1,9 +1,9 @@
 // A view: a camera, a window, and the window's tiles. The picture is a view, and so is each face of a shadow map.
 #pragma once
 
+#include "halflit/camera.hpp"
+#include "halflit/settings.hpp"
 #include "raster/kernels/raster_kernels.hpp"
-#include "raster/scene/camera.hpp"
-#include "raster/settings.hpp"
 
 namespace halflit::raster {
 

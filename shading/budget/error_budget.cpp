@@ -4,6 +4,7 @@
 #include "shading/budget/power_fit.hpp"
 #include "shading/budget/texture_bounds.hpp"
 #include "shading/model/code_bounds.hpp"
+#include "shading/model/scalar.hpp"
 
 #include <algorithm>
 #include <cmath>

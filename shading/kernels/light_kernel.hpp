@@ -31,7 +31,7 @@ HALFLIT_INLINE LocalLight local_light(const shading::LightPlan& light, V3 positi
     const V3 direction = offset * vdiv(F(1.0f), vsqrt(vmax(distance_squared, F(1e-36f))));
     F attenuation = vdiv(window, vmax(distance_squared, F(light.min_distance_squared)));
     if (light.cutoff_squared > 0.0f) attenuation = sel(distance_squared < F(light.cutoff_squared), attenuation, F(0.0f));
-    if (light.type == shading::LightType::spot) {
+    if (light.type == LightType::spot) {
         // 1 - cos of the angle to the axis, as |L - A|^2 / 2, A being minus the axis. It is accurate for narrow cones, where a difference
         // of cosines has no digits left. The subtraction from the cutoff is exact near the rim.
         const V3 off_axis = direction - broadcast(light.to_light);
@@ -50,7 +50,7 @@ HALFLIT_INLINE LocalLight local_light(const shading::LightPlan& light, V3 positi
 /// Direction and attenuation of any light. A directional light's attenuation is 1, and the product with it is exact.
 HALFLIT_INLINE LocalLight arrival(const shading::LightPlan& light, V3 position) {
     LocalLight at{broadcast(light.to_light), F(1.0f)};
-    if (light.type != shading::LightType::directional) at = local_light(light, position);
+    if (light.type != LightType::directional) at = local_light(light, position);
     return at;
 }
 
@@ -71,7 +71,7 @@ HALFLIT_INLINE void cast_shadow(const ShadowReceiver& receiver, const shading::L
     M lit = (diffuse * at.attenuation) > F(0.0f);
     if constexpr (kSpecular) lit = lit | ((specular * at.attenuation) > F(0.0f));
     if (!any(lit)) return;  // nothing to hide
-    const bool split = receiver.frame.shadow_mode == shading::ShadowMode::soft_split;
+    const bool split = receiver.frame.shadow_mode == ShadowMode::soft_split;
     const bool soft = split && receiver.fade.scale > 0.0f;
     const HiddenShares hidden = hidden_share(receiver.frame.shadow_maps[light.shadow_map], receiver.position, receiver.surface_normal,
                                              at.direction, receiver.fade, soft);
@@ -91,7 +91,7 @@ HALFLIT_INLINE LightSums sum_lights_by(const LobeValue& lobe_value_at, const Spe
     LightSums sums;
     for (int i = 0; i < count; ++i) {
         const shading::LightPlan& light = lights[i];
-        const bool local = light.type != shading::LightType::directional;
+        const bool local = light.type != LightType::directional;
         LocalLight at{broadcast(light.to_light), F(1.0f)};  // not arrival(): with it GCC 12 makes point lights 16 % slower on AVX-512
         if (local) at = local_light(light, position);
         const F n_dot_l = dot(normal, at.direction);

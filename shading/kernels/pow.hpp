@@ -3,7 +3,7 @@
 #pragma once
 
 #include "shading/kernels/simd.hpp"
-#include "shading/plan/accuracy.hpp"
+#include "shading/plan/pow_tier.hpp"
 
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {

@@ -15,7 +15,7 @@ inline namespace HALFLIT_ISA_NAMESPACE {
 HALFLIT_INLINE V3 lerp(V3 a, V3 b, F weight) { return a + (b - a) * weight; }
 
 /// Sky and ground light that reaches a surface; `up` is the y component of the surface's direction.
-HALFLIT_INLINE V3 hemisphere(const shading::Ambient& ambient, F up) {
+HALFLIT_INLINE V3 hemisphere(const Ambient& ambient, F up) {
     const V3 ground = broadcast(ambient.ground_linear);
     return lerp(ground, broadcast(ambient.sky_linear), F(0.5f) * (F(1.0f) + up));
 }
@@ -51,15 +51,15 @@ HALFLIT_INLINE IncidentLight incident_light(const shading::ShadingPlan& frame, c
         shape.half_exponent = half_specular_exponent(light.roughness);
         if (frame.normalize_specular) shape.normalization = specular_normalization(shape.half_exponent);
     }
-    if (has(material, shading::kStageLights)) {
+    if (has(material, kStageLights)) {
         const ShadowReceiver receiver{
             frame, looked_up(frame, block, lane), facing.surface, {material.shadow_fade_scale, material.shadow_turn_scale}};
         const LightSums sums = sum_lights<kSpecular>(lights.lights, lights.count, material.lobe, receiver, position, normal, to_eye, shape);
         light.diffuse = sums.diffuse * F(material.lobe.scale);
         if constexpr (kSpecular) light.specular = sums.specular * shape.normalization;
     }
-    if (has(material, shading::kStageAmbient)) {
-        const bool environment = has(material, shading::kStageEnvironment);
+    if (has(material, kStageAmbient)) {
+        const bool environment = has(material, kStageEnvironment);
         light.ambient = (environment ? environment_light(frame.environments[static_cast<std::size_t>(material.environment)], normal)
                                      : hemisphere(frame.ambient, normal.y)) *
                         surface.occlusion;
@@ -90,11 +90,11 @@ HALFLIT_INLINE V3 reflected(const shading::MaterialPlan& material, const Inciden
         albedo = base * ((F(1.0f) - light.metallic) * F(1.0f - shading::kDielectricReflectance));
     }
     V3 color{F(0.0f), F(0.0f), F(0.0f)};
-    if (has(material, shading::kStageLights)) {
+    if (has(material, kStageLights)) {
         color = albedo * light.diffuse;
         if constexpr (kSpecular) color = color + f0 * light.specular;
     }
-    if (has(material, shading::kStageAmbient)) {
+    if (has(material, kStageAmbient)) {
         color = color + albedo * light.ambient;
         if constexpr (kSpecular) {
             const V3 share{environment_reflectance(f0.x, light.roughness, light.grazing),
@@ -108,7 +108,7 @@ HALFLIT_INLINE V3 reflected(const shading::MaterialPlan& material, const Inciden
 
 HALFLIT_INLINE V3 emitted(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane) {
     V3 emissive = broadcast(material.emissive);
-    if (has(material, shading::kStageEmissiveTexture)) {
+    if (has(material, kStageEmissiveTexture)) {
         const Sample texture = sample_texture(material.emissive_texture, block, lane);
         emissive = emissive * V3{texture.r, texture.g, texture.b};
     }
@@ -121,10 +121,10 @@ HALFLIT_INLINE void shade_block(const shading::ShadingPlan& frame, const shading
     for (int lane = 0; lane < count; lane += kWidth) {
         const Sample base = base_color(material, block, lane);
         V3 color{base.r, base.g, base.b};
-        if (!has(material, shading::kStageUnlit)) {
-            if (has(material, shading::kStagePrelit))
+        if (!has(material, kStageUnlit)) {
+            if (has(material, kStagePrelit))
                 color = color * row3(block, shading::kPosX, lane) + row3(block, shading::kNormalX, lane);
-            else if ((material.stages & (shading::kStageLights | shading::kStageAmbient)) != 0)
+            else if ((material.stages & (kStageLights | kStageAmbient)) != 0)
                 color = reflected<kSpecular>(material, incident_light<kSpecular>(frame, material, lights, block, lane), color);
             else
                 color = {F(0.0f), F(0.0f), F(0.0f)};
@@ -133,7 +133,7 @@ HALFLIT_INLINE void shade_block(const shading::ShadingPlan& frame, const shading
         store(block.red + lane, color.x);
         store(block.green + lane, color.y);
         store(block.blue + lane, color.z);
-        const bool blended = material.alpha_mode == shading::AlphaMode::blend;
+        const bool blended = material.alpha_mode == AlphaMode::blend;
         store(block.alpha + lane, blended ? clamp(base.a, F(0.0f), F(1.0f)) : F(1.0f));
     }
 }
@@ -159,7 +159,7 @@ HALFLIT_INLINE void light_block(const shading::ShadingPlan& frame, const shading
 
 static void shade(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, shading::LightList lights,
                   shading::FragmentBlock& block, int count) {
-    if (has(material, shading::kStageSpecular) && !has(material, shading::kStagePrelit))
+    if (has(material, kStageSpecular) && !has(material, kStagePrelit))
         shade_block<true>(frame, material, lights, block, count);
     else
         shade_block<false>(frame, material, lights, block, count);
@@ -167,7 +167,7 @@ static void shade(const shading::ShadingPlan& frame, const shading::MaterialPlan
 
 static void light(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, shading::LightList lights,
                   shading::FragmentBlock& block, int count) {
-    if (has(material, shading::kStageSpecular))
+    if (has(material, kStageSpecular))
         light_block<true>(frame, material, lights, block, count);
     else
         light_block<false>(frame, material, lights, block, count);
@@ -176,7 +176,7 @@ static void light(const shading::ShadingPlan& frame, const shading::MaterialPlan
 static void hidden(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, const shading::LightPlan& light,
                    const shading::FragmentBlock& block, int count, float* core, float* excess) {
     const ShadowFade fade{material.shadow_fade_scale, material.shadow_turn_scale};
-    const bool soft = frame.shadow_mode == shading::ShadowMode::soft_split && fade.scale > 0.0f;
+    const bool soft = frame.shadow_mode == ShadowMode::soft_split && fade.scale > 0.0f;
     for (int lane = 0; lane < count; lane += kWidth) {
         const V3 position = row3(block, shading::kPosX, lane), surface = normals(material, block, lane).surface;
         const HiddenShares share = hidden_share(frame.shadow_maps[light.shadow_map], looked_up(frame, block, lane), surface,

@@ -1,8 +1,8 @@
 // The table of shading kernels: one set of function pointers per instruction set, all with the same results bit for bit.
 #pragma once
 
+#include "halflit/isa.hpp"
 #include "shading/fragment_block.hpp"
-#include "shading/isa.hpp"
 #include "shading/plan/plan.hpp"
 
 #include <cstdint>

@@ -10,7 +10,7 @@ inline namespace HALFLIT_ISA_NAMESPACE {
 
 /// A material's highlights, as planned.
 struct SpecularShape {
-    shading::SpecularModel kind;
+    SpecularModel kind;
     shading::PowTier tier;
     float threshold;  ///< see MaterialPlan
     const shading::SpecularCurve& curve;
@@ -27,7 +27,7 @@ struct SpecularAngle {
 };
 HALFLIT_INLINE SpecularAngle specular_angle(const SpecularShape& shape, V3 normal, V3 to_eye, V3 to_light, F n_dot_l) {
     V3 axis = normal, turning = to_light + to_eye;
-    if (shape.kind == shading::SpecularModel::phong) {
+    if (shape.kind == SpecularModel::phong) {
         const F twice = n_dot_l + n_dot_l;
         axis = to_eye;
         turning = {mad(twice, normal.x, F(0.0f) - to_light.x), mad(twice, normal.y, F(0.0f) - to_light.y),
@@ -42,7 +42,7 @@ HALFLIT_INLINE F specular_value(const SpecularShape& shape, V3 normal, V3 to_eye
     const SpecularAngle at = specular_angle(shape, normal, to_eye, to_light, n_dot_l);
     const F cosine = at.cosine, squared = at.squared;
     F half_exponent = shape.half_exponent;
-    if (shape.kind == shading::SpecularModel::phong) half_exponent = half_exponent * F(0.25f);
+    if (shape.kind == SpecularModel::phong) half_exponent = half_exponent * F(0.25f);
     M shines = vmin(n_dot_l, cosine) > F(0.0f);
     if (shape.threshold > 0.0f) {
         // cos^s <= e^-z <= 8! / z^8 with z = s/2 sin^2. Where this bound is below the threshold, the highlight is left out before any

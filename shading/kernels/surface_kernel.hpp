@@ -7,16 +7,16 @@
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
-HALFLIT_INLINE bool has(const shading::MaterialPlan& material, shading::Stage stage) { return (material.stages & stage) != 0; }
+HALFLIT_INLINE bool has(const shading::MaterialPlan& material, Stage stage) { return (material.stages & stage) != 0; }
 
 /// Base colour factor * texture * vertex colour, with alpha; `a` is what MASK compares and BLEND uses.
 HALFLIT_INLINE Sample base_color(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane) {
     Sample color{F(material.base_color[0]), F(material.base_color[1]), F(material.base_color[2]), F(material.base_color[3])};
-    if (has(material, shading::kStageBaseColorTexture)) {
+    if (has(material, kStageBaseColorTexture)) {
         const Sample texture = sample_texture(material.base_color_texture, block, lane);
         color = {color.r * texture.r, color.g * texture.g, color.b * texture.b, color.a * texture.a};
     }
-    if (has(material, shading::kStageVertexColor)) {
+    if (has(material, kStageVertexColor)) {
         color = {color.r * row(block, shading::kColorR, lane), color.g * row(block, shading::kColorG, lane),
                  color.b * row(block, shading::kColorB, lane), color.a * row(block, shading::kColorA, lane)};
     }
@@ -30,7 +30,7 @@ struct Normals {
 HALFLIT_INLINE Normals normals(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane) {
     V3 surface = normalize_any(row3(block, shading::kNormalX, lane));
     V3 normal = surface;
-    if (has(material, shading::kStageNormalMap)) {
+    if (has(material, kStageNormalMap)) {
         const Sample texture = sample_texture(material.normal_texture, block, lane);
         const V3 tangent = normalize_any(row3(block, shading::kTangentX, lane));
         const V3 bitangent = cross(normal, tangent) * row(block, shading::kTangentW, lane);
@@ -54,13 +54,13 @@ struct Reflectance {
 HALFLIT_INLINE Reflectance reflectance(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane) {
     Reflectance result{F(material.metallic), F(material.roughness), F(1.0f)};
     F occlusion_texture(1.0f);
-    if (has(material, shading::kStageMetallicRoughnessTexture)) {
+    if (has(material, kStageMetallicRoughnessTexture)) {
         const Sample texture = sample_texture(material.metallic_roughness_texture, block, lane);
         result.roughness = result.roughness * texture.g;
         result.metallic = result.metallic * texture.b;
         occlusion_texture = texture.r;
     }
-    if (has(material, shading::kStageOcclusionTexture)) {
+    if (has(material, kStageOcclusionTexture)) {
         if (!material.occlusion_is_metallic_roughness) occlusion_texture = sample_texture(material.occlusion_texture, block, lane).r;
         result.occlusion = mad(F(material.occlusion_strength), occlusion_texture - F(1.0f), F(1.0f));
     }

@@ -31,27 +31,27 @@ struct LevelTaps {
 enum class TapMode { linear, nearest, mixed };
 
 /// Brings a coordinate into [0, 1], repeat: into [0, 1).
-HALFLIT_INLINE F wrap_unit(F u, shading::Wrap mode) {
+HALFLIT_INLINE F wrap_unit(F u, TextureWrap mode) {
     const F held = clamp(u, F(-kCoordinateLimit), F(kCoordinateLimit));
     switch (mode) {
-        case shading::Wrap::repeat:
+        case TextureWrap::repeat:
             // Just below a whole number the difference rounds to 1. It is kept below 1, so that the last texel is read.
             return vmin(held - vfloor(held), F(0.99999994f));
-        case shading::Wrap::mirror: {
+        case TextureWrap::mirror: {
             const F period = held - F(2.0f) * vfloor(held * F(0.5f));
             return vmin(period, F(2.0f) - period);
         }
-        case shading::Wrap::clamp:
+        case TextureWrap::clamp:
             break;
     }
     return clamp(held, F(0.0f), F(1.0f));
 }
 
 /// Brings a texel index from [-1, size] into [0, size). Repeat wraps around; mirror and clamp repeat the texel at the edge.
-HALFLIT_INLINE I wrap_index(I i, I size, shading::Wrap mode) {
+HALFLIT_INLINE I wrap_index(I i, I size, TextureWrap mode) {
     const I last = size - I(1);
     const M below = less(i, I(0)), above = less(last, i);
-    if (mode == shading::Wrap::repeat) return sel(below, i + size, sel(above, i - size, i));
+    if (mode == TextureWrap::repeat) return sel(below, i + size, sel(above, i - size, i));
     return sel(below, I(0), sel(above, last, i));
 }
 
@@ -59,7 +59,7 @@ struct AxisTaps {
     I first, second;
     F weight;  ///< weight of `second`
 };
-HALFLIT_INLINE AxisTaps axis_taps(F unit, I size, shading::Wrap mode, TapMode taps, M nearest) {
+HALFLIT_INLINE AxisTaps axis_taps(F unit, I size, TextureWrap mode, TapMode taps, M nearest) {
     const F x = unit * to_float(size);
     if (taps == TapMode::nearest) {
         const I i = wrap_index(round_to_int(vfloor(x)), size, mode);
@@ -176,8 +176,8 @@ template <bool kLinear>
 HALFLIT_INLINE Sample sample_levels(const shading::TexturePlan& texture, F unit_u, F unit_v, F lod, TapMode taps, M nearest) {
     const std::int32_t last = texture.level_count - 1;
     const F held = clamp(lod, F(0.0f), F(static_cast<float>(last)));
-    const F low = texture.mip == shading::MipFilter::nearest ? round_near(held) : vfloor(held);
-    const F weight = texture.mip == shading::MipFilter::nearest ? F(0.0f) : held - low;
+    const F low = texture.mip == MipFilter::nearest ? round_near(held) : vfloor(held);
+    const F weight = texture.mip == MipFilter::nearest ? F(0.0f) : held - low;
     const I level = round_to_int(low);
     LevelTaps near;
     level_taps(texture, unit_u, unit_v, gather(texture.width, level), gather(texture.height, level), gather(texture.offset, level), taps,
@@ -194,7 +194,6 @@ HALFLIT_INLINE Sample sample_levels(const shading::TexturePlan& texture, F unit_
 
 /// Not inlined: five textures times the paths below would not fit the instruction cache, and a call per vector of lanes is cheap.
 [[gnu::noinline]] static Sample sample_texture(const shading::TexturePlan& texture, const shading::FragmentBlock& block, int lane) {
-    using shading::Filter;
     F u = load(&block.lane[texture.uv_set == 1 ? shading::kU1 : shading::kU0][lane]);
     F v = load(&block.lane[texture.uv_set == 1 ? shading::kV1 : shading::kV0][lane]);
     if (texture.transform) {
@@ -204,10 +203,10 @@ HALFLIT_INLINE Sample sample_levels(const shading::TexturePlan& texture, F unit_
     }
     const F unit_u = wrap_unit(u, texture.wrap_u), unit_v = wrap_unit(v, texture.wrap_v);
     const M never = F(1.0f) < F(0.0f);
-    const bool levels = texture.needs_lod && texture.mip != shading::MipFilter::none && texture.level_count > 1;
+    const bool levels = texture.needs_lod && texture.mip != MipFilter::none && texture.level_count > 1;
     const F lod = texture.needs_lod ? level_of_detail(texture, block, lane) : F(0.0f);
     if (texture.mag == texture.min) {
-        if (texture.mag == Filter::nearest) {
+        if (texture.mag == TextureFilter::nearest) {
             if (levels) return sample_levels<false>(texture, unit_u, unit_v, lod, TapMode::nearest, never);
             return sample_level0<false>(texture, unit_u, unit_v, TapMode::nearest, never);
         }
@@ -216,7 +215,7 @@ HALFLIT_INLINE Sample sample_levels(const shading::TexturePlan& texture, F unit_
         return sample_level0<true>(texture, unit_u, unit_v, TapMode::linear, never);
     }
     const M magnified = lod <= F(0.0f);
-    const M nearest = texture.mag == Filter::nearest ? magnified : !magnified;
+    const M nearest = texture.mag == TextureFilter::nearest ? magnified : !magnified;
     if (levels) return sample_levels<true>(texture, unit_u, unit_v, lod, TapMode::mixed, nearest);
     return sample_level0<true>(texture, unit_u, unit_v, TapMode::mixed, nearest);
 }

@@ -1,7 +1,7 @@
 // Vectors of lanes: reading rows of a block, and normalising without overflow.
 #pragma once
 
-#include "sh/vec3.hpp"
+#include "halflit/math.hpp"
 #include "shading/fragment_block.hpp"
 #include "shading/kernels/simd.hpp"
 

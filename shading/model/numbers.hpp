@@ -1,7 +1,7 @@
 // Tests and clamps for numbers from users, which may be NaN or infinite.
 #pragma once
 
-#include "sh/vec3.hpp"
+#include "halflit/math.hpp"
 
 namespace halflit::shading {
 

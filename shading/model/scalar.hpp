@@ -12,4 +12,13 @@ HALFLIT_INLINE constexpr double mad(double a, double b, double c) { return a * b
 
 }  // namespace halflit
 
+#include "shading/model/constants.hpp"
 #include "shading/model/formulas.hpp"
+
+namespace halflit::shading {
+
+/// Exponent s of (N.H)^s for a roughness: 2 / roughness^4 - 2. A roughness below kMinRoughness counts as kMinRoughness.
+[[nodiscard]] constexpr double specular_exponent(double roughness) { return 2.0 * half_specular_exponent(vmax(roughness, 0.07)); }
+static_assert(0.07f == kMinRoughness);
+
+}  // namespace halflit::shading

@@ -1,7 +1,7 @@
 // Lights as the kernels read them.
 #pragma once
 
-#include "shading/light.hpp"
+#include "halflit/light.hpp"
 
 #include <cstdint>
 #include <span>

@@ -1,8 +1,9 @@
 // Lobes as the kernels read them.
 #pragma once
 
-#include "shading/lobe.hpp"
-#include "shading/plan/accuracy.hpp"
+#include "halflit/material.hpp"
+#include "halflit/shading.hpp"
+#include "shading/plan/pow_tier.hpp"
 
 #include <cstdint>
 
@@ -24,6 +25,11 @@ struct LobePlan {
     PowTier tier = PowTier::exact;      ///< path general
     float curve[kLobeCurveTerms] = {};  ///< path curve
 };
+
+/// The lobe that a material is drawn with.
+[[nodiscard]] inline const Lobe& lobe_of(const Material& material, const ShadingSettings& options) {
+    return options.lobe && !material.has_own_lobe ? *options.lobe : material.lobe;
+}
 
 /// Plans a lobe. Values that check_lobe refuses are clamped to its range.
 [[nodiscard]] LobePlan plan_lobe(const Lobe& lobe, PowTier tier);

@@ -36,7 +36,7 @@ SlotMask slots_of(const MaterialPlan& plan, bool lit) {
 }  // namespace
 
 MaterialPlan plan_material(const Material& material, std::span<const Texture> textures, SlotMask available, const LightKinds& kinds,
-                           const PlanOptions& options) {
+                           const ShadingSettings& options) {
     MaterialPlan plan;
     plan.base_color[0] = material.base_color.x, plan.base_color[1] = material.base_color.y;
     plan.base_color[2] = material.base_color.z, plan.base_color[3] = material.base_color.w;

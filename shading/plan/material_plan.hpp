@@ -1,10 +1,10 @@
 // Materials as the kernels read them: stages, attribute slots, textures, lobe.
 #pragma once
 
+#include "halflit/material.hpp"
+#include "halflit/shading.hpp"
 #include "shading/fragment_block.hpp"
-#include "shading/material.hpp"
 #include "shading/plan/lobe_plan.hpp"
-#include "shading/plan/options.hpp"
 #include "shading/plan/texture_plan.hpp"
 
 #include <cstdint>
@@ -19,27 +19,9 @@ struct SpecularCurve {
     float least = 1;  ///< least cos^2 with a highlight; below it there is none
 };
 
-/// Stages, one bit each; a block runs only those that its material's plan names.
-enum Stage : std::uint32_t {
-    kStageBaseColorTexture = 1u << 0,
-    kStageVertexColor = 1u << 1,
-    kStageNormalMap = 1u << 2,
-    kStageMetallicRoughnessTexture = 1u << 3,
-    kStageOcclusionTexture = 1u << 4,
-    kStageEmissiveTexture = 1u << 5,
-    kStageLights = 1u << 6,
-    kStageSpecular = 1u << 7,
-    kStageAmbient = 1u << 8,
-    kStageUnlit = 1u << 9,
-    kStageGradients = 1u << 10,    ///< some texture's level or filter depends on the gradients: raster fills the kDu.. rows
-    kStagePrelit = 1u << 11,       ///< the fragments bring their light: a shading rate below one a pixel
-    kStageEnvironment = 1u << 12,  ///< the ambient light is an environment's, in spherical harmonics
-    kStageCount = 13
-};
-
 struct MaterialPlan {
-    std::uint32_t stages = 0;
-    SlotMask slots = 0;  ///< vertex slots that raster interpolates
+    std::uint32_t stages = 0;  ///< bits of Stage; a block runs only these
+    SlotMask slots = 0;        ///< vertex slots that raster interpolates
     float base_color[4] = {1, 1, 1, 1};
     float metallic = 0, roughness = 1;
     float emissive[3] = {0, 0, 0};
@@ -70,6 +52,6 @@ struct LightKinds {
 
 /// Plans a material. `available`: attribute slots that its meshes have; what the meshes lack is left out of the plan.
 [[nodiscard]] MaterialPlan plan_material(const Material& material, std::span<const Texture> textures, SlotMask available,
-                                         const LightKinds& kinds, const PlanOptions& options);
+                                         const LightKinds& kinds, const ShadingSettings& options);
 
 }  // namespace halflit::shading

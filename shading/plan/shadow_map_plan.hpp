@@ -1,7 +1,7 @@
 // Shadow maps as the kernels read them.
 #pragma once
 
-#include "shading/shadow_mode.hpp"
+#include "halflit/shading.hpp"
 
 #include <cstdint>
 

@@ -34,7 +34,7 @@ TexturePlan plan_texture(const TextureUse& use, std::span<const Texture> texture
     plan.min = use.sampler.min;
     plan.mip = use.sampler.mip;
     if (detail != TextureDetail::full && plan.mip == MipFilter::linear) plan.mip = MipFilter::nearest;
-    if (detail == TextureDetail::nearest) plan.mag = plan.min = Filter::nearest;
+    if (detail == TextureDetail::nearest) plan.mag = plan.min = TextureFilter::nearest;
     plan.needs_lod = (plan.mip != MipFilter::none && plan.level_count > 1) || plan.mag != plan.min;
     return plan;
 }

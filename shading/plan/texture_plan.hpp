@@ -1,9 +1,9 @@
 // Textures as the kernels read them.
 #pragma once
 
+#include "halflit/shading.hpp"
+#include "halflit/texture.hpp"
 #include "shading/fragment_block.hpp"
-#include "shading/plan/options.hpp"
-#include "shading/texture.hpp"
 
 #include <cstdint>
 #include <span>
@@ -20,8 +20,8 @@ struct TexturePlan {
     std::int32_t uv_set = 0;
     bool transform = false;  ///< row_u, row_v are not the identity
     bool needs_lod = false;  ///< the kDu.. rows decide which level or which filter
-    Wrap wrap_u, wrap_v;
-    Filter mag, min;
+    TextureWrap wrap_u, wrap_v;
+    TextureFilter mag, min;
     MipFilter mip;
 };
 

@@ -1,8 +1,8 @@
 // Environment light for the float64 reference.
 #pragma once
 
+#include "halflit/lobe.hpp"
 #include "shading/environment.hpp"
-#include "shading/lobe.hpp"
 #include "shading/reference/reference.hpp"
 
 #include <vector>

@@ -27,16 +27,16 @@ Rgba mix(const Rgba& a, const Rgba& b, double t) {
 }
 
 /// Index of the texel that is read at index i of the endless picture.
-int wrapped(long long i, int size, Wrap mode) {
+int wrapped(long long i, int size, TextureWrap mode) {
     const auto modulo = [](long long value, long long period) { return ((value % period) + period) % period; };
     switch (mode) {
-        case Wrap::repeat:
+        case TextureWrap::repeat:
             return static_cast<int>(modulo(i, size));
-        case Wrap::mirror: {
+        case TextureWrap::mirror: {
             const long long m = modulo(i, 2LL * size);
             return static_cast<int>(m < size ? m : 2LL * size - 1 - m);
         }
-        case Wrap::clamp:
+        case TextureWrap::clamp:
             break;
     }
     return static_cast<int>(std::clamp<long long>(i, 0, size - 1));
@@ -49,9 +49,9 @@ Rgba texel(const Texture& texture, const TextureLevel& level, const Sampler& sam
     return {c[0] / 65535.0, c[1] / 65535.0, c[2] / 65535.0, c[3] / 65535.0};
 }
 
-Rgba sample_level(const Texture& texture, const TextureLevel& level, const Sampler& sampler, Filter filter, double u, double v) {
+Rgba sample_level(const Texture& texture, const TextureLevel& level, const Sampler& sampler, TextureFilter filter, double u, double v) {
     const double x = u * level.width, y = v * level.height;
-    if (filter == Filter::nearest)
+    if (filter == TextureFilter::nearest)
         return texel(texture, level, sampler, static_cast<long long>(std::floor(x)), static_cast<long long>(std::floor(y)));
     const double x0 = std::floor(x - 0.5), y0 = std::floor(y - 0.5);
     const auto i = static_cast<long long>(x0), j = static_cast<long long>(y0);
@@ -171,7 +171,7 @@ double lobe_value(const Lobe& lobe, double x) {
 Rgba sample(const Texture& texture, const Sampler& sampler, double u, double v, double lod) {
     const auto levels = texture.levels();
     const bool magnified = lod <= 0;
-    const Filter filter = magnified ? sampler.mag : sampler.min;
+    const TextureFilter filter = magnified ? sampler.mag : sampler.min;
     const double last = static_cast<double>(levels.size() - 1);
     if (sampler.mip == MipFilter::none || magnified) return sample_level(texture, levels[0], sampler, filter, u, v);
     const double held = std::clamp(lod, 0.0, last);

@@ -2,12 +2,12 @@
 // user's data instead of the plan. It is slow and does not give the same bits everywhere. It is used for tests and for measuring errors.
 #pragma once
 
+#include "halflit/light.hpp"
+#include "halflit/material.hpp"
+#include "halflit/texture.hpp"
 #include "shading/fragment_block.hpp"
-#include "shading/light.hpp"
-#include "shading/material.hpp"
 #include "shading/plan/plan.hpp"
 #include "shading/reference/shadow.hpp"
-#include "shading/texture.hpp"
 
 #include <span>
 
@@ -29,7 +29,7 @@ struct FrameInputs {
     std::span<const Texture> textures;
     std::span<const Light> lights;
     Ambient ambient;
-    PlanOptions options;
+    ShadingSettings options;
     Vec3f eye_ws{0, 0, 0};
     Vec3f view_direction_ws{0, 0, -1};  ///< used when orthographic
     bool orthographic = false;

@@ -1,8 +1,8 @@
 // Reference for shadows in float64: the hidden share of a light, from the shadow map that the kernels read, written in the plainest way.
 #pragma once
 
-#include "sh/vec3.hpp"
-#include "shading/lobe.hpp"
+#include "halflit/lobe.hpp"
+#include "halflit/math.hpp"
 #include "shading/plan/plan.hpp"
 
 namespace halflit::shading::reference {

@@ -1,7 +1,7 @@
 #include "tests/cli/program.hpp"
 
 #include "apps/io/image_reader.hpp"
-#include "apps/io/image_writer.hpp"
+#include "halflit/image.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -119,7 +119,7 @@ Picture read_picture(const std::string& file_contents) {
 }
 
 std::string png_of(int width, int height, std::vector<unsigned char> rgba8) {
-    const auto bytes = io::encode_image({width, height, std::move(rgba8), {}}, io::OutputFormat::png);
+    const auto bytes = encode_image({width, height, std::move(rgba8), {}}, OutputFormat::png);
     REQUIRE(bytes);
     return {bytes->begin(), bytes->end()};
 }

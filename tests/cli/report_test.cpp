@@ -1,4 +1,4 @@
-#include "raster/framebuffer.hpp"
+#include "halflit/target.hpp"
 #include "tests/cli/program.hpp"
 
 #include <catch2/catch.hpp>
@@ -19,7 +19,7 @@ nlohmann::json json_of(const std::string& text) {
 
 std::string hash_text(const Picture& picture) {
     char text[17];
-    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(halflit::raster::pixel_hash(picture.rgba8)));
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(halflit::pixel_hash(picture.rgba8)));
     return text;
 }
 

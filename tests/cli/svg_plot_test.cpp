@@ -1,4 +1,4 @@
-#include "apps/halflit/svg_plot.hpp"
+#include "apps/lab/svg_plot.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "apps/halflit/trade_error.hpp"
+#include "apps/lab/trade_error.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -13,8 +13,8 @@ namespace {
 float linear_of(double code) { return static_cast<float>(std::pow((code / 255 + 0.055) / 1.055, 2.4)); }
 
 /// One row of pixels of these codes in all channels, opaque.
-raster::Image row_of(const std::vector<double>& codes) {
-    raster::Image image{static_cast<int>(codes.size()), 1, std::vector<std::uint8_t>(codes.size() * 4, 0), {}};
+Image row_of(const std::vector<double>& codes) {
+    Image image{static_cast<int>(codes.size()), 1, std::vector<std::uint8_t>(codes.size() * 4, 0), {}};
     for (const double code : codes)
         image.rgba_linear.insert(image.rgba_linear.end(), {linear_of(code), linear_of(code), linear_of(code), 1.0f});
     return image;
@@ -26,8 +26,8 @@ constexpr double kRounding = 2e-5;
 }  // namespace
 
 TEST_CASE("trade error: codes are compared before rounding, by a pixel's worst channel", "[cli][trade]") {
-    const raster::Image reference = row_of({100, 100, 100, 100});
-    raster::Image picture = row_of({100, 100.25, 98.5, 100});
+    const Image reference = row_of({100, 100, 100, 100});
+    Image picture = row_of({100, 100.25, 98.5, 100});
     picture.rgba_linear[3 * 4 + 2] = linear_of(104);
     const TradeError error = TradeReference(reference, reference).error_of(picture);
     CHECK(error.max == Approx(4).margin(kRounding));
@@ -39,11 +39,11 @@ TEST_CASE("trade error: codes are compared before rounding, by a pixel's worst c
 }
 
 TEST_CASE("trade error: equal pictures have none, values above white count as white", "[cli][trade]") {
-    raster::Image reference = row_of({255, 30});
+    Image reference = row_of({255, 30});
     const TradeReference same(reference, reference);
     CHECK(same.error_of(reference).max == 0.0);
     CHECK(!same.error_of(reference).psnr);
-    raster::Image brighter = reference;
+    Image brighter = reference;
     brighter.rgba_linear[0] = 7.0f;
     CHECK(same.error_of(brighter).max == Approx(0).margin(kRounding));
 }
@@ -52,7 +52,7 @@ TEST_CASE("trade error: one pixel in a thousand may be off by more than the 99.9
     for (const std::size_t off : {1u, 2u}) {
         INFO(off << " of 1000");
         std::vector<double> codes(1000, 128.0);
-        const raster::Image reference = row_of(codes);
+        const Image reference = row_of(codes);
         for (std::size_t i = 0; i < off; ++i) codes[i * 500] = 138.0;
         const TradeError error = TradeReference(reference, reference).error_of(row_of(codes));
         CHECK(error.max == Approx(10).margin(kRounding));
@@ -62,10 +62,10 @@ TEST_CASE("trade error: one pixel in a thousand may be off by more than the 99.9
 }
 
 TEST_CASE("trade error: pixels where nothing was drawn do not count, and are black in the difference", "[cli][trade]") {
-    const raster::Image reference = row_of({50, 60, 70});
-    raster::Image coverage = reference;
+    const Image reference = row_of({50, 60, 70});
+    Image coverage = reference;
     coverage.rgba_linear[1 * 4 + 3] = 0.0f;
-    const raster::Image picture = row_of({50, 90, 72});
+    const Image picture = row_of({50, 90, 72});
     const TradeReference compared(reference, coverage);
     CHECK(compared.pixels_drawn() == 2);
     CHECK(compared.error_of(picture).max == Approx(2).margin(kRounding));

@@ -62,7 +62,7 @@ TEST_CASE("values: a light's keys come in any order, with colons or semicolons",
     const auto b = parse_light("spot;intensity=4;radius=0.5;range=9;cone=10,30;dir=0,0,-2;color=white;pos=1,2,3");
     REQUIRE(a);
     REQUIRE(b);
-    CHECK(a->type == shading::LightType::spot);
+    CHECK(a->type == LightType::spot);
     CHECK(a->position_ws == Vec3f{1, 2, 3});
     CHECK(a->direction_ws == Vec3f{0, 0, -1});
     CHECK(a->color_linear == Vec3f{4, 4, 4});

@@ -1,6 +1,6 @@
 // Bound by which an environment's order is chosen, against brute force over the shared pictures at full size: 1,000 normals, ten lobes,
 // orders 1 to 10. The figures are in sh/README.md; run with -s to see them.
-#include "apps/io/environment.hpp"
+#include "halflit/image.hpp"
 #include "sh/sun.hpp"
 #include "tests/sh/full_size.hpp"
 #include "tests/support/all_cores.hpp"
@@ -121,7 +121,7 @@ TEST_CASE("environment: at full size no error is above its bound, and no bound t
     Figures as_is, without_suns;
     double noise = 0;
     for (const std::string name : {"kiara_1_dawn_1k.hdr", "studio_small_03_1k.hdr", "spiaggia_di_mondello_1k.hdr"}) {
-        const auto picture = io::read_environment((*asset_dir() / "environments" / name).string());
+        const auto picture = read_environment((*asset_dir() / "environments" / name).string());
         REQUIRE(picture);
         const Projection whole(picture->view());
         const Reflected exact = by_brute_force(FullSizeImage(picture->view()), normals);

@@ -1,4 +1,4 @@
-#include "apps/io/environment.hpp"
+#include "halflit/image.hpp"
 
 #include "sh/sun.hpp"
 #include "tests/sh/bound_check.hpp"
@@ -18,8 +18,8 @@ namespace {
 
 const char* const kNames[] = {"kiara_1_dawn_1k.hdr", "studio_small_03_1k.hdr", "spiaggia_di_mondello_1k.hdr"};
 
-io::EnvironmentImage load(const char* name) {
-    const auto environment = io::read_environment((*asset_dir() / "environments" / name).string());
+EnvironmentImage load(const char* name) {
+    const auto environment = read_environment((*asset_dir() / "environments" / name).string());
     REQUIRE(environment);
     return *environment;
 }
@@ -30,7 +30,7 @@ bool have_environments() { return asset_dir() && std::filesystem::is_directory(*
 /// patches of light again, which brute force can integrate.
 void check_environment_bounds(const char* name, int factor, int normal_count, Choices& as_is, Choices& without_suns) {
     INFO(name);
-    const io::EnvironmentImage environment = load(name);
+    const EnvironmentImage environment = load(name);
     const auto normals = random_normals(normal_count, 81);
     check_bounds(downsampled(environment.view(), factor), normals, 1e-3, as_is);
     const SunExtraction found = extract_suns(environment.view(), Projection(environment.view()));
@@ -49,7 +49,7 @@ TEST_CASE("environment: the shared pictures have the mean radiance that an indep
     } known[] = {{{1.1, 0.7327, 1.125}, 102.5f}, {{1.968, 2.261, 2.549}, 3568.0f}, {{0.8122, 0.8459, 0.8772}, 7.27e4f}};
     for (std::size_t i = 0; i < 3; ++i) {
         INFO(kNames[i]);
-        const io::EnvironmentImage environment = load(kNames[i]);
+        const EnvironmentImage environment = load(kNames[i]);
         CHECK(environment.width == 1024);
         CHECK(environment.height == 512);
         const Vec3d mean = Projection(environment.view()).mean();
@@ -76,7 +76,7 @@ TEST_CASE("environment: suns of the shared pictures keep all energy and lower th
     const std::size_t counts[] = {0, 1, 1};  // dawn without a sun; studio lamps; a sun above the sea
     for (std::size_t i = 0; i < 3; ++i) {
         INFO(kNames[i]);
-        const io::EnvironmentImage environment = load(kNames[i]);
+        const EnvironmentImage environment = load(kNames[i]);
         const Projection full(environment.view());
         const SunExtraction found = extract_suns(environment.view(), full);
         CHECK((counts[i] == 0 ? found.suns.empty() : found.suns.size() >= counts[i]));
@@ -92,7 +92,7 @@ TEST_CASE("environment: suns of the shared pictures keep all energy and lower th
 }
 
 TEST_CASE("environment: the built-in sky has the sun and the colours that are documented", "[io][environment]") {
-    const io::EnvironmentImage sky = io::built_in_sky();
+    const EnvironmentImage sky = built_in_sky();
     REQUIRE(sky.width == 512);
     REQUIRE(sky.height == 256);
     for (const float v : sky.rgb) REQUIRE((v >= 0 && v < 1e4f));
@@ -116,8 +116,8 @@ TEST_CASE("environment: the built-in sky has the sun and the colours that are do
 }
 
 TEST_CASE("environment: a name gives the sky or a file, the error for a missing file names it", "[io][environment]") {
-    CHECK(io::environment_by_name("sky")->rgb == io::built_in_sky().rgb);
-    const auto missing = io::environment_by_name("no/such/file.hdr");
+    CHECK(environment_by_name("sky")->rgb == built_in_sky().rgb);
+    const auto missing = environment_by_name("no/such/file.hdr");
     REQUIRE_FALSE(missing);
     CHECK(missing.error().code == ErrorCode::io);
     CHECK(missing.error().message.find("no/such/file.hdr") != std::string::npos);

@@ -29,7 +29,7 @@ TEST_CASE("glb: a container without BIN, and one with unknown chunks, loads", "[
     const std::string empty_scene = std::string("{") + kAsset + "}";
     CHECK(load_ok(glb(empty_scene)).scene.instances.empty());
     const TriangleFile triangle;
-    const io::LoadedScene loaded = load_ok(with_chunk(triangle.file(), 0x12345678, 8));
+    const LoadedScene loaded = load_ok(with_chunk(triangle.file(), 0x12345678, 8));
     CHECK(loaded.scene.instances.size() == 1);
     CHECK(loaded.warnings.size() == 1);
 }

@@ -1,7 +1,7 @@
 // Small glTF files made in memory: binary data by appending values, JSON by hand, GLB or .gltf around them.
 #pragma once
 
-#include "apps/io/gltf_loader.hpp"
+#include "halflit/gltf.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -80,12 +80,12 @@ inline std::string one_mesh_json(const std::string& parts, std::size_t bin_size)
            std::to_string(bin_size) + "}]," + parts + "}";
 }
 
-inline Result<io::LoadedScene> load(const Bytes& bytes, const io::LoadOptions& options = {}, const std::string& base_dir = "") {
-    return io::load_gltf_bytes(bytes, "test.glb", base_dir, options);
+inline Result<LoadedScene> load(const Bytes& bytes, const LoadOptions& options = {}, const std::string& base_dir = "") {
+    return load_gltf_bytes(bytes, "test.glb", base_dir, options);
 }
 
 /// Loads a file that must be accepted.
-inline io::LoadedScene load_ok(const Bytes& bytes, const io::LoadOptions& options = {}, const std::string& base_dir = "") {
+inline LoadedScene load_ok(const Bytes& bytes, const LoadOptions& options = {}, const std::string& base_dir = "") {
     auto loaded = load(bytes, options, base_dir);
     if (!loaded) FAIL("refused: " << loaded.error().message);
     return *std::move(loaded);

@@ -12,7 +12,7 @@ using namespace halflit::test;
 
 namespace {
 
-Error refusal(const Bytes& file, const io::LoadOptions& options = {}) {
+Error refusal(const Bytes& file, const LoadOptions& options = {}) {
     const auto loaded = load(file, options);
     if (loaded) return {ErrorCode::negative_result, "loaded"};
     CHECK(loaded.error().message.find('\n') == std::string::npos);
@@ -38,11 +38,11 @@ TEST_CASE("faults: broken JSON is refused with line and column", "[io]") {
           "{\"asset\":{\"version\":\"2.0\"}} trailing"})
         CHECK(refusal(text_file(bad)).code == ErrorCode::bad_input);
     const std::string good = std::string("{") + kAsset + "}";
-    const io::LoadedScene bom = load_ok(text_file("\xEF\xBB\xBF" + good));
+    const LoadedScene bom = load_ok(text_file("\xEF\xBB\xBF" + good));
     CHECK(bom.warnings.at(0).find("byte order mark") != std::string::npos);
     const std::string deep = std::string("{") + kAsset + ",\"extras\":" + std::string(100000, '[') + std::string(100000, ']') + "}";
     CHECK(refusal(text_file(deep)).code == ErrorCode::limit);
-    io::LoadOptions small;
+    LoadOptions small;
     small.limits.max_json_tokens = 2;
     CHECK(refusal(text_file(good), small).code == ErrorCode::limit);
     small = {};
@@ -192,7 +192,7 @@ TEST_CASE("faults: indices out of range are refused, or their triangles left out
     append<std::uint8_t>(bytes, {0, 1, 2, 0, 1, 3, 255, 1, 2, 0});
     append<std::uint16_t>(shorts, {0, 1, 2, 0, 1, 65535});
     append<std::uint32_t>(words, {0, 1, 2, 0, 0x80000000u, 2, 0, 1, 0xFFFFFFFFu});
-    io::LoadOptions lenient;
+    LoadOptions lenient;
     lenient.lenient = true;
     const std::tuple<const Bytes*, int, int> cases[] = {{&bytes, 5121, 9}, {&shorts, 5123, 6}, {&words, 5125, 9}, {&bytes, 5121, 4}};
     for (const auto& [data, type, count] : cases) {
@@ -200,7 +200,7 @@ TEST_CASE("faults: indices out of range are refused, or their triangles left out
         const Error error = refusal(file);
         CHECK(error.code == ErrorCode::bad_input);
         CHECK(error.message.find("meshes[0].primitives[0]") != std::string::npos);
-        const io::LoadedScene loaded = load_ok(file, lenient);
+        const LoadedScene loaded = load_ok(file, lenient);
         CHECK(loaded.scene.meshes.at(0).indices.size() == 3);
         CHECK(loaded.warnings.size() == 1);
     }
@@ -246,7 +246,7 @@ TEST_CASE("faults: control characters in names cannot reach the terminal", "[io]
     const Error error = refusal(text_file(R"({"asset":{"version":"2.0"},"extensionsRequired":["a\u001b[31m\n\u009bx\u007f"]})"));
     CHECK(error.message.find('\x1b') == std::string::npos);
     CHECK(error.message.find("a\\x1b[31m\\x0a\\xc2\\x9bx\\x7f") != std::string::npos);
-    const auto loaded = io::load_gltf_bytes({}, "evil\x1b[2J\n.glb", "");
+    const auto loaded = load_gltf_bytes({}, "evil\x1b[2J\n.glb", "");
     CHECK(loaded.error().message.rfind("evil\\x1b[2J\\x0a.glb: ", 0) == 0);
 }
 

@@ -72,7 +72,7 @@ void mend_lengths(Bytes& file, std::size_t json_size_was, std::size_t size_was) 
 }  // namespace
 
 TEST_CASE("fuzz: the undamaged file loads whole", "[io]") {
-    const io::LoadedScene loaded = load_ok(rich_file());
+    const LoadedScene loaded = load_ok(rich_file());
     CHECK(loaded.scene.meshes.size() == 2);
     CHECK(loaded.scene.cameras.size() == 1);
     CHECK(loaded.scene.lights.size() == 1);
@@ -96,7 +96,7 @@ TEST_CASE("fuzz: damaged files give a sound scene or an error", "[io]") {
                 file.insert(file.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(file.size(), 20)), std::byte{' '});
             mend_lengths(file, json_size, good.size());
         }
-        io::LoadOptions options;
+        LoadOptions options;
         options.lenient = seed % 3 == 0;
         const auto result = load(file, options);
         INFO("seed " << seed);
@@ -110,7 +110,7 @@ TEST_CASE("fuzz: damaged files give a sound scene or an error", "[io]") {
             continue;
         }
         ++loaded_count;
-        for (const raster::Mesh& mesh : result->scene.meshes) {
+        for (const Mesh& mesh : result->scene.meshes) {
             const std::size_t n = mesh.positions.size();
             const auto fits = [n](const auto& values) { return values.empty() || values.size() == n; };
             if (mesh.indices.size() % 3 != 0 || mesh.normals.size() != n || !fits(mesh.tangents) || !fits(mesh.uv0) || !fits(mesh.uv1) ||
@@ -120,10 +120,10 @@ TEST_CASE("fuzz: damaged files give a sound scene or an error", "[io]") {
                 if (index >= n) FAIL("index " << index << " of " << n);
             if (mesh.material >= static_cast<int>(result->scene.materials.size())) FAIL("material " << mesh.material);
         }
-        for (const raster::Instance& instance : result->scene.instances)
+        for (const Instance& instance : result->scene.instances)
             if (instance.mesh < 0 || instance.mesh >= static_cast<int>(result->scene.meshes.size())) FAIL("mesh " << instance.mesh);
-        for (const shading::Material& m : result->scene.materials)
-            for (const shading::TextureUse& use :
+        for (const Material& m : result->scene.materials)
+            for (const TextureUse& use :
                  {m.base_color_texture, m.metallic_roughness_texture, m.normal_texture, m.occlusion_texture, m.emissive_texture})
                 if (use.texture >= static_cast<int>(result->scene.textures.size())) FAIL("texture " << use.texture);
     }

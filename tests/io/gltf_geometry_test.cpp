@@ -28,9 +28,9 @@ Indices triangles_of(int mode, const Bytes& indices, int component, std::size_t 
             indices, "\"componentType\":" + std::to_string(component) + ",\"count\":" + std::to_string(count) + R"(,"type":"SCALAR")");
         file.primitive += ",\"indices\":" + std::to_string(accessor);
     }
-    const io::LoadedScene loaded = load_ok(file.file());
+    const LoadedScene loaded = load_ok(file.file());
     if (loaded.scene.meshes.empty()) return {};
-    const raster::Mesh& mesh = loaded.scene.meshes[0];
+    const Mesh& mesh = loaded.scene.meshes[0];
     Indices by_position;  // the vertex number is in x
     for (const std::uint32_t i : mesh.indices) by_position.push_back(static_cast<std::uint32_t>(mesh.positions[i].x));
     return by_position;
@@ -57,7 +57,7 @@ TEST_CASE("gltf: lists, strips and fans become the triangles of the specificatio
 TEST_CASE("gltf: points and lines are left out with one warning", "[io]") {
     TriangleFile file;
     file.primitive = R"(,"mode":0},{"attributes":{"POSITION":0},"mode":3},{"attributes":{"POSITION":0})";
-    const io::LoadedScene loaded = load_ok(file.file());
+    const LoadedScene loaded = load_ok(file.file());
     CHECK(loaded.scene.meshes.size() == 1);
     CHECK(loaded.info.point_and_line_primitives == 2);
     CHECK(loaded.warnings.size() == 1);
@@ -71,7 +71,7 @@ TEST_CASE("gltf: missing normals are flat and vertices are no longer shared", "[
     Bytes indices;
     append<std::uint16_t>(indices, {0, 1, 2, 2, 1, 3});
     file.primitive = ",\"indices\":" + std::to_string(file.add(indices, R"("componentType":5123,"count":6,"type":"SCALAR")"));
-    const raster::Mesh mesh = load_ok(file.file()).scene.meshes.at(0);
+    const Mesh mesh = load_ok(file.file()).scene.meshes.at(0);
     REQUIRE(mesh.positions.size() == 6);
     REQUIRE(mesh.normals.size() == 6);
     CHECK(mesh.indices == Indices{0, 1, 2, 3, 4, 5});
@@ -100,7 +100,7 @@ TEST_CASE("gltf: normalised integers become the fractions of the specification",
     file.accessors +=
         ",{\"bufferView\":" + std::to_string(file.count) + R"(,"componentType":5121,"normalized":true,"count":3,"type":"VEC3"})";
     file.attributes += ",\"TEXCOORD_0\":1,\"TEXCOORD_1\":" + std::to_string(second) + ",\"COLOR_0\":" + std::to_string(file.count);
-    const raster::Mesh mesh = load_ok(file.file()).scene.meshes.at(0);
+    const Mesh mesh = load_ok(file.file()).scene.meshes.at(0);
     CHECK(mesh.uv0 == std::vector<Vec2f>{{0, 1}, {51 / 255.0f, 128 / 255.0f}, {1, 1 / 255.0f}});
     CHECK(mesh.uv1 == std::vector<Vec2f>{{0, 1}, {13107 / 65535.0f, 1 / 65535.0f}, {65534 / 65535.0f, 32768 / 65535.0f}});
     CHECK(mesh.colors == std::vector<Vec4f>{{1, 0, 0.2f, 1}, {102 / 255.0f, 1 / 255.0f, 254 / 255.0f, 1}, {0, 0, 0, 1}});
@@ -124,7 +124,7 @@ TEST_CASE("gltf: quantised positions and normals need their extension", "[io]") 
     CHECK(refused.error().code == ErrorCode::bad_input);
     CHECK(refused.error().message.find("KHR_mesh_quantization") != std::string::npos);
     file.rest = R"(,"extensionsUsed":["KHR_mesh_quantization"],"extensionsRequired":["KHR_mesh_quantization"])";
-    const raster::Mesh mesh = load_ok(file.file()).scene.meshes.at(0);
+    const Mesh mesh = load_ok(file.file()).scene.meshes.at(0);
     CHECK(mesh.positions == std::vector<Vec3f>{{-32768, -32767, 32767}, {0, 1, 2}, {3, 4, 5}});
     CHECK(mesh.normals == std::vector<Vec3f>{{0, 0, 1}, {-1, 0, 0}, {0, -1, 0}});
     std::string json = file.json();
@@ -144,7 +144,7 @@ TEST_CASE("gltf: sparse values replace elements, of a view or of zeros", "[io]")
         R"("componentType":5126,"count":3,"type":"VEC3","sparse":{"count":2,"indices":{"bufferView":1,"componentType":5123},"values":{"bufferView":1,"byteOffset":4}})";
     file.accessors = R"({"bufferView":0,)" + members + "},{" + members + "}";
     file.attributes = R"("POSITION":0,"NORMAL":1)";
-    const raster::Mesh mesh = load_ok(file.file()).scene.meshes.at(0);
+    const Mesh mesh = load_ok(file.file()).scene.meshes.at(0);
     CHECK(mesh.positions == std::vector<Vec3f>{{7, 8, 9}, {1, 0, 0}, {-1, -2, -3}});
     CHECK(mesh.normals == std::vector<Vec3f>{{7, 8, 9}, {0, 0, 0}, {-1, -2, -3}});
 }
@@ -160,7 +160,7 @@ TEST_CASE("gltf: primitives that share a long list of vertices take their own pa
     file.attributes += ",\"NORMAL\":" + std::to_string(file.add(normals, R"("componentType":5126,"count":100,"type":"VEC3")"));
     append<std::uint8_t>(indices, {90, 3, 3, 3, 50, 90});
     file.primitive = ",\"indices\":" + std::to_string(file.add(indices, R"("componentType":5121,"count":6,"type":"SCALAR")"));
-    const raster::Mesh mesh = load_ok(file.file()).scene.meshes.at(0);
+    const Mesh mesh = load_ok(file.file()).scene.meshes.at(0);
     CHECK(mesh.positions == std::vector<Vec3f>{{90, 0, 0}, {3, 0, 0}, {50, 0, 0}});
     CHECK(mesh.normals == std::vector<Vec3f>{{0, 90, 1}, {0, 3, 1}, {0, 50, 1}});
     CHECK(mesh.indices == Indices{0, 1, 1, 1, 2, 0});
@@ -185,7 +185,7 @@ TEST_CASE("gltf: positions that are not numbers are kept for the renderer to dro
     const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
     std::memcpy(file.bin.data(), &nan, 4);
     std::memcpy(file.bin.data() + 12, &inf, 4);
-    const raster::Mesh mesh = load_ok(file.file()).scene.meshes.at(0);
+    const Mesh mesh = load_ok(file.file()).scene.meshes.at(0);
     CHECK(mesh.positions[0].x != mesh.positions[0].x);
     CHECK(mesh.positions[1].x == inf);
     CHECK(mesh.normals[0] == Vec3f{0, 0, 1});

@@ -27,42 +27,42 @@ Bytes with_material(const std::string& material, const std::vector<Bytes>& pictu
     return file.file();
 }
 
-shading::Material material_of(const Bytes& file) { return load_ok(file).scene.materials.at(0); }
+Material material_of(const Bytes& file) { return load_ok(file).scene.materials.at(0); }
 
-Vec2f apply(const shading::TextureUse& use, Vec2f uv) {
+Vec2f apply(const TextureUse& use, Vec2f uv) {
     return {use.row_u.x * uv.x + use.row_u.y * uv.y + use.row_u.z, use.row_v.x * uv.x + use.row_v.y * uv.y + use.row_v.z};
 }
 
 }  // namespace
 
 TEST_CASE("materials: factors, alpha mode and sides are read", "[io]") {
-    const shading::Material plain = material_of(with_material(""));
+    const Material plain = material_of(with_material(""));
     CHECK(plain.base_color == Vec4f{1, 1, 1, 1});
     CHECK(plain.metallic == 1.0f);
     CHECK(plain.roughness == 1.0f);
-    CHECK(plain.alpha_mode == shading::AlphaMode::opaque);
+    CHECK(plain.alpha_mode == AlphaMode::opaque);
     CHECK(!plain.has_own_lobe);
-    const shading::Material m = material_of(with_material(
+    const Material m = material_of(with_material(
         R"("name":"m","pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,0.4],"metallicFactor":0.5,"roughnessFactor":0.25},"emissiveFactor":[1,0.5,0],"alphaMode":"MASK","alphaCutoff":0.75,"doubleSided":true,"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":4},"KHR_materials_unlit":{}})"));
     CHECK(m.name == "m");
     CHECK(m.base_color == Vec4f{0.1f, 0.2f, 0.3f, 0.4f});
     CHECK(m.metallic == 0.5f);
     CHECK(m.roughness == 0.25f);
     CHECK(m.emissive == Vec3f{4, 2, 0});
-    CHECK(m.alpha_mode == shading::AlphaMode::mask);
+    CHECK(m.alpha_mode == AlphaMode::mask);
     CHECK(m.alpha_cutoff == 0.75f);
     CHECK(m.double_sided);
     CHECK(m.unlit);
-    CHECK(material_of(with_material(R"("alphaMode":"BLEND")")).alpha_mode == shading::AlphaMode::blend);
+    CHECK(material_of(with_material(R"("alphaMode":"BLEND")")).alpha_mode == AlphaMode::blend);
 }
 
 TEST_CASE("materials: one texture for each picture and colour space", "[io]") {
     const Bytes red = plain_png(2, 2, 255, 0, 0), grey = plain_png(4, 2, 128, 128, 128);
     const std::string textures = R"({"source":0},{"source":1},{"source":0,"sampler":0})";
-    const io::LoadedScene loaded = load_ok(with_material(
+    const LoadedScene loaded = load_ok(with_material(
         R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":1},"metallicRoughnessTexture":{"index":2}},"emissiveTexture":{"index":2},"occlusionTexture":{"index":1,"strength":0.5},"normalTexture":{"index":1,"scale":2})",
         {red, grey}, textures, R"(,"samplers":[{"wrapS":33071,"wrapT":33648,"magFilter":9728,"minFilter":9985}])"));
-    const shading::Material& m = loaded.scene.materials[0];
+    const Material& m = loaded.scene.materials[0];
     CHECK(loaded.scene.textures.size() == 3);
     CHECK(m.base_color_texture.texture == m.emissive_texture.texture);
     CHECK(m.base_color_texture.texture != m.metallic_roughness_texture.texture);
@@ -70,9 +70,10 @@ TEST_CASE("materials: one texture for each picture and colour space", "[io]") {
     CHECK(m.base_color_texture.uv_set == 1);
     CHECK(m.occlusion_strength == 0.5f);
     CHECK(m.normal_scale == 2.0f);
-    CHECK(m.base_color_texture.sampler == shading::Sampler{});
+    CHECK(m.base_color_texture.sampler == Sampler{});
     using namespace shading;
-    CHECK(m.emissive_texture.sampler == Sampler{Wrap::clamp, Wrap::mirror, Filter::nearest, Filter::linear, MipFilter::nearest});
+    CHECK(m.emissive_texture.sampler ==
+          Sampler{TextureWrap::clamp, TextureWrap::mirror, TextureFilter::nearest, TextureFilter::linear, MipFilter::nearest});
     const Texture& texture = loaded.scene.textures[static_cast<std::size_t>(m.occlusion_texture.texture)];
     CHECK(texture.width() == 4);
     CHECK(texture.height() == 2);
@@ -82,17 +83,17 @@ TEST_CASE("materials: one texture for each picture and colour space", "[io]") {
 
 TEST_CASE("materials: every minification filter of glTF is understood", "[io]") {
     using namespace shading;
-    const std::pair<int, std::pair<Filter, MipFilter>> kinds[] = {
-        {9728, {Filter::nearest, MipFilter::none}},    {9729, {Filter::linear, MipFilter::none}},
-        {9984, {Filter::nearest, MipFilter::nearest}}, {9985, {Filter::linear, MipFilter::nearest}},
-        {9986, {Filter::nearest, MipFilter::linear}},  {9987, {Filter::linear, MipFilter::linear}}};
+    const std::pair<int, std::pair<TextureFilter, MipFilter>> kinds[] = {
+        {9728, {TextureFilter::nearest, MipFilter::none}},    {9729, {TextureFilter::linear, MipFilter::none}},
+        {9984, {TextureFilter::nearest, MipFilter::nearest}}, {9985, {TextureFilter::linear, MipFilter::nearest}},
+        {9986, {TextureFilter::nearest, MipFilter::linear}},  {9987, {TextureFilter::linear, MipFilter::linear}}};
     for (const auto& [code, wanted] : kinds) {
         const Bytes file = with_material(R"("emissiveTexture":{"index":0})", {plain_png(1, 1, 0, 0, 0)}, R"({"source":0,"sampler":0})",
                                          ",\"samplers\":[{\"minFilter\":" + std::to_string(code) + "}]");
         const Sampler sampler = material_of(file).emissive_texture.sampler;
         CHECK(sampler.min == wanted.first);
         CHECK(sampler.mip == wanted.second);
-        CHECK(sampler.mag == Filter::linear);
+        CHECK(sampler.mag == TextureFilter::linear);
     }
 }
 
@@ -102,7 +103,7 @@ TEST_CASE("materials: a texture transform turns, scales and shifts as its test m
                                          {plain_png(1, 1, 0, 0, 0)}))
             .emissive_texture;
     };
-    const shading::TextureUse shifted = use(R"("offset":[0.5,-0.25],"scale":[2,3],"texCoord":1)");
+    const TextureUse shifted = use(R"("offset":[0.5,-0.25],"scale":[2,3],"texCoord":1)");
     CHECK(apply(shifted, {1, 1}) == Vec2f{2.5f, 2.75f});
     CHECK(shifted.uv_set == 1);
     // Khronos' TextureTransformTest: on its quads u = x + 1/2, v = 1/2 - y. The arrow's tip is seen at (0.2778, -0.2778) untransformed
@@ -123,11 +124,10 @@ TEST_CASE("materials: a texture transform turns, scales and shifts as its test m
 TEST_CASE("materials: extras.halflit sets the lobe, and mistakes in it are errors", "[io]") {
     const auto with = [](const std::string& extras) { return with_material(R"("extras":{"other":1,"halflit":)" + extras + "}"); };
     const auto lobe = [&](const std::string& extras) {
-        const shading::Material m = material_of(with(extras));
+        const Material m = material_of(with(extras));
         CHECK(m.has_own_lobe);
         return m.lobe;
     };
-    using shading::Lobe;
     CHECK(lobe(R"({"lobe":"lambert"})") == Lobe::lambert());
     CHECK(lobe(R"({"lobe":"half-lambert"})") == Lobe::half_lambert());
     CHECK(lobe(R"({"lobe":"valve","normalize":true})") == Lobe{1, 2, true});
@@ -155,9 +155,9 @@ TEST_CASE("materials: a broken picture is refused, or a magenta checkerboard whe
         REQUIRE(!refused);
         CHECK(refused.error().code == ErrorCode::bad_input);
         CHECK(refused.error().message.find("images[0]") != std::string::npos);
-        io::LoadOptions lenient;
+        LoadOptions lenient;
         lenient.lenient = true;
-        const io::LoadedScene loaded = load_ok(file, lenient);
+        const LoadedScene loaded = load_ok(file, lenient);
         CHECK(loaded.warnings.size() == 1);
         const auto texels = loaded.scene.textures.at(0).data();
         CHECK(texels[0] == 65535);
@@ -171,7 +171,7 @@ TEST_CASE("materials: a broken picture is refused, or a magenta checkerboard whe
 TEST_CASE("materials: textures have limits, each and together", "[io]") {
     const Bytes file = with_material(R"("emissiveTexture":{"index":0},"normalTexture":{"index":1})",
                                      {plain_png(64, 64, 0, 0, 0), plain_png(64, 64, 1, 1, 1)}, R"({"source":0},{"source":1})");
-    io::LoadOptions options;
+    LoadOptions options;
     CHECK(load(file, options));
     options.limits.max_texture_side = 63;
     CHECK(load(file, options).error().code == ErrorCode::limit);

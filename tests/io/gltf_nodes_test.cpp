@@ -1,3 +1,4 @@
+#include "sh/mat4.hpp"
 #include "sh/trig.hpp"
 #include "tests/io/gltf_builder.hpp"
 
@@ -41,14 +42,14 @@ std::string refusal(const Bytes& file, ErrorCode code = ErrorCode::bad_input) {
 TEST_CASE("nodes: translation, rotation and scale are T R S, down the tree", "[io]") {
     const std::string nodes =
         R"({"translation":[1,2,3],"children":[1]},{"rotation":[0,0,0.70710678118654757,0.70710678118654757],"scale":[2,3,-4],"mesh":0})";
-    const io::LoadedScene loaded = load_ok(with_nodes(nodes, R"({"nodes":[0]})"));
+    const LoadedScene loaded = load_ok(with_nodes(nodes, R"({"nodes":[0]})"));
     REQUIRE(loaded.scene.instances.size() == 1);
     // A quarter turn about z: x -> y, y -> -x, after the scale.
     check_close(loaded.scene.instances[0].world_from_object, {{{0, 2, 0, 0}, {-3, 0, 0, 0}, {0, 0, -4, 0}, {1, 2, 3, 1}}});
 }
 
 TEST_CASE("nodes: a matrix is taken column by column", "[io]") {
-    const io::LoadedScene loaded = load_ok(with_nodes(R"({"matrix":[1,2,3,0,4,5,6,0,7,8,9,0,10,11,12,1],"mesh":0})", ""));
+    const LoadedScene loaded = load_ok(with_nodes(R"({"matrix":[1,2,3,0,4,5,6,0,7,8,9,0,10,11,12,1],"mesh":0})", ""));
     CHECK(loaded.scene.instances.at(0).world_from_object == Mat4{{{1, 2, 3, 0}, {4, 5, 6, 0}, {7, 8, 9, 0}, {10, 11, 12, 1}}});
     CHECK(refusal(with_nodes(R"({"matrix":[1,2,3],"mesh":0})", "")).find("nodes[0].matrix") != std::string::npos);
 }
@@ -58,8 +59,8 @@ TEST_CASE("nodes: the default scene is drawn, else the first, else all roots", "
         R"({"mesh":0,"translation":[1,0,0]},{"mesh":0,"translation":[2,0,0]},{"children":[3]},{"mesh":0,"translation":[3,0,0]})";
     const auto drawn = [&](const std::string& scenes, const std::string& rest) {
         std::vector<float> x;
-        const io::LoadedScene loaded = load_ok(with_nodes(nodes, scenes, rest));
-        for (const raster::Instance& i : loaded.scene.instances) x.push_back(i.world_from_object.c[3].x);
+        const LoadedScene loaded = load_ok(with_nodes(nodes, scenes, rest));
+        for (const Instance& i : loaded.scene.instances) x.push_back(i.world_from_object.c[3].x);
         return x;
     };
     const std::string scenes = R"({"nodes":[2,0]},{"nodes":[1]})";
@@ -85,13 +86,13 @@ TEST_CASE("nodes: a chain of a million nodes is walked", "[io]") {
     const int count = 1'000'000;
     for (int i = 0; i + 1 < count; ++i) nodes += "{\"children\":[" + std::to_string(i + 1) + "],\"translation\":[1,0,0]},";
     nodes += R"({"mesh":0,"translation":[1,0,0]})";
-    const io::LoadedScene loaded = load_ok(with_nodes(nodes, R"({"nodes":[0]})"));
+    const LoadedScene loaded = load_ok(with_nodes(nodes, R"({"nodes":[0]})"));
     REQUIRE(loaded.scene.instances.size() == 1);
     CHECK(loaded.scene.instances[0].world_from_object.c[3].x == 1e6f);
 }
 
 TEST_CASE("nodes: a mesh whose transform leaves the range of float is not drawn, with a warning", "[io]") {
-    const io::LoadedScene loaded =
+    const LoadedScene loaded =
         load_ok(with_nodes(R"({"scale":[1e300,1,1],"children":[1]},{"scale":[1e300,1,1],"mesh":0},{"mesh":0})", R"({"nodes":[0,2]})"));
     CHECK(loaded.scene.instances.size() == 1);
     CHECK(loaded.warnings.size() == 1);
@@ -107,9 +108,9 @@ TEST_CASE("nodes: cameras are placed without their nodes' scale", "[io]") {
     // A quarter turn about y carries -z to -x.
     const std::string nodes =
         R"({"camera":0,"translation":[1,2,3],"rotation":[0,0.70710678118654757,0,0.70710678118654757],"scale":[5,-7,2]},{"camera":1,"name":"top"},{"camera":2})";
-    const io::LoadedScene loaded = load_ok(with_nodes(nodes, "", cameras));
+    const LoadedScene loaded = load_ok(with_nodes(nodes, "", cameras));
     REQUIRE(loaded.scene.cameras.size() == 2);
-    const raster::Camera& c = loaded.scene.cameras[0];
+    const Camera& c = loaded.scene.cameras[0];
     CHECK(c.name == "front");
     CHECK(!c.orthographic);
     CHECK(c.fov_y_rad == 0.5f);
@@ -130,20 +131,20 @@ TEST_CASE("nodes: lights shine along -z, with colour times intensity over pi", "
         R"(,"extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":[{"type":"directional","color":[1,0.5,0],"intensity":3},{"type":"point","range":7,"intensity":2},{"type":"spot","spot":{"innerConeAngle":0.25,"outerConeAngle":0.5}},{"type":"area"}]}})";
     const std::string nodes =
         R"({"extensions":{"KHR_lights_punctual":{"light":0}},"rotation":[0,0.70710678118654757,0,0.70710678118654757],"scale":[3,3,3]},{"extensions":{"KHR_lights_punctual":{"light":1}},"translation":[4,5,6]},{"extensions":{"KHR_lights_punctual":{"light":2}}},{"extensions":{"KHR_lights_punctual":{"light":3}}})";
-    const io::LoadedScene loaded = load_ok(with_nodes(nodes, "", lights));
+    const LoadedScene loaded = load_ok(with_nodes(nodes, "", lights));
     REQUIRE(loaded.scene.lights.size() == 3);
-    const shading::Light &sun = loaded.scene.lights[0], &point = loaded.scene.lights[1], &spot = loaded.scene.lights[2];
-    CHECK(sun.type == shading::LightType::directional);
+    const Light &sun = loaded.scene.lights[0], &point = loaded.scene.lights[1], &spot = loaded.scene.lights[2];
+    CHECK(sun.type == LightType::directional);
     CHECK(sun.color_linear.x == Approx(3 / kPi));
     CHECK(sun.color_linear.y == Approx(1.5 / kPi));
     CHECK(sun.color_linear.z == 0.0f);
     CHECK(sun.direction_ws.x == Approx(-1.0));
     CHECK(sun.direction_ws.z == Approx(0.0).margin(1e-7));
-    CHECK(point.type == shading::LightType::point);
+    CHECK(point.type == LightType::point);
     CHECK(point.position_ws == Vec3f{4, 5, 6});
     CHECK(point.range == 7.0f);
     CHECK(point.color_linear.x == Approx(2 / kPi));
-    CHECK(spot.type == shading::LightType::spot);
+    CHECK(spot.type == LightType::spot);
     CHECK(spot.direction_ws == Vec3f{0, 0, -1});
     CHECK(spot.inner_cone_rad == 0.25f);
     CHECK(spot.outer_cone_rad == 0.5f);
@@ -169,7 +170,7 @@ TEST_CASE("skins: vertices follow their joints, and the transform of the mesh's 
     const std::string nodes =
         R"("nodes":[{"mesh":0,"skin":0,"translation":[100,100,100]},{"translation":[0,10,0],"children":[2]},{"translation":[1,0,5]}])";
     json = replaced(json, "\"nodes\":[{\"mesh\":0}]", nodes);
-    const io::LoadedScene loaded = load_ok(glb(json, file.bin));
+    const LoadedScene loaded = load_ok(glb(json, file.bin));
     // Joint 0 adds (0, 10, 0); joint 1 takes 1 off x, then adds (1, 10, 5).
     CHECK(loaded.scene.meshes.at(0).positions == std::vector<Vec3f>{{0, 10, 0}, {1, 10, 5}, {0, 11, 3.75f}});
     CHECK(loaded.scene.instances.at(0).world_from_object == Mat4{});

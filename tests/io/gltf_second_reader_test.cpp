@@ -231,7 +231,7 @@ TEST_CASE("second reader: the sample models read as tinygltf reads them", "[io][
     for (const auto& entry : fs::recursive_directory_iterator(*assets / "models")) {
         const std::string name = entry.path().filename().string();
         if (entry.path().extension() != ".gltf" && entry.path().extension() != ".glb") continue;
-        if (!io::load_gltf(entry.path().string())) continue;  // refused for what it requires
+        if (!load_gltf(entry.path().string())) continue;  // refused for what it requires
         INFO(entry.path().string());
         const auto bytes = io::read_file(entry.path().string());
         REQUIRE(bytes);

@@ -58,7 +58,7 @@ TEST_CASE("models: each sample loads, or is refused where it has to be", "[io][a
                                                         {"Node_Attribute_08.gltf", 54}};
     std::size_t seen = 0, counted = 0;
     for (const fs::path& path : all_models(*assets / "models")) {
-        const auto loaded = io::load_gltf(path.string());
+        const auto loaded = load_gltf(path.string());
         const std::string name = path.filename().string();
         INFO(path.string() << (loaded ? "" : ": " + loaded.error().message));
         ++seen;
@@ -83,14 +83,14 @@ TEST_CASE("models: three containers of one model give one scene", "[io][assets]"
     if (!assets) HALFLIT_SKIP("no sample models (HALFLIT_ASSETS)");
     const fs::path folder = *assets / "models" / "BoxTextured";
     const auto read = [&](const char* name) {
-        auto loaded = io::load_gltf((folder / name).string());
+        auto loaded = load_gltf((folder / name).string());
         if (!loaded) FAIL(loaded.error().message);
         return *std::move(loaded);
     };
-    const io::LoadedScene separate = read("separate/BoxTextured.gltf"), binary = read("binary/BoxTextured.glb"),
-                          embedded = read("embedded/BoxTextured.gltf");
-    for (const io::LoadedScene* other : {&binary, &embedded}) {
-        const raster::Scene &a = separate.scene, &b = other->scene;
+    const LoadedScene separate = read("separate/BoxTextured.gltf"), binary = read("binary/BoxTextured.glb"),
+                      embedded = read("embedded/BoxTextured.gltf");
+    for (const LoadedScene* other : {&binary, &embedded}) {
+        const Scene &a = separate.scene, &b = other->scene;
         REQUIRE(a.meshes.size() == b.meshes.size());
         CHECK(a.meshes[0].positions == b.meshes[0].positions);
         CHECK(a.meshes[0].normals == b.meshes[0].normals);

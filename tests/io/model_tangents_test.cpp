@@ -1,5 +1,5 @@
 // Comparison of generated tangents with those in model files, which other tools made by MikkTSpace's rules, as far as they kept to them.
-#include "raster/scene/tangent_space.hpp"
+#include "halflit/mesh.hpp"
 #include "tests/io/gltf_builder.hpp"
 #include "tests/support/assets.hpp"
 #include "tests/support/skip.hpp"
@@ -23,16 +23,16 @@ struct Comparison {
     }
 };
 
-Comparison compare(const raster::Scene& scene) {
+Comparison compare(const Scene& scene) {
     Comparison out;
-    for (const raster::Mesh& given : scene.meshes) {
-        const shading::TextureUse* normal_map =
+    for (const Mesh& given : scene.meshes) {
+        const TextureUse* normal_map =
             given.material < 0 ? nullptr : &scene.materials[static_cast<std::size_t>(given.material)].normal_texture;
         const int uv_set = normal_map == nullptr || !normal_map->used() ? 0 : normal_map->uv_set;
         if (given.tangents.empty() || (uv_set == 1 ? given.uv1 : given.uv0).empty()) continue;
-        raster::Mesh made = given;
+        Mesh made = given;
         made.tangents.clear();
-        raster::generate_tangents(made, uv_set);
+        generate_tangents(made, uv_set);
         for (std::size_t i = 0; i < given.indices.size(); ++i) {
             const Vec4f a = given.tangents[given.indices[i]], b = made.tangents[made.indices[i]];
             const double cosine = (double{a.x} * b.x + double{a.y} * b.y + double{a.z} * b.z) /
@@ -68,7 +68,7 @@ TEST_CASE("models: generated tangents agree with those in model files", "[io][as
                           {"TwoSidedPlane/TwoSidedPlane.gltf", 1e-4, 1e-4, 1e-3, 0, true},
                           {"FlightHelmet/FlightHelmet.gltf", 0.5, 3.0, 181.0, 1e-4, false},
                           {"CornellBox/cornellBox.glb", 0.3, 2.0, 181.0, 1e-3, false}}) {
-        const auto loaded = io::load_gltf((*assets / "models" / c.path).string());
+        const auto loaded = load_gltf((*assets / "models" / c.path).string());
         INFO(c.path);
         REQUIRE(loaded);
         const Comparison found = compare(loaded->scene);

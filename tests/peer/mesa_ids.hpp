@@ -1,7 +1,7 @@
 // The peer: Mesa's llvmpipe, off screen through EGL without a window system.
 #pragma once
 
-#include "sh/vec3.hpp"
+#include "halflit/math.hpp"
 
 #include <cstdint>
 #include <memory>

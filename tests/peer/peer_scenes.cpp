@@ -46,7 +46,7 @@ public:
     }
 
     PeerScene finish() {
-        raster::Mesh mesh;
+        Mesh mesh;
         const std::size_t triangles = points_.size() / 3;
         const bool perspective = !scene_.camera.orthographic;
         for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -63,7 +63,7 @@ public:
         mesh.material = 0;
         const Mat4 clip_from_world = raster::clip_from_world(scene_.camera, kPictureAspect);
         for (const Vec3f& p : mesh.positions) scene_.clip_positions.push_back(clip_from_world * Vec4f{p.x, p.y, p.z, 1.0f});
-        shading::Material material;
+        Material material;
         material.unlit = true;
         material.double_sided = true;
         scene_.scene.materials.push_back(material);

@@ -2,7 +2,7 @@
 // the peer gets the clip coordinates that halflit's vertex stage makes of them.
 #pragma once
 
-#include "raster/scene/scene.hpp"
+#include "halflit/scene.hpp"
 
 #include <string>
 #include <vector>
@@ -15,8 +15,8 @@ inline constexpr int kWidth = 1920, kHeight = 1080;
 struct PeerScene {
     std::string name;
     bool crosses_frame = false;  ///< some triangles reach over the border of the picture
-    raster::Scene scene;         ///< one mesh, one instance without transform, one double-sided material
-    raster::Camera camera;
+    Scene scene;                 ///< one mesh, one instance without transform, one double-sided material
+    Camera camera;
     std::vector<Vec4f> clip_positions;  ///< three a triangle, in submission order
 
     [[nodiscard]] std::size_t triangle_count() const { return clip_positions.size() / 3; }

@@ -1,7 +1,7 @@
 // Independent form of the coverage rules, by brute force and without clipping. It explains differences between two rasterizers.
 #pragma once
 
-#include "sh/vec3.hpp"
+#include "halflit/math.hpp"
 
 #include <cstdint>
 #include <span>

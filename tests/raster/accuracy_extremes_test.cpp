@@ -1,7 +1,7 @@
 // Pictures at the limits of float32: the kernels against the float64 reference, as in the table of extremes in shading/README.md.
 // Visibility and interpolated values are the same for both, so the difference comes from shading alone.
-#include "raster/built_in/shapes.hpp"
-#include "raster/renderer.hpp"
+#include "halflit/renderer.hpp"
+#include "halflit/shapes.hpp"
 #include "shading/reference/reference.hpp"
 #include "tests/support/cameras.hpp"
 #include "tests/support/isas.hpp"
@@ -17,8 +17,6 @@
 
 using namespace halflit;
 using namespace halflit::raster;
-using shading::Accuracy;
-using shading::Lobe;
 
 namespace {
 
@@ -29,10 +27,10 @@ struct Subject {
     Camera camera;
     float exposure = 1.0f;
 
-    shading::Light& sun() { return scene.lights[0]; }
-    shading::Light& lamp() { return scene.lights[1]; }
+    Light& sun() { return scene.lights[0]; }
+    Light& lamp() { return scene.lights[1]; }
     void set_lobe(const Lobe& lobe) {
-        for (shading::Material& material : scene.materials) material.lobe = lobe;
+        for (Material& material : scene.materials) material.lobe = lobe;
     }
     void set_lamp(Vec3f position, Vec3f color) {
         lamp().position_ws = position;
@@ -64,7 +62,7 @@ Subject usual_subject() {
     Subject s;
     s.camera = test::camera_at({1.5f, 2, 4}, {0, -0.2f, 0}, 0.8f, 0.05f);
     for (int i = 0; i < 2; ++i) {
-        shading::Material material;
+        Material material;
         material.base_color = i == 0 ? Vec4f{0.9f, 0.6f, 0.3f, 1} : Vec4f{0.5f, 0.7f, 0.9f, 1};
         material.metallic = 0.2f;
         material.roughness = 0.5f;
@@ -76,10 +74,10 @@ Subject usual_subject() {
         s.scene.meshes[static_cast<std::size_t>(i)].material = i;
         s.scene.instances.push_back({i, translation({0, i == 0 ? 0.0f : -1.0f, 0})});
     }
-    shading::Light sun, lamp;
+    Light sun, lamp;
     sun.direction_ws = {-0.48f, -0.6f, -0.64f};
     sun.color_linear = {0.6f, 0.6f, 0.55f};
-    lamp.type = shading::LightType::point;
+    lamp.type = LightType::point;
     lamp.position_ws = {-1.5f, 1.5f, 1.5f};
     lamp.color_linear = {0.4f, 0.5f, 0.8f};
     s.scene.lights = {sun, lamp};
@@ -146,7 +144,7 @@ const std::vector<Row>& rows() {
         {"spot 1e20 away", kCodes, kRelative,
          [](Subject& s) {
              s.set_lamp({-6e19f, 6e19f, 5e19f}, {2e38f, 2.5e38f, 3e38f});
-             s.lamp().type = shading::LightType::spot;
+             s.lamp().type = LightType::spot;
              s.lamp().direction_ws = normalize_or({0.6f, -0.5f, -0.5f}, {});
              s.lamp().outer_cone_rad = 0.5f;
              s.lamp().cone_power = 3;
@@ -154,20 +152,20 @@ const std::vector<Row>& rows() {
          }},
         {"light of 1e-20", kCodes, kRelative,
          [](Subject& s) {
-             for (shading::Light& light : s.scene.lights) light.color_linear = light.color_linear * 1e-20f;
+             for (Light& light : s.scene.lights) light.color_linear = light.color_linear * 1e-20f;
          }},
         {"light of 1e-20, exposure 1e20", kCodes, kRelative,
          [](Subject& s) {
-             for (shading::Light& light : s.scene.lights) light.color_linear = light.color_linear * 1e-20f;
+             for (Light& light : s.scene.lights) light.color_linear = light.color_linear * 1e-20f;
              s.exposure = 1e20f;
          }},
         {"light of 1e20", kCodes, kRelative,
          [](Subject& s) {
-             for (shading::Light& light : s.scene.lights) light.color_linear = light.color_linear * 1e20f;
+             for (Light& light : s.scene.lights) light.color_linear = light.color_linear * 1e20f;
          }},
         {"light of 1e20, exposure 1e-20", kCodes, kRelative,
          [](Subject& s) {
-             for (shading::Light& light : s.scene.lights) light.color_linear = light.color_linear * 1e20f;
+             for (Light& light : s.scene.lights) light.color_linear = light.color_linear * 1e20f;
              s.exposure = 1e-20f;
          }},
         {"normals of length 1e-30", kCodes, kRelative, [](Subject& s) { s.set_normal_length(1e-30f); }},
@@ -184,11 +182,11 @@ struct Picture {
     RenderReport report;
 };
 
-Picture draw(const Subject& subject, Accuracy accuracy, double budget, shading::Isa isa) {
+Picture draw(const Subject& subject, Accuracy accuracy, double budget, Isa isa) {
     Picture picture;
     Settings settings;
     settings.isa = isa;
-    settings.shadows = shading::ShadowMode::off;
+    settings.shadows = ShadowMode::off;
     settings.exposure = subject.exposure;
     settings.shading.accuracy = accuracy;
     settings.shading.max_error_codes = budget;
@@ -227,8 +225,8 @@ TEST_CASE("extremes: exact pictures stay close to the reference, finite, and the
     for (const Row& row : rows()) {
         Subject subject = usual_subject();
         row.make(subject);
-        const Picture truth = draw(subject, Accuracy::reference, 0, shading::Isa::scalar);
-        const Picture exact = draw(subject, Accuracy::exact, 0, shading::Isa::scalar);
+        const Picture truth = draw(subject, Accuracy::reference, 0, Isa::scalar);
+        const Picture exact = draw(subject, Accuracy::exact, 0, Isa::scalar);
         const Difference found = difference(exact, truth);
         char line[160];
         std::snprintf(line, sizeof line, "| %s | %.2g | %.2g | %.2g |\n", row.name, found.largest, found.codes, found.relative());
@@ -240,8 +238,8 @@ TEST_CASE("extremes: exact pictures stay close to the reference, finite, and the
         CHECK(std::all_of(exact.linear.begin(), exact.linear.end(), [](float v) { return std::isfinite(v); }));
         CHECK(found.codes <= row.codes);
         CHECK(found.relative() <= row.relative);
-        for (const shading::Isa isa : test::available_isas()) {
-            INFO(shading::isa_name(isa));
+        for (const Isa isa : test::available_isas()) {
+            INFO(isa_name(isa));
             CHECK(same(draw(subject, Accuracy::exact, 0, isa), exact));
         }
     }
@@ -261,11 +259,11 @@ TEST_CASE("extremes: a budget is kept or refused at the limits of float32 too, t
     for (const Row& row : rows()) {
         Subject subject = usual_subject();
         row.make(subject);
-        const Picture truth = draw(subject, Accuracy::reference, 0, shading::Isa::scalar);
+        const Picture truth = draw(subject, Accuracy::reference, 0, Isa::scalar);
         for (const double budget : {0.1, 1.0}) {
-            const Picture picture = draw(subject, Accuracy::exact, budget, shading::Isa::scalar);
+            const Picture picture = draw(subject, Accuracy::exact, budget, Isa::scalar);
             const double measured = difference(picture, truth).codes;
-            const shading::ErrorBound& bound = picture.report.error;
+            const ErrorBound& bound = picture.report.error;
             INFO(row.name << ", budget " << budget << ", bound " << bound.codes << ", measured " << measured);
             CHECK(picture.report.nan_pixels == 0);
             CHECK(bound.within == (bound.codes <= budget));

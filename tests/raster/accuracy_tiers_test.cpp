@@ -1,5 +1,5 @@
 // Tiers on whole pictures: differences of display and fast from exact.
-#include "raster/renderer.hpp"
+#include "halflit/renderer.hpp"
 #include "shading/reference/reference.hpp"
 #include "tests/raster/random_trial.hpp"
 #include "tests/raster/test_scenes.hpp"
@@ -14,7 +14,6 @@
 using namespace halflit;
 using namespace halflit::raster;
 using namespace halflit::raster::test;
-using shading::Accuracy;
 using shading::PowTier;
 
 namespace {
@@ -60,7 +59,7 @@ struct Difference {
 /// = ln(K / v), where v is white.
 double bound_codes(const Scene& scene, PowTier tier, double peak) {
     double power = 1.0;
-    for (const shading::Material& material : scene.materials) power = std::max(power, static_cast<double>(material.lobe.power));
+    for (const Material& material : scene.materials) power = std::max(power, static_cast<double>(material.lobe.power));
     const shading::PowErrors errors = shading::pow_errors(tier);
     const double lobe = 0.35 * (power - 1.0) * errors.log2 + errors.exp2, highlight = errors.exp2 + errors.log2 * std::log(peak);
     return 112.2 * (std::log1p(lobe) + std::log1p(highlight) + 1e-5);

@@ -1,6 +1,6 @@
 // Environment behind a scene: every pixel is compared with the image where its view ray meets it; the bits do not depend on how it is
 // drawn.
-#include "raster/renderer.hpp"
+#include "halflit/renderer.hpp"
 #include "shading/environment.hpp"
 #include "tests/raster/test_scenes.hpp"
 #include "tests/sh/sky_images.hpp"
@@ -19,8 +19,8 @@ namespace {
 
 constexpr int kWidth = 120, kHeight = 75;
 
-std::shared_ptr<const shading::Environment> kept(const Sky& sky, double rotate_rad) {
-    return std::make_shared<shading::Environment>(shading::make_environment(sky.view(), {false, rotate_rad, true}));
+std::shared_ptr<const Environment> kept(const Sky& sky, double rotate_rad) {
+    return std::make_shared<Environment>(shading::make_environment(sky.view(), {false, rotate_rad, true}));
 }
 
 std::vector<float> drawn(const Scene& scene, const Camera& camera, Settings settings) {
@@ -82,7 +82,7 @@ TEST_CASE("background: the same bits for every instruction set, tile size, threa
         Settings settings;
         settings.samples = samples;
         settings.shadow_size = 64;
-        settings.isa = shading::Isa::scalar;
+        settings.isa = Isa::scalar;
         settings.threads = 1;
         const auto want = drawn(s.scene, s.camera, settings);
         Scene empty;
@@ -92,7 +92,7 @@ TEST_CASE("background: the same bits for every instruction set, tile size, threa
         for (std::size_t i = 0; i < want.size(); i += 4) seen += std::memcmp(&want[i], &bare[i], 4 * sizeof(float)) == 0;
         CHECK(seen > 100);  // pixels where nothing is drawn
         CHECK(seen < kWidth * kHeight - 100);
-        for (const shading::Isa isa : available_isas())
+        for (const Isa isa : available_isas())
             for (const int tile : {16, 32, 64}) {
                 settings.isa = isa;
                 settings.tile_size = tile;

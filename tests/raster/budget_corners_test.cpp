@@ -1,6 +1,6 @@
 // Error budgets in the corners of float32: views opposite a light at grazing angles, and lamps next to surfaces far from the origin.
-#include "raster/built_in/shapes.hpp"
-#include "raster/renderer.hpp"
+#include "halflit/renderer.hpp"
+#include "halflit/shapes.hpp"
 #include "shading/reference/reference.hpp"
 #include "tests/support/cameras.hpp"
 #include "tests/support/random.hpp"
@@ -19,10 +19,10 @@ constexpr int kWidth = 64, kHeight = 48;
 
 /// Checks that the report's bound, if within the budget, holds against the float64 reference. Returns the largest linear value.
 float check_bound(const Scene& scene, const Camera& camera, double budget) {
-    const auto draw = [&](shading::Accuracy accuracy, double codes, std::vector<float>& linear) {
+    const auto draw = [&](Accuracy accuracy, double codes, std::vector<float>& linear) {
         linear.assign(std::size_t{4} * kWidth * kHeight, 0.0f);
         Settings settings;
-        settings.shadows = shading::ShadowMode::off;
+        settings.shadows = ShadowMode::off;
         settings.shading.accuracy = accuracy;
         settings.shading.max_error_codes = codes;
         const auto report = render(scene, camera, settings, {kWidth, kHeight, nullptr, linear.data()});
@@ -30,8 +30,8 @@ float check_bound(const Scene& scene, const Camera& camera, double budget) {
         return report->error;
     };
     std::vector<float> truth, fast;
-    draw(shading::Accuracy::reference, 0, truth);
-    const shading::ErrorBound bound = draw(shading::Accuracy::exact, budget, fast);
+    draw(Accuracy::reference, 0, truth);
+    const ErrorBound bound = draw(Accuracy::exact, budget, fast);
     const auto code = [](float v) { return shading::reference::srgb_code(static_cast<double>(v)); };
     double worst = 0;
     float largest = 0;
@@ -59,7 +59,7 @@ TEST_CASE("error budget: highlights opposite a light at grazing angles keep to t
                     scene.materials[0].roughness = roughness;
                     if (textured) {
                         const std::vector<std::uint8_t> white(16, 255);
-                        scene.textures.push_back(*shading::Texture::from_rgba8(white, 2, 2, shading::ColorSpace::linear));
+                        scene.textures.push_back(*Texture::from_rgba8(white, 2, 2, ColorSpace::linear));
                         scene.materials[0].metallic_roughness_texture.texture = 0;
                     }
                     scene.meshes = {make_plane(100, 1)};
@@ -95,7 +95,7 @@ TEST_CASE("error budget: lamps next to surfaces far from the origin keep to the 
         scene.instances = {{0, {}}};
         const Vec3f middle = (mesh.positions[0] + mesh.positions[1] + mesh.positions[2]) * (1.0f / 3.0f);
         scene.lights.resize(1);
-        scene.lights[0].type = shading::LightType::point;
+        scene.lights[0].type = LightType::point;
         scene.lights[0].position_ws = middle + Vec3f{0, height, 0};
         scene.lights[0].color_linear = Vec3f{1, 1, 1} * (height * height * random.real32(0.05, 0.3));
         const Camera camera = halflit::test::camera_at(middle + Vec3f{0, 3 * size, step}, middle, 0.8f, 0.01f * size);

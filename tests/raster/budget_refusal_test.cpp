@@ -1,14 +1,13 @@
 // Error budgets are refused with settings that have no bound, and accepted with all others.
-#include "raster/built_in/shapes.hpp"
+#include "halflit/renderer.hpp"
+#include "halflit/shapes.hpp"
 #include "raster/frame_plan.hpp"
-#include "raster/renderer.hpp"
 #include "tests/support/cameras.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace halflit;
 using namespace halflit::raster;
-using shading::Accuracy, shading::ShadingRate, shading::TextureDetail;
 
 namespace {
 
@@ -23,7 +22,7 @@ Scene lit_box() {
     scene.meshes[0].material = 0;
     scene.instances.push_back({0, {}});
     scene.lights.resize(2);
-    scene.lights[1].type = shading::LightType::point;
+    scene.lights[1].type = LightType::point;
     scene.lights[1].position_ws = {2, 2, 2};
     return scene;
 }

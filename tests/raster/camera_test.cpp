@@ -1,6 +1,7 @@
-#include "raster/built_in/shapes.hpp"
-#include "raster/scene/framing.hpp"
+#include "halflit/camera.hpp"
+#include "halflit/shapes.hpp"
 #include "raster/view/projection.hpp"
+#include "sh/mat4.hpp"
 #include "sh/trig.hpp"
 
 #include <catch2/catch.hpp>

@@ -71,7 +71,7 @@ Tally compare_rasterize(std::uint64_t seed, int tile, int samples, int count) {
             expected->compute(t, place.window, pattern);
             list.clear();
             list.add(t, {0.25f, 0.5f, 0.75f});
-            for (const shading::Isa isa : isas) {
+            for (const Isa isa : isas) {
                 clear_tile(*buffers, pattern, place.window.height);
                 raster_kernels(isa).rasterize(place.window, pattern, *buffers, list.source(), list.list(), 1);
                 for (int s = 0; s < samples; ++s) tally.differing_pixels += expected->differing(s, buffers->triangle[s], kIdBase);
@@ -138,7 +138,7 @@ TEST_CASE("coverage: each kind of difficult triangle equals the reference, in ev
             TriangleList list(kIdBase);
             list.add(t, {0.25f, 0.5f, 0.75f});
             expected->compute(t, place.window, pattern);
-            for (const shading::Isa isa : available_isas()) {
+            for (const Isa isa : available_isas()) {
                 clear_tile(*buffers, pattern, place.window.height);
                 raster_kernels(isa).rasterize(place.window, pattern, *buffers, list.source(), list.list(), 1);
                 for (int s = 0; s < pattern.count; ++s) wrong += expected->differing(s, buffers->triangle[s], kIdBase);
@@ -167,7 +167,7 @@ TEST_CASE("coverage: cover marks exactly the samples, within its box, and draw_c
         list.clear();
         list.add(t, {0.25f, 0.5f, 0.75f});
         const std::uint64_t keep_seed = static_cast<std::uint64_t>(random.integer(0, 1 << 30));
-        for (const shading::Isa isa : available_isas()) {
+        for (const Isa isa : available_isas()) {
             const RasterKernels& kernels = raster_kernels(isa);
             clear_tile(*buffers, pattern, place.window.height);
             std::memset(buffers->coverage, 0, sizeof buffers->coverage);
@@ -317,7 +317,7 @@ TEST_CASE("visibility: each sample shows the nearest of many triangles, and of e
                 list.add(t, {z, random.real32(0.01, 1), random.real32(0.01, 1)});
             triangles.push_back(t);
         }
-        for (const shading::Isa isa : available_isas()) {
+        for (const Isa isa : available_isas()) {
             const RasterKernels& kernels = raster_kernels(isa);
             std::vector<float> nearest(static_cast<std::size_t>(kMaxSamples) * kTilePixels, 0.0f);
             std::vector<std::uint32_t> first(nearest.size(), kNoTriangle);

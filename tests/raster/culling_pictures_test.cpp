@@ -1,6 +1,6 @@
 // Culling must change no pixel and no count of drawn triangles. Each scene is drawn as it is, so that clusters may be left out, and again
 // in a form in which none can be.
-#include "raster/renderer.hpp"
+#include "halflit/renderer.hpp"
 #include "tests/raster/random_geometry.hpp"
 #include "tests/raster/test_scenes.hpp"
 #include "tests/support/isas.hpp"
@@ -85,9 +85,9 @@ void check_culling(const Scene& scene, const Camera& camera, const Settings& set
 Scene coloured(Random& random, std::vector<Mesh> meshes) {
     Scene scene;
     scene.materials.resize(3);
-    for (shading::Material& material : scene.materials) material.unlit = true;
+    for (Material& material : scene.materials) material.unlit = true;
     scene.materials[1].double_sided = true;
-    scene.materials[2].alpha_mode = shading::AlphaMode::blend;
+    scene.materials[2].alpha_mode = AlphaMode::blend;
     scene.materials[2].base_color.w = 0.5f;
     scene.meshes = std::move(meshes);
     for (Mesh& mesh : scene.meshes) {
@@ -250,16 +250,16 @@ TEST_CASE("culling: coordinates among the denormals have the same pictures by ev
         }
         const Camera camera = scaled(random_camera(random), world);
         Settings settings = any_settings(random, 60, 40);
-        const auto pixels = [&](shading::Isa isa) {
+        const auto pixels = [&](Isa isa) {
             std::vector<std::uint8_t> rgba8(std::size_t{4} * 60 * 40);
             settings.isa = isa;
             const bool drawn = render(scene, camera, settings, {60, 40, rgba8.data(), nullptr}).has_value();
             return drawn ? rgba8 : std::vector<std::uint8_t>{};  // a matrix that is not finite is refused
         };
-        const std::vector<std::uint8_t> first = pixels(shading::Isa::scalar);
+        const std::vector<std::uint8_t> first = pixels(Isa::scalar);
         pictures += !first.empty();
-        for (const shading::Isa isa : halflit::test::available_isas()) {
-            INFO("round " << round << ", unit " << world << ", " << shading::isa_name(isa));
+        for (const Isa isa : halflit::test::available_isas()) {
+            INFO("round " << round << ", unit " << world << ", " << isa_name(isa));
             CHECK(pixels(isa) == first);
         }
     }

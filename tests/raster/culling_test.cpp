@@ -3,6 +3,7 @@
 #include "raster/view/culling.hpp"
 #include "raster/scene/prepared_scene.hpp"
 #include "raster/view/view.hpp"
+#include "sh/mat4.hpp"
 #include "tests/raster/random_geometry.hpp"
 
 #include <catch2/catch.hpp>
@@ -29,7 +30,7 @@ struct Projected {
         args.viewport = view.viewport;
         args.screen = screen.data();
         args.outcodes = outcode.data();
-        raster_kernels(*shading::default_isa()).transform(args);
+        raster_kernels(*default_isa()).transform(args);
     }
 };
 

@@ -1,6 +1,7 @@
-#include "raster/framebuffer.hpp"
-#include "raster/scene/framing.hpp"
+#include "halflit/camera.hpp"
+#include "halflit/target.hpp"
 #include "raster/view/projection.hpp"
+#include "sh/mat4.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -42,10 +43,10 @@ TEST_CASE("demo scene: every index, array and reference is valid", "[raster][dem
         CHECK(std::all_of(mesh.indices.begin(), mesh.indices.end(), [&](std::uint32_t i) { return i < n; }));
         CHECK(std::all_of(mesh.normals.begin(), mesh.normals.end(), [](Vec3f v) { return std::abs(length(v) - 1.0f) < 1e-6f; }));
     }
-    for (const shading::Material& m : scene.materials)
-        for (const shading::TextureUse& use : {m.base_color_texture, m.normal_texture, m.metallic_roughness_texture})
+    for (const Material& m : scene.materials)
+        for (const TextureUse& use : {m.base_color_texture, m.normal_texture, m.metallic_roughness_texture})
             CHECK((!use.used() || refers(use.texture, scene.textures.size())));
-    for (const shading::Light& light : scene.lights) CHECK(length(light.direction_ws) == Approx(1.0f).epsilon(1e-6));
+    for (const Light& light : scene.lights) CHECK(length(light.direction_ws) == Approx(1.0f).epsilon(1e-6));
     CHECK(scene.textures.size() == 3);
     CHECK(scene.cameras.size() == 1);
 }
@@ -108,10 +109,9 @@ TEST_CASE("demo scene: tangents lie in the surface and follow u", "[raster][demo
 TEST_CASE("demo scene: five balls differ in their lobe alone, wrap 0 to 1 from left to right, all in view", "[raster][demo]") {
     const Scene scene = demo_scene();
     const Mat4 clip = clip_from_world(scene.cameras[0], 16.0f / 9.0f);
-    std::vector<std::pair<float, const shading::Material*>> balls;
+    std::vector<std::pair<float, const Material*>> balls;
     for (const Instance& instance : scene.instances) {
-        const shading::Material& m =
-            scene.materials[static_cast<std::size_t>(scene.meshes[static_cast<std::size_t>(instance.mesh)].material)];
+        const Material& m = scene.materials[static_cast<std::size_t>(scene.meshes[static_cast<std::size_t>(instance.mesh)].material)];
         if (m.name.rfind("wrap ", 0) != 0) continue;
         balls.push_back({instance.world_from_object.c[3].x, &m});
         for (const Vec3f& p : scene.meshes[static_cast<std::size_t>(instance.mesh)].positions) {
@@ -124,7 +124,7 @@ TEST_CASE("demo scene: five balls differ in their lobe alone, wrap 0 to 1 from l
     std::sort(balls.begin(), balls.end());
     for (std::size_t i = 0; i < 5; ++i) {
         const float a = 0.25f * static_cast<float>(i);
-        CHECK(balls[i].second->lobe == shading::Lobe{a, 1.0f + a, false});
+        CHECK(balls[i].second->lobe == Lobe{a, 1.0f + a, false});
         CHECK(balls[i].second->has_own_lobe);
         CHECK(balls[i].second->base_color == balls[0].second->base_color);
         CHECK(balls[i].second->roughness == balls[0].second->roughness);
@@ -163,8 +163,8 @@ TEST_CASE("scene: the default key light comes from over the viewer's left should
         const Camera camera = frame_bounds({}, 1.0f, {azimuth, 20.0f, 1.0f, 35.0f});
         add_default_lights(scene, camera);
         REQUIRE(scene.lights.size() == 1);
-        const shading::Light& key = scene.lights[0];
-        CHECK(key.type == shading::LightType::directional);
+        const Light& key = scene.lights[0];
+        CHECK(key.type == LightType::directional);
         CHECK(length(key.direction_ws) == Approx(1.0f).epsilon(1e-6));
         const Mat4& m = camera.world_from_camera;
         CHECK(dot(key.direction_ws, {m.c[0].x, m.c[0].y, m.c[0].z}) > 0.2f);   // to the right: from the left

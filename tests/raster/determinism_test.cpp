@@ -1,5 +1,5 @@
 // Pixels must be the same for every instruction set, thread count, tile size, crop, loop of a host and floating-point environment.
-#include "raster/renderer.hpp"
+#include "halflit/renderer.hpp"
 #include "tests/raster/test_scenes.hpp"
 #include "tests/support/isas.hpp"
 
@@ -68,7 +68,7 @@ ParallelFor host_loop(int thread_count) {
     };
 }
 
-Settings settings_of(shading::Isa isa, int threads, int tile, int samples) {
+Settings settings_of(Isa isa, int threads, int tile, int samples) {
     Settings settings;
     settings.isa = isa;
     settings.threads = threads;
@@ -93,10 +93,10 @@ const std::vector<NamedScene>& scenes() {
 TEST_CASE("determinism: every instruction set, thread count and tile size gives the same pixels", "[raster][determinism]") {
     for (const NamedScene& s : scenes()) {
         for (const int samples : {1, 4, 8}) {
-            const Picture first = draw(s, settings_of(shading::Isa::scalar, 1, 64, samples));
+            const Picture first = draw(s, settings_of(Isa::scalar, 1, 64, samples));
             REQUIRE(first.visible > 3000);
             int combinations = 0;
-            for (const shading::Isa isa : available_isas())
+            for (const Isa isa : available_isas())
                 for (int t = 0; t < 3; ++t)
                     for (int size = 0; size < 3; ++size) {
                         // One sample: each set with each tile size, the widest with each thread count too. More samples: each set once.
@@ -106,8 +106,7 @@ TEST_CASE("determinism: every instruction set, thread count and tile size gives 
                             continue;
                         const int threads = t == 2 ? 5 : t + 1, tile = 16 << size;
                         const Picture p = draw(s, settings_of(isa, threads, tile, samples));
-                        INFO(s.name << ", samples " << samples << ", " << shading::isa_name(isa) << ", threads " << threads << ", tile "
-                                    << tile);
+                        INFO(s.name << ", samples " << samples << ", " << isa_name(isa) << ", threads " << threads << ", tile " << tile);
                         CHECK(p.hash8() == first.hash8());
                         CHECK(p.hash_linear() == first.hash_linear());
                         CHECK(p.nan_pixels == first.nan_pixels);
@@ -122,17 +121,17 @@ TEST_CASE("determinism: every instruction set, thread count and tile size gives 
 
 TEST_CASE("determinism: shading once a triangle or once a vertex gives the same pixels everywhere too", "[raster][determinism]") {
     for (const NamedScene& s : scenes()) {
-        for (const shading::ShadingRate rate : {shading::ShadingRate::flat, shading::ShadingRate::gouraud}) {
-            Settings settings = settings_of(shading::Isa::scalar, 1, 64, 4);
+        for (const ShadingRate rate : {ShadingRate::flat, ShadingRate::gouraud}) {
+            Settings settings = settings_of(Isa::scalar, 1, 64, 4);
             settings.shading.rate = rate;
             const Picture first = draw(s, settings);
-            Picture pixel_rate = draw(s, settings_of(shading::Isa::scalar, 1, 64, 4));
+            Picture pixel_rate = draw(s, settings_of(Isa::scalar, 1, 64, 4));
             CHECK_FALSE(first == pixel_rate);
             int tile = 16;
-            for (const shading::Isa isa : available_isas()) {
+            for (const Isa isa : available_isas()) {
                 settings = settings_of(isa, 2, tile, 4);
                 settings.shading.rate = rate;
-                INFO(s.name << ", rate " << static_cast<int>(rate) << ", " << shading::isa_name(isa) << ", tile " << tile);
+                INFO(s.name << ", rate " << static_cast<int>(rate) << ", " << isa_name(isa) << ", tile " << tile);
                 CHECK(draw(s, settings) == first);
                 tile = tile == 64 ? 16 : 2 * tile;
             }
@@ -143,36 +142,36 @@ TEST_CASE("determinism: shading once a triangle or once a vertex gives the same 
 TEST_CASE("determinism: tiers, error budgets and coarser texture filters give the same pixels everywhere too", "[raster][determinism]") {
     struct Variant {
         const char* name;
-        shading::Accuracy accuracy;
+        Accuracy accuracy;
         double codes;
-        shading::TextureDetail detail;
+        TextureDetail detail;
     };
-    constexpr Variant kVariants[] = {{"display", shading::Accuracy::display, 0, shading::TextureDetail::full},
-                                     {"fast", shading::Accuracy::fast, 0, shading::TextureDetail::full},
-                                     {"at most half a code", shading::Accuracy::exact, 0.5, shading::TextureDetail::full},
-                                     {"at most 8 codes", shading::Accuracy::exact, 8, shading::TextureDetail::full},
-                                     {"fast, nearest texels", shading::Accuracy::fast, 0, shading::TextureDetail::nearest}};
+    constexpr Variant kVariants[] = {{"display", Accuracy::display, 0, TextureDetail::full},
+                                     {"fast", Accuracy::fast, 0, TextureDetail::full},
+                                     {"at most half a code", Accuracy::exact, 0.5, TextureDetail::full},
+                                     {"at most 8 codes", Accuracy::exact, 8, TextureDetail::full},
+                                     {"fast, nearest texels", Accuracy::fast, 0, TextureDetail::nearest}};
     int changed = 0;
     for (const NamedScene& s : scenes()) {
-        const Picture exact = draw(s, settings_of(shading::Isa::scalar, 1, 64, 1));
+        const Picture exact = draw(s, settings_of(Isa::scalar, 1, 64, 1));
         for (const Variant& variant : kVariants) {
-            const auto draw_by = [&](shading::Isa isa, int threads, int tile) {
+            const auto draw_by = [&](Isa isa, int threads, int tile) {
                 Settings settings = settings_of(isa, threads, tile, 1);
                 settings.shading.accuracy = variant.accuracy;
                 settings.shading.max_error_codes = variant.codes;
                 settings.shading.texture_detail = variant.detail;
                 return draw(s, settings);
             };
-            const Picture first = draw_by(shading::Isa::scalar, 1, 64);
+            const Picture first = draw_by(Isa::scalar, 1, 64);
             changed += first == exact ? 0 : 1;
-            const auto check = [&](shading::Isa isa, int threads, int tile) {
-                INFO(s.name << ", " << variant.name << ", " << shading::isa_name(isa) << ", threads " << threads << ", tile " << tile);
+            const auto check = [&](Isa isa, int threads, int tile) {
+                INFO(s.name << ", " << variant.name << ", " << isa_name(isa) << ", threads " << threads << ", tile " << tile);
                 const Picture p = draw_by(isa, threads, tile);
                 CHECK(p.hash8() == first.hash8());
                 CHECK(p.hash_linear() == first.hash_linear());
             };
             int tile = 16;
-            for (const shading::Isa isa : available_isas()) {
+            for (const Isa isa : available_isas()) {
                 check(isa, 2, tile);
                 tile = tile == 64 ? 16 : 2 * tile;
             }
@@ -186,7 +185,7 @@ TEST_CASE("determinism: a region is the same part of the whole picture, and noth
     constexpr Region kRegions[] = {{0, 0, 1, 1}, {199, 149, 1, 1}, {37, 21, 100, 77}, {0, 149, 200, 1}, {63, 0, 2, 150}, {130, 60, 70, 90}};
     for (const NamedScene& s : scenes()) {
         for (const int samples : {1, 4}) {
-            const Picture whole = draw(s, settings_of(*shading::default_isa(), 2, 64, samples));
+            const Picture whole = draw(s, settings_of(*default_isa(), 2, 64, samples));
             for (const Region& r : kRegions) {
                 Settings settings =
                     settings_of(available_isas()[static_cast<std::size_t>(r.width) % available_isas().size()], 1 + r.x % 2, 32, samples);
@@ -213,7 +212,7 @@ TEST_CASE("determinism: a region is the same part of the whole picture, and noth
 
 TEST_CASE("determinism: a host's own loop gives the same pixels, in any order and on any threads", "[raster][determinism]") {
     for (const NamedScene& s : scenes()) {
-        Settings settings = settings_of(*shading::default_isa(), 1, 32, 4);
+        Settings settings = settings_of(*default_isa(), 1, 32, 4);
         const Picture expected = draw(s, settings);
         int calls = 0;
         settings.parallel_for = [&calls](int count, const std::function<void(int)>& body) {
@@ -232,7 +231,7 @@ TEST_CASE("determinism: a Renderer that drew other things before draws the same"
     for (int round = 0; round < 2; ++round)
         for (const int samples : {8, 1, 4})
             for (const NamedScene& s : scenes()) {
-                const Settings settings = settings_of(*shading::default_isa(), 2, samples == 4 ? 64 : 16, samples);
+                const Settings settings = settings_of(*default_isa(), 2, samples == 4 ? 64 : 16, samples);
                 INFO(s.name << ", samples " << samples);
                 CHECK(draw(s, settings, renderer) == draw(s, settings));
             }
@@ -240,13 +239,13 @@ TEST_CASE("determinism: a Renderer that drew other things before draws the same"
 
 TEST_CASE("determinism: three Renderers at once draw the same", "[raster][determinism]") {
     std::vector<Picture> expected;
-    for (const NamedScene& s : scenes()) expected.push_back(draw(s, settings_of(*shading::default_isa(), 1, 64, 1)));
+    for (const NamedScene& s : scenes()) expected.push_back(draw(s, settings_of(*default_isa(), 1, 64, 1)));
     std::atomic<int> wrong{0}, drawn{0};
     const auto work = [&](std::size_t shift, int threads) {
         Renderer renderer;
         for (std::size_t i = 0; i < 2 * expected.size(); ++i) {
             const std::size_t which = (i + shift) % expected.size();
-            wrong += !(draw(scenes()[which], settings_of(*shading::default_isa(), threads, 64, 1), renderer) == expected[which]);
+            wrong += !(draw(scenes()[which], settings_of(*default_isa(), threads, 64, 1), renderer) == expected[which]);
             ++drawn;
         }
     };
@@ -275,7 +274,7 @@ TEST_CASE("determinism: the caller's floating-point environment neither matters 
     const unsigned before = _mm_getcsr();
     for (const NamedScene& s : scenes()) {
         for (const int threads : {1, 2}) {
-            const Settings settings = settings_of(*shading::default_isa(), threads, 32, 4);
+            const Settings settings = settings_of(*default_isa(), threads, 32, 4);
             const Picture expected = draw(s, settings);
             for (const Case& c : cases) {
                 Picture p;
@@ -297,7 +296,7 @@ TEST_CASE("determinism: the caller's floating-point environment neither matters 
 
 TEST_CASE("determinism: a host's loop on threads with another floating-point environment gives the same pixels", "[raster][determinism]") {
     const NamedScene& s = scenes()[1];
-    Settings settings = settings_of(*shading::default_isa(), 1, 32, 1);
+    Settings settings = settings_of(*default_isa(), 1, 32, 1);
     const Picture expected = draw(s, settings);
     std::atomic<int> kept{0}, tasks{0};
     settings.parallel_for = [&](int count, const std::function<void(int)>& body) {

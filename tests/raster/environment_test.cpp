@@ -1,6 +1,6 @@
 // Light from an environment, from the image to the pixel: against closed forms and brute force in double.
 #include "shading/environment.hpp"
-#include "raster/renderer.hpp"
+#include "halflit/renderer.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 #include "shading/planner.hpp"
 #include "tests/sh/bound_check.hpp"
@@ -23,8 +23,8 @@ constexpr int kPatches = 8, kSide = 32;  // 8 patches a side, each 4 pixels wide
 /// White matte patches, one for each normal. drawn() gives one pixel of each patch, in the order of the normals.
 struct Patches {
     Scene scene;
-    explicit Patches(const std::vector<Vec3d>& normals, const shading::Lobe& lobe) {
-        shading::Material white;
+    explicit Patches(const std::vector<Vec3d>& normals, const Lobe& lobe) {
+        Material white;
         white.lobe = lobe;
         scene.materials.push_back(white);
         Mesh mesh;
@@ -45,7 +45,7 @@ struct Patches {
 
     std::vector<Vec3d> drawn(int order, RenderReport* report = nullptr) const {
         Settings settings;
-        settings.shading.specular = shading::SpecularModel::none;
+        settings.shading.specular = SpecularModel::none;
         settings.shading.environment_order.fixed = order;
         std::vector<float> rgba(4 * kSide * kSide);
         const auto done = render(scene, camera_flat(), settings, {kSide, kSide, nullptr, rgba.data()});
@@ -61,12 +61,10 @@ struct Patches {
     }
 };
 
-shading::Lobe as_lobe(const sh::WrapLobe& lobe) {
-    return {static_cast<float>(lobe.wrap), static_cast<float>(lobe.power), lobe.scale != 1.0};
-}
+Lobe as_lobe(const sh::WrapLobe& lobe) { return {static_cast<float>(lobe.wrap), static_cast<float>(lobe.power), lobe.scale != 1.0}; }
 
-std::shared_ptr<const shading::Environment> environment_of(const Sky& sky, bool suns, double rotate_rad = 0.0) {
-    return std::make_shared<shading::Environment>(shading::make_environment(sky.view(), {suns, rotate_rad}));
+std::shared_ptr<const Environment> environment_of(const Sky& sky, bool suns, double rotate_rad = 0.0) {
+    return std::make_shared<Environment>(shading::make_environment(sky.view(), {suns, rotate_rad}));
 }
 
 Vec3d value(const shading::EnvironmentPlan& plan, Vec3d n) {
@@ -85,7 +83,7 @@ TEST_CASE("environment: a constant sky gives its radiance times the lobe's integ
     REQUIRE(sky->suns.empty());
     const auto normals = random_normals(kPatches * kPatches, 5);
     for (const sh::WrapLobe& ideal : kTenLobes) {
-        const shading::Lobe lobe = as_lobe(ideal);
+        const Lobe lobe = as_lobe(ideal);
         Patches patches(normals, lobe);
         patches.scene.environment = sky;
         // f_0 = 2 scale times the integral of ((x + w) / (1 + w))^n over [-w, 1].
@@ -106,7 +104,7 @@ TEST_CASE("environment: Valve's lobe takes three bands, and nothing above them i
     const Sky sky = random_sky(64, 32, 3);
     const auto environment = environment_of(sky, false);
     const auto normals = random_normals(kPatches * kPatches, 6);
-    Patches patches(normals, shading::Lobe::valve());
+    Patches patches(normals, Lobe::valve());
     patches.scene.environment = environment;
     RenderReport report;
     const auto drawn = patches.drawn(0, &report);
@@ -127,9 +125,9 @@ TEST_CASE("environment: Valve's lobe takes three bands, and nothing above them i
     }
     frame.environments.push_back(plan);
     shading::MaterialPlan material;
-    material.stages = shading::kStageAmbient | shading::kStageEnvironment;
+    material.stages = kStageAmbient | kStageEnvironment;
     material.environment = 0;
-    for (const shading::Isa isa : available_isas()) {
+    for (const Isa isa : available_isas()) {
         shading::FragmentBlock block{};
         for (std::size_t l = 0; l < 64; ++l) {
             block.lane[shading::kNormalX][l] = static_cast<float>(normals[l].x);
@@ -193,10 +191,10 @@ TEST_CASE("environment: a scene that turns with its environment keeps its light,
     for (std::size_t c = 0; c < 3; ++c) sky.rgb[3 * (9 * 64 + 40) + c] = 500.0f;
     const auto straight = environment_of(sky, true);
     REQUIRE_FALSE(straight->suns.empty());
-    std::vector<shading::Material> materials(4);
+    std::vector<Material> materials(4);
     materials[1].lobe = as_lobe({0.5, 1.5, normalizing_scale(0.5, 1.5)});
-    materials[2].lobe = shading::Lobe::valve();
-    for (shading::Material& material : materials) material.metallic = 0, material.roughness = 1;
+    materials[2].lobe = Lobe::valve();
+    for (Material& material : materials) material.metallic = 0, material.roughness = 1;
     materials[3].metallic = 0.5f, materials[3].roughness = 0.6f;
     const std::vector<shading::SlotMask> slots(materials.size() + 1, 3u);
     const auto normals = random_normals(shading::kBlockSize, 24), places = random_normals(shading::kBlockSize, 25);
@@ -206,10 +204,9 @@ TEST_CASE("environment: a scene that turns with its environment keeps its light,
         const sh::Rotation turn = sh::rotation_about_y(angle);
         const auto turned = environment_of(sky, true, angle);
         for (int order = 1; order <= sh::kMaxBands; ++order) {
-            shading::PlanOptions options;
+            ShadingSettings options;
             options.environment_order.fixed = order;
-            const auto shaded = [&](const shading::Environment& environment, const sh::Rotation& by, std::size_t material,
-                                    shading::Isa isa) {
+            const auto shaded = [&](const Environment& environment, const sh::Rotation& by, std::size_t material, Isa isa) {
                 auto plan = shading::plan_shading(
                     {materials, {}, slots, shading::plan_lights(environment.suns), {}, options, shading::borrowed(environment)});
                 const auto narrow = [](Vec3d v) {
@@ -229,7 +226,7 @@ TEST_CASE("environment: a scene that turns with its environment keeps its light,
                 return out;
             };
             for (std::size_t material = 0; material < materials.size(); ++material)
-                for (const shading::Isa isa : available_isas()) {
+                for (const Isa isa : available_isas()) {
                     const auto a = shaded(*straight, sh::Rotation{}, material, isa), b = shaded(*turned, turn, material, isa);
                     double worst = 0, most = 0;
                     for (std::size_t l = 0; l < a.size(); ++l) {
@@ -237,7 +234,7 @@ TEST_CASE("environment: a scene that turns with its environment keeps its light,
                         most = std::max(most, sh::largest(a[l]));
                     }
                     worst_of_all = std::max(worst_of_all, worst / most);
-                    INFO("angle " << angle << ", order " << order << ", material " << material << ", " << shading::isa_name(isa) << ": "
+                    INFO("angle " << angle << ", order " << order << ", material " << material << ", " << isa_name(isa) << ": "
                                   << worst / most);
                     CHECK(most > 1);
                     CHECK(worst <= 1e-6 * most);
@@ -267,7 +264,7 @@ TEST_CASE("environment: polynomials in Newton form keep the digits of the series
             shading::make_newton_form(plan);
             frame.environments.push_back(plan);
             shading::MaterialPlan material;
-            material.stages = shading::kStageAmbient | shading::kStageEnvironment;
+            material.stages = kStageAmbient | kStageEnvironment;
             material.environment = 0;
             shading::FragmentBlock block{};
             for (std::size_t l = 0; l < 64; ++l) {
@@ -275,7 +272,7 @@ TEST_CASE("environment: polynomials in Newton form keep the digits of the series
                 block.lane[shading::kNormalY][l] = static_cast<float>(normals[l].y);
                 block.lane[shading::kNormalZ][l] = static_cast<float>(normals[l].z);
             }
-            shading::shade_kernels(shading::Isa::scalar).shade(frame, material, {}, block, shading::kBlockSize);
+            shading::shade_kernels(Isa::scalar).shade(frame, material, {}, block, shading::kBlockSize);
             for (std::size_t l = 0; l < 64; ++l) {
                 const Vec3d want = value(plan, normals[l]);
                 const Vec3d held{std::max(want.x, 0.0), std::max(want.y, 0.0), std::max(want.z, 0.0)};
@@ -289,13 +286,13 @@ TEST_CASE("environment: polynomials in Newton form keep the digits of the series
 
 TEST_CASE("environment: every instruction set gives the same bits at every order", "[raster][environment]") {
     const auto environment = environment_of(random_sky(64, 32, 31), true);
-    shading::Material material;
+    Material material;
     material.metallic = 0.3f;
     material.roughness = 0.4f;
     const shading::SlotMask slots[] = {3u, 3u};
     Random random(32);
     for (int order = 1; order <= sh::kMaxBands; ++order) {
-        shading::PlanOptions options;
+        ShadingSettings options;
         options.environment_order.fixed = order;
         const auto plan = shading::plan_shading(
             {{&material, 1}, {}, slots, shading::plan_lights(environment->suns), {}, options, shading::borrowed(*environment)});
@@ -305,14 +302,14 @@ TEST_CASE("environment: every instruction set gives the same bits at every order
             for (int row = shading::kPosX; row <= shading::kNormalZ; ++row)
                 for (float& x : input.lane[row]) x = random.real32(-2, 2);
             std::vector<float> want;
-            for (const shading::Isa isa : available_isas()) {
+            for (const Isa isa : available_isas()) {
                 shading::FragmentBlock block = input;
                 shading::shade_kernels(isa).shade(plan, plan.materials[0], shading::all_lights(plan), block, shading::kBlockSize);
                 std::vector<float> got(block.red, block.red + shading::kBlockSize);
                 got.insert(got.end(), block.green, block.green + shading::kBlockSize);
                 got.insert(got.end(), block.blue, block.blue + shading::kBlockSize);
                 if (want.empty()) want = got;
-                INFO(shading::isa_name(isa) << ", order " << order);
+                INFO(isa_name(isa) << ", order " << order);
                 CHECK(std::memcmp(want.data(), got.data(), want.size() * sizeof(float)) == 0);
             }
         }
@@ -342,8 +339,7 @@ TEST_CASE("environment: suns and the rest of the sky hold all of its light", "[r
     REQUIRE(environment->suns.size() == 2);
     const double y0 = 0.5 / std::sqrt(kPi);
     Vec3d flux = environment->radiance.c[0] * (y0 * 4 * kPi);  // mean radiance times 4 pi
-    for (const shading::Light& sun : environment->suns)
-        flux = flux + Vec3d{sun.color_linear.x, sun.color_linear.y, sun.color_linear.z} * kPi;
+    for (const Light& sun : environment->suns) flux = flux + Vec3d{sun.color_linear.x, sun.color_linear.y, sun.color_linear.z} * kPi;
     Vec3d want{};
     for (int y = 0; y < sky.height; ++y)
         for (int x = 0; x < sky.width; ++x) want = want + sky.view().at(x, y) * sh::pixel_solid_angle(sky.width, sky.height, y);

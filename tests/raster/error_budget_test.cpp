@@ -20,7 +20,7 @@ struct Picture {
     RenderReport report;
 };
 
-Picture draw(const Trial& trial, shading::Accuracy accuracy, double codes) {
+Picture draw(const Trial& trial, Accuracy accuracy, double codes) {
     Picture picture;
     Settings settings = trial.settings;
     settings.shading.accuracy = accuracy;
@@ -52,11 +52,11 @@ TEST_CASE("error budget: no random scene exceeds the promised error, nor the req
     double most_used = 0;
     for (std::uint32_t seed = 1; seed <= 210; ++seed) {
         const Trial trial = random_trial(seed);
-        const Picture truth = draw(trial, shading::Accuracy::reference, 0);
+        const Picture truth = draw(trial, Accuracy::reference, 0);
         const double budget = budgets[seed % 7];
-        const Picture picture = draw(trial, shading::Accuracy::exact, budget);
+        const Picture picture = draw(trial, Accuracy::exact, budget);
         const double measured = largest_codes(picture, truth);
-        const shading::ErrorBound& error = picture.report.error;
+        const ErrorBound& error = picture.report.error;
         INFO("seed " << seed << ", budget " << budget << ", bound " << error.codes << " = rounding " << error.rounding << " + lobes "
                      << error.lobes << " + specular " << error.specular << " + environment " << error.environment << " + left out "
                      << error.left_out << ", measured " << measured << ", lights " << trial.scene.lights.size());

@@ -1,4 +1,4 @@
-#include "raster/scene/exposure.hpp"
+#include "halflit/scene.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -18,9 +18,9 @@ Bounds unit_ball() {
     return bounds;
 }
 
-shading::Light point_light(Vec3f position, Vec3f color) {
-    shading::Light light;
-    light.type = shading::LightType::point;
+Light point_light(Vec3f position, Vec3f color) {
+    Light light;
+    light.type = LightType::point;
     light.position_ws = position;
     light.color_linear = color;
     return light;
@@ -78,7 +78,7 @@ TEST_CASE("exposure: light in another unit gives the same picture", "[raster][ex
     Scene scene;
     scene.lights = {point_light({1, 4, 2}, {3, 2, 1}), {}};
     Scene brighter = scene;
-    for (shading::Light& light : brighter.lights) light.color_linear = light.color_linear * 1024.0f;
+    for (Light& light : brighter.lights) light.color_linear = light.color_linear * 1024.0f;
     CHECK(auto_exposure(brighter, unit_ball()) == auto_exposure(scene, unit_ball()) / 1024.0f);
     CHECK(soft_ambient(brighter, unit_ball()).sky_linear == soft_ambient(scene, unit_ball()).sky_linear * 1024.0f);
 }

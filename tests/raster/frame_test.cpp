@@ -1,7 +1,7 @@
 // Whole pictures against closed forms: alpha test, blending, samples, background, NaN and infinity.
-#include "raster/built_in/shapes.hpp"
+#include "halflit/renderer.hpp"
+#include "halflit/shapes.hpp"
 #include "raster/debug_view.hpp"
-#include "raster/renderer.hpp"
 #include "tests/raster/kernel_fixture.hpp"
 #include "tests/support/cameras.hpp"
 
@@ -16,7 +16,6 @@ using namespace halflit;
 using namespace halflit::raster;
 using namespace halflit::raster::test;
 using halflit::test::camera_flat;
-using shading::AlphaMode;
 
 namespace {
 
@@ -55,8 +54,8 @@ Mesh quad(float x0, float y0, float x1, float y1, float z) {
 /// Builds a scene of one instance of each mesh, in the order of adding; materials are unlit unless changed.
 struct Builder {
     Scene scene;
-    shading::Material& add(Mesh mesh, Vec4f color, AlphaMode mode = AlphaMode::opaque) {
-        shading::Material m;
+    Material& add(Mesh mesh, Vec4f color, AlphaMode mode = AlphaMode::opaque) {
+        Material m;
         m.unlit = true;
         m.base_color = color;
         m.alpha_mode = mode;
@@ -369,11 +368,11 @@ TEST_CASE("frame: a mirrored instance keeps its outside and its light", "[raster
     mesh.normals.assign(4, {0.6f, 0, 0.8f});
     b.add(mesh, {1, 1, 1, 1}).unlit = false;
     b.scene.materials[0].metallic = 0;
-    shading::Light light;
+    Light light;
     light.direction_ws = {0, 0, -1};
     b.scene.lights.push_back(light);
     Settings settings;
-    settings.shading.specular = shading::SpecularModel::none;
+    settings.shading.specular = SpecularModel::none;
     const Picture right = draw(b.scene, settings);
     b.scene.instances[0].world_from_object = scaling({-1, 1, 1});
     const Picture left = draw(b.scene, settings);

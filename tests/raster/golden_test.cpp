@@ -1,7 +1,7 @@
 // Hashes of small scenes made in code, in many variants, against one committed table for every instruction set, compiler and machine.
 // HALFLIT_UPDATE_GOLDEN=1 rewrites the table; look at the pictures first.
-#include "raster/framebuffer.hpp"
-#include "raster/renderer.hpp"
+#include "halflit/renderer.hpp"
+#include "halflit/target.hpp"
 #include "shading/environment.hpp"
 #include "tests/raster/test_scenes.hpp"
 
@@ -36,27 +36,27 @@ std::vector<Variant> variants() {
     add("four-samples").samples = 4;
     add("eight-samples-transparent").samples = 8;
     all.back().settings.background_linear = {0, 0, 0, 0};
-    add("gouraud").shading.rate = shading::ShadingRate::gouraud;
-    add("flat").shading.rate = shading::ShadingRate::flat;
-    add("unshadowed").shadows = shading::ShadowMode::off;
+    add("gouraud").shading.rate = ShadingRate::gouraud;
+    add("flat").shading.rate = ShadingRate::flat;
+    add("unshadowed").shadows = ShadowMode::off;
     add("shadow-terminator").shadow_terminator_offset = true;
-    add("hard-shadows-wrapped").shadows = shading::ShadowMode::hard;
+    add("hard-shadows-wrapped").shadows = ShadowMode::hard;
     all.back().settings.shading.override_lobe = true;
-    all.back().settings.shading.lobe = shading::Lobe::sloan(0.3f);
-    add("matte").shading.specular = shading::SpecularModel::none;
-    add("fast").shading.accuracy = shading::Accuracy::fast;
+    all.back().settings.shading.lobe = Lobe::sloan(0.3f);
+    add("matte").shading.specular = SpecularModel::none;
+    add("fast").shading.accuracy = Accuracy::fast;
     all.back().settings.shading.override_lobe = true;
-    all.back().settings.shading.lobe = shading::Lobe::sloan(0.3f);
+    all.back().settings.shading.lobe = Lobe::sloan(0.3f);
     add("within-two-codes").shading.max_error_codes = 2.0;
     all.back().settings.shading.override_lobe = true;
-    all.back().settings.shading.lobe = shading::Lobe::sloan(0.3f);
+    all.back().settings.shading.lobe = Lobe::sloan(0.3f);
     add("environment");
     all.back().environment = true;
     return all;
 }
 
 /// A sky brighter above, with a small hot spot: soft bands and a sun.
-std::shared_ptr<const shading::Environment> small_sky() {
+std::shared_ptr<const Environment> small_sky() {
     constexpr int kSkyWidth = 64, kSkyHeight = 32;
     std::vector<float> rgb;
     for (int y = 0; y < kSkyHeight; ++y)
@@ -65,7 +65,7 @@ std::shared_ptr<const shading::Environment> small_sky() {
             const float hot = x == 40 && y == 8 ? 200.0f : 0.0f;
             rgb.insert(rgb.end(), {0.2f + 0.3f * up + hot, 0.2f + 0.4f * up + hot, 0.25f + 0.6f * up + hot * 0.8f});
         }
-    return std::make_shared<shading::Environment>(shading::make_environment({kSkyWidth, kSkyHeight, rgb}));
+    return std::make_shared<Environment>(shading::make_environment({kSkyWidth, kSkyHeight, rgb}));
 }
 
 std::string hex(std::uint64_t value) {

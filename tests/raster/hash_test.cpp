@@ -1,4 +1,4 @@
-#include "raster/framebuffer.hpp"
+#include "halflit/target.hpp"
 
 #include <catch2/catch.hpp>
 

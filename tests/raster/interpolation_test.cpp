@@ -1,7 +1,7 @@
 // Depth and attributes of the kernels against float64, and the two ways of interpolating against each other.
+#include "halflit/math.hpp"
 #include "raster/kernels/raster_kernels.hpp"
 #include "reference.hpp"
-#include "sh/vec3.hpp"
 #include "tests/raster/kernel_fixture.hpp"
 #include "tests/raster/random_triangles.hpp"
 #include "tests/support/isas.hpp"
@@ -96,7 +96,7 @@ struct Fragments {
 };
 
 /// Runs the kernel over fragments [first, first + count) in blocks.
-void interpolate(shading::Isa isa, const Fragments& f, int first, int count, shading::SlotMask slots, shading::FragmentBlock& block) {
+void interpolate(Isa isa, const Fragments& f, int first, int count, shading::SlotMask slots, shading::FragmentBlock& block) {
     const TriangleSource source = f.list.source();
     const DrawRecords draw{f.attributes.data()};
     const float* no_clip_records = nullptr;
@@ -135,7 +135,7 @@ struct Errors {
 Errors measure(const Fragments& f) {
     Errors e;
     const auto block = std::make_unique<shading::FragmentBlock>();
-    const shading::Isa isa = available_isas().back();
+    const Isa isa = available_isas().back();
     for (int first = 0; first < f.count(); first += shading::kBlockSize) {
         const int count = std::min(shading::kBlockSize, f.count() - first);
         interpolate(isa, f, first, count, kAllSlots, *block);
@@ -310,11 +310,11 @@ TEST_CASE("interpolation: one triangle or many in a vector, and every instructio
         int differing = 0, compared = 0;
         for (int first = 0; first < mixed.count(); first += 64) {
             const int count = std::min(64, mixed.count() - first);
-            for (const shading::Isa isa : available_isas()) {
+            for (const Isa isa : available_isas()) {
                 interpolate(isa, mixed, first, count, kAllSlots, *together);
                 for (int l = 0; l < count; ++l) {
                     // A list of one fragment is padded with copies of it, so the kernel takes the path for one triangle.
-                    interpolate(shading::Isa::scalar, mixed, first + l, 1, kAllSlots, *alone);
+                    interpolate(Isa::scalar, mixed, first + l, 1, kAllSlots, *alone);
                     differing += !same_rows(*together, l, *alone, 0);
                     interpolate(isa, mixed, first + l, 1, kAllSlots, *alone);
                     differing += !same_rows(*together, l, *alone, 0);
@@ -373,7 +373,7 @@ TEST_CASE("interpolation: any choice of slots gives the rows that all slots give
                 if (slots & (1u << q))
                     for (std::size_t j = 0; j < 4; ++j) packed.attributes[v * kFloats + to++] = f.attributes[v * kFloats + 4 * q + j];
         }
-        for (const shading::Isa isa : available_isas()) {
+        for (const Isa isa : available_isas()) {
             interpolate(isa, f, 0, 64, kAllSlots, *all);
             interpolate(isa, packed, 0, 64, slots, *some);
             for (int q = 0; q < shading::kSlotCount; ++q)
@@ -412,7 +412,7 @@ DepthErrors measure_depth(std::uint64_t seed, double size_px, double least_aspec
         const double largest = static_cast<double>(*std::max_element(f.z[t].begin(), f.z[t].end()));
         const TileRect tile{f.x[at] / 64 * 64, f.y[at] / 64 * 64, 64, 64};
         std::vector<float> first;
-        for (const shading::Isa isa : available_isas()) {
+        for (const Isa isa : available_isas()) {
             clear_tile(*buffers, pattern, 64);
             raster_kernels(isa).rasterize(tile, pattern, *buffers, f.list.source(), f.list.list() + t, 1);
             std::vector<float> depth;
@@ -423,7 +423,7 @@ DepthErrors measure_depth(std::uint64_t seed, double size_px, double least_aspec
         }
         const int inner_x = f.x[at] / 16 * 16, inner_y = f.y[at] / 16 * 16;
         clear_tile(*small, pattern, 16);
-        raster_kernels(shading::Isa::scalar).rasterize({inner_x, inner_y, 16, 16}, pattern, *small, f.list.source(), f.list.list() + t, 1);
+        raster_kernels(Isa::scalar).rasterize({inner_x, inner_y, 16, 16}, pattern, *small, f.list.source(), f.list.list() + t, 1);
         for (int y = 0; y < 16; ++y)
             for (int x = 0; x < 16; ++x)
                 e.differing_bits += small->depth[0][y * kTileStride + x] !=

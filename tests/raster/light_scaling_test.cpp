@@ -1,6 +1,6 @@
 // Cost of many lights: it grows with the lights that reach a block of fragments, not with the number of lights.
+#include "halflit/renderer.hpp"
 #include "raster/built_in/hall_of_lamps.hpp"
-#include "raster/renderer.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -22,7 +22,7 @@ struct Outcome {
 Outcome draw(const Scene& scene, double codes, int tile_size = 64) {
     Outcome out;
     Settings settings;
-    settings.shadows = shading::ShadowMode::off;
+    settings.shadows = ShadowMode::off;
     settings.tile_size = tile_size;
     settings.shading.max_error_codes = codes;
     const auto report = render(scene, scene.cameras.at(0), settings, {kWidth, kHeight, nullptr, out.linear.data()});

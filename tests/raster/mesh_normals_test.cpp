@@ -1,11 +1,10 @@
-#include "raster/scene/mesh_normals.hpp"
+#include "halflit/mesh.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <limits>
 
 using namespace halflit;
-using raster::Mesh;
 
 TEST_CASE("flat normals: each triangle has its own vertices and its counter-clockwise normal", "[raster]") {
     Mesh mesh;  // a tetrahedron's three faces at the origin
@@ -15,7 +14,7 @@ TEST_CASE("flat normals: each triangle has its own vertices and its counter-cloc
     mesh.colors = {{0, 0, 0, 1}, {1, 0, 0, 1}, {2, 0, 0, 1}, {3, 0, 0, 1}};
     mesh.tangents.assign(4, Vec4f{1, 0, 0, 1});
     const Mesh before = mesh;
-    raster::generate_flat_normals(mesh);
+    generate_flat_normals(mesh);
     const Vec3f wanted[3] = {{0, 0, -1}, {0, -1, 0}, {-1, 0, 0}};
     REQUIRE(mesh.normals.size() == 9);
     CHECK(mesh.tangents.empty());
@@ -35,14 +34,14 @@ TEST_CASE("flat normals: tiny and huge triangles keep their direction, empty and
         Mesh mesh;
         mesh.positions = {{0, 0, 0}, {0, size, 0}, {0, 0, size}};
         mesh.indices = {0, 1, 2};
-        raster::generate_flat_normals(mesh);
+        generate_flat_normals(mesh);
         CHECK(mesh.normals[0] == Vec3f{1, 0, 0});
     }
     for (const Vec3f last : {Vec3f{0, 0, 0}, Vec3f{2, 0, 0}, Vec3f{nan, 0, 0}}) {
         Mesh mesh;
         mesh.positions = {{0, 0, 0}, {1, 0, 0}, last};
         mesh.indices = {0, 1, 2};
-        raster::generate_flat_normals(mesh);
+        generate_flat_normals(mesh);
         CHECK(mesh.normals[0] == Vec3f{0, 0, 1});
     }
 }

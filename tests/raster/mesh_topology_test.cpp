@@ -1,6 +1,6 @@
 #include "raster/scene/mesh_topology.hpp"
 
-#include "raster/built_in/shapes.hpp"
+#include "halflit/shapes.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // A million instances, in bounded memory.
-#include "raster/renderer.hpp"
+#include "halflit/renderer.hpp"
 #include "tests/support/cameras.hpp"
 #include "tests/support/skip.hpp"
 

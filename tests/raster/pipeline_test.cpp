@@ -1,7 +1,7 @@
 // From scene to visible triangles: clipping, culling, binning. Compared with a float64 reference that does none of these.
-#include "raster/built_in/shapes.hpp"
+#include "halflit/renderer.hpp"
+#include "halflit/shapes.hpp"
 #include "raster/debug_view.hpp"
-#include "raster/renderer.hpp"
 #include "tests/raster/visibility_reference.hpp"
 #include "tests/support/cameras.hpp"
 #include "tests/support/random.hpp"
@@ -21,7 +21,7 @@ constexpr int kWidth = 96, kHeight = 64;
 /// One mesh in world space with one unlit material.
 Scene scene_of(Mesh mesh, bool double_sided = true) {
     Scene scene;
-    shading::Material material;
+    Material material;
     material.unlit = true;
     material.double_sided = double_sided;
     scene.materials.push_back(material);
@@ -274,7 +274,7 @@ TEST_CASE("pipeline: clipped neighbours cover each pixel once", "[raster][pipeli
         // Moves the points in the plane by less than half a cell, so that edges do not follow the grid's rows.
         for (Vec3f& p : mesh.positions) p = p + Vec3f{random.real32(-0.9, 0.9), 0, random.real32(-0.9, 0.9)};
         Scene scene = scene_of(mesh, false);
-        scene.materials[0].alpha_mode = shading::AlphaMode::blend;
+        scene.materials[0].alpha_mode = AlphaMode::blend;
         scene.materials[0].base_color = {1, 1, 1, 0.5f};
         const Camera camera =
             camera_at({random.real32(-9, 9), 0.8f, random.real32(-9, 9)}, {random.real32(-50, 50), 0, random.real32(-50, 50)}, 1.5f, 0.02f);

@@ -1,5 +1,5 @@
 // Errors of preparing a scene and of updating it.
-#include "raster/built_in/shapes.hpp"
+#include "halflit/shapes.hpp"
 #include "raster/scene/prepared_scene.hpp"
 
 #include <catch2/catch.hpp>
@@ -15,7 +15,7 @@ Scene good_scene() {
     Scene scene;
     scene.materials.resize(2);
     const std::vector<std::uint8_t> gray(4 * 4, 128);
-    scene.textures.push_back(*shading::Texture::from_rgba8(gray, 2, 2, shading::ColorSpace::srgb));
+    scene.textures.push_back(*Texture::from_rgba8(gray, 2, 2, ColorSpace::srgb));
     scene.materials[0].base_color_texture.texture = 0;
     scene.meshes = {make_box({1, 1, 1}), make_sphere(1, 8, 5)};
     scene.meshes[0].material = 0;

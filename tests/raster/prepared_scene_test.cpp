@@ -113,8 +113,7 @@ SceneChanges change(Random& random, Scene& scene) {
     std::ranges::reverse(told.moved_instances);
     if (!told.deformed_meshes.empty() && random.chance(0.2)) told.deformed_meshes.push_back(told.deformed_meshes[0]);
     told.materials = random.chance(0.2);
-    if (told.materials)
-        scene.materials[static_cast<std::size_t>(random.index(kMaterials))].lobe = shading::Lobe::green(random.real32(0, 1));
+    if (told.materials) scene.materials[static_cast<std::size_t>(random.index(kMaterials))].lobe = Lobe::green(random.real32(0, 1));
     told.lights = random.chance(0.2);
     if (told.lights) scene.lights.resize(static_cast<std::size_t>(random.index(4)));
     return told;
@@ -273,10 +272,10 @@ TEST_CASE("prepared scene: a material's colour leaves coverage as it was, its si
     CHECK_FALSE(changes_coverage());
     scene.materials[0].double_sided = true;
     CHECK(changes_coverage());
-    scene.materials[1].alpha_mode = shading::AlphaMode::blend;
+    scene.materials[1].alpha_mode = AlphaMode::blend;
     CHECK(changes_coverage());
     CHECK_FALSE(changes_coverage());
-    scene.materials[1].alpha_mode = shading::AlphaMode::mask;
+    scene.materials[1].alpha_mode = AlphaMode::mask;
     CHECK(changes_coverage());
     scene.materials[1].alpha_cutoff = 0.7f;
     CHECK(changes_coverage());

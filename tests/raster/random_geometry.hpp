@@ -1,9 +1,9 @@
 // Random meshes, instances and cameras of all shapes and sizes, for tests of bounds and culling.
 #pragma once
 
-#include "raster/built_in/shapes.hpp"
-#include "raster/scene/scene.hpp"
-#include "raster/settings.hpp"
+#include "halflit/scene.hpp"
+#include "halflit/settings.hpp"
+#include "halflit/shapes.hpp"
 #include "tests/support/cameras.hpp"
 #include "tests/support/random.hpp"
 

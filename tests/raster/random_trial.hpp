@@ -1,10 +1,10 @@
 // Random scenes for tests of promised errors: lobes, lights, skies, normal maps.
 #pragma once
 
-#include "raster/built_in/shapes.hpp"
-#include "raster/renderer.hpp"
-#include "raster/scene/framing.hpp"
-#include "raster/scene/tangent_space.hpp"
+#include "halflit/camera.hpp"
+#include "halflit/mesh.hpp"
+#include "halflit/renderer.hpp"
+#include "halflit/shapes.hpp"
 #include "shading/environment.hpp"
 
 #include <cmath>
@@ -30,8 +30,7 @@ private:
     std::mt19937 engine_;
 };
 
-inline shading::Lobe some_lobe(Numbers& make) {
-    using shading::Lobe;
+inline Lobe some_lobe(Numbers& make) {
     switch (make.below(7)) {
         case 0:
             return Lobe::lambert();
@@ -49,7 +48,7 @@ inline shading::Lobe some_lobe(Numbers& make) {
 }
 
 /// A normal map of slopes up to some 30 degrees.
-inline shading::Texture bumps(Numbers& make) {
+inline Texture bumps(Numbers& make) {
     constexpr int kSize = 32;
     std::vector<std::uint8_t> rgba;
     for (int i = 0; i < kSize * kSize; ++i) {
@@ -57,10 +56,10 @@ inline shading::Texture bumps(Numbers& make) {
         for (const float c : {x, y, z}) rgba.push_back(static_cast<std::uint8_t>(std::lround((c * 0.5f + 0.5f) * 255.0f)));
         rgba.push_back(255);
     }
-    return *shading::Texture::from_rgba8(rgba, kSize, kSize, shading::ColorSpace::linear);
+    return *Texture::from_rgba8(rgba, kSize, kSize, ColorSpace::linear);
 }
 
-inline std::shared_ptr<const shading::Environment> some_sky(Numbers& make) {
+inline std::shared_ptr<const Environment> some_sky(Numbers& make) {
     constexpr int kSkyWidth = 32, kSkyHeight = 16;
     const float sun = make.below(2) == 0 ? make.decades(1, 1000) : 0.0f, level = make.decades(0.05f, 2);
     const std::uint32_t at = make.below(kSkyWidth * kSkyHeight / 2);
@@ -70,8 +69,7 @@ inline std::shared_ptr<const shading::Environment> some_sky(Numbers& make) {
         const float l = level * (0.3f + up) + (i == at ? sun : 0.0f);
         rgb.insert(rgb.end(), {l, l * 1.1f, l * 1.3f});
     }
-    return std::make_shared<shading::Environment>(
-        shading::make_environment({kSkyWidth, kSkyHeight, rgb}, {make.below(2) == 0, 0.3, false, true}));
+    return std::make_shared<Environment>(shading::make_environment({kSkyWidth, kSkyHeight, rgb}, {make.below(2) == 0, 0.3, false, true}));
 }
 
 struct Trial {
@@ -88,7 +86,7 @@ inline Trial random_trial(std::uint32_t seed) {
     const bool bumpy = make.below(4) == 0;
     if (bumpy) scene.textures.push_back(bumps(make));
     for (int i = 0; i < 4; ++i) {
-        shading::Material material;
+        Material material;
         const Vec3f c = make.color(1);
         material.base_color = {c.x, c.y, c.z, 1};
         material.metallic = make.below(4) == 0 ? make.in(0, 1) : 0.0f;
@@ -111,9 +109,9 @@ inline Trial random_trial(std::uint32_t seed) {
     const std::uint32_t count = make.below(3) == 0 ? 1 + make.below(64) : 1 + make.below(6);
     const float brightness = (make.below(8) == 0 ? make.decades(1e-4f, 1e4f) : make.in(0.3f, 2)) / std::sqrt(static_cast<float>(count));
     for (std::uint32_t i = 0; i < count; ++i) {
-        shading::Light light;
-        light.type = static_cast<shading::LightType>(make.below(3));
-        light.color_linear = make.color(brightness * (light.type == shading::LightType::directional ? 1.0f : 6.0f));
+        Light light;
+        light.type = static_cast<LightType>(make.below(3));
+        light.color_linear = make.color(brightness * (light.type == LightType::directional ? 1.0f : 6.0f));
         light.position_ws = {make.in(-6, 6), make.in(1.5f, 6), make.in(-6, 6)};
         light.direction_ws = {make.in(-1, 1), -1, make.in(-1, 1)};
         light.range = make.below(2) == 0 ? 0.0f : make.in(3, 12);
@@ -125,14 +123,14 @@ inline Trial random_trial(std::uint32_t seed) {
     }
     if (make.below(5) == 0) {
         scene.environment = some_sky(make);
-        for (shading::Material& material : scene.materials) material.lobe = scene.materials[0].lobe;  // the reference takes a second each
+        for (Material& material : scene.materials) material.lobe = scene.materials[0].lobe;  // the reference takes a second each
         scene.lights.insert(scene.lights.end(), scene.environment->suns.begin(), scene.environment->suns.end());
     } else if (make.below(2) == 0) {
         scene.ambient = {make.color(0.4f), make.color(0.2f)};
     }
     t.camera = frame_scene(scene, static_cast<float>(kTrialWidth) / kTrialHeight, {});
-    t.settings.shading.specular = static_cast<shading::SpecularModel>(make.below(3));
-    t.settings.shadows = make.below(4) == 0 ? shading::ShadowMode::soft_split : shading::ShadowMode::off;
+    t.settings.shading.specular = static_cast<SpecularModel>(make.below(3));
+    t.settings.shadows = make.below(4) == 0 ? ShadowMode::soft_split : ShadowMode::off;
     t.settings.shadow_size = 128;
     t.settings.background_linear = {0, 0, 0, 1};
     if (make.below(4) == 0) t.settings.exposure = make.decades(0.1f, 10);

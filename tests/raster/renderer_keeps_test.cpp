@@ -1,6 +1,6 @@
 // Single things that a Renderer keeps from frame to frame, each changed in a way that is easily missed.
+#include "halflit/renderer.hpp"
 #include "raster/detail/raw_buffer.hpp"
-#include "raster/renderer.hpp"
 #include "tests/raster/test_scenes.hpp"
 #include "tests/support/random.hpp"
 
@@ -48,7 +48,7 @@ Settings small_shadows() {
     return settings;
 }
 
-shading::Environment sky(std::uint64_t seed) {
+Environment sky(std::uint64_t seed) {
     halflit::test::Random random(seed);
     std::vector<float> rgb;
     for (int i = 0; i < 3 * 16 * 8; ++i) rgb.push_back(random.real32(0, 0.6));
@@ -66,7 +66,6 @@ const SceneChanges kLights{{}, {}, false, true};
 }  // namespace
 
 TEST_CASE("renderer: the shadow of a masked surface follows the texture filter", "[raster][retention]") {
-    using shading::TextureDetail;
     for (const NamedScene& s : {materials_scene(), layers_scene()}) {
         const PreparedScene prepared = made(s.scene);
         Renderer renderer;
@@ -81,7 +80,7 @@ TEST_CASE("renderer: the shadow of a masked surface follows the texture filter",
 
 TEST_CASE("renderer: an environment changed in place is used after the update that tells of it", "[raster][retention]") {
     NamedScene s = materials_scene();
-    shading::Environment environment = sky(1);
+    Environment environment = sky(1);
     s.scene.environment = shading::borrowed(environment);
     PreparedScene prepared = made(s.scene);
     Renderer renderer;
@@ -96,7 +95,7 @@ TEST_CASE("renderer: an environment changed in place is used after the update th
 TEST_CASE("renderer: successive scenes whose environments have one address are told apart", "[raster][retention]") {
     Renderer renderer;
     for (const std::uint64_t seed : {1, 2, 3}) {
-        const shading::Environment environment = sky(seed);
+        const Environment environment = sky(seed);
         NamedScene s = materials_scene();
         s.scene.environment = shading::borrowed(environment);
         INFO("sky " << seed);
@@ -105,27 +104,26 @@ TEST_CASE("renderer: successive scenes whose environments have one address are t
 }
 
 TEST_CASE("renderer: reference accuracy uses a new environment at the address of a freed one", "[raster][retention]") {
-    alignas(shading::Environment) static std::byte place[sizeof(shading::Environment)];
+    alignas(Environment) static std::byte place[sizeof(Environment)];
     int alive = 0;
     const auto at_the_place = [&alive](std::uint64_t seed) {
         REQUIRE(alive == 0);
         ++alive;
-        return std::shared_ptr<const shading::Environment>(new (place) shading::Environment(sky(seed)),
-                                                           [&alive](const shading::Environment* e) {
-                                                               e->~Environment();
-                                                               --alive;
-                                                           });
+        return std::shared_ptr<const Environment>(new (place) Environment(sky(seed)), [&alive](const Environment* e) {
+            e->~Environment();
+            --alive;
+        });
     };
     NamedScene s = materials_scene();
-    for (shading::Material& material : s.scene.materials) material.lobe = shading::Lobe::lambert();  // one integration for all: 0.5 s
+    for (Material& material : s.scene.materials) material.lobe = Lobe::lambert();  // one integration for all: 0.5 s
     Settings reference = small_shadows();
-    reference.shading.accuracy = shading::Accuracy::reference;
+    reference.shading.accuracy = Accuracy::reference;
     s.scene.environment = at_the_place(1);
     PreparedScene prepared = made(s.scene);
     Renderer renderer;
     const Pixels before = draw(renderer, prepared, s.camera, reference);
 
-    s.scene.environment = std::make_shared<const shading::Environment>(sky(2));
+    s.scene.environment = std::make_shared<const Environment>(sky(2));
     REQUIRE(prepared.update(kLights));
     draw(renderer, prepared, s.camera, small_shadows());
     if (alive == 0) s.scene.environment = at_the_place(3);  // otherwise the Renderer holds the first one, and its place is not free
@@ -139,7 +137,6 @@ TEST_CASE("renderer: shading once a vertex does not affect later frames", "[rast
     for (const NamedScene& s : all_scenes()) {
         const PreparedScene prepared = made(s.scene);
         Renderer renderer;
-        using shading::ShadingRate;
         for (const ShadingRate rate :
              {ShadingRate::gouraud, ShadingRate::pixel, ShadingRate::gouraud, ShadingRate::gouraud, ShadingRate::flat}) {
             Settings settings = small_shadows();
@@ -159,7 +156,7 @@ TEST_CASE("renderer: vertex attributes that only light needs are present when a 
         PreparedScene prepared = made(s.scene);
         Renderer renderer;
         Settings settings = small_shadows();
-        settings.shadows = shading::ShadowMode::off;
+        settings.shadows = ShadowMode::off;
         INFO(s.name);
         const Pixels dark = draw(renderer, prepared, s.camera, settings);
         CHECK(differing(dark, draw_anew(s.scene, s.camera, settings)) == 0);
@@ -181,7 +178,7 @@ TEST_CASE("renderer: meshes that moved in memory are found again", "[raster][ret
     s.scene.meshes.reserve(4 * s.scene.meshes.capacity() + 100);
     for (Mesh& mesh : s.scene.meshes) mesh.positions.reserve(4 * mesh.positions.capacity());
     Settings settings = small_shadows();
-    settings.shading.rate = shading::ShadingRate::gouraud;
+    settings.shading.rate = ShadingRate::gouraud;
     CHECK(differing(draw(renderer, prepared, s.camera, settings), draw_anew(s.scene, s.camera, settings)) == 0);
 }
 
@@ -250,7 +247,7 @@ TEST_CASE("renderer: no frame after a failed update until one succeeds, which re
     REQUIRE(prepared.update({.deformed_meshes = {1}}));
     CHECK(is_new());
 
-    const shading::Texture texture = s.scene.textures.back();
+    const Texture texture = s.scene.textures.back();
     s.scene.textures.pop_back();
     CHECK_FALSE(prepared.update({.materials = true}));
     s.scene.textures.push_back(texture);

@@ -1,7 +1,7 @@
 // Data that a Renderer keeps from frame to frame must not be visible: whatever changed in between, the next frame equals that of a new
 // Renderer with a newly prepared scene.
-#include "raster/renderer.hpp"
-#include "raster/scene/tangent_space.hpp"
+#include "halflit/mesh.hpp"
+#include "halflit/renderer.hpp"
 #include "tests/raster/random_geometry.hpp"
 #include "tests/raster/test_scenes.hpp"
 #include "tests/support/isas.hpp"
@@ -56,19 +56,18 @@ void check_same(const Picture& kept, const Picture& fresh) {
     CHECK(a.warnings == b.warnings);
 }
 
-std::shared_ptr<const shading::Environment> sky(std::uint64_t seed) {
+std::shared_ptr<const Environment> sky(std::uint64_t seed) {
     constexpr int kWide = 16, kHigh = 8;
     Random random(seed);
     std::vector<float> rgb;
     for (int i = 0; i < 3 * kWide * kHigh; ++i) rgb.push_back(random.real32(0, 0.6));
-    return std::make_shared<shading::Environment>(
-        shading::make_environment({kWide, kHigh, rgb}, {.extract_suns = false, .keep_image = true}));
+    return std::make_shared<Environment>(shading::make_environment({kWide, kHigh, rgb}, {.extract_suns = false, .keep_image = true}));
 }
 
-shading::Texture noise(Random& random) {
+Texture noise(Random& random) {
     std::vector<std::uint8_t> rgba;
     for (int i = 0; i < 4 * 16 * 16; ++i) rgba.push_back(static_cast<std::uint8_t>(random.index(256)));
-    return *shading::Texture::from_rgba8(rgba, 16, 16, shading::ColorSpace::srgb);
+    return *Texture::from_rgba8(rgba, 16, 16, ColorSpace::srgb);
 }
 
 /// A scene that changes, and its prepared scene, which is told of the changes.
@@ -109,14 +108,14 @@ void deform(Random& random, Mesh& mesh) {
 }
 
 void change_material(Random& random, Scene& scene) {
-    shading::Material& m = scene.materials[static_cast<std::size_t>(random.index(static_cast<int>(scene.materials.size())))];
+    Material& m = scene.materials[static_cast<std::size_t>(random.index(static_cast<int>(scene.materials.size())))];
     const std::function<void()> changes[] = {
         [&] {
             m.base_color = {random.real32(0, 1), random.real32(0, 1), random.real32(0, 1), random.real32(0.2, 1)};
         },
         [&] { m.double_sided = !m.double_sided; },
-        [&] { m.alpha_mode = static_cast<shading::AlphaMode>(random.index(3)); },
-        [&] { m.lobe = shading::Lobe::sloan(random.real32(0, 1)); },
+        [&] { m.alpha_mode = static_cast<AlphaMode>(random.index(3)); },
+        [&] { m.lobe = Lobe::sloan(random.real32(0, 1)); },
         [&] { m.unlit = !m.unlit; },
         [&] { m.base_color_texture.texture = m.base_color_texture.used() ? -1 : 0; },
         [&] { m.roughness = random.real32(0, 1); },
@@ -127,9 +126,9 @@ void change_material(Random& random, Scene& scene) {
 }
 
 void change_lights(Random& random, Scene& scene) {
-    static const std::shared_ptr<const shading::Environment> kSkies[] = {nullptr, sky(1), sky(2)};
-    shading::Light light;
-    light.type = static_cast<shading::LightType>(random.index(3));
+    static const std::shared_ptr<const Environment> kSkies[] = {nullptr, sky(1), sky(2)};
+    Light light;
+    light.type = static_cast<LightType>(random.index(3));
     light.position_ws = random_point(random, 3);
     light.range = random.chance(0.5) ? 0.0f : random.real32(1, 8);
     light.color_linear = {random.real32(0, 3), random.real32(0, 3), random.real32(0, 3)};
@@ -177,9 +176,8 @@ struct Frame {
 
 /// Changes one setting to one of two or three values, so that kept data fits again now and then.
 void change_frame(Random& random, Frame& frame) {
-    using shading::Accuracy, shading::ShadingRate, shading::TextureDetail;
     Settings& s = frame.settings;
-    shading::PlanOptions& options = s.shading;
+    ShadingSettings& options = s.shading;
     const bool coin = random.chance(0.5);
     const int die = random.index(3);
     const std::function<void()> changes[] = {
@@ -187,7 +185,7 @@ void change_frame(Random& random, Frame& frame) {
                           : die == 0 ? 4
                                      : 8; },
         [&] { frame.width = coin ? 96 : 61; },
-        [&] { s.shadows = static_cast<shading::ShadowMode>(die); },
+        [&] { s.shadows = static_cast<ShadowMode>(die); },
         [&] { s.shadow_size = coin ? 64 : 128; },
         [&] { s.shadow_memory_limit = std::size_t{1} << (coin ? 20 : 28); },
         [&] { s.shadow_fade = coin ? 0.0f : 0.3f; },
@@ -199,7 +197,7 @@ void change_frame(Random& random, Frame& frame) {
         [&] { s.background_environment = coin; },
         [&] { options.max_error_codes = coin ? 0.0 : 2.0; },
         [&] { options.override_lobe = coin; },
-        [&] { options.lobe = coin ? shading::Lobe::valve() : shading::Lobe::green(0.3f); },
+        [&] { options.lobe = coin ? Lobe::valve() : Lobe::green(0.3f); },
         [&] { options.accuracy = coin       ? Accuracy::exact
                                  : die == 0 ? Accuracy::display
                                             : Accuracy::fast; },
@@ -207,7 +205,7 @@ void change_frame(Random& random, Frame& frame) {
                              : die == 0 ? ShadingRate::flat
                                         : ShadingRate::gouraud; },
         [&] { options.texture_detail = coin ? TextureDetail::full : TextureDetail::nearest; },
-        [&] { options.specular = static_cast<shading::SpecularModel>(die); },
+        [&] { options.specular = static_cast<SpecularModel>(die); },
         [&] { options.environment_order.fixed = coin ? 0 : 3; },
         [&] { s.isa = halflit::test::available_isas()[coin ? 0 : halflit::test::available_isas().size() - 1]; },
         [&] { s.threads = coin ? 1 : 2; },

@@ -1,6 +1,6 @@
 // Settings that a frame refuses, their error codes, and the ways to stop a frame.
-#include "raster/built_in/shapes.hpp"
-#include "raster/renderer.hpp"
+#include "halflit/renderer.hpp"
+#include "halflit/shapes.hpp"
 #include "tests/support/cameras.hpp"
 
 #include <catch2/catch.hpp>
@@ -11,7 +11,6 @@
 using namespace halflit;
 using namespace halflit::raster;
 using halflit::test::camera_at;
-using shading::Isa;
 
 namespace {
 
@@ -98,14 +97,14 @@ TEST_CASE("settings: an instruction set that this CPU does not run is a usage er
     for (const Isa isa : {Isa::scalar, Isa::sse2, Isa::sse41, Isa::avx2, Isa::avx512, Isa::neon64}) {
         Settings s;
         s.isa = isa;
-        INFO(shading::isa_name(isa));
-        if (shading::isa_available(isa))
+        INFO(isa_name(isa));
+        if (isa_available(isa))
             CHECK(outcome(box_scene(), s).ok);
         else
             CHECK(refused(outcome(box_scene(), s), ErrorCode::usage));
     }
     Settings s;
-    s.isa = shading::isa_by_name("nonsense");
+    s.isa = isa_by_name("nonsense");
     const Outcome o = outcome(box_scene(), s);
     CHECK(refused(o, ErrorCode::usage));
     CHECK(o.message.find("nonsense") != std::string::npos);

@@ -11,15 +11,13 @@
 using namespace halflit;
 using namespace halflit::raster;
 using namespace halflit::test;
-using shading::Lobe;
-using shading::ShadowMode;
 
 namespace {
 
 /// Picture that must be the same with every instruction set, finite and not negative.
 std::vector<float> on_all_sets(ShadowSetup& setup, int size) {
     std::vector<float> first;
-    for (const shading::Isa isa : available_isas()) {
+    for (const Isa isa : available_isas()) {
         setup.settings.isa = isa;
         const std::vector<float> picture = setup.draw(size, size);
         if (first.empty()) first = picture;
@@ -37,8 +35,8 @@ void look_down(ShadowSetup& setup, float half = 1) {
 }
 
 void set_local(ShadowSetup& setup, bool spot, Vec3f position, Vec3f direction) {
-    shading::Light& light = setup.scene.lights[0];
-    light.type = spot ? shading::LightType::spot : shading::LightType::point;
+    Light& light = setup.scene.lights[0];
+    light.type = spot ? LightType::spot : LightType::point;
     light.position_ws = position;
     light.direction_ws = direction;
     light.outer_cone_rad = 1.2f, light.inner_cone_rad = 1.0f;
@@ -196,8 +194,8 @@ TEST_CASE("shadows: maps that do not fit their memory are halved, and the report
     setup.add(make_plane(1, 2));
     setup.add(make_box({0.2f, 0.2f, 0.2f}), translation({0.1f, 0.3f, 0}));
     setup.scene.lights[0].direction_ws = {-0.5f, -0.8f, 0.1f};
-    shading::Light lamp;
-    lamp.type = shading::LightType::point;
+    Light lamp;
+    lamp.type = LightType::point;
     lamp.position_ws = {0.3f, 1, 0.2f};
     setup.scene.lights.push_back(lamp);
     look_down(setup);

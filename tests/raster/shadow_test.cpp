@@ -10,8 +10,6 @@
 using namespace halflit;
 using namespace halflit::raster;
 using namespace halflit::test;
-using shading::Lobe;
-using shading::ShadowMode;
 
 namespace {
 

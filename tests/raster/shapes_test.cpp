@@ -1,4 +1,4 @@
-#include "raster/built_in/shapes.hpp"
+#include "halflit/shapes.hpp"
 
 #include "sh/trig.hpp"
 

@@ -1,5 +1,6 @@
 // Distances to the nearest and the farthest surface, compared with all triangles one by one.
 #include "raster/scene/surface_distance.hpp"
+#include "sh/mat4.hpp"
 #include "tests/raster/random_geometry.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,4 @@
-#include "raster/scene/tangent_space.hpp"
-
-#include "raster/scene/mesh_normals.hpp"
+#include "halflit/mesh.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -11,7 +9,6 @@
 #include <random>
 
 using namespace halflit;
-using raster::Mesh;
 
 namespace {
 
@@ -56,13 +53,13 @@ Mesh plane(Vec2f uv00, Vec2f uv10, Vec2f uv11, Vec2f uv01) {
 
 TEST_CASE("tangents: a plane's tangent is the direction of u, and w says where the picture's top is", "[raster]") {
     Mesh upright = plane({0, 1}, {1, 1}, {1, 0}, {0, 0});  // v down: the picture's top is +y
-    raster::generate_tangents(upright, 0);
+    generate_tangents(upright, 0);
     for (const Vec4f& t : upright.tangents) CHECK(t == Vec4f{1, 0, 0, 1});  // cross(z, x) * 1 = +y
     Mesh mirrored = plane({1, 1}, {0, 1}, {0, 0}, {1, 0});
-    raster::generate_tangents(mirrored, 0);
+    generate_tangents(mirrored, 0);
     for (const Vec4f& t : mirrored.tangents) CHECK(t == Vec4f{-1, 0, 0, -1});  // cross(z, -x) * -1 = +y
     Mesh turned = plane({0, 0}, {0, 1}, {1, 1}, {1, 0});                       // u along +y, the picture's top towards -x
-    raster::generate_tangents(turned, 0);
+    generate_tangents(turned, 0);
     for (const Vec4f& t : turned.tangents) CHECK(t == Vec4f{0, 1, 0, 1});  // cross(z, y) * 1 = -x
     CHECK(upright.positions.size() == 4);
     CHECK(upright.indices == std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3});
@@ -71,7 +68,7 @@ TEST_CASE("tangents: a plane's tangent is the direction of u, and w says where t
 TEST_CASE("tangents: on a sphere they point east, within the size of a facet", "[raster]") {
     Mesh mesh = sphere(64, 32);
     const std::size_t triangles = mesh.indices.size();
-    raster::generate_tangents(mesh, 0);
+    generate_tangents(mesh, 0);
     CHECK(mesh.indices.size() == triangles);
     REQUIRE(mesh.tangents.size() == mesh.positions.size());
     double worst = 0;
@@ -92,7 +89,7 @@ TEST_CASE("tangents: a mirrored seam splits its vertices, a plain one does not",
     mesh.colors = {{0, 0, 0, 1}, {1, 0, 0, 1}, {2, 0, 0, 1}, {3, 0, 0, 1}, {4, 0, 0, 1}, {5, 0, 0, 1}};
     mesh.indices = {0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4};
     const Mesh before = mesh;
-    raster::generate_tangents(mesh, 0);
+    generate_tangents(mesh, 0);
     CHECK(mesh.positions.size() == 8);
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
         const std::uint32_t v = mesh.indices[i], old = before.indices[i];
@@ -114,8 +111,8 @@ TEST_CASE("tangents: unshared vertices get the tangents of shared ones", "[raste
         apart.normals.push_back(shared.normals[i]);
         apart.uv0.push_back(shared.uv0[i]);
     }
-    raster::generate_tangents(shared, 0);
-    raster::generate_tangents(apart, 0);
+    generate_tangents(shared, 0);
+    generate_tangents(apart, 0);
     for (std::size_t i = 0; i < shared.indices.size(); ++i) CHECK(shared.tangents[shared.indices[i]] == apart.tangents[apart.indices[i]]);
 }
 
@@ -140,7 +137,7 @@ TEST_CASE("tangents: an uneven fan is weighted by angle, not by area or count", 
         const double weight[3] = {90, 60, 30};
         sum = sum + s * (weight[t] / length(s));
     }
-    raster::generate_tangents(mesh, 0);
+    generate_tangents(mesh, 0);
     CHECK(angle_deg(mesh.tangents[mesh.indices[0]], sum) < 1e-4);
     CHECK(mesh.positions.size() == 5);
 }
@@ -151,7 +148,7 @@ TEST_CASE("tangents: triangles without an area, in space or in texture, take par
     mesh.normals.push_back({0, 0, 1});
     mesh.uv0.push_back({1, 1});                                            // flat in texture: u and v as at vertex 1
     mesh.indices.insert(mesh.indices.end(), {1, 4, 2, 0, 0, 1, 2, 2, 2});  // joins its neighbour; two without area
-    raster::generate_tangents(mesh, 0);
+    generate_tangents(mesh, 0);
     for (const std::uint32_t i : mesh.indices) {
         CHECK(std::isfinite(mesh.tangents[i].x));
         if (i < 4) CHECK(mesh.tangents[i] == Vec4f{1, 0, 0, 1});
@@ -160,7 +157,7 @@ TEST_CASE("tangents: triangles without an area, in space or in texture, take par
     Mesh broken = plane({nan, 1}, {1, inf}, {1, 0}, {0, 0});
     broken.positions[2].x = nan;
     broken.normals[3] = {nan, 0, inf};
-    raster::generate_tangents(broken, 0);
+    generate_tangents(broken, 0);
     for (const Vec4f& t : broken.tangents)
         CHECK((std::isfinite(t.x) && std::isfinite(t.y) && std::isfinite(t.z) && (t.w == 1.0f || t.w == -1.0f)));
 }
@@ -168,6 +165,6 @@ TEST_CASE("tangents: triangles without an area, in space or in texture, take par
 TEST_CASE("tangents: the second set of texture coordinates is used when asked for", "[raster]") {
     Mesh mesh = plane({0, 1}, {1, 1}, {1, 0}, {0, 0});
     mesh.uv1 = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};
-    raster::generate_tangents(mesh, 1);
+    generate_tangents(mesh, 1);
     CHECK(mesh.tangents[0] == Vec4f{0, 1, 0, 1});
 }

@@ -1,7 +1,7 @@
 #include "tests/raster/test_scenes.hpp"
 
-#include "raster/built_in/shapes.hpp"
-#include "raster/scene/tangent_space.hpp"
+#include "halflit/mesh.hpp"
+#include "halflit/shapes.hpp"
 #include "tests/support/cameras.hpp"
 #include "tests/support/random.hpp"
 
@@ -12,16 +12,11 @@ namespace {
 
 using halflit::test::camera_at;
 using halflit::test::Random;
-using shading::AlphaMode;
-using shading::Light;
-using shading::LightType;
-using shading::Material;
-using shading::Texture;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
-int add_texture(Scene& scene, int width, int height, shading::ColorSpace space, std::uint64_t seed, bool normal_map) {
+int add_texture(Scene& scene, int width, int height, ColorSpace space, std::uint64_t seed, bool normal_map) {
     Random random(seed);
     std::vector<std::uint8_t> rgba(static_cast<std::size_t>(4 * width * height));
     for (std::size_t i = 0; i < rgba.size(); i += 4) {
@@ -79,19 +74,17 @@ NamedScene materials_scene() {
     NamedScene out{"materials", {}, camera_at({2.6f, 1.9f, 3.4f}, {0, 0.2f, 0}, 0.8f, 0.05f)};
     Scene& s = out.scene;
     add_lights(s);
-    const int color = add_texture(s, 64, 32, shading::ColorSpace::srgb, 1, false),
-              bumps = add_texture(s, 48, 48, shading::ColorSpace::linear, 2, true);
-    const int rough = add_texture(s, 16, 64, shading::ColorSpace::linear, 3, false),
-              odd = add_texture(s, 7, 5, shading::ColorSpace::srgb, 4, false);
+    const int color = add_texture(s, 64, 32, ColorSpace::srgb, 1, false), bumps = add_texture(s, 48, 48, ColorSpace::linear, 2, true);
+    const int rough = add_texture(s, 16, 64, ColorSpace::linear, 3, false), odd = add_texture(s, 7, 5, ColorSpace::srgb, 4, false);
 
     Material tiles;
     tiles.base_color_texture.texture = color;
     tiles.base_color_texture.row_u = {6, 0.5f, 0.1f};
     tiles.base_color_texture.row_v = {-0.5f, 6, 0.3f};
-    tiles.base_color_texture.sampler.wrap_u = shading::Wrap::mirror;
+    tiles.base_color_texture.sampler.wrap_u = TextureWrap::mirror;
     tiles.metallic = 0;
     tiles.roughness = 0.4f;
-    tiles.lobe = shading::Lobe::sloan(0.5f);
+    tiles.lobe = Lobe::sloan(0.5f);
     add(s, make_plane(6, 3), add_material(s, tiles), translation({0, -0.6f, 0}));
 
     Material metal;
@@ -101,12 +94,11 @@ NamedScene materials_scene() {
     metal.normal_texture.texture = bumps;
     metal.normal_scale = 0.7f;
     metal.emissive = {0.1f, 0.1f, 0.2f};
-    metal.emissive_texture = {
-        odd,
-        0,
-        {shading::Wrap::clamp, shading::Wrap::repeat, shading::Filter::nearest, shading::Filter::nearest, shading::MipFilter::none},
-        {4, 0, 0},
-        {0, 4, 0}};
+    metal.emissive_texture = {odd,
+                              0,
+                              {TextureWrap::clamp, TextureWrap::repeat, TextureFilter::nearest, TextureFilter::nearest, MipFilter::none},
+                              {4, 0, 0},
+                              {0, 4, 0}};
     Mesh ball = make_sphere(0.6f, 24, 14);
     generate_tangents(ball, 0);
     const int metal_index = add_material(s, metal);
@@ -118,12 +110,11 @@ NamedScene materials_scene() {
     clay.metallic = 0;
     clay.roughness = 0.2f;
     clay.lobe = {0.4f, 3.3f, true};
-    clay.base_color_texture = {
-        color,
-        1,
-        {shading::Wrap::clamp, shading::Wrap::mirror, shading::Filter::nearest, shading::Filter::linear, shading::MipFilter::nearest},
-        {3, 0, 0},
-        {0, 3, 0}};
+    clay.base_color_texture = {color,
+                               1,
+                               {TextureWrap::clamp, TextureWrap::mirror, TextureFilter::nearest, TextureFilter::linear, MipFilter::nearest},
+                               {3, 0, 0},
+                               {0, 3, 0}};
     Mesh torus = make_torus(0.5f, 0.2f, 20, 12);
     torus.uv1 = torus.uv0;
     for (std::size_t i = 0; i < torus.positions.size(); ++i) {
@@ -164,12 +155,12 @@ NamedScene small_triangles_scene() {
     add_lights(s);
     Material matte;
     matte.metallic = 0;
-    matte.lobe = shading::Lobe::valve();
+    matte.lobe = Lobe::valve();
     add(s, make_sphere_of(0.7f, 20'000), add_material(s, matte), {});
     Material back;
     back.metallic = 0;
     back.roughness = 0.3f;
-    back.base_color_texture.texture = add_texture(s, 128, 128, shading::ColorSpace::srgb, 9, false);
+    back.base_color_texture.texture = add_texture(s, 128, 128, ColorSpace::srgb, 9, false);
     add(s, make_plane(40, 1), add_material(s, back), translation({0, -0.5f, 0}));
     return out;
 }
@@ -182,7 +173,7 @@ NamedScene layers_scene() {
     fence.alpha_mode = AlphaMode::mask;
     fence.double_sided = true;
     fence.unlit = true;
-    fence.base_color_texture.texture = add_texture(s, 32, 32, shading::ColorSpace::srgb, 12, false);
+    fence.base_color_texture.texture = add_texture(s, 32, 32, ColorSpace::srgb, 12, false);
     fence.base_color_texture.row_u = {5, 0, 0};
     add(s, make_plane(1.2f, 1), add_material(s, fence), translation({0, 0, -0.4f}) * turned(0.7f, 0, 0, 0.7f));
     Random random(13);
@@ -244,7 +235,7 @@ NamedScene many_lights_scene() {
     Material floor;
     floor.metallic = 0;
     floor.roughness = 0.3f;
-    floor.lobe = shading::Lobe::green(0.3f);
+    floor.lobe = Lobe::green(0.3f);
     add(s, make_plane(6, 8), add_material(s, floor), {});
     Material ball;
     ball.metallic = 0.8f;

@@ -1,7 +1,7 @@
 // Scenes made by code that together use all that the renderer can do, each with a camera.
 #pragma once
 
-#include "raster/scene/scene.hpp"
+#include "halflit/scene.hpp"
 
 #include <string>
 #include <utility>

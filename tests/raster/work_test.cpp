@@ -1,8 +1,8 @@
 // Counts of a frame's shading work. A square that fills the picture has as many fragments as the picture has pixels, so every count has a
 // closed form.
-#include "raster/built_in/shapes.hpp"
-#include "raster/renderer.hpp"
-#include "raster/scene/tangent_space.hpp"
+#include "halflit/mesh.hpp"
+#include "halflit/renderer.hpp"
+#include "halflit/shapes.hpp"
 #include "shading/environment.hpp"
 #include "tests/raster/test_scenes.hpp"
 #include "tests/support/cameras.hpp"
@@ -15,8 +15,6 @@
 using namespace halflit;
 using namespace halflit::raster;
 using halflit::test::camera_flat;
-using shading::LightType;
-using shading::Material;
 
 namespace {
 
@@ -42,10 +40,10 @@ struct Square {
         scene.materials.push_back(std::move(material));
         scene.meshes.push_back(full_square(0));
         scene.instances.push_back({0, {}});
-        settings.shadows = shading::ShadowMode::off;
+        settings.shadows = ShadowMode::off;
     }
-    shading::Light& add_light(LightType type) {
-        shading::Light light;
+    Light& add_light(LightType type) {
+        Light light;
         light.type = type;
         light.direction_ws = {0, 0, -1};
         light.position_ws = {0, 0, 2};
@@ -54,8 +52,7 @@ struct Square {
         return scene.lights.back();
     }
     void add_texture() {
-        scene.textures.push_back(
-            shading::Texture::from_rgba8(std::vector<std::uint8_t>(4 * 16, 200), 4, 4, shading::ColorSpace::linear).value());
+        scene.textures.push_back(Texture::from_rgba8(std::vector<std::uint8_t>(4 * 16, 200), 4, 4, ColorSpace::linear).value());
     }
     [[nodiscard]] RenderReport draw() const {
         std::vector<std::uint8_t> rgba8(4 * kPixels);
@@ -84,9 +81,9 @@ TEST_CASE("work: an unlit material runs no light, no shadow look-up and no stage
     material.unlit = true;
     Square square(material);
     for (const LightType type : {LightType::directional, LightType::point, LightType::spot}) square.add_light(type);
-    square.settings.shadows = shading::ShadowMode::soft_split;
+    square.settings.shadows = ShadowMode::soft_split;
     const WorkCounts work = square.work();
-    check_stages(work, shading::kStageUnlit);
+    check_stages(work, kStageUnlit);
     CHECK(work.light_lanes == std::array<std::uint64_t, 3>{0, 0, 0});
     CHECK(work.shadow_lookup_lanes == 0);
     CHECK(work.alpha_test_lanes == 0);
@@ -94,11 +91,11 @@ TEST_CASE("work: an unlit material runs no light, no shadow look-up and no stage
 
 TEST_CASE("work: each light is evaluated once a fragment, and only the kinds that there are", "[raster][work]") {
     Square square;
-    square.settings.shading.specular = shading::SpecularModel::none;
+    square.settings.shading.specular = SpecularModel::none;
     square.add_light(LightType::directional);
     square.add_light(LightType::directional);
     WorkCounts work = square.work();
-    check_stages(work, shading::kStageLights);
+    check_stages(work, kStageLights);
     CHECK(work.light_lanes == std::array<std::uint64_t, 3>{2 * kPixels, 0, 0});
     square.add_light(LightType::point);  // no range: it reaches everything
     CHECK(square.work().light_lanes == std::array<std::uint64_t, 3>{2 * kPixels, kPixels, 0});
@@ -106,7 +103,7 @@ TEST_CASE("work: each light is evaluated once a fragment, and only the kinds tha
     CHECK(square.work().light_lanes == std::array<std::uint64_t, 3>{2 * kPixels, kPixels, kPixels});
     square.scene.lights.clear();
     square.scene.ambient.sky_linear = {1, 1, 1};
-    check_stages(square.work(), shading::kStageAmbient);
+    check_stages(square.work(), kStageAmbient);
 }
 
 TEST_CASE("work: shadow look-ups are those of the lights that have a map, none without shadows", "[raster][work]") {
@@ -114,90 +111,90 @@ TEST_CASE("work: shadow look-ups are those of the lights that have a map, none w
     for (const LightType type : {LightType::directional, LightType::point, LightType::spot}) square.add_light(type);
     CHECK(square.work().shadow_lookup_lanes == 0);
     square.settings.shadow_size = 64;
-    square.settings.shadows = shading::ShadowMode::hard;
+    square.settings.shadows = ShadowMode::hard;
     CHECK(square.work().shadow_lookup_lanes == 3 * kPixels);
-    square.settings.shadows = shading::ShadowMode::soft_split;
+    square.settings.shadows = ShadowMode::soft_split;
     CHECK(square.work().shadow_lookup_lanes == 3 * kPixels);
 }
 
 TEST_CASE("work: each texture is a stage of its own, and runs only where the material has it", "[raster][work]") {
     struct Use {
-        shading::TextureUse Material::*texture;
-        shading::Stage stage;
+        TextureUse Material::*texture;
+        Stage stage;
     };
-    const Use uses[] = {{&Material::base_color_texture, shading::kStageBaseColorTexture},
-                        {&Material::metallic_roughness_texture, shading::kStageMetallicRoughnessTexture},
-                        {&Material::normal_texture, shading::kStageNormalMap},
-                        {&Material::occlusion_texture, shading::kStageOcclusionTexture},
-                        {&Material::emissive_texture, shading::kStageEmissiveTexture}};
-    const std::uint32_t always = shading::kStageLights | shading::kStageSpecular | shading::kStageAmbient;
+    const Use uses[] = {{&Material::base_color_texture, kStageBaseColorTexture},
+                        {&Material::metallic_roughness_texture, kStageMetallicRoughnessTexture},
+                        {&Material::normal_texture, kStageNormalMap},
+                        {&Material::occlusion_texture, kStageOcclusionTexture},
+                        {&Material::emissive_texture, kStageEmissiveTexture}};
+    const std::uint32_t always = kStageLights | kStageSpecular | kStageAmbient;
     for (const Use& use : uses) {
         Material material;
         material.emissive = {1, 1, 1};
         (material.*use.texture).texture = 0;
-        (material.*use.texture).sampler.mip = shading::MipFilter::none;  // no gradients
+        (material.*use.texture).sampler.mip = MipFilter::none;  // no gradients
         Square square(material);
         square.add_texture();
         square.add_light(LightType::directional);
         square.scene.ambient.sky_linear = {1, 1, 1};
         generate_tangents(square.scene.meshes[0], 0);
         check_stages(square.work(), always | use.stage);
-        (square.scene.materials[0].*use.texture).sampler.mip = shading::MipFilter::linear;
-        check_stages(square.work(), always | use.stage | shading::kStageGradients);
+        (square.scene.materials[0].*use.texture).sampler.mip = MipFilter::linear;
+        check_stages(square.work(), always | use.stage | kStageGradients);
         square.scene.meshes[0].colors.assign(4, {1, 1, 1, 1});
-        check_stages(square.work(), always | use.stage | shading::kStageGradients | shading::kStageVertexColor);
+        check_stages(square.work(), always | use.stage | kStageGradients | kStageVertexColor);
     }
 }
 
 TEST_CASE("work: an environment is a stage of ambient light", "[raster][work]") {
     Square square;
     const std::vector<float> rgb(3 * 8 * 4, 0.5f);
-    square.scene.environment = std::make_shared<shading::Environment>(shading::make_environment({8, 4, rgb}, {}));
-    square.settings.shading.specular = shading::SpecularModel::none;
-    check_stages(square.work(), shading::kStageAmbient | shading::kStageEnvironment);
+    square.scene.environment = std::make_shared<Environment>(shading::make_environment({8, 4, rgb}, {}));
+    square.settings.shading.specular = SpecularModel::none;
+    check_stages(square.work(), kStageAmbient | kStageEnvironment);
 }
 
 TEST_CASE("work: Gouraud lights the vertices, flat shading the triangles, both leave fragments alone", "[raster][work]") {
     Square square;
-    square.settings.shading.specular = shading::SpecularModel::none;
+    square.settings.shading.specular = SpecularModel::none;
     square.settings.shadow_size = 64;
-    square.settings.shadows = shading::ShadowMode::hard;
+    square.settings.shadows = ShadowMode::hard;
     square.add_light(LightType::point);
-    square.settings.shading.rate = shading::ShadingRate::gouraud;
+    square.settings.shading.rate = ShadingRate::gouraud;
     WorkCounts work = square.work();
-    CHECK(work.lanes(shading::kStageLights) == 4);
+    CHECK(work.lanes(kStageLights) == 4);
     CHECK(pairs(work, LightType::point) == 4);
     CHECK(work.shadow_lookup_lanes == 4);
-    CHECK(work.lanes(shading::kStagePrelit) == kPixels);
+    CHECK(work.lanes(kStagePrelit) == kPixels);
     // A triangle is lit once for each run of its fragments in a block.
-    square.settings.shading.rate = shading::ShadingRate::flat;
+    square.settings.shading.rate = ShadingRate::flat;
     work = square.work();
-    CHECK(work.lanes(shading::kStageLights) >= 2);
-    CHECK(work.lanes(shading::kStageLights) <= 2 * kPixels / shading::kBlockSize * 2);
-    CHECK(pairs(work, LightType::point) == work.lanes(shading::kStageLights));
-    CHECK(work.lanes(shading::kStagePrelit) == kPixels);
+    CHECK(work.lanes(kStageLights) >= 2);
+    CHECK(work.lanes(kStageLights) <= 2 * kPixels / shading::kBlockSize * 2);
+    CHECK(pairs(work, LightType::point) == work.lanes(kStageLights));
+    CHECK(work.lanes(kStagePrelit) == kPixels);
 }
 
 TEST_CASE("work: a mask reads its texture twice, once to decide and once to shade what is left", "[raster][work]") {
     Material material;
-    material.alpha_mode = shading::AlphaMode::mask;
+    material.alpha_mode = AlphaMode::mask;
     material.unlit = true;
     Square square(material);
     square.scene.meshes[0].colors = {{1, 1, 1, 0}, {1, 1, 1, 1}, {1, 1, 1, 1}, {1, 1, 1, 0}};  // 0.5 between the columns 31 and 32
     const WorkCounts work = square.work();
     CHECK(work.alpha_test_lanes == kPixels);
-    CHECK(work.lanes(shading::kStageVertexColor) == kPixels + kPixels / 2);
-    CHECK(work.lanes(shading::kStageUnlit) == kPixels / 2);
+    CHECK(work.lanes(kStageVertexColor) == kPixels + kPixels / 2);
+    CHECK(work.lanes(kStageUnlit) == kPixels / 2);
 }
 
 TEST_CASE("work: a light whose range ends before the picture does is left out of blocks that it does not reach", "[raster][work]") {
     Square square;
-    shading::Light& lamp = square.add_light(LightType::point);
+    Light& lamp = square.add_light(LightType::point);
     lamp.position_ws = {-0.75f, 0.75f, 0.1f};
     lamp.range = 0.2f;
     square.settings.tile_size = 16;  // 16 tiles, each 0.5 wide: the lamp stands in the middle of the first
     const WorkCounts work = square.work();
-    CHECK(work.lanes(shading::kStageLights) == kPixels);
+    CHECK(work.lanes(kStageLights) == kPixels);
     CHECK(pairs(work, LightType::point) > 0);
     CHECK(pairs(work, LightType::point) <= kPixels / 16);
     square.scene.lights[0].position_ws.z = 5;  // out of reach altogether
@@ -217,7 +214,7 @@ TEST_CASE("work: counts do not depend on threads or instruction set, nor those o
         settings.shadow_size = 64;
         const WorkCounts expected = counts(settings);
         INFO(named.name);
-        for (const shading::Isa isa : halflit::test::available_isas()) {
+        for (const Isa isa : halflit::test::available_isas()) {
             settings.isa = isa;
             settings.threads = 1 + static_cast<int>(isa) % 3;
             CHECK(counts(settings) == expected);
@@ -231,7 +228,7 @@ TEST_CASE("work: counts do not depend on threads or instruction set, nor those o
 
 TEST_CASE("renderer: a lobe out of range is refused with the reason, a power below 1 gives a warning", "[raster][lobe]") {
     const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
-    const std::pair<shading::Lobe, std::string> refused[] = {
+    const std::pair<Lobe, std::string> refused[] = {
         {{-0.1f, 1.0f, false}, "wrap: expected a number from 0 to 1, found -0.1"},
         {{1.5f, 1.0f, false},
          "wrap: expected a number from 0 to 1, found 1.5: above 1 every normal is lit, and the norm has another formula"},

@@ -1,5 +1,5 @@
+#include "halflit/math.hpp"
 #include "sh/mat4.hpp"
-#include "sh/vec3.hpp"
 
 #include <catch2/catch.hpp>
 

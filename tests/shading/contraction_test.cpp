@@ -30,7 +30,7 @@ TEST_CASE("contraction: the project's flags keep multiply and add apart where th
     constexpr int kCount = 1 << 12;
     std::vector<float> t(kCount), want(kCount), apart(kCount), fused(kCount);
     for (int i = 0; i < kCount; ++i) t[static_cast<std::size_t>(i)] = static_cast<float>(i) / kCount;
-    elementary(shading::Isa::scalar).power(t.data(), 1.3f, want.data(), kCount);
+    elementary(Isa::scalar).power(t.data(), 1.3f, want.data(), kCount);
     power_uncontracted(t.data(), apart.data(), kCount);
     power_contracted(t.data(), fused.data(), kCount);
     int apart_differ = 0, fused_differ = 0;

@@ -1,7 +1,7 @@
 // Tests of every operation that kernels use, on each instruction set against scalar, and of the elementary functions against long double.
 #include "elementary/elementary.hpp"
 #include "floats.hpp"
-#include "shading/plan/accuracy.hpp"
+#include "shading/plan/pow_tier.hpp"
 #include "tests/support/all_cores.hpp"
 #include "tests/support/skip.hpp"
 
@@ -33,8 +33,8 @@ struct Difference {
 using Differences = std::vector<std::vector<Difference>>;
 
 /// Runs every unary operation on x by every set.
-void compare_unary(const std::vector<float>& x, const std::vector<shading::Isa>& isas, Differences& differences) {
-    const Elementary& scalar = elementary(shading::Isa::scalar);
+void compare_unary(const std::vector<float>& x, const std::vector<Isa>& isas, Differences& differences) {
+    const Elementary& scalar = elementary(Isa::scalar);
     const int count = static_cast<int>(x.size());
     std::vector<float> want(x.size()), got(x.size());
     for (int f = 0; f < scalar.unary_count; ++f) {
@@ -51,17 +51,17 @@ void compare_unary(const std::vector<float>& x, const std::vector<shading::Isa>&
 }
 
 Differences no_differences(std::size_t set_count) {
-    const auto unary_count = static_cast<std::size_t>(elementary(shading::Isa::scalar).unary_count);
+    const auto unary_count = static_cast<std::size_t>(elementary(Isa::scalar).unary_count);
     return Differences(set_count, std::vector<Difference>(unary_count));
 }
 
-void check_none(const std::vector<shading::Isa>& isas, const Differences& differences) {
+void check_none(const std::vector<Isa>& isas, const Differences& differences) {
     for (std::size_t set = 0; set < isas.size(); ++set) {
         REQUIRE(elementary(isas[set]).unary_count == static_cast<int>(differences[set].size()));
         for (std::size_t f = 0; f < differences[set].size(); ++f) {
             const Difference& first = differences[set][f];
-            INFO(shading::isa_name(isas[set]) << " " << elementary(isas[set]).unary[f].name << ", first: (" << first.x << ") is "
-                                              << first.got << ", scalar says " << first.want);
+            INFO(isa_name(isas[set]) << " " << elementary(isas[set]).unary[f].name << ", first: (" << first.x << ") is " << first.got
+                                     << ", scalar says " << first.want);
             CHECK(first.count == 0);
         }
     }
@@ -76,7 +76,7 @@ double ulps_from(float got, long double exact) {
 }  // namespace
 
 TEST_CASE("vocabulary: every unary operation gives scalar's bits on every set", "[shading][simd]") {
-    const std::vector<shading::Isa> isas = other_isas();
+    const std::vector<Isa> isas = other_isas();
     if (isas.empty()) HALFLIT_SKIP("no set but scalar here");
     const std::vector<float> x = spread_of_floats();
     REQUIRE(x.size() > 1000000);
@@ -86,7 +86,7 @@ TEST_CASE("vocabulary: every unary operation gives scalar's bits on every set", 
 }
 
 TEST_CASE("vocabulary: every unary operation gives scalar's bits on every set for all 2^32 floats", "[shading][simd][deep]") {
-    const std::vector<shading::Isa> isas = other_isas();
+    const std::vector<Isa> isas = other_isas();
     if (isas.empty()) HALFLIT_SKIP("no set but scalar here");
     constexpr std::int64_t kRun = 1 << 14;  // x, want and got stay in the inner caches: 192 KB
     constexpr std::int64_t kRuns = (std::int64_t{1} << 32) / kRun;
@@ -122,8 +122,8 @@ TEST_CASE("vocabulary: every operation of two and three operands gives scalar's 
     while (a.size() < 200000 || a.size() % 16 != 0)
         a.push_back(make.wild(-2, 2)), b.push_back(make.wild(-2, 2)), c.push_back(make.wild(-2, 2));
     const int count = static_cast<int>(a.size());
-    const Elementary& scalar = elementary(shading::Isa::scalar);
-    for (const shading::Isa isa : other_isas()) {
+    const Elementary& scalar = elementary(Isa::scalar);
+    for (const Isa isa : other_isas()) {
         const Elementary& set = elementary(isa);
         for (int f = 0; f < set.ternary_count; ++f) {
             std::vector<float> want(a.size()), got(a.size());
@@ -135,29 +135,29 @@ TEST_CASE("vocabulary: every operation of two and three operands gives scalar's 
                 if (mismatches++ == 0)
                     UNSCOPED_INFO("first: (" << a[i] << ", " << b[i] << ", " << c[i] << ") is " << got[i] << ", scalar says " << want[i]);
             }
-            INFO(shading::isa_name(isa) << " " << set.ternary[f].name);
+            INFO(isa_name(isa) << " " << set.ternary[f].name);
             CHECK(mismatches == 0);
         }
     }
 }
 
 TEST_CASE("vocabulary: bit l of a mask is lane l", "[shading][simd]") {
-    for (const shading::Isa isa : shading::built_isas()) {
-        if (!shading::isa_available(isa)) continue;
+    for (const Isa isa : built_isas()) {
+        if (!isa_available(isa)) continue;
         const Elementary& set = elementary(isa);
         for (int lane = 0; lane < set.width; ++lane) {
             float a[16], b[16];
             std::fill_n(a, 16, 1.0f);
             std::fill_n(b, 16, 0.0f);
             b[lane] = 2.0f;
-            INFO(shading::isa_name(isa));
+            INFO(isa_name(isa));
             CHECK(set.mask_of_less(a, b) == 1u << lane);
         }
     }
 }
 
 TEST_CASE("vocabulary: min and max return the second operand for NaN and for equal zeros", "[shading][simd]") {
-    const Elementary& scalar = elementary(shading::Isa::scalar);
+    const Elementary& scalar = elementary(Isa::scalar);
     const float a[16] = {kNan, 1.0f, 0.0f, -0.0f}, b[16] = {1.0f, kNan, -0.0f, 0.0f}, c[16] = {};
     for (int f = 0; f < scalar.ternary_count; ++f) {
         const std::string name = scalar.ternary[f].name;
@@ -176,7 +176,7 @@ TEST_CASE("power: within 2.4 ulp of t^n for the exponents of the wrap family", "
     while (t.size() % 16 != 0) t.push_back(1.0f);
     std::vector<float> out(t.size());
     for (const float n : {1.1f, 1.25f, 1.3f, 1.75f, 1.9f}) {
-        elementary(shading::Isa::scalar).power(t.data(), n, out.data(), static_cast<int>(t.size()));
+        elementary(Isa::scalar).power(t.data(), n, out.data(), static_cast<int>(t.size()));
         double worst = 0;
         float worst_at = 0;
         for (std::size_t i = 0; i < t.size(); ++i) {
@@ -194,7 +194,7 @@ TEST_CASE("power: the relative error for any exponent stays below (3 + n) / 2^24
     std::vector<float> t(1 << 16), out(1 << 16);
     for (std::size_t i = 0; i < t.size(); ++i) t[i] = static_cast<float>(i + 1) / static_cast<float>(t.size());
     for (const float n : {0.25f, 0.5f, 7.0f, 16.5f, 64.0f, 1000.0f}) {
-        elementary(shading::Isa::scalar).power(t.data(), n, out.data(), static_cast<int>(t.size()));
+        elementary(Isa::scalar).power(t.data(), n, out.data(), static_cast<int>(t.size()));
         double worst = 0;
         for (std::size_t i = 0; i < t.size(); ++i) {
             const long double exact = std::pow(static_cast<long double>(t[i]), static_cast<long double>(n));
@@ -210,7 +210,7 @@ TEST_CASE("power: 0 gives 0 and 1 gives exactly 1", "[shading][pow]") {
     const float t[16] = {0.0f, 1.0f};
     for (const float n : {0.01f, 0.5f, 1.1f, 3.7f, 1e5f}) {
         float out[16];
-        elementary(shading::Isa::scalar).power(t, n, out, 16);
+        elementary(Isa::scalar).power(t, n, out, 16);
         CHECK(out[0] == 0.0f);
         CHECK(out[1] == 1.0f);
     }
@@ -227,7 +227,7 @@ TEST_CASE("highlight power: cos^s is right to 4e-7 for exponents from 0.5 to 8e4
         sine[i] = static_cast<float>(sine_squared), cosine[i] = static_cast<float>(1.0 - sine_squared);
         exact[i] = std::exp(static_cast<long double>(half[i]) * std::log1p(-static_cast<long double>(sine_squared)));
     }
-    elementary(shading::Isa::scalar).power_of_cosine(cosine.data(), sine.data(), half.data(), out.data(), 1 << 16);
+    elementary(Isa::scalar).power_of_cosine(cosine.data(), sine.data(), half.data(), out.data(), 1 << 16);
     double worst = 0;
     for (std::size_t i = 0; i < half.size(); ++i)
         worst = std::max(worst, static_cast<double>(std::fabs(static_cast<long double>(out[i]) - exact[i])));
@@ -247,7 +247,7 @@ TEST_CASE("power tiers: errors of display and fast are within those that accurac
                         {"display power 16.5", 16.5, shading::PowTier::display},
                         {"fast power 1.3", static_cast<double>(1.3f), shading::PowTier::fast},
                         {"fast power 16.5", 16.5, shading::PowTier::fast}};
-    const Elementary& scalar = elementary(shading::Isa::scalar);
+    const Elementary& scalar = elementary(Isa::scalar);
     std::vector<float> t(1 << 18), out(t.size());
     FloatMaker make(21);
     for (std::size_t i = 0; i < t.size(); ++i) t[i] = i % 2 == 0 ? make.ordinary(0.0f, 1.0f) : std::exp2(make.ordinary(-24.0f, 0.0f));
@@ -288,7 +288,7 @@ TEST_CASE("power tiers: errors of highlights are within those that accuracy.hpp 
                         {"display cosine power 60000", 30000, shading::PowTier::display},
                         {"fast cosine power 40", 20, shading::PowTier::fast},
                         {"fast cosine power 60000", 30000, shading::PowTier::fast}};
-    const Elementary& scalar = elementary(shading::Isa::scalar);
+    const Elementary& scalar = elementary(Isa::scalar);
     std::vector<float> sine(1 << 16), out(sine.size());
     FloatMaker make(22);
     int found = 0;
@@ -312,7 +312,7 @@ TEST_CASE("power tiers: errors of highlights are within those that accuracy.hpp 
 }
 
 TEST_CASE("power tiers: 0 gives 0 and 1 gives exactly 1", "[shading][pow]") {
-    const Elementary& scalar = elementary(shading::Isa::scalar);
+    const Elementary& scalar = elementary(Isa::scalar);
     const float t[16] = {0.0f, 1.0f};
     int found = 0;
     for (int f = 0; f < scalar.unary_count; ++f) {
@@ -329,7 +329,7 @@ TEST_CASE("power tiers: 0 gives 0 and 1 gives exactly 1", "[shading][pow]") {
 }
 
 TEST_CASE("log2 and exp2: a few units of float32 away from the true values", "[shading][pow]") {
-    const Elementary& scalar = elementary(shading::Isa::scalar);
+    const Elementary& scalar = elementary(Isa::scalar);
     std::vector<float> x(1 << 16), log(1 << 16), exp(1 << 16);
     FloatMaker make(11);
     for (float& v : x) v = make.ordinary(0.01f, 20.0f);
@@ -354,7 +354,7 @@ TEST_CASE("normalise: every finite length from 1e-44 to 1e38 gives a unit vector
         x[i] = make.ordinary(-1, 1) * size, y[i] = make.ordinary(-1, 1) * size, z[i] = make.ordinary(-1, 1) * size;
     }
     x[0] = y[0] = z[0] = 0.0f;
-    elementary(shading::Isa::scalar).normalize(x.data(), y.data(), z.data(), ox.data(), oy.data(), oz.data(), 4096);
+    elementary(Isa::scalar).normalize(x.data(), y.data(), z.data(), ox.data(), oy.data(), oz.data(), 4096);
     CHECK((ox[0] == 0.0f && oy[0] == 0.0f && oz[0] == 0.0f));
     double worst = 0;
     for (std::size_t i = 1; i < x.size(); ++i) {

@@ -36,7 +36,7 @@ struct Worst {
 struct Shot {
     Material material;
     Light light;
-    PlanOptions options;
+    ShadingSettings options;
     ShadingPlan plan;
 
     void make_plan() {

@@ -1,7 +1,7 @@
 // Floats for tests: ordinary ones, every kind of special one, and comparison by bits.
 #pragma once
 
-#include "shading/isa.hpp"
+#include "halflit/isa.hpp"
 
 #include <bit>
 #include <cmath>
@@ -46,10 +46,10 @@ private:
 };
 
 /// The sets to compare with scalar: built, and available here.
-inline std::vector<shading::Isa> other_isas() {
-    std::vector<shading::Isa> isas;
-    for (const shading::Isa isa : shading::built_isas())
-        if (isa != shading::Isa::scalar && shading::isa_available(isa)) isas.push_back(isa);
+inline std::vector<Isa> other_isas() {
+    std::vector<Isa> isas;
+    for (const Isa isa : built_isas())
+        if (isa != Isa::scalar && isa_available(isa)) isas.push_back(isa);
     return isas;
 }
 

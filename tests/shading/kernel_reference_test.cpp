@@ -22,7 +22,7 @@ TEST_CASE("kernels: shade agrees with the float64 reference for every kind of sc
         Material& material = c.materials[0];
         for (TextureUse* use : {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
                                 &material.occlusion_texture, &material.emissive_texture}) {
-            use->sampler.mag = use->sampler.min = Filter::linear;
+            use->sampler.mag = use->sampler.min = TextureFilter::linear;
             if (use->sampler.mip == MipFilter::nearest) use->sampler.mip = MipFilter::linear;
         }
         // A lobe with a power below 1 has an unbounded slope at its edge, so its error is unbounded too.
@@ -57,7 +57,7 @@ TEST_CASE("kernels: shade agrees with the float64 reference for every kind of sc
 
 TEST_CASE("kernels: a highlight at the sharpest roughness agrees with the reference to 2e-4 of its peak", "[shading][reference]") {
     const SpecularModel highlight = GENERATE(SpecularModel::blinn, SpecularModel::phong);
-    PlanOptions options;
+    ShadingSettings options;
     options.specular = highlight;
     Material material;
     material.metallic = 1.0f, material.roughness = 0.0f;
@@ -89,7 +89,7 @@ TEST_CASE("kernels: Phong with a quarter of Blinn's exponent has the same peak a
     const std::vector<SlotMask> available{3u, 3u};
     FragmentBlock blocks[2]{};
     for (int i = 0; i < 2; ++i) {
-        PlanOptions options;
+        ShadingSettings options;
         options.specular = i == 0 ? SpecularModel::blinn : SpecularModel::phong;
         ShadingPlan plan = plan_shading({std::span(&material, 1), {}, available, plan_lights(std::span(&light, 1)), {}, options});
         plan.orthographic = true;
@@ -113,7 +113,7 @@ TEST_CASE("kernels: no highlight where the light is behind the surface, however 
     const Light light{.direction_ws = {0, 0, -1}};
     const std::vector<SlotMask> available{3u, 3u};
     const SpecularModel highlight = GENERATE(SpecularModel::blinn, SpecularModel::phong);
-    PlanOptions options;
+    ShadingSettings options;
     options.specular = highlight;
     ShadingPlan plan = plan_shading({std::span(&material, 1), {}, available, plan_lights(std::span(&light, 1)), {}, options});
     plan.orthographic = true;
@@ -137,7 +137,7 @@ TEST_CASE("kernels: a spot's cosine power falls off as cos(angle)^power inside t
     const float power = GENERATE(1.0f, 7.5f, 64.0f, 20000.0f);
     light.cone_power = power;
     const std::vector<SlotMask> available{3u, 3u};
-    PlanOptions options;
+    ShadingSettings options;
     options.specular = SpecularModel::none;
     const ShadingPlan plan = plan_shading({std::span(&material, 1), {}, available, plan_lights(std::span(&light, 1)), {}, options});
     FragmentBlock block{};

@@ -24,7 +24,7 @@ Curve curve_of(const Lobe& lobe) {
     material.lobe = lobe;
     const Light light{.direction_ws = {-1, 0, 0}};
     const std::vector<SlotMask> available{3u, 3u};
-    PlanOptions options;
+    ShadingSettings options;
     options.specular = SpecularModel::none;
     const ShadingPlan plan = plan_shading({std::span(&material, 1), {}, available, plan_lights(std::span(&light, 1)), {}, options});
     FragmentBlock block{};

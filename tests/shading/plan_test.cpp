@@ -23,7 +23,7 @@ struct Scene {
     std::vector<Light> lights{Light{}};
     std::vector<SlotMask> available{kAll, kPlain};
     Ambient ambient;
-    PlanOptions options;
+    ShadingSettings options;
     [[nodiscard]] ShadingPlan plan() const { return plan_shading({materials, textures, available, plan_lights(lights), ambient, options}); }
     [[nodiscard]] MaterialPlan first() const { return plan().materials[0]; }
 };
@@ -113,7 +113,7 @@ TEST_CASE("plan: gradients only where a texture has levels or two filters", "[sh
     CHECK((scene.first().stages & kStageGradients) != 0);
     use.sampler.mip = MipFilter::none;
     CHECK((scene.first().stages & kStageGradients) == 0);
-    use.sampler.mag = Filter::nearest;
+    use.sampler.mag = TextureFilter::nearest;
     CHECK((scene.first().stages & kStageGradients) != 0);
     use.sampler = {};
     use.texture = 1;  // 1 x 1: one level
@@ -125,7 +125,7 @@ TEST_CASE("plan: occlusion in the metallic-roughness texture is fetched once", "
     scene.ambient.sky_linear = {1, 1, 1};
     scene.materials[0].metallic_roughness_texture.texture = scene.materials[0].occlusion_texture.texture = 0;
     CHECK(scene.first().occlusion_is_metallic_roughness);
-    scene.materials[0].occlusion_texture.sampler.wrap_u = Wrap::clamp;
+    scene.materials[0].occlusion_texture.sampler.wrap_u = TextureWrap::clamp;
     CHECK(!scene.first().occlusion_is_metallic_roughness);
 }
 

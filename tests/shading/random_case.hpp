@@ -12,26 +12,26 @@ namespace halflit::testing {
 
 /// Textures of odd, even, tiny and larger sizes. `smooth` ones change little between neighbours, so that a coordinate's last bit hardly
 /// changes the value.
-inline std::vector<shading::Texture> make_textures(FloatMaker& make, bool smooth) {
-    std::vector<shading::Texture> textures;
+inline std::vector<Texture> make_textures(FloatMaker& make, bool smooth) {
+    std::vector<Texture> textures;
     for (const auto& [width, height] : {std::pair{1, 1}, {2, 3}, {8, 8}, {13, 7}, {64, 32}, {1, 9}}) {
         std::vector<std::uint16_t> texels;
         for (int i = 0; i < width * height * 4; ++i)
             texels.push_back(static_cast<std::uint16_t>(smooth ? 30000 + make.below(2000) : make.below(65536)));
-        textures.push_back(shading::Texture::from_rgba16(texels, width, height).value());
+        textures.push_back(Texture::from_rgba16(texels, width, height).value());
     }
     return textures;
 }
 
-inline shading::TextureUse make_use(FloatMaker& make) {
+inline TextureUse make_use(FloatMaker& make) {
     using namespace shading;
     TextureUse use;
     use.texture = static_cast<int>(make.below(9)) - 2;  // -2, -1: not used; 6: no such texture
     use.uv_set = static_cast<int>(make.below(2));
-    use.sampler.wrap_u = static_cast<Wrap>(make.below(3));
-    use.sampler.wrap_v = static_cast<Wrap>(make.below(3));
-    use.sampler.mag = static_cast<Filter>(make.below(2));
-    use.sampler.min = static_cast<Filter>(make.below(2));
+    use.sampler.wrap_u = static_cast<TextureWrap>(make.below(3));
+    use.sampler.wrap_v = static_cast<TextureWrap>(make.below(3));
+    use.sampler.mag = static_cast<TextureFilter>(make.below(2));
+    use.sampler.min = static_cast<TextureFilter>(make.below(2));
     use.sampler.mip = static_cast<MipFilter>(make.below(3));
     if (make.below(3) == 0) {
         use.row_u = {make.ordinary(-2, 2), make.ordinary(-2, 2), make.ordinary(-1, 1)};
@@ -40,8 +40,7 @@ inline shading::TextureUse make_use(FloatMaker& make) {
     return use;
 }
 
-inline shading::Lobe make_lobe(FloatMaker& make) {
-    using shading::Lobe;
+inline Lobe make_lobe(FloatMaker& make) {
     Lobe lobe;
     switch (make.below(8)) {
         case 0:
@@ -73,7 +72,7 @@ inline shading::Lobe make_lobe(FloatMaker& make) {
     return lobe;
 }
 
-inline shading::Material make_material(FloatMaker& make) {
+inline Material make_material(FloatMaker& make) {
     using namespace shading;
     Material material;
     material.base_color = {make.ordinary(0, 1), make.ordinary(0, 1), make.ordinary(0, 1), make.ordinary(0, 1)};
@@ -94,7 +93,7 @@ inline shading::Material make_material(FloatMaker& make) {
     return material;
 }
 
-inline shading::Light make_light(FloatMaker& make) {
+inline Light make_light(FloatMaker& make) {
     using namespace shading;
     Light light;
     light.type = static_cast<LightType>(make.below(3));
@@ -139,12 +138,12 @@ inline void fill_block(FloatMaker& make, shading::FragmentBlock& block, bool wil
 
 /// All that a frame shares.
 struct Case {
-    std::vector<shading::Texture> textures;
-    std::vector<shading::Material> materials;
-    std::vector<shading::Light> lights;
+    std::vector<Texture> textures;
+    std::vector<Material> materials;
+    std::vector<Light> lights;
     std::vector<shading::SlotMask> available;
-    shading::Ambient ambient;
-    shading::PlanOptions options;
+    Ambient ambient;
+    ShadingSettings options;
     shading::ShadingPlan plan;
 };
 

@@ -1,5 +1,5 @@
 // Listing, choosing and forcing instruction sets.
-#include "shading/isa.hpp"
+#include "halflit/isa.hpp"
 
 #include "tests/support/skip.hpp"
 

@@ -58,7 +58,7 @@ double distance(const reference::Rgba& a, const reference::Rgba& b) {
 
 TEST_CASE("sampling: a texel's centre gives the texel, with either filter", "[shading][sampling]") {
     const Texture texture = random_texture(8, 8, 1);
-    for (const Filter filter : {Filter::nearest, Filter::linear}) {
+    for (const TextureFilter filter : {TextureFilter::nearest, TextureFilter::linear}) {
         TextureUse use;
         use.sampler.mag = use.sampler.min = filter;
         std::vector<Point> centres;
@@ -94,8 +94,9 @@ TEST_CASE("sampling: wrap modes, filters and levels agree with a brute-force sam
         const Texture texture = random_texture(width, height, static_cast<std::uint32_t>(width));
         for (int mode = 0; mode < 3 * 3 * 2 * 2 * 3; ++mode) {
             TextureUse use;
-            use.sampler = {static_cast<Wrap>(mode % 3), static_cast<Wrap>(mode / 3 % 3), static_cast<Filter>(mode / 9 % 2),
-                           static_cast<Filter>(mode / 18 % 2), static_cast<MipFilter>(mode / 36)};
+            use.sampler = {static_cast<TextureWrap>(mode % 3), static_cast<TextureWrap>(mode / 3 % 3),
+                           static_cast<TextureFilter>(mode / 9 % 2), static_cast<TextureFilter>(mode / 18 % 2),
+                           static_cast<MipFilter>(mode / 36)};
             std::vector<Point> points;
             while (points.size() < 64) {
                 Point p{make.ordinary(-3.5f, 3.5f), make.ordinary(-3.5f, 3.5f), std::exp2(make.ordinary(-2.0f, 6.0f))};
@@ -150,9 +151,9 @@ TEST_CASE("sampling: a footprint beyond the picture gives its mean", "[shading][
 
 TEST_CASE("sampling: coordinates that are NaN, infinite or huge read as (0, 0)", "[shading][sampling]") {
     const Texture texture = random_texture(4, 4, 5);
-    for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp}) {
+    for (const TextureWrap wrap : {TextureWrap::repeat, TextureWrap::mirror, TextureWrap::clamp}) {
         TextureUse use;
-        use.sampler = {wrap, wrap, Filter::linear, Filter::linear, MipFilter::linear};
+        use.sampler = {wrap, wrap, TextureFilter::linear, TextureFilter::linear, MipFilter::linear};
         const auto colors = sample_all(texture, use, {{0.0f, 0.0f}, {kNan, kNan}, {-kInf, -3.4e38f}, {0.0f, -kInf}});
         for (const auto& color : colors) CHECK(distance(color, colors[0]) == 0.0);
     }
@@ -176,10 +177,10 @@ TEST_CASE("sampling: a texture transform moves coordinates and footprint alike",
 TEST_CASE("sampling: just below zero a repeated picture shows its last texel", "[shading][sampling]") {
     for (const int size : {1, 2, 3, 7, 16}) {
         const Texture texture = random_texture(size, size, 8);
-        for (const Filter mag : {Filter::nearest, Filter::linear}) {
+        for (const TextureFilter mag : {TextureFilter::nearest, TextureFilter::linear}) {
             TextureUse use;
             use.sampler.mag = mag;
-            use.sampler.min = Filter::nearest;
+            use.sampler.min = TextureFilter::nearest;
             use.sampler.mip = MipFilter::none;
             // Minified, so that the filter is nearest. With a linear mag filter the lanes take the code path for both filters.
             const auto colors = sample_all(texture, use, {{-1e-9f, -1e-20f, 2.0f}, {-1e-45f, -6e-8f, 2.0f}});

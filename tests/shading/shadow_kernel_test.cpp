@@ -37,7 +37,7 @@ struct Setup {
             light.inner_cone_rad = 1.4f;
         }
         const std::vector<SlotMask> available{3u, 3u};
-        PlanOptions options;
+        ShadingSettings options;
         options.specular = specular ? SpecularModel::blinn : SpecularModel::none;
         plan = plan_shading({std::span(&material, 1), {}, available, plan_lights(std::span(&light, 1)), {}, options});
         plan.shadow_mode = mode;
@@ -283,7 +283,7 @@ TEST_CASE("shadow kernel: shares agree with the float64 reference away from thei
         }
         const FragmentBlock input = block;
         setup.shade(Isa::scalar, block);
-        PlanOptions options;
+        ShadingSettings options;
         options.specular = SpecularModel::none;
         const reference::FrameInputs frame{{}, std::span(&setup.light, 1), {}, options, {}, {0, 0, -1}, true};
         for (int lane = 0; lane < kBlockSize; ++lane) {

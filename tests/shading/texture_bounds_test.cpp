@@ -68,7 +68,7 @@ TEST_CASE("texture bounds: no filtered channel is off by more than its bound", "
                 material.alpha_mode = AlphaMode::blend;
                 TextureUse& use = material.base_color_texture;
                 use.texture = 0;
-                use.sampler.wrap_u = use.sampler.wrap_v = static_cast<Wrap>(mode % 3);
+                use.sampler.wrap_u = use.sampler.wrap_v = static_cast<TextureWrap>(mode % 3);
                 use.sampler.mip = mode / 3 % 2 == 0 ? MipFilter::none : MipFilter::linear;
                 if (mode / 6 == 1) use.row_u = {0.7f, 1.9f, 0.3f}, use.row_v = {-1.9f, 0.7f, -0.1f};
                 const std::vector<SlotMask> available{3u, 3u};

@@ -1,5 +1,5 @@
 // Creation of textures: decoding, levels, limits.
-#include "shading/texture.hpp"
+#include "halflit/texture.hpp"
 
 #include "floats.hpp"
 #include "shading/kernels/shade_kernels.hpp"

@@ -1,7 +1,7 @@
 // The GLB container: a 12-byte header, a JSON chunk, and at most one BIN chunk.
 #pragma once
 
-#include "shading/result.hpp"
+#include "halflit/error.hpp"
 
 #include <cstddef>
 #include <span>

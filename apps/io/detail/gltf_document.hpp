@@ -3,7 +3,8 @@
 
 #include "apps/io/detail/gltf_file.hpp"
 #include "apps/io/detail/load_failure.hpp"
-#include "apps/io/gltf_loader.hpp"
+#include "apps/io/file_access.hpp"
+#include "halflit/gltf.hpp"
 
 #include <cstdint>
 #include <memory>

@@ -16,14 +16,14 @@ std::uint64_t texture_bytes(const ImageHeader& header) {
 }
 
 /// The texture in place of a picture that cannot be read: 8x8 magenta and black.
-shading::Texture checkerboard(shading::ColorSpace space) {
+Texture checkerboard(ColorSpace space) {
     std::vector<std::uint8_t> rgba(8 * 8 * 4, 255);
     for (std::size_t i = 0; i < 64; ++i) {
         const bool magenta = (i % 8 + i / 8) % 2 == 0;
         rgba[4 * i] = rgba[4 * i + 2] = magenta ? 255 : 0;
         rgba[4 * i + 1] = 0;
     }
-    return take(shading::Texture::from_rgba8(rgba, 8, 8, space), "magenta checkerboard");
+    return take(Texture::from_rgba8(rgba, 8, 8, space), "magenta checkerboard");
 }
 
 std::string identity(const file::Image& entry) {
@@ -32,10 +32,10 @@ std::string identity(const file::Image& entry) {
 
 }  // namespace
 
-ImageStore::ImageStore(Document& document, std::vector<shading::Texture>& textures)
+ImageStore::ImageStore(Document& document, std::vector<Texture>& textures)
     : document_(document), textures_(textures), texture_memory_("the textures", document.options.limits.max_texture_bytes) {}
 
-shading::Texture ImageStore::make(int image, shading::ColorSpace space) {
+Texture ImageStore::make(int image, ColorSpace space) {
     const file::Image& entry = document_.file.images[static_cast<std::size_t>(image)];
     const LoadLimits& limits = document_.options.limits;
     std::string where = fmt::format("images[{}]", image);
@@ -61,15 +61,15 @@ shading::Texture ImageStore::make(int image, shading::ColorSpace space) {
     if (texture_bytes(header) > texture_memory_.left())
         refuse(where, fmt::format("the textures would take more than {} MB, which is the limit", limits.max_texture_bytes >> 20),
                ErrorCode::limit);
-    const bool keep_16_bits = header.bits == 16 && space == shading::ColorSpace::linear;
+    const bool keep_16_bits = header.bits == 16 && space == ColorSpace::linear;
     const DecodedImage picture = take(decode_image(bytes, image_limits, keep_16_bits), where);
     texture_memory_.take(texture_bytes(header));
-    return take(keep_16_bits ? shading::Texture::from_rgba16(picture.rgba16, picture.width, picture.height)
-                             : shading::Texture::from_rgba8(picture.rgba8, picture.width, picture.height, space),
+    return take(keep_16_bits ? Texture::from_rgba16(picture.rgba16, picture.width, picture.height)
+                             : Texture::from_rgba8(picture.rgba8, picture.width, picture.height, space),
                 where);
 }
 
-int ImageStore::texture_for(int image, shading::ColorSpace space) {
+int ImageStore::texture_for(int image, ColorSpace space) {
     const auto [found, is_new] =
         made_.try_emplace({identity(document_.file.images[static_cast<std::size_t>(image)]), space}, static_cast<int>(textures_.size()));
     if (!is_new) return found->second;

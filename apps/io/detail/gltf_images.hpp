@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/io/detail/gltf_document.hpp"
-#include "shading/texture.hpp"
+#include "halflit/texture.hpp"
 
 #include <map>
 #include <string>
@@ -13,19 +13,19 @@ namespace halflit::io::detail {
 
 class ImageStore {
 public:
-    ImageStore(Document& document, std::vector<shading::Texture>& textures);
+    ImageStore(Document& document, std::vector<Texture>& textures);
 
     /// Index into the scene's textures for an entry of "images". Throws LoadFailure, or, when lenient, warns and gives a magenta
     /// checkerboard.
-    int texture_for(int image, shading::ColorSpace space);
+    int texture_for(int image, ColorSpace space);
 
 private:
-    [[nodiscard]] shading::Texture make(int image, shading::ColorSpace space);
+    [[nodiscard]] Texture make(int image, ColorSpace space);
 
     Document& document_;
-    std::vector<shading::Texture>& textures_;
+    std::vector<Texture>& textures_;
     Budget texture_memory_;
-    std::map<std::pair<std::string, shading::ColorSpace>, int> made_;  // indexed by the picture's source
+    std::map<std::pair<std::string, ColorSpace>, int> made_;  // indexed by the picture's source
 };
 
 }  // namespace halflit::io::detail

@@ -12,8 +12,6 @@ namespace halflit::io::detail {
 
 namespace {
 
-using shading::ColorSpace;
-
 float clamp01(double value) { return static_cast<float>(std::clamp(value, 0.0, 1.0)); }
 
 constexpr double kMostScale = 1e6;  // beyond it, float texture coordinates have no fraction left
@@ -27,38 +25,38 @@ double number_at(const std::vector<double>& values, std::size_t index, double ot
 constexpr int kNearest = 9728, kLinear = 9729, kNearestMipmapNearest = 9984, kLinearMipmapNearest = 9985, kNearestMipmapLinear = 9986;
 constexpr int kClampToEdge = 33071, kMirroredRepeat = 33648, kRepeat = 10497;
 
-shading::Wrap wrap_of(Document& document, int code) {
-    if (code == kClampToEdge) return shading::Wrap::clamp;
-    if (code == kMirroredRepeat) return shading::Wrap::mirror;
+TextureWrap wrap_of(Document& document, int code) {
+    if (code == kClampToEdge) return TextureWrap::clamp;
+    if (code == kMirroredRepeat) return TextureWrap::mirror;
     if (code != kRepeat) document.warn(fmt::format("samplers: unknown wrap mode {}, drawn as repeat", code));
-    return shading::Wrap::repeat;
+    return TextureWrap::repeat;
 }
 
-shading::Sampler sampler_of(Document& document, int index) {
-    shading::Sampler sampler;
+Sampler sampler_of(Document& document, int index) {
+    Sampler sampler;
     if (index < 0) return sampler;
     const file::Sampler& source = document.file.samplers[static_cast<std::size_t>(index)];
     sampler.wrap_u = wrap_of(document, source.wrap_s);
     sampler.wrap_v = wrap_of(document, source.wrap_t);
-    sampler.mag = source.mag_filter == kNearest ? shading::Filter::nearest : shading::Filter::linear;
-    using enum shading::MipFilter;
+    sampler.mag = source.mag_filter == kNearest ? TextureFilter::nearest : TextureFilter::linear;
+    using enum MipFilter;
     switch (source.min_filter) {
         case kNearest:
-            sampler.min = shading::Filter::nearest;
+            sampler.min = TextureFilter::nearest;
             sampler.mip = none;
             break;
         case kLinear:
             sampler.mip = none;
             break;
         case kNearestMipmapNearest:
-            sampler.min = shading::Filter::nearest;
+            sampler.min = TextureFilter::nearest;
             sampler.mip = nearest;
             break;
         case kLinearMipmapNearest:
             sampler.mip = nearest;
             break;
         case kNearestMipmapLinear:
-            sampler.min = shading::Filter::nearest;
+            sampler.min = TextureFilter::nearest;
             break;
         default:
             break;  // linear within and between levels, also without a filter
@@ -69,7 +67,7 @@ shading::Sampler sampler_of(Document& document, int index) {
 /// KHR_texture_transform: uv' = T R S uv, with rows R = [cos sin; -sin cos]: counter-clockwise as seen, where v points down.
 /// differs: the shader in the extension's text, whose matrices are given by columns, has the transpose. The extension's test model and
 /// viewers agree with R as it is here.
-void apply_transform(const file::TextureTransform& source, shading::TextureUse& use, int& uv_set) {
+void apply_transform(const file::TextureTransform& source, TextureUse& use, int& uv_set) {
     const double su = number_at(source.scale, 0, 1.0), sv = number_at(source.scale, 1, 1.0);
     const SinCos angle = sin_cos(source.rotation);
     use.row_u = {static_cast<float>(angle.cos * su), static_cast<float>(angle.sin * sv),
@@ -83,10 +81,10 @@ class MaterialMaker {
 public:
     MaterialMaker(Document& document, ImageStore& images) : document_(document), images_(images) {}
 
-    shading::Material make(std::size_t index, bool with_textures) {
+    Material make(std::size_t index, bool with_textures) {
         const file::Material& source = document_.file.materials[index];
         where_ = fmt::format("materials[{}]", index);
-        shading::Material material;
+        Material material;
         material.name = source.name;
         const auto base = [&](std::size_t c) { return clamp01(number_at(source.base_color_factor, c, 1.0)); };
         material.base_color = {base(0), base(1), base(2), base(3)};
@@ -100,9 +98,9 @@ public:
         material.normal_scale = static_cast<float>(std::clamp(source.normal_texture.scale, -kMostScale, kMostScale));
         material.occlusion_strength = clamp01(source.occlusion_texture.strength);
         if (source.alpha_mode == "MASK")
-            material.alpha_mode = shading::AlphaMode::mask;
+            material.alpha_mode = AlphaMode::mask;
         else if (source.alpha_mode == "BLEND")
-            material.alpha_mode = shading::AlphaMode::blend;
+            material.alpha_mode = AlphaMode::blend;
         else if (source.alpha_mode != "OPAQUE")
             document_.warn(fmt::format("{}.alphaMode: \"{}\" is unknown, drawn as OPAQUE", where_, printable(source.alpha_mode, 40)));
         material.alpha_cutoff = static_cast<float>(std::clamp(source.alpha_cutoff, 0.0, 1e6));
@@ -121,8 +119,8 @@ public:
     }
 
 private:
-    shading::TextureUse use(const file::TexturePlace& info, const char* key, ColorSpace space) {
-        shading::TextureUse use;
+    TextureUse use(const file::TexturePlace& info, const char* key, ColorSpace space) {
+        TextureUse use;
         if (info.index < 0) return use;
         const file::Texture& texture = document_.file.textures[static_cast<std::size_t>(info.index)];
         if (texture.source < 0) {
@@ -142,7 +140,7 @@ private:
     }
 
     /// extras.halflit = {"lobe": "sloan", "wrap": 0.5, "power": 1.5, "normalize": true}
-    void own_lobe(const file::OwnLobe& own, shading::Material& material) const {
+    void own_lobe(const file::OwnLobe& own, Material& material) const {
         const auto lobe = lobe_from_name(own.name, own.parameters);
         if (!lobe) refuse(where_ + ".extras.halflit", lobe.error().message);
         material.lobe = *lobe;
@@ -156,9 +154,9 @@ private:
 
 }  // namespace
 
-std::vector<shading::Material> make_materials(Document& document, ImageStore& images, const std::vector<bool>& used) {
+std::vector<Material> make_materials(Document& document, ImageStore& images, const std::vector<bool>& used) {
     MaterialMaker maker(document, images);
-    std::vector<shading::Material> materials;
+    std::vector<Material> materials;
     materials.reserve(document.file.materials.size());
     for (std::size_t i = 0; i < document.file.materials.size(); ++i) materials.push_back(maker.make(i, used[i]));
     return materials;

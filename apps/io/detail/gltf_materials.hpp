@@ -3,7 +3,7 @@
 
 #include "apps/io/detail/gltf_document.hpp"
 #include "apps/io/detail/gltf_images.hpp"
-#include "shading/material.hpp"
+#include "halflit/material.hpp"
 
 #include <vector>
 
@@ -11,6 +11,6 @@ namespace halflit::io::detail {
 
 /// All materials of the file, in its order, so that indices stay. Textures of materials that no drawn primitive uses
 /// (`used` false) are not read. Throws LoadFailure.
-std::vector<shading::Material> make_materials(Document& document, ImageStore& images, const std::vector<bool>& used);
+std::vector<Material> make_materials(Document& document, ImageStore& images, const std::vector<bool>& used);
 
 }  // namespace halflit::io::detail

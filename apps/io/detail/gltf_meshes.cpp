@@ -1,8 +1,7 @@
 #include "apps/io/detail/gltf_meshes.hpp"
 
 #include "apps/io/detail/gltf_skin.hpp"
-#include "raster/scene/mesh_normals.hpp"
-#include "raster/scene/tangent_space.hpp"
+#include "halflit/mesh.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +15,7 @@ namespace {
 
 class MeshPlacer {
 public:
-    MeshPlacer(Document& document, const std::vector<Accessor>& accessors, const NodeTree& tree, raster::Scene& scene)
+    MeshPlacer(Document& document, const std::vector<Accessor>& accessors, const NodeTree& tree, Scene& scene)
         : document_(document), accessors_(accessors), tree_(tree), scene_(scene), reader_(document, accessors) {}
 
     void run() {
@@ -48,7 +47,7 @@ private:
             document_.warn(fmt::format("nodes[{}]: its transform is not finite, not drawn", index));
             return;
         }
-        document_.geometry.take(made.meshes.size() * sizeof(raster::Instance));
+        document_.geometry.take(made.meshes.size() * sizeof(Instance));
         for (const int m : made.meshes) {
             scene_.instances.push_back({m, made.in_world ? Mat4{} : to_mat4(world)});
             document_.info.triangles_drawn += scene_.meshes[static_cast<std::size_t>(m)].indices.size() / 3;
@@ -78,15 +77,15 @@ private:
 
     /// Adds flat normals if there are none, and tangents if the material needs them.
     void complete(ReadMesh& read) {
-        raster::Mesh& mesh = read.mesh;
+        Mesh& mesh = read.mesh;
         const std::uint64_t corners = mesh.indices.size();
         if (mesh.normals.empty()) {
             document_.geometry.take(corners *
                                     (24 + (mesh.uv0.empty() ? 0 : 8) + (mesh.uv1.empty() ? 0 : 8) + (mesh.colors.empty() ? 0 : 16)));
-            raster::generate_flat_normals(mesh);
+            generate_flat_normals(mesh);
         }
         if (mesh.material < 0 || !mesh.tangents.empty()) return;
-        const shading::TextureUse& normal_map = scene_.materials[static_cast<std::size_t>(mesh.material)].normal_texture;
+        const TextureUse& normal_map = scene_.materials[static_cast<std::size_t>(mesh.material)].normal_texture;
         if (!normal_map.used()) return;
         if ((normal_map.uv_set == 1 ? mesh.uv1 : mesh.uv0).empty()) {
             document_.warn(
@@ -94,13 +93,13 @@ private:
             return;
         }
         document_.geometry.take(corners * 16);
-        raster::generate_tangents(mesh, normal_map.uv_set);
+        generate_tangents(mesh, normal_map.uv_set);
     }
 
     Document& document_;
     const std::vector<Accessor>& accessors_;
     const NodeTree& tree_;
-    raster::Scene& scene_;
+    Scene& scene_;
     PrimitiveReader reader_;
     std::map<Key, Made> made_;
 };
@@ -119,7 +118,7 @@ std::vector<bool> find_used_materials(const Document& document, const NodeTree& 
     return used;
 }
 
-void place_meshes(Document& document, const std::vector<Accessor>& accessors, const NodeTree& tree, raster::Scene& scene) {
+void place_meshes(Document& document, const std::vector<Accessor>& accessors, const NodeTree& tree, Scene& scene) {
     MeshPlacer(document, accessors, tree, scene).run();
 }
 

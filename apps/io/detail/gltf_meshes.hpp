@@ -3,7 +3,7 @@
 
 #include "apps/io/detail/gltf_nodes.hpp"
 #include "apps/io/detail/gltf_primitive.hpp"
-#include "raster/scene/scene.hpp"
+#include "halflit/scene.hpp"
 
 #include <vector>
 
@@ -13,6 +13,6 @@ namespace halflit::io::detail {
 std::vector<bool> find_used_materials(const Document& document, const NodeTree& tree);
 
 /// Fills scene.meshes and scene.instances. Requires scene.materials. Throws LoadFailure.
-void place_meshes(Document& document, const std::vector<Accessor>& accessors, const NodeTree& tree, raster::Scene& scene);
+void place_meshes(Document& document, const std::vector<Accessor>& accessors, const NodeTree& tree, Scene& scene);
 
 }  // namespace halflit::io::detail

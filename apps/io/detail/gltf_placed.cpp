@@ -27,7 +27,7 @@ Mat4 rigid_part(const Affine& world) {
     return to_mat4({{cross(y, z), y, z, world.c[3]}});
 }
 
-bool set_projection(const file::Camera& source, raster::Camera& camera) {
+bool set_projection(const file::Camera& source, Camera& camera) {
     const auto in = [](double value, double low, double high) { return value > low && value < high; };
     if (source.type == "orthographic") {
         const file::Projection& o = *source.orthographic;
@@ -52,12 +52,12 @@ bool set_projection(const file::Camera& source, raster::Camera& camera) {
 }
 
 /// KHR_lights_punctual gives lux (directional) and candela (point, spot); colours here are those values divided by pi.
-std::optional<shading::Light> light_of(const file::Light& source) {
-    shading::Light light;
+std::optional<Light> light_of(const file::Light& source) {
+    Light light;
     if (source.type == "point")
-        light.type = shading::LightType::point;
+        light.type = LightType::point;
     else if (source.type == "spot")
-        light.type = shading::LightType::spot;
+        light.type = LightType::spot;
     else if (source.type != "directional")
         return std::nullopt;
     const auto channel = [&](std::size_t c) {
@@ -65,8 +65,8 @@ std::optional<shading::Light> light_of(const file::Light& source) {
         return static_cast<float>(std::clamp(color, 0.0, 1e15) * std::clamp(source.intensity, 0.0, 1e15) / kPi);
     };
     light.color_linear = {channel(0), channel(1), channel(2)};
-    if (light.type != shading::LightType::directional) light.range = static_cast<float>(std::clamp(source.range, 0.0, 1e18));
-    if (light.type == shading::LightType::spot) {
+    if (light.type != LightType::directional) light.range = static_cast<float>(std::clamp(source.range, 0.0, 1e18));
+    if (light.type == LightType::spot) {
         light.outer_cone_rad = static_cast<float>(std::clamp(source.outer_cone_angle, 0.0, kPi / 2));
         light.inner_cone_rad = std::min(static_cast<float>(std::clamp(source.inner_cone_angle, 0.0, kPi / 2)), light.outer_cone_rad);
     }
@@ -75,12 +75,12 @@ std::optional<shading::Light> light_of(const file::Light& source) {
 
 }  // namespace
 
-void place_cameras(Document& document, const NodeTree& tree, raster::Scene& scene) {
+void place_cameras(Document& document, const NodeTree& tree, Scene& scene) {
     for (const int n : tree.drawn) {
         const file::Node& node = document.file.nodes[static_cast<std::size_t>(n)];
         if (node.camera < 0) continue;
         const file::Camera& source = document.file.cameras[static_cast<std::size_t>(node.camera)];
-        raster::Camera camera;
+        Camera camera;
         const Affine& world = tree.world_from_node[static_cast<std::size_t>(n)];
         if (!is_finite(world) || !set_projection(source, camera)) {
             document.warn(fmt::format("cameras[{}]: its projection or its node's transform is not valid, left out", node.camera));
@@ -88,17 +88,17 @@ void place_cameras(Document& document, const NodeTree& tree, raster::Scene& scen
         }
         camera.name = source.name.empty() ? node.name : source.name;
         camera.world_from_camera = rigid_part(world);
-        document.geometry.take(sizeof(raster::Camera) + camera.name.size());
+        document.geometry.take(sizeof(Camera) + camera.name.size());
         scene.cameras.push_back(std::move(camera));
     }
 }
 
-void place_lights(Document& document, const NodeTree& tree, raster::Scene& scene) {
+void place_lights(Document& document, const NodeTree& tree, Scene& scene) {
     for (const int n : tree.drawn) {
         const file::Node& node = document.file.nodes[static_cast<std::size_t>(n)];
         if (node.light < 0) continue;
         const file::Light& source = document.file.lights[static_cast<std::size_t>(node.light)];
-        std::optional<shading::Light> light = light_of(source);
+        std::optional<Light> light = light_of(source);
         const Affine& world = tree.world_from_node[static_cast<std::size_t>(n)];
         if (!light || !is_finite(world)) {
             document.warn(!light ? fmt::format("lights[{}]: the type \"{}\" is unknown, left out", node.light, printable(source.type, 40))

@@ -222,7 +222,7 @@ std::optional<ReadMesh> PrimitiveReader::read(std::size_t mesh_index, std::size_
     const Accessor* uv1 = attribute(out.where, primitive.attributes, kUv1, count);
     const Accessor* color = attribute(out.where, primitive.attributes, kColor, count);
 
-    raster::Mesh& mesh = out.mesh;
+    Mesh& mesh = out.mesh;
     mesh.name = document_.file.meshes[mesh_index].name;
     mesh.material = primitive.material;
     mesh.indices = triangle_indices(primitive, out.where, count);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/io/detail/gltf_accessor.hpp"
-#include "raster/scene/mesh.hpp"
+#include "halflit/mesh.hpp"
 
 #include <optional>
 #include <span>
@@ -20,7 +20,7 @@ struct AttributeRule {
 };
 
 struct ReadMesh {
-    raster::Mesh mesh;                           ///< without material-dependent parts: normals may be missing
+    Mesh mesh;                                   ///< without material-dependent parts: normals may be missing
     std::vector<std::uint32_t> source_vertices;  ///< the file's vertex number of each vertex
     std::string where;                           ///< "meshes[0].primitives[1]", for messages
 };

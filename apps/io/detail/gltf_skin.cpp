@@ -1,4 +1,5 @@
 #include "apps/io/detail/gltf_skin.hpp"
+#include "sh/mat4.hpp"
 
 #include <fmt/format.h>
 
@@ -60,7 +61,7 @@ bool apply_skin(Document& document, const std::vector<Accessor>& accessors, cons
     if (sets.empty()) return false;
 
     const std::vector<Affine> matrices = joint_matrices(document, accessors, tree, skin);
-    raster::Mesh& mesh = read.mesh;
+    Mesh& mesh = read.mesh;
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         Affine blend{{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}};
         double sum = 0.0;

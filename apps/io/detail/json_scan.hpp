@@ -2,7 +2,7 @@
 // fault with its offset: nesting and token limits, UTF-8, duplicate keys, literals such as NaN, numbers outside double.
 #pragma once
 
-#include "shading/result.hpp"
+#include "halflit/error.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // Failures of loading: a fault with its place in the model, or a limit reached.
 #pragma once
 
-#include "shading/result.hpp"
+#include "halflit/error.hpp"
 
 #include <cstdint>
 #include <string_view>

@@ -1,7 +1,7 @@
 // References inside a glTF file: relative names, percent-encoded or plain, and data: URIs with base64.
 #pragma once
 
-#include "shading/result.hpp"
+#include "halflit/error.hpp"
 
 #include <cstddef>
 #include <string>

@@ -6,6 +6,6 @@ namespace halflit::testing {
 
 HALFLIT_DECLARE_TABLES(Elementary, elementary)
 
-const Elementary& elementary(shading::Isa isa) { HALFLIT_RETURN_TABLE_OF(isa, elementary) }
+const Elementary& elementary(Isa isa) { HALFLIT_RETURN_TABLE_OF(isa, elementary) }
 
 }  // namespace halflit::testing

@@ -2,7 +2,7 @@
 // compare the sets with each other and with the C library.
 #pragma once
 
-#include "shading/isa.hpp"
+#include "halflit/isa.hpp"
 
 #include <cstdint>
 
@@ -34,6 +34,6 @@ struct Elementary {
     int width;
 };
 
-const Elementary& elementary(shading::Isa isa);
+const Elementary& elementary(Isa isa);
 
 }  // namespace halflit::testing

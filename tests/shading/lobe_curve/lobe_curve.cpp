@@ -6,6 +6,6 @@ namespace halflit::testing {
 
 HALFLIT_DECLARE_TABLES(LobeCurve, lobe_curve)
 
-LobeCurve lobe_curve(shading::Isa isa) { HALFLIT_RETURN_TABLE_OF(isa, lobe_curve) }
+LobeCurve lobe_curve(Isa isa) { HALFLIT_RETURN_TABLE_OF(isa, lobe_curve) }
 
 }  // namespace halflit::testing

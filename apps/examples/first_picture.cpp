@@ -1,0 +1,34 @@
+// The shortest useful program: a model file in, a picture out.   halflit_first_picture MODEL.glb OUT.png
+#include <halflit/auto_setup.hpp>
+#include <halflit/gltf.hpp>
+#include <halflit/image.hpp>
+#include <halflit/renderer.hpp>
+
+#include <cstdio>
+
+namespace {
+
+halflit::Result<void> render_file(const char* model, const char* picture) {
+    using namespace halflit;
+    auto loaded = load_gltf(model);
+    if (!loaded) return tl::unexpected(loaded.error());
+
+    Image image{640, 480, std::vector<std::uint8_t>(640 * 480 * 4), {}};
+    const AutoSetup setup = auto_setup(loaded->scene, image.width, image.height);
+    const auto report = render(loaded->scene, setup.camera, setup.settings, {image.width, image.height, image.rgba8.data()});
+    if (!report) return tl::unexpected(report.error());
+    return write_image(picture, image);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 3) {
+        std::fprintf(stderr, "usage: %s MODEL.glb OUT.png\n", argv[0]);
+        return static_cast<int>(halflit::ErrorCode::usage);
+    }
+    const auto done = render_file(argv[1], argv[2]);
+    if (done) return 0;
+    std::fprintf(stderr, "%s\n", done.error().message.c_str());
+    return static_cast<int>(done.error().code);
+}

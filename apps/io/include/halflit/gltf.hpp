@@ -1,0 +1,65 @@
+// Loader of glTF 2.0: .gltf and .glb files become a Scene. The file is not trusted: every length, index and reference is checked
+// before it is used, other files are read only below the model's folder, and limits bound memory and time.
+#pragma once
+
+#include "halflit/error.hpp"
+#include "halflit/export.hpp"
+#include "halflit/scene.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace halflit {
+
+/// Above a limit, loading ends with ErrorCode::limit.
+struct LoadLimits {
+    std::size_t max_file_bytes = std::size_t{512} << 20;  ///< each file: the model, a buffer, a picture
+    std::size_t max_total_bytes = std::size_t{2} << 30;   ///< all buffers together
+    int max_json_depth = 64;
+    std::size_t max_json_tokens = 50'000'000;
+    std::size_t max_texture_bytes = std::size_t{1} << 30;  ///< all textures together, as the renderer keeps them (10.7 bytes per pixel)
+    int max_texture_side = 16384;
+    std::size_t max_texture_pixels = std::size_t{64} << 20;  ///< one texture
+    int max_jpeg_scans = 64;
+    /// All vertices, indices and instances together. A small file gets less: 32 MiB plus 96 bytes for each byte of the file. No real model
+    /// needs more, and a crafted one cannot become many times larger than its file. The JSON objects have the same limit.
+    std::uint64_t max_geometry_bytes = std::uint64_t{16} << 30;
+    std::size_t max_lights = 1024;
+};
+
+struct LoadOptions {
+    bool lenient = false;                     ///< draw what can be drawn: magenta for broken textures, triangles with bad indices left out
+    std::vector<std::string> allow_external;  ///< folders, besides the model's own, in which referenced files may lie
+    LoadLimits limits;
+};
+
+/// Contents of the file, drawn or not.
+struct SceneInfo {
+    std::string version, generator;
+    std::size_t meshes = 0, primitives = 0, nodes = 0, materials = 0, textures = 0, images = 0, animations = 0, skins = 0, cameras = 0,
+                lights = 0;
+    std::size_t scenes = 0, morph_targets = 0;
+    std::size_t point_and_line_primitives = 0;  ///< primitives of the drawn nodes that are left out
+    std::uint64_t triangles_stored = 0;         ///< triangles of the meshes that are drawn, each once
+    std::uint64_t triangles_drawn = 0;          ///< triangles over all instances
+    std::uint64_t vertices = 0;                 ///< vertices after splitting for flat normals and tangents
+    std::vector<std::string> extensions_used, extensions_required;
+};
+
+struct LoadedScene {
+    Scene scene;
+    std::vector<std::string> warnings;  ///< one line each, no file prefix
+    SceneInfo info;
+};
+
+/// Loads the model at `path`; files that it refers to are read from its folder. Error messages begin with `path`. Thread-safe.
+[[nodiscard]] HALFLIT_API Result<LoadedScene> load_gltf(const std::string& path, const LoadOptions& options = {});
+
+/// Loads a model from memory, e.g. from standard input. `name` is for messages; an empty `base_dir` means that no other file is read.
+[[nodiscard]] HALFLIT_API Result<LoadedScene> load_gltf_bytes(std::span<const std::byte> bytes, const std::string& name,
+                                                              const std::string& base_dir, const LoadOptions& options = {});
+
+}  // namespace halflit

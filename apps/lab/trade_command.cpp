@@ -1,0 +1,107 @@
+// halflit trade: measures time and error of one scene with many settings, and shows the errors.
+#include "apps/halflit/cli_support.hpp"
+#include "apps/halflit/commands.hpp"
+#include "apps/halflit/messages.hpp"
+#include "apps/halflit/progress_line.hpp"
+#include "apps/lab/output_folder.hpp"
+#include "apps/lab/trade_report.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+namespace halflit::cli {
+namespace {
+
+constexpr PictureSize kUsualSize{640, 360};
+
+struct TradeOptions : RenderOptions {
+    std::string folder = "trade";
+    std::vector<TradeLobe> lobes;
+    int frames = 5;
+    bool quick = false, all = false, progress = false;
+};
+
+TradeSpace space_of(const RenderJob& job, const TradeOptions& options) {
+    const Scene& scene = job.scene();
+    TradeSpace space{.shadows = options.settings.shadows, .shadow_size = options.settings.shadow_size, .lobes = options.lobes};
+    space.environment = scene.environment != nullptr;
+    space.textures = !scene.textures.empty();
+    space.lights = !scene.lights.empty();
+    return space;
+}
+
+Result<void> write_all(const std::vector<TradeRow>& rows, TradeBench& bench, const std::string& folder) {
+    const auto page = trade_page(rows, bench);
+    if (!page) return tl::unexpected(page.error());
+    const std::pair<const char*, std::string> files[] = {
+        {"trade.csv", trade_csv(rows, bench.space())}, {"trade.json", to_text(trade_json(rows, bench))}, {"index.html", *page}};
+    for (const auto& [name, text] : files) {
+        const std::string path = (std::filesystem::path(folder) / name).string();
+        if (const auto written = write_text(path, text); !written) return tl::unexpected(written.error());
+        print_note("wrote " + path);
+    }
+    return {};
+}
+
+Result<int> run_trade(TradeOptions options) {
+    options.settings.shading.accuracy = Accuracy::reference;  // keeps the environment's image
+    auto job = make_render_job(options, kUsualSize);
+    if (!job) return tl::unexpected(job.error());
+    if (const auto folder = make_folder(options.folder); !folder) return tl::unexpected(folder.error());
+    for (const std::string& warning : job->warnings) print_warning(warning);
+    const TradeSpace space = space_of(*job, options);
+    const TradeExtent extent = options.quick ? TradeExtent::quick : options.all ? TradeExtent::all : TradeExtent::usual;
+
+    TradeBench bench(std::move(*job), space, options.frames);
+    const auto rows = [&] {
+        ProgressLine line(options.progress);
+        return bench.measure(trade_choices(space, extent), [&](std::size_t done, std::size_t all) { line.show(done, all); });
+    }();
+    if (!rows) return tl::unexpected(rows.error());
+    if (const auto written = write_all(*rows, bench, options.folder); !written) return tl::unexpected(written.error());
+    if (const auto told = write_text("-", trade_summary(*rows, bench)); !told) return tl::unexpected(told.error());
+    // A bound that does not hold is a negative result.
+    return std::all_of(rows->begin(), rows->end(), [](const TradeRow& row) { return row.kept(); }) ? 0 : 1;
+}
+
+}  // namespace
+
+Command add_trade_command(CLI::App& root) {
+    CLI::App* app = root.add_subcommand("trade", "Measure time and error of a scene drawn with many settings");
+    const auto options = std::make_shared<TradeOptions>();
+    add_render_options(*app, *options, true, kUsualSize);
+    // Flags of the settings that trade varies itself.
+    for (const char* varied : {"--accuracy", "--max-error", "--texture-filter", "--shading", "--sh-order"})
+        app->remove_option(app->get_option(varied));
+    constexpr const char* kGroup = "Comparison";
+    add_value(*app, "-o,--output", "DIR", "Folder for index.html, trade.csv and trade.json; created if missing (default trade)",
+              [options](const std::string& text) { return assign(options->folder, parse_folder(text)); })
+        ->group(kGroup);
+    add_value(*app, "--frames", "N", "Frames for each setting, drawn in turn with frames of exact (default 5)",
+              [options](const std::string& text) -> Result<void> {
+                  const auto frames = parse_int(text, 1, 1000);
+                  if (!frames) return tl::unexpected(frames.error());
+                  options->frames = static_cast<int>(*frames);
+                  return {};
+              })
+        ->group(kGroup);
+    add_value(*app, "--lobes", "NAME,...", "Also measure these lobes, on every material: NAME, NAME:WRAP or NAME:WRAP:POWER",
+              [options](const std::string& text) -> Result<void> {
+                  for (std::size_t start = 0; start <= text.size();) {
+                      const std::size_t end = std::min(text.find(',', start), text.size());
+                      const auto lobe = parse_trade_lobe(text.substr(start, end - start));
+                      if (!lobe) return tl::unexpected(lobe.error());
+                      options->lobes.push_back(*lobe);
+                      start = end + 1;
+                  }
+                  return {};
+              })
+        ->group(kGroup);
+    CLI::Option* quick = app->add_flag("--quick", options->quick, "Vary one setting at a time")->group(kGroup);
+    app->add_flag("--all", options->all, "Measure all combinations, those of shadows too")->group(kGroup)->excludes(quick);
+    app->add_flag("--progress", options->progress, "Show progress even if standard error is not a terminal")->group(kGroup);
+    return {app, [options] { return run_trade(*options); }};
+}
+
+}  // namespace halflit::cli

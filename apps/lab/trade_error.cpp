@@ -1,0 +1,66 @@
+#include "apps/lab/trade_error.hpp"
+
+#include "sh/config.hpp"
+#include "shading/reference/reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halflit::cli {
+namespace {
+
+double code_of(float linear) { return shading::reference::srgb_code(static_cast<double>(linear)); }
+
+}  // namespace
+
+TradeReference::TradeReference(const Image& picture, const Image& coverage) {
+    HALFLIT_ASSERT(picture.rgba_linear.size() == coverage.rgba_linear.size());
+    for (std::size_t i = 0; i * 4 < picture.rgba_linear.size(); ++i) {
+        if (!(coverage.rgba_linear[i * 4 + 3] > 0.0f)) continue;
+        pixels_.push_back(i);
+        for (std::size_t c = 0; c < 3; ++c) {
+            linear_.push_back(picture.rgba_linear[i * 4 + c]);
+            codes_.push_back(code_of(linear_.back()));
+        }
+    }
+}
+
+TradeError TradeReference::error_of(const Image& picture) const {
+    TradeError error;
+    if (pixels_.empty()) return error;
+    std::vector<double> worst(pixels_.size(), 0.0);
+    double sum_squares = 0;
+    for (std::size_t k = 0; k < pixels_.size(); ++k)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const float value = picture.rgba_linear[pixels_[k] * 4 + c];
+            if (value == linear_[3 * k + c]) continue;  // true for most values; the sRGB curve is slow
+            const double difference = std::abs(code_of(value) - codes_[3 * k + c]);
+            worst[k] = std::max(worst[k], difference);
+            sum_squares += difference * difference;
+        }
+    const auto count = static_cast<double>(worst.size());
+    for (const double one : worst) {
+        error.max = std::max(error.max, one);
+        error.mean += one / count;
+        error.share_off += one >= 1.0 ? 1 / count : 0.0;
+    }
+    // The smallest value that 99.9 % of the pixels do not exceed.
+    const auto rank = worst.begin() + static_cast<std::ptrdiff_t>(std::ceil(0.999 * count)) - 1;
+    std::nth_element(worst.begin(), rank, worst.end());
+    error.p999 = *rank;
+    if (sum_squares > 0) error.psnr = 10 * std::log10(255.0 * 255.0 * 3 * count / sum_squares);
+    return error;
+}
+
+Image TradeReference::difference(const Image& picture, double gain) const {
+    Image image{picture.width, picture.height, std::vector<std::uint8_t>(picture.rgba8.size(), 0), {}};
+    for (std::size_t i = 3; i < image.rgba8.size(); i += 4) image.rgba8[i] = 255;
+    for (std::size_t k = 0; k < pixels_.size(); ++k)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double difference = std::abs(code_of(picture.rgba_linear[pixels_[k] * 4 + c]) - codes_[3 * k + c]);
+            image.rgba8[pixels_[k] * 4 + c] = static_cast<std::uint8_t>(std::min(255.0, difference * gain + 0.5));
+        }
+    return image;
+}
+
+}  // namespace halflit::cli

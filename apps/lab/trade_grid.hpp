@@ -1,0 +1,64 @@
+// Settings that `halflit trade` compares because they affect accuracy, and the list of their combinations.
+#pragma once
+
+#include "halflit/error.hpp"
+#include "halflit/renderer.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace halflit::cli {
+
+/// A lobe for all materials, as users name it: NAME, NAME:WRAP or NAME:WRAP:POWER.
+struct TradeLobe {
+    std::string name;
+    Lobe lobe;
+};
+[[nodiscard]] Result<TradeLobe> parse_trade_lobe(std::string_view text);
+
+/// One way to draw the frame.
+struct TradeChoice {
+    std::optional<std::size_t> lobe{};  ///< index into TradeSpace::lobes; none: the scene's own
+    Accuracy accuracy = Accuracy::exact;
+    double max_error_codes = 0.0;  ///< above 0: instead of the accuracy
+    int order = 0;                 ///< number of bands for the environment; 0: chosen from the error bound
+    ShadingRate rate = ShadingRate::pixel;
+    TextureDetail texture = TextureDetail::full;
+    ShadowMode shadows = ShadowMode::soft_split;
+    int shadow_size = 2048;
+
+    friend bool operator==(const TradeChoice&, const TradeChoice&) = default;
+};
+
+/// Features of the scene that can be varied, and the most accurate settings, from which all errors are measured.
+struct TradeSpace {
+    bool environment = false, textures = false, lights = false;
+    ShadowMode shadows = ShadowMode::soft_split;
+    int shadow_size = 2048;
+    std::vector<TradeLobe> lobes;
+
+    [[nodiscard]] TradeChoice exact() const { return {.shadows = shadows, .shadow_size = shadow_size}; }
+    [[nodiscard]] TradeChoice reference(std::optional<std::size_t> lobe) const;
+};
+
+enum class TradeExtent : std::uint8_t {
+    quick,  ///< one setting at a time, the others as in exact; and the error budgets
+    usual,  ///< also all combinations of tier, order, rate and texture filter
+    all     ///< also those combinations with every kind of shadow
+};
+
+/// Each choice once, exact first: for the scene's own lobe, then for each of the others. Features that the scene lacks are not varied.
+[[nodiscard]] std::vector<TradeChoice> trade_choices(const TradeSpace& space, TradeExtent extent);
+
+/// Name for reports: "fast, order 3, gouraud".
+[[nodiscard]] std::string trade_name(const TradeChoice& choice, const TradeSpace& space);
+/// Flags to add to a `halflit render` command: "--accuracy fast --sh-order 3 --shading gouraud". Empty for exact.
+[[nodiscard]] std::string trade_flags(const TradeChoice& choice, const TradeSpace& space);
+
+/// Puts everything but the lobe into the frame's settings.
+void apply_choice(Settings& settings, const TradeChoice& choice);
+
+}  // namespace halflit::cli

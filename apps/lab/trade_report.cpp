@@ -1,0 +1,131 @@
+#include "apps/lab/trade_report.hpp"
+
+#include "apps/halflit/plan_names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace halflit::cli {
+namespace {
+
+constexpr std::array kAllowances{0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0};  ///< errors in the summary, codes
+
+std::string lobe_name(const TradeRow& row, const TradeSpace& space) { return row.choice.lobe ? space.lobes[*row.choice.lobe].name : "own"; }
+
+/// The tier's name, or "budget": a budget chooses polynomials for each material, so its row has no tier.
+std::string tier_of(const TradeRow& row) { return row.bound ? "budget" : std::string(accuracy_name(row.choice.accuracy)); }
+
+std::string quoted(const std::string& text) { return text.find(',') == std::string::npos ? text : "\"" + text + "\""; }
+
+Json row_json(const TradeRow& row, const TradeSpace& space) {
+    const TradeChoice& choice = row.choice;
+    Json json{{"name", row.name},
+              {"flags", row.flags},
+              {"lobe", lobe_name(row, space)},
+              {"accuracy", tier_of(row)},
+              {"max_error", choice.max_error_codes > 0 ? Json(choice.max_error_codes) : Json(nullptr)},
+              {"order", choice.order > 0 ? Json(choice.order) : Json("auto")},
+              {"orders_used", row.orders},
+              {"rate", rate_name(choice.rate)},
+              {"texture_filter", texture_detail_name(choice.texture)},
+              {"shadows", shadow_mode_name(choice.shadows)},
+              {"shadow_size", choice.shadow_size},
+              {"lobes_computed_as", row.lobe_paths},
+              {"specular_power", row.specular_tier.empty() ? Json(nullptr) : Json(row.specular_tier)},
+              {"frames", row.frames},
+              {"ms", row.ms},
+              {"ratio", row.ratio},
+              {"ratio_range", {row.ratio_min, row.ratio_max}},
+              {"cpu_ratio", row.cpu_ratio},
+              {"error",
+               {{"max", row.error.max},
+                {"mean", row.error.mean},
+                {"p999", row.error.p999},
+                {"psnr", row.error.psnr ? Json(*row.error.psnr) : Json(nullptr)},
+                {"share_off_by_one", row.error.share_off}}}};
+    json["bound"] = nullptr;
+    if (row.bound) {
+        json["bound"] = error_bound_json(*row.bound);
+        json["bound"]["kept"] = row.kept();
+    }
+    json["front"] = row.front;
+    return json;
+}
+
+}  // namespace
+
+std::string trade_csv(const std::vector<TradeRow>& rows, const TradeSpace& space) {
+    std::string text =
+        "name,flags,lobe,accuracy,max_error,order,rate,texture_filter,shadows,shadow_size,ms,ratio,ratio_min,ratio_max,cpu_ratio,max,mean,"
+        "p999,psnr,"
+        "share_off_by_one,bound,within,kept,front\n";
+    for (const TradeRow& row : rows) {
+        const TradeChoice& c = row.choice;
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{},", quoted(row.name), row.flags, lobe_name(row, space), tier_of(row),
+                            c.max_error_codes > 0 ? fmt::format("{:g}", c.max_error_codes) : "",
+                            c.order > 0 ? fmt::format("{}", c.order) : "auto", rate_name(c.rate), texture_detail_name(c.texture),
+                            shadow_mode_name(c.shadows), c.shadow_size);
+        text += fmt::format("{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.6g},{:.6g},{:.6g},{},{:.6g},{},{},{},{}\n", row.ms, row.ratio,
+                            row.ratio_min, row.ratio_max, row.cpu_ratio, row.error.max, row.error.mean, row.error.p999,
+                            row.error.psnr ? fmt::format("{:.2f}", *row.error.psnr) : "", row.error.share_off,
+                            row.bound ? fmt::format("{:.6g}", row.bound->codes) : "", row.bound ? fmt::format("{}", row.bound->within) : "",
+                            row.bound ? fmt::format("{}", row.kept()) : "", row.front);
+    }
+    return text;
+}
+
+Json trade_json(const std::vector<TradeRow>& rows, const TradeBench& bench) {
+    const RenderJob& job = bench.job();
+    const TradeRow& exact = exact_row(rows, bench.space());
+    Json report = report_head();
+    report["scene"] = job.source.name;
+    report["size"] = {job.width, job.height};
+    report["samples"] = job.settings.samples;
+    report["isa"] = isa_name(*job.execution.isa);
+    report["pixels_drawn"] = bench.reference(std::nullopt).pixels_drawn();
+    report["exact_ms"] = bench.exact_ms();
+    report["noise"] = {exact.ratio_min, exact.ratio_max};
+    report["warnings"] = job.warnings;
+    report["rows"] = Json::array();
+    for (const TradeRow& row : rows) report["rows"].push_back(row_json(row, bench.space()));
+    return report;
+}
+
+std::string trade_summary(const std::vector<TradeRow>& rows, const TradeBench& bench) {
+    std::string text = fmt::format("{} at {}x{}, {} samples: exact takes {:.2f} ms, noise {:.2f} to {:.2f} times that\n",
+                                   bench.job().source.name, bench.job().width, bench.job().height, bench.job().settings.samples,
+                                   bench.exact_ms(), exact_row(rows, bench.space()).ratio_min, exact_row(rows, bench.space()).ratio_max);
+    text += " error at most    time   flags (error of 99.9 % of the pixels in 8-bit codes; time of exact = 1)\n";
+    for (const double codes : kAllowances)
+        if (const TradeRow* row = cheapest_within(rows, codes); row != nullptr)
+            text += fmt::format("{:>14g}  {:>6.2f}   {}\n", codes, row->ratio, row->flags.empty() ? "no flags" : row->flags);
+    for (const TradeRow& row : rows)
+        if (!row.kept())
+            text += fmt::format("bound violated: {} has an error of {:.4g} codes, its bound is {:.4g}\n", row.name, row.error.max,
+                                row.bound->codes);
+    return text;
+}
+
+std::vector<const TradeRow*> rows_by_time(const std::vector<TradeRow>& rows) {
+    std::vector<const TradeRow*> sorted;
+    for (const TradeRow& row : rows) sorted.push_back(&row);
+    std::stable_sort(sorted.begin(), sorted.end(), [](const TradeRow* a, const TradeRow* b) { return a->ratio < b->ratio; });
+    return sorted;
+}
+
+const TradeRow* cheapest_within(const std::vector<TradeRow>& rows, double codes) {
+    const TradeRow* best = nullptr;
+    for (const TradeRow& row : rows)
+        if (!row.choice.lobe && row.error.p999 <= codes && row.choice.accuracy != Accuracy::reference &&
+            (best == nullptr || row.ratio < best->ratio))
+            best = &row;
+    return best;
+}
+
+const TradeRow& exact_row(const std::vector<TradeRow>& rows, const TradeSpace& space) {
+    return *std::find_if(rows.begin(), rows.end(), [&](const TradeRow& row) { return row.choice == space.exact(); });
+}
+
+}  // namespace halflit::cli

@@ -1,0 +1,32 @@
+// Results of `halflit trade` as CSV, JSON, text and HTML.
+#pragma once
+
+#include "apps/halflit/run_report.hpp"
+#include "apps/lab/trade_bench.hpp"
+
+#include <string>
+#include <vector>
+
+namespace halflit::cli {
+
+/// A header line, then one line for each row, in the order of the rows.
+[[nodiscard]] std::string trade_csv(const std::vector<TradeRow>& rows, const TradeSpace& space);
+
+/// {..., "noise": [low, high], "rows": [...]}: noise is the range of exact's time divided by that of another frame of exact.
+[[nodiscard]] Json trade_json(const std::vector<TradeRow>& rows, const TradeBench& bench);
+
+/// A few lines of text: the cheapest flags for each error, and the bounds that did not hold.
+[[nodiscard]] std::string trade_summary(const std::vector<TradeRow>& rows, const TradeBench& bench);
+
+/// One self-contained page; draws the pictures that it shows.
+[[nodiscard]] Result<std::string> trade_page(const std::vector<TradeRow>& rows, TradeBench& bench);
+
+/// Rows sorted by ratio, the fastest first.
+[[nodiscard]] std::vector<const TradeRow*> rows_by_time(const std::vector<TradeRow>& rows);
+/// The fastest row of the scene's own lobe, budgets included and the reference not, whose error.p999 is at most `codes`; null if there is
+/// none.
+[[nodiscard]] const TradeRow* cheapest_within(const std::vector<TradeRow>& rows, double codes);
+/// The row of the scene's own lobe with exact settings.
+[[nodiscard]] const TradeRow& exact_row(const std::vector<TradeRow>& rows, const TradeSpace& space);
+
+}  // namespace halflit::cli

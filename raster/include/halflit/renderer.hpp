@@ -1,0 +1,48 @@
+// The entry: a scene and a camera in, pixels out.
+#pragma once
+
+#include "halflit/camera.hpp"
+#include "halflit/error.hpp"
+#include "halflit/export.hpp"
+#include "halflit/prepared_scene.hpp"
+#include "halflit/report.hpp"
+#include "halflit/scene.hpp"
+#include "halflit/settings.hpp"
+#include "halflit/target.hpp"
+
+#include <memory>
+
+namespace halflit {
+
+/// Draws frames. Keeps working memory between frames, and the plan, the shadow maps and the view's geometry: the next frame of the same
+/// prepared scene uses each of these again if its inputs are unchanged. A Renderer draws one frame at a time; any number of Renderers may
+/// draw at once. Calls fail (usage) for settings out of range, (bad_input) for a faulty scene, (limit) where memory ends.
+class Renderer {
+public:
+    HALFLIT_API Renderer();
+    HALFLIT_API ~Renderer();
+    HALFLIT_API Renderer(Renderer&&) noexcept;
+    HALFLIT_API Renderer& operator=(Renderer&&) noexcept;
+
+    /// Draws a prepared scene. For sequences of pictures: PreparedScene::update tells what changed.
+    [[nodiscard]] HALFLIT_API Result<RenderReport> render(const PreparedScene& scene, const Camera& camera, const Settings& settings,
+                                                          const Target& target, const Execution& execution = {});
+
+    /// Prepares the scene and draws it. Anything in it may have changed since the last frame.
+    [[nodiscard]] HALFLIT_API Result<RenderReport> render(const Scene& scene, const Camera& camera, const Settings& settings,
+                                                          const Target& target, const Execution& execution = {});
+
+    /// Drops the plan, light distances, shadow maps and geometry of earlier frames. Keeps their memory, and results that depend on an
+    /// environment or a material alone. The next frame does the same work as after a change of the whole scene's geometry.
+    HALFLIT_API void forget_frames();
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Draws one picture with a temporary Renderer.
+[[nodiscard]] HALFLIT_API Result<RenderReport> render(const Scene& scene, const Camera& camera, const Settings& settings,
+                                                      const Target& target, const Execution& execution = {});
+
+}  // namespace halflit

@@ -1,0 +1,71 @@
+// Report of a frame: times, counts, warnings.
+#pragma once
+
+#include "halflit/isa.hpp"
+#include "halflit/shading.hpp"
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace halflit {
+
+/// Series of spherical harmonics by which the materials of one lobe take the light of the scene's environment.
+struct EnvironmentUse {
+    int bands = 0;          ///< length of the series, 1..10
+    double bound = 0;       ///< largest error of the light over all normals, white surface, worst channel, before exposure
+    bool within = true;     ///< true if bound times exposure is within the tolerance, or the bound in codes within the budget
+    bool specular = false;  ///< true: mirrored light, whose error may be twice the tolerance; false: diffuse light
+};
+
+/// Amount of shading work, in lanes. The counts show that stages which are not required do not run. They do not depend on threads or
+/// instruction set. Counts of light depend on the tile size, because it decides which fragments share a block: a light is left out of a
+/// block that its range or cone does not reach, and ShadingRate::flat lights a triangle once per block.
+struct WorkCounts {
+    /// Lanes that ran a stage, indexed by its bit in Stage. A lane is a fragment, or a vertex or triangle for light at a lower rate.
+    std::array<std::uint64_t, kStageCount> stage_lanes{};
+    std::uint64_t alpha_test_lanes = 0;          ///< fragments that had an alpha test; its stages count in stage_lanes too
+    std::array<std::uint64_t, 3> light_lanes{};  ///< pairs of a light and a lane, by LightType
+    std::uint64_t shadow_lookup_lanes = 0;       ///< pairs whose light has a shadow map
+
+    [[nodiscard]] std::uint64_t lanes(Stage stage) const {
+        return stage_lanes[static_cast<std::size_t>(std::countr_zero(static_cast<std::uint32_t>(stage)))];
+    }
+    WorkCounts& operator+=(const WorkCounts& other) {
+        for (std::size_t i = 0; i < stage_lanes.size(); ++i) stage_lanes[i] += other.stage_lanes[i];
+        for (std::size_t i = 0; i < light_lanes.size(); ++i) light_lanes[i] += other.light_lanes[i];
+        alpha_test_lanes += other.alpha_test_lanes;
+        shadow_lookup_lanes += other.shadow_lookup_lanes;
+        return *this;
+    }
+    friend bool operator==(const WorkCounts&, const WorkCounts&) = default;
+};
+
+/// Times are milliseconds of wall clock.
+struct RenderReport {
+    struct StageTimes {
+        double prepare = 0;    ///< preparing the scene; 0 if it was prepared before
+        double plan = 0;       ///< near 0 if the last frame's plan is used again
+        double shadows = 0;    ///< shadow maps
+        double cull = 0;       ///< instances and clusters out of view or facing away
+        double transform = 0;  ///< vertices to the window, vertex records, light at vertices
+        double bin = 0;        ///< triangle set-up and tile lists
+        double tiles = 0;      ///< visibility, shading, blending, resolving
+    } ms;
+    double total_ms = 0;
+    int threads = 1;
+    Isa isa = Isa::scalar;
+    std::uint64_t triangles_submitted = 0, triangles_drawn = 0;  ///< drawn: set up for tiles; pieces of clipped triangles count singly
+    std::uint64_t triangles_not_finite = 0;                      ///< dropped for a NaN or infinite vertex
+    std::uint64_t pixels_visible = 0, fragments_shaded = 0;
+    std::uint64_t nan_pixels = 0;             ///< fragments with a NaN in their colour; it is written as 0
+    WorkCounts work;                          ///< shading work, stage by stage
+    std::vector<EnvironmentUse> environment;  ///< series of the drawn materials, one per lobe
+    ErrorBound error;                         ///< the promised bound; only with an error budget
+    std::vector<std::string> warnings;        ///< one line each, UTF-8
+};
+
+}  // namespace halflit

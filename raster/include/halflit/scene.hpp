@@ -1,0 +1,60 @@
+// A scene: everything that a picture shows. Plain data that the caller owns; nothing in it refers to a file.
+#pragma once
+
+#include "halflit/camera.hpp"
+#include "halflit/environment.hpp"
+#include "halflit/export.hpp"
+#include "halflit/light.hpp"
+#include "halflit/material.hpp"
+#include "halflit/mesh.hpp"
+#include "halflit/texture.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace halflit {
+
+struct Scene {
+    std::vector<Mesh> meshes;
+    std::vector<Instance> instances;  ///< drawn in this order
+    std::vector<Material> materials;
+    std::vector<Texture> textures;  ///< shared by materials
+    std::vector<Light> lights;      ///< summed in this order; empty: see add_default_lights
+    Ambient ambient;
+    std::shared_ptr<const Environment> environment;  ///< replaces `ambient`; its suns must be in `lights` (see set_environment)
+    /// The lights are made for exposure 1. False: they come from a file, in a unit whose scale is not known; auto_setup() chooses the
+    /// exposure from them.
+    bool calibrated = true;
+    std::vector<Camera> cameras;  ///< views to choose from; none is in use by itself
+};
+
+/// World-space bounds of everything drawn. Vertices that are not finite are left out.
+[[nodiscard]] HALFLIT_API Bounds scene_bounds(const Scene& scene);
+
+/// Adds light to a scene that has none: a key light over the viewer's left shoulder, and ambient light from sky and ground.
+HALFLIT_API void add_default_lights(Scene& scene, const Camera& camera);
+
+/// Lights the scene by an environment: sets it, removes the ambient light, and adds its suns to the scene's lights.
+HALFLIT_API void set_environment(Scene& scene, std::shared_ptr<const Environment> environment);
+
+/// Estimate of the light at the centre of the bounds, irradiance / pi: the sum over the lights of what a surface there receives that faces
+/// the light. Directional: its colour. Point and spot: colour / max(distance from the centre, radius of the bounds / 2, 1e-4)^2, as if the
+/// centre were in the cone. A light whose range does not reach the bounds adds nothing.
+[[nodiscard]] HALFLIT_API Vec3f light_level(const Scene& scene, const Bounds& bounds);
+
+/// Exposure: the factor that scales the luminance (Rec. 709) of light_level to 1. So white surfaces come out near white, whatever unit the
+/// file's lights are in. 1 if there is no light, or if its luminance is outside (1e-18, 1e18). It depends on the lights and the scene's
+/// bounds, never on pixels: a crop, a tile or a second frame of the same scene keeps its values.
+[[nodiscard]] HALFLIT_API float auto_exposure(const Scene& scene, const Bounds& bounds);
+
+/// Ambient light for a scene whose lights leave the far sides black: a tenth of light_level from above, a twentieth from below.
+[[nodiscard]] HALFLIT_API Ambient soft_ambient(const Scene& scene, const Bounds& bounds);
+
+/// 2^ev: each step of 1 doubles the light. Exact for whole numbers, otherwise within one float ulp. ev in [-64, 64], clamped.
+[[nodiscard]] HALFLIT_API float exposure_factor(float ev);
+
+/// The built-in scene, drawn when no file is named: a row of spheres with wrap 0 to 1 in front of a knot on a plinth, under several lights.
+/// Made by code; it has its own camera.
+[[nodiscard]] HALFLIT_API Scene demo_scene();
+
+}  // namespace halflit

@@ -1,0 +1,60 @@
+// Settings of a picture, which decide its pixels, and of its execution, which never do.
+#pragma once
+
+#include "halflit/error.hpp"
+#include "halflit/export.hpp"
+#include "halflit/isa.hpp"
+#include "halflit/math.hpp"
+#include "halflit/shading.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+
+namespace halflit {
+
+/// The part of the picture to draw, in pixels; width 0 means all of it. Pixels outside are not touched.
+struct Region {
+    int x = 0, y = 0, width = 0, height = 0;
+    friend bool operator==(const Region&, const Region&) = default;
+};
+
+/// Everything besides scene, camera and size that decides a pixel.
+struct Settings {
+    Region region{};
+    int samples = 1;                      ///< per pixel: 1, 4 or 8
+    Vec4f background_linear{0, 0, 0, 0};  ///< linear colour, not premultiplied; w = 0 is transparent
+    bool background_environment = false;  ///< true: the scene's environment, if it kept its image
+    float exposure = 1.0f;                ///< factor on all light, > 0
+    ShadingSettings shading{};
+    ShadowMode shadows = ShadowMode::soft_split;
+    int shadow_size = 2048;  ///< texels on a side of a shadow map, a power of two from 64 to 4096; a cube's faces have half
+    std::size_t shadow_memory_limit = std::size_t{256} << 20;  ///< bytes; shadow maps are halved in size until all fit
+    /// soft_split: distance to the blocker from which on wrapped light is 0, world units; 0: from object size and wrap.
+    float shadow_fade = 0.0f;
+    bool shadow_terminator_offset = false;  ///< look-ups on the smooth surface given by the vertex normals, for coarse meshes
+    friend bool operator==(const Settings&, const Settings&) = default;
+};
+
+/// Fails (usage) if a setting is out of range or excludes another one, and (limit) for a size beyond 32,768 pixels on a side.
+[[nodiscard]] HALFLIT_API Result<void> check_settings(const Settings& settings, int width, int height);
+
+/// A host's own threads: runs body(i) for every i in [0, count), in any order, on any threads, and returns when all are done. A body that
+/// is left out is an error of the frame.
+using ParallelFor = std::function<void(int count, const std::function<void(int)>& body)>;
+
+/// How a frame is computed. Nothing here changes a pixel. The functions may be called from any thread of the frame, by several at once;
+/// they must not throw.
+struct Execution {
+    int threads = 0;             ///< 0: one per core
+    int tile_size = 64;          ///< 16, 32 or 64 pixels
+    std::optional<Isa> isa{};    ///< instruction set; empty: default_isa()
+    ParallelFor parallel_for{};  ///< the host's threads; empty: oneTBB, or the standard library's threads if built without it
+
+    std::function<bool()> cancelled{};             ///< asked before each tile; true stops the frame (ErrorCode::cancelled)
+    std::function<void(const Region&)> on_tile{};  ///< told after each tile which pixels are final
+    /// Told the share of the tiles that are done, in (0, 1]; one call at a time, in rising order.
+    std::function<void(double share)> progress{};
+};
+
+}  // namespace halflit

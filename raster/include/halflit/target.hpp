@@ -1,0 +1,50 @@
+// Memory that a picture is drawn into. The caller owns it.
+#pragma once
+
+#include "halflit/export.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace halflit {
+
+/// Order of the four bytes of a pixel in Target::pixels.
+enum class PixelFormat : std::uint8_t { rgba8, bgra8 };
+
+/// The caller's memory for a picture: 8-bit codes, linear light, or both, and planes of what was seen. A null pointer: that output is not
+/// made. Row 0 is the top row. The row at y begins at the pointer plus y times the stride in bytes. A stride may be larger than a row, for
+/// padding; what lies between rows is not touched. A stride of 0 means that rows follow one another. Strides are never negative.
+struct Target {
+    int width = 0, height = 0;       ///< pixels, of the whole picture: what the camera sees
+    std::uint8_t* pixels = nullptr;  ///< sRGB codes, four bytes a pixel in the order of `format`; alpha is linear
+    float* linear = nullptr;         ///< linear light after exposure, four floats (RGBA) a pixel; aligned to 4 bytes, stride too
+
+    PixelFormat format = PixelFormat::rgba8;
+    /// Colour is multiplied by alpha, in both outputs: a code becomes (code * alpha + 127) / 255, without the fraction.
+    bool premultiplied = false;
+    /// The memory holds Settings::region alone: its first row is the region's first row. Otherwise it holds the whole picture, of which the
+    /// pixels outside the region are not touched.
+    bool region_alone = false;
+    std::size_t row_bytes = 0, linear_row_bytes = 0;
+
+    /// What each pixel's first sample shows; blended surfaces and the background do not count. Aligned to 4 bytes.
+    float* depth = nullptr;   ///< distance along the view axis, world units; infinity where nothing is
+    float* normal = nullptr;  ///< three floats: unit normal of the vertices in world space, towards the viewer; 0 where nothing is
+    std::uint32_t* instance = nullptr;  ///< index into Scene::instances, plus 1; 0 where nothing is
+    std::uint32_t* triangle = nullptr;  ///< number of the triangle in the instance's mesh, plus 1; 0 where nothing is
+    std::size_t depth_row_bytes = 0, normal_row_bytes = 0, instance_row_bytes = 0, triangle_row_bytes = 0;
+};
+
+/// A picture with its own memory. Either array may be empty.
+struct Image {
+    int width = 0, height = 0;
+    std::vector<std::uint8_t> rgba8;  ///< width * height * 4 sRGB codes, alpha linear and not premultiplied
+    std::vector<float> rgba_linear;   ///< width * height * 4, linear light, alpha not premultiplied
+};
+
+/// 64-bit hash of the bytes: the picture's identity in reports and golden tables. XXH64 with seed 0, the same on every machine.
+[[nodiscard]] HALFLIT_API std::uint64_t pixel_hash(std::span<const std::uint8_t> bytes);
+
+}  // namespace halflit

@@ -1,0 +1,90 @@
+#include "raster/passes/output.hpp"
+
+#include <cstring>
+#include <string>
+
+namespace halflit::raster {
+namespace {
+
+Result<void> check_plane(const char* name, const void* data, std::size_t row_bytes, std::size_t pixel_bytes, std::size_t alignment,
+                         int width) {
+    if (data == nullptr) return {};
+    if (reinterpret_cast<std::uintptr_t>(data) % alignment != 0)
+        return fail(ErrorCode::usage, std::string(name) + ": the memory is not aligned to " + std::to_string(alignment) + " bytes");
+    if (row_bytes == 0) return {};
+    const std::size_t row = pixel_bytes * static_cast<std::size_t>(width);
+    if (row_bytes < row)
+        return fail(ErrorCode::usage, std::string(name) + ": rows of " + std::to_string(row_bytes) + " bytes, expected at least " +
+                                          std::to_string(row) + " for " + std::to_string(width) + " pixels");
+    if (row_bytes % alignment != 0)
+        return fail(ErrorCode::usage, std::string(name) + ": rows of " + std::to_string(row_bytes) + " bytes, expected a multiple of " +
+                                          std::to_string(alignment));
+    return {};
+}
+
+/// Code times alpha, rounded.
+std::uint32_t times(std::uint32_t code, std::uint32_t alpha) { return (code * alpha + 127u) / 255u; }
+
+}  // namespace
+
+Result<void> check_target(const Target& target, const Region& region) {
+    if (target.format != PixelFormat::rgba8 && target.format != PixelFormat::bgra8)
+        return fail(ErrorCode::usage, "pixel format: expected rgba8 or bgra8, found " + std::to_string(static_cast<int>(target.format)));
+    const int width = target.region_alone && region.width > 0 ? region.width : target.width;
+    const struct {
+        const char* name;
+        const void* data;
+        std::size_t row_bytes, pixel_bytes, alignment;
+    } planes[] = {{"pixels", target.pixels, target.row_bytes, 4, 1},
+                  {"linear", target.linear, target.linear_row_bytes, 16, alignof(float)},
+                  {"depth", target.depth, target.depth_row_bytes, 4, alignof(float)},
+                  {"normal", target.normal, target.normal_row_bytes, 12, alignof(float)},
+                  {"instance", target.instance, target.instance_row_bytes, 4, alignof(std::uint32_t)},
+                  {"triangle", target.triangle, target.triangle_row_bytes, 4, alignof(std::uint32_t)}};
+    for (const auto& plane : planes)
+        if (auto ok = check_plane(plane.name, plane.data, plane.row_bytes, plane.pixel_bytes, plane.alignment, width); !ok) return ok;
+    return {};
+}
+
+Output::Output(const Target& target, const Region& region)
+    : straight_rgba_(target.format == PixelFormat::rgba8 && !target.premultiplied),
+      bgra_(target.format == PixelFormat::bgra8),
+      premultiplied_(target.premultiplied) {
+    const int width = target.region_alone ? region.width : target.width;
+    const int x0 = target.region_alone ? region.x : 0, y0 = target.region_alone ? region.y : 0;
+    codes = {target.pixels, target.row_bytes, 4, width, x0, y0};
+    linear = {target.linear, target.linear_row_bytes, 4, width, x0, y0};
+    depth = {target.depth, target.depth_row_bytes, 1, width, x0, y0};
+    normal = {target.normal, target.normal_row_bytes, 3, width, x0, y0};
+    instance = {target.instance, target.instance_row_bytes, 1, width, x0, y0};
+    triangle = {target.triangle, target.triangle_row_bytes, 1, width, x0, y0};
+}
+
+void Output::write_codes(int x, int y, const std::uint32_t* from, int count) const {
+    std::uint8_t* to = codes.at(x, y);
+    if (straight_rgba_) {
+        std::memcpy(to, from, 4 * static_cast<std::size_t>(count));
+        return;
+    }
+    for (int i = 0; i < count; ++i, to += 4) {
+        std::uint8_t rgba[4];
+        std::memcpy(rgba, from + i, 4);
+        if (premultiplied_)
+            for (int c = 0; c < 3; ++c) rgba[c] = static_cast<std::uint8_t>(times(rgba[c], rgba[3]));
+        to[0] = bgra_ ? rgba[2] : rgba[0];
+        to[1] = rgba[1];
+        to[2] = bgra_ ? rgba[0] : rgba[2];
+        to[3] = rgba[3];
+    }
+}
+
+void Output::write_linear(int x, int y, float red, float green, float blue, float alpha) const {
+    const float factor = premultiplied_ ? alpha : 1.0f;
+    float* p = linear.at(x, y);
+    p[0] = red * factor;
+    p[1] = green * factor;
+    p[2] = blue * factor;
+    p[3] = alpha;
+}
+
+}  // namespace halflit::raster

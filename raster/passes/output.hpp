@@ -1,0 +1,60 @@
+// The caller's memory as tiles write it: rows, strides, the order of bytes, premultiplied alpha.
+#pragma once
+
+#include "halflit/settings.hpp"
+#include "halflit/target.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace halflit::raster {
+
+/// Fails (usage) for a stride that is smaller than a row, and for an address or a stride that its type cannot have.
+[[nodiscard]] Result<void> check_target(const Target& target, const Region& region);
+
+/// One plane: `channels` values of type T a pixel, addressed by the picture's coordinates.
+template <class T>
+class Plane {
+public:
+    Plane() = default;
+    /// `row_bytes` 0: rows of `width` pixels follow one another. (x0, y0): the picture's pixel that lies at `data`.
+    Plane(T* data, std::size_t row_bytes, int channels, int width, int x0, int y0)
+        : data_(data),
+          row_bytes_(row_bytes != 0 ? row_bytes : sizeof(T) * static_cast<std::size_t>(channels) * static_cast<std::size_t>(width)),
+          channels_(channels),
+          x0_(x0),
+          y0_(y0) {}
+
+    explicit operator bool() const { return data_ != nullptr; }
+    [[nodiscard]] T* at(int x, int y) const {
+        char* row = reinterpret_cast<char*>(data_) + static_cast<std::size_t>(y - y0_) * row_bytes_;
+        return reinterpret_cast<T*>(row) + static_cast<std::ptrdiff_t>(channels_) * (x - x0_);
+    }
+
+private:
+    T* data_ = nullptr;
+    std::size_t row_bytes_ = 0;
+    int channels_ = 1, x0_ = 0, y0_ = 0;
+};
+
+class Output {
+public:
+    /// `region`: the pixels that are drawn, never empty.
+    Output(const Target& target, const Region& region);
+
+    /// Writes `count` neighbours of a row, from straight RGBA codes.
+    void write_codes(int x, int y, const std::uint32_t* codes, int count) const;
+    /// Writes one pixel, from straight linear RGBA.
+    void write_linear(int x, int y, float red, float green, float blue, float alpha) const;
+
+    Plane<std::uint8_t> codes;
+    Plane<float> linear, depth, normal;
+    Plane<std::uint32_t> instance, triangle;
+    [[nodiscard]] bool has_planes() const { return depth || normal || instance || triangle; }
+
+private:
+    bool straight_rgba_;  ///< codes are copied as they are
+    bool bgra_, premultiplied_;
+};
+
+}  // namespace halflit::raster

@@ -1,0 +1,223 @@
+#include "raster/scene/prepared_data.hpp"
+
+#include "raster/detail/executor.hpp"
+#include "raster/detail/guarded.hpp"
+#include "raster/scene/placed_box.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+#include <string>
+
+namespace halflit::raster {
+namespace {
+
+std::uint64_t next_revision() {
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
+}
+
+SceneRevision all_new_revisions() { return {next_revision(), next_revision(), next_revision(), next_revision()}; }
+
+shading::SlotMask slots_of(const Mesh& mesh) {
+    shading::SlotMask slots = shading::kBaseSlots;
+    if (!mesh.tangents.empty()) slots |= shading::kTangentSlot;
+    if (!mesh.colors.empty()) slots |= shading::kColorSlot;
+    if (!mesh.uv1.empty()) slots |= shading::kUv1Slot;
+    return slots;
+}
+
+Result<void> check_material(const Material& material, std::size_t index, std::size_t texture_count) {
+    for (const TextureUse* use : {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
+                                  &material.occlusion_texture, &material.emissive_texture})
+        if (use->used() && static_cast<std::size_t>(use->texture) >= texture_count)
+            return fail(ErrorCode::bad_input, "material " + std::to_string(index) + ": refers to texture " + std::to_string(use->texture) +
+                                                  ", but the scene has " + std::to_string(texture_count));
+    if (const auto lobe = check_lobe(material.lobe); !lobe)
+        return fail(lobe.error().code, "material " + std::to_string(index) + ": lobe: " + lobe.error().message);
+    return {};
+}
+
+constexpr double kRootOfThree = 1.7320508075688772;
+
+/// Instances per task that computes boxes.
+constexpr std::size_t kInstancesPerTask = 256;
+
+}  // namespace
+
+Result<void> PreparedData::prepare(std::size_t index, Executor& executor) {
+    const Mesh& mesh = scene_->meshes[index];
+    const auto failed = [&](const Error& error) { return fail(error.code, "mesh " + std::to_string(index) + ": " + error.message); };
+    auto prepared = prepare_mesh(mesh, executor);
+    if (!prepared) return failed(prepared.error());
+    if (mesh.material >= 0 && static_cast<std::size_t>(mesh.material) >= scene_->materials.size())
+        return failed({ErrorCode::bad_input, "the material index is out of range"});
+    meshes_[index] = std::move(*prepared);
+    return {};
+}
+
+Result<void> PreparedData::prepare_meshes(std::span<const std::size_t> which, Executor& executor) {
+    // Small meshes side by side, each by one task; large ones one after the other, each by all threads. The first fault counts.
+    constexpr std::size_t kLargeMesh = 1 << 16;  // indices
+    std::vector<Result<void>> results(which.size());
+    const auto large = [&](std::size_t mesh) { return scene_->meshes[mesh].indices.size() >= kLargeMesh; };
+    executor.run(static_cast<int>(which.size()), [&](int i) {
+        const auto k = static_cast<std::size_t>(i);
+        if (large(which[k])) return;
+        Executor alone;
+        results[k] = prepare(which[k], alone);
+    });
+    for (std::size_t k = 0; k < which.size(); ++k) {
+        if (large(which[k])) results[k] = prepare(which[k], executor);
+        if (!results[k]) return results[k];
+    }
+    return {};
+}
+
+Result<void> PreparedData::check_instance(std::size_t index) const {
+    const int mesh = scene_->instances[index].mesh;
+    if (mesh >= 0 && static_cast<std::size_t>(mesh) < scene_->meshes.size()) return {};
+    return fail(ErrorCode::bad_input, "instance " + std::to_string(index) + " names mesh " + std::to_string(mesh) + " of " +
+                                          std::to_string(scene_->meshes.size()));
+}
+
+void PreparedData::place(std::size_t index) {
+    const Instance& instance = scene_->instances[index];
+    instance_bounds_[index] = placed_bounds(source_mesh(instance.mesh), mesh(instance.mesh), instance.world_from_object);
+}
+
+Result<void> PreparedData::check_materials() const {
+    for (std::size_t i = 0; i < scene_->materials.size(); ++i)
+        if (auto ok = check_material(scene_->materials[i], i, scene_->textures.size()); !ok) return ok;
+    return {};
+}
+
+bool PreparedData::note_coverage() {
+    std::vector<std::pair<AlphaMode, bool>> coverage;
+    bool masks = false;  // they cover what their textures say, which are not compared
+    for (const Material& material : scene_->materials) {
+        coverage.emplace_back(material.alpha_mode, material.double_sided);
+        masks |= material.alpha_mode == AlphaMode::mask;
+    }
+    const bool same = coverage == coverage_ && !masks;
+    coverage_ = std::move(coverage);
+    return !same;
+}
+
+void PreparedData::collect() {
+    bounds_ = {};
+    triangle_count_ = 0;
+    available_slots_.assign(scene_->materials.size() + 1, shading::kBaseSlots);
+    drawn_materials_.assign(scene_->materials.size() + 1, false);
+    object_radii_.assign(scene_->materials.size() + 1, 0.0);
+    largest_uv_ = 0;
+    largest_color_ = 1;
+    for (const Mesh& mesh : scene_->meshes) available_slots_[material_of(mesh)] |= slots_of(mesh);
+    for (std::size_t i = 0; i < scene_->instances.size(); ++i) {
+        const Mesh& mesh = source_mesh(scene_->instances[i].mesh);
+        if (mesh.indices.empty()) continue;
+        bounds_.include(instance_bounds_[i]);
+        triangle_count_ += mesh.indices.size() / 3;
+        const std::size_t material = material_of(mesh);
+        drawn_materials_[material] = true;
+        const Bounds& box = instance_bounds_[i];
+        if (!box.empty) object_radii_[material] = std::max(object_radii_[material], static_cast<double>(box.radius()) / kRootOfThree);
+        const PreparedMesh& prepared = this->mesh(scene_->instances[i].mesh);
+        largest_uv_ = std::max(largest_uv_, static_cast<double>(prepared.largest_uv));
+        largest_color_ = std::max(largest_color_, static_cast<double>(prepared.largest_color));
+    }
+}
+
+Result<PreparedData> PreparedData::make(const Scene& scene, const Execution& execution) {
+    return guarded("preparing a scene", [&]() -> Result<PreparedData> {
+        Executor executor;
+        executor.configure(execution.threads, execution.parallel_for);
+        PreparedData prepared;
+        prepared.scene_ = &scene;
+        prepared.meshes_.resize(scene.meshes.size());
+        std::vector<std::size_t> all(scene.meshes.size());
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        if (auto ok = prepared.prepare_meshes(all, executor); !ok) return tl::unexpected<Error>(ok.error());
+        if (auto ok = prepared.check_materials(); !ok) return tl::unexpected<Error>(ok.error());
+        for (std::size_t i = 0; i < scene.instances.size(); ++i)
+            if (auto ok = prepared.check_instance(i); !ok) return tl::unexpected<Error>(ok.error());
+        prepared.instance_bounds_.resize(scene.instances.size());
+        executor.run(static_cast<int>((scene.instances.size() + kInstancesPerTask - 1) / kInstancesPerTask), [&](int task) {
+            const std::size_t begin = static_cast<std::size_t>(task) * kInstancesPerTask;
+            for (std::size_t i = begin; i < std::min(begin + kInstancesPerTask, scene.instances.size()); ++i) prepared.place(i);
+        });
+        prepared.collect();
+        prepared.note_coverage();
+        prepared.revision_ = all_new_revisions();
+        return prepared;
+    });
+}
+
+Result<void> PreparedData::update(const SceneChanges& changes, const Execution& execution) {
+    up_to_date_ = false;
+    auto result = guarded("updating a scene", [&]() -> Result<void> {
+        if (auto ok = note(changes); !ok) return ok;
+        return apply_pending(execution);
+    });
+    if (result) {
+        pending_ = {};
+        up_to_date_ = true;
+    } else {
+        revision_ = all_new_revisions();  // nothing made before is used again
+    }
+    return result;
+}
+
+Result<void> PreparedData::note(const SceneChanges& changes) {
+    Result<void> result;
+    const auto add = [&](const char* what, const std::vector<std::size_t>& told, std::size_t count, std::vector<std::size_t>& to) {
+        for (const std::size_t i : told) {
+            if (i < count)
+                to.push_back(i);
+            else
+                result = fail(ErrorCode::usage, std::string(what) + " " + std::to_string(i) +
+                                                    " is told to have changed, but the scene has " + std::to_string(count));
+        }
+    };
+    add("mesh", changes.deformed_meshes, meshes_.size(), pending_.deformed_meshes);
+    add("instance", changes.moved_instances, instance_bounds_.size(), pending_.moved_instances);
+    pending_.materials |= changes.materials;
+    pending_.lights |= changes.lights;
+    return result;
+}
+
+Result<void> PreparedData::apply_pending(const Execution& execution) {
+    const Scene& scene = *scene_;
+    if (scene.meshes.size() != meshes_.size() || scene.instances.size() != instance_bounds_.size() ||
+        scene.materials.size() + 1 != drawn_materials_.size())
+        return fail(ErrorCode::usage, "the scene has other numbers of meshes, instances or materials than when it was prepared");
+    const bool deformed = !pending_.deformed_meshes.empty();
+    if (deformed) {
+        Executor executor;
+        executor.configure(execution.threads, execution.parallel_for);
+        std::vector<std::size_t>& which = pending_.deformed_meshes;
+        std::sort(which.begin(), which.end());
+        which.erase(std::unique(which.begin(), which.end()), which.end());
+        if (auto ok = prepare_meshes(which, executor); !ok) return ok;
+        for (std::size_t i = 0; i < scene.instances.size(); ++i)
+            if (std::binary_search(which.begin(), which.end(), static_cast<std::size_t>(scene.instances[i].mesh))) place(i);
+    }
+    for (const std::size_t i : pending_.moved_instances) {
+        if (auto ok = check_instance(i); !ok) return ok;
+        place(i);
+    }
+    if (deformed || pending_.materials)
+        if (auto ok = check_materials(); !ok) return ok;
+    if (deformed || !pending_.moved_instances.empty()) {
+        collect();
+        revision_.geometry = next_revision();
+    }
+    if (deformed || pending_.materials) {
+        revision_.materials = next_revision();
+        if (note_coverage()) revision_.coverage = next_revision();
+    }
+    if (pending_.lights) revision_.lights = next_revision();
+    return {};
+}
+
+}  // namespace halflit::raster

@@ -1,0 +1,94 @@
+// What halflit::PreparedScene holds: the meshes' clusters, the instances' boxes, and sums over the scene.
+#pragma once
+
+#include "halflit/error.hpp"
+#include "halflit/prepared_scene.hpp"
+#include "halflit/scene.hpp"
+#include "raster/scene/prepared_mesh.hpp"
+#include "shading/fragment_block.hpp"
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace halflit::raster {
+
+/// Revision numbers. They grow with every change and differ between scenes: results made from a scene are valid while they are equal.
+struct SceneRevision {
+    std::uint64_t geometry = 0, materials = 0, lights = 0;
+    std::uint64_t coverage = 0;  ///< changes with the materials' sides, alpha modes and masks, but not with their colours
+    friend bool operator==(const SceneRevision&, const SceneRevision&) = default;
+};
+
+/// Refers to the scene that it was made from: that must stay at its address, and update() must be told its changes. Reading is thread-safe.
+class PreparedData {
+public:
+    /// Fails for a faulty scene: an index out of range, arrays of different lengths, an invalid lobe.
+    [[nodiscard]] static Result<PreparedData> make(const Scene& scene, const Execution& execution = {});
+
+    /// Redoes what changed, and sums over all instances: 0.03 ms for one of 1,000 moved instances, 14 ms for one of a million. After an
+    /// error no frame is drawn until an update succeeds; that one also redoes what the failed ones were told.
+    [[nodiscard]] Result<void> update(const SceneChanges& changes, const Execution& execution = {});
+
+    [[nodiscard]] const Scene& scene() const { return *scene_; }
+    [[nodiscard]] const Mesh& source_mesh(int index) const { return scene_->meshes[static_cast<std::size_t>(index)]; }
+    [[nodiscard]] const SceneRevision& revision() const { return revision_; }
+    /// False after an update that failed.
+    [[nodiscard]] bool up_to_date() const { return up_to_date_; }
+    /// World-space box of everything drawn; the same as scene_bounds.
+    [[nodiscard]] const Bounds& bounds() const { return bounds_; }
+    [[nodiscard]] const PreparedMesh& mesh(int index) const { return meshes_[static_cast<std::size_t>(index)]; }
+    /// World-space box of each instance.
+    [[nodiscard]] std::span<const Bounds> instance_bounds() const { return instance_bounds_; }
+    /// Number of triangles over all instances.
+    [[nodiscard]] std::uint64_t triangle_count() const { return triangle_count_; }
+    /// The largest magnitude of a texture coordinate, and the largest channel of a vertex colour (at least 1), of what is drawn.
+    [[nodiscard]] double largest_uv() const { return largest_uv_; }
+    [[nodiscard]] double largest_color() const { return largest_color_; }
+
+    // Indexed by material, with one more entry at the end for meshes without a material:
+    /// Union of the attribute slots of the material's meshes.
+    [[nodiscard]] std::span<const shading::SlotMask> available_slots() const { return available_slots_; }
+    /// True if some instance with triangles has the material.
+    [[nodiscard]] const std::vector<bool>& drawn_materials() const { return drawn_materials_; }
+    [[nodiscard]] std::size_t material_of(const Mesh& mesh) const {
+        return mesh.material >= 0 ? static_cast<std::size_t>(mesh.material) : scene_->materials.size();
+    }
+    /// Half the diagonal of the box of the largest instance with the material, over sqrt(3): for a sphere its radius. World units; 0 if
+    /// there is no instance.
+    [[nodiscard]] std::span<const double> object_radii() const { return object_radii_; }
+    /// Material `index`, or the default material past the last one.
+    [[nodiscard]] const Material& material(std::size_t index) const {
+        return index < scene_->materials.size() ? scene_->materials[index] : no_material_;
+    }
+
+private:
+    PreparedData() = default;
+    Result<void> prepare(std::size_t mesh, Executor& executor);
+    Result<void> prepare_meshes(std::span<const std::size_t> which, Executor& executor);
+    Result<void> check_instance(std::size_t index) const;
+    Result<void> check_materials() const;
+    bool note_coverage();                            ///< returns true if it may differ from the last call's
+    void place(std::size_t instance);                ///< finds its box
+    Result<void> note(const SceneChanges& changes);  ///< adds them to pending_
+    Result<void> apply_pending(const Execution& execution);
+    void collect();  ///< sums over meshes and instances
+
+    const Scene* scene_ = nullptr;
+    SceneRevision revision_;
+    SceneChanges pending_;  ///< told, and not yet applied
+    bool up_to_date_ = true;
+    std::vector<PreparedMesh> meshes_;
+    std::vector<Bounds> instance_bounds_;
+    Bounds bounds_;
+    std::uint64_t triangle_count_ = 0;
+    double largest_uv_ = 0, largest_color_ = 1;
+    std::vector<double> object_radii_;
+    std::vector<shading::SlotMask> available_slots_;
+    std::vector<bool> drawn_materials_;
+    std::vector<std::pair<AlphaMode, bool>> coverage_;  ///< of each material: alpha mode, and whether both sides are drawn
+    Material no_material_;
+};
+
+}  // namespace halflit::raster

@@ -1,0 +1,106 @@
+// Vectors and matrices. Component order is x, y, z, w. Every sum has one fixed order, written out.
+//
+// What the library computes has the same bits on every machine. The vector operators below are compiled with the caller's flags: where
+// their results must be the same everywhere too, compile with -ffp-contract=off and without -ffast-math. The functions of matrices are the
+// library's own code, and need no flag.
+#pragma once
+
+#include "halflit/export.hpp"
+
+/// Forces inlining, also at -O0, so that a function shared by code built for different instruction sets leaves no symbol behind that the
+/// linker could merge.
+#define HALFLIT_INLINE inline __attribute__((always_inline))
+
+// clang-format off
+namespace halflit {
+
+template <class T>
+struct Vec2 {
+    T x{}, y{};
+    friend bool operator==(const Vec2&, const Vec2&) = default;  // constexpr where T's is
+};
+
+template <class T>
+struct Vec3 {
+    T x{}, y{}, z{};
+    friend bool operator==(const Vec3&, const Vec3&) = default;  // constexpr where T's is
+};
+
+template <class T>
+struct Vec4 {
+    T x{}, y{}, z{}, w{};
+    friend bool operator==(const Vec4&, const Vec4&) = default;  // constexpr where T's is
+};
+
+using Vec2f = Vec2<float>;
+using Vec3f = Vec3<float>;
+using Vec4f = Vec4<float>;
+using Vec3d = Vec3<double>;
+
+template <class T>
+HALFLIT_INLINE constexpr Vec2<T> operator+(Vec2<T> a, Vec2<T> b) { return {a.x + b.x, a.y + b.y}; }
+template <class T>
+HALFLIT_INLINE constexpr Vec2<T> operator-(Vec2<T> a, Vec2<T> b) { return {a.x - b.x, a.y - b.y}; }
+template <class T>
+HALFLIT_INLINE constexpr Vec2<T> operator*(Vec2<T> a, T s) { return {a.x * s, a.y * s}; }
+
+template <class T>
+HALFLIT_INLINE constexpr Vec3<T> operator+(Vec3<T> a, Vec3<T> b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+template <class T>
+HALFLIT_INLINE constexpr Vec3<T> operator-(Vec3<T> a, Vec3<T> b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+/// Component by component.
+template <class T>
+HALFLIT_INLINE constexpr Vec3<T> operator*(Vec3<T> a, Vec3<T> b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+template <class T>
+HALFLIT_INLINE constexpr Vec3<T> operator*(Vec3<T> a, T s) { return {a.x * s, a.y * s, a.z * s}; }
+
+template <class T>
+HALFLIT_INLINE constexpr Vec4<T> operator+(Vec4<T> a, Vec4<T> b) { return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w}; }
+template <class T>
+HALFLIT_INLINE constexpr Vec4<T> operator-(Vec4<T> a, Vec4<T> b) { return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w}; }
+template <class T>
+HALFLIT_INLINE constexpr Vec4<T> operator*(Vec4<T> a, T s) { return {a.x * s, a.y * s, a.z * s, a.w * s}; }
+
+/// (a.x b.x + a.y b.y) + a.z b.z
+template <class T>
+HALFLIT_INLINE constexpr T dot(Vec3<T> a, Vec3<T> b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
+
+template <class T>
+HALFLIT_INLINE constexpr Vec3<T> cross(Vec3<T> a, Vec3<T> b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Length by one correctly rounded square root; overflows above 1.8e19 and underflows below 1e-23 in float.
+HALFLIT_INLINE float length(Vec3f v) { return __builtin_sqrtf(dot(v, v)); }
+HALFLIT_INLINE double length(Vec3d v) { return __builtin_sqrt(dot(v, v)); }
+
+/// v / |v|, computed in double so that every finite float vector keeps its direction; `fallback` for zero, NaN, infinity.
+HALFLIT_INLINE Vec3f normalize_or(Vec3f v, Vec3f fallback) {
+    const Vec3d d{v.x, v.y, v.z};
+    const double len = length(d);
+    if (!(len > 0.0) || !(len < 1e300)) return fallback;
+    return {static_cast<float>(d.x / len), static_cast<float>(d.y / len), static_cast<float>(d.z / len)};
+}
+
+/// A 4x4 matrix, column major: c[j] is the image of basis vector j. A point p maps to ((c0 x + c1 y) + c2 z) + c3.
+struct Mat4 {
+    Vec4f c[4]{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+    [[nodiscard]] static constexpr Mat4 identity() { return {}; }
+    friend constexpr bool operator==(const Mat4&, const Mat4&) = default;
+};
+
+[[nodiscard]] HALFLIT_API Vec4f operator*(const Mat4& m, Vec4f v);
+/// Applies b first, then a.
+[[nodiscard]] HALFLIT_API Mat4 operator*(const Mat4& a, const Mat4& b);
+
+[[nodiscard]] HALFLIT_API Mat4 translation(Vec3f t);
+[[nodiscard]] HALFLIT_API Mat4 scaling(Vec3f s);
+/// Rotation by the unit quaternion (x, y, z, w), as glTF stores it.
+[[nodiscard]] HALFLIT_API Mat4 rotation(Vec4f quaternion);
+/// Rotation about an axis of any length, counter-clockwise seen against the axis. The identity if the axis has no direction.
+[[nodiscard]] HALFLIT_API Mat4 rotation(Vec3f axis, float angle_rad);
+/// Place of a camera (Camera::world_from_camera) or of any object that looks along its -z: at `eye`, looking at `target`, with `up` upwards in
+/// the picture. Where `up` is parallel to the view, or the target is the eye, another axis is taken, so that the result is always rigid.
+[[nodiscard]] HALFLIT_API Mat4 look_at(Vec3f eye, Vec3f target, Vec3f up = {0, 1, 0});
+
+}  // namespace halflit

@@ -1,0 +1,36 @@
+// Materials: the glTF metallic-roughness parameters, and the lobe that shapes diffuse light.
+#pragma once
+
+#include "halflit/lobe.hpp"
+#include "halflit/math.hpp"
+#include "halflit/texture.hpp"
+
+#include <cstdint>
+#include <string>
+
+namespace halflit {
+
+enum class AlphaMode : std::uint8_t { opaque, mask, blend };
+
+struct Material {
+    std::string name;
+    Vec4f base_color{1, 1, 1, 1};  ///< linear; w is alpha
+    float metallic = 1.0f, roughness = 1.0f;
+    Vec3f emissive{0, 0, 0};  ///< linear, KHR_materials_emissive_strength multiplied in
+    float normal_scale = 1.0f;
+    float occlusion_strength = 1.0f;
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    float alpha_cutoff = 0.5f;  ///< mask: drawn where alpha >= cutoff
+    bool double_sided = false;
+    bool unlit = false;         ///< colour is base_color (times texture and vertex colour), no light
+    Lobe lobe;                  ///< diffuse lobe
+    bool has_own_lobe = false;  ///< the file chose the lobe; a setting for all materials does not replace it
+
+    TextureUse base_color_texture;          ///< sRGB, alpha linear
+    TextureUse metallic_roughness_texture;  ///< linear: G roughness, B metallic
+    TextureUse normal_texture;              ///< linear: tangent space, (2c - 1) * (scale, scale, 1)
+    TextureUse occlusion_texture;           ///< linear: R
+    TextureUse emissive_texture;            ///< sRGB
+};
+
+}  // namespace halflit

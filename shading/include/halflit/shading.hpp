@@ -1,0 +1,89 @@
+// Settings of shading: how often light is computed, by which lobes and highlights, how exactly, and the bound on the error.
+#pragma once
+
+#include "halflit/lobe.hpp"
+
+#include <cstdint>
+#include <optional>
+
+namespace halflit {
+
+enum class Accuracy : std::uint8_t {
+    reference,  ///< float64 and the C library, environments by direct integration: slow; errors are measured against it
+    exact,      ///< float32, elementary functions within about 2 ulp
+    display,    ///< relative error of t^n: 2.6e-6 n + 3e-6; at most one 8-bit code from exact, and that rarely
+    fast        ///< relative error of t^n: 1.3e-4 n + 1e-4
+};
+
+/// Bound on the error of a frame in 8-bit sRGB codes: 255 times the encoded value, before it is rounded to a whole code, of a pixel that
+/// one surface fills. `codes` is the sum of the parts below it, for the material where that sum is largest.
+struct ErrorBound {
+    double budget = 0;  ///< codes asked for; 0: no budget, and nothing below is known
+    double codes = 0;
+    bool within = true;      ///< codes <= budget; if not, rounding and bands alone exceed it for some material, which is computed exactly
+    double rounding = 0;     ///< float32 itself, and texture filters
+    double lobes = 0;        ///< shorter polynomials for t^n, or curves
+    double specular = 0;     ///< shorter polynomials for cos^s, or curves
+    double environment = 0;  ///< bands left out
+    double left_out = 0;     ///< lights beyond their cutoff radius, and highlights too weak to see
+};
+
+/// Effect of a shadow on light through a lobe f that reaches past the terminator, where x = N.L = 0. V is the visibility by the shadow map.
+enum class ShadowMode : std::uint8_t {
+    off,        ///< f
+    hard,       ///< V f: a step of f(0) where the surface turns away from the light
+    soft_split  ///< V core + W excess, core = min(f, max(0, x)), excess = f - core, W = max(V, T) for each texel; T: raster/README.md
+};
+
+/// Shape of the highlight. Phong uses the mirrored light, Blinn the half vector. Blinn's exponent is four times Phong's, which gives the
+/// same width.
+enum class SpecularModel : std::uint8_t { none, phong, blinn };
+
+/// Upper limit of the texture filters.
+enum class TextureDetail : std::uint8_t {
+    full,      ///< the sampler's own filters
+    bilinear,  ///< one mip level, the nearest
+    nearest    ///< one texel of that level, the nearest
+};
+
+/// Rate at which light is evaluated. Textures and base colour are always read at every pixel.
+enum class ShadingRate : std::uint8_t {
+    flat,     ///< once a visible triangle, at its centroid, with the triangle's own normal
+    gouraud,  ///< once a vertex, interpolated
+    pixel
+};
+
+struct ShadingSettings {
+    ShadingRate rate = ShadingRate::pixel;
+    std::optional<Lobe> lobe;                       ///< replaces the lobe of all materials but those with Material::has_own_lobe
+    SpecularModel specular = SpecularModel::blinn;  ///< none: no specular stage, albedo is the base colour itself
+    bool normalize_specular = true;  ///< times (s + 8) / 8, so that sharper highlights are brighter; off: a peak of 1 for every exponent
+    int environment_bands = 0;       ///< of spherical harmonics, 1..10; 0: the fewest whose error is within environment_tolerance
+    double environment_tolerance = 1.0 / 510.0;  ///< relative to display white, in linear light; the default is half an 8-bit code
+    Accuracy accuracy = Accuracy::exact;
+    /// An error budget in 8-bit codes. 0: `accuracy` decides. Above 0: the cheapest way whose proven bound is below this (ErrorBound), for
+    /// ShadingRate::pixel, TextureDetail::full and Accuracy::exact alone.
+    double max_error_codes = 0.0;
+    TextureDetail texture_detail = TextureDetail::full;
+    friend bool operator==(const ShadingSettings&, const ShadingSettings&) = default;
+};
+
+/// Stages of shading, one bit each. A fragment runs only those that its material requires.
+enum Stage : std::uint32_t {
+    kStageBaseColorTexture = 1u << 0,
+    kStageVertexColor = 1u << 1,
+    kStageNormalMap = 1u << 2,
+    kStageMetallicRoughnessTexture = 1u << 3,
+    kStageOcclusionTexture = 1u << 4,
+    kStageEmissiveTexture = 1u << 5,
+    kStageLights = 1u << 6,
+    kStageSpecular = 1u << 7,
+    kStageAmbient = 1u << 8,
+    kStageUnlit = 1u << 9,
+    kStageGradients = 1u << 10,    ///< some texture's level or filter depends on how fast its coordinates change
+    kStagePrelit = 1u << 11,       ///< the fragments bring their light: a shading rate below one a pixel
+    kStageEnvironment = 1u << 12,  ///< the ambient light is an environment's, in spherical harmonics
+    kStageCount = 13
+};
+
+}  // namespace halflit
