@@ -26,7 +26,6 @@ struct Times {
 class Subject {
 public:
     Subject(std::uint32_t seed, int width, double codes) : trial_(test::random_trial(seed)), width_(width), height_(width * 3 / 4) {
-        trial_.settings.threads = 1;
         // Shadow maps take most of the frame and are the same for both.
         trial_.settings.shadows = ShadowMode::off;
         rgba8_.resize(static_cast<std::size_t>(4 * width_ * height_));
@@ -46,7 +45,8 @@ public:
 
 private:
     bool draw(const Settings& settings, Times& times) {
-        const auto report = renderer_.render(trial_.scene, trial_.camera, settings, {width_, height_, rgba8_.data(), nullptr});
+        const auto report =
+            renderer_.render(trial_.scene, trial_.camera, settings, {width_, height_, rgba8_.data(), nullptr}, {.threads = 1});
         if (!report) return false;
         times.tiles = std::min(times.tiles, report->ms.tiles);
         times.plan = std::min(times.plan, report->ms.plan);

@@ -91,7 +91,7 @@ int main(int argc, char** argv) {
     const float power = argc > 2 ? static_cast<float>(std::atof(argv[2])) : 1.3f;
     const float roughness = argc > 3 ? static_cast<float>(std::atof(argv[3])) : 0.4925f;
     const Scene scene = eight_lamps(power, roughness);
-    const auto prepared = raster::PreparedScene::make(scene);
+    const auto prepared = PreparedScene::make(scene);
     if (!prepared) {
         std::fprintf(stderr, "%s\n", prepared.error().message.c_str());
         return 1;
@@ -102,7 +102,7 @@ int main(int argc, char** argv) {
         settings.shadows = ShadowMode::off;
         settings.shading.accuracy = accuracy;
         settings.shading.max_error_codes = codes;
-        const auto plan = raster::plan_frame(*prepared, scene.cameras.front(), settings, 1920, 1080);
+        const auto plan = raster::plan_frame(prepared->data(), scene.cameras.front(), settings, 1920, 1080);
         if (!plan) {
             std::fprintf(stderr, "%s\n", plan.error().message.c_str());
             std::exit(1);

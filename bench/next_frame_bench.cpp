@@ -72,7 +72,8 @@ struct Cost {
 
 class Frames {
 public:
-    explicit Frames(const Subject& subject) : name_(subject.name), scene_(subject.scene), rgba8_(std::size_t{4} * kWidth * kHeight) {
+    Frames(const Subject& subject, int threads)
+        : name_(subject.name), scene_(subject.scene), execution_{.threads = threads}, rgba8_(std::size_t{4} * kWidth * kHeight) {
         auto prepared = PreparedScene::make(scene_);
         if (!prepared) std::exit(1);
         prepared_.push_back(*std::move(prepared));
@@ -81,7 +82,7 @@ public:
     }
 
     RenderReport draw(const Settings& settings) {
-        auto report = renderer_.render(prepared_[0], camera_, settings, {kWidth, kHeight, rgba8_.data(), nullptr});
+        auto report = renderer_.render(prepared_[0], camera_, settings, {kWidth, kHeight, rgba8_.data(), nullptr}, execution_);
         if (!report) {
             std::fprintf(stderr, "%s: %s\n", name_.c_str(), report.error().message.c_str());
             std::exit(1);
@@ -122,6 +123,7 @@ private:
     }
     std::string name_;
     Scene scene_;
+    Execution execution_;
     std::vector<PreparedScene> prepared_;  // one element
     Camera camera_;
     Renderer renderer_;
@@ -132,8 +134,7 @@ void next_frames(const Subject& subject, int frames, int threads) {
     for (const int samples : {1, 4}) {
         Settings settings;
         settings.samples = samples;
-        settings.threads = threads;
-        Frames scene(subject);
+        Frames scene(subject, threads);
         (void)scene.draw(settings);
         const auto row = [&](const char* what, const std::function<void()>& change) {
             const Cost cost = scene.measure(settings, frames, change);
@@ -149,11 +150,10 @@ void next_frames(const Subject& subject, int frames, int threads) {
 }
 
 void budget_by_turns(const Subject& subject, int frames, int threads) {
-    Settings exact;
-    exact.threads = threads;
+    const Settings exact;
     Settings budget = exact;
     budget.shading.max_error_codes = 0.5;
-    Frames one(subject), other(subject);
+    Frames one(subject, threads), other(subject, threads);
     Cost best[2];
     for (int i = 0; i < frames; ++i) {
         for (int turn = 0; turn < 2; ++turn) {

@@ -119,7 +119,7 @@ shading::ShadingPlan plan(const Material& material, const std::vector<Light>& li
     const shading::SlotMask slots[] = {all, all};
     ShadingSettings options;
     options.specular = specular ? SpecularModel::blinn : SpecularModel::none;
-    options.environment_order.fixed = order;
+    options.environment_bands = order;
     shading::ShadingPlan frame = plan_shading(
         {{&material, 1}, textures, slots, plan_lights(lights), {}, options, order > 0 ? shading::borrowed(some_environment()) : nullptr});
     frame.eye_ws = {0.2f, 0.3f, 6.0f};

@@ -66,6 +66,7 @@ function(halflit_kernel_objects layer out header)
         set(target halflit_${layer}_${isa})
         add_library(${target} OBJECT ${source})
         target_link_libraries(${target} PRIVATE halflit_flags)
+        set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
         target_compile_options(${target} PRIVATE ${HALFLIT_FLAGS_${isa}} -fno-exceptions -Wno-ignored-attributes
             $<$<CXX_COMPILER_ID:GNU>:-fschedule-insns -fsched-pressure -Wno-psabi> ${ARGN})
         list(APPEND objects $<TARGET_OBJECTS:${target}>)

@@ -2,11 +2,10 @@
 
 #include "sh/mat4.hpp"
 #include "sh/trig.hpp"
+#include "sh/vec3d.hpp"
 
 namespace halflit {
 namespace {
-
-Vec3d to_double(Vec3f v) { return {v.x, v.y, v.z}; }
 
 Vec4f column(Vec3d v, float w) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), w}; }
 

@@ -1,12 +1,12 @@
 #include "sh/order.hpp"
 
+#include "sh/vec3d.hpp"
+
 namespace halflit::sh {
 namespace {
 
 constexpr int kGridBands = 24, kGridRows = 96, kGridColumns = 192;
 
-double absolute(double x) { return x < 0 ? -x : x; }
-Vec3d absolute(Vec3d v) { return {absolute(v.x), absolute(v.y), absolute(v.z)}; }
 Vec3d larger(Vec3d a, Vec3d b) { return {a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z}; }
 Vec3d smaller(Vec3d a, Vec3d b) { return {a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z}; }
 

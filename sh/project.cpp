@@ -2,6 +2,7 @@
 
 #include "sh/detail/legendre.hpp"
 #include "sh/rotate.hpp"
+#include "sh/vec3d.hpp"
 
 #include <limits>
 
@@ -119,8 +120,6 @@ void integrate_row(int height, int row, const std::vector<GaussNode>& rule, std:
 
 double positive_sqrt(double x) { return x > 0.0 ? __builtin_sqrt(x) : 0.0; }
 Vec3d positive_sqrt(Vec3d v) { return {positive_sqrt(v.x), positive_sqrt(v.y), positive_sqrt(v.z)}; }
-double absolute(double x) { return x < 0 ? -x : x; }
-
 }  // namespace
 
 Projection::Projection(const EquirectView& image) { add_rows(image, 0, image.height, 1.0); }

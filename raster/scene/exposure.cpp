@@ -2,6 +2,7 @@
 
 #include "sh/equirect.hpp"
 #include "sh/power.hpp"
+#include "sh/vec3d.hpp"
 
 #include <algorithm>
 
@@ -9,8 +10,6 @@ namespace halflit {
 namespace {
 
 constexpr float kSkyShare = 0.10f, kGroundShare = 0.05f;  // keeps unlit sides readable, but clearly dark
-
-Vec3d to_double(Vec3f v) { return {v.x, v.y, v.z}; }
 
 Vec3d level(const Scene& scene, const Bounds& bounds) {
     const Vec3d center = bounds.empty ? Vec3d{} : to_double(bounds.center());

@@ -1,5 +1,7 @@
 #include "halflit/mesh.hpp"
 
+#include "sh/vec3d.hpp"
+
 #include <cstddef>
 #include <utility>
 
@@ -15,8 +17,6 @@ void unshare(std::vector<T>& values, const std::vector<std::uint32_t>& indices) 
     for (const std::uint32_t index : indices) spread.push_back(values[index]);
     values = std::move(spread);
 }
-
-Vec3d to_double(Vec3f v) { return {v.x, v.y, v.z}; }
 
 /// Normal of a triangle. In double, so that the squares of any finite float edge stay finite and above zero.
 Vec3f triangle_normal(Vec3f a, Vec3f b, Vec3f c) {

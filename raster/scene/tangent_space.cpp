@@ -3,6 +3,7 @@
 #include "sh/arc.hpp"
 
 #include "sh/config.hpp"
+#include "sh/vec3d.hpp"
 
 #include <algorithm>
 #include <array>
@@ -18,7 +19,6 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
-Vec3d to_double(Vec3f v) { return {v.x, v.y, v.z}; }
 bool is_usable(double x) { return x > 1e-300 && x < 1e300; }  // neither zero, infinite nor NaN
 
 Vec3d unit_or_zero(Vec3d v) {

@@ -1,5 +1,6 @@
 #include "shading/reference/reference.hpp"
 
+#include "sh/vec3d.hpp"
 #include "shading/model/constants.hpp"
 #include "shading/model/srgb.hpp"
 
@@ -13,7 +14,6 @@ namespace {
 constexpr double kHeldRoughness = 0.07, kDielectric = 0.04;
 static_assert(static_cast<float>(kHeldRoughness) == kMinRoughness && static_cast<float>(kDielectric) == kDielectricReflectance);
 
-Vec3d to_double(Vec3f v) { return {v.x, v.y, v.z}; }
 Vec3d scale(Vec3d v, double s) { return {v.x * s, v.y * s, v.z * s}; }
 Vec3d unit(Vec3d v) {
     const double length = std::hypot(v.x, v.y, v.z);

@@ -2,6 +2,7 @@
 // orders 1 to 10. The figures are in sh/README.md; run with -s to see them.
 #include "halflit/image.hpp"
 #include "sh/sun.hpp"
+#include "shading/environment.hpp"
 #include "tests/sh/full_size.hpp"
 #include "tests/support/all_cores.hpp"
 #include "tests/support/assets.hpp"

@@ -1,3 +1,4 @@
+#include "shading/environment.hpp"
 #include "halflit/image.hpp"
 
 #include "sh/sun.hpp"
@@ -32,8 +33,8 @@ void check_environment_bounds(const char* name, int factor, int normal_count, Ch
     INFO(name);
     const EnvironmentImage environment = load(name);
     const auto normals = random_normals(normal_count, 81);
-    check_bounds(downsampled(environment.view(), factor), normals, 1e-3, as_is);
-    const SunExtraction found = extract_suns(environment.view(), Projection(environment.view()));
+    check_bounds(downsampled(shading::view_of(environment), factor), normals, 1e-3, as_is);
+    const SunExtraction found = extract_suns(shading::view_of(environment), Projection(shading::view_of(environment)));
     if (found.suns.empty()) return;
     const EquirectView rest{environment.width, environment.height, found.residual_rgb};
     check_bounds(downsampled(rest, factor), normals, 1e-3, without_suns);
@@ -52,7 +53,7 @@ TEST_CASE("environment: the shared pictures have the mean radiance that an indep
         const EnvironmentImage environment = load(kNames[i]);
         CHECK(environment.width == 1024);
         CHECK(environment.height == 512);
-        const Vec3d mean = Projection(environment.view()).mean();
+        const Vec3d mean = Projection(shading::view_of(environment)).mean();
         CHECK(mean.x == Approx(known[i].mean.x).epsilon(5e-4));  // four digits; rows weighted by the sine in their middle
         CHECK(mean.y == Approx(known[i].mean.y).epsilon(5e-4));
         CHECK(mean.z == Approx(known[i].mean.z).epsilon(5e-4));
@@ -77,8 +78,8 @@ TEST_CASE("environment: suns of the shared pictures keep all energy and lower th
     for (std::size_t i = 0; i < 3; ++i) {
         INFO(kNames[i]);
         const EnvironmentImage environment = load(kNames[i]);
-        const Projection full(environment.view());
-        const SunExtraction found = extract_suns(environment.view(), full);
+        const Projection full(shading::view_of(environment));
+        const SunExtraction found = extract_suns(shading::view_of(environment), full);
         CHECK((counts[i] == 0 ? found.suns.empty() : found.suns.size() >= counts[i]));
         Vec3d energy = found.residual.mean() * (4 * kPi);
         for (const Sun& sun : found.suns) energy = energy + sun.irradiance;
@@ -96,8 +97,8 @@ TEST_CASE("environment: the built-in sky has the sun and the colours that are do
     REQUIRE(sky.width == 512);
     REQUIRE(sky.height == 256);
     for (const float v : sky.rgb) REQUIRE((v >= 0 && v < 1e4f));
-    const Projection full(sky.view());
-    const SunExtraction found = extract_suns(sky.view(), full);
+    const Projection full(shading::view_of(sky));
+    const SunExtraction found = extract_suns(shading::view_of(sky), full);
     REQUIRE(found.suns.size() == 1);
     const Sun& sun = found.suns[0];
     CHECK(std::asin(sun.direction.y) * 180 / kPi == Approx(40).margin(0.2));
@@ -106,7 +107,7 @@ TEST_CASE("environment: the built-in sky has the sun and the colours that are do
     CHECK(sun.irradiance.x / kPi == Approx(1.0).epsilon(0.03));
     CHECK(sun.irradiance.z / kPi == Approx(0.78).epsilon(0.03));
     // Blue overhead, pale at the horizon, darker below.
-    const auto value = [&](double u, double v) { return sky.view().at(static_cast<int>(u * 512), static_cast<int>(v * 256)); };
+    const auto value = [&](double u, double v) { return shading::view_of(sky).at(static_cast<int>(u * 512), static_cast<int>(v * 256)); };
     CHECK(value(0.2, 0.02).z > 2 * value(0.2, 0.02).x);
     CHECK(luminance(value(0.2, 0.47)) > luminance(value(0.2, 0.02)));
     CHECK(luminance(value(0.2, 0.9)) < luminance(value(0.2, 0.47)));
@@ -115,9 +116,8 @@ TEST_CASE("environment: the built-in sky has the sun and the colours that are do
     CHECK(luminance(evaluate(lambert, {0, -1, 0})) < 0.25);
 }
 
-TEST_CASE("environment: a name gives the sky or a file, the error for a missing file names it", "[io][environment]") {
-    CHECK(environment_by_name("sky")->rgb == built_in_sky().rgb);
-    const auto missing = environment_by_name("no/such/file.hdr");
+TEST_CASE("environment: the error for a missing file names it", "[io][environment]") {
+    const auto missing = read_environment("no/such/file.hdr");
     REQUIRE_FALSE(missing);
     CHECK(missing.error().code == ErrorCode::io);
     CHECK(missing.error().message.find("no/such/file.hdr") != std::string::npos);

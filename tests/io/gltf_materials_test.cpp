@@ -71,7 +71,6 @@ TEST_CASE("materials: one texture for each picture and colour space", "[io]") {
     CHECK(m.occlusion_strength == 0.5f);
     CHECK(m.normal_scale == 2.0f);
     CHECK(m.base_color_texture.sampler == Sampler{});
-    using namespace shading;
     CHECK(m.emissive_texture.sampler ==
           Sampler{TextureWrap::clamp, TextureWrap::mirror, TextureFilter::nearest, TextureFilter::linear, MipFilter::nearest});
     const Texture& texture = loaded.scene.textures[static_cast<std::size_t>(m.occlusion_texture.texture)];
@@ -82,7 +81,6 @@ TEST_CASE("materials: one texture for each picture and colour space", "[io]") {
 }
 
 TEST_CASE("materials: every minification filter of glTF is understood", "[io]") {
-    using namespace shading;
     const std::pair<int, std::pair<TextureFilter, MipFilter>> kinds[] = {
         {9728, {TextureFilter::nearest, MipFilter::none}},    {9729, {TextureFilter::linear, MipFilter::none}},
         {9984, {TextureFilter::nearest, MipFilter::nearest}}, {9985, {TextureFilter::linear, MipFilter::nearest}},

@@ -1,6 +1,7 @@
 // Comparison of the loader's reading of a model's JSON with tinygltf's, which shares no code with it.
 #include "apps/io/detail/glb_container.hpp"
 #include "apps/io/detail/gltf_json.hpp"
+#include "apps/io/file_access.hpp"
 #include "tests/io/rich_file.hpp"
 #include "tests/io/tinygltf.hpp"
 #include "tests/support/assets.hpp"

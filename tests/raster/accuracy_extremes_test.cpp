@@ -5,6 +5,7 @@
 #include "shading/reference/reference.hpp"
 #include "tests/support/cameras.hpp"
 #include "tests/support/isas.hpp"
+#include "tests/support/setup.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -184,13 +185,14 @@ struct Picture {
 
 Picture draw(const Subject& subject, Accuracy accuracy, double budget, Isa isa) {
     Picture picture;
-    Settings settings;
-    settings.isa = isa;
+    halflit::test::Setup settings;
+    settings.execution.isa = isa;
     settings.shadows = ShadowMode::off;
     settings.exposure = subject.exposure;
     settings.shading.accuracy = accuracy;
     settings.shading.max_error_codes = budget;
-    const auto report = render(subject.scene, subject.camera, settings, {kWidth, kHeight, picture.codes.data(), picture.linear.data()});
+    const auto report =
+        render(subject.scene, subject.camera, settings, {kWidth, kHeight, picture.codes.data(), picture.linear.data()}, settings.execution);
     INFO((report ? "" : report.error().message));
     REQUIRE(report);
     picture.report = *report;

@@ -6,6 +6,7 @@
 #include "tests/sh/sky_images.hpp"
 #include "tests/support/cameras.hpp"
 #include "tests/support/isas.hpp"
+#include "tests/support/setup.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -23,10 +24,10 @@ std::shared_ptr<const Environment> kept(const Sky& sky, double rotate_rad) {
     return std::make_shared<Environment>(shading::make_environment(sky.view(), {false, rotate_rad, true}));
 }
 
-std::vector<float> drawn(const Scene& scene, const Camera& camera, Settings settings) {
+std::vector<float> drawn(const Scene& scene, const Camera& camera, halflit::test::Setup settings) {
     settings.background_environment = true;
     std::vector<float> rgba(4 * kWidth * kHeight, -1.0f);
-    REQUIRE(render(scene, camera, settings, {kWidth, kHeight, nullptr, rgba.data()}));
+    REQUIRE(render(scene, camera, settings, {kWidth, kHeight, nullptr, rgba.data()}, settings.execution));
     return rgba;
 }
 
@@ -52,7 +53,7 @@ TEST_CASE("background: a pixel shows the image where its view ray meets it, rota
         Scene scene;
         scene.environment = kept(sky, angle);
         const Camera camera = camera_at({3, 1, 2}, {0, 2, -1}, 1.2f);
-        Settings settings;
+        halflit::test::Setup settings;
         settings.exposure = 0.5f;
         const auto rgba = drawn(scene, camera, settings);
         const sh::Rotation back = sh::inverse(sh::rotation_about_y(angle));
@@ -79,11 +80,11 @@ TEST_CASE("background: the same bits for every instruction set, tile size, threa
     raster::test::NamedScene s = raster::test::layers_scene();
     s.scene.environment = kept(random_sky(64, 32, 7), 0.4);
     for (const int samples : {1, 4, 8}) {
-        Settings settings;
+        halflit::test::Setup settings;
         settings.samples = samples;
         settings.shadow_size = 64;
-        settings.isa = Isa::scalar;
-        settings.threads = 1;
+        settings.execution.isa = Isa::scalar;
+        settings.execution.threads = 1;
         const auto want = drawn(s.scene, s.camera, settings);
         Scene empty;
         empty.environment = s.scene.environment;
@@ -94,9 +95,9 @@ TEST_CASE("background: the same bits for every instruction set, tile size, threa
         CHECK(seen < kWidth * kHeight - 100);
         for (const Isa isa : available_isas())
             for (const int tile : {16, 32, 64}) {
-                settings.isa = isa;
-                settings.tile_size = tile;
-                settings.threads = tile == 32 ? 3 : 1;
+                settings.execution.isa = isa;
+                settings.execution.tile_size = tile;
+                settings.execution.threads = tile == 32 ? 3 : 1;
                 settings.region = {};
                 CHECK(std::memcmp(drawn(s.scene, s.camera, settings).data(), want.data(), want.size() * sizeof(float)) == 0);
                 settings.region = {13, 9, 70, 41};

@@ -36,7 +36,7 @@ Result<RenderReport> drawn(ShadingRate rate, TextureDetail detail, double budget
     settings.shading.max_error_codes = budget;
     settings.shading.accuracy = accuracy;
     std::vector<std::uint8_t> pixels(4 * 20 * 15, 0xCD);
-    const auto prepared = PreparedScene::make(scene);
+    const auto prepared = PreparedData::make(scene);
     REQUIRE(prepared);
     const Camera camera = halflit::test::camera_at({2, 3, 4}, {0, 0, 0});
     const auto report = render(scene, camera, settings, {20, 15, pixels.data(), nullptr});

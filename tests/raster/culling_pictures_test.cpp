@@ -1,9 +1,11 @@
 // Culling must change no pixel and no count of drawn triangles. Each scene is drawn as it is, so that clusters may be left out, and again
 // in a form in which none can be.
 #include "halflit/renderer.hpp"
+#include "raster/scene/prepared_mesh.hpp"
 #include "tests/raster/random_geometry.hpp"
 #include "tests/raster/test_scenes.hpp"
 #include "tests/support/isas.hpp"
+#include "tests/support/setup.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -42,10 +44,10 @@ struct Picture {
     RenderReport report;
 };
 
-Picture draw(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height) {
+Picture draw(const Scene& scene, const Camera& camera, const halflit::test::Setup& settings, int width, int height) {
     const auto size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4;
     Picture p{std::vector<std::uint8_t>(size), std::vector<float>(size), {}};
-    const auto report = render(scene, camera, settings, {width, height, p.rgba8.data(), p.linear.data()});
+    const auto report = render(scene, camera, settings, {width, height, p.rgba8.data(), p.linear.data()}, settings.execution);
     INFO((report ? "" : report.error().message));
     REQUIRE(report);
     p.report = *report;
@@ -57,7 +59,7 @@ struct Tally {
     int pictures = 0;
 };
 
-void check_culling(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height, Tally& tally) {
+void check_culling(const Scene& scene, const Camera& camera, const halflit::test::Setup& settings, int width, int height, Tally& tally) {
     Scene all = scene;
     for (Mesh& mesh : all.meshes) mesh = without_culling(mesh);
     std::uint64_t added = 0;
@@ -98,11 +100,11 @@ Scene coloured(Random& random, std::vector<Mesh> meshes) {
     return scene;
 }
 
-Settings any_settings(Random& random, int width, int height) {
-    Settings settings;
-    settings.threads = static_cast<int>(random.integer(1, 2));
+halflit::test::Setup any_settings(Random& random, int width, int height) {
+    halflit::test::Setup settings;
+    settings.execution.threads = static_cast<int>(random.integer(1, 2));
     settings.samples = random.chance(0.5) ? 1 : random.chance(0.5) ? 4 : 8;
-    settings.tile_size = 16 << random.index(3);
+    settings.execution.tile_size = 16 << random.index(3);
     if (random.chance(0.3)) settings.region = random_region(random, width, height);
     return settings;
 }
@@ -211,9 +213,9 @@ TEST_CASE("culling: a wall that lies on the near plane, the far plane or a side 
 TEST_CASE("culling: the test scenes, with shadows, have the same pictures without it", "[raster][culling]") {
     Tally tally;
     for (const NamedScene& s : all_scenes()) {
-        Settings settings;
+        halflit::test::Setup settings;
         settings.shadow_size = 128;
-        settings.threads = 2;
+        settings.execution.threads = 2;
         INFO(s.name);
         check_culling(s.scene, s.camera, settings, 160, 120, tally);
     }
@@ -249,11 +251,11 @@ TEST_CASE("culling: coordinates among the denormals have the same pictures by ev
             scene.instances.push_back({random.index(2), place});
         }
         const Camera camera = scaled(random_camera(random), world);
-        Settings settings = any_settings(random, 60, 40);
+        halflit::test::Setup settings = any_settings(random, 60, 40);
         const auto pixels = [&](Isa isa) {
             std::vector<std::uint8_t> rgba8(std::size_t{4} * 60 * 40);
-            settings.isa = isa;
-            const bool drawn = render(scene, camera, settings, {60, 40, rgba8.data(), nullptr}).has_value();
+            settings.execution.isa = isa;
+            const bool drawn = render(scene, camera, settings, {60, 40, rgba8.data(), nullptr}, settings.execution).has_value();
             return drawn ? rgba8 : std::vector<std::uint8_t>{};  // a matrix that is not finite is refused
         };
         const std::vector<std::uint8_t> first = pixels(Isa::scalar);

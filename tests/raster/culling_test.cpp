@@ -1,7 +1,7 @@
 // Clusters that culling leaves out have no triangle that would be drawn. Single clusters are tested, and their triangles are set up as in
 // the renderer.
 #include "raster/view/culling.hpp"
-#include "raster/scene/prepared_scene.hpp"
+#include "raster/scene/prepared_data.hpp"
 #include "raster/view/view.hpp"
 #include "sh/mat4.hpp"
 #include "tests/raster/random_geometry.hpp"
@@ -59,7 +59,7 @@ struct Tally {
 };
 
 void check_clusters(const Scene& scene, const View& view, Tally& tally) {
-    const auto prepared = PreparedScene::make(scene, {1});
+    const auto prepared = PreparedData::make(scene, {1});
     REQUIRE(prepared);
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
@@ -227,7 +227,7 @@ TEST_CASE("culling: nearly half of a finely divided sphere is left out, and all 
     CHECK(behind.wrong == 0);
     CHECK(behind.outside == behind.clusters);
 
-    const auto prepared = PreparedScene::make(scene);
+    const auto prepared = PreparedData::make(scene);
     REQUIRE(prepared);
     const Culler two_sided(view, view.clip_from_world, false, false);
     int left_out = 0;

@@ -1,4 +1,5 @@
 #include "halflit/camera.hpp"
+#include "halflit/scene.hpp"
 #include "halflit/target.hpp"
 #include "raster/view/projection.hpp"
 #include "sh/mat4.hpp"

@@ -2,6 +2,7 @@
 #include "halflit/renderer.hpp"
 #include "tests/raster/test_scenes.hpp"
 #include "tests/support/isas.hpp"
+#include "tests/support/setup.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -37,12 +38,13 @@ struct Picture {
     }
 };
 
-Picture draw(const NamedScene& s, const Settings& settings, Renderer& renderer) {
+Picture draw(const NamedScene& s, const halflit::test::Setup& settings, Renderer& renderer) {
     Picture p;
     // Values that show which pixels were not written.
     p.rgba8.assign(4 * kWidth * kHeight, 0xCD);
     p.rgba_linear.assign(4 * kWidth * kHeight, -123.0f);
-    const auto report = renderer.render(s.scene, s.camera, settings, {kWidth, kHeight, p.rgba8.data(), p.rgba_linear.data()});
+    const auto report =
+        renderer.render(s.scene, s.camera, settings, {kWidth, kHeight, p.rgba8.data(), p.rgba_linear.data()}, settings.execution);
     if (!report) throw std::runtime_error(report.error().message);
     p.nan_pixels = report->nan_pixels;
     p.visible = report->pixels_visible;
@@ -50,7 +52,7 @@ Picture draw(const NamedScene& s, const Settings& settings, Renderer& renderer) 
     return p;
 }
 
-Picture draw(const NamedScene& s, const Settings& settings) {
+Picture draw(const NamedScene& s, const halflit::test::Setup& settings) {
     Renderer renderer;
     return draw(s, settings, renderer);
 }
@@ -68,16 +70,16 @@ ParallelFor host_loop(int thread_count) {
     };
 }
 
-Settings settings_of(Isa isa, int threads, int tile, int samples) {
-    Settings settings;
-    settings.isa = isa;
-    settings.threads = threads;
-    settings.tile_size = tile;
+halflit::test::Setup settings_of(Isa isa, int threads, int tile, int samples) {
+    halflit::test::Setup settings;
+    settings.execution.isa = isa;
+    settings.execution.threads = threads;
+    settings.execution.tile_size = tile;
     settings.samples = samples;
     settings.background_linear = {0.02f, 0.05f, 0.1f, 0.5f};
 #if defined(__SANITIZE_THREAD__)
     // The thread sanitizer does not see how the system's oneTBB synchronises, and would report each of its joins. The tasks are the same.
-    if (threads > 1) settings.parallel_for = host_loop(threads);
+    if (threads > 1) settings.execution.parallel_for = host_loop(threads);
 #endif
     settings.shadow_size = 64;  // small: the scenes have many lights
     return settings;
@@ -122,7 +124,7 @@ TEST_CASE("determinism: every instruction set, thread count and tile size gives 
 TEST_CASE("determinism: shading once a triangle or once a vertex gives the same pixels everywhere too", "[raster][determinism]") {
     for (const NamedScene& s : scenes()) {
         for (const ShadingRate rate : {ShadingRate::flat, ShadingRate::gouraud}) {
-            Settings settings = settings_of(Isa::scalar, 1, 64, 4);
+            halflit::test::Setup settings = settings_of(Isa::scalar, 1, 64, 4);
             settings.shading.rate = rate;
             const Picture first = draw(s, settings);
             Picture pixel_rate = draw(s, settings_of(Isa::scalar, 1, 64, 4));
@@ -156,7 +158,7 @@ TEST_CASE("determinism: tiers, error budgets and coarser texture filters give th
         const Picture exact = draw(s, settings_of(Isa::scalar, 1, 64, 1));
         for (const Variant& variant : kVariants) {
             const auto draw_by = [&](Isa isa, int threads, int tile) {
-                Settings settings = settings_of(isa, threads, tile, 1);
+                halflit::test::Setup settings = settings_of(isa, threads, tile, 1);
                 settings.shading.accuracy = variant.accuracy;
                 settings.shading.max_error_codes = variant.codes;
                 settings.shading.texture_detail = variant.detail;
@@ -187,7 +189,7 @@ TEST_CASE("determinism: a region is the same part of the whole picture, and noth
         for (const int samples : {1, 4}) {
             const Picture whole = draw(s, settings_of(*default_isa(), 2, 64, samples));
             for (const Region& r : kRegions) {
-                Settings settings =
+                halflit::test::Setup settings =
                     settings_of(available_isas()[static_cast<std::size_t>(r.width) % available_isas().size()], 1 + r.x % 2, 32, samples);
                 settings.region = r;
                 const Picture part = draw(s, settings);
@@ -212,16 +214,16 @@ TEST_CASE("determinism: a region is the same part of the whole picture, and noth
 
 TEST_CASE("determinism: a host's own loop gives the same pixels, in any order and on any threads", "[raster][determinism]") {
     for (const NamedScene& s : scenes()) {
-        Settings settings = settings_of(*default_isa(), 1, 32, 4);
+        halflit::test::Setup settings = settings_of(*default_isa(), 1, 32, 4);
         const Picture expected = draw(s, settings);
         int calls = 0;
-        settings.parallel_for = [&calls](int count, const std::function<void(int)>& body) {
+        settings.execution.parallel_for = [&calls](int count, const std::function<void(int)>& body) {
             ++calls;
             for (int i = count - 1; i >= 0; --i) body(i);
         };
         CHECK(draw(s, settings) == expected);
         CHECK(calls > 0);
-        settings.parallel_for = host_loop(3);
+        settings.execution.parallel_for = host_loop(3);
         CHECK(draw(s, settings) == expected);
     }
 }
@@ -231,7 +233,7 @@ TEST_CASE("determinism: a Renderer that drew other things before draws the same"
     for (int round = 0; round < 2; ++round)
         for (const int samples : {8, 1, 4})
             for (const NamedScene& s : scenes()) {
-                const Settings settings = settings_of(*default_isa(), 2, samples == 4 ? 64 : 16, samples);
+                const halflit::test::Setup settings = settings_of(*default_isa(), 2, samples == 4 ? 64 : 16, samples);
                 INFO(s.name << ", samples " << samples);
                 CHECK(draw(s, settings, renderer) == draw(s, settings));
             }
@@ -274,7 +276,7 @@ TEST_CASE("determinism: the caller's floating-point environment neither matters 
     const unsigned before = _mm_getcsr();
     for (const NamedScene& s : scenes()) {
         for (const int threads : {1, 2}) {
-            const Settings settings = settings_of(*default_isa(), threads, 32, 4);
+            const halflit::test::Setup settings = settings_of(*default_isa(), threads, 32, 4);
             const Picture expected = draw(s, settings);
             for (const Case& c : cases) {
                 Picture p;
@@ -282,7 +284,8 @@ TEST_CASE("determinism: the caller's floating-point environment neither matters 
                 p.rgba_linear.assign(4 * kWidth * kHeight, -123.0f);
                 Renderer renderer;
                 _mm_setcsr(c.csr);
-                const auto report = renderer.render(s.scene, s.camera, settings, {kWidth, kHeight, p.rgba8.data(), p.rgba_linear.data()});
+                const auto report = renderer.render(s.scene, s.camera, settings, {kWidth, kHeight, p.rgba8.data(), p.rgba_linear.data()},
+                                                    settings.execution);
                 const unsigned after = _mm_getcsr();
                 _mm_setcsr(before);
                 INFO(s.name << ", " << c.name << ", threads " << threads);
@@ -296,10 +299,10 @@ TEST_CASE("determinism: the caller's floating-point environment neither matters 
 
 TEST_CASE("determinism: a host's loop on threads with another floating-point environment gives the same pixels", "[raster][determinism]") {
     const NamedScene& s = scenes()[1];
-    Settings settings = settings_of(*default_isa(), 1, 32, 1);
+    halflit::test::Setup settings = settings_of(*default_isa(), 1, 32, 1);
     const Picture expected = draw(s, settings);
     std::atomic<int> kept{0}, tasks{0};
-    settings.parallel_for = [&](int count, const std::function<void(int)>& body) {
+    settings.execution.parallel_for = [&](int count, const std::function<void(int)>& body) {
         std::thread worker([&] {
             const unsigned csr = 0x1f80 | 0x8040 | 0x4000;
             _mm_setcsr(csr);

@@ -46,7 +46,7 @@ struct Patches {
     std::vector<Vec3d> drawn(int order, RenderReport* report = nullptr) const {
         Settings settings;
         settings.shading.specular = SpecularModel::none;
-        settings.shading.environment_order.fixed = order;
+        settings.shading.environment_bands = order;
         std::vector<float> rgba(4 * kSide * kSide);
         const auto done = render(scene, camera_flat(), settings, {kSide, kSide, nullptr, rgba.data()});
         REQUIRE(done);
@@ -205,7 +205,7 @@ TEST_CASE("environment: a scene that turns with its environment keeps its light,
         const auto turned = environment_of(sky, true, angle);
         for (int order = 1; order <= sh::kMaxBands; ++order) {
             ShadingSettings options;
-            options.environment_order.fixed = order;
+            options.environment_bands = order;
             const auto shaded = [&](const Environment& environment, const sh::Rotation& by, std::size_t material, Isa isa) {
                 auto plan = shading::plan_shading(
                     {materials, {}, slots, shading::plan_lights(environment.suns), {}, options, shading::borrowed(environment)});
@@ -293,7 +293,7 @@ TEST_CASE("environment: every instruction set gives the same bits at every order
     Random random(32);
     for (int order = 1; order <= sh::kMaxBands; ++order) {
         ShadingSettings options;
-        options.environment_order.fixed = order;
+        options.environment_bands = order;
         const auto plan = shading::plan_shading(
             {{&material, 1}, {}, slots, shading::plan_lights(environment->suns), {}, options, shading::borrowed(*environment)});
         REQUIRE(plan.environments.front().bands == order);

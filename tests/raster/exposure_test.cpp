@@ -6,7 +6,6 @@
 #include <limits>
 
 using namespace halflit;
-using namespace halflit::raster;
 
 namespace {
 

@@ -41,14 +41,11 @@ std::vector<Variant> variants() {
     add("unshadowed").shadows = ShadowMode::off;
     add("shadow-terminator").shadow_terminator_offset = true;
     add("hard-shadows-wrapped").shadows = ShadowMode::hard;
-    all.back().settings.shading.override_lobe = true;
     all.back().settings.shading.lobe = Lobe::sloan(0.3f);
     add("matte").shading.specular = SpecularModel::none;
     add("fast").shading.accuracy = Accuracy::fast;
-    all.back().settings.shading.override_lobe = true;
     all.back().settings.shading.lobe = Lobe::sloan(0.3f);
     add("within-two-codes").shading.max_error_codes = 2.0;
-    all.back().settings.shading.override_lobe = true;
     all.back().settings.shading.lobe = Lobe::sloan(0.3f);
     add("environment");
     all.back().environment = true;

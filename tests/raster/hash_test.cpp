@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-using namespace halflit::raster;
+using namespace halflit;
 
 namespace {
 

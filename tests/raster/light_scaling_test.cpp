@@ -1,6 +1,7 @@
 // Cost of many lights: it grows with the lights that reach a block of fragments, not with the number of lights.
 #include "halflit/renderer.hpp"
 #include "raster/built_in/hall_of_lamps.hpp"
+#include "tests/support/setup.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -21,11 +22,11 @@ struct Outcome {
 
 Outcome draw(const Scene& scene, double codes, int tile_size = 64) {
     Outcome out;
-    Settings settings;
+    halflit::test::Setup settings;
     settings.shadows = ShadowMode::off;
-    settings.tile_size = tile_size;
+    settings.execution.tile_size = tile_size;
     settings.shading.max_error_codes = codes;
-    const auto report = render(scene, scene.cameras.at(0), settings, {kWidth, kHeight, nullptr, out.linear.data()});
+    const auto report = render(scene, scene.cameras.at(0), settings, {kWidth, kHeight, nullptr, out.linear.data()}, settings.execution);
     REQUIRE(report);
     out.report = *report;
     std::uint64_t pairs = 0;

@@ -1,4 +1,5 @@
 // A million instances, in bounded memory.
+#include "halflit/prepared_scene.hpp"
 #include "halflit/renderer.hpp"
 #include "tests/support/cameras.hpp"
 #include "tests/support/skip.hpp"

@@ -1,6 +1,7 @@
 // Errors of preparing a scene and of updating it.
+#include "halflit/prepared_scene.hpp"
+#include "halflit/scene.hpp"
 #include "halflit/shapes.hpp"
-#include "raster/scene/prepared_scene.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -64,7 +65,8 @@ const std::vector<Fault>& faults() {
 }  // namespace
 
 TEST_CASE("prepared scene: a broken scene is bad input, in one line", "[raster][prepared]") {
-    REQUIRE(PreparedScene::make(good_scene()));
+    const Scene good = good_scene();
+    REQUIRE(PreparedScene::make(good));
     for (const Fault& fault : faults()) {
         Scene scene = good_scene();
         fault.spoil(scene);

@@ -1,5 +1,5 @@
 // A prepared scene is the same whether it was made anew or told of changes, and its boxes are those of the scene itself.
-#include "raster/scene/prepared_scene.hpp"
+#include "raster/scene/prepared_data.hpp"
 #include "tests/raster/random_geometry.hpp"
 
 #include <catch2/catch.hpp>
@@ -33,7 +33,7 @@ bool same(const PreparedMesh& a, const PreparedMesh& b) {
 }
 
 /// Compares all that is public, except the revision.
-void check_same(const PreparedScene& a, const PreparedScene& b) {
+void check_same(const PreparedData& a, const PreparedData& b) {
     CHECK(&a.scene() == &b.scene());
     CHECK(same(a.bounds(), b.bounds()));
     int differing_meshes = 0, differing_instances = 0;
@@ -119,8 +119,8 @@ SceneChanges change(Random& random, Scene& scene) {
     return told;
 }
 
-PreparedScene made(const Scene& scene, const Workers& workers = {}) {
-    auto prepared = PreparedScene::make(scene, workers);
+PreparedData made(const Scene& scene, const Execution& workers = {}) {
+    auto prepared = PreparedData::make(scene, workers);
     INFO((prepared ? "" : prepared.error().message));
     REQUIRE(prepared);
     return std::move(*prepared);
@@ -133,7 +133,7 @@ TEST_CASE("prepared scene: bounds are those of scene_bounds, of the whole and of
     int empty = 0, many_clusters = 0;
     for (int round = 0; round < 400; ++round) {
         const Scene scene = any_scene(random);
-        const PreparedScene prepared = made(scene, {1 + round % 3});
+        const PreparedData prepared = made(scene, {1 + round % 3});
         INFO("round " << round);
         CHECK(same(prepared.bounds(), scene_bounds(scene)));
         Scene one = scene;
@@ -170,7 +170,7 @@ TEST_CASE("prepared scene: after any changes it equals one made anew, and its re
     int updates = 0;
     for (int round = 0; round < 60; ++round) {
         Scene scene = any_scene(random);
-        PreparedScene prepared = made(scene);
+        PreparedData prepared = made(scene);
         for (int step = 0; step < 8; ++step) {
             const SceneChanges told = change(random, scene);
             const SceneRevision before = prepared.revision();
@@ -197,7 +197,7 @@ TEST_CASE("prepared scene: a deformed mesh that all threads work on equals one m
     scene.materials.resize(kMaterials);
     scene.meshes.push_back(make_sphere_of(1, 40'000));
     scene.instances = {{0, {}}, {0, translation({3, 0, 0})}};
-    PreparedScene prepared = made(scene, {3});
+    PreparedData prepared = made(scene, {3});
     for (Vec3f& p : scene.meshes[0].positions) p = p * (1.0f + 0.2f * p.x);
     REQUIRE(prepared.update({{}, {0}}, {3}));
     check_same(prepared, made(scene, {1}));
@@ -215,7 +215,7 @@ TEST_CASE("prepared scene: counts and maxima include only what is drawn", "[rast
     scene.meshes[2].uv0[0].x = -70.0f;
     scene.meshes[2].colors.assign(scene.meshes[2].positions.size(), {1, 9, 1, 1});
     scene.instances = {{0, {}}, {0, scaling({2, 2, 2})}, {1, {}}};
-    PreparedScene prepared = made(scene);
+    PreparedData prepared = made(scene);
     CHECK(prepared.triangle_count() == 12 + 12 + 2 * 8 * 4);
     CHECK(prepared.largest_uv() == 1.0);
     CHECK(prepared.largest_color() == 1.0);
@@ -236,7 +236,7 @@ TEST_CASE("prepared scene: no revision is used twice", "[raster][prepared]") {
     for (int round = 0; round < 30; ++round) {
         const Scene scene = any_scene(random);
         for (int copy = 0; copy < 2; ++copy) {
-            PreparedScene prepared = made(scene);
+            PreparedData prepared = made(scene);
             for (int step = 0; step < 3; ++step) {
                 geometry.push_back(prepared.revision().geometry);
                 materials.push_back(prepared.revision().materials);
@@ -259,7 +259,7 @@ TEST_CASE("prepared scene: a material's colour leaves coverage as it was, its si
     scene.meshes = {make_box({1, 1, 1})};
     scene.meshes[0].material = 0;
     scene.instances = {{0, {}}};
-    PreparedScene prepared = made(scene);
+    PreparedData prepared = made(scene);
     const auto changes_coverage = [&] {
         const SceneRevision before = prepared.revision();
         REQUIRE(prepared.update({.materials = true}));

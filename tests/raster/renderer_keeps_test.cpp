@@ -1,6 +1,7 @@
 // Single things that a Renderer keeps from frame to frame, each changed in a way that is easily missed.
 #include "halflit/renderer.hpp"
 #include "raster/detail/raw_buffer.hpp"
+#include "shading/environment.hpp"
 #include "tests/raster/test_scenes.hpp"
 #include "tests/support/random.hpp"
 
@@ -188,11 +189,9 @@ TEST_CASE("renderer: settings are checked although the plan is kept", "[raster][
     Renderer renderer;
     const Pixels first = draw(renderer, prepared, s.camera, small_shadows());
     Pixels pixels(first.size());
-    Settings settings = small_shadows();
-    settings.isa = fail(ErrorCode::usage, "isa: none");
-    const auto report = renderer.render(prepared, s.camera, settings, {kWidth, kHeight, nullptr, pixels.data()});
+    const auto report = renderer.render(prepared, s.camera, small_shadows(), {kWidth, kHeight, nullptr, pixels.data()}, {.tile_size = 17});
     REQUIRE_FALSE(report);
-    CHECK(report.error().message == "isa: none");
+    CHECK(report.error().message == "tile size: 17, expected 16, 32 or 64");
     CHECK(differing(draw(renderer, prepared, s.camera, small_shadows()), first) == 0);
 }
 
@@ -200,12 +199,9 @@ TEST_CASE("renderer: an exception of the host becomes an error, and the next fra
     const NamedScene s = materials_scene();
     const PreparedScene prepared = made(s.scene);
     Renderer renderer;
-    const std::function<bool()> throws = []() -> bool { throw 42; };
-    Settings settings = small_shadows();
-    settings.cancelled = &throws;
-    settings.threads = 1;
+    const Execution execution{.threads = 1, .cancelled = []() -> bool { throw 42; }};
     Pixels pixels(std::size_t{4} * kWidth * kHeight);
-    const auto report = renderer.render(prepared, s.camera, settings, {kWidth, kHeight, nullptr, pixels.data()});
+    const auto report = renderer.render(prepared, s.camera, small_shadows(), {kWidth, kHeight, nullptr, pixels.data()}, execution);
     REQUIRE_FALSE(report);
     CHECK(report.error().code == ErrorCode::internal);
     CHECK(differing(draw(renderer, prepared, s.camera, small_shadows()), draw_anew(s.scene, s.camera, small_shadows())) == 0);

@@ -2,9 +2,11 @@
 // Renderer with a newly prepared scene.
 #include "halflit/mesh.hpp"
 #include "halflit/renderer.hpp"
+#include "shading/environment.hpp"
 #include "tests/raster/random_geometry.hpp"
 #include "tests/raster/test_scenes.hpp"
 #include "tests/support/isas.hpp"
+#include "tests/support/setup.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -27,7 +29,7 @@ struct Picture {
 
     Picture(int w, int h) : width(w), height(h), rgba8(size(), 0xCD), linear(size(), -123.0f) {}
     [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(4 * width * height); }
-    [[nodiscard]] FramebufferView target() { return {width, height, rgba8.data(), linear.data()}; }
+    [[nodiscard]] Target target() { return {width, height, rgba8.data(), linear.data()}; }
 };
 
 int differing_pixels(const Picture& a, const Picture& b) {
@@ -71,13 +73,13 @@ Texture noise(Random& random) {
 }
 
 /// A scene that changes, and its prepared scene, which is told of the changes.
-struct Stage {
+struct Stand {
     NamedScene given;
     Scene scene;
     Camera camera;
     std::optional<PreparedScene> prepared;
 
-    explicit Stage(NamedScene s) : given(std::move(s)) { restart(); }
+    explicit Stand(NamedScene s) : given(std::move(s)) { restart(); }
     /// Makes all anew, at the same places in memory.
     void restart() {
         prepared.reset();
@@ -140,7 +142,7 @@ void change_lights(Random& random, Scene& scene) {
     if (which == 4 && !scene.lights.empty()) scene.lights.back() = light;
 }
 
-void change_scene(Random& random, Stage& stage) {
+void change_scene(Random& random, Stand& stage) {
     Scene& scene = stage.scene;
     SceneChanges told;
     switch (random.index(6)) {
@@ -170,13 +172,13 @@ void change_scene(Random& random, Stage& stage) {
 }
 
 struct Frame {
-    Settings settings;
+    halflit::test::Setup settings;
     int width = 96, height = 64;
 };
 
 /// Changes one setting to one of two or three values, so that kept data fits again now and then.
 void change_frame(Random& random, Frame& frame) {
-    Settings& s = frame.settings;
+    halflit::test::Setup& s = frame.settings;
     ShadingSettings& options = s.shading;
     const bool coin = random.chance(0.5);
     const int die = random.index(3);
@@ -196,7 +198,7 @@ void change_frame(Random& random, Frame& frame) {
         [&] { s.exposure = coin ? 1.0f : 0.4f; },
         [&] { s.background_environment = coin; },
         [&] { options.max_error_codes = coin ? 0.0 : 2.0; },
-        [&] { options.override_lobe = coin; },
+        [&] { options.lobe.reset(); },
         [&] { options.lobe = coin ? Lobe::valve() : Lobe::green(0.3f); },
         [&] { options.accuracy = coin       ? Accuracy::exact
                                  : die == 0 ? Accuracy::display
@@ -206,19 +208,19 @@ void change_frame(Random& random, Frame& frame) {
                                         : ShadingRate::gouraud; },
         [&] { options.texture_detail = coin ? TextureDetail::full : TextureDetail::nearest; },
         [&] { options.specular = static_cast<SpecularModel>(die); },
-        [&] { options.environment_order.fixed = coin ? 0 : 3; },
-        [&] { s.isa = halflit::test::available_isas()[coin ? 0 : halflit::test::available_isas().size() - 1]; },
-        [&] { s.threads = coin ? 1 : 2; },
-        [&] { s.tile_size = 16 << die; },
-        [&] { s.parallel_for = coin ? ParallelFor{} : in_reverse; },
+        [&] { options.environment_bands = coin ? 0 : 3; },
+        [&] { s.execution.isa = halflit::test::available_isas()[coin ? 0 : halflit::test::available_isas().size() - 1]; },
+        [&] { s.execution.threads = coin ? 1 : 2; },
+        [&] { s.execution.tile_size = 16 << die; },
+        [&] { s.execution.parallel_for = coin ? ParallelFor{} : in_reverse; },
     };
     changes[random.index(std::size(changes))]();
 }
 
 /// Renders a frame that cannot be drawn: refused at once, when shadows are planned, for the camera, or stopped half way.
-void fail_once(Random& random, Renderer& renderer, const Stage& stage, Frame frame) {
+void fail_once(Random& random, Renderer& renderer, const Stand& stage, Frame frame) {
     Camera camera = stage.camera;
-    Settings& s = frame.settings;
+    halflit::test::Setup& s = frame.settings;
     int asked = 0;
     const std::function<bool()> stop = [&asked] { return ++asked > 2; };
     const std::function<void()> faults[] = {
@@ -227,13 +229,13 @@ void fail_once(Random& random, Renderer& renderer, const Stage& stage, Frame fra
         [&] {
             s.region = {90, 60, 50, 50};
         },
-        [&] { s.shading.override_lobe = true, s.shading.lobe.wrap = 2; },
+        [&] { s.shading.lobe = Lobe::green(2); },
         [&] { camera.world_from_camera.c[3].x = std::numeric_limits<float>::quiet_NaN(); },
-        [&] { s.cancelled = &stop, s.parallel_for = in_reverse, s.tile_size = 16, s.region = {}; },
+        [&] { s.execution.cancelled = stop, s.execution.parallel_for = in_reverse, s.execution.tile_size = 16, s.region = {}; },
     };
     faults[random.index(std::size(faults))]();
     Picture picture(frame.width, frame.height);
-    CHECK_FALSE(renderer.render(*stage.prepared, camera, s, picture.target()));
+    CHECK_FALSE(renderer.render(*stage.prepared, camera, s, picture.target(), s.execution));
 }
 
 }  // namespace
@@ -242,14 +244,14 @@ TEST_CASE("renderer: after many random changes every frame equals that of a new 
     int drawn = 0, refused = 0;
     for (const std::uint64_t seed : {1, 2, 3}) {
         Random random(seed);
-        Stage stages[] = {Stage(materials_scene()), Stage(layers_scene())};
+        Stand stages[] = {Stand(materials_scene()), Stand(layers_scene())};
         Renderer renderer;
         Frame frame;
         frame.settings.shadow_size = 64;
         int stage_index = 0;
         for (int step = 0; step < 150; ++step) {
             if (random.chance(0.15)) stage_index = 1 - stage_index;
-            Stage& stage = stages[stage_index];
+            Stand& stage = stages[stage_index];
             if (random.chance(0.4)) change_scene(random, stage);
             if (random.chance(0.4)) change_frame(random, frame);
             if (random.chance(0.2)) {
@@ -263,8 +265,8 @@ TEST_CASE("renderer: after many random changes every frame equals that of a new 
             if (random.chance(0.03)) stage.prepare();
             if (random.chance(0.03)) stage.restart();
             Picture kept(frame.width, frame.height), fresh(frame.width, frame.height);
-            kept.report = renderer.render(*stage.prepared, stage.camera, frame.settings, kept.target());
-            fresh.report = render(stage.scene, stage.camera, frame.settings, fresh.target());
+            kept.report = renderer.render(*stage.prepared, stage.camera, frame.settings, kept.target(), frame.settings.execution);
+            fresh.report = render(stage.scene, stage.camera, frame.settings, fresh.target(), frame.settings.execution);
             INFO("seed " << seed << ", step " << step);
             check_same(kept, fresh);
             (fresh.report ? drawn : refused) += 1;

@@ -36,9 +36,10 @@ struct Outcome {
     bool untouched;  ///< no pixel was written
 };
 
-Outcome outcome(const Scene& scene, const Settings& settings, int width = 40, int height = 30, const Camera& camera = kCamera) {
+Outcome outcome(const Scene& scene, const Settings& settings, int width = 40, int height = 30, const Execution& execution = {},
+                const Camera& camera = kCamera) {
     std::vector<std::uint8_t> pixels(4 * 40 * 30, 0xCD);
-    const auto report = render(scene, camera, settings, {width, height, pixels.data(), nullptr});
+    const auto report = render(scene, camera, settings, {width, height, pixels.data(), nullptr}, execution);
     Outcome o{report.has_value(), {}, {}, true};
     if (!report) o.code = report.error().code, o.message = report.error().message;
     for (const std::uint8_t p : pixels) o.untouched &= p == 0xCD;
@@ -71,9 +72,7 @@ TEST_CASE("settings: samples, tile size, exposure and region are checked", "[ras
         CHECK(refused(outcome(box_scene(), s), ErrorCode::usage));
     }
     for (const int tile : {0, -16, 8, 24, 63, 128}) {
-        Settings s;
-        s.tile_size = tile;
-        CHECK(refused(outcome(box_scene(), s), ErrorCode::usage));
+        CHECK(refused(outcome(box_scene(), {}, 40, 30, {.tile_size = tile}), ErrorCode::usage));
     }
     for (const float exposure : {0.0f, -1.0f, kNan, kInf}) {
         Settings s;
@@ -95,27 +94,23 @@ TEST_CASE("settings: samples, tile size, exposure and region are checked", "[ras
 
 TEST_CASE("settings: an instruction set that this CPU does not run is a usage error", "[raster][settings]") {
     for (const Isa isa : {Isa::scalar, Isa::sse2, Isa::sse41, Isa::avx2, Isa::avx512, Isa::neon64}) {
-        Settings s;
-        s.isa = isa;
+        const Outcome o = outcome(box_scene(), {}, 40, 30, {.isa = isa});
         INFO(isa_name(isa));
         if (isa_available(isa))
-            CHECK(outcome(box_scene(), s).ok);
+            CHECK(o.ok);
         else
-            CHECK(refused(outcome(box_scene(), s), ErrorCode::usage));
+            CHECK(refused(o, ErrorCode::usage));
     }
-    Settings s;
-    s.isa = isa_by_name("nonsense");
-    const Outcome o = outcome(box_scene(), s);
-    CHECK(refused(o, ErrorCode::usage));
-    CHECK(o.message.find("nonsense") != std::string::npos);
+    const auto unknown = isa_by_name("nonsense");
+    REQUIRE_FALSE(unknown);
+    CHECK(unknown.error().code == ErrorCode::usage);
+    CHECK(unknown.error().message.find("nonsense") != std::string::npos);
 }
 
 TEST_CASE("settings: any number of threads is accepted", "[raster][settings]") {
     for (const int threads : {-5, 0, 1, 64, 100'000, kMost}) {
-        Settings s;
-        s.threads = threads;
         INFO(threads);
-        CHECK(outcome(box_scene(), s).ok);
+        CHECK(outcome(box_scene(), {}, 40, 30, {.threads = threads}).ok);
     }
 }
 
@@ -147,15 +142,15 @@ TEST_CASE("scene: an index out of range is bad input", "[raster][settings]") {
 TEST_CASE("scene: a camera that is not finite is bad input", "[raster][settings]") {
     Camera camera = kCamera;
     camera.world_from_camera.c[3].x = kNan;
-    CHECK(refused(outcome(box_scene(), {}, 40, 30, camera), ErrorCode::bad_input));
+    CHECK(refused(outcome(box_scene(), {}, 40, 30, {}, camera), ErrorCode::bad_input));
     camera = kCamera;
     camera.world_from_camera.c[0].y = kInf;
-    CHECK(refused(outcome(box_scene(), {}, 40, 30, camera), ErrorCode::bad_input));
+    CHECK(refused(outcome(box_scene(), {}, 40, 30, {}, camera), ErrorCode::bad_input));
     // Lens values that are not finite are replaced by neutral ones.
     camera = kCamera;
     camera.fov_y_rad = kNan;
     camera.near_z = -kInf;
-    CHECK(outcome(box_scene(), {}, 40, 30, camera).ok);
+    CHECK(outcome(box_scene(), {}, 40, 30, {}, camera).ok);
 }
 
 TEST_CASE("frame: a target without pixels is accepted", "[raster][settings]") {
@@ -172,22 +167,15 @@ TEST_CASE("frame: stops when asked to, and draws again afterwards", "[raster][se
     for (const int threads : {1, 2}) {
         for (const int after : {0, 1, 5}) {
             std::atomic<int> asked{0};
-            const std::function<bool()> cancelled = [&] { return asked++ >= after; };
-            Settings s;
-            s.threads = threads;
-            s.tile_size = 16;
-            s.cancelled = &cancelled;
-            const auto stopped = renderer.render(scene, kCamera, s, {200, 200, pixels.data(), nullptr});
+            const Execution execution{.threads = threads, .tile_size = 16, .cancelled = [&] { return asked++ >= after; }};
+            const auto stopped = renderer.render(scene, kCamera, {}, {200, 200, pixels.data(), nullptr}, execution);
             REQUIRE_FALSE(stopped);
-            CHECK(stopped.error().code == ErrorCode::negative_result);
+            CHECK(stopped.error().code == ErrorCode::cancelled);
             CHECK(asked >= after);
             CHECK(asked <= after + 1 + threads);  // 169 tiles: each thread notices at its next one
         }
-        const std::function<bool()> never = [] { return false; };
-        Settings s;
-        s.threads = threads;
-        s.cancelled = &never;
-        REQUIRE(renderer.render(scene, kCamera, s, {200, 200, pixels.data(), nullptr}));
+        const Execution execution{.threads = threads, .cancelled = [] { return false; }};
+        REQUIRE(renderer.render(scene, kCamera, {}, {200, 200, pixels.data(), nullptr}, execution));
         CHECK(pixels == expected);
     }
 }

@@ -2,6 +2,7 @@
 // large. All instruction sets must draw the same.
 #include "tests/raster/shadow_setup.hpp"
 #include "tests/support/isas.hpp"
+#include "tests/support/setup.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -18,7 +19,7 @@ namespace {
 std::vector<float> on_all_sets(ShadowSetup& setup, int size) {
     std::vector<float> first;
     for (const Isa isa : available_isas()) {
-        setup.settings.isa = isa;
+        setup.settings.execution.isa = isa;
         const std::vector<float> picture = setup.draw(size, size);
         if (first.empty()) first = picture;
         CHECK(differing(first, picture) == 0);
@@ -205,7 +206,7 @@ TEST_CASE("shadows: maps that do not fit their memory are halved, and the report
     const auto draw = [&](std::size_t limit, std::vector<float>& rgba) {
         setup.settings.shadow_memory_limit = limit;
         rgba.assign(4 * 64 * 64, 0.0f);
-        return render(setup.scene, setup.camera, setup.settings, {64, 64, nullptr, rgba.data()});
+        return render(setup.scene, setup.camera, setup.settings, {64, 64, nullptr, rgba.data()}, setup.settings.execution);
     };
     std::vector<float> fits, halved, small;
     const auto enough = draw(655360, fits), less = draw(655359, halved);

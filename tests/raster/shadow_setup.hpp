@@ -4,6 +4,7 @@
 #include "halflit/renderer.hpp"
 #include "halflit/shapes.hpp"
 #include "tests/support/cameras.hpp"
+#include "tests/support/setup.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -18,7 +19,7 @@ inline constexpr float kRadians = 0.0174532925f;  // pi / 180
 struct ShadowSetup {
     Scene scene;
     Camera camera;
-    Settings settings;
+    halflit::test::Setup settings;
 
     /// Light from +x; the camera looks along -z, at right angles to it: x in the picture is N.L on a unit sphere.
     explicit ShadowSetup(const Lobe& lobe, ShadowMode mode) {
@@ -41,7 +42,7 @@ struct ShadowSetup {
     }
     [[nodiscard]] std::vector<float> draw(int width = kWidth, int height = kHeight) const {
         std::vector<float> rgba(static_cast<std::size_t>(4 * width * height));
-        const auto report = render(scene, camera, settings, {width, height, nullptr, rgba.data()});
+        const auto report = render(scene, camera, settings, {width, height, nullptr, rgba.data()}, settings.execution);
         REQUIRE(report);
         CHECK(report->nan_pixels == 0);
         return rgba;

@@ -10,7 +10,6 @@
 #include <utility>
 
 using namespace halflit;
-using namespace halflit::raster;
 
 namespace {
 

@@ -71,8 +71,8 @@ Distances by_all(const Scene& scene, Vec3d point) {
     return d;
 }
 
-PreparedScene made(const Scene& scene) {
-    auto prepared = PreparedScene::make(scene, {1});
+PreparedData made(const Scene& scene) {
+    auto prepared = PreparedData::make(scene, {1});
     REQUIRE(prepared);
     return std::move(*prepared);
 }
@@ -102,7 +102,7 @@ struct Comparison {
     int points = 0, too_near = 0, too_far = 0;  ///< compared with the scene's surfaces, exact or as they are drawn
     int beyond_drawn = 0, beyond_farthest = 0;
 
-    void add(const Scene& scene, const PreparedScene& prepared, Vec3d point, double size) {
+    void add(const Scene& scene, const PreparedData& prepared, Vec3d point, double size) {
         const Distances truth = by_all(scene, point);
         const double exact = std::sqrt(static_cast<double>(truth.exact)), drawn = std::sqrt(static_cast<double>(truth.drawn));
         const double found = std::sqrt(nearest_surface_squared(prepared, point));
@@ -144,7 +144,7 @@ TEST_CASE("surface distance: that of the nearest triangle of random scenes, and 
             const int mesh = random.index(3);
             scene.instances.push_back({mesh, random_place(random, reach, random_decades(random, 1e-2, 2))});
         }
-        const PreparedScene prepared = made(scene);
+        const PreparedData prepared = made(scene);
         for (int i = 0; i < 5; ++i) sum.add(scene, prepared, any_point(random, scene, reach), reach);
     }
     CHECK(sum.too_far == 0);
@@ -190,7 +190,7 @@ TEST_CASE("surface distance: no surface is drawn nearer, far from the origin too
             Vec4f& at = instance.world_from_object.c[3];
             at = {at.x + far_away.x, at.y + far_away.y, at.z + far_away.z, 1};
         }
-        const PreparedScene prepared = made(scene);
+        const PreparedData prepared = made(scene);
         for (int i = 0; i < 6; ++i) {
             const Vec3d point{far_away.x + random.real(-0.5, 0.5), far_away.y + random.real(-0.5, 0.5),
                               far_away.z + random.real(-0.5, 0.5)};
@@ -226,7 +226,7 @@ TEST_CASE("surface distance: a box has the distances of the closed form", "[rast
     Scene scene;
     scene.meshes.push_back(make_box({1, 2, 3}));
     scene.instances.push_back({0, {}});
-    const PreparedScene box = made(scene);
+    const PreparedData box = made(scene);
     CHECK(nearest_surface_squared(box, {5, 0, 0}) == Approx(16));
     CHECK(nearest_surface_squared(box, {0, 0, 0}) == Approx(1));
     CHECK(nearest_surface_squared(box, {4, 6, 3}) == Approx(25));

@@ -4,9 +4,11 @@
 #include "halflit/renderer.hpp"
 #include "halflit/shapes.hpp"
 #include "shading/environment.hpp"
+#include "shading/fragment_block.hpp"
 #include "tests/raster/test_scenes.hpp"
 #include "tests/support/cameras.hpp"
 #include "tests/support/isas.hpp"
+#include "tests/support/setup.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -34,7 +36,7 @@ Mesh full_square(int material) {
 
 struct Square {
     Scene scene;
-    Settings settings;
+    halflit::test::Setup settings;
 
     explicit Square(Material material = {}) {
         scene.materials.push_back(std::move(material));
@@ -56,7 +58,7 @@ struct Square {
     }
     [[nodiscard]] RenderReport draw() const {
         std::vector<std::uint8_t> rgba8(4 * kPixels);
-        const auto report = render(scene, camera_flat(), settings, {kSide, kSide, rgba8.data(), nullptr});
+        const auto report = render(scene, camera_flat(), settings, {kSide, kSide, rgba8.data(), nullptr}, settings.execution);
         INFO((report ? std::string() : report.error().message));
         REQUIRE(report);
         return *report;
@@ -192,7 +194,7 @@ TEST_CASE("work: a light whose range ends before the picture does is left out of
     Light& lamp = square.add_light(LightType::point);
     lamp.position_ws = {-0.75f, 0.75f, 0.1f};
     lamp.range = 0.2f;
-    square.settings.tile_size = 16;  // 16 tiles, each 0.5 wide: the lamp stands in the middle of the first
+    square.settings.execution.tile_size = 16;  // 16 tiles, each 0.5 wide: the lamp stands in the middle of the first
     const WorkCounts work = square.work();
     CHECK(work.lanes(kStageLights) == kPixels);
     CHECK(pairs(work, LightType::point) > 0);
@@ -203,23 +205,23 @@ TEST_CASE("work: a light whose range ends before the picture does is left out of
 
 TEST_CASE("work: counts do not depend on threads or instruction set, nor those of stages on tiles", "[raster][work]") {
     for (const auto& named : raster::test::all_scenes()) {
-        const auto counts = [&](const Settings& settings) {
+        const auto counts = [&](const halflit::test::Setup& settings) {
             constexpr int kWidth = 120, kHeight = 90;
             std::vector<std::uint8_t> rgba8(4 * kWidth * kHeight);
-            const auto report = render(named.scene, named.camera, settings, {kWidth, kHeight, rgba8.data(), nullptr});
+            const auto report = render(named.scene, named.camera, settings, {kWidth, kHeight, rgba8.data(), nullptr}, settings.execution);
             REQUIRE(report);
             return report->work;
         };
-        Settings settings;
+        halflit::test::Setup settings;
         settings.shadow_size = 64;
         const WorkCounts expected = counts(settings);
         INFO(named.name);
         for (const Isa isa : halflit::test::available_isas()) {
-            settings.isa = isa;
-            settings.threads = 1 + static_cast<int>(isa) % 3;
+            settings.execution.isa = isa;
+            settings.execution.threads = 1 + static_cast<int>(isa) % 3;
             CHECK(counts(settings) == expected);
         }
-        settings.tile_size = 16;
+        settings.execution.tile_size = 16;
         const WorkCounts other = counts(settings);
         CHECK(other.stage_lanes == expected.stage_lanes);
         CHECK(other.alpha_test_lanes == expected.alpha_test_lanes);
@@ -237,20 +239,18 @@ TEST_CASE("renderer: a lobe out of range is refused with the reason, a power bel
         {{0.5f, nan, true}, "power: expected a number from 0 to 10000, found nan"},
         {{0.5f, infinity, true}, "power: expected a number from 0 to 10000, found inf"}};
     std::vector<std::uint8_t> rgba8(4 * kPixels);
-    const FramebufferView target{kSide, kSide, rgba8.data(), nullptr};
+    const Target target{kSide, kSide, rgba8.data(), nullptr};
     for (const auto& [lobe, message] : refused) {
         Square square;
         square.add_light(LightType::directional);
         square.scene.materials[0].lobe = lobe;
-        const auto by_material = render(square.scene, camera_flat(), square.settings, target);
+        const auto by_material = render(square.scene, camera_flat(), square.settings, target, square.settings.execution);
         REQUIRE(!by_material);
         CHECK(by_material.error().code == ErrorCode::bad_input);
         CHECK(by_material.error().message == "material 0: lobe: " + message);
         square.scene.materials[0].lobe = {};
         square.settings.shading.lobe = lobe;
-        CHECK(render(square.scene, camera_flat(), square.settings, target));  // not used without override_lobe
-        square.settings.shading.override_lobe = true;
-        const auto by_setting = render(square.scene, camera_flat(), square.settings, target);
+        const auto by_setting = render(square.scene, camera_flat(), square.settings, target, square.settings.execution);
         REQUIRE(!by_setting);
         CHECK(by_setting.error().code == ErrorCode::usage);
         CHECK(by_setting.error().message == "lobe: " + message);

@@ -1,5 +1,5 @@
-# Rules about sources that no compiler checks. Includes point left only, among layers and among the subfolders of a layer. Third-party
-# types stay out of public headers. Only the vocabulary names xsimd and intrinsics. Kernels call nothing whose result depends on the
+# Rules about sources that no compiler checks. Includes point left only, among layers and among the subfolders of a layer. Public headers,
+# those in a folder include/halflit, include nothing but each other, the standard library and tl::expected. Only the vocabulary names xsimd and intrinsics. Kernels call nothing whose result depends on the
 # machine.
 #   cmake -DROOT=source-tree -P layering.cmake
 set(layers sh shading raster apps)
@@ -18,6 +18,17 @@ set(subfolders
     "raster/built_in/=raster/((view|passes|kernels)/|renderer|frame_plan)")
 set(failures "")
 set(file_count 0)
+
+# The layer of each public header, for includes by "halflit/NAME.hpp".
+foreach(layer IN LISTS layers)
+    file(GLOB_RECURSE headers ${ROOT}/${layer}/*.hpp ${ROOT}/${layer}/*.h)
+    foreach(header IN LISTS headers)
+        if(header MATCHES "/include/(halflit/[a-z_]+\\.hp?p?)$")
+            string(MAKE_C_IDENTIFIER "${CMAKE_MATCH_1}" key)
+            set(layer_of_${key} ${layer})
+        endif()
+    endforeach()
+endforeach()
 
 # Reads the lines of a file into a list, without what follows //. Semicolons and brackets are replaced: they would break a CMake list.
 function(read_code file out)
@@ -48,10 +59,19 @@ foreach(layer IN LISTS layers)
             set(in_vocabulary TRUE)
         elseif(file MATCHES "^(shading|raster)/kernels/" AND NOT file MATCHES "/(registry\\.cpp|isa(_select)?\\.hpp)$")
             set(in_kernel TRUE)
-        elseif(file MATCHES "^(sh|shading|shading/plan|raster|raster/(scene|view|built_in)|apps/io)/[^/]+\\.hpp$")
+        elseif(file MATCHES "/include/halflit/")
             set(public TRUE)
         endif()
         foreach(line IN LISTS lines)
+            if(line MATCHES "^ *#include [<\"](halflit/[a-z_]+\\.hp?p?)[>\"]")
+                string(MAKE_C_IDENTIFIER "${CMAKE_MATCH_1}" key)
+                set(included_layer "${layer_of_${key}}")
+                if(forbidden AND included_layer AND included_layer MATCHES "^(${forbidden})$")
+                    list(APPEND failures "${file}: include points right: ${line}")
+                endif()
+            elseif(public AND line MATCHES "^ *#include" AND NOT line MATCHES "#include <([a-z_]+|tl/expected\\.hpp|std[a-z]+\\.h)>")
+                list(APPEND failures "${file}: third-party or internal header in a public header: ${line}")
+            endif()
             if(forbidden AND line MATCHES "^ *#include \"(${forbidden})/")
                 list(APPEND failures "${file}: include points right: ${line}")
             endif()
@@ -67,9 +87,6 @@ foreach(layer IN LISTS layers)
             endif()
             if(NOT in_vocabulary AND line MATCHES "xsimd|[^a-z]_mm(256|512)?_|immintrin|arm_neon")
                 list(APPEND failures "${file}: vector instructions are named in shading/kernels/simd*.hpp only: ${line}")
-            endif()
-            if(public AND line MATCHES "#include <(xsimd|tiny_gltf|tinygltf|stb|spng|jpeglib|turbojpeg|nlohmann|tbb|oneapi)")
-                list(APPEND failures "${file}: third-party header in a public header: ${line}")
             endif()
             if((in_kernel OR in_vocabulary) AND line MATCHES "#include <(cmath|math|algorithm|numeric|functional|complex)")
                 list(APPEND failures "${file}: kernels use only their vocabulary: ${line}")

@@ -29,7 +29,7 @@ std::optional<std::int64_t> heap_bytes() {
 Environment of_image(int width, int height, const EnvironmentOptions& options = {}) {
     std::vector<float> rgb;
     for (int i = 0; i < width * height; ++i) rgb.insert(rgb.end(), {0.5f, 0.4f, static_cast<float>(i % width) / static_cast<float>(width)});
-    return make_environment({width, height, rgb}, options);
+    return shading::make_environment(sh::EquirectView{width, height, rgb}, options);
 }
 
 }  // namespace

@@ -330,7 +330,7 @@ TEST_CASE("extremes: environment light is as accurate at the poles of its basis 
     for (auto& c : environment.radiance.c) c = {make.ordinary(-1, 1), make.ordinary(-1, 1), make.ordinary(-1, 1)};
     environment.radiance.c[0] = {40, 40, 40};  // so that no sum is below 0
     Shot shot = matte();
-    shot.options.environment_order.fixed = sh::kMaxBands;
+    shot.options.environment_bands = sh::kMaxBands;
     const std::vector<SlotMask> available{3u, 3u};
     shot.plan = plan_shading({std::span(&shot.material, 1), {}, available, {}, {}, shot.options, borrowed(environment)});
     REQUIRE(shot.plan.environments.size() == 1);

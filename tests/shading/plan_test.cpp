@@ -149,7 +149,6 @@ TEST_CASE("plan: each power takes its cheapest lobe path", "[shading][plan]") {
 
 TEST_CASE("plan: the lobe of the settings replaces all but those that the file chose", "[shading][plan]") {
     Scene scene;
-    scene.options.override_lobe = true;
     scene.options.lobe = Lobe::valve();
     CHECK(scene.first().lobe.path == LobePath::square);
     scene.materials[0].has_own_lobe = true;

@@ -158,8 +158,8 @@ inline Case make_case(FloatMaker& make, bool smooth_textures) {
         c.ambient = {{make.ordinary(0, 1), make.ordinary(0, 1), make.ordinary(0, 1)}, {0.2f, make.ordinary(0, 1), 0.0f}};
     c.options.specular = static_cast<SpecularModel>(make.below(3));
     c.options.normalize_specular = make.below(4) != 0;
-    c.options.override_lobe = make.below(4) == 0;
-    c.options.lobe = make_lobe(make);
+    const bool override_lobe = make.below(4) == 0;
+    if (const Lobe lobe = make_lobe(make); override_lobe) c.options.lobe = lobe;
     c.available = {3u | (make.below(8) << 2), 3u};
     c.plan = plan_shading({c.materials, c.textures, c.available, plan_lights(c.lights), c.ambient, c.options});
     c.plan.eye_ws = {make.ordinary(-4, 4), make.ordinary(-4, 4), 5.0f};

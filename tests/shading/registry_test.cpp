@@ -1,5 +1,6 @@
 // Listing, choosing and forcing instruction sets.
 #include "halflit/isa.hpp"
+#include "shading/kernels/shade_kernels.hpp"
 
 #include "tests/support/skip.hpp"
 

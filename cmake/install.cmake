@@ -1,0 +1,56 @@
+# Installation: libraries, headers, the program, and what find_package(halflit COMPONENTS raster io c) and pkg-config need.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/halflit)
+get_property(components GLOBAL PROPERTY HALFLIT_COMPONENTS)
+
+foreach(component IN LISTS components)
+    get_property(targets GLOBAL PROPERTY HALFLIT_TARGETS_${component})
+    install(TARGETS ${targets} EXPORT halflit_${component} COMPONENT development)
+    install(EXPORT halflit_${component} NAMESPACE halflit:: FILE halflit_${component}_targets.cmake DESTINATION ${package_dir}
+        COMPONENT development)
+endforeach()
+foreach(layer sh shading raster io c)
+    get_property(headers GLOBAL PROPERTY HALFLIT_HEADERS_${layer})
+    if(headers)
+        install(DIRECTORY ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/halflit COMPONENT development FILES_MATCHING PATTERN "*.h*")
+    endif()
+endforeach()
+
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/halflitConfig.cmake.in ${PROJECT_BINARY_DIR}/halflitConfig.cmake
+    INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/halflitConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/halflitConfig.cmake ${PROJECT_BINARY_DIR}/halflitConfigVersion.cmake DESTINATION ${package_dir}
+    COMPONENT development)
+
+# halflit_pkg_config(FILE DESCRIPTION LIBRARIES REQUIRES): one .pc file.
+function(halflit_pkg_config file description libraries requires)
+    configure_file(${PROJECT_SOURCE_DIR}/cmake/halflit.pc.in ${PROJECT_BINARY_DIR}/${file}.pc @ONLY)
+    install(FILES ${PROJECT_BINARY_DIR}/${file}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+endfunction()
+if(HALFLIT_SHARED)
+    set(raster_libraries -lhalflit)
+    set(io_libraries -lhalflit_io)
+    set(c_requires "")
+else()
+    # Static libraries need their own dependencies at every link, not only with --static.
+    set(io_libraries "-lhalflit_io -lfmt -ljpeg -lspng")
+    set(c_requires halflit-io)
+    if(HALFLIT_ONETBB)
+        set(raster_libraries "-lhalflit_raster -lhalflit_shading -lhalflit_sh -ltbb -lstdc++ -lm")
+    else()
+        set(raster_libraries "-lhalflit_raster -lhalflit_shading -lhalflit_sh -pthread -lstdc++ -lm")
+    endif()
+endif()
+halflit_pkg_config(halflit "scenes and pictures in memory" "${raster_libraries}" "")
+if(TARGET halflit::io)
+    halflit_pkg_config(halflit-io "models, pictures and environments as files" "${io_libraries}" halflit)
+endif()
+if(TARGET halflit::c)
+    halflit_pkg_config(halflit-c "the C interface" -lhalflit_c "${c_requires}")
+endif()
+
+if(TARGET halflit)
+    install(TARGETS halflit RUNTIME COMPONENT program)
+endif()
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)

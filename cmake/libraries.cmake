@@ -1,0 +1,89 @@
+# How the project's libraries are made.
+#   halflit_flags                            the project's compiler flags and internal include folders; not for consumers
+#   halflit_layer(NAME SOURCES... UNITY...)  a static library halflit_NAME, one layer or component, with its public headers
+#   halflit_component(NAME OUTPUT LAYERS...) the target halflit::NAME for consumers, made of layers, static or shared
+
+# Flags of the numerics contract decide values, so every target gets them. Contraction into fused multiply-add is off because it rounds
+# once where the source rounds twice, on some instruction sets only.
+add_library(halflit_flags INTERFACE)
+target_compile_features(halflit_flags INTERFACE cxx_std_20)
+target_compile_options(halflit_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:
+    -ffp-contract=off -fno-math-errno -fno-trapping-math
+    $<$<STREQUAL:$<CONFIG>,>:-O2>
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+    $<$<CXX_COMPILER_ID:Clang,AppleClang>:-Wno-bitwise-instead-of-logical>  # a scalar kernel's mask is a bool
+    $<$<BOOL:${HALFLIT_WARNINGS_AS_ERRORS}>:-Werror>>)
+target_include_directories(halflit_flags INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
+foreach(folder sh shading raster apps/io)
+    target_include_directories(halflit_flags INTERFACE ${PROJECT_SOURCE_DIR}/${folder}/include)
+endforeach()
+
+# UNITY: groups of sources that are compiled together, each a list separated by commas.
+function(halflit_layer name)
+    cmake_parse_arguments(arg "" "" "SOURCES;UNITY" ${ARGN})
+    set(target halflit_${name})
+    add_library(${target} STATIC ${arg_SOURCES})
+    set(number 0)
+    foreach(group IN LISTS arg_UNITY)
+        string(REPLACE "," ";" sources "${group}")
+        target_sources(${target} PRIVATE ${sources})
+        math(EXPR number "${number} + 1")
+        set_source_files_properties(${sources} PROPERTIES UNITY_GROUP ${name}_${number})
+    endforeach()
+    set_target_properties(${target} PROPERTIES
+        CXX_STANDARD 20 CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF
+        POSITION_INDEPENDENT_CODE ON
+        CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
+        UNITY_BUILD ${HALFLIT_UNITY} UNITY_BUILD_MODE GROUP)
+    target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:halflit_flags>)
+    target_compile_features(${target} PUBLIC cxx_std_20)
+    if(HALFLIT_SHARED)
+        target_compile_definitions(${target} PRIVATE HALFLIT_BUILDING_SHARED)
+    endif()
+    target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+        $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    set_property(GLOBAL PROPERTY HALFLIT_HEADERS_${name} ${CMAKE_CURRENT_SOURCE_DIR}/include/halflit/)
+endfunction()
+
+# Objects of a layer that its own target does not list: the kernels.
+function(halflit_add_objects name)
+    target_sources(halflit_${name} PRIVATE ${ARGN})
+    set_property(GLOBAL APPEND PROPERTY HALFLIT_OBJECTS_${name} ${ARGN})
+endfunction()
+
+# Static: halflit::NAME is the last of its layers. Shared: a library lib<OUTPUT>.so of all its layers' objects, of which only the names that
+# cmake/exported.map lists are visible.
+function(halflit_component name output)
+    cmake_parse_arguments(arg "" "" "LAYERS;NEEDS;PRIVATE" ${ARGN})
+    list(GET arg_LAYERS -1 last)
+    if(NOT HALFLIT_SHARED)
+        add_library(halflit::${name} ALIAS halflit_${last})
+        set_property(GLOBAL APPEND PROPERTY HALFLIT_COMPONENTS ${name})
+        foreach(layer IN LISTS arg_LAYERS)
+            set_property(GLOBAL APPEND PROPERTY HALFLIT_TARGETS_${name} halflit_${layer})
+            set_target_properties(halflit_${layer} PROPERTIES EXPORT_NAME ${layer})
+        endforeach()
+        return()
+    endif()
+    set(target halflit_${name}_shared)
+    set(objects "")
+    foreach(layer IN LISTS arg_LAYERS)
+        get_property(kernels GLOBAL PROPERTY HALFLIT_OBJECTS_${layer})
+        list(APPEND objects $<TARGET_OBJECTS:halflit_${layer}> ${kernels})
+    endforeach()
+    add_library(${target} SHARED ${objects})
+    add_library(halflit::${name} ALIAS ${target})
+    set_target_properties(${target} PROPERTIES
+        OUTPUT_NAME ${output} LINKER_LANGUAGE CXX EXPORT_NAME ${name}
+        VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+        LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/exported.map)
+    target_link_options(${target} PRIVATE -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/exported.map -Wl,--no-undefined)
+    target_link_libraries(${target} PUBLIC ${arg_NEEDS} PRIVATE ${arg_PRIVATE})
+    target_compile_features(${target} PUBLIC cxx_std_20)
+    foreach(layer IN LISTS arg_LAYERS)
+        get_target_property(folders halflit_${layer} INTERFACE_INCLUDE_DIRECTORIES)
+        target_include_directories(${target} PUBLIC ${folders})
+    endforeach()
+    set_property(GLOBAL APPEND PROPERTY HALFLIT_COMPONENTS ${name})
+    set_property(GLOBAL APPEND PROPERTY HALFLIT_TARGETS_${name} ${target})
+endfunction()
