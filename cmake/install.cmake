@@ -50,7 +50,42 @@ if(TARGET halflit::c)
     halflit_pkg_config(halflit-c "the C interface" -lhalflit_c "${c_requires}")
 endif()
 
+# The program. HALFLIT_BUNDLE: with the libraries that a bare system lacks beside it.
+option(HALFLIT_BUNDLE "Install the shared libraries that the program needs beside it" OFF)
 if(TARGET halflit)
-    install(TARGETS halflit RUNTIME COMPONENT program)
+    if(HALFLIT_BUNDLE)
+        set_target_properties(halflit PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}/halflit")
+        install(TARGETS halflit
+            RUNTIME_DEPENDENCIES
+                PRE_EXCLUDE_REGEXES "^lib(c|m|dl|pthread|rt|stdc\\+\\+|gcc_s)\\.so" "^ld-linux"
+                DIRECTORIES /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}
+            RUNTIME COMPONENT program
+            LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/halflit COMPONENT program)
+    else()
+        install(TARGETS halflit RUNTIME COMPONENT program)
+    endif()
+    # Manual pages and completions come from the program's own tables.
+    set(pages ${PROJECT_BINARY_DIR}/pages)
+    add_custom_command(OUTPUT ${pages}/halflit.1 COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:halflit> -DPAGES=${pages}
+        -P ${PROJECT_SOURCE_DIR}/cmake/pages.cmake DEPENDS halflit)
+    add_custom_target(halflit_pages ALL DEPENDS ${pages}/halflit.1)
+    install(DIRECTORY ${pages}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program FILES_MATCHING PATTERN "*.1")
+    install(FILES ${pages}/halflit.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME halflit
+        COMPONENT program)
+    install(FILES ${pages}/_halflit DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT program)
 endif()
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+
+# Packages: `./dev package`.
+set(CPACK_PACKAGE_NAME halflit)
+set(CPACK_PACKAGE_VENDOR "The halflit authors")
+set(CPACK_PACKAGE_CONTACT "The halflit authors <halflit@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_PACKAGE_FILE_NAME halflit-${PROJECT_VERSION}-${CMAKE_SYSTEM_PROCESSOR})
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+include(CPack)

@@ -1,6 +1,8 @@
 #include "halflit/scene.hpp"
 #include "sh/mat4.hpp"
 
+#include <algorithm>
+
 namespace halflit {
 
 namespace {
@@ -45,6 +47,11 @@ void add_default_lights(Scene& scene, const Camera& camera) {
 
 void set_environment(Scene& scene, std::shared_ptr<const Environment> environment) {
     scene.ambient = {};
+    if (scene.environment != nullptr)
+        for (const Light& sun : environment_suns(*scene.environment)) {
+            const auto found = std::find(scene.lights.begin(), scene.lights.end(), sun);
+            if (found != scene.lights.end()) scene.lights.erase(found);
+        }
     if (environment != nullptr) {
         const std::span<const Light> suns = environment_suns(*environment);
         scene.lights.insert(scene.lights.end(), suns.begin(), suns.end());

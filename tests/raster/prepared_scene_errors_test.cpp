@@ -1,5 +1,6 @@
 // Errors of preparing a scene and of updating it.
 #include "halflit/prepared_scene.hpp"
+#include "raster/scene/prepared_data.hpp"
 #include "halflit/scene.hpp"
 #include "halflit/shapes.hpp"
 
@@ -143,8 +144,8 @@ TEST_CASE("prepared scene: a mesh may become empty and be filled again", "[raste
     const Mesh sphere = std::exchange(scene.meshes[1], Mesh{});
     REQUIRE(prepared->update({{}, {1}}));
     CHECK(prepared->triangle_count() == 24);
-    CHECK(prepared->instance_bounds()[1].empty);
-    CHECK_FALSE(prepared->drawn_materials()[1]);
+    CHECK(prepared->data().instance_bounds()[1].empty);
+    CHECK_FALSE(prepared->data().drawn_materials()[1]);
     scene.meshes[1] = sphere;
     REQUIRE(prepared->update({{}, {1}}));
     CHECK(prepared->triangle_count() == all);

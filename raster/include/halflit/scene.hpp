@@ -34,7 +34,8 @@ struct Scene {
 /// Adds light to a scene that has none: a key light over the viewer's left shoulder, and ambient light from sky and ground.
 HALFLIT_API void add_default_lights(Scene& scene, const Camera& camera);
 
-/// Lights the scene by an environment: sets it, removes the ambient light, and adds its suns to the scene's lights.
+/// Lights the scene by an environment: sets it, removes the ambient light, and adds its suns to the scene's lights. The suns of the
+/// environment before, if there was one, are removed. Null: no environment.
 HALFLIT_API void set_environment(Scene& scene, std::shared_ptr<const Environment> environment);
 
 /// Estimate of the light at the centre of the bounds, irradiance / pi: the sum over the lights of what a surface there receives that faces

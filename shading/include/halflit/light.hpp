@@ -20,6 +20,7 @@ struct Light {
     float inner_cone_rad = 0.0f;          ///< spot: full intensity up to this angle from the axis
     float outer_cone_rad = 0.785398163f;  ///< spot: zero from this angle on, pi/4 by default
     float cone_power = 0.0f;              ///< spot: factor cos(angle to the axis)^cone_power, [CMSC]; 0 to 1e5; 0: the cone alone
+    friend bool operator==(const Light&, const Light&) = default;
 };
 
 /// Ambient light from all around, blended between ground and sky: L(n) = ground + (sky - ground) (1 + n.y) / 2.
