@@ -563,6 +563,23 @@ static void test_loading(void) {
     CHECK_OK(halflit_scene_get_material(from_file, 0, &material));
     CHECK(strcmp(material.name, "paint") == 0 && material.base_color[0] == 0.1f);
     CHECK(hash != draw(NULL, from_file, &camera, &settings));
+
+    // A buffer in another file is read from base_dir alone.
+    {
+        static char outside[sizeof model + 64];
+        const char *uri = strstr(model, "data:"), *rest = strstr(uri, "\"}");
+        const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+        halflit_scene* scene = NULL;
+        int length = sprintf(outside, "%.*sc_api_test.bin%s", (int)(uri - model), model, rest);
+        file = fopen("c_api_test.bin", "wb");
+        CHECK(file != NULL && fwrite(triangle, 1, sizeof triangle, file) == sizeof triangle);
+        fclose(file);
+        CHECK(halflit_scene_load_memory(outside, (size_t)length, "model", NULL, NULL, &scene) != HALFLIT_OK && scene == NULL);
+        CHECK_OK(halflit_scene_load_memory(outside, (size_t)length, "model", ".", NULL, &scene));
+        init_setup(scene, &camera, &settings);
+        CHECK(hash == draw(NULL, scene, &camera, &settings));
+        halflit_scene_destroy(scene);
+    }
     options.max_file_bytes = 10;
     CHECK_FAILS(halflit_scene_load(path, &options, &from_file), HALFLIT_ERROR_LIMIT, path);
     halflit_scene_destroy(from_file);
