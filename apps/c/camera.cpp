@@ -1,0 +1,61 @@
+// Functions of halflit.h about cameras and settings.
+#include "apps/c/convert.hpp"
+#include "apps/c/scene_access.hpp"
+#include "apps/c/versioned.hpp"
+
+#include <halflit/auto_setup.hpp>
+
+using namespace halflit;
+using namespace halflit::c;
+
+namespace {
+
+/// The camera without a name: it has no scene that keeps one.
+halflit_camera nameless(const Camera& from) {
+    halflit_camera camera = to_c(from);
+    camera.name = nullptr;
+    return camera;
+}
+
+}  // namespace
+
+int32_t halflit_camera_init(halflit_camera* camera, size_t size) {
+    return guarded(__func__, {{camera, "camera"}}, [&] { return write_struct(nameless(Camera{}), size, camera, "halflit_camera"); });
+}
+
+int32_t halflit_camera_look_at(const float eye[3], const float target[3], const float up[3], halflit_camera* to) {
+    return guarded(__func__, {{eye, "eye"}, {target, "target"}, {to, "camera"}}, [&]() -> Result<void> {
+        auto made = camera(to);
+        if (!made) return tl::unexpected<Error>(made.error());
+        made->world_from_camera = look_at(vec3(eye), vec3(target), up != nullptr ? vec3(up) : Vec3f{0, 1, 0});
+        return write_struct(nameless(*made), to, "halflit_camera");
+    });
+}
+
+int32_t halflit_camera_frame(const halflit_scene* scene, float aspect, float azimuth_deg, float elevation_deg, float zoom,
+                             halflit_camera* to) {
+    return reading(__func__, scene, {{to, "camera"}}, [&]() -> Result<void> {
+        if (!(aspect > 0.0f && aspect < 1e6f)) return fail(ErrorCode::usage, "halflit_camera_frame: aspect is not a positive number");
+        ViewSettings view;
+        view.azimuth_deg = azimuth_deg;
+        view.elevation_deg = elevation_deg;
+        view.zoom = zoom;
+        return write_struct(nameless(frame_scene(scene->scene, aspect, view)), to, "halflit_camera");
+    });
+}
+
+int32_t halflit_settings_init(halflit_settings* settings, size_t size) {
+    return guarded(__func__, {{settings, "settings"}}, [&] { return write_struct(to_c(Settings{}), size, settings, "halflit_settings"); });
+}
+
+int32_t halflit_auto_setup(halflit_scene* scene, int32_t width, int32_t height, halflit_camera* to_camera, halflit_settings* to_settings) {
+    return changing(__func__, scene, {{to_camera, "camera"}, {to_settings, "settings"}}, [&]() -> Result<void> {
+        if (auto ok = check_settings({}, width, height); !ok) return ok;
+        if (auto ok = check_size(to_camera->size, sizeof(halflit_camera), "halflit_camera"); !ok) return ok;
+        if (auto ok = check_size(to_settings->size, sizeof(halflit_settings), "halflit_settings"); !ok) return ok;
+        scene->changes.lights();
+        const AutoSetup setup = auto_setup(scene->scene, width, height);
+        (void)write_struct(nameless(setup.camera), to_camera, "halflit_camera");  // the sizes were checked before the scene was changed
+        return write_struct(to_c(setup.settings), to_settings, "halflit_settings");
+    });
+}

@@ -1,0 +1,248 @@
+// Conversions of what describes a picture. The constants and the layout of halflit.h are checked here too.
+#include "apps/c/convert_parts.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace halflit::c {
+namespace {
+
+// No padding: a member that a later version appends must not lie in what was padding before, which callers do not set.
+template <class T, class Last>
+constexpr bool ends_with(std::size_t offset, Last T::*) {
+    return offset + sizeof(Last) == sizeof(T);
+}
+#define HALFLIT_ENDS_WITH(type, member) static_assert(ends_with(offsetof(type, member), &type::member))
+HALFLIT_ENDS_WITH(halflit_load_options, lenient);
+HALFLIT_ENDS_WITH(halflit_counts, reserved);
+HALFLIT_ENDS_WITH(halflit_material, emissive_texture);
+HALFLIT_ENDS_WITH(halflit_mesh, reserved);
+HALFLIT_ENDS_WITH(halflit_light, reserved);
+HALFLIT_ENDS_WITH(halflit_environment_options, reserved);
+HALFLIT_ENDS_WITH(halflit_camera, reserved);
+HALFLIT_ENDS_WITH(halflit_settings, reserved);
+HALFLIT_ENDS_WITH(halflit_execution, tile_size);
+HALFLIT_ENDS_WITH(halflit_target, region_alone);
+HALFLIT_ENDS_WITH(halflit_report, reserved);
+#undef HALFLIT_ENDS_WITH
+
+// The constants are the numbers of the enumerations.
+static_assert(HALFLIT_ERROR_USAGE == static_cast<int>(ErrorCode::usage) &&
+              HALFLIT_ERROR_CANCELLED == static_cast<int>(ErrorCode::cancelled));
+static_assert(HALFLIT_COLOR_LINEAR == static_cast<int>(ColorSpace::linear) && HALFLIT_ALPHA_BLEND == static_cast<int>(AlphaMode::blend));
+static_assert(HALFLIT_WRAP_CLAMP == static_cast<int>(TextureWrap::clamp) &&
+              HALFLIT_FILTER_LINEAR == static_cast<int>(TextureFilter::linear));
+static_assert(HALFLIT_MIP_LINEAR == static_cast<int>(MipFilter::linear) && HALFLIT_LIGHT_SPOT == static_cast<int>(LightType::spot));
+static_assert(HALFLIT_ACCURACY_FAST == static_cast<int>(Accuracy::fast) && HALFLIT_RATE_PIXEL == static_cast<int>(ShadingRate::pixel));
+static_assert(HALFLIT_DETAIL_NEAREST == static_cast<int>(TextureDetail::nearest));
+static_assert(HALFLIT_SPECULAR_BLINN == static_cast<int>(SpecularModel::blinn));
+static_assert(HALFLIT_SHADOWS_SOFT_SPLIT == static_cast<int>(ShadowMode::soft_split));
+
+}  // namespace
+
+halflit_camera to_c(const Camera& from) {
+    halflit_camera camera{};
+    camera.size = sizeof camera;
+    camera.name = from.name.c_str();
+    put(from.world_from_camera, camera.world_from_camera);
+    camera.orthographic = from.orthographic;
+    camera.fov_y_rad = from.fov_y_rad;
+    camera.aspect = from.aspect;
+    camera.half_height = from.half_height;
+    camera.half_width = from.half_width;
+    camera.near_z = from.near_z;
+    camera.far_z = from.far_z;
+    return camera;
+}
+
+Result<Camera> camera(const halflit_camera* given) {
+    const Camera defaults;
+    const auto read = read_struct(given, to_c(defaults), "halflit_camera");
+    if (!read) return tl::unexpected<Error>(read.error());
+    Camera camera;
+    camera.world_from_camera = mat4(read->world_from_camera);
+    camera.orthographic = read->orthographic != 0;
+    camera.fov_y_rad = read->fov_y_rad;
+    camera.aspect = read->aspect;
+    camera.half_height = read->half_height;
+    camera.half_width = read->half_width;
+    camera.near_z = read->near_z;
+    camera.far_z = read->far_z;
+    return camera;
+}
+
+halflit_settings to_c(const Settings& from) {
+    halflit_settings settings{};
+    settings.size = sizeof settings;
+    settings.max_error_codes = from.shading.max_error_codes;
+    settings.environment_tolerance = from.shading.environment_tolerance;
+    settings.shadow_memory_limit = from.shadow_memory_limit;
+    settings.region = {from.region.x, from.region.y, from.region.width, from.region.height};
+    settings.samples = from.samples;
+    put(from.background_linear, settings.background);
+    settings.background_environment = from.background_environment;
+    settings.exposure = from.exposure;
+    settings.accuracy = static_cast<std::int32_t>(from.shading.accuracy);
+    settings.shading_rate = static_cast<std::int32_t>(from.shading.rate);
+    settings.texture_detail = static_cast<std::int32_t>(from.shading.texture_detail);
+    settings.specular = static_cast<std::int32_t>(from.shading.specular);
+    settings.normalize_specular = from.shading.normalize_specular;
+    settings.environment_bands = from.shading.environment_bands;
+    settings.override_lobe = from.shading.lobe.has_value();
+    settings.lobe = to_c(from.shading.lobe.value_or(Lobe{}));
+    settings.shadows = static_cast<std::int32_t>(from.shadows);
+    settings.shadow_size = from.shadow_size;
+    settings.shadow_fade = from.shadow_fade;
+    settings.shadow_terminator_offset = from.shadow_terminator_offset;
+    return settings;
+}
+
+Result<Settings> settings(const halflit_settings* given) {
+    Settings settings;
+    if (given == nullptr) return settings;
+    const auto read = read_struct(given, to_c(settings), "halflit_settings");
+    if (!read) return tl::unexpected<Error>(read.error());
+    settings.region = {read->region.x, read->region.y, read->region.width, read->region.height};
+    settings.samples = read->samples;
+    settings.background_linear = vec4(read->background);
+    settings.background_environment = read->background_environment != 0;
+    settings.exposure = read->exposure;
+    settings.shadow_size = read->shadow_size;
+    settings.shadow_memory_limit = read->shadow_memory_limit;
+    settings.shadow_fade = read->shadow_fade;
+    settings.shadow_terminator_offset = read->shadow_terminator_offset != 0;
+    ShadingSettings& shading = settings.shading;
+    if (read->override_lobe != 0) shading.lobe = lobe(read->lobe);
+    shading.normalize_specular = read->normalize_specular != 0;
+    shading.environment_bands = read->environment_bands;
+    shading.environment_tolerance = read->environment_tolerance;
+    shading.max_error_codes = read->max_error_codes;
+    Choices choices("halflit_settings");
+    choices.read(read->accuracy, Accuracy::fast, "accuracy", shading.accuracy);
+    choices.read(read->shading_rate, ShadingRate::pixel, "shading_rate", shading.rate);
+    choices.read(read->texture_detail, TextureDetail::nearest, "texture_detail", shading.texture_detail);
+    choices.read(read->specular, SpecularModel::blinn, "specular", shading.specular);
+    choices.read(read->shadows, ShadowMode::soft_split, "shadows", settings.shadows);
+    if (!choices.result()) return tl::unexpected<Error>(choices.result().error());
+    return settings;
+}
+
+namespace {
+
+struct Loop {
+    const std::function<void(int)>* body;
+    int count;
+};
+
+/// Runs one part. Leaves out a part that does not exist, so that the frame fails for the part that the host calls by a wrong number.
+void run_part(void* task, std::int32_t i) {
+    const Loop& loop = *static_cast<const Loop*>(task);
+    if (i >= 0 && i < loop.count) (*loop.body)(i);
+}
+
+}  // namespace
+
+halflit_execution default_execution() {
+    const Execution defaults;
+    halflit_execution execution{};
+    execution.size = sizeof execution;
+    execution.threads = defaults.threads;
+    execution.tile_size = defaults.tile_size;
+    return execution;
+}
+
+Result<Execution> execution(const halflit_execution* given) {
+    Execution execution;
+    if (given == nullptr) return execution;
+    const auto read = read_struct(given, default_execution(), "halflit_execution");
+    if (!read) return tl::unexpected<Error>(read.error());
+    if (read->isa != nullptr) {
+        const auto isa = isa_by_name(read->isa);
+        if (!isa) return fail(ErrorCode::usage, "halflit_execution: isa: " + isa.error().message);
+        execution.isa = *isa;
+    }
+    if (read->threads < 0)
+        return fail(ErrorCode::usage, "halflit_execution: threads is " + std::to_string(read->threads) + ", expected 0 or more");
+    if (read->tile_size != 16 && read->tile_size != 32 && read->tile_size != 64)
+        return fail(ErrorCode::usage, "halflit_execution: tile_size is " + std::to_string(read->tile_size) + ", expected 16, 32 or 64");
+    execution.threads = read->threads;
+    execution.tile_size = read->tile_size;
+    void* const user = read->user;
+    if (auto* const cancelled = read->cancelled) execution.cancelled = [=] { return cancelled(user) != 0; };
+    if (auto* const on_tile = read->on_tile) execution.on_tile = [=](const Region& r) { on_tile(user, r.x, r.y, r.width, r.height); };
+    if (auto* const progress = read->progress) execution.progress = [=](double share) { progress(user, share); };
+    if (auto* const parallel_for = read->parallel_for)
+        execution.parallel_for = [=](int count, const std::function<void(int)>& body) {
+            Loop loop{&body, count};
+            parallel_for(user, count, run_part, &loop);
+        };
+    return execution;
+}
+
+halflit_target default_target() {
+    halflit_target target{};
+    target.size = sizeof target;
+    return target;
+}
+
+Result<halflit_target> target_struct(const halflit_target* given) {
+    auto read = read_struct(given, default_target(), "halflit_target");
+    if (read && (read->format < HALFLIT_FORMAT_RGBA8 || read->format > HALFLIT_FORMAT_RGBA_F32_PREMULTIPLIED))
+        return fail(ErrorCode::usage, "halflit_target: format is " + std::to_string(read->format) + ", expected 0 to " +
+                                          std::to_string(HALFLIT_FORMAT_RGBA_F32_PREMULTIPLIED));
+    return read;
+}
+
+Target target(const halflit_target& given) {
+    Target target;
+    target.width = given.width;
+    target.height = given.height;
+    if (is_float(given.format)) {
+        target.linear = static_cast<float*>(given.pixels);
+        target.linear_row_bytes = given.row_bytes;
+    } else {
+        target.pixels = static_cast<std::uint8_t*>(given.pixels);
+        target.row_bytes = given.row_bytes;
+        target.format = is_bgra(given.format) ? PixelFormat::bgra8 : PixelFormat::rgba8;
+    }
+    target.premultiplied = is_premultiplied(given.format);
+    target.region_alone = given.region_alone != 0;
+    target.depth = given.depth;
+    target.depth_row_bytes = given.depth_row_bytes;
+    target.normal = given.normal;
+    target.normal_row_bytes = given.normal_row_bytes;
+    target.instance = given.instance;
+    target.instance_row_bytes = given.instance_row_bytes;
+    target.triangle = given.triangle;
+    target.triangle_row_bytes = given.triangle_row_bytes;
+    return target;
+}
+
+halflit_report to_c(const RenderReport& from) {
+    halflit_report report{};
+    report.size = sizeof report;
+    report.total_ms = from.total_ms;
+    report.prepare_ms = from.ms.prepare;
+    report.plan_ms = from.ms.plan;
+    report.shadows_ms = from.ms.shadows;
+    report.cull_ms = from.ms.cull;
+    report.transform_ms = from.ms.transform;
+    report.bin_ms = from.ms.bin;
+    report.tiles_ms = from.ms.tiles;
+    report.error_budget = from.error.budget;
+    report.error_codes = from.error.codes;
+    report.error_within = from.error.within;
+    report.triangles_submitted = from.triangles_submitted;
+    report.triangles_drawn = from.triangles_drawn;
+    report.triangles_not_finite = from.triangles_not_finite;
+    report.pixels_visible = from.pixels_visible;
+    report.fragments_shaded = from.fragments_shaded;
+    report.nan_pixels = from.nan_pixels;
+    const auto isa = isa_name(from.isa);
+    std::memcpy(report.isa, isa.data(), std::min(isa.size(), sizeof report.isa - 1));
+    report.threads = from.threads;
+    report.warnings = static_cast<std::int32_t>(from.warnings.size());
+    return report;
+}
+
+}  // namespace halflit::c

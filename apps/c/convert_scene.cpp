@@ -1,0 +1,212 @@
+// Conversions of a scene's parts.
+#include "apps/c/convert_parts.hpp"
+
+namespace halflit::c {
+namespace {
+
+TextureUse texture_use(const halflit_texture_use& given, const char* member, Choices& choices) {
+    TextureUse use;
+    use.texture = given.texture;
+    choices.read(given.uv_set, 1, member, use.uv_set);
+    choices.read(given.wrap_u, TextureWrap::clamp, member, use.sampler.wrap_u);
+    choices.read(given.wrap_v, TextureWrap::clamp, member, use.sampler.wrap_v);
+    choices.read(given.mag_filter, TextureFilter::linear, member, use.sampler.mag);
+    choices.read(given.min_filter, TextureFilter::linear, member, use.sampler.min);
+    choices.read(given.mip_filter, MipFilter::linear, member, use.sampler.mip);
+    use.row_u = vec3(given.row_u);
+    use.row_v = vec3(given.row_v);
+    return use;
+}
+
+halflit_texture_use to_c(const TextureUse& from) {
+    halflit_texture_use use{};
+    use.texture = from.texture;
+    use.uv_set = from.uv_set;
+    use.wrap_u = static_cast<std::int32_t>(from.sampler.wrap_u);
+    use.wrap_v = static_cast<std::int32_t>(from.sampler.wrap_v);
+    use.mag_filter = static_cast<std::int32_t>(from.sampler.mag);
+    use.min_filter = static_cast<std::int32_t>(from.sampler.min);
+    use.mip_filter = static_cast<std::int32_t>(from.sampler.mip);
+    put(from.row_u, use.row_u);
+    put(from.row_v, use.row_v);
+    return use;
+}
+
+}  // namespace
+
+Mat4 mat4(const float m[16]) { return {{vec4(m), vec4(m + 4), vec4(m + 8), vec4(m + 12)}}; }
+
+void put(const Mat4& m, float to[16]) {
+    for (int column = 0; column < 4; ++column) put(m.c[column], to + 4 * column);
+}
+
+// ---- loading -----------------------------------------------------------------------------------------------------------
+
+halflit_load_options to_c(const LoadOptions& from) {
+    halflit_load_options options{};
+    options.size = sizeof options;
+    options.max_file_bytes = from.limits.max_file_bytes;
+    options.max_total_bytes = from.limits.max_total_bytes;
+    options.max_json_tokens = from.limits.max_json_tokens;
+    options.max_texture_bytes = from.limits.max_texture_bytes;
+    options.max_texture_pixels = from.limits.max_texture_pixels;
+    options.max_geometry_bytes = from.limits.max_geometry_bytes;
+    options.max_lights = from.limits.max_lights;
+    options.max_json_depth = from.limits.max_json_depth;
+    options.max_texture_side = from.limits.max_texture_side;
+    options.max_jpeg_scans = from.limits.max_jpeg_scans;
+    options.lenient = from.lenient;
+    return options;
+}
+
+Result<LoadOptions> load_options(const halflit_load_options* given) {
+    LoadOptions options;
+    if (given == nullptr) return options;
+    const auto read = read_struct(given, to_c(options), "halflit_load_options");
+    if (!read) return tl::unexpected<Error>(read.error());
+    if (read->allow_external == nullptr && read->allow_external_count > 0)
+        return fail(ErrorCode::usage, "halflit_load_options: allow_external is null, but allow_external_count is not 0");
+    for (std::size_t i = 0; i < read->allow_external_count; ++i) {
+        if (read->allow_external[i] == nullptr) return fail(ErrorCode::usage, "halflit_load_options: a folder of allow_external is null");
+        options.allow_external.emplace_back(read->allow_external[i]);
+    }
+    options.lenient = read->lenient != 0;
+    options.limits.max_file_bytes = read->max_file_bytes;
+    options.limits.max_total_bytes = read->max_total_bytes;
+    options.limits.max_json_tokens = read->max_json_tokens;
+    options.limits.max_texture_bytes = read->max_texture_bytes;
+    options.limits.max_texture_pixels = read->max_texture_pixels;
+    options.limits.max_geometry_bytes = read->max_geometry_bytes;
+    options.limits.max_lights = read->max_lights;
+    options.limits.max_json_depth = read->max_json_depth;
+    options.limits.max_texture_side = read->max_texture_side;
+    options.limits.max_jpeg_scans = read->max_jpeg_scans;
+    return options;
+}
+
+Result<ColorSpace> color_space(std::int32_t given) {
+    ColorSpace space = ColorSpace::srgb;
+    Choices choices("texture");
+    choices.read(given, ColorSpace::linear, "color", space);
+    if (!choices.result()) return tl::unexpected<Error>(choices.result().error());
+    return space;
+}
+
+// ---- parts of a scene --------------------------------------------------------------------------------------------------
+
+halflit_material to_c(const Material& from) {
+    halflit_material material{};
+    material.size = sizeof material;
+    material.name = from.name.c_str();
+    put(from.base_color, material.base_color);
+    material.metallic = from.metallic;
+    material.roughness = from.roughness;
+    put(from.emissive, material.emissive);
+    material.normal_scale = from.normal_scale;
+    material.occlusion_strength = from.occlusion_strength;
+    material.alpha_cutoff = from.alpha_cutoff;
+    material.alpha_mode = static_cast<std::int32_t>(from.alpha_mode);
+    material.double_sided = from.double_sided;
+    material.unlit = from.unlit;
+    material.own_lobe = from.has_own_lobe;
+    material.lobe = to_c(from.lobe);
+    material.base_color_texture = to_c(from.base_color_texture);
+    material.metallic_roughness_texture = to_c(from.metallic_roughness_texture);
+    material.normal_texture = to_c(from.normal_texture);
+    material.occlusion_texture = to_c(from.occlusion_texture);
+    material.emissive_texture = to_c(from.emissive_texture);
+    return material;
+}
+
+Result<Material> material(const halflit_material* given) {
+    const Material defaults;
+    auto default_struct = to_c(defaults);
+    default_struct.name = nullptr;
+    const auto read = read_struct(given, default_struct, "halflit_material");
+    if (!read) return tl::unexpected<Error>(read.error());
+    Material material;
+    if (read->name != nullptr) material.name = read->name;
+    material.base_color = vec4(read->base_color);
+    material.metallic = read->metallic;
+    material.roughness = read->roughness;
+    material.emissive = vec3(read->emissive);
+    material.normal_scale = read->normal_scale;
+    material.occlusion_strength = read->occlusion_strength;
+    material.alpha_cutoff = read->alpha_cutoff;
+    material.double_sided = read->double_sided != 0;
+    material.unlit = read->unlit != 0;
+    material.has_own_lobe = read->own_lobe != 0;
+    material.lobe = lobe(read->lobe);
+    Choices choices("halflit_material");
+    choices.read(read->alpha_mode, AlphaMode::blend, "alpha_mode", material.alpha_mode);
+    material.base_color_texture = texture_use(read->base_color_texture, "a value of base_color_texture", choices);
+    material.metallic_roughness_texture = texture_use(read->metallic_roughness_texture, "a value of metallic_roughness_texture", choices);
+    material.normal_texture = texture_use(read->normal_texture, "a value of normal_texture", choices);
+    material.occlusion_texture = texture_use(read->occlusion_texture, "a value of occlusion_texture", choices);
+    material.emissive_texture = texture_use(read->emissive_texture, "a value of emissive_texture", choices);
+    if (!choices.result()) return tl::unexpected<Error>(choices.result().error());
+    if (auto ok = check_lobe(material.lobe); !ok) return fail(ErrorCode::usage, "halflit_material: lobe: " + ok.error().message);
+    return material;
+}
+
+halflit_light to_c(const Light& from) {
+    halflit_light light{};
+    light.size = sizeof light;
+    light.type = static_cast<std::int32_t>(from.type);
+    put(from.color_linear, light.color);
+    put(from.position_ws, light.position);
+    put(from.direction_ws, light.direction);
+    light.range = from.range;
+    light.source_radius = from.source_radius;
+    light.inner_cone_rad = from.inner_cone_rad;
+    light.outer_cone_rad = from.outer_cone_rad;
+    light.cone_power = from.cone_power;
+    return light;
+}
+
+Result<Light> light(const halflit_light* given) {
+    const auto read = read_struct(given, to_c(Light{}), "halflit_light");
+    if (!read) return tl::unexpected<Error>(read.error());
+    Light light;
+    Choices choices("halflit_light");
+    choices.read(read->type, LightType::spot, "type", light.type);
+    if (!choices.result()) return tl::unexpected<Error>(choices.result().error());
+    light.color_linear = vec3(read->color);
+    light.position_ws = vec3(read->position);
+    light.direction_ws = vec3(read->direction);
+    light.range = read->range;
+    light.source_radius = read->source_radius;
+    light.inner_cone_rad = read->inner_cone_rad;
+    light.outer_cone_rad = read->outer_cone_rad;
+    light.cone_power = read->cone_power;
+    return light;
+}
+
+halflit_environment_options default_environment_options() {
+    halflit_environment_options options{};
+    options.size = sizeof options;
+    options.extract_suns = 1;
+    options.keep_image = 1;
+    return options;
+}
+
+Result<EnvironmentRequest> environment_request(const halflit_environment_options* given) {
+    const halflit_environment_options defaults = default_environment_options();
+    const auto read = read_struct(given != nullptr ? given : &defaults, defaults, "halflit_environment_options");
+    if (!read) return tl::unexpected<Error>(read.error());
+    EnvironmentRequest request;
+    request.options.extract_suns = read->extract_suns != 0;
+    request.options.rotate_rad = read->rotate_rad;
+    request.options.keep_image = request.options.keep_light = read->keep_image != 0;
+    request.calibrated = read->calibrated != 0;
+    return request;
+}
+
+halflit_mesh default_mesh() {
+    halflit_mesh mesh{};
+    mesh.size = sizeof mesh;
+    mesh.material = -1;
+    return mesh;
+}
+
+}  // namespace halflit::c

@@ -1,0 +1,234 @@
+// Functions of halflit.h that add and change materials, textures, meshes and instances.
+#include "apps/c/convert.hpp"
+#include "apps/c/scene_access.hpp"
+#include "apps/c/versioned.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+#include <utility>
+
+using namespace halflit;
+using namespace halflit::c;
+
+namespace {
+
+Result<Texture> make_texture(const std::uint8_t* rgba8, std::int32_t width, std::int32_t height, std::size_t row_bytes,
+                             std::int32_t color) {
+    const auto space = color_space(color);
+    if (!space) return tl::unexpected<Error>(space.error());
+    if (width < 1 || height < 1 || width > kMaxTextureSide || height > kMaxTextureSide)
+        return fail(ErrorCode::usage, "texture: " + std::to_string(width) + " x " + std::to_string(height) + " pixels, expected 1 to " +
+                                          std::to_string(kMaxTextureSide) + " on a side");
+    const std::size_t row = std::size_t{4} * static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
+    if (row_bytes != 0 && row_bytes < row)
+        return fail(ErrorCode::usage,
+                    "texture: row_bytes is " + std::to_string(row_bytes) + ", expected 0 or at least " + std::to_string(row));
+    if (row_bytes == 0 || row_bytes == row) return Texture::from_rgba8({rgba8, row * rows}, width, height, *space);
+    std::vector<std::uint8_t> packed(row * rows);
+    for (std::size_t y = 0; y < rows; ++y) std::memcpy(packed.data() + y * row, rgba8 + y * row_bytes, row);
+    return Texture::from_rgba8(packed, width, height, *space);
+}
+
+Result<Material> make_material(const Scene& scene, const halflit_material* given) {
+    auto made = material(given);
+    if (!made) return made;
+    for (const TextureUse* use : {&made->base_color_texture, &made->metallic_roughness_texture, &made->normal_texture,
+                                  &made->occlusion_texture, &made->emissive_texture})
+        if (use->used())
+            if (const auto at = check_index(use->texture, scene.textures.size(), "halflit_material: texture"); !at)
+                return tl::unexpected<Error>(at.error());
+    return made;
+}
+
+/// Copies an array of T, each made of floats alone; a null pointer gives an empty one.
+template <class T>
+std::vector<T> copied(const float* from, std::size_t count) {
+    std::vector<T> values(from != nullptr ? count : 0);
+    if (!values.empty()) std::memcpy(static_cast<void*>(values.data()), from, count * sizeof(T));
+    return values;
+}
+
+Result<Mesh> make_mesh(const Scene& scene, const halflit_mesh* pointer) {
+    const auto given = read_struct(pointer, default_mesh(), "halflit_mesh");
+    if (!given) return tl::unexpected<Error>(given.error());
+    const std::size_t count = given->vertex_count;
+    const auto faulty = [](ErrorCode code, std::string what) { return fail(code, "halflit_mesh: " + std::move(what)); };
+    if (given->positions == nullptr && count > 0) return faulty(ErrorCode::usage, "positions is null");
+    if (given->indices == nullptr && given->index_count > 0) return faulty(ErrorCode::usage, "indices is null, but index_count is not 0");
+    if (count > 0x7fffffffu || given->index_count > std::size_t{3} << 28)
+        return faulty(ErrorCode::limit, "more than 2^31 vertices or 2^28 triangles");
+    const std::size_t corners = given->indices != nullptr ? given->index_count : count;
+    if (corners % 3 != 0) return faulty(ErrorCode::bad_input, std::to_string(corners) + " corners, expected 3 for each triangle");
+    if (given->material != -1)
+        if (const auto at = check_index(given->material, scene.materials.size(), "halflit_mesh: material"); !at)
+            return tl::unexpected<Error>(at.error());
+    Mesh mesh;
+    if (given->name != nullptr) mesh.name = given->name;
+    mesh.positions = copied<Vec3f>(given->positions, count);
+    mesh.normals = copied<Vec3f>(given->normals, count);
+    mesh.tangents = copied<Vec4f>(given->tangents, count);
+    mesh.uv0 = copied<Vec2f>(given->uv0, count);
+    mesh.uv1 = copied<Vec2f>(given->uv1, count);
+    mesh.colors = copied<Vec4f>(given->colors, count);
+    mesh.material = given->material;
+    mesh.indices.resize(corners);
+    if (given->indices == nullptr) {
+        std::iota(mesh.indices.begin(), mesh.indices.end(), 0u);
+    } else if (corners > 0) {
+        std::copy(given->indices, given->indices + corners, mesh.indices.begin());
+        const std::uint32_t largest = *std::max_element(mesh.indices.begin(), mesh.indices.end());
+        if (largest >= count)
+            return faulty(ErrorCode::bad_input,
+                          "index " + std::to_string(largest) + ", but the number of vertices is " + std::to_string(count));
+    }
+    return mesh;
+}
+
+}  // namespace
+
+// ---- textures and materials --------------------------------------------------------------------------------------------
+
+int32_t halflit_scene_add_texture(halflit_scene* scene, const uint8_t* rgba8, int32_t width, int32_t height, size_t row_bytes,
+                                  int32_t color, int32_t* index) {
+    return changing(__func__, scene, {{rgba8, "rgba8"}}, [&]() -> Result<void> {
+        auto made = make_texture(rgba8, width, height, row_bytes, color);
+        if (!made) return tl::unexpected<Error>(made.error());
+        scene->changes.materials();
+        scene->scene.textures.push_back(std::move(*made));
+        tell_last(scene->scene.textures, index);
+        return {};
+    });
+}
+
+int32_t halflit_scene_set_texture(halflit_scene* scene, int32_t index, const uint8_t* rgba8, int32_t width, int32_t height,
+                                  size_t row_bytes, int32_t color) {
+    return changing(__func__, scene, {{rgba8, "rgba8"}}, [&]() -> Result<void> {
+        const auto at = check_index(index, scene->scene.textures.size(), "texture");
+        if (!at) return tl::unexpected<Error>(at.error());
+        auto made = make_texture(rgba8, width, height, row_bytes, color);
+        if (!made) return tl::unexpected<Error>(made.error());
+        scene->changes.materials();
+        scene->scene.textures[*at] = std::move(*made);
+        return {};
+    });
+}
+
+int32_t halflit_lobe_by_name(const char* name, float wrap, halflit_lobe* lobe) {
+    return guarded(__func__, {{name, "name"}, {lobe, "lobe"}}, [&]() -> Result<void> {
+        const NamedLobe* found = find_named_lobe(name);
+        if (found == nullptr) return fail(ErrorCode::usage, "lobe: " + std::string(name) + ", expected " + lobe_names());
+        const float w = found->takes_wrap ? wrap : found->wrap;
+        const Lobe made{w, found->power + found->power_per_wrap * w, found->normalize};
+        if (auto ok = check_lobe(made); !ok) return fail(ErrorCode::usage, "lobe: " + ok.error().message);
+        *lobe = {made.wrap, made.power, made.normalize};
+        return {};
+    });
+}
+
+int32_t halflit_material_init(halflit_material* material, size_t size) {
+    return guarded(__func__, {{material, "material"}}, [&] {
+        halflit_material defaults = to_c(Material{});
+        defaults.name = nullptr;
+        return write_struct(defaults, size, material, "halflit_material");
+    });
+}
+
+int32_t halflit_scene_add_material(halflit_scene* scene, const halflit_material* material, int32_t* index) {
+    return changing(__func__, scene, {{material, "material"}}, [&]() -> Result<void> {
+        auto made = make_material(scene->scene, material);
+        if (!made) return tl::unexpected<Error>(made.error());
+        scene->changes.structure();
+        scene->scene.materials.push_back(std::move(*made));
+        tell_last(scene->scene.materials, index);
+        return {};
+    });
+}
+
+int32_t halflit_scene_set_material(halflit_scene* scene, int32_t index, const halflit_material* material) {
+    return changing(__func__, scene, {{material, "material"}}, [&]() -> Result<void> {
+        const auto at = check_index(index, scene->scene.materials.size(), "material");
+        if (!at) return tl::unexpected<Error>(at.error());
+        auto made = make_material(scene->scene, material);
+        if (!made) return tl::unexpected<Error>(made.error());
+        scene->changes.materials();
+        scene->scene.materials[*at] = std::move(*made);
+        scene->complete_meshes_of(*at);
+        return {};
+    });
+}
+
+// ---- meshes and instances ----------------------------------------------------------------------------------------------
+
+int32_t halflit_mesh_init(halflit_mesh* mesh, size_t size) {
+    return guarded(__func__, {{mesh, "mesh"}}, [&] { return write_struct(default_mesh(), size, mesh, "halflit_mesh"); });
+}
+
+int32_t halflit_scene_add_mesh(halflit_scene* scene, const halflit_mesh* mesh, int32_t* index) {
+    return changing(__func__, scene, {{mesh, "mesh"}}, [&]() -> Result<void> {
+        auto made = make_mesh(scene->scene, mesh);
+        if (!made) return tl::unexpected<Error>(made.error());
+        scene->changes.structure();
+        scene->put_mesh(scene->scene.meshes.size(), std::move(*made));
+        tell_last(scene->scene.meshes, index);
+        return {};
+    });
+}
+
+int32_t halflit_scene_set_mesh(halflit_scene* scene, int32_t index, const halflit_mesh* mesh) {
+    return changing(__func__, scene, {{mesh, "mesh"}}, [&]() -> Result<void> {
+        const auto at = check_index(index, scene->scene.meshes.size(), "mesh");
+        if (!at) return tl::unexpected<Error>(at.error());
+        auto made = make_mesh(scene->scene, mesh);
+        if (!made) return tl::unexpected<Error>(made.error());
+        scene->changes.mesh(*at);
+        scene->put_mesh(*at, std::move(*made));
+        return {};
+    });
+}
+
+int32_t halflit_scene_set_vertices(halflit_scene* scene, int32_t index, const float* positions, const float* normals, size_t vertex_count) {
+    return changing(__func__, scene, {{positions, "positions"}}, [&]() -> Result<void> {
+        const auto at = check_index(index, scene->scene.meshes.size(), "mesh");
+        if (!at) return tl::unexpected<Error>(at.error());
+        const auto given = scene->given_meshes.find(*at);
+        Mesh& mesh = scene->scene.meshes[*at];
+        const std::size_t expected = given != scene->given_meshes.end() ? given->second.positions.size() : mesh.positions.size();
+        if (vertex_count != expected)
+            return fail(ErrorCode::usage, "mesh " + std::to_string(index) + ": " + std::to_string(vertex_count) + " vertices, expected " +
+                                              std::to_string(expected));
+        auto new_positions = copied<Vec3f>(positions, vertex_count);
+        auto new_normals = copied<Vec3f>(normals, vertex_count);
+        scene->changes.mesh(*at);
+        if (given != scene->given_meshes.end()) {
+            Mesh whole = given->second;
+            whole.positions = std::move(new_positions);
+            if (normals != nullptr) whole.normals = std::move(new_normals);
+            scene->put_mesh(*at, std::move(whole));
+        } else {
+            mesh.positions = std::move(new_positions);
+            if (normals != nullptr) mesh.normals = std::move(new_normals);
+        }
+        return {};
+    });
+}
+
+int32_t halflit_scene_add_instance(halflit_scene* scene, int32_t mesh, const float world_from_object[16], int32_t* index) {
+    return changing(__func__, scene, {}, [&]() -> Result<void> {
+        if (const auto at = check_index(mesh, scene->scene.meshes.size(), "mesh"); !at) return tl::unexpected<Error>(at.error());
+        scene->changes.structure();
+        scene->scene.instances.push_back({mesh, world_from_object != nullptr ? mat4(world_from_object) : Mat4{}});
+        tell_last(scene->scene.instances, index);
+        return {};
+    });
+}
+
+int32_t halflit_scene_set_instance(halflit_scene* scene, int32_t index, const float world_from_object[16]) {
+    return changing(__func__, scene, {{world_from_object, "world_from_object"}}, [&]() -> Result<void> {
+        const auto at = check_index(index, scene->scene.instances.size(), "instance");
+        if (!at) return tl::unexpected<Error>(at.error());
+        scene->changes.instance(*at);
+        scene->scene.instances[*at].world_from_object = mat4(world_from_object);
+        return {};
+    });
+}

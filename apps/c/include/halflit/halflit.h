@@ -1,0 +1,427 @@
+// halflit for C, and for languages that call C: glTF or arrays in, picture out.
+//
+// Handles   halflit_scene and halflit_renderer are made by a function that ends in create or load, and freed by one that ends in destroy.
+// Results   A function that can fail returns a code: HALFLIT_OK, which is 0, or one of the HALFLIT_ERROR codes. halflit_last_error() has
+// the
+//           message. Results of a call come through its last pointers; they are written if the code is HALFLIT_OK. A null pointer is an
+//           error (usage), unless the function says otherwise.
+// Structs   The first member is the struct's size, so that a program and a newer library agree on what both know:
+//               halflit_settings settings;
+//               halflit_settings_init(&settings, sizeof settings);  // sets the size and the defaults
+//           Members that an older program does not have keep their defaults. If a newer program sets members that this library does not
+//           know, the call fails (usage). Structs without an init function are results: set their size, the call fills in the rest.
+//           Reserved members are 0.
+// Memory    Arrays and strings that are handed over are copied, or used during the call alone. Pictures are drawn into the caller's memory.
+// Numbers   Truth is an int32_t: 0 or not. Strings are UTF-8. Indices begin at 0. A matrix is 16 floats, column after column; points are
+//           columns. The world is right-handed with y up. Colours are linear light with Rec. 709 primaries, if nothing else is said.
+// Threads   Different scenes and renderers may be used by different threads at once. Several renderers may draw one scene at once; a call
+//           that would change it meanwhile fails (usage). A renderer draws one frame at a time. Destroy nothing that is in use.
+#ifndef HALFLIT_HALFLIT_H
+#define HALFLIT_HALFLIT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(__GNUC__) && defined(HALFLIT_BUILDING_SHARED)
+#define HALFLIT_C_API __attribute__((visibility("default")))
+#else
+#define HALFLIT_C_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// ---- version and errors ------------------------------------------------------------------------------------------------
+
+/// Version of the library, as "0.1.0".
+HALFLIT_C_API const char* halflit_version(void);
+/// Libraries of equal pixel epoch give equal pixels.
+HALFLIT_C_API int32_t halflit_pixel_epoch(void);
+
+enum {
+    HALFLIT_OK = 0,
+    HALFLIT_ERROR_USAGE = 2,      ///< an argument out of range, or two that exclude each other
+    HALFLIT_ERROR_BAD_INPUT = 3,  ///< a damaged file or faulty arrays
+    HALFLIT_ERROR_IO = 4,         ///< a file that cannot be read or written
+    HALFLIT_ERROR_LIMIT = 5,      ///< a limit was hit, or the memory is full
+    HALFLIT_ERROR_INTERNAL = 6,   ///< a fault of the library
+    HALFLIT_ERROR_CANCELLED = 7   ///< halflit_execution.cancelled stopped the frame
+};
+
+/// Message of the calling thread's last call that failed: one line, without a full stop. Empty if none failed. Valid until the thread's
+/// next call that fails.
+HALFLIT_C_API const char* halflit_last_error(void);
+
+// ---- a scene as a whole ------------------------------------------------------------------------------------------------
+
+/// Everything that a picture shows: meshes, instances of them, materials, textures, lights, cameras.
+typedef struct halflit_scene halflit_scene;
+
+/// Limits and rights of a model file. The file is not trusted: above a limit, loading fails (limit).
+typedef struct halflit_load_options {
+    size_t size;
+    const char* const* allow_external;  ///< folders, besides the model's own, in which referenced files may lie
+    size_t allow_external_count;
+    uint64_t max_file_bytes;   ///< each file: the model, a buffer, a picture
+    uint64_t max_total_bytes;  ///< all buffers together
+    uint64_t max_json_tokens;
+    uint64_t max_texture_bytes;   ///< all textures together, 10.7 bytes a pixel
+    uint64_t max_texture_pixels;  ///< one texture
+    uint64_t max_geometry_bytes;  ///< all vertices, indices and instances together
+    uint64_t max_lights;
+    int32_t max_json_depth, max_texture_side, max_jpeg_scans;
+    int32_t lenient;  ///< draw what can be drawn: magenta for broken textures, triangles with bad indices left out
+} halflit_load_options;
+HALFLIT_C_API int32_t halflit_load_options_init(halflit_load_options* options, size_t size);
+
+/// Numbers of a scene's parts.
+typedef struct halflit_counts {
+    size_t size;
+    uint64_t triangles;  ///< over all instances
+    int32_t meshes, instances, materials, textures, cameras;
+    int32_t lights;    ///< without the suns of the environment
+    int32_t warnings;  ///< of loading
+    int32_t reserved;
+} halflit_counts;
+
+/// Makes an empty scene.
+HALFLIT_C_API int32_t halflit_scene_create(halflit_scene** scene);
+/// Makes a scene of a .gltf or .glb file; files that it refers to are read from its folder. options may be null: the defaults.
+HALFLIT_C_API int32_t halflit_scene_load(const char* path, const halflit_load_options* options, halflit_scene** scene);
+/// The same from `count` bytes. name is for messages. base_dir is the folder of files that it refers to; if it is null, none is read.
+HALFLIT_C_API int32_t halflit_scene_load_memory(const void* bytes, size_t count, const char* name, const char* base_dir,
+                                                const halflit_load_options* options, halflit_scene** scene);
+/// Makes the built-in demo scene, which has lights and a camera.
+HALFLIT_C_API int32_t halflit_scene_create_demo(halflit_scene** scene);
+/// Frees a scene. Null is allowed.
+HALFLIT_C_API void halflit_scene_destroy(halflit_scene* scene);
+
+HALFLIT_C_API int32_t halflit_scene_get_counts(const halflit_scene* scene, halflit_counts* counts);
+/// A warning of loading: one line, valid as long as the scene.
+HALFLIT_C_API int32_t halflit_scene_get_warning(const halflit_scene* scene, int32_t index, const char** text);
+/// World-space box of everything drawn; min is infinity and max -infinity if there is nothing. Takes time in proportion to the vertices.
+HALFLIT_C_API int32_t halflit_scene_get_bounds(const halflit_scene* scene, float min[3], float max[3]);
+
+// ---- materials and textures --------------------------------------------------------------------------------------------
+
+enum { HALFLIT_COLOR_SRGB = 0, HALFLIT_COLOR_LINEAR = 1 };
+
+/// Adds a texture: four bytes a pixel (RGBA), row 0 on top, rows row_bytes apart (0: without gaps). color is that of red, green and blue;
+/// alpha is linear. Sides up to 16384. index may be null.
+HALFLIT_C_API int32_t halflit_scene_add_texture(halflit_scene* scene, const uint8_t* rgba8, int32_t width, int32_t height, size_t row_bytes,
+                                                int32_t color, int32_t* index);
+/// Replaces a texture; the size may differ.
+HALFLIT_C_API int32_t halflit_scene_set_texture(halflit_scene* scene, int32_t index, const uint8_t* rgba8, int32_t width, int32_t height,
+                                                size_t row_bytes, int32_t color);
+
+enum { HALFLIT_ALPHA_OPAQUE = 0, HALFLIT_ALPHA_MASK = 1, HALFLIT_ALPHA_BLEND = 2 };
+enum { HALFLIT_WRAP_REPEAT = 0, HALFLIT_WRAP_MIRROR = 1, HALFLIT_WRAP_CLAMP = 2 };
+enum { HALFLIT_FILTER_NEAREST = 0, HALFLIT_FILTER_LINEAR = 1 };
+enum { HALFLIT_MIP_NONE = 0, HALFLIT_MIP_NEAREST = 1, HALFLIT_MIP_LINEAR = 2 };
+
+/// A material's use of a texture.
+typedef struct halflit_texture_use {
+    int32_t texture;                 ///< index; -1: none
+    int32_t uv_set;                  ///< 0 or 1
+    int32_t wrap_u, wrap_v;          ///< HALFLIT_WRAP
+    int32_t mag_filter, min_filter;  ///< HALFLIT_FILTER
+    int32_t mip_filter;              ///< HALFLIT_MIP
+    float row_u[3], row_v[3];        ///< u' = row_u[0] u + row_u[1] v + row_u[2], likewise v'
+} halflit_texture_use;
+
+/// Diffuse light as a function of x, the cosine between normal and light: max(0, (x + wrap) / (1 + wrap))^power.
+typedef struct halflit_lobe {
+    float wrap;         ///< 0 (Lambert) to 1
+    float power;        ///< 0 to 10000
+    int32_t normalize;  ///< scale such that a surface receives as much light as by Lambert
+} halflit_lobe;
+
+/// A lobe of the literature: lambert, green, half-lambert, valve, sloan or mcauley. wrap is for those that take one.
+HALFLIT_C_API int32_t halflit_lobe_by_name(const char* name, float wrap, halflit_lobe* lobe);
+
+/// The parameters of glTF's metallic-roughness materials, and a lobe. Defaults: white, metallic 1, roughness 1, Lambert.
+typedef struct halflit_material {
+    size_t size;
+    const char* name;     ///< may be null. From halflit_scene_get_material: valid until the scene is changed or destroyed
+    float base_color[4];  ///< with alpha
+    float metallic, roughness;
+    float emissive[3];
+    float normal_scale, occlusion_strength;
+    float alpha_cutoff;    ///< for HALFLIT_ALPHA_MASK: drawn where alpha is at least this
+    int32_t alpha_mode;    ///< HALFLIT_ALPHA
+    int32_t double_sided;  ///< draw back faces too
+    int32_t unlit;         ///< base colour alone, without light
+    int32_t own_lobe;      ///< halflit_settings.override_lobe does not replace this material's lobe
+    halflit_lobe lobe;
+    halflit_texture_use base_color_texture;          ///< sRGB
+    halflit_texture_use metallic_roughness_texture;  ///< linear: green is roughness, blue metallic
+    halflit_texture_use normal_texture;              ///< linear, in tangent space
+    halflit_texture_use occlusion_texture;           ///< linear: red
+    halflit_texture_use emissive_texture;            ///< sRGB
+} halflit_material;
+HALFLIT_C_API int32_t halflit_material_init(halflit_material* material, size_t size);
+
+/// Adds a material, whose textures must be in the scene. index may be null.
+HALFLIT_C_API int32_t halflit_scene_add_material(halflit_scene* scene, const halflit_material* material, int32_t* index);
+HALFLIT_C_API int32_t halflit_scene_get_material(const halflit_scene* scene, int32_t index, halflit_material* material);
+HALFLIT_C_API int32_t halflit_scene_set_material(halflit_scene* scene, int32_t index, const halflit_material* material);
+
+// ---- meshes and instances ----------------------------------------------------------------------------------------------
+
+/// Triangles. Counter-clockwise ones are front faces. Arrays but positions may be null; all have vertex_count elements.
+typedef struct halflit_mesh {
+    size_t size;
+    const char* name;         ///< may be null
+    const float* positions;   ///< 3 floats each
+    const float* normals;     ///< 3 floats each, of any length above 0; null: each triangle is flat
+    const float* tangents;    ///< 4 floats each: direction, and +1 or -1; null: made where the material has a normal texture
+    const float* uv0;         ///< 2 floats each; v points down: v = 0 is the first row of a texture
+    const float* uv1;         ///< 2 floats each
+    const float* colors;      ///< 4 floats each: linear, with alpha
+    const uint32_t* indices;  ///< 3 for each triangle; null: vertices 0 1 2, 3 4 5 and so on
+    size_t vertex_count;
+    size_t index_count;
+    int32_t material;  ///< index; -1: the default material, white and rough
+    int32_t reserved;
+} halflit_mesh;
+HALFLIT_C_API int32_t halflit_mesh_init(halflit_mesh* mesh, size_t size);
+
+/// Adds a mesh, whose material must be in the scene. It is not drawn without an instance. index may be null.
+HALFLIT_C_API int32_t halflit_scene_add_mesh(halflit_scene* scene, const halflit_mesh* mesh, int32_t* index);
+/// Replaces a mesh, in all its instances; counts and material may differ.
+HALFLIT_C_API int32_t halflit_scene_set_mesh(halflit_scene* scene, int32_t index, const halflit_mesh* mesh);
+/// Moves a mesh's vertices: 3 floats for each. vertex_count is that with which the mesh was added. normals may be null: the mesh keeps its
+/// normals if it was added with some, and is flat again if not. For a mesh of a file, vertices are as the library split them.
+HALFLIT_C_API int32_t halflit_scene_set_vertices(halflit_scene* scene, int32_t index, const float* positions, const float* normals,
+                                                 size_t vertex_count);
+
+/// Places a mesh in the world. world_from_object may be null: the identity. index may be null.
+HALFLIT_C_API int32_t halflit_scene_add_instance(halflit_scene* scene, int32_t mesh, const float world_from_object[16], int32_t* index);
+/// Mesh and matrix of an instance. Either may be null.
+HALFLIT_C_API int32_t halflit_scene_get_instance(const halflit_scene* scene, int32_t index, int32_t* mesh, float world_from_object[16]);
+/// Moves an instance. The next frame recomputes what depends on it alone; adding a mesh, an instance or a material prepares all anew.
+HALFLIT_C_API int32_t halflit_scene_set_instance(halflit_scene* scene, int32_t index, const float world_from_object[16]);
+
+// ---- cameras -----------------------------------------------------------------------------------------------------------
+
+/// A camera is at the origin of its own space and looks along -z, with +x to the right and +y up.
+typedef struct halflit_camera {
+    size_t size;
+    const char* name;             ///< from halflit_scene_get_camera, valid as long as the scene; otherwise not read
+    float world_from_camera[16];  ///< rigid: rotation and translation
+    int32_t orthographic;
+    float fov_y_rad;                ///< perspective: full vertical angle, 0 to pi
+    float aspect;                   ///< perspective: width / height that the view is made for; 0: that of the picture
+    float half_height, half_width;  ///< orthographic: half the view's size, world units; half_width 0: from the picture's aspect
+    float near_z;                   ///< above 0 for perspective
+    float far_z;                    ///< above near_z; 0: no limit (perspective alone)
+    int32_t reserved;
+} halflit_camera;
+HALFLIT_C_API int32_t halflit_camera_init(halflit_camera* camera, size_t size);
+
+/// Places the camera at `eye`, looking at `target`, with `up` upwards in the picture. up may be null: +y. The lens stays.
+HALFLIT_C_API int32_t halflit_camera_look_at(const float eye[3], const float target[3], const float up[3], halflit_camera* camera);
+/// A view of the whole scene. aspect: width / height of the picture. azimuth_deg: around +y, 0 from +z, positive from the right.
+/// elevation_deg: above the horizon. zoom: 2 makes things twice as large. 35, 20 and 1 give the usual three-quarter view.
+HALFLIT_C_API int32_t halflit_camera_frame(const halflit_scene* scene, float aspect, float azimuth_deg, float elevation_deg, float zoom,
+                                           halflit_camera* camera);
+/// A camera of the scene.
+HALFLIT_C_API int32_t halflit_scene_get_camera(const halflit_scene* scene, int32_t index, halflit_camera* camera);
+
+// ---- light -------------------------------------------------------------------------------------------------------------
+
+enum { HALFLIT_LIGHT_DIRECTIONAL = 0, HALFLIT_LIGHT_POINT = 1, HALFLIT_LIGHT_SPOT = 2 };
+
+/// A light. Colour 1 makes a white surface exactly white that faces the light: a directional one, or another at distance 1. Defaults:
+/// white, directional, straight down.
+typedef struct halflit_light {
+    size_t size;
+    int32_t type;  ///< HALFLIT_LIGHT
+    float color[3];
+    float position[3];                     ///< point, spot: world space
+    float direction[3];                    ///< directional, spot: the way the light travels, of any length above 0
+    float range;                           ///< point, spot: no light beyond; 0: no limit
+    float source_radius;                   ///< point, spot: smaller distances count as this; 0: 1e-4
+    float inner_cone_rad, outer_cone_rad;  ///< spot: full light up to the first angle from the axis, none from the second on
+    float cone_power;                      ///< spot: factor cos(angle from the axis)^cone_power, 0 to 1e5
+    int32_t reserved;
+} halflit_light;
+HALFLIT_C_API int32_t halflit_light_init(halflit_light* light, size_t size);
+
+/// Adds a light. index may be null.
+HALFLIT_C_API int32_t halflit_scene_add_light(halflit_scene* scene, const halflit_light* light, int32_t* index);
+HALFLIT_C_API int32_t halflit_scene_get_light(const halflit_scene* scene, int32_t index, halflit_light* light);
+HALFLIT_C_API int32_t halflit_scene_set_light(halflit_scene* scene, int32_t index, const halflit_light* light);
+/// Sets the light from all around: sky from above, ground from below. An environment replaces it.
+HALFLIT_C_API int32_t halflit_scene_set_ambient(halflit_scene* scene, const float sky[3], const float ground[3]);
+/// If the scene has no light of any kind, adds a key light over the viewer's left shoulder, and ambient light.
+HALFLIT_C_API int32_t halflit_scene_add_default_lights(halflit_scene* scene, const halflit_camera* camera);
+/// Removes the lights, the ambient light and the environment.
+HALFLIT_C_API int32_t halflit_scene_clear_lights(halflit_scene* scene);
+
+typedef struct halflit_environment_options {
+    size_t size;
+    double rotate_rad;     ///< about +y, counter-clockwise seen from above
+    int32_t extract_suns;  ///< make directional lights of suns where that is more exact; default 1
+    int32_t keep_image;    ///< for halflit_settings.background_environment and HALFLIT_ACCURACY_REFERENCE; default 1
+    int32_t calibrated;    ///< for halflit_scene_set_environment: made for exposure 1; default 0: the unit is not known
+    int32_t reserved;
+} halflit_environment_options;
+HALFLIT_C_API int32_t halflit_environment_options_init(halflit_environment_options* options, size_t size);
+
+/// Lights the scene by an image of the light from all directions, in the place of ambient light and of an earlier environment: three floats
+/// a pixel (linear red, green, blue), finite and not negative. Row 0 is straight up, the middle column is along -z, the column at three
+/// quarters of the width along +x. options may be null: the defaults. Takes about 0.2 s for 1024 x 512 pixels.
+HALFLIT_C_API int32_t halflit_scene_set_environment(halflit_scene* scene, const float* rgb, int32_t width, int32_t height,
+                                                    const halflit_environment_options* options);
+/// The same from a Radiance file (.hdr).
+HALFLIT_C_API int32_t halflit_scene_load_environment(halflit_scene* scene, const char* path, const halflit_environment_options* options);
+/// The same by a built-in clear day.
+HALFLIT_C_API int32_t halflit_scene_set_sky(halflit_scene* scene, const halflit_environment_options* options);
+
+// ---- settings of a picture ---------------------------------------------------------------------------------------------
+
+enum { HALFLIT_ACCURACY_REFERENCE = 0, HALFLIT_ACCURACY_EXACT = 1, HALFLIT_ACCURACY_DISPLAY = 2, HALFLIT_ACCURACY_FAST = 3 };
+enum { HALFLIT_RATE_FLAT = 0, HALFLIT_RATE_GOURAUD = 1, HALFLIT_RATE_PIXEL = 2 };
+enum { HALFLIT_DETAIL_FULL = 0, HALFLIT_DETAIL_BILINEAR = 1, HALFLIT_DETAIL_NEAREST = 2 };
+enum { HALFLIT_SPECULAR_NONE = 0, HALFLIT_SPECULAR_PHONG = 1, HALFLIT_SPECULAR_BLINN = 2 };
+enum { HALFLIT_SHADOWS_OFF = 0, HALFLIT_SHADOWS_HARD = 1, HALFLIT_SHADOWS_SOFT_SPLIT = 2 };
+
+/// A part of a picture, in pixels; width 0: all of it.
+typedef struct halflit_region {
+    int32_t x, y, width, height;
+} halflit_region;
+
+/// Everything besides scene, camera and size that decides a pixel. Defaults in parentheses.
+typedef struct halflit_settings {
+    size_t size;
+    double max_error_codes;          ///< error budget in 8-bit codes; halflit chooses the cheapest way within it (0: accuracy decides)
+    double environment_tolerance;    ///< error of leaving out bands of the environment, relative to white (1/510)
+    uint64_t shadow_memory_limit;    ///< bytes; shadow maps are made smaller until all fit (256 MiB)
+    halflit_region region;           ///< the part to draw; pixels outside are not touched (all)
+    int32_t samples;                 ///< a pixel: 1, 4 or 8 (1)
+    float background[4];             ///< alpha 0 is transparent, not premultiplied (0, 0, 0, 0)
+    int32_t background_environment;  ///< show the environment behind the scene (0)
+    float exposure;                  ///< factor on all light, above 0 (1)
+    int32_t accuracy;                ///< HALFLIT_ACCURACY (exact)
+    int32_t shading_rate;            ///< HALFLIT_RATE: light once a triangle, a vertex or a pixel (pixel)
+    int32_t texture_detail;          ///< HALFLIT_DETAIL: upper limit of the texture filters (full)
+    int32_t specular;                ///< HALFLIT_SPECULAR: shape of highlights (Blinn)
+    int32_t normalize_specular;      ///< sharper highlights are brighter (1)
+    int32_t environment_bands;       ///< of spherical harmonics, 1 to 10; 0: as many as environment_tolerance requires (0)
+    int32_t override_lobe;           ///< `lobe` replaces the lobe of materials without own_lobe (0)
+    halflit_lobe lobe;               ///< (Lambert)
+    int32_t shadows;                 ///< HALFLIT_SHADOWS (soft-split)
+    int32_t shadow_size;             ///< texels on a side of a shadow map, a power of two from 64 to 4096 (2048)
+    float shadow_fade;  ///< soft-split: distance to the blocker at which wrapped light ends, world units; 0: from the objects' size (0)
+    int32_t shadow_terminator_offset;  ///< moves look-ups onto the smooth surface of the vertex normals, for coarse meshes (0)
+    int32_t reserved;
+} halflit_settings;
+HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t size);
+
+/// Chooses what a good picture of width x height pixels requires: the scene's camera or a view of the whole scene, four samples, a dark
+/// grey background, and an exposure. Adds to the scene the light that it lacks; call it again only after halflit_scene_clear_lights.
+HALFLIT_C_API int32_t halflit_auto_setup(halflit_scene* scene, int32_t width, int32_t height, halflit_camera* camera,
+                                         halflit_settings* settings);
+
+// ---- drawing -----------------------------------------------------------------------------------------------------------
+
+/// How frames are computed. Nothing here changes a pixel. The functions may be null. They are called with `user`, from any thread of a
+/// frame, by several at once. They must return, and must not draw or destroy the scene.
+typedef struct halflit_execution {
+    size_t size;
+    const char* isa;  ///< instruction set: scalar, sse2, sse4.1, avx2, avx512 or neon64; null: the best one
+    void* user;
+    int32_t (*cancelled)(void* user);  ///< asked before each tile; not 0: stop the frame
+    /// Told after each tile which pixels are final.
+    void (*on_tile)(void* user, int32_t x, int32_t y, int32_t width, int32_t height);
+    void (*progress)(void* user, double share);  ///< told the share that is done, in (0, 1], one call at a time
+    /// The host's own threads: calls body(task, i) for every i from 0 to count - 1, in any order, on any threads; returns when all are
+    /// done.
+    void (*parallel_for)(void* user, int32_t count, void (*body)(void* task, int32_t i), void* task);
+    int32_t threads;    ///< 0: one for each core; not used with parallel_for
+    int32_t tile_size;  ///< 16, 32 or 64 pixels
+} halflit_execution;
+HALFLIT_C_API int32_t halflit_execution_init(halflit_execution* execution, size_t size);
+
+/// Draws frames. Keeps memory and results from frame to frame: a frame of the same scene computes what changed.
+typedef struct halflit_renderer halflit_renderer;
+
+/// execution may be null: the defaults.
+HALFLIT_C_API int32_t halflit_renderer_create(const halflit_execution* execution, halflit_renderer** renderer);
+/// Replaces the way in which the next frames are computed. execution may be null: the defaults.
+HALFLIT_C_API int32_t halflit_renderer_set_execution(halflit_renderer* renderer, const halflit_execution* execution);
+/// Frees a renderer. Null is allowed.
+HALFLIT_C_API void halflit_renderer_destroy(halflit_renderer* renderer);
+
+/// Formats of a pixel. RGBA8 and BGRA8: four bytes in this order, sRGB codes, linear alpha. RGBA_F32: four floats, linear light after
+/// exposure. Premultiplied: colours are multiplied by alpha.
+enum {
+    HALFLIT_FORMAT_RGBA8 = 0,
+    HALFLIT_FORMAT_BGRA8 = 1,
+    HALFLIT_FORMAT_RGBA8_PREMULTIPLIED = 2,
+    HALFLIT_FORMAT_BGRA8_PREMULTIPLIED = 3,
+    HALFLIT_FORMAT_RGBA_F32 = 4,
+    HALFLIT_FORMAT_RGBA_F32_PREMULTIPLIED = 5
+};
+
+/// The caller's memory for a picture. Row 0 is the top row; row y begins y * row_bytes after the pointer. row_bytes 0: rows without gaps.
+/// Bytes between rows are not touched. A null plane is not drawn; planes show what each pixel's first sample sees. All but 8-bit pixels are
+/// aligned to 4 bytes, rows too.
+typedef struct halflit_target {
+    size_t size;
+    void* pixels;
+    size_t row_bytes;
+    float* depth;  ///< distance along the view axis, world units; infinity where nothing is
+    size_t depth_row_bytes;
+    float* normal;  ///< 3 floats a pixel: unit normal in world space, towards the viewer; 0 where nothing is
+    size_t normal_row_bytes;
+    uint32_t* instance;  ///< index of the instance plus 1; 0 where nothing is
+    size_t instance_row_bytes;
+    uint32_t* triangle;  ///< number of the triangle in its mesh plus 1; 0 where nothing is
+    size_t triangle_row_bytes;
+    int32_t width, height;  ///< pixels, of the whole picture: what the camera sees
+    int32_t format;         ///< HALFLIT_FORMAT, of `pixels`
+    int32_t region_alone;   ///< the memory holds halflit_settings.region alone, not the whole picture
+} halflit_target;
+HALFLIT_C_API int32_t halflit_target_init(halflit_target* target, size_t size);
+
+/// Times and counts of a frame. Times are milliseconds of wall clock.
+typedef struct halflit_report {
+    size_t size;
+    double total_ms;
+    double prepare_ms;  ///< preparing the scene, or what changed in it
+    double plan_ms, shadows_ms, cull_ms, transform_ms, bin_ms, tiles_ms;
+    double error_budget;  ///< codes; 0: no budget, and the error is not known
+    double error_codes;   ///< bound on the error with a budget, in 8-bit codes
+    uint64_t triangles_submitted, triangles_drawn;
+    uint64_t triangles_not_finite;  ///< left out for a vertex that is NaN or infinite
+    uint64_t pixels_visible, fragments_shaded;
+    uint64_t nan_pixels;   ///< fragments with a NaN in their colour, written as 0
+    char isa[16];          ///< instruction set
+    int32_t error_within;  ///< error_codes is at most error_budget
+    int32_t threads;
+    int32_t warnings;  ///< see halflit_renderer_get_warning
+    int32_t reserved;
+} halflit_report;
+
+/// Draws a frame into `target`. settings may be null: the defaults. report may be null.
+HALFLIT_C_API int32_t halflit_render(halflit_renderer* renderer, const halflit_scene* scene, const halflit_camera* camera,
+                                     const halflit_settings* settings, const halflit_target* target, halflit_report* report);
+/// A warning of the renderer's last frame: one line, valid until its next frame.
+HALFLIT_C_API int32_t halflit_renderer_get_warning(const halflit_renderer* renderer, int32_t index, const char** text);
+
+// ---- pictures ----------------------------------------------------------------------------------------------------------
+
+/// 64-bit hash of bytes, XXH64 with seed 0: the identity of a picture whose rows have no gaps. Null counts as no bytes.
+HALFLIT_C_API uint64_t halflit_pixel_hash(const void* bytes, size_t count);
+/// Writes the target's pixels, width x height of them, into a file: .png, .bmp, .tga or .jpg from 8-bit formats, .hdr from floats. The file
+/// is either old or new, never half written. "-" is PNG on standard output. Fails (usage) for a target with region_alone.
+HALFLIT_C_API int32_t halflit_write_image(const char* path, const halflit_target* target);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

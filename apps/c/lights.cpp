@@ -1,0 +1,131 @@
+// Functions of halflit.h about light.
+#include "apps/c/convert.hpp"
+#include "apps/c/scene_access.hpp"
+#include "apps/c/versioned.hpp"
+
+#include <halflit/image.hpp>
+
+#include <utility>
+
+using namespace halflit;
+using namespace halflit::c;
+
+namespace {
+
+bool is_dark(const Scene& scene) {
+    return scene.lights.empty() && scene.environment == nullptr && scene.ambient.sky_linear == Vec3f{} &&
+           scene.ambient.ground_linear == Vec3f{};
+}
+
+void remove_suns(halflit_scene& scene) {
+    scene.scene.lights.resize(scene.light_count());
+    scene.sun_count = 0;
+}
+
+/// Lights the scene by the image, in the place of an earlier environment.
+Result<void> light_by(halflit_scene& scene, const EnvironmentImage& image, const EnvironmentOptions& options) {
+    auto made = make_environment(image, options);
+    if (!made) return tl::unexpected<Error>(made.error());
+    const std::size_t suns = environment_suns(**made).size();
+    scene.changes.lights();
+    scene.scene.lights.reserve(scene.light_count() + suns);
+    remove_suns(scene);
+    set_environment(scene.scene, std::move(*made));
+    scene.sun_count = suns;
+    return {};
+}
+
+}  // namespace
+
+int32_t halflit_light_init(halflit_light* light, size_t size) {
+    return guarded(__func__, {{light, "light"}}, [&] { return write_struct(to_c(Light{}), size, light, "halflit_light"); });
+}
+
+int32_t halflit_scene_add_light(halflit_scene* scene, const halflit_light* given, int32_t* index) {
+    return changing(__func__, scene, {{given, "light"}}, [&]() -> Result<void> {
+        const auto made = light(given);
+        if (!made) return tl::unexpected<Error>(made.error());
+        const std::size_t at = scene->light_count();
+        scene->changes.lights();
+        scene->scene.lights.insert(scene->scene.lights.end() - static_cast<std::ptrdiff_t>(scene->sun_count), *made);
+        if (index != nullptr) *index = static_cast<std::int32_t>(at);
+        return {};
+    });
+}
+
+int32_t halflit_scene_set_light(halflit_scene* scene, int32_t index, const halflit_light* given) {
+    return changing(__func__, scene, {{given, "light"}}, [&]() -> Result<void> {
+        const auto at = check_index(index, scene->light_count(), "light");
+        if (!at) return tl::unexpected<Error>(at.error());
+        const auto made = light(given);
+        if (!made) return tl::unexpected<Error>(made.error());
+        scene->changes.lights();
+        scene->scene.lights[*at] = *made;
+        return {};
+    });
+}
+
+int32_t halflit_scene_set_ambient(halflit_scene* scene, const float sky[3], const float ground[3]) {
+    return changing(__func__, scene, {{sky, "sky"}, {ground, "ground"}}, [&]() -> Result<void> {
+        scene->changes.lights();
+        scene->scene.ambient = {vec3(sky), vec3(ground)};
+        return {};
+    });
+}
+
+int32_t halflit_scene_add_default_lights(halflit_scene* scene, const halflit_camera* given) {
+    return changing(__func__, scene, {{given, "camera"}}, [&]() -> Result<void> {
+        const auto made = camera(given);
+        if (!made) return tl::unexpected<Error>(made.error());
+        if (!is_dark(scene->scene)) return {};
+        scene->changes.lights();
+        add_default_lights(scene->scene, *made);
+        return {};
+    });
+}
+
+int32_t halflit_scene_clear_lights(halflit_scene* scene) {
+    return changing(__func__, scene, {}, [&]() -> Result<void> {
+        scene->changes.lights();
+        scene->scene.lights.clear();
+        scene->sun_count = 0;
+        scene->scene.ambient = {};
+        scene->scene.environment.reset();
+        scene->scene.calibrated = true;  // what is added from now on is made for exposure 1
+        return {};
+    });
+}
+
+int32_t halflit_environment_options_init(halflit_environment_options* options, size_t size) {
+    return guarded(__func__, {{options, "options"}},
+                   [&] { return write_struct(default_environment_options(), size, options, "halflit_environment_options"); });
+}
+
+int32_t halflit_scene_set_environment(halflit_scene* scene, const float* rgb, int32_t width, int32_t height,
+                                      const halflit_environment_options* options) {
+    return changing(__func__, scene, {{rgb, "rgb"}}, [&]() -> Result<void> {
+        const auto request = environment_request(options);
+        if (!request) return tl::unexpected<Error>(request.error());
+        if (width < 1 || height < 1) return fail(ErrorCode::usage, "the environment has no pixels");
+        const std::size_t values = std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+        return light_by(*scene, {width, height, std::vector<float>(rgb, rgb + values), request->calibrated}, request->options);
+    });
+}
+
+int32_t halflit_scene_load_environment(halflit_scene* scene, const char* path, const halflit_environment_options* options) {
+    return changing(__func__, scene, {{path, "path"}}, [&]() -> Result<void> {
+        const auto request = environment_request(options);
+        if (!request) return tl::unexpected<Error>(request.error());
+        const auto image = read_environment(path);
+        if (!image) return tl::unexpected<Error>(image.error());
+        return light_by(*scene, *image, request->options);
+    });
+}
+
+int32_t halflit_scene_set_sky(halflit_scene* scene, const halflit_environment_options* options) {
+    return changing(__func__, scene, {}, [&]() -> Result<void> {
+        const auto request = environment_request(options);
+        if (!request) return tl::unexpected<Error>(request.error());
+        return light_by(*scene, built_in_sky(), request->options);
+    });
+}

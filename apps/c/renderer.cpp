@@ -1,0 +1,134 @@
+// Functions of halflit.h that draw.
+#include "apps/c/convert.hpp"
+#include "apps/c/scene_access.hpp"
+#include "apps/c/versioned.hpp"
+
+#include <halflit/renderer.hpp>
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace halflit;
+using namespace halflit::c;
+
+struct halflit_renderer {
+    Renderer renderer;
+    Execution execution;
+    std::vector<std::string> warnings;
+    std::atomic<bool> busy{false};
+};
+
+namespace {
+
+/// Counts a frame in halflit_scene::drawing, so that nothing changes the scene meanwhile.
+class DrawingScene {
+public:
+    explicit DrawingScene(const halflit_scene& scene) : scene_(scene) { add(1); }
+    ~DrawingScene() { add(-1); }
+    DrawingScene(const DrawingScene&) = delete;
+    DrawingScene& operator=(const DrawingScene&) = delete;
+
+private:
+    void add(int count) {
+        const std::lock_guard lock(scene_.access);
+        scene_.drawing += count;
+    }
+    const halflit_scene& scene_;
+};
+
+/// Runs body(), which uses the renderer. Fails (usage) if another thread uses it, or a function that it called.
+template <class Body>
+std::int32_t using_renderer(const char* function, halflit_renderer* renderer, std::initializer_list<Pointer> pointers,
+                            const Body& body) noexcept {
+    if (renderer == nullptr) return record_failure(ErrorCode::usage, function, "renderer is null");
+    if (renderer->busy.exchange(true)) return record_failure(ErrorCode::usage, function, "the renderer is drawing another frame");
+    const std::int32_t code = guarded(function, pointers, body);
+    renderer->busy = false;
+    return code;
+}
+
+double ms_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Prepares the scene, if it has changed, and draws it.
+Result<RenderReport> draw(halflit_renderer& by, const halflit_scene& scene, const Camera& camera, const Settings& settings,
+                          const Target& target) {
+    const auto start = std::chrono::steady_clock::now();
+    const DrawingScene drawing(scene);
+    if (auto ok = scene.prepare(by.execution); !ok) return tl::unexpected<Error>(ok.error());
+    const double prepare_ms = ms_since(start);
+    auto report = by.renderer.render(*scene.prepared, camera, settings, target, by.execution);
+    if (!report) return report;
+    report->ms.prepare = prepare_ms;
+    report->total_ms += prepare_ms;
+    return report;
+}
+
+}  // namespace
+
+int32_t halflit_execution_init(halflit_execution* execution, size_t size) {
+    return guarded(__func__, {{execution, "execution"}},
+                   [&] { return write_struct(default_execution(), size, execution, "halflit_execution"); });
+}
+
+int32_t halflit_target_init(halflit_target* target, size_t size) {
+    return guarded(__func__, {{target, "target"}}, [&] { return write_struct(default_target(), size, target, "halflit_target"); });
+}
+
+int32_t halflit_renderer_create(const halflit_execution* given, halflit_renderer** renderer) {
+    return guarded(__func__, {{renderer, "renderer"}}, [&]() -> Result<void> {
+        auto how = execution(given);
+        if (!how) return tl::unexpected<Error>(how.error());
+        auto made = std::make_unique<halflit_renderer>();
+        made->execution = std::move(*how);
+        *renderer = made.release();
+        return {};
+    });
+}
+
+int32_t halflit_renderer_set_execution(halflit_renderer* renderer, const halflit_execution* given) {
+    return using_renderer(__func__, renderer, {}, [&]() -> Result<void> {
+        auto how = execution(given);
+        if (!how) return tl::unexpected<Error>(how.error());
+        renderer->execution = std::move(*how);
+        return {};
+    });
+}
+
+void halflit_renderer_destroy(halflit_renderer* renderer) { delete renderer; }
+
+int32_t halflit_render(halflit_renderer* renderer, const halflit_scene* scene, const halflit_camera* given_camera,
+                       const halflit_settings* given_settings, const halflit_target* given_target, halflit_report* to_report) {
+    return using_renderer(__func__, renderer, {{scene, "scene"}, {given_camera, "camera"}, {given_target, "target"}},
+                          [&]() -> Result<void> {
+                              if (to_report != nullptr)
+                                  if (auto ok = check_size(to_report->size, sizeof(halflit_report), "halflit_report"); !ok) return ok;
+                              const auto from = camera(given_camera);
+                              if (!from) return tl::unexpected<Error>(from.error());
+                              const auto how = settings(given_settings);
+                              if (!how) return tl::unexpected<Error>(how.error());
+                              const auto memory = target_struct(given_target);
+                              if (!memory) return tl::unexpected<Error>(memory.error());
+                              renderer->warnings.clear();
+                              auto report = draw(*renderer, *scene, *from, *how, target(*memory));
+                              if (!report) return tl::unexpected<Error>(report.error());
+                              if (to_report != nullptr)
+                                  (void)write_struct(to_c(*report), to_report, "halflit_report");  // its size was checked above
+                              renderer->warnings = std::move(report->warnings);
+                              return {};
+                          });
+}
+
+int32_t halflit_renderer_get_warning(const halflit_renderer* renderer, int32_t index, const char** text) {
+    return guarded(__func__, {{renderer, "renderer"}, {text, "text"}}, [&]() -> Result<void> {
+        const auto at = check_index(index, renderer->warnings.size(), "warning", "the frame");
+        if (!at) return tl::unexpected<Error>(at.error());
+        *text = renderer->warnings[*at].c_str();
+        return {};
+    });
+}

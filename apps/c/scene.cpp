@@ -1,0 +1,135 @@
+// Functions of halflit.h that make a scene, and those that read it.
+#include "apps/c/convert.hpp"
+#include "apps/c/scene_access.hpp"
+#include "apps/c/versioned.hpp"
+
+#include <halflit/gltf.hpp>
+
+#include <limits>
+#include <memory>
+
+using namespace halflit;
+using namespace halflit::c;
+
+namespace {
+
+Result<void> hand_over(Result<LoadedScene> loaded, halflit_scene** scene) {
+    if (!loaded) return tl::unexpected<Error>(loaded.error());
+    auto made = std::make_unique<halflit_scene>();
+    made->scene = std::move(loaded->scene);
+    made->warnings = std::move(loaded->warnings);
+    *scene = made.release();
+    return {};
+}
+
+std::uint64_t triangle_count(const Scene& scene) {
+    std::uint64_t count = 0;
+    for (const Instance& instance : scene.instances) count += scene.meshes[static_cast<std::size_t>(instance.mesh)].indices.size() / 3;
+    return count;
+}
+
+template <class T>
+std::int32_t count_of(const std::vector<T>& list) {
+    return static_cast<std::int32_t>(list.size());
+}
+
+}  // namespace
+
+int32_t halflit_load_options_init(halflit_load_options* options, size_t size) {
+    return guarded(__func__, {{options, "options"}},
+                   [&] { return write_struct(to_c(LoadOptions{}), size, options, "halflit_load_options"); });
+}
+
+int32_t halflit_scene_create(halflit_scene** scene) {
+    return guarded(__func__, {{scene, "scene"}}, [&] { return hand_over(LoadedScene{}, scene); });
+}
+
+int32_t halflit_scene_create_demo(halflit_scene** scene) {
+    return guarded(__func__, {{scene, "scene"}}, [&] { return hand_over(LoadedScene{demo_scene(), {}, {}}, scene); });
+}
+
+int32_t halflit_scene_load(const char* path, const halflit_load_options* options, halflit_scene** scene) {
+    return guarded(__func__, {{path, "path"}, {scene, "scene"}}, [&]() -> Result<void> {
+        const auto how = load_options(options);
+        if (!how) return tl::unexpected<Error>(how.error());
+        return hand_over(load_gltf(path, *how), scene);
+    });
+}
+
+int32_t halflit_scene_load_memory(const void* bytes, size_t count, const char* name, const char* base_dir,
+                                  const halflit_load_options* options, halflit_scene** scene) {
+    return guarded(__func__, {{bytes, "bytes"}, {name, "name"}, {scene, "scene"}}, [&]() -> Result<void> {
+        const auto how = load_options(options);
+        if (!how) return tl::unexpected<Error>(how.error());
+        const std::span<const std::byte> file(static_cast<const std::byte*>(bytes), count);
+        return hand_over(load_gltf_bytes(file, name, base_dir != nullptr ? base_dir : "", *how), scene);
+    });
+}
+
+void halflit_scene_destroy(halflit_scene* scene) { delete scene; }
+
+int32_t halflit_scene_get_counts(const halflit_scene* scene, halflit_counts* counts) {
+    return reading(__func__, scene, {{counts, "counts"}}, [&] {
+        const Scene& from = scene->scene;
+        const halflit_counts found{sizeof(halflit_counts),    triangle_count(from),
+                                   count_of(from.meshes),     count_of(from.instances),
+                                   count_of(from.materials),  count_of(from.textures),
+                                   count_of(from.cameras),    static_cast<std::int32_t>(scene->light_count()),
+                                   count_of(scene->warnings), 0};
+        return write_struct(found, counts, "halflit_counts");
+    });
+}
+
+int32_t halflit_scene_get_warning(const halflit_scene* scene, int32_t index, const char** text) {
+    return reading(__func__, scene, {{text, "text"}}, [&]() -> Result<void> {
+        const auto at = check_index(index, scene->warnings.size(), "warning");
+        if (!at) return tl::unexpected<Error>(at.error());
+        *text = scene->warnings[*at].c_str();
+        return {};
+    });
+}
+
+int32_t halflit_scene_get_bounds(const halflit_scene* scene, float min[3], float max[3]) {
+    return reading(__func__, scene, {{min, "min"}, {max, "max"}}, [&]() -> Result<void> {
+        const Bounds bounds = scene_bounds(scene->scene);
+        constexpr float kInfinity = std::numeric_limits<float>::infinity();
+        put(bounds.empty ? Vec3f{kInfinity, kInfinity, kInfinity} : bounds.min, min);
+        put(bounds.empty ? Vec3f{-kInfinity, -kInfinity, -kInfinity} : bounds.max, max);
+        return {};
+    });
+}
+
+int32_t halflit_scene_get_material(const halflit_scene* scene, int32_t index, halflit_material* material) {
+    return reading(__func__, scene, {{material, "material"}}, [&]() -> Result<void> {
+        const auto at = check_index(index, scene->scene.materials.size(), "material");
+        if (!at) return tl::unexpected<Error>(at.error());
+        return write_struct(to_c(scene->scene.materials[*at]), material, "halflit_material");
+    });
+}
+
+int32_t halflit_scene_get_instance(const halflit_scene* scene, int32_t index, int32_t* mesh, float world_from_object[16]) {
+    return reading(__func__, scene, {}, [&]() -> Result<void> {
+        const auto at = check_index(index, scene->scene.instances.size(), "instance");
+        if (!at) return tl::unexpected<Error>(at.error());
+        const Instance& instance = scene->scene.instances[*at];
+        if (mesh != nullptr) *mesh = instance.mesh;
+        if (world_from_object != nullptr) put(instance.world_from_object, world_from_object);
+        return {};
+    });
+}
+
+int32_t halflit_scene_get_light(const halflit_scene* scene, int32_t index, halflit_light* light) {
+    return reading(__func__, scene, {{light, "light"}}, [&]() -> Result<void> {
+        const auto at = check_index(index, scene->light_count(), "light");
+        if (!at) return tl::unexpected<Error>(at.error());
+        return write_struct(to_c(scene->scene.lights[*at]), light, "halflit_light");
+    });
+}
+
+int32_t halflit_scene_get_camera(const halflit_scene* scene, int32_t index, halflit_camera* camera) {
+    return reading(__func__, scene, {{camera, "camera"}}, [&]() -> Result<void> {
+        const auto at = check_index(index, scene->scene.cameras.size(), "camera");
+        if (!at) return tl::unexpected<Error>(at.error());
+        return write_struct(to_c(scene->scene.cameras[*at]), camera, "halflit_camera");
+    });
+}

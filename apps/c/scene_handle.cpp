@@ -1,0 +1,82 @@
+#include "apps/c/scene_handle.hpp"
+
+namespace halflit::c {
+
+void Changes::clear() {
+    structure_ = false;
+    for (const std::size_t i : changes_.moved_instances) moved_[i] = false;
+    for (const std::size_t i : changes_.deformed_meshes) deformed_[i] = false;
+    changes_.moved_instances.clear();
+    changes_.deformed_meshes.clear();
+    changes_.materials = changes_.lights = false;
+}
+
+void Changes::note(std::size_t index, std::vector<std::size_t>& list, std::vector<bool>& listed) {
+    if (structure_) return;
+    if (listed.size() <= index) listed.resize(index + 1);
+    if (listed[index]) return;
+    list.push_back(index);
+    listed[index] = true;
+}
+
+}  // namespace halflit::c
+
+using namespace halflit;
+
+namespace {
+
+/// The mesh with the normals and tangents that its material requires, if it lacks some.
+std::optional<Mesh> completed(const Scene& scene, const Mesh& mesh) {
+    const Material no_material;
+    const Material& material = mesh.material >= 0 ? scene.materials[static_cast<std::size_t>(mesh.material)] : no_material;
+    const TextureUse& normal_map = material.normal_texture;
+    const bool has_uv = !(normal_map.uv_set == 0 ? mesh.uv0 : mesh.uv1).empty();
+    const bool needs_normals = mesh.normals.empty() && !material.unlit;
+    // Flat normals remove the tangents, which belong to other normals.
+    const bool needs_tangents = (mesh.tangents.empty() || needs_normals) && !material.unlit && normal_map.used() && has_uv;
+    if (!needs_normals && !needs_tangents) return {};
+    Mesh full = mesh;
+    if (needs_normals) generate_flat_normals(full);
+    if (needs_tangents) generate_tangents(full, normal_map.uv_set);
+    return full;
+}
+
+}  // namespace
+
+void halflit_scene::put_mesh(std::size_t index, Mesh given) {
+    std::optional<Mesh> full = completed(scene, given);
+    if (full)
+        given_meshes.insert_or_assign(index, std::move(given));
+    else
+        given_meshes.erase(index);
+    if (index == scene.meshes.size()) scene.meshes.emplace_back();
+    scene.meshes[index] = full ? std::move(*full) : std::move(given);
+}
+
+void halflit_scene::complete_meshes_of(std::size_t material) {
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        Mesh& mesh = scene.meshes[i];
+        if (mesh.material != static_cast<int>(material)) continue;
+        std::optional<Mesh> full = completed(scene, mesh);
+        if (!full) continue;
+        changes.mesh(i);
+        given_meshes.try_emplace(i, std::move(mesh));
+        mesh = std::move(*full);
+    }
+}
+
+Result<void> halflit_scene::prepare(const Execution& execution) const {
+    const std::lock_guard lock(preparing);
+    Result<void> done;
+    if (!prepared || changes.of_structure()) {
+        prepared.reset();
+        auto made = PreparedScene::make(scene, execution);
+        if (!made) return tl::unexpected<Error>(made.error());
+        prepared.emplace(std::move(*made));
+    } else if (changes.any()) {
+        done = prepared->update(changes.list(), execution);
+        if (!done) prepared.reset();  // the next frame prepares all anew
+    }
+    changes.clear();
+    return done;
+}

@@ -1,0 +1,74 @@
+// The scene of halflit.h: a C++ scene, its prepared form, and what changed between the two.
+#pragma once
+
+#include "halflit/halflit.h"
+
+#include <halflit/error.hpp>
+#include <halflit/prepared_scene.hpp>
+#include <halflit/scene.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace halflit::c {
+
+/// Changes of a scene since it was prepared.
+class Changes {
+public:
+    /// Numbers of meshes, instances or materials: all has to be prepared anew.
+    void structure() { structure_ = true; }
+    void instance(std::size_t index) { note(index, changes_.moved_instances, moved_); }
+    void mesh(std::size_t index) { note(index, changes_.deformed_meshes, deformed_); }
+    void materials() { changes_.materials = true; }
+    void lights() { changes_.lights = true; }
+
+    [[nodiscard]] bool any() const {
+        return !changes_.moved_instances.empty() || !changes_.deformed_meshes.empty() || changes_.materials || changes_.lights;
+    }
+    [[nodiscard]] bool of_structure() const { return structure_; }
+    [[nodiscard]] const SceneChanges& list() const { return changes_; }
+    void clear();
+
+private:
+    /// Lists an index once.
+    void note(std::size_t index, std::vector<std::size_t>& list, std::vector<bool>& listed);
+
+    bool structure_ = false;
+    SceneChanges changes_;
+    std::vector<bool> moved_, deformed_;
+};
+
+/// A mesh as it was given, if the scene's mesh has normals or tangents that the library made: its vertices may be split.
+using GivenMeshes = std::unordered_map<std::size_t, Mesh>;
+
+}  // namespace halflit::c
+
+struct halflit_scene {
+    halflit::Scene scene;
+    std::vector<std::string> warnings;
+    /// The last lights of the scene are the environment's suns; callers do not see them.
+    std::size_t sun_count = 0;
+    halflit::c::GivenMeshes given_meshes;
+
+    mutable std::mutex access;  ///< held while the scene is read or changed; not while it is drawn
+    mutable int drawing = 0;    ///< frames that are being drawn: the scene must stay as it is
+    mutable halflit::c::Changes changes;
+    mutable std::mutex preparing;  ///< held while `prepared` is made or updated
+    mutable std::optional<halflit::PreparedScene> prepared;
+
+    [[nodiscard]] std::size_t light_count() const { return scene.lights.size() - sun_count; }
+
+    /// Makes `given` the mesh at `index`, which may be the next one. Adds the normals and tangents that its material requires. Requires:
+    /// indices and material in range.
+    void put_mesh(std::size_t index, halflit::Mesh given);
+    /// Adds what a material, which has changed, requires of its meshes.
+    void complete_meshes_of(std::size_t material);
+
+    /// Brings `prepared` up to date. Called for a frame that counts in `drawing`.
+    [[nodiscard]] halflit::Result<void> prepare(const halflit::Execution& execution) const;
+};

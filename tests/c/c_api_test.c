@@ -1,0 +1,713 @@
+// The C interface as a C99 program uses it. Prints each check that fails; the exit code is 1 if one did.
+#include "peer.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WIDTH = 80, HEIGHT = 60, PIXELS = WIDTH * HEIGHT };
+
+static int checks = 0, failures = 0;
+#define CHECK(condition) \
+    (++checks,           \
+     (condition) ? (void)0 : (++failures, (void)printf("line %d: %s (last error: %s)\n", __LINE__, #condition, halflit_last_error())))
+#define CHECK_OK(call) CHECK((call) == HALFLIT_OK)
+/// The call fails by this code, with a message that contains `words`.
+#define CHECK_FAILS(call, code, words) CHECK((call) == (code) && strstr(halflit_last_error(), words) != NULL)
+
+static const float corners[8 * 3] = {-1, -1, -1, 1, -1, -1, -1, 1, -1, 1, 1, -1, -1, -1, 1, 1, -1, 1, -1, 1, 1, 1, 1, 1};
+static const uint32_t indices[36] = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 4, 2, 2, 4, 6,
+                                     1, 3, 5, 3, 7, 5, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7};
+static const char model[] =
+    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+    "\"materials\":[{\"name\":\"paint\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.9,0.2,0.1,1],\"metallicFactor\":0}}],"
+    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":0},{\"attributes\":{\"POSITION\":0},\"mode\":1}]}],"
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[1,1,0]}],"
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,"
+    "\"uri\":\"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}";
+
+/// A scene with one cube, and what auto_setup chose for it.
+typedef struct {
+    halflit_scene* scene;
+    int32_t material, mesh, instance;
+    halflit_camera camera;
+    halflit_settings settings;
+} Cube;
+
+static void init_cube_mesh(halflit_mesh* mesh, int32_t material) {
+    halflit_mesh_init(mesh, sizeof *mesh);
+    mesh->positions = corners;
+    mesh->vertex_count = 8;
+    mesh->indices = indices;
+    mesh->index_count = 36;
+    mesh->material = material;
+}
+
+static void init_setup(halflit_scene* scene, halflit_camera* camera, halflit_settings* settings) {
+    CHECK_OK(halflit_camera_init(camera, sizeof *camera));
+    CHECK_OK(halflit_settings_init(settings, sizeof *settings));
+    CHECK_OK(halflit_auto_setup(scene, WIDTH, HEIGHT, camera, settings));
+}
+
+static Cube make_cube(void) {
+    Cube cube;
+    halflit_material clay;
+    halflit_mesh mesh;
+    CHECK_OK(halflit_scene_create(&cube.scene));
+    CHECK_OK(halflit_material_init(&clay, sizeof clay));
+    clay.base_color[1] = 0.4f;
+    clay.base_color[2] = 0.2f;
+    clay.metallic = 0;
+    CHECK_OK(halflit_lobe_by_name("sloan", 0.5f, &clay.lobe));
+    CHECK_OK(halflit_scene_add_material(cube.scene, &clay, &cube.material));
+    init_cube_mesh(&mesh, cube.material);
+    CHECK_OK(halflit_scene_add_mesh(cube.scene, &mesh, &cube.mesh));
+    CHECK_OK(halflit_scene_add_instance(cube.scene, cube.mesh, NULL, &cube.instance));
+    init_setup(cube.scene, &cube.camera, &cube.settings);
+    return cube;
+}
+
+static void place(float matrix[16], float x) {
+    memset(matrix, 0, 16 * sizeof(float));
+    matrix[0] = matrix[5] = matrix[10] = matrix[15] = 1;
+    matrix[12] = x;
+}
+
+static halflit_target make_target(void* pixels) {
+    halflit_target target;
+    halflit_target_init(&target, sizeof target);
+    target.width = WIDTH;
+    target.height = HEIGHT;
+    target.pixels = pixels;
+    return target;
+}
+
+/// Draws by a renderer, or by a new one if it is null. Returns the hash of the picture, 0 if the call fails.
+static uint64_t draw(halflit_renderer* renderer, const halflit_scene* scene, const halflit_camera* camera,
+                     const halflit_settings* settings) {
+    static uint8_t pixels[PIXELS * 4];
+    const halflit_target target = make_target(pixels);
+    halflit_renderer* own = NULL;
+    int32_t code;
+    if (renderer == NULL) CHECK_OK(halflit_renderer_create(NULL, &own));
+    memset(pixels, 0, sizeof pixels);
+    code = halflit_render(renderer != NULL ? renderer : own, scene, camera, settings, &target, NULL);
+    halflit_renderer_destroy(own);
+    return code == HALFLIT_OK ? halflit_pixel_hash(pixels, sizeof pixels) : 0;
+}
+
+static uint64_t draw_cube(halflit_renderer* renderer, const Cube* cube) {
+    return draw(renderer, cube->scene, &cube->camera, &cube->settings);
+}
+
+// ---- null pointers, sizes and messages ---------------------------------------------------------------------------------
+
+static void test_null_pointers(void) {
+    Cube cube = make_cube();
+    halflit_renderer* renderer;
+    halflit_target target = make_target(NULL);
+    float matrix[16];
+    const char* text;
+    CHECK_OK(halflit_renderer_create(NULL, &renderer));
+    halflit_scene_destroy(NULL);
+    halflit_renderer_destroy(NULL);
+    CHECK_FAILS(halflit_scene_create(NULL), HALFLIT_ERROR_USAGE, "halflit_scene_create: scene is null");
+    CHECK_FAILS(halflit_scene_load(NULL, NULL, &cube.scene), HALFLIT_ERROR_USAGE, "path is null");
+    CHECK_FAILS(halflit_scene_load_memory(NULL, 3, "x", NULL, NULL, &cube.scene), HALFLIT_ERROR_USAGE, "bytes is null");
+    CHECK_FAILS(halflit_settings_init(NULL, 8), HALFLIT_ERROR_USAGE, "settings is null");
+    CHECK_FAILS(halflit_scene_add_mesh(NULL, NULL, NULL), HALFLIT_ERROR_USAGE, "halflit_scene_add_mesh: scene is null");
+    CHECK_FAILS(halflit_scene_add_mesh(cube.scene, NULL, NULL), HALFLIT_ERROR_USAGE, "mesh is null");
+    CHECK_FAILS(halflit_scene_add_texture(cube.scene, NULL, 1, 1, 0, 0, NULL), HALFLIT_ERROR_USAGE, "rgba8 is null");
+    CHECK_FAILS(halflit_scene_add_material(cube.scene, NULL, NULL), HALFLIT_ERROR_USAGE, "material is null");
+    CHECK_FAILS(halflit_scene_add_light(cube.scene, NULL, NULL), HALFLIT_ERROR_USAGE, "light is null");
+    CHECK_FAILS(halflit_scene_set_ambient(cube.scene, NULL, NULL), HALFLIT_ERROR_USAGE, "sky is null");
+    CHECK_FAILS(halflit_scene_set_vertices(cube.scene, cube.mesh, NULL, NULL, 8), HALFLIT_ERROR_USAGE, "positions is null");
+    CHECK_FAILS(halflit_scene_set_instance(cube.scene, 0, NULL), HALFLIT_ERROR_USAGE, "world_from_object is null");
+    CHECK_FAILS(halflit_scene_set_environment(cube.scene, NULL, 1, 1, NULL), HALFLIT_ERROR_USAGE, "rgb is null");
+    CHECK_FAILS(halflit_scene_get_counts(cube.scene, NULL), HALFLIT_ERROR_USAGE, "counts is null");
+    CHECK_FAILS(halflit_scene_get_bounds(cube.scene, NULL, matrix), HALFLIT_ERROR_USAGE, "min is null");
+    CHECK_FAILS(halflit_camera_look_at(NULL, NULL, NULL, NULL), HALFLIT_ERROR_USAGE, "eye is null");
+    CHECK_FAILS(halflit_auto_setup(cube.scene, 8, 8, NULL, NULL), HALFLIT_ERROR_USAGE, "camera is null");
+    CHECK_FAILS(halflit_renderer_create(NULL, NULL), HALFLIT_ERROR_USAGE, "renderer is null");
+    CHECK_FAILS(halflit_render(NULL, cube.scene, &cube.camera, NULL, &target, NULL), HALFLIT_ERROR_USAGE, "renderer is null");
+    CHECK_FAILS(halflit_render(renderer, NULL, &cube.camera, NULL, &target, NULL), HALFLIT_ERROR_USAGE, "scene is null");
+    CHECK_FAILS(halflit_render(renderer, cube.scene, NULL, NULL, &target, NULL), HALFLIT_ERROR_USAGE, "camera is null");
+    CHECK_FAILS(halflit_render(renderer, cube.scene, &cube.camera, NULL, NULL, NULL), HALFLIT_ERROR_USAGE, "target is null");
+    CHECK_FAILS(halflit_renderer_get_warning(renderer, 0, &text), HALFLIT_ERROR_USAGE, "the frame has 0");
+    CHECK_FAILS(halflit_write_image(NULL, &target), HALFLIT_ERROR_USAGE, "path is null");
+    CHECK_FAILS(halflit_write_image("x.png", &target), HALFLIT_ERROR_USAGE, "pixels is null");
+    CHECK(halflit_pixel_hash(NULL, 4) == 0xef46db3751d8e999u);  // that of no bytes
+    halflit_renderer_destroy(renderer);
+    halflit_scene_destroy(cube.scene);
+}
+
+static void test_struct_sizes(void) {
+    Cube cube = make_cube();
+    const uint64_t expected = draw_cube(NULL, &cube);
+    struct {
+        halflit_settings known;
+        int32_t added[4];
+    } newer;
+    halflit_settings older = cube.settings;
+    halflit_counts counts;
+    CHECK(expected != 0);
+
+    memset(&newer, 0xff, sizeof newer);
+    CHECK_OK(halflit_settings_init(&newer.known, sizeof newer));
+    CHECK(newer.known.size == sizeof newer && newer.known.samples == 1 && newer.added[0] == 0 && newer.added[3] == 0);
+    newer.known = cube.settings;
+    newer.known.size = sizeof newer;
+    CHECK(draw(NULL, cube.scene, &cube.camera, &newer.known) == expected);
+    newer.added[2] = 1;
+    CHECK(draw(NULL, cube.scene, &cube.camera, &newer.known) == 0);
+    CHECK(strstr(halflit_last_error(), "halflit_settings: members beyond byte") != NULL);
+
+    // A program that was built when `shadows` and what follows did not exist: those bytes belong to something else.
+    older.size = offsetof(halflit_settings, shadows);
+    memset(&older.shadows, 0x5a, sizeof older - offsetof(halflit_settings, shadows));
+    CHECK(draw(NULL, cube.scene, &cube.camera, &older) == expected);
+    CHECK_OK(halflit_settings_init(&older, offsetof(halflit_settings, shadows)));
+    CHECK(older.samples == 1 && older.shadows == 0x5a5a5a5a);
+
+    older = cube.settings;
+    older.size = 0;
+    CHECK(draw(NULL, cube.scene, &cube.camera, &older) == 0 && strstr(halflit_last_error(), "the member size is 0") != NULL);
+    older.size = (size_t)-1;
+    CHECK(draw(NULL, cube.scene, &cube.camera, &older) == 0 && strstr(halflit_last_error(), "sizeof(halflit_settings)") != NULL);
+    older.size = sizeof older;
+    older.reserved = 1;
+    CHECK(draw(NULL, cube.scene, &cube.camera, &older) == 0 && strstr(halflit_last_error(), "reserved") != NULL);
+    counts.size = 3;
+    CHECK_FAILS(halflit_scene_get_counts(cube.scene, &counts), HALFLIT_ERROR_USAGE, "halflit_counts");
+    counts.size = offsetof(halflit_counts, meshes);
+    counts.meshes = 77;
+    CHECK_OK(halflit_scene_get_counts(cube.scene, &counts));
+    CHECK(counts.triangles == 12 && counts.meshes == 77 && counts.size == offsetof(halflit_counts, meshes));
+    halflit_scene_destroy(cube.scene);
+}
+
+static void test_faulty_arguments(void) {
+    Cube cube = make_cube();
+    halflit_mesh mesh;
+    halflit_material material;
+    halflit_light light;
+    halflit_execution execution;
+    halflit_renderer* renderer;
+    halflit_scene* none;
+    halflit_lobe lobe;
+    halflit_target target = make_target(&mesh);
+    const uint32_t beyond[3] = {0, 1, 8};
+    uint8_t texel[4] = {0, 0, 0, 0};
+    init_cube_mesh(&mesh, 5);
+    CHECK_FAILS(halflit_scene_add_mesh(cube.scene, &mesh, NULL), HALFLIT_ERROR_USAGE, "material 5, but the scene has 1");
+    init_cube_mesh(&mesh, -1);
+    mesh.indices = beyond;
+    mesh.index_count = 3;
+    CHECK_FAILS(halflit_scene_add_mesh(cube.scene, &mesh, NULL), HALFLIT_ERROR_BAD_INPUT, "index 8");
+    mesh.index_count = 2;
+    CHECK_FAILS(halflit_scene_add_mesh(cube.scene, &mesh, NULL), HALFLIT_ERROR_BAD_INPUT, "3 for each triangle");
+    CHECK_FAILS(halflit_scene_set_vertices(cube.scene, cube.mesh, corners, NULL, 7), HALFLIT_ERROR_USAGE, "7 vertices, expected 8");
+    CHECK_FAILS(halflit_scene_add_instance(cube.scene, 1, NULL, NULL), HALFLIT_ERROR_USAGE, "mesh 1, but the scene has 1");
+    halflit_material_init(&material, sizeof material);
+    material.normal_texture.texture = 0;
+    CHECK_FAILS(halflit_scene_add_material(cube.scene, &material, NULL), HALFLIT_ERROR_USAGE, "texture 0, but the scene has 0");
+    material.normal_texture.texture = -1;
+    material.alpha_mode = 3;
+    CHECK_FAILS(halflit_scene_add_material(cube.scene, &material, NULL), HALFLIT_ERROR_USAGE, "alpha_mode is 3, expected 0 to 2");
+    material.alpha_mode = 0;
+    material.lobe.wrap = 2;
+    CHECK_FAILS(halflit_scene_set_material(cube.scene, 0, &material), HALFLIT_ERROR_USAGE, "lobe: wrap");
+    CHECK_FAILS(halflit_lobe_by_name("round", 0, &lobe), HALFLIT_ERROR_USAGE, "lambert, green");
+    halflit_light_init(&light, sizeof light);
+    light.type = -1;
+    CHECK_FAILS(halflit_scene_add_light(cube.scene, &light, NULL), HALFLIT_ERROR_USAGE, "type is -1");
+    CHECK_FAILS(halflit_scene_add_texture(cube.scene, texel, 0, 1, 0, 0, NULL), HALFLIT_ERROR_USAGE, "0 x 1 pixels");
+    CHECK_FAILS(halflit_scene_add_texture(cube.scene, texel, 1, 1, 3, 0, NULL), HALFLIT_ERROR_USAGE, "row_bytes is 3");
+    CHECK_FAILS(halflit_scene_add_texture(cube.scene, texel, 1, 1, 0, 2, NULL), HALFLIT_ERROR_USAGE, "color is 2");
+    halflit_execution_init(&execution, sizeof execution);
+    execution.isa = "mmx";
+    CHECK_FAILS(halflit_renderer_create(&execution, &renderer), HALFLIT_ERROR_USAGE, "mmx");
+    execution.isa = NULL;
+    execution.tile_size = 20;
+    CHECK_FAILS(halflit_renderer_create(&execution, &renderer), HALFLIT_ERROR_USAGE, "tile_size is 20");
+    CHECK_FAILS(halflit_scene_load("no/such.glb", NULL, &none), HALFLIT_ERROR_IO, "no/such.glb");
+    CHECK_FAILS(halflit_scene_load_memory("{", 1, "memory.gltf", NULL, NULL, &none), HALFLIT_ERROR_BAD_INPUT, "memory.gltf");
+    CHECK_FAILS(halflit_auto_setup(cube.scene, 0, 8, &cube.camera, &cube.settings), HALFLIT_ERROR_USAGE, "no pixels");
+    target.format = 6;
+    CHECK_FAILS(halflit_write_image("x.png", &target), HALFLIT_ERROR_USAGE, "format is 6");
+    target.format = HALFLIT_FORMAT_RGBA_F32;
+    CHECK_FAILS(halflit_write_image("x.png", &target), HALFLIT_ERROR_USAGE, "8-bit");
+    CHECK_FAILS(halflit_write_image("x.gif", &target), HALFLIT_ERROR_USAGE, ".hdr");
+    cube.settings.samples = 3;
+    CHECK(draw_cube(NULL, &cube) == 0 && strstr(halflit_last_error(), "samples") != NULL);
+    halflit_scene_destroy(cube.scene);
+}
+
+// ---- pictures ----------------------------------------------------------------------------------------------------------
+
+static void test_formats(void) {
+    enum { STRIDE = WIDTH * 4 + 12 };
+    static uint8_t rgba[PIXELS * 4], bgra[HEIGHT * STRIDE], premultiplied[PIXELS * 4];
+    static float linear[PIXELS * 4], depth[PIXELS], normal[PIXELS * 3];
+    static uint32_t instance[PIXELS], triangle[PIXELS];
+    Cube cube = make_cube();
+    halflit_renderer* renderer;
+    halflit_report report;
+    halflit_target target = make_target(rgba);
+    int differ = 0, touched = 0, wrong = 0, x, y, c, seen = 0;
+    cube.settings.background[0] = 0.5f;
+    cube.settings.background[3] = 0.25f;
+    CHECK_OK(halflit_renderer_create(NULL, &renderer));
+    target.depth = depth;
+    target.normal = normal;
+    target.instance = instance;
+    target.triangle = triangle;
+    report.size = sizeof report;
+    CHECK_OK(halflit_render(renderer, cube.scene, &cube.camera, &cube.settings, &target, &report));
+    CHECK(report.triangles_submitted == 12 && report.triangles_drawn > 0 && report.pixels_visible > 0 && report.isa[0] != '\0');
+    CHECK(report.total_ms >= report.prepare_ms && report.warnings == 0 && report.error_budget == 0);
+    for (x = 0; x < PIXELS; ++x) {
+        if (instance[x] == 0) continue;
+        ++seen;
+        if (instance[x] != 1 || triangle[x] < 1 || triangle[x] > 12 || !(depth[x] > 0) || isinf(depth[x])) ++wrong;
+    }
+    CHECK(seen > PIXELS / 10 && wrong == 0 && instance[0] == 0 && isinf(depth[0]));
+
+    memset(bgra, 0xab, sizeof bgra);
+    target = make_target(bgra);
+    target.format = HALFLIT_FORMAT_BGRA8;
+    target.row_bytes = STRIDE;
+    CHECK_OK(halflit_render(renderer, cube.scene, &cube.camera, &cube.settings, &target, NULL));
+    target = make_target(premultiplied);
+    target.format = HALFLIT_FORMAT_RGBA8_PREMULTIPLIED;
+    CHECK_OK(halflit_render(renderer, cube.scene, &cube.camera, &cube.settings, &target, NULL));
+    target = make_target(linear);
+    target.format = HALFLIT_FORMAT_RGBA_F32;
+    CHECK_OK(halflit_render(renderer, cube.scene, &cube.camera, &cube.settings, &target, NULL));
+    wrong = 0;
+    for (y = 0; y < HEIGHT; ++y) {
+        for (x = 0; x < WIDTH; ++x) {
+            const uint8_t *from = rgba + 4 * (y * WIDTH + x), *to = bgra + y * STRIDE + 4 * x, *times = premultiplied + 4 * (y * WIDTH + x);
+            if (from[0] != to[2] || from[1] != to[1] || from[2] != to[0] || from[3] != to[3]) ++differ;
+            for (c = 0; c < 3; ++c)
+                if (times[c] != (from[c] * from[3] + 127) / 255) ++wrong;
+            if (fabsf(linear[4 * (y * WIDTH + x) + 3] * 255 - (float)from[3]) > 0.51f) ++wrong;
+        }
+        for (x = 4 * WIDTH; x < STRIDE; ++x)
+            if (bgra[y * STRIDE + x] != 0xab) ++touched;
+    }
+    CHECK(differ == 0);
+    CHECK(touched == 0);
+    CHECK(wrong == 0);
+    CHECK(rgba[3] == 64 && linear[0] == 0.5f);
+
+    // Files: the same bytes whichever format the memory has.
+    target = make_target(rgba);
+    CHECK_OK(halflit_write_image("c_api_test_rgba.bmp", &target));
+    target = make_target(bgra);
+    target.format = HALFLIT_FORMAT_BGRA8;
+    target.row_bytes = STRIDE;
+    CHECK_OK(halflit_write_image("c_api_test_bgra.bmp", &target));
+    target = make_target(linear);
+    target.format = HALFLIT_FORMAT_RGBA_F32;
+    CHECK_OK(halflit_write_image("c_api_test.hdr", &target));
+    {
+        static char first[1 << 16], second[1 << 16];
+        FILE *a = fopen("c_api_test_rgba.bmp", "rb"), *b = fopen("c_api_test_bgra.bmp", "rb");
+        size_t of_first, of_second;
+        CHECK(a != NULL && b != NULL);
+        of_first = fread(first, 1, sizeof first, a);
+        of_second = fread(second, 1, sizeof second, b);
+        CHECK(of_first > PIXELS && of_first == of_second && memcmp(first, second, of_first) == 0);
+        fclose(a);
+        fclose(b);
+    }
+
+    // A region in memory of its own is that part of the picture.
+    {
+        static uint8_t part[20 * 10 * 4];
+        cube.settings.region.x = 30;
+        cube.settings.region.y = 25;
+        cube.settings.region.width = 20;
+        cube.settings.region.height = 10;
+        target = make_target(part);
+        target.region_alone = 1;
+        CHECK_OK(halflit_render(renderer, cube.scene, &cube.camera, &cube.settings, &target, NULL));
+        CHECK_FAILS(halflit_write_image("x.png", &target), HALFLIT_ERROR_USAGE, "region_alone");
+        for (y = 0, differ = 0; y < 10; ++y) differ += memcmp(part + y * 80, rgba + 4 * ((y + 25) * WIDTH + 30), 80) != 0;
+        CHECK(differ == 0);
+    }
+    halflit_renderer_destroy(renderer);
+    halflit_scene_destroy(cube.scene);
+}
+
+static void test_same_as_cpp(void) {
+    Cube cube = make_cube();
+    halflit_scene* demo;
+    halflit_camera camera;
+    halflit_settings settings;
+    float matrix[16];
+    CHECK(draw_cube(NULL, &cube) == cube_by_cpp(corners, 8, indices, 36, 0, WIDTH, HEIGHT));
+    place(matrix, 0.5f);
+    CHECK_OK(halflit_scene_set_instance(cube.scene, cube.instance, matrix));
+    CHECK(draw_cube(NULL, &cube) == cube_by_cpp(corners, 8, indices, 36, 0.5f, WIDTH, HEIGHT));
+    CHECK_OK(halflit_scene_create_demo(&demo));
+    init_setup(demo, &camera, &settings);
+    CHECK(draw(NULL, demo, &camera, &settings) == scene_by_cpp(NULL, WIDTH, HEIGHT));
+    halflit_scene_destroy(demo);
+    halflit_scene_destroy(cube.scene);
+}
+
+// ---- scenes that change ------------------------------------------------------------------------------------------------
+
+static void test_changes(void) {
+    // Each change is drawn by a renderer that drew the scene before, and by a new scene made in that state.
+    Cube cube = make_cube(), fresh;
+    halflit_renderer* renderer;
+    halflit_report report;
+    float matrix[16], moved[8 * 3], found[16], min[3], max[3];
+    const uint8_t texels[2 * 12] = {255, 255, 255, 255, 0, 0, 0, 255, 9, 9, 9, 9, 0, 0, 0, 255, 255, 255, 255, 255, 9, 9, 9, 9};
+    halflit_material material;
+    halflit_light light;
+    halflit_mesh mesh;
+    int32_t mesh_of, texture, i;
+    uint64_t before, after;
+    static uint8_t pixels[PIXELS * 4];
+    halflit_target target = make_target(pixels);
+    CHECK_OK(halflit_renderer_create(NULL, &renderer));
+    before = draw_cube(renderer, &cube);
+    CHECK(before != 0 && draw_cube(renderer, &cube) == before);
+    report.size = sizeof report;
+
+    place(matrix, 0.5f);
+    for (i = 0; i < 3; ++i) CHECK_OK(halflit_scene_set_instance(cube.scene, cube.instance, matrix));
+    fresh = make_cube();
+    CHECK_OK(halflit_scene_set_instance(fresh.scene, fresh.instance, matrix));
+    after = draw_cube(renderer, &cube);
+    CHECK(after != before && after == draw_cube(NULL, &fresh));
+    CHECK_OK(halflit_scene_get_instance(cube.scene, 0, &mesh_of, found));
+    CHECK(mesh_of == cube.mesh && memcmp(found, matrix, sizeof found) == 0);
+    CHECK_OK(halflit_scene_get_bounds(cube.scene, min, max));
+    CHECK(min[0] == -0.5f && max[0] == 1.5f && min[1] == -1 && max[2] == 1);
+
+    for (i = 0; i < 8 * 3; ++i) moved[i] = corners[i] * (i % 3 == 1 ? 0.5f : 1.0f);
+    CHECK_OK(halflit_scene_set_vertices(cube.scene, cube.mesh, moved, NULL, 8));
+    init_cube_mesh(&mesh, fresh.material);
+    mesh.positions = moved;
+    CHECK_OK(halflit_scene_set_mesh(fresh.scene, fresh.mesh, &mesh));
+    before = after;
+    after = draw_cube(renderer, &cube);
+    CHECK(after != before && after == draw_cube(NULL, &fresh));
+
+    // With normals of its own the mesh is no longer flat.
+    CHECK_OK(halflit_scene_set_vertices(cube.scene, cube.mesh, moved, corners, 8));
+    mesh.normals = corners;
+    CHECK_OK(halflit_scene_set_mesh(fresh.scene, fresh.mesh, &mesh));
+    before = after;
+    after = draw_cube(renderer, &cube);
+    CHECK(after != before && after == draw_cube(NULL, &fresh));
+
+    material.size = sizeof material;
+    CHECK_OK(halflit_scene_get_material(cube.scene, cube.material, &material));
+    CHECK(material.base_color[1] == 0.4f && material.lobe.power == 1.5f && material.name[0] == '\0');
+    CHECK_OK(halflit_scene_add_texture(cube.scene, texels, 2, 2, 12, HALFLIT_COLOR_SRGB, &texture));
+    material.base_color_texture.texture = texture;
+    material.base_color[2] = 1.0f;
+    CHECK_OK(halflit_scene_set_material(cube.scene, cube.material, &material));
+    CHECK_OK(halflit_scene_add_texture(fresh.scene, texels, 2, 2, 12, HALFLIT_COLOR_SRGB, &texture));
+    CHECK_OK(halflit_scene_set_material(fresh.scene, fresh.material, &material));
+    before = after;
+    after = draw_cube(renderer, &cube);
+    CHECK(after != before && after == draw_cube(NULL, &fresh));
+
+    CHECK_OK(halflit_light_init(&light, sizeof light));
+    light.type = HALFLIT_LIGHT_POINT;
+    light.position[1] = 3;
+    light.color[0] = 4;
+    CHECK_OK(halflit_scene_add_light(cube.scene, &light, NULL));
+    CHECK_OK(halflit_scene_add_light(fresh.scene, &light, NULL));
+    before = after;
+    after = draw_cube(renderer, &cube);
+    CHECK(after != before && after == draw_cube(NULL, &fresh));
+
+    place(matrix, -2);
+    CHECK_OK(halflit_scene_add_instance(cube.scene, cube.mesh, matrix, &i));
+    CHECK_OK(halflit_scene_add_instance(fresh.scene, fresh.mesh, matrix, NULL));
+    before = after;
+    after = draw_cube(renderer, &cube);
+    CHECK(i == 1 && after != before && after == draw_cube(NULL, &fresh));
+
+    CHECK_OK(halflit_scene_clear_lights(cube.scene));
+    CHECK_OK(halflit_scene_clear_lights(fresh.scene));
+    CHECK_OK(halflit_scene_add_default_lights(cube.scene, &cube.camera));
+    CHECK_OK(halflit_scene_add_default_lights(fresh.scene, &fresh.camera));
+    before = after;
+    after = draw_cube(renderer, &cube);
+    CHECK(after != before && after == draw_cube(NULL, &fresh));
+
+    // Nothing changed: nothing is prepared, which takes far less than a millisecond.
+    CHECK_OK(halflit_render(renderer, cube.scene, &cube.camera, &cube.settings, &target, &report));
+    CHECK(report.prepare_ms < 1000 && report.threads >= 1 && halflit_pixel_hash(pixels, sizeof pixels) == after);
+    halflit_renderer_destroy(renderer);
+    halflit_scene_destroy(fresh.scene);
+    halflit_scene_destroy(cube.scene);
+}
+
+static void test_tangents_and_normals_follow_the_material(void) {
+    // A material that becomes a normal map's after the mesh was added gives the same pixels as one that was from the start.
+    static const float square[4 * 3] = {-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0}, uv[4 * 2] = {0, 1, 1, 1, 0, 0, 1, 0};
+    static const uint32_t two[6] = {0, 1, 2, 2, 1, 3};
+    const uint8_t tilted[4] = {200, 128, 200, 255};
+    uint64_t hashes[2] = {0, 1};
+    int32_t late;
+    for (late = 0; late < 2; ++late) {
+        halflit_scene* scene;
+        halflit_material material;
+        halflit_mesh mesh;
+        halflit_camera camera;
+        halflit_settings settings;
+        CHECK_OK(halflit_scene_create(&scene));
+        CHECK_OK(halflit_scene_add_texture(scene, tilted, 1, 1, 0, HALFLIT_COLOR_LINEAR, NULL));
+        halflit_material_init(&material, sizeof material);
+        material.metallic = 0;
+        material.unlit = late;
+        material.normal_texture.texture = late ? -1 : 0;
+        CHECK_OK(halflit_scene_add_material(scene, &material, NULL));
+        halflit_mesh_init(&mesh, sizeof mesh);
+        mesh.positions = square;
+        mesh.uv0 = uv;
+        mesh.vertex_count = 4;
+        mesh.indices = two;
+        mesh.index_count = 6;
+        mesh.material = 0;
+        CHECK_OK(halflit_scene_add_mesh(scene, &mesh, NULL));
+        CHECK_OK(halflit_scene_add_instance(scene, 0, NULL, NULL));
+        init_setup(scene, &camera, &settings);
+        CHECK(draw(NULL, scene, &camera, &settings) != 0);
+        material.unlit = 0;
+        material.normal_texture.texture = 0;
+        CHECK_OK(halflit_scene_set_material(scene, 0, &material));
+        CHECK_OK(halflit_scene_set_vertices(scene, 0, square, NULL, 4));
+        hashes[late] = draw(NULL, scene, &camera, &settings);
+        halflit_scene_destroy(scene);
+    }
+    CHECK(hashes[0] != 0 && hashes[0] == hashes[1]);
+}
+
+static void test_environments(void) {
+    Cube cube = make_cube();
+    static float grey[16 * 8 * 3];
+    halflit_environment_options options;
+    halflit_counts counts;
+    uint64_t by_grey, by_sky;
+    int i;
+    for (i = 0; i < 16 * 8 * 3; ++i) grey[i] = 0.5f;
+    CHECK_OK(halflit_environment_options_init(&options, sizeof options));
+    CHECK_OK(halflit_scene_clear_lights(cube.scene));
+    CHECK_OK(halflit_scene_set_environment(cube.scene, grey, 16, 8, NULL));
+    by_grey = draw_cube(NULL, &cube);
+    CHECK_OK(halflit_scene_set_sky(cube.scene, &options));
+    cube.settings.background_environment = 1;
+    by_sky = draw_cube(NULL, &cube);
+    counts.size = sizeof counts;
+    CHECK_OK(halflit_scene_get_counts(cube.scene, &counts));
+    CHECK(by_grey != 0 && by_sky != 0 && by_sky != by_grey && counts.lights == 0);
+    // The sky's suns go with it.
+    cube.settings.background_environment = 0;
+    CHECK_OK(halflit_scene_set_environment(cube.scene, grey, 16, 8, &options));
+    CHECK(draw_cube(NULL, &cube) == by_grey);
+    CHECK_FAILS(halflit_scene_set_environment(cube.scene, grey, 0, 8, NULL), HALFLIT_ERROR_USAGE, "no pixels");
+    grey[5] = -1;
+    CHECK(halflit_scene_set_environment(cube.scene, grey, 16, 8, NULL) == HALFLIT_ERROR_BAD_INPUT);
+    CHECK_FAILS(halflit_scene_load_environment(cube.scene, "no/such.hdr", NULL), HALFLIT_ERROR_IO, "no/such.hdr");
+    CHECK(draw_cube(NULL, &cube) == by_grey);
+    halflit_scene_destroy(cube.scene);
+}
+
+static void test_loading(void) {
+    const char* path = "c_api_test.gltf";
+    halflit_scene *from_file, *from_memory;
+    halflit_load_options options;
+    halflit_counts counts;
+    halflit_material material;
+    halflit_camera camera;
+    halflit_settings settings;
+    const char* text = NULL;
+    uint64_t hash;
+    FILE* file = fopen(path, "wb");
+    CHECK(file != NULL);
+    fwrite(model, 1, sizeof model - 1, file);
+    fclose(file);
+    CHECK_OK(halflit_scene_load(path, NULL, &from_file));
+    CHECK_OK(halflit_load_options_init(&options, sizeof options));
+    CHECK_OK(halflit_scene_load_memory(model, sizeof model - 1, "model", NULL, &options, &from_memory));
+    init_setup(from_file, &camera, &settings);
+    hash = draw(NULL, from_file, &camera, &settings);
+    CHECK(hash != 0 && hash == scene_by_cpp(path, WIDTH, HEIGHT));
+    init_setup(from_memory, &camera, &settings);
+    CHECK(hash == draw(NULL, from_memory, &camera, &settings));
+    counts.size = sizeof counts;
+    CHECK_OK(halflit_scene_get_counts(from_file, &counts));
+    CHECK(counts.triangles == 1 && counts.meshes == 1 && counts.instances == 1 && counts.materials == 1 && counts.cameras == 0);
+    CHECK(counts.warnings == 1);
+    CHECK_OK(halflit_scene_get_warning(from_file, 0, &text));
+    CHECK(text != NULL && strlen(text) > 5);
+    CHECK_FAILS(halflit_scene_get_warning(from_file, 1, &text), HALFLIT_ERROR_USAGE, "warning 1, but the scene has 1");
+    CHECK_FAILS(halflit_scene_get_camera(from_file, 0, &camera), HALFLIT_ERROR_USAGE, "camera 0, but the scene has 0");
+    material.size = sizeof material;
+    CHECK_OK(halflit_scene_get_material(from_file, 0, &material));
+    CHECK(strcmp(material.name, "paint") == 0 && material.base_color[0] == 0.9f && material.base_color_texture.texture == -1);
+    material.base_color[0] = 0.1f;
+    CHECK_OK(halflit_scene_set_material(from_file, 0, &material));
+    CHECK_OK(halflit_scene_get_material(from_file, 0, &material));
+    CHECK(strcmp(material.name, "paint") == 0 && material.base_color[0] == 0.1f);
+    CHECK(hash != draw(NULL, from_file, &camera, &settings));
+
+    // A buffer in another file is read from base_dir alone.
+    {
+        static char outside[sizeof model + 64];
+        const char *uri = strstr(model, "data:"), *rest = strstr(uri, "\"}");
+        const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+        halflit_scene* scene = NULL;
+        int length = sprintf(outside, "%.*sc_api_test.bin%s", (int)(uri - model), model, rest);
+        file = fopen("c_api_test.bin", "wb");
+        CHECK(file != NULL && fwrite(triangle, 1, sizeof triangle, file) == sizeof triangle);
+        fclose(file);
+        CHECK(halflit_scene_load_memory(outside, (size_t)length, "model", NULL, NULL, &scene) != HALFLIT_OK && scene == NULL);
+        CHECK_OK(halflit_scene_load_memory(outside, (size_t)length, "model", ".", NULL, &scene));
+        init_setup(scene, &camera, &settings);
+        CHECK(hash == draw(NULL, scene, &camera, &settings));
+        halflit_scene_destroy(scene);
+    }
+    options.max_file_bytes = 10;
+    CHECK_FAILS(halflit_scene_load(path, &options, &from_file), HALFLIT_ERROR_LIMIT, path);
+    halflit_scene_destroy(from_file);
+    halflit_scene_destroy(from_memory);
+}
+
+static void test_cameras(void) {
+    Cube cube = make_cube();
+    halflit_scene* demo;
+    halflit_camera camera;
+    const float eye[3] = {0, 0, 5}, origin[3] = {0, 0, 0};
+    halflit_camera_init(&camera, sizeof camera);
+    camera.fov_y_rad = 0.5f;
+    CHECK_OK(halflit_camera_look_at(eye, origin, NULL, &camera));
+    CHECK(camera.world_from_camera[14] == 5 && camera.world_from_camera[0] == 1 && camera.fov_y_rad == 0.5f);
+    CHECK(draw(NULL, cube.scene, &camera, NULL) != 0);
+    CHECK_OK(halflit_camera_frame(cube.scene, 4.0f / 3.0f, 35, 20, 1, &camera));
+    CHECK(memcmp(camera.world_from_camera, cube.camera.world_from_camera, sizeof camera.world_from_camera) == 0);
+    CHECK_FAILS(halflit_camera_frame(cube.scene, 0, 35, 20, 1, &camera), HALFLIT_ERROR_USAGE, "aspect");
+    CHECK_OK(halflit_scene_create_demo(&demo));
+    CHECK_OK(halflit_scene_get_camera(demo, 0, &camera));
+    CHECK(camera.name != NULL && draw(NULL, demo, &camera, NULL) != 0);
+    halflit_scene_destroy(demo);
+    halflit_scene_destroy(cube.scene);
+}
+
+// ---- execution ---------------------------------------------------------------------------------------------------------
+
+typedef struct {
+    const Cube* cube;
+    halflit_renderer* renderer;
+    int stop, loops, refused;
+    long pixels;
+    double share;
+} Watch;
+
+static int32_t watch_cancelled(void* user) { return ((Watch*)user)->stop; }
+static void watch_tile(void* user, int32_t x, int32_t y, int32_t width, int32_t height) {
+    Watch* watch = (Watch*)user;
+    float matrix[16];
+    (void)x, (void)y;
+    watch->pixels += (long)width * height;
+    place(matrix, 9);
+    // Neither the scene nor the renderer of a frame can be changed from within it.
+    watch->refused += halflit_scene_set_instance(watch->cube->scene, 0, matrix) == HALFLIT_ERROR_USAGE;
+    watch->refused += halflit_renderer_set_execution(watch->renderer, NULL) == HALFLIT_ERROR_USAGE;
+}
+static void watch_progress(void* user, double share) { ((Watch*)user)->share = share; }
+static void watch_loop(void* user, int32_t count, void (*body)(void* task, int32_t i), void* task) {
+    ++((Watch*)user)->loops;
+    while (count > 0) body(task, --count);
+}
+static void lazy_loop(void* user, int32_t count, void (*body)(void* task, int32_t i), void* task) {
+    (void)user;
+    body(task, count);  // the only call, of a part that does not exist
+}
+
+static void test_execution(void) {
+    Cube cube = make_cube();
+    const uint64_t expected = draw_cube(NULL, &cube);
+    Watch watch = {NULL, NULL, 0, 0, 0, 0, 0};
+    halflit_execution execution;
+    CHECK_OK(halflit_execution_init(&execution, sizeof execution));
+    CHECK(execution.threads == 0 && execution.tile_size == 64 && execution.isa == NULL);
+    execution.user = &watch;
+    execution.cancelled = watch_cancelled;
+    execution.on_tile = watch_tile;
+    execution.progress = watch_progress;
+    execution.parallel_for = watch_loop;
+    execution.tile_size = 16;
+    execution.isa = "scalar";
+    CHECK_OK(halflit_renderer_create(&execution, &watch.renderer));
+    watch.cube = &cube;
+    CHECK(draw_cube(watch.renderer, &cube) == expected);
+    CHECK(watch.pixels == PIXELS && watch.share == 1.0 && watch.loops > 0 && watch.refused == 2 * 5 * 4);
+    watch.stop = 1;
+    CHECK(draw_cube(watch.renderer, &cube) == 0);
+    {
+        static uint8_t pixels[PIXELS * 4];
+        const halflit_target target = make_target(pixels);
+        CHECK_FAILS(halflit_render(watch.renderer, cube.scene, &cube.camera, &cube.settings, &target, NULL), HALFLIT_ERROR_CANCELLED,
+                    "stopped");
+    }
+    watch.stop = 0;
+    CHECK(draw_cube(watch.renderer, &cube) == expected);
+    execution.parallel_for = lazy_loop;
+    CHECK_OK(halflit_renderer_set_execution(watch.renderer, &execution));
+    CHECK(draw_cube(watch.renderer, &cube) == 0);
+    CHECK_OK(halflit_renderer_set_execution(watch.renderer, NULL));
+    CHECK(draw_cube(watch.renderer, &cube) == expected);
+    halflit_renderer_destroy(watch.renderer);
+
+    // Two renderers draw one scene, which the first of them prepares.
+    {
+        Cube other = make_cube();
+        CHECK(draw_by_two_threads(other.scene, &other.camera, &other.settings, WIDTH, HEIGHT, 10, expected) == 20);
+        halflit_scene_destroy(other.scene);
+    }
+    // An error budget: the report has its bound.
+    {
+        static uint8_t pixels[PIXELS * 4];
+        const halflit_target target = make_target(pixels);
+        halflit_renderer* renderer;
+        halflit_report report;
+        report.size = sizeof report;
+        cube.settings.max_error_codes = 0.5;
+        CHECK_OK(halflit_renderer_create(NULL, &renderer));
+        CHECK_OK(halflit_render(renderer, cube.scene, &cube.camera, &cube.settings, &target, &report));
+        CHECK(report.error_budget == 0.5 && report.error_within == 1 && report.error_codes > 0 && report.error_codes <= 0.5);
+        halflit_renderer_destroy(renderer);
+    }
+    halflit_scene_destroy(cube.scene);
+}
+
+int main(void) {
+    CHECK(halflit_last_error()[0] == '\0');
+    CHECK(strchr(halflit_version(), '.') != NULL && halflit_pixel_epoch() >= 1);
+    test_null_pointers();
+    test_struct_sizes();
+    test_faulty_arguments();
+    test_formats();
+    test_same_as_cpp();
+    test_changes();
+    test_tangents_and_normals_follow_the_material();
+    test_environments();
+    test_loading();
+    test_cameras();
+    test_execution();
+    printf("%d checks, %d failed\n", checks, failures);
+    return failures == 0 && checks > 100 ? 0 : 1;
+}
