@@ -97,7 +97,8 @@ struct Mat4 {
 [[nodiscard]] HALFLIT_API Mat4 scaling(Vec3f s);
 /// Rotation by the unit quaternion (x, y, z, w), as glTF stores it.
 [[nodiscard]] HALFLIT_API Mat4 rotation(Vec4f quaternion);
-/// Rotation about an axis of any length, counter-clockwise seen against the axis. The identity if the axis has no direction.
+/// Rotation about an axis of any length, counter-clockwise seen against the axis. The identity if the axis has no direction, and for an
+/// angle beyond 1e6 or not a number.
 [[nodiscard]] HALFLIT_API Mat4 rotation(Vec3f axis, float angle_rad);
 /// Place of a camera (Camera::world_from_camera) or of any object that looks along its -z: at `eye`, looking at `target`, with `up` upwards in
 /// the picture. Where `up` is parallel to the view, or the target is the eye, another axis is taken, so that the result is always rigid.
