@@ -6,8 +6,8 @@
 namespace halflit::raster {
 namespace {
 
-/// 0 for NaN, x for everything else.
-float number_or_zero(float x) { return x == x ? x : 0.0f; }
+/// 0 for NaN, x for everything else; 0 instead of -0, as a sum of samples is.
+float number_or_zero(float x) { return x == x ? x + 0.0f : 0.0f; }
 
 Vec4f number_or_zero(Vec4f v) { return {number_or_zero(v.x), number_or_zero(v.y), number_or_zero(v.z), number_or_zero(v.w)}; }
 
@@ -84,15 +84,13 @@ void PictureTile::fill_background() {
         resolve();
         return;
     }
-    Vec4f b = number_or_zero(plan_.background_linear);
-    if (!direct_) {
-        // An empty tile must round as an empty pixel beside a triangle does; otherwise pixels would depend on the tile size.
-        float sum[4] = {0, 0, 0, 0};
-        const float back[4] = {b.x * b.w, b.y * b.w, b.z * b.w, b.w};
-        for (int s = 0; s < samples_; ++s)
-            for (int i = 0; i < 4; ++i) sum[i] += back[i];
-        b = resolved(sum, 1.0f / static_cast<float>(samples_));
-    }
+    // Goes through samples in every case. Otherwise it would round differently in a tile or region that has nothing to blend.
+    const Vec4f back = number_or_zero(plan_.background_linear);
+    const float sample[4] = {back.x * back.w, back.y * back.w, back.z * back.w, back.w};
+    float sum[4] = {0, 0, 0, 0};
+    for (int s = 0; s < samples_; ++s)
+        for (int i = 0; i < 4; ++i) sum[i] += sample[i];
+    const Vec4f b = resolved(sum, 1.0f / static_cast<float>(samples_));
     const Output& output = pass_.output;
     if (output.codes) {
         alignas(64) float red[16], green[16], blue[16], alpha[16];

@@ -23,7 +23,7 @@ struct Region {
 struct Settings {
     Region region{};
     int samples = 1;                      ///< per pixel: 1, 4 or 8
-    Vec4f background_linear{0, 0, 0, 0};  ///< linear colour, not premultiplied; w = 0 is transparent
+    Vec4f background_linear{0, 0, 0, 0};  ///< linear colour, not premultiplied; w = 0 is transparent, without a colour
     bool background_environment = false;  ///< true: the scene's environment, if it kept its image
     float exposure = 1.0f;                ///< factor on all light, > 0
     ShadingSettings shading{};
@@ -39,8 +39,8 @@ struct Settings {
 /// Fails (usage) if a setting is out of range or excludes another one, and (limit) for a size beyond 32,768 pixels on a side.
 [[nodiscard]] HALFLIT_API Result<void> check_settings(const Settings& settings, int width, int height);
 
-/// A host's own threads: runs body(i) for every i in [0, count), in any order, on any threads, and returns when all are done. A body that
-/// is left out is an error of the frame.
+/// A host's own threads: runs body(i) once for every i in [0, count), in any order, on any threads, and returns when all are done. An item
+/// that is left out, run twice or outside of the range is an error of the frame (usage).
 using ParallelFor = std::function<void(int count, const std::function<void(int)>& body)>;
 
 /// How a frame is computed. Nothing here changes a pixel. The functions may be called from any thread of the frame, by several at once;
