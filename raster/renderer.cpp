@@ -52,6 +52,9 @@ struct Renderer::Impl {
     ShadowMaps shadow_maps;
     ViewGeometry geometry;
     VertexRecords records;
+    /// For the plane of normals: shading needs them of some materials only, and keeps light in their place at a rate below one a pixel.
+    VertexRecords normals;
+    std::vector<shading::MaterialPlan> normal_materials;
     ReferenceShading reference;
     Pool<TileScratch> scratch;
 
@@ -66,6 +69,15 @@ struct Renderer::Impl {
         plan = std::move(*made);
         plan_key = std::move(key);
         return {};
+    }
+
+    void make_normals(const PreparedData& scene, const RasterKernels& kernels) {
+        normal_materials.assign(scene.drawn_materials().size(), {});
+        for (std::size_t i = 0; i < normal_materials.size(); ++i) {
+            normal_materials[i].slots = shading::kBaseSlots;
+            normal_materials[i].double_sided = scene.material(i).double_sided;
+        }
+        normals.make(geometry, normal_materials, kernels, executor);
     }
 
     /// Draws all tiles of the picture. Fails if the caller cancels, and if the host's loop leaves a tile out.
@@ -124,12 +136,15 @@ struct Renderer::Impl {
 
         records.make(geometry, plan.shading.materials, raster, executor);
         if (plan.options.rate == ShadingRate::gouraud) report.work = light_vertices(geometry, records, plan.shading, shade, executor);
+        if (target.normal != nullptr) make_normals(scene, raster);
         report.ms.transform += watch.lap();
 
+        const TilePass normals_pass{geometry, normals, normal_materials, raster, shade};
         const PicturePass pass{{geometry, records, plan.shading.materials, raster, shade, plan.shading.shadow_offset},
                                plan,
                                Output(target, plan.picture.region),
-                               by_reference ? &reference : nullptr};
+                               by_reference ? &reference : nullptr,
+                               target.normal != nullptr ? &normals_pass : nullptr};
         const auto tiles = draw_tiles(pass, execution);
         if (!tiles) return tl::unexpected<Error>(tiles.error());
         report.ms.tiles = watch.lap();
@@ -160,6 +175,7 @@ void Renderer::forget_frames() {
     impl_->shadow_maps.forget();
     impl_->geometry.forget();
     impl_->records.changed();
+    impl_->normals.changed();
 }
 
 namespace {

@@ -15,6 +15,7 @@ struct PicturePass {
     const FramePlan& plan;
     Output output;
     const ReferenceShading* reference;  ///< shades instead of the kernels; null: the kernels shade
+    const TilePass* normals;            ///< reads positions and normals alone; null: no plane of normals
 };
 
 class PictureTile {
@@ -34,9 +35,9 @@ private:
     void shade_visible();
     void shade(FragmentList& list);  ///< writes the colour rows of the scratch's block
     // planes.cpp
-    void write_planes();                           ///< depth and numbers of what each pixel's first sample shows
-    void write_empty_planes();                     ///< of a tile that has no triangles
-    void write_normals(const FragmentList& list);  ///< of the scratch's block
+    void write_planes();                     ///< depth and numbers of what each pixel's first sample shows
+    void write_empty_planes();               ///< of a tile that has no triangles
+    void write_normals(FragmentList& list);  ///< overwrites the scratch's block
     // blend.cpp
     void blend_layers();
     // resolve.cpp

@@ -35,9 +35,10 @@ void PictureTile::write_empty_planes() {
         }
 }
 
-void PictureTile::write_normals(const FragmentList& list) {
+void PictureTile::write_normals(FragmentList& list) {
+    interpolate(*pass_.normals, list, scratch_.block);
     const auto& lane = scratch_.block.lane;
-    const bool facing = plan_.shading.materials[static_cast<std::size_t>(list.material)].double_sided;
+    const bool facing = pass_.normals->materials[static_cast<std::size_t>(list.material)].double_sided;
     for (int l = 0; l < list.count; ++l) {
         if ((list.samples[l] & 1u) == 0) continue;
         const Vec3f n = normalize_or({lane[shading::kNormalX][l], lane[shading::kNormalY][l], lane[shading::kNormalZ][l]}, {0, 0, 0});

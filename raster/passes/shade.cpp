@@ -27,8 +27,8 @@ void PictureTile::shade_visible() {
     FragmentQueue& queue = scratch_.queue;
     queue.begin(pass_.view.materials.size());
     const auto flush = [&](FragmentList& list) {
+        if (pass_.normals != nullptr) write_normals(list);
         shade(list);
-        if (pass_.output.normal) write_normals(list);
         write(list);
         list.count = 0;
     };

@@ -30,8 +30,10 @@ struct Target {
     std::size_t row_bytes = 0, linear_row_bytes = 0;
 
     /// What each pixel's first sample shows; blended surfaces and the background do not count. Aligned to 4 bytes.
-    float* depth = nullptr;   ///< distance along the view axis, world units; infinity where nothing is
-    float* normal = nullptr;  ///< three floats: unit normal of the vertices in world space, towards the viewer; 0 where nothing is
+    float* depth = nullptr;  ///< distance along the view axis, world units; infinity where nothing is
+    /// Three floats: the vertices' normals in world space, interpolated and of unit length; on the back of a double-sided material turned
+    /// around. Normal maps do not count. 0 where nothing is, or where the mesh has no normals.
+    float* normal = nullptr;
     std::uint32_t* instance = nullptr;  ///< index into Scene::instances, plus 1; 0 where nothing is
     std::uint32_t* triangle = nullptr;  ///< number of the triangle in the instance's mesh, plus 1; 0 where nothing is
     std::size_t depth_row_bytes = 0, normal_row_bytes = 0, instance_row_bytes = 0, triangle_row_bytes = 0;
