@@ -17,6 +17,11 @@ Result<void> check_settings(const Settings& settings, int width, int height) {
     if (settings.samples != 1 && settings.samples != 4 && settings.samples != 8)
         return fail(ErrorCode::usage, "samples: " + std::to_string(settings.samples) + ", expected 1, 4 or 8");
     if (!(settings.exposure > 0.0f && settings.exposure < 3e38f)) return fail(ErrorCode::usage, "the exposure is not a positive number");
+    const int side = settings.shadow_size;
+    if (side < 64 || side > 4096 || (side & (side - 1)) != 0)
+        return fail(ErrorCode::usage, "shadow size: " + std::to_string(side) + ", expected a power of two from 64 to 4096");
+    if (!(settings.shadow_fade >= 0.0f && settings.shadow_fade < 3e38f))
+        return fail(ErrorCode::usage, "shadow fade: expected a distance, or 0");
     if (auto ok = shading::check_options(settings.shading); !ok) return ok;
     const Region& r = settings.region;
     if (r.width != 0 && (r.x < 0 || r.y < 0 || r.width < 1 || r.height < 1 || r.width > width - r.x || r.height > height - r.y))

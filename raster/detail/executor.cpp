@@ -91,13 +91,21 @@ void Executor::run(int count, const std::function<void(int)>& body) {
         body(i);
     };
     if (hook_) {
+        std::vector<std::atomic<bool>> taken(static_cast<std::size_t>(count));
         std::atomic<int> done{0};
+        std::atomic<bool> astray{false};
         run_catching([&](const std::function<void(int)>& caught) { hook_(count, caught); },
                      [&](int i) {
+                         // A second run of an item may write what others read already, so it is not made.
+                         if (i < 0 || i >= count || taken[static_cast<std::size_t>(i)].exchange(true)) {
+                             astray = true;
+                             return;
+                         }
                          task(i);
                          ++done;
                      });
-        if (done != count) throw IncompleteLoop();
+        if (done != count) throw WrongLoop("parallel_for returned before every item was done");
+        if (astray) throw WrongLoop("parallel_for ran an item twice, or one outside of its range");
     } else if (arena_ && count > 1) {
         arena_->run(count, task);
     } else {

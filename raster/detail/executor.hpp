@@ -11,9 +11,14 @@
 
 namespace halflit::raster {
 
-/// Thrown where a host's loop returns before every item was done.
-struct IncompleteLoop : std::exception {
-    [[nodiscard]] const char* what() const noexcept override { return "parallel_for returned before every item was done"; }
+/// Thrown where a host's loop did not run every item once.
+class WrongLoop : public std::exception {
+public:
+    explicit WrongLoop(const char* what) : what_(what) {}
+    [[nodiscard]] const char* what() const noexcept override { return what_; }
+
+private:
+    const char* what_;
 };
 
 /// Runs the parallel loops of a frame. Every task runs in the library's floating-point environment. `run` rethrows the first exception of a

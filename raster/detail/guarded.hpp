@@ -19,7 +19,7 @@ auto guarded(const char* doing, const Body& body) -> decltype(body()) {
         return body();
     } catch (const std::bad_alloc&) {
         return fail(ErrorCode::limit, std::string("out of memory while ") + doing);
-    } catch (const IncompleteLoop& e) {
+    } catch (const WrongLoop& e) {
         return fail(ErrorCode::usage, e.what());
     } catch (const std::exception& e) {
         return fail(ErrorCode::internal, e.what());

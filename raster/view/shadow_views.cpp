@@ -213,8 +213,6 @@ private:
 Result<ShadowViews> plan_shadow_views(std::span<const LightPlan> lights, const Bounds& bounds, const Settings& settings) {
     ShadowViews out;
     int side = settings.shadow_size;
-    if (side < 64 || side > 4096 || (side & (side - 1)) != 0)
-        return fail(ErrorCode::usage, "shadow size: " + std::to_string(side) + ", expected a power of two from 64 to 4096");
     if (settings.shadows == ShadowMode::off || lights.empty() || bounds.empty || !(bounds.radius() > 0.0f)) return out;
     const std::size_t most = settings.shadow_memory_limit / sizeof(float);
     while (side > 64 && texel_count(lights, bounds, side) > most) side /= 2;
