@@ -102,6 +102,25 @@ void add_lobe_warnings(const PreparedData& scene, const shading::ShadingPlan& pl
     }
 }
 
+/// Adds one warning for all meshes that are drawn and lit, but have no normals. ShadingRate::flat takes the triangles' own.
+void add_normal_warning(const PreparedData& scene, const shading::ShadingPlan& plan, const ShadingSettings& options,
+                        std::vector<std::string>& warnings) {
+    if (options.rate == ShadingRate::flat) return;
+    int first = -1, others = 0;
+    for (const int index : scene.meshes_without_normals()) {
+        const MaterialPlan& material = plan.materials[scene.material_of(scene.source_mesh(index))];
+        if ((material.stages & (kStageLights | kStageAmbient | kStageEnvironment)) == 0) continue;
+        if (first < 0)
+            first = index;
+        else
+            ++others;
+    }
+    if (first < 0) return;
+    std::string warning = "mesh " + std::to_string(first) + " has no normals: its light does not follow its shape";
+    if (others > 0) warning += " (and " + std::to_string(others) + (others == 1 ? " other mesh)" : " other meshes)");
+    warnings.push_back(std::move(warning));
+}
+
 /// Material plans for the alpha test of the shadow pass; empty if no material has a mask.
 std::vector<MaterialPlan> plan_casters(const PreparedData& scene, const ShadingSettings& options) {
     std::vector<MaterialPlan> casters;
@@ -162,6 +181,7 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, 
     plan.depth = depth_map(camera, static_cast<float>(width) / static_cast<float>(height));
     plan.environment_uses = environment_uses(prepared, plan.shading);
     add_lobe_warnings(prepared, plan.shading, options, plan.warnings);
+    add_normal_warning(prepared, plan.shading, options, plan.warnings);
     if (!shadows->warning.empty()) plan.warnings.push_back(std::move(shadows->warning));
     return plan;
 }

@@ -112,6 +112,8 @@ void PreparedData::collect() {
     object_radii_.assign(scene_->materials.size() + 1, 0.0);
     largest_uv_ = 0;
     largest_color_ = 1;
+    meshes_without_normals_.clear();
+    std::vector<bool> noted(scene_->meshes.size(), false);
     for (const Mesh& mesh : scene_->meshes) available_slots_[material_of(mesh)] |= slots_of(mesh);
     for (std::size_t i = 0; i < scene_->instances.size(); ++i) {
         const Mesh& mesh = source_mesh(scene_->instances[i].mesh);
@@ -122,6 +124,11 @@ void PreparedData::collect() {
         drawn_materials_[material] = true;
         const Bounds& box = instance_bounds_[i];
         if (!box.empty) object_radii_[material] = std::max(object_radii_[material], static_cast<double>(box.radius()) / kRootOfThree);
+        const auto index = static_cast<std::size_t>(scene_->instances[i].mesh);
+        if (mesh.normals.empty() && !noted[index]) {
+            noted[index] = true;
+            meshes_without_normals_.push_back(scene_->instances[i].mesh);
+        }
         const PreparedMesh& prepared = this->mesh(scene_->instances[i].mesh);
         largest_uv_ = std::max(largest_uv_, static_cast<double>(prepared.largest_uv));
         largest_color_ = std::max(largest_color_, static_cast<double>(prepared.largest_color));

@@ -55,6 +55,8 @@ public:
     [[nodiscard]] std::size_t material_of(const Mesh& mesh) const {
         return mesh.material >= 0 ? static_cast<std::size_t>(mesh.material) : scene_->materials.size();
     }
+    /// Meshes of drawn instances that have no normals, each once, in the order of their first instances.
+    [[nodiscard]] std::span<const int> meshes_without_normals() const { return meshes_without_normals_; }
     /// Half the diagonal of the box of the largest instance with the material, over sqrt(3): for a sphere its radius. World units; 0 if
     /// there is no instance.
     [[nodiscard]] std::span<const double> object_radii() const { return object_radii_; }
@@ -87,6 +89,7 @@ private:
     std::vector<double> object_radii_;
     std::vector<shading::SlotMask> available_slots_;
     std::vector<bool> drawn_materials_;
+    std::vector<int> meshes_without_normals_;
     std::vector<std::pair<AlphaMode, bool>> coverage_;  ///< of each material: alpha mode, and whether both sides are drawn
     Material no_material_;
 };

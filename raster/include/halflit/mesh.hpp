@@ -14,7 +14,7 @@ namespace halflit {
 struct Mesh {
     std::string name;
     std::vector<Vec3f> positions;
-    std::vector<Vec3f> normals;          ///< any length > 0; lit materials need them (see generate_flat_normals)
+    std::vector<Vec3f> normals;          ///< any length > 0; lit materials need them (see generate_flat_normals), and a frame without warns
     std::vector<Vec4f> tangents;         ///< xyz any length > 0, w = +1 or -1: bitangent = cross(normal, tangent) * w
     std::vector<Vec2f> uv0, uv1;         ///< v points down: v = 0 is the first row of the texture
     std::vector<Vec4f> colors;           ///< linear RGBA
