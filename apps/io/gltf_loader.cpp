@@ -28,11 +28,12 @@ LoadedScene build(std::span<const std::byte> bytes, const std::string& base_dir,
     const std::vector<Accessor> accessors = check_accessors(*document);
     const NodeTree tree = place_nodes(*document);
     LoadedScene loaded;
+    loaded.nodes = make_nodes(*document, tree);
     ImageStore images(*document, loaded.scene.textures);
     loaded.scene.materials = make_materials(*document, images, find_used_materials(*document, tree));
-    place_meshes(*document, accessors, tree, loaded.scene);
-    place_cameras(*document, tree, loaded.scene);
-    place_lights(*document, tree, loaded.scene);
+    place_meshes(*document, accessors, tree, loaded);
+    place_cameras(*document, tree, loaded);
+    place_lights(*document, tree, loaded);
     loaded.scene.calibrated = loaded.scene.lights.empty();
     if (loaded.scene.instances.empty()) document->warn("the model has nothing to draw");
     if (document->warnings_left_out > 0) document->warnings.push_back(fmt::format("and {} further warnings", document->warnings_left_out));

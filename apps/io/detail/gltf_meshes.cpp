@@ -15,8 +15,13 @@ namespace {
 
 class MeshPlacer {
 public:
-    MeshPlacer(Document& document, const std::vector<Accessor>& accessors, const NodeTree& tree, Scene& scene)
-        : document_(document), accessors_(accessors), tree_(tree), scene_(scene), reader_(document, accessors) {}
+    MeshPlacer(Document& document, const std::vector<Accessor>& accessors, const NodeTree& tree, LoadedScene& loaded)
+        : document_(document),
+          accessors_(accessors),
+          tree_(tree),
+          scene_(loaded.scene),
+          nodes_(loaded.nodes),
+          reader_(document, accessors) {}
 
     void run() {
         for (const int node : tree_.drawn)
@@ -47,8 +52,9 @@ private:
             document_.warn(fmt::format("nodes[{}]: its transform is not finite, not drawn", index));
             return;
         }
-        document_.geometry.take(made.meshes.size() * sizeof(Instance));
+        document_.geometry.take(made.meshes.size() * (sizeof(Instance) + sizeof(int)));
         for (const int m : made.meshes) {
+            if (!made.in_world) nodes_[index].instances.push_back(static_cast<int>(scene_.instances.size()));
             scene_.instances.push_back({m, made.in_world ? Mat4{} : to_mat4(world)});
             document_.info.triangles_drawn += scene_.meshes[static_cast<std::size_t>(m)].indices.size() / 3;
         }
@@ -100,6 +106,7 @@ private:
     const std::vector<Accessor>& accessors_;
     const NodeTree& tree_;
     Scene& scene_;
+    std::vector<Node>& nodes_;
     PrimitiveReader reader_;
     std::map<Key, Made> made_;
 };
@@ -118,8 +125,8 @@ std::vector<bool> find_used_materials(const Document& document, const NodeTree& 
     return used;
 }
 
-void place_meshes(Document& document, const std::vector<Accessor>& accessors, const NodeTree& tree, Scene& scene) {
-    MeshPlacer(document, accessors, tree, scene).run();
+void place_meshes(Document& document, const std::vector<Accessor>& accessors, const NodeTree& tree, LoadedScene& loaded) {
+    MeshPlacer(document, accessors, tree, loaded).run();
 }
 
 }  // namespace halflit::io::detail

@@ -12,7 +12,7 @@ namespace halflit::io::detail {
 /// One flag for each material of the file: true if a drawn primitive has it.
 std::vector<bool> find_used_materials(const Document& document, const NodeTree& tree);
 
-/// Fills scene.meshes and scene.instances. Requires scene.materials. Throws LoadFailure.
-void place_meshes(Document& document, const std::vector<Accessor>& accessors, const NodeTree& tree, Scene& scene);
+/// Fills the scene's meshes and instances, and adds the instances to the nodes. Requires materials and nodes. Throws LoadFailure.
+void place_meshes(Document& document, const std::vector<Accessor>& accessors, const NodeTree& tree, LoadedScene& loaded);
 
 }  // namespace halflit::io::detail

@@ -14,6 +14,11 @@ std::span<const int> children_of(const file::File& file, std::size_t node) {
     return std::span(file.children).subspan(run.first, run.count);
 }
 
+Affine local_transform(const file::File& file, std::size_t node) {
+    const int transform = file.nodes[node].transform;
+    return transform < 0 ? Affine{} : file.transforms[static_cast<std::size_t>(transform)];
+}
+
 std::vector<int> find_parents(const file::File& file) {
     std::vector<int> parent(file.nodes.size(), -1);
     for (std::size_t i = 0; i < file.nodes.size(); ++i) {
@@ -48,7 +53,9 @@ void append_trees(const file::File& file, const std::vector<int>& roots, std::ve
 NodeTree place_nodes(const Document& document) {
     const file::File& file = document.file;
     const std::vector<file::Node>& nodes = file.nodes;
-    const std::vector<int> parent = find_parents(file);
+    NodeTree tree;
+    tree.parent = find_parents(file);
+    const std::vector<int>& parent = tree.parent;
     std::vector<int> roots, order;
     for (std::size_t i = 0; i < nodes.size(); ++i)
         if (parent[i] < 0) roots.push_back(static_cast<int>(i));
@@ -57,12 +64,10 @@ NodeTree place_nodes(const Document& document) {
     for (std::size_t i = 0; i < nodes.size(); ++i)
         if (!seen[i]) refuse(fmt::format("nodes[{}].children", i), "the node is its own ancestor");
 
-    NodeTree tree;
     tree.world_from_node.resize(nodes.size());
     for (const int i : order) {
         const auto node = static_cast<std::size_t>(i);
-        const int transform = nodes[node].transform;
-        const Affine local = transform < 0 ? Affine{} : file.transforms[static_cast<std::size_t>(transform)];
+        const Affine local = local_transform(file, node);
         tree.world_from_node[node] = parent[node] < 0 ? local : tree.world_from_node[static_cast<std::size_t>(parent[node])] * local;
     }
     if (file.scenes.empty()) {
@@ -73,6 +78,19 @@ NodeTree place_nodes(const Document& document) {
         append_trees(file, file.scenes[scene].nodes, seen, tree.drawn);
     }
     return tree;
+}
+
+std::vector<Node> make_nodes(Document& document, const NodeTree& tree) {
+    const file::File& file = document.file;
+    document.geometry.take(file.nodes.size() * sizeof(Node));
+    std::vector<Node> nodes(file.nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        document.geometry.take(file.nodes[i].name.size());
+        nodes[i].name = file.nodes[i].name;
+        nodes[i].parent = tree.parent[i];
+        nodes[i].parent_from_node = to_node_transform(local_transform(file, i));
+    }
+    return nodes;
 }
 
 }  // namespace halflit::io::detail

@@ -17,16 +17,6 @@ Vec3d unit_or(Vec3d v, Vec3d otherwise) {
     return len > 1e-200 && len < 1e200 ? v * (1.0 / len) : otherwise;
 }
 
-/// The node's place and its view direction (-z), with scale, shear and mirroring taken out: z is kept, y is made orthogonal to it.
-Mat4 rigid_part(const Affine& world) {
-    const Vec3d z = unit_or(world.c[2], {0, 0, 1});
-    const Vec3d side = z.y > 0.9 || z.y < -0.9 ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0};  // replaces a y that lies along z or is zero
-    const Vec3d y_in_plane = world.c[1] - z * dot(z, world.c[1]);
-    const bool usable = length(y_in_plane) > 1e-9 * length(world.c[1]);
-    const Vec3d y = unit_or(usable ? y_in_plane : side - z * dot(z, side), {0, 1, 0});
-    return to_mat4({{cross(y, z), y, z, world.c[3]}});
-}
-
 bool set_projection(const file::Camera& source, Camera& camera) {
     const auto in = [](double value, double low, double high) { return value > low && value < high; };
     if (source.type == "orthographic") {
@@ -75,7 +65,21 @@ std::optional<Light> light_of(const file::Light& source) {
 
 }  // namespace
 
-void place_cameras(Document& document, const NodeTree& tree, Scene& scene) {
+Mat4 rigid_part(const Affine& world) {
+    const Vec3d z = unit_or(world.c[2], {0, 0, 1});
+    const Vec3d side = z.y > 0.9 || z.y < -0.9 ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0};  // replaces a y that lies along z or is zero
+    const Vec3d y_in_plane = world.c[1] - z * dot(z, world.c[1]);
+    const bool usable = length(y_in_plane) > 1e-9 * length(world.c[1]);
+    const Vec3d y = unit_or(usable ? y_in_plane : side - z * dot(z, side), {0, 1, 0});
+    return to_mat4({{cross(y, z), y, z, world.c[3]}});
+}
+
+void place(const Affine& world, Light& light) {
+    light.position_ws = to_float(world.c[3]);
+    light.direction_ws = to_float(unit_or(world.c[2] * -1.0, {0, 0, -1}));
+}
+
+void place_cameras(Document& document, const NodeTree& tree, LoadedScene& loaded) {
     for (const int n : tree.drawn) {
         const file::Node& node = document.file.nodes[static_cast<std::size_t>(n)];
         if (node.camera < 0) continue;
@@ -89,11 +93,13 @@ void place_cameras(Document& document, const NodeTree& tree, Scene& scene) {
         camera.name = source.name.empty() ? node.name : source.name;
         camera.world_from_camera = rigid_part(world);
         document.geometry.take(sizeof(Camera) + camera.name.size());
-        scene.cameras.push_back(std::move(camera));
+        loaded.nodes[static_cast<std::size_t>(n)].camera = static_cast<int>(loaded.scene.cameras.size());
+        loaded.scene.cameras.push_back(std::move(camera));
     }
 }
 
-void place_lights(Document& document, const NodeTree& tree, Scene& scene) {
+void place_lights(Document& document, const NodeTree& tree, LoadedScene& loaded) {
+    std::vector<Light>& lights = loaded.scene.lights;
     for (const int n : tree.drawn) {
         const file::Node& node = document.file.nodes[static_cast<std::size_t>(n)];
         if (node.light < 0) continue;
@@ -105,11 +111,11 @@ void place_lights(Document& document, const NodeTree& tree, Scene& scene) {
                                  : fmt::format("nodes[{}]: its transform is not finite, its light is left out", n));
             continue;
         }
-        light->position_ws = to_float(world.c[3]);
-        light->direction_ws = to_float(unit_or(world.c[2] * -1.0, {0, 0, -1}));
-        if (scene.lights.size() >= document.options.limits.max_lights)
+        place(world, *light);
+        if (lights.size() >= document.options.limits.max_lights)
             refuse("nodes", fmt::format("more than {} lights, which is the limit", document.options.limits.max_lights), ErrorCode::limit);
-        scene.lights.push_back(*light);
+        loaded.nodes[static_cast<std::size_t>(n)].light = static_cast<int>(lights.size());
+        lights.push_back(*light);
     }
 }
 

@@ -1,6 +1,7 @@
 // Affine transforms in double, for chains of nodes: rounded to float once, at the end.
 #pragma once
 
+#include "halflit/gltf.hpp"
 #include "sh/mat4.hpp"
 
 #include <cstddef>
@@ -37,5 +38,13 @@ inline Mat4 to_mat4(const Affine& m) {
     }
     return out;
 }
+
+inline NodeTransform to_node_transform(const Affine& m) {
+    NodeTransform out;
+    out.x = m.c[0], out.y = m.c[1], out.z = m.c[2], out.origin = m.c[3];
+    return out;
+}
+
+inline Affine to_affine(const NodeTransform& m) { return {{m.x, m.y, m.z, m.origin}}; }
 
 }  // namespace halflit::io::detail

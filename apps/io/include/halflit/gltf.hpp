@@ -4,6 +4,8 @@
 
 #include "halflit/error.hpp"
 #include "halflit/export.hpp"
+#include "halflit/math.hpp"
+#include "halflit/prepared_scene.hpp"
 #include "halflit/scene.hpp"
 
 #include <cstddef>
@@ -49,8 +51,29 @@ struct SceneInfo {
     std::vector<std::string> extensions_used, extensions_required;
 };
 
+/// Transform of a node: the images of x, y and z, and that of the origin. In double, as chains of nodes are rounded to float once, at the
+/// end.
+struct NodeTransform {
+    Vec3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, origin{0, 0, 0};
+
+    NodeTransform() = default;
+    /// Not explicit: poses are made by translation(), rotation() and scaling(). The matrix's last row counts as 0 0 0 1.
+    HALFLIT_API NodeTransform(const Mat4& m);
+    friend bool operator==(const NodeTransform&, const NodeTransform&) = default;
+};
+
+/// A node of the file, and what it places in the scene: nothing if the scene that was loaded does not draw it.
+struct Node {
+    std::string name;
+    int parent = -1;  ///< index into LoadedScene::nodes; -1: none
+    NodeTransform parent_from_node;
+    std::vector<int> instances;   ///< indices into Scene::instances, one for each primitive of its mesh; skinned ones are left out
+    int camera = -1, light = -1;  ///< indices into Scene::cameras and Scene::lights; -1: none
+};
+
 struct LoadedScene {
     Scene scene;
+    std::vector<Node> nodes;            ///< all nodes of the file, by their numbers in it
     std::vector<std::string> warnings;  ///< one line each, no file prefix
     SceneInfo info;
 };
@@ -61,5 +84,11 @@ struct LoadedScene {
 /// Loads a model from memory, e.g. from standard input. `name` is for messages; an empty `base_dir` means that no other file is read.
 [[nodiscard]] HALFLIT_API Result<LoadedScene> load_gltf_bytes(std::span<const std::byte> bytes, const std::string& name,
                                                               const std::string& base_dir, const LoadOptions& options = {});
+
+/// Places instances, cameras and lights as the nodes' transforms say: change parent_from_node of some, then call this. Nodes as loaded give
+/// the same bits as loading. Returns what moved, for PreparedScene::update. Skinned meshes stay as loaded: their vertices were moved then.
+/// Instances, cameras and lights that a host appends to the scene stay where they are. Fails (usage), with the scene unchanged, where a
+/// parent is out of range or its own ancestor, or the scene lacks what a node places.
+[[nodiscard]] HALFLIT_API Result<SceneChanges> pose(std::span<const Node> nodes, Scene& scene);
 
 }  // namespace halflit
