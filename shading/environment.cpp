@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <new>
+#include <string>
 
 namespace halflit::shading {
 namespace {
@@ -72,9 +74,14 @@ Result<std::shared_ptr<const Environment>> make_environment(const EnvironmentIma
     for (const float value : image.rgb)
         if (!(value >= 0.0f && value < 3e38f))
             return fail(ErrorCode::bad_input, "environment: found a value that is negative or not finite");
-    auto environment = std::make_shared<Environment>(shading::make_environment(shading::view_of(image), options));
-    environment->calibrated = image.calibrated;
-    return environment;
+    if (!(options.rotate_rad - options.rotate_rad == 0.0)) return fail(ErrorCode::usage, "environment: the rotation is not a finite angle");
+    try {
+        auto environment = std::make_shared<Environment>(shading::make_environment(shading::view_of(image), options));
+        environment->calibrated = image.calibrated;
+        return environment;
+    } catch (const std::bad_alloc&) {
+        return fail(ErrorCode::limit, "out of memory while making an environment");
+    }
 }
 
 std::span<const Light> environment_suns(const Environment& environment) { return environment.suns; }
