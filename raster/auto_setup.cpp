@@ -11,22 +11,55 @@ namespace {
 
 constexpr double kLeastShare = 0.05;
 
-/// Share of the camera's picture that the box around the scene fills; 1 if the box reaches behind the camera.
-double share_of_picture(const Camera& camera, const Bounds& bounds) {
-    const float aspect = camera.aspect > 0.0f ? camera.aspect : 1.0f;
-    const Mat4 clip_from_world = raster::clip_from_world(camera, aspect);
-    double low[2] = {1, 1}, high[2] = {-1, -1};
-    for (int corner = 0; corner < 8; ++corner) {
-        const Vec4f c = clip_from_world * Vec4f{corner & 1 ? bounds.max.x : bounds.min.x, corner & 2 ? bounds.max.y : bounds.min.y,
-                                                corner & 4 ? bounds.max.z : bounds.min.z, 1.0f};
-        if (!(c.w > 0.0f)) return 1.0;
-        const double at[2] = {static_cast<double>(c.x) / static_cast<double>(c.w), static_cast<double>(c.y) / static_cast<double>(c.w)};
+/// Smallest rectangle of the picture around what is added, in [-1, 1]^2.
+class PictureRectangle {
+public:
+    void add(double x, double y) {
+        const double at[2] = {x, y};
         for (int axis = 0; axis < 2; ++axis) {
-            low[axis] = std::min(low[axis], std::clamp(at[axis], -1.0, 1.0));
-            high[axis] = std::max(high[axis], std::clamp(at[axis], -1.0, 1.0));
+            low_[axis] = std::min(low_[axis], std::clamp(at[axis], -1.0, 1.0));
+            high_[axis] = std::max(high_[axis], std::clamp(at[axis], -1.0, 1.0));
         }
     }
-    return std::max(0.0, high[0] - low[0]) * std::max(0.0, high[1] - low[1]) / 4.0;
+    /// Its share of the picture; 0 if nothing was added.
+    [[nodiscard]] double share() const { return std::max(0.0, high_[0] - low_[0]) * std::max(0.0, high_[1] - low_[1]) / 4.0; }
+
+private:
+    double low_[2] = {1, 1}, high_[2] = {-1, -1};
+};
+
+/// Share of the camera's picture that the box around the scene fills: the part of the box between the near and the far plane.
+double share_of_picture(const Camera& camera, const Bounds& bounds) {
+    struct Corner {
+        double x, y, w;
+        double inside[2];  ///< distances to the near and the far plane, negative outside
+    };
+    const Mat4 m = raster::clip_from_world(camera, camera.aspect > 0.0f ? camera.aspect : 1.0f);
+    Corner corners[8];
+    for (unsigned i = 0; i < 8; ++i) {
+        const double p[3] = {i & 1 ? bounds.max.x : bounds.min.x, i & 2 ? bounds.max.y : bounds.min.y, i & 4 ? bounds.max.z : bounds.min.z};
+        const auto row = [&](auto of) { return ((of(m.c[0]) * p[0] + of(m.c[1]) * p[1]) + of(m.c[2]) * p[2]) + of(m.c[3]); };
+        const double z = row([](Vec4f c) { return double{c.z}; }), w = row([](Vec4f c) { return double{c.w}; });
+        corners[i] = {row([](Vec4f c) { return double{c.x}; }), row([](Vec4f c) { return double{c.y}; }), w, {w - z, z}};
+    }
+    PictureRectangle rectangle;
+    const auto add = [&](double x, double y, double w) {
+        if (w > 0.0) rectangle.add(x / w, y / w);
+    };
+    for (unsigned i = 0; i < 8; ++i) {
+        const Corner& a = corners[i];
+        if (a.inside[0] >= 0.0 && a.inside[1] >= 0.0) add(a.x, a.y, a.w);
+        for (unsigned axis = 1; axis < 8; axis *= 2) {
+            if ((i & axis) != 0) continue;
+            const Corner& b = corners[i | axis];
+            for (int plane = 0; plane < 2; ++plane) {
+                if ((a.inside[plane] < 0.0) == (b.inside[plane] < 0.0)) continue;
+                const double t = a.inside[plane] / (a.inside[plane] - b.inside[plane]);
+                add(a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.w + t * (b.w - a.w));
+            }
+        }
+    }
+    return rectangle.share();
 }
 
 float environment_exposure(const Environment& environment) {
@@ -41,7 +74,10 @@ bool is_dark(const Ambient& ambient) { return ambient.sky_linear == Vec3f{} && a
 float light_scene(Scene& scene, const Bounds& bounds, const Camera& camera, const AutoOptions& options) {
     if (scene.environment != nullptr) return environment_exposure(*scene.environment);
     const bool unknown_unit = !scene.calibrated && !scene.lights.empty();
-    if (scene.lights.empty() && is_dark(scene.ambient) && options.add_lights) add_default_lights(scene, camera);
+    if (scene.lights.empty() && is_dark(scene.ambient) && options.add_lights) {
+        add_default_lights(scene, camera);
+        scene.calibrated = true;
+    }
     if (options.ambient_linear)
         scene.ambient = {*options.ambient_linear, *options.ambient_linear};
     else if (unknown_unit && is_dark(scene.ambient))

@@ -30,7 +30,7 @@ struct AutoSetup {
 [[nodiscard]] HALFLIT_API Settings usual_settings();
 
 /// Chooses camera, lights, ambient light and exposure for a picture of width x height pixels. Adds to the scene the light that it lacks:
-///   - no light at all: a key light and ambient light (add_default_lights), exposure 1;
+///   - no light at all: a key light and ambient light (add_default_lights), which are calibrated, exposure 1;
 ///   - lights of a file (Scene::calibrated is false): ambient light (soft_ambient), and an exposure from the lights (auto_exposure);
 ///   - an environment: an exposure by which its mean light makes a white surface 0.5, or 1 if its image is calibrated.
 /// Nothing depends on pixels. Call it once for each scene: a second call finds the light that the first one added.
@@ -38,8 +38,8 @@ struct AutoSetup {
 /// The same. bounds: scene_bounds(scene).
 [[nodiscard]] HALFLIT_API AutoSetup auto_setup(Scene& scene, const Bounds& bounds, int width, int height, const AutoOptions& options);
 
-/// The scene's first camera, or null if it has none, or if that camera shows almost nothing: the box around the scene fills less than
-/// 5 % of its picture.
+/// The scene's first camera, or null if it has none, or if that camera shows almost nothing: the box around the scene, between the camera's
+/// near and far plane, fills less than 5 % of its picture. Where nothing has bounds, the first camera.
 [[nodiscard]] HALFLIT_API const Camera* choose_camera(const Scene& scene, const Bounds& bounds);
 
 }  // namespace halflit
