@@ -1,8 +1,8 @@
 // halflit diff: the difference of two pictures, in 8-bit codes.
-#include "apps/halflit/cli_support.hpp"
 #include "apps/halflit/commands.hpp"
 #include "apps/halflit/picture_diff.hpp"
 #include "apps/halflit/run_report.hpp"
+#include "apps/halflit/text_file.hpp"
 #include "apps/halflit/values.hpp"
 #include "apps/io/atomic_file.hpp"
 #include "apps/io/file_access.hpp"
@@ -10,6 +10,7 @@
 #include "halflit/image.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <memory>
 
@@ -67,29 +68,25 @@ Result<int> run_diff(const DiffOptions& options) {
     if (!options.output.empty())
         if (const auto written = write_difference(options.output, *a, *b); !written) return tl::unexpected(written.error());
     const std::string text = options.json ? to_text(json_of(diff)) : text_of(diff);
-    if (const auto written = io::write_file("-", {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}); !written)
-        return tl::unexpected(written.error());
+    if (const auto written = write_text("-", text); !written) return tl::unexpected(written.error());
     return diff.max > options.max_codes ? static_cast<int>(ErrorCode::negative_result) : 0;
 }
 
 }  // namespace
 
-Command add_diff_command(CLI::App& root) {
-    CLI::App* app = root.add_subcommand("diff", "Compare two PNG or JPEG pictures; exit code 1 if they differ by more than --max");
+Command diff_command() {
     const auto options = std::make_shared<DiffOptions>();
-    app->add_option("A", options->a, "The expected picture")->required()->type_name("");
-    app->add_option("B", options->b, "The picture to compare with it")->required()->type_name("");
-    add_value(*app, "--max", "CODES", "Largest difference in any channel that still passes, 0 to 255 (default 0)",
-              [options](const std::string& text) -> Result<void> {
-                  const auto codes = parse_int(text, 0, 255);
-                  if (!codes) return tl::unexpected(codes.error());
-                  options->max_codes = static_cast<int>(*codes);
-                  return {};
-              });
-    app->add_flag("--json", options->json, "Print one JSON object");
-    app->add_option("-o,--output", options->output, "Write the absolute differences as a picture, stretched to the full range")
-        ->type_name("FILE");
-    return {app, [options] { return run_diff(*options); }};
+    DiffOptions& o = *options;
+    return {
+        "diff",
+        "Compare two PNG or JPEG pictures; exit code 1 if they differ by more than --max",
+        {{.name = "A", .help = "The expected picture", .read = read_text(o.a), .required = true, .form = "FILE"},
+         {.name = "B", .help = "The picture to compare with it", .read = read_text(o.b), .required = true, .form = "FILE"}},
+        {{"Flags",
+          {{"--max", "CODES", "Largest difference in any channel that still passes, 0 to 255 (default 0)", read_int(o.max_codes, 0, 255)},
+           {"--json", "", "Print one JSON object", set_to(o.json)},
+           {"-o,--output", "FILE", "Write the absolute differences as a picture, stretched to the full range", read_text(o.output)}}}},
+        [options] { return run_diff(*options); }};
 }
 
 }  // namespace halflit::cli

@@ -1,11 +1,11 @@
 // halflit render: draws a scene into a picture.
-#include "apps/halflit/cli_support.hpp"
 #include "apps/halflit/commands.hpp"
 #include "apps/halflit/interrupt.hpp"
 #include "apps/halflit/messages.hpp"
 #include "apps/halflit/render_job.hpp"
 #include "apps/halflit/run_report.hpp"
 #include "apps/halflit/stopwatch.hpp"
+#include "apps/halflit/text_file.hpp"
 #include "apps/io/atomic_file.hpp"
 #include "halflit/image.hpp"
 
@@ -56,11 +56,12 @@ Result<void> check_paths(const RenderCommandOptions& options) {
     return {};
 }
 
-Result<void> render_and_write(const RenderCommandOptions& options, Json& report) {
+/// Returns the report.
+Result<std::string> render_and_write(const RenderCommandOptions& options) {
     if (is_directory(options.output)) return fail(ErrorCode::io, options.output + ": " + std::strerror(EISDIR));
     const auto format = output_format_of(options.output);
     if (!format) return tl::unexpected(format.error());
-    if (const auto checked = check_paths(options); !checked) return checked;
+    if (const auto checked = check_paths(options); !checked) return tl::unexpected(checked.error());
     auto job = make_render_job(options, kUsualSize);
     if (!job) return tl::unexpected(job.error());
     Image image = make_image(*job, is_linear(*format));
@@ -74,16 +75,14 @@ Result<void> render_and_write(const RenderCommandOptions& options, Json& report)
     const auto bytes = encode_image(picture, *format);
     if (!bytes) return tl::unexpected(bytes.error());
     const double encode_ms = encoding.ms();
-    if (const auto written = io::write_file(options.output, *bytes); !written) return written;
+    if (const auto written = io::write_file(options.output, *bytes); !written) return tl::unexpected(written.error());
     if (options.output != "-") print_note("wrote " + options.output);
-    add_frame(report, *job, *rendered, picture);
-    report["encode_ms"] = encode_ms;
-    return {};
+    return picture_report(options.output, *job, *rendered, picture, encode_ms);
 }
 
-Result<void> render_within_memory(const RenderCommandOptions& options, Json& report) {
+Result<std::string> render_within_memory(const RenderCommandOptions& options) {
     try {
-        return render_and_write(options, report);
+        return render_and_write(options);
     } catch (const std::bad_alloc&) {
         return fail(ErrorCode::limit, "out of memory");
     }
@@ -93,44 +92,41 @@ Result<int> run_render(RenderCommandOptions options) {
     if (options.output.empty()) options.output = default_output(options.scene);
     if (!options.report.empty())
         set_last_words([path = options.report](int signal) {
-            (void)write_json(path, error_report(128 + signal, "interrupted by signal " + std::to_string(signal)));
+            (void)write_text(path, error_report(128 + signal, "interrupted by signal " + std::to_string(signal)));
         });
-    Json report = report_head();
-    report["output"] = options.output;
-    const Result<void> done = render_within_memory(options, report);
-    if (!done) report = error_report(static_cast<int>(done.error().code), done.error().message);
+    const Result<std::string> done = render_within_memory(options);
+    const std::string report = done ? *done : error_report(static_cast<int>(done.error().code), done.error().message);
     // No report is written if its path was refused above because it is the scene's or the picture's.
     if (!options.report.empty() && check_paths(options)) {
-        const Result<void> written = write_json(options.report, report);
+        const Result<void> written = write_text(options.report, report);
         if (!written && done) return tl::unexpected(written.error());
     }
     if (!done) return tl::unexpected(done.error());
     return 0;
 }
 
+ReadValue read_path(std::string& path) {
+    return [&path](const std::string& text) -> Result<void> {
+        if (text.empty()) return fail(ErrorCode::usage, "expected a file name or -, found nothing");
+        path = text;
+        return {};
+    };
+}
+
 }  // namespace
 
-Command add_render_command(CLI::App& root) {
-    CLI::App* app = root.add_subcommand("render", "Draw a scene into a picture; without one, the demo scene");
+Command render_command() {
     const auto options = std::make_shared<RenderCommandOptions>();
-    add_render_options(*app, *options, false, kUsualSize);
-    constexpr const char* kGroup = "Output";
-    add_value(*app, "-o,--output", "FILE",
-              "A .png, .jpg, .bmp, .tga or .hdr file, or - for PNG on standard output (default: SCENE's name.png)",
-              [options](const std::string& text) -> Result<void> {
-                  if (text.empty()) return fail(ErrorCode::usage, "expected a file name or -, found nothing");
-                  options->output = text;
-                  return {};
-              })
-        ->group(kGroup);
-    add_value(*app, "--report", "FILE.json|-", "Write size, hash, times and counts as JSON; on failure, the error",
-              [options](const std::string& text) -> Result<void> {
-                  if (text.empty()) return fail(ErrorCode::usage, "expected a file name or -, found nothing");
-                  options->report = text;
-                  return {};
-              })
-        ->group(kGroup);
-    return {app, [options] { return run_render(*options); }};
+    RenderCommandOptions& o = *options;
+    auto groups = render_flags(o, kUsualSize);
+    groups.push_back(
+        {"Output",
+         {{"-o,--output", "FILE", "A .png, .jpg, .bmp, .tga or .hdr file, or - for PNG on standard output (default: SCENE's name.png)",
+           read_path(o.output)},
+          {"--report", "FILE.json|-", "Write size, hash, times and counts as JSON; on failure, the error", read_path(o.report)}}});
+    return {"render", "Draw a scene into a picture; without one, the demo scene", {scene_argument(o, false)}, std::move(groups), [options] {
+                return run_render(*options);
+            }};
 }
 
 }  // namespace halflit::cli

@@ -1,6 +1,7 @@
 // Flags that decide the picture. render, bench, info and trade share them, so that bench measures and info describes what render draws.
 #pragma once
 
+#include "apps/halflit/flags.hpp"
 #include "apps/halflit/values.hpp"
 #include "apps/io/lobe_name.hpp"
 #include "halflit/auto_setup.hpp"
@@ -12,10 +13,6 @@
 #include <optional>
 #include <string>
 #include <vector>
-
-namespace CLI {
-class App;
-}
 
 namespace halflit::cli {
 
@@ -46,8 +43,10 @@ struct RenderOptions {
 /// The lobe that the flags choose for materials without one of their own; empty if they choose none.
 [[nodiscard]] Result<std::optional<Lobe>> chosen_lobe(const RenderOptions& options);
 
-/// Adds the flags to a sub-command; `options` must outlive it. `scene_required`: the SCENE argument must be given. `usual`: the default
-/// picture size, which is reduced to the aspect ratio of the file's camera.
-void add_render_options(CLI::App& app, RenderOptions& options, bool scene_required, PictureSize usual);
+/// The SCENE argument. `options` must outlive what these functions return.
+[[nodiscard]] Positional scene_argument(RenderOptions& options, bool required);
+
+/// `usual`: the default picture size, which is reduced to the aspect ratio of the file's camera.
+[[nodiscard]] std::vector<FlagGroup> render_flags(RenderOptions& options, PictureSize usual);
 
 }  // namespace halflit::cli

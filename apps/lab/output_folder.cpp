@@ -1,7 +1,6 @@
 #include "apps/lab/output_folder.hpp"
 
 #include "apps/halflit/messages.hpp"
-#include "apps/io/atomic_file.hpp"
 
 #include <fmt/format.h>
 
@@ -14,16 +13,14 @@ Result<std::string> parse_folder(const std::string& text) {
     return text;
 }
 
+std::string path_in(const std::string& folder, const std::string& name) { return (std::filesystem::path(folder) / name).string(); }
+
 Result<void> make_folder(const std::string& path) {
     std::error_code error;
     std::filesystem::create_directories(path, error);
     if (!error && !std::filesystem::is_directory(path, error)) error = std::make_error_code(std::errc::not_a_directory);
     if (error) return fail(ErrorCode::io, fmt::format("{}: {}", printable(path), error.message()));
     return {};
-}
-
-Result<void> write_text(const std::string& path, const std::string& text) {
-    return io::write_file(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
 }  // namespace halflit::cli

@@ -1,8 +1,10 @@
 #include "apps/lab/trade_report.hpp"
 
 #include "apps/halflit/plan_names.hpp"
+#include "apps/halflit/run_report.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -76,7 +78,7 @@ std::string trade_csv(const std::vector<TradeRow>& rows, const TradeSpace& space
     return text;
 }
 
-Json trade_json(const std::vector<TradeRow>& rows, const TradeBench& bench) {
+std::string trade_json(const std::vector<TradeRow>& rows, const TradeBench& bench) {
     const RenderJob& job = bench.job();
     const TradeRow& exact = exact_row(rows, bench.space());
     Json report = report_head();
@@ -90,7 +92,7 @@ Json trade_json(const std::vector<TradeRow>& rows, const TradeBench& bench) {
     report["warnings"] = job.warnings;
     report["rows"] = Json::array();
     for (const TradeRow& row : rows) report["rows"].push_back(row_json(row, bench.space()));
-    return report;
+    return to_text(report);
 }
 
 std::string trade_summary(const std::vector<TradeRow>& rows, const TradeBench& bench) {

@@ -1,7 +1,6 @@
 // Results of `halflit trade` as CSV, JSON, text and HTML.
 #pragma once
 
-#include "apps/halflit/run_report.hpp"
 #include "apps/lab/trade_bench.hpp"
 
 #include <string>
@@ -13,7 +12,7 @@ namespace halflit::cli {
 [[nodiscard]] std::string trade_csv(const std::vector<TradeRow>& rows, const TradeSpace& space);
 
 /// {..., "noise": [low, high], "rows": [...]}: noise is the range of exact's time divided by that of another frame of exact.
-[[nodiscard]] Json trade_json(const std::vector<TradeRow>& rows, const TradeBench& bench);
+[[nodiscard]] std::string trade_json(const std::vector<TradeRow>& rows, const TradeBench& bench);
 
 /// A few lines of text: the cheapest flags for each error, and the bounds that did not hold.
 [[nodiscard]] std::string trade_summary(const std::vector<TradeRow>& rows, const TradeBench& bench);
