@@ -1,6 +1,7 @@
 // The only source that includes CLI11, which takes seconds to compile.
 #include "apps/halflit/command_line.hpp"
 
+#include "apps/halflit/file_names.hpp"
 #include "apps/halflit/spelling.hpp"
 
 #include <CLI/CLI.hpp>
@@ -58,6 +59,15 @@ std::vector<std::string> command_names(std::span<const Command> commands) {
     return names;
 }
 
+/// Words that may come first: commands, built-in scenes, and the models in this folder.
+std::vector<std::string> known_words(std::span<const Command> commands) {
+    std::vector<std::string> words = command_names(commands);
+    words.insert(words.end(), {"demo", "sphere:N", "lights:N"});
+    for (std::string& file : files_beside(""))
+        if (is_model_name(file)) words.push_back(std::move(file));
+    return words;
+}
+
 std::vector<std::string> flag_names(const Command* command) {
     std::vector<std::string> names = {"--help", command != nullptr ? "--help-all" : "--version"};
     if (command != nullptr)
@@ -76,7 +86,7 @@ std::string usage_message(const CLI::App& root, const CLI::ParseError& error, st
         if (word.starts_with("-"))
             message = "unknown flag " + word + did_you_mean(name, flag_names(command));
         else if (command == nullptr)
-            message = "unknown command " + word + did_you_mean(name, command_names(commands));
+            message = "unknown command " + word + did_you_mean(name, known_words(commands));
         else
             message = "unexpected argument " + word;
     } else if (no_command) {

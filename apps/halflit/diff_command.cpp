@@ -1,5 +1,6 @@
 // halflit diff: the difference of two pictures, in 8-bit codes.
 #include "apps/halflit/commands.hpp"
+#include "apps/halflit/file_names.hpp"
 #include "apps/halflit/picture_diff.hpp"
 #include "apps/halflit/run_report.hpp"
 #include "apps/halflit/text_file.hpp"
@@ -26,7 +27,7 @@ struct DiffOptions {
 
 Result<Image> read_picture(const std::string& path) {
     const auto file = io::read_file(path);
-    if (!file) return tl::unexpected(file.error());
+    if (!file) return fail(file.error().code, file.error().message + did_you_mean_file(path));
     auto decoded = io::decode_image(*file);
     if (!decoded) return fail(decoded.error().code, path + ": " + decoded.error().message);
     return Image{decoded->width, decoded->height, std::move(decoded->rgba8), {}};

@@ -1,5 +1,6 @@
 #include "apps/halflit/flags.hpp"
 
+#include "apps/halflit/messages.hpp"
 #include "apps/halflit/values.hpp"
 
 #include <algorithm>
@@ -13,6 +14,17 @@ ReadValue read_int(int& target, int min, int max) {
         target = static_cast<int>(*value);
         return {};
     };
+}
+
+std::vector<Flag> message_flags() {
+    const auto choose = [](Verbosity chosen) -> ReadValue {
+        return [chosen](const std::string&) -> Result<void> {
+            set_verbosity(chosen);
+            return {};
+        };
+    };
+    return {{"-v,--verbose", "", "Also say what was chosen and how long each step took", choose(Verbosity::verbose)},
+            {"-q,--quiet", "", "Print errors alone, no warnings, notes or progress", choose(Verbosity::quiet)}};
 }
 
 std::vector<std::string> words_of(std::string_view text, char separator) {

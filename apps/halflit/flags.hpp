@@ -22,6 +22,7 @@ struct Positional {
     bool required = false;
     bool repeated = false;  ///< takes all arguments that are left
     std::string form{};     ///< as in Flag, for completion: FILE if files are meant
+    std::string usage{};    ///< in the usage line; empty: from the name
 };
 
 struct Flag {
@@ -75,6 +76,9 @@ Result<void> assign(Target& target, const Result<T>& value) {
 
 /// Reads a whole number from `min` to `max`.
 [[nodiscard]] ReadValue read_int(int& target, int min, int max);
+
+/// --verbose and --quiet.
+[[nodiscard]] std::vector<Flag> message_flags();
 
 /// The words of a form or of names that `separator` divides.
 [[nodiscard]] std::vector<std::string> words_of(std::string_view text, char separator);

@@ -51,18 +51,21 @@ std::string usage_line(const Command& command) {
     std::string line = "halflit " + command.name;
     if (!command.groups.empty()) line += " [FLAGS]";
     for (const Positional& positional : command.positionals) {
-        const std::string name = positional.name + (positional.repeated ? "..." : "");
+        const std::string name = !positional.usage.empty() ? positional.usage : positional.name + (positional.repeated ? "..." : "");
         line += positional.required ? " " + name : " [" + name + "]";
     }
     return line;
 }
 
 std::string program_help(std::span<const Command> commands, std::size_t width) {
-    std::string text = std::string(kProgramHelp) + "\n\nUsage: halflit COMMAND [FLAGS]\n\nCommands:\n";
+    std::string text =
+        std::string(kProgramHelp) + "\n\nUsage: halflit SCENE [PICTURE] [FLAGS]\n       halflit COMMAND [FLAGS]\n\nCommands:\n";
     for (const Command& command : commands)
         if (!command.hidden) text += "  " + command.name + std::string(12 - command.name.size(), ' ') + folded(command.help, 14, 14, width);
     text += "\nFlags:\n" + row("-h, --help", "Print this help", width) + row("-V, --version", "Print the version", width);
-    return text + "\n" + folded("Run 'halflit COMMAND --help' for the flags of a command.", 0, 0, width) +
+    return text + "\n" +
+           folded("'halflit model.glb' is 'halflit render model.glb'. Run 'halflit COMMAND --help' for the flags of a command.", 0, 0,
+                  width) +
            folded(kExitCodesHelp, 0, 0, width);
 }
 

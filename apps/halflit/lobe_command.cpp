@@ -115,7 +115,7 @@ Command lobe_command() {
               .help = "lambert, green, half-lambert, valve, sloan or mcauley",
               .read = read_text(model.name),
               .required = true,
-              .form = "lambert|green|half-lambert|valve|sloan|mcauley"}},
+              .form = joined(lobe_name_list(), "|")}},
             {{"Flags",
               {{"--wrap", "W",
                 "Wrap, 0 to 1: light reaches surfaces whose cosine to the light is above -W (default for green, sloan, mcauley: 0.5)",

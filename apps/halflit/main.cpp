@@ -4,6 +4,7 @@
 #include "apps/halflit/help_text.hpp"
 #include "apps/halflit/interrupt.hpp"
 #include "apps/halflit/messages.hpp"
+#include "apps/halflit/scene_source.hpp"
 #include "apps/halflit/terminal.hpp"
 #include "halflit/version.hpp"
 
@@ -45,9 +46,27 @@ int print(const std::string& text) {
     return std::fflush(stdout) == 0 ? 0 : static_cast<int>(ErrorCode::io);
 }
 
+/// `halflit SCENE` is `halflit render SCENE`; its flags may come first.
+bool means_render(std::span<const Command> commands, const std::vector<std::string>& arguments) {
+    if (arguments.empty()) return false;
+    const std::string& first = arguments[0];
+    const auto is_first = [&](const Command& command) { return command.name == first; };
+    if (std::any_of(commands.begin(), commands.end(), is_first)) return false;
+    if (!first.starts_with('-') || first == "-") return is_scene(first);
+    const std::string name = first.substr(0, first.find('='));
+    for (const Flag* flag : flags_of(commands[0]))
+        for (const std::string& spelling : words_of(flag->names, ','))
+            if (spelling == name || (spelling.size() == 2 && name.starts_with(spelling)))
+                return std::any_of(arguments.begin() + 1, arguments.end(), is_scene);
+    return false;
+}
+
 int parse_and_run(int argc, char** argv) {
     const std::vector<Command> commands = all_commands();
-    const auto line = parse_command_line(commands, {argv + std::min(argc, 1), argv + argc});
+    std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+    if (arguments.empty() && ::isatty(STDOUT_FILENO) == 1) return print(program_help(commands, help_width()));
+    if (means_render(commands, arguments)) arguments.insert(arguments.begin(), commands[0].name);
+    const auto line = parse_command_line(commands, std::move(arguments));
     if (!line) {
         print_error(line.error().message);
         return static_cast<int>(line.error().code);

@@ -1,16 +1,20 @@
 // halflit render: draws a scene into a picture.
 #include "apps/halflit/commands.hpp"
+#include "apps/halflit/file_names.hpp"
 #include "apps/halflit/interrupt.hpp"
 #include "apps/halflit/messages.hpp"
+#include "apps/halflit/progress_line.hpp"
 #include "apps/halflit/render_job.hpp"
 #include "apps/halflit/run_report.hpp"
 #include "apps/halflit/stopwatch.hpp"
 #include "apps/halflit/text_file.hpp"
 #include "apps/io/atomic_file.hpp"
+#include "apps/lab/output_folder.hpp"
 #include "halflit/image.hpp"
 
-#include <sys/stat.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <memory>
@@ -22,28 +26,16 @@ namespace {
 constexpr PictureSize kUsualSize{1280, 720};
 
 struct RenderCommandOptions : RenderOptions {
-    std::string output;  ///< empty: named after the scene
-    std::string report;  ///< empty: none
+    std::vector<std::string> words;  ///< scenes, and the picture as the last of several
+    std::string output;              ///< empty: named after the scene
+    std::string report;              ///< empty: none
 };
 
 /// The scene's name without folder and extension, as a PNG in the current folder.
 std::string default_output(const std::string& scene) {
-    const std::string name = scene.substr(scene.rfind('/') + 1);  // npos + 1 is 0
-    const std::string stem = name.substr(0, name.rfind('.'));
+    const std::string stem = stem_of(scene);
     const bool file = !scene.empty() && scene != "-" && !stem.empty();
     return (file ? stem.substr(0, stem.find(':')) : "halflit") + ".png";
-}
-
-bool same_file(const std::string& a, const std::string& b) {
-    struct stat first {
-    }, second{};
-    return ::stat(a.c_str(), &first) == 0 && ::stat(b.c_str(), &second) == 0 && first.st_dev == second.st_dev &&
-           first.st_ino == second.st_ino;
-}
-
-bool is_directory(const std::string& path) {
-    struct stat status {};
-    return ::stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode);
 }
 
 /// Refuses output paths that would overwrite the scene or each other.
@@ -56,16 +48,49 @@ Result<void> check_paths(const RenderCommandOptions& options) {
     return {};
 }
 
+/// These formats have no alpha.
+void warn_of_lost_transparency(const RenderCommandOptions& options, OutputFormat format) {
+    const Settings& settings = options.settings;
+    const bool transparent = settings.background_linear.w < 1.0f && !settings.background_environment;
+    if (transparent && (format == OutputFormat::jpg || format == OutputFormat::hdr))
+        print_warning(options.output + ": this format has no transparency; the picture is shown over black (.png .bmp .tga keep it)");
+}
+
+/// Shows the progress of a drawing that takes longer than half a second.
+Result<RenderReport> draw(RenderJob& job, Image& image) {
+    constexpr double kDelayMs = 500;
+    ProgressLine line(false, kDelayMs);
+    job.execution.progress = [&line](double share) { line.show(share); };
+    return Renderer().render(*job.prepared, job.camera, job.settings, target_of(image), job.execution);
+}
+
+void print_choices(const RenderJob& job, const RenderReport& rendered, double encode_ms) {
+    if (verbosity() != Verbosity::verbose) return;
+    print_detail(fmt::format("scene: {}, {} triangles", job.source.name, rendered.triangles_submitted));
+    for (const std::string& choice : job.choices) print_detail(choice);
+    print_detail(fmt::format("picture: {}x{}, {} samples, {}, {} threads", job.width, job.height, job.settings.samples,
+                             isa_name(rendered.isa), rendered.threads));
+    const auto& ms = rendered.ms;
+    print_detail(
+        fmt::format("ms: load {:.1f}, prepare {:.1f}, plan {:.1f}, shadows {:.1f}, cull {:.1f}, transform {:.1f}, bin {:.1f}, "
+                    "tiles {:.1f}, encode {:.1f}",
+                    job.load_ms, job.prepare_ms, ms.plan, ms.shadows, ms.cull, ms.transform, ms.bin, ms.tiles, encode_ms));
+}
+
 /// Returns the report.
 Result<std::string> render_and_write(const RenderCommandOptions& options) {
-    if (is_directory(options.output)) return fail(ErrorCode::io, options.output + ": " + std::strerror(EISDIR));
+    if (is_folder(options.output))
+        return fail(ErrorCode::io, options.output + ": " + std::strerror(EISDIR) + " (-o " + options.output + "/ writes into it)");
     const auto format = output_format_of(options.output);
     if (!format) return tl::unexpected(format.error());
     if (const auto checked = check_paths(options); !checked) return tl::unexpected(checked.error());
+    for (const std::string& path : {options.output, options.report.empty() ? "-" : options.report})
+        if (const auto checked = check_writable(path); !checked) return tl::unexpected(checked.error());
+    warn_of_lost_transparency(options, *format);
     auto job = make_render_job(options, kUsualSize);
     if (!job) return tl::unexpected(job.error());
     Image image = make_image(*job, is_linear(*format));
-    const auto rendered = Renderer().render(*job->prepared, job->camera, job->settings, target_of(image), job->execution);
+    const auto rendered = draw(*job, image);
     if (!rendered) return tl::unexpected(rendered.error());
     for (const auto& warnings : {job->warnings, rendered->warnings})
         for (const std::string& warning : warnings) print_warning(warning);
@@ -76,6 +101,7 @@ Result<std::string> render_and_write(const RenderCommandOptions& options) {
     if (!bytes) return tl::unexpected(bytes.error());
     const double encode_ms = encoding.ms();
     if (const auto written = io::write_file(options.output, *bytes); !written) return tl::unexpected(written.error());
+    print_choices(*job, *rendered, encode_ms);
     if (options.output != "-") print_note("wrote " + options.output);
     return picture_report(options.output, *job, *rendered, picture, encode_ms);
 }
@@ -88,8 +114,9 @@ Result<std::string> render_within_memory(const RenderCommandOptions& options) {
     }
 }
 
-Result<int> run_render(RenderCommandOptions options) {
-    if (options.output.empty()) options.output = default_output(options.scene);
+Result<int> render_scene(RenderCommandOptions options, const std::string& scene) {
+    options.scene = scene;
+    if (options.output.empty() || options.output.ends_with('/')) options.output += default_output(scene);
     if (!options.report.empty())
         set_last_words([path = options.report](int signal) {
             (void)write_text(path, error_report(128 + signal, "interrupted by signal " + std::to_string(signal)));
@@ -103,6 +130,53 @@ Result<int> run_render(RenderCommandOptions options) {
     }
     if (!done) return tl::unexpected(done.error());
     return 0;
+}
+
+/// Several scenes, each to a picture of its name. A scene that fails does not stop the others; the exit code is the first failure's.
+Result<int> render_all(RenderCommandOptions options) {
+    if (!options.report.empty()) return fail(ErrorCode::usage, "--report: expected one scene");
+    if (!options.output.ends_with('/')) options.output += '/';
+    std::vector<std::string> names;
+    for (const std::string& scene : options.words) {
+        names.push_back(default_output(scene));
+        if (std::find(names.begin(), names.end() - 1, names.back()) != names.end() - 1)
+            return fail(ErrorCode::usage, scene + ": another scene has the same picture " + options.output + names.back());
+    }
+    int code = 0;
+    for (const std::string& scene : options.words) {
+        const auto done = render_scene(options, scene);
+        if (done) continue;
+        print_error(done.error().message);
+        if (code == 0) code = static_cast<int>(done.error().code);
+    }
+    return code;
+}
+
+/// A name with a picture's extension.
+bool is_picture_name(const std::string& word) { return word != "-" && output_format_of(word).has_value(); }
+
+/// After a word that is neither a scene nor a picture's name.
+std::string unknown_format(const std::string& word) {
+    const auto format = output_format_of(word);
+    return format ? std::string() : format.error().message.substr(word.size());  // begins with the word
+}
+
+Result<int> run_render(RenderCommandOptions options) {
+    std::vector<std::string>& words = options.words;
+    if (words.size() > 1 && is_picture_name(words.back())) {
+        if (!options.output.empty())
+            return fail(ErrorCode::usage, "unexpected argument " + words.back() + ": the picture is named by -o " + options.output);
+        options.output = words.back();
+        words.pop_back();
+    }
+    const bool folder = options.output.ends_with('/') || (words.size() > 1 && is_folder(options.output));
+    if (words.size() > 1 && !folder)
+        return fail(ErrorCode::usage, "unexpected argument " + words[1] +
+                                          (is_scene(words[1]) ? ": several scenes need -o FOLDER/" : unknown_format(words[1])) +
+                                          "; see halflit render --help");
+    if (folder)
+        if (const auto made = make_folder(options.output); !made) return tl::unexpected(made.error());
+    return words.size() > 1 ? render_all(options) : render_scene(options, words.empty() ? "" : words[0]);
 }
 
 ReadValue read_path(std::string& path) {
@@ -121,10 +195,20 @@ Command render_command() {
     auto groups = render_flags(o, kUsualSize);
     groups.push_back(
         {"Output",
-         {{"-o,--output", "FILE", "A .png, .jpg, .bmp, .tga or .hdr file, or - for PNG on standard output (default: SCENE's name.png)",
+         {{"-o,--output", "FILE",
+           "A .png, .jpg, .bmp, .tga or .hdr file; - for PNG on standard output; FOLDER/ for one picture of each scene (default: "
+           "SCENE's name.png)",
            read_path(o.output)},
           {"--report", "FILE.json|-", "Write size, hash, times and counts as JSON; on failure, the error", read_path(o.report)}}});
-    return {"render", "Draw a scene into a picture; without one, the demo scene", {scene_argument(o, false)}, std::move(groups), [options] {
+    Positional scene = scene_argument(o, false);
+    scene.help += ". A picture's name after it is the output";
+    scene.usage = "SCENE... [PICTURE]";
+    scene.read = [&o](const std::string& text) -> Result<void> {
+        o.words.push_back(text);
+        return {};
+    };
+    scene.repeated = true;
+    return {"render", "Draw a scene into a picture; without one, the demo scene", {std::move(scene)}, std::move(groups), [options] {
                 return run_render(*options);
             }};
 }

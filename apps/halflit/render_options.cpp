@@ -1,5 +1,6 @@
 #include "apps/halflit/render_options.hpp"
 
+#include "apps/halflit/lobe_model.hpp"
 #include "apps/halflit/plan_names.hpp"
 #include "apps/halflit/spelling.hpp"
 #include "halflit/scene.hpp"
@@ -100,26 +101,49 @@ FlagGroup picture_flags(RenderOptions& o, PictureSize usual) {
           [&o](const std::string& text) { return read_exposure(o.exposure, text); }}}};
 }
 
-/// A flag of the view of the whole scene.
-Flag view_flag(RenderOptions& o, const char* name, const char* form, const char* help, float& target, float min, float max) {
-    return {name, form, fmt::format("{} (default {})", help, target), [&o, read = number(target, min, max)](const std::string& text) {
-                o.own_view = true;
+/// A flag of the view of the whole scene. Sets `given`.
+Flag view_flag(bool& given, const char* name, const char* form, const char* help, float& target, float min, float max) {
+    return {name, form, fmt::format("{} (default {})", help, target), [&given, read = number(target, min, max)](const std::string& text) {
+                given = true;
                 return read(text);
             }};
+}
+
+Result<void> read_camera(RenderOptions& o, const std::string& text) {
+    if (text == "frame")
+        o.whole_scene = true;
+    else
+        o.camera = text;
+    return {};
+}
+
+Result<void> read_point(std::optional<Vec3f>& point, const std::string& text) {
+    const auto values = parse_floats(text, 3);
+    if (!values) return tl::unexpected(values.error());
+    point = Vec3f{(*values)[0], (*values)[1], (*values)[2]};
+    return {};
 }
 
 FlagGroup camera_flags(RenderOptions& o) {
     return {
         "Camera (default: the file's first camera, or a view of the whole scene)",
-        {{"--camera", "INDEX|NAME", "Use this camera of the file (default: the first)",
-          [&o](const std::string& text) -> Result<void> {
-              o.camera = text;
-              return {};
-          }},
-         view_flag(o, "--azimuth", "DEG", "View the whole scene from this side: 0 is from +z, 90 from +x", o.view.azimuth_deg, -3600, 3600),
-         view_flag(o, "--elevation", "DEG", "View it from this angle above the horizon, -90 to 90", o.view.elevation_deg, -90, 90),
-         view_flag(o, "--zoom", "N", "Enlarge it by this factor", o.view.zoom, 1e-3f, 1e3f),
-         view_flag(o, "--fov", "DEG", "Vertical field of view, 1 to 170", o.view.fov_y_deg, 1, 170)}};
+        {{"--camera", "INDEX|NAME|frame", "A camera of the file (default: the first); frame: a view of the whole scene",
+          [&o](const std::string& text) { return read_camera(o, text); }},
+         view_flag(o.whole_scene, "--azimuth", "DEG", "View the whole scene from this side: 0 is from +z, 90 from +x", o.view.azimuth_deg,
+                   -3600, 3600),
+         view_flag(o.whole_scene, "--elevation", "DEG", "View it from this angle above the horizon, -90 to 90", o.view.elevation_deg, -90,
+                   90),
+         view_flag(o.whole_scene, "--zoom", "N", "Enlarge it by this factor", o.view.zoom, 1e-3f, 1e3f),
+         view_flag(o.fov_given, "--fov", "DEG", "Vertical field of view, 1 to 170", o.view.fov_y_deg, 1, 170),
+         {"--camera-position", "X,Y,Z", "Place the camera here",
+          [&o](const std::string& text) { return read_point(o.camera_position, text); }},
+         {"--camera-target", "X,Y,Z", "Point that a placed camera looks at (default: the centre of the scene)",
+          [&o](const std::string& text) { return read_point(o.camera_target, text); }},
+         {"--up", form_of(kUpAxisNames),
+          fmt::format("Axis of the model that points up (default {}). The scene is turned so that it becomes y; the coordinates of other "
+                      "flags are those of the turned scene",
+                      name_of(o.up, kUpAxisNames)),
+          named(o.up, kUpAxisNames)}}};
 }
 
 Result<void> read_light(std::vector<Light>& lights, const std::string& text) {
@@ -210,29 +234,28 @@ FlagGroup shadow_flags(Settings& s) {
 
 FlagGroup surface_flags(RenderOptions& o) {
     ShadingSettings& s = o.settings.shading;
-    return {
-        "Surface",
-        {{"--lobe", "NAME", fmt::format("Diffuse lobe, reflected light over the angle to the light: {} (default lambert)", lobe_names()),
-          [&o](const std::string& text) -> Result<void> {
-              o.lobe_name = text;
-              return {};
-          }},
-         {"--wrap", "W", fmt::format("Wrap, 0 to {}: light reaches surfaces whose cosine to the light is above -W", kMaxLobeWrap),
-          number(o.lobe.wrap, 0.0f, kMaxLobeWrap)},
-         {"--power", "N", fmt::format("Exponent of the lobe, 0 to {}", kMaxLobePower), number(o.lobe.power, 0.0f, kMaxLobePower)},
-         {"--normalize", "", "Scale the lobe so that its mean over all light directions is Lambert's",
-          [&o](const std::string&) -> Result<void> {
-              o.lobe.normalize = true;
-              return {};
-          }},
-         {"--specular", form_of(kSpecularNames), fmt::format("Model of the highlights (default {})", name_of(s.specular, kSpecularNames)),
-          named(s.specular, kSpecularNames)},
-         {"--specular-normalize", form_of(kOffOn),
-          fmt::format("Make sharper highlights brighter (default {})", name_of(s.normalize_specular, kOffOn)),
-          named(s.normalize_specular, kOffOn)},
-         {"--shading", form_of(kRateNames),
-          fmt::format("Compute light once per triangle (flat), vertex (gouraud) or pixel (default {})", name_of(s.rate, kRateNames)),
-          named(s.rate, kRateNames)}}};
+    return {"Surface",
+            {{"--lobe", joined(lobe_name_list(), "|"), "Diffuse lobe, reflected light over the angle to the light (default lambert)",
+              [&o](const std::string& text) -> Result<void> {
+                  o.lobe_name = text;
+                  return {};
+              }},
+             {"--wrap", "W", fmt::format("Wrap, 0 to {}: light reaches surfaces whose cosine to the light is above -W", kMaxLobeWrap),
+              number(o.lobe.wrap, 0.0f, kMaxLobeWrap)},
+             {"--power", "N", fmt::format("Exponent of the lobe, 0 to {}", kMaxLobePower), number(o.lobe.power, 0.0f, kMaxLobePower)},
+             {"--normalize", "", "Scale the lobe so that its mean over all light directions is Lambert's",
+              [&o](const std::string&) -> Result<void> {
+                  o.lobe.normalize = true;
+                  return {};
+              }},
+             {"--specular", form_of(kSpecularNames),
+              fmt::format("Model of the highlights (default {})", name_of(s.specular, kSpecularNames)), named(s.specular, kSpecularNames)},
+             {"--specular-normalize", form_of(kOffOn),
+              fmt::format("Make sharper highlights brighter (default {})", name_of(s.normalize_specular, kOffOn)),
+              named(s.normalize_specular, kOffOn)},
+             {"--shading", form_of(kRateNames),
+              fmt::format("Compute light once per triangle (flat), vertex (gouraud) or pixel (default {})", name_of(s.rate, kRateNames)),
+              named(s.rate, kRateNames)}}};
 }
 
 FlagGroup accuracy_flags(ShadingSettings& s) {
@@ -309,7 +332,8 @@ FlagGroup file_flags(RenderOptions& o) {
 Result<std::optional<Lobe>> chosen_lobe(const RenderOptions& o) {
     if (o.lobe_name) {
         auto lobe = io::lobe_from_name(*o.lobe_name, o.lobe);
-        if (!lobe) return fail(ErrorCode::usage, "--" + lobe.error().message);  // begins with the parameter's name, which is the flag's
+        if (!lobe)  // the message begins with the parameter's name, which is the flag's
+            return fail(ErrorCode::usage, "--" + lobe.error().message + did_you_mean_lobe(*o.lobe_name));
         return *lobe;
     }
     if (o.lobe.wrap || o.lobe.power) return Lobe{o.lobe.wrap.value_or(0.0f), o.lobe.power.value_or(1.0f), o.lobe.normalize.has_value()};
@@ -334,7 +358,8 @@ std::vector<FlagGroup> render_flags(RenderOptions& o, PictureSize usual) {
             surface_flags(o),
             accuracy_flags(o.settings.shading),
             machine_flags(o.execution),
-            file_flags(o)};
+            file_flags(o),
+            {"Messages", message_flags()}};
 }
 
 }  // namespace halflit::cli

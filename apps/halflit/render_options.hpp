@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/halflit/flags.hpp"
+#include "apps/halflit/scene_view.hpp"
 #include "apps/halflit/values.hpp"
 #include "apps/io/lobe_name.hpp"
 #include "halflit/auto_setup.hpp"
@@ -23,9 +24,15 @@ struct RenderOptions {
     Settings settings = usual_settings();  ///< the flags' values; lobe and exposure are chosen later, with the scene
     Execution execution;
 
-    std::optional<std::string> camera;
+    std::optional<std::string> camera;  ///< a camera of the file: its index or name
     ViewSettings view;
-    bool own_view = false;  ///< --azimuth, --elevation, --zoom or --fov was given
+    bool whole_scene = false;  ///< --camera frame, --azimuth, --elevation or --zoom was given
+    bool fov_given = false;    ///< --fov was given
+    std::optional<Vec3f> camera_position, camera_target;
+    UpAxis up = UpAxis::y;
+
+    /// A camera of the flags, not of the file.
+    [[nodiscard]] bool own_view() const { return whole_scene || fov_given || camera_position; }
 
     std::optional<std::string> lobe_name;
     io::LobeParameters lobe;

@@ -139,7 +139,8 @@ Result<PictureSize> parse_size(std::string_view text) {
     const auto parts = split(text, "x");
     const auto side = [](std::string_view part) { return parse_int(part, 1, std::numeric_limits<int>::max()); };
     const auto width = side(parts.front()), height = side(parts.back());
-    if (parts.size() != 2 || !width || !height) return expected("WIDTHxHEIGHT in pixels, both from 1, as in 1280x720", text);
+    if (parts.size() > 2 || !width || !height)
+        return expected("WIDTHxHEIGHT or the side of a square, in pixels from 1, as in 1280x720 or 256", text);
     return PictureSize{static_cast<int>(*width), static_cast<int>(*height)};
 }
 

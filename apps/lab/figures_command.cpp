@@ -1,6 +1,8 @@
 // halflit figures: remakes figures of the literature.
 #include "apps/halflit/commands.hpp"
+#include "apps/halflit/file_names.hpp"
 #include "apps/halflit/messages.hpp"
+#include "apps/halflit/spelling.hpp"
 #include "apps/halflit/text_file.hpp"
 #include "apps/io/atomic_file.hpp"
 #include "apps/lab/figure.hpp"
@@ -28,12 +30,13 @@ Result<void> write_list() {
 }
 
 Result<const FigureEntry*> entry_named(const std::string& name) {
-    std::string known;
+    std::vector<std::string> known;
     for (const FigureEntry& entry : all_figures()) {
         if (name == entry.name) return &entry;
-        known += (known.empty() ? "" : ", ") + std::string(entry.name);
+        known.emplace_back(entry.name);
     }
-    return fail(ErrorCode::usage, fmt::format("NAME: expected one of {}; found '{}'", known, printable(name)));
+    return fail(ErrorCode::usage,
+                fmt::format("NAME: expected one of {}; found '{}'{}", joined(known, ", "), printable(name), did_you_mean(name, known)));
 }
 
 /// Every name is checked before anything is made; a name that is given twice counts once.
@@ -113,7 +116,8 @@ Command figures_command() {
                 "svg: a page of pictures and plots with labels and caption (default); png: one sheet of pictures without text, plots as "
                 "SVG",
                 read_format},
-               {"--list", "", "List all figures and their sources", set_to(o.list)}}}},
+               {"--list", "", "List all figures and their sources", set_to(o.list)}}},
+             {"Messages", message_flags()}},
             [options] { return run_figures(*options); }};
 }
 

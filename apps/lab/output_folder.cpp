@@ -13,8 +13,6 @@ Result<std::string> parse_folder(const std::string& text) {
     return text;
 }
 
-std::string path_in(const std::string& folder, const std::string& name) { return (std::filesystem::path(folder) / name).string(); }
-
 Result<void> make_folder(const std::string& path) {
     std::error_code error;
     std::filesystem::create_directories(path, error);

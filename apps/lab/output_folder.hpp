@@ -10,9 +10,6 @@ namespace halflit::cli {
 /// The value of `-o DIR`; not empty, and not standard output.
 [[nodiscard]] Result<std::string> parse_folder(const std::string& text);
 
-/// The path of a file in the folder.
-[[nodiscard]] std::string path_in(const std::string& folder, const std::string& name);
-
 /// Creates the folder and its parents where they are missing.
 Result<void> make_folder(const std::string& path);
 

@@ -1,5 +1,6 @@
 // halflit trade: measures time and error of one scene with many settings, and shows the errors.
 #include "apps/halflit/commands.hpp"
+#include "apps/halflit/file_names.hpp"
 #include "apps/halflit/messages.hpp"
 #include "apps/halflit/progress_line.hpp"
 #include "apps/halflit/text_file.hpp"
