@@ -14,6 +14,12 @@ namespace halflit::cli {
 [[nodiscard]] Command figures_command();
 [[nodiscard]] Command trade_command();
 
+// Hidden.
+[[nodiscard]] Command help_command();
+[[nodiscard]] Command man_command();
+[[nodiscard]] Command completion_command();
+[[nodiscard]] Command flags_command();
+
 /// In the order of the help text.
 [[nodiscard]] std::vector<Command> all_commands();
 
