@@ -7,6 +7,8 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <string_view>
+#include <utility>
 
 namespace halflit::cli {
 namespace {
@@ -52,6 +54,47 @@ void add_command(CLI::App& root, const Command& command) {
         for (const Flag& flag : group.flags) add_flag(*app, flag);
 }
 
+/// Words of other programs, with those that mean the same here.
+constexpr std::pair<std::string_view, std::string_view> kSynonyms[] = {
+    {"--resolution", "--size"},
+    {"--width", "--size"},
+    {"--height", "--size"},
+    {"--bg", "--background"},
+    {"--bg-color", "--background"},
+    {"--background-color", "--background"},
+    {"--out", "--output"},
+    {"--hdri", "--env"},
+    {"--hdri-file", "--env"},
+    {"--environment", "--env"},
+    {"--skybox", "--env"},
+    {"--msaa", "--samples"},
+    {"--antialiasing", "--samples"},
+    {"--spp", "--samples"},
+    {"--anti-aliasing", "--samples"},
+    {"--camera-view-angle", "--fov"},
+    {"--camera-orbit", "--azimuth"},
+    {"--camera-zoom-factor", "--zoom"},
+    {"--camera-azimuth-angle", "--azimuth"},
+    {"--camera-elevation-angle", "--elevation"},
+    {"--camera-index", "--camera"},
+    {"--jobs", "--threads"},
+    {"convert", "render"},
+    {"view", "render"},
+    {"draw", "render"},
+    {"compare", "diff"},
+    {"inspect", "info"},
+    {"validate", "info"},
+    {"benchmark", "bench"},
+};
+
+/// " (did you mean WORD?)": a synonym among the candidates, or else the one that is spelled alike.
+std::string meant_by(const std::string& word, const std::vector<std::string>& candidates) {
+    for (const auto& [other, ours] : kSynonyms)
+        if (word == other && std::find(candidates.begin(), candidates.end(), ours) != candidates.end())
+            return " (did you mean " + std::string(ours) + "?)";
+    return did_you_mean(word, candidates);
+}
+
 std::vector<std::string> command_names(std::span<const Command> commands) {
     std::vector<std::string> names;
     for (const Command& command : commands)
@@ -62,7 +105,7 @@ std::vector<std::string> command_names(std::span<const Command> commands) {
 /// Words that may come first: commands, built-in scenes, and the models in this folder.
 std::vector<std::string> known_words(std::span<const Command> commands) {
     std::vector<std::string> words = command_names(commands);
-    words.insert(words.end(), {"demo", "sphere:N", "lights:N"});
+    words.insert(words.end(), {"help", "demo", "sphere:N", "lights:N", "--version"});
     for (std::string& file : files_beside(""))
         if (is_model_name(file)) words.push_back(std::move(file));
     return words;
@@ -84,9 +127,9 @@ std::string usage_message(const CLI::App& root, const CLI::ParseError& error, st
         const std::string& word = rest[0];
         const std::string name = word.substr(0, word.find('='));
         if (word.starts_with("-"))
-            message = "unknown flag " + word + did_you_mean(name, flag_names(command));
+            message = "unknown flag " + word + meant_by(name, flag_names(command));
         else if (command == nullptr)
-            message = "unknown command " + word + did_you_mean(name, known_words(commands));
+            message = "unknown command " + word + meant_by(name, known_words(commands));
         else
             message = "unexpected argument " + word;
     } else if (no_command) {

@@ -142,6 +142,7 @@ Result<int> render_all(RenderCommandOptions options) {
         if (std::find(names.begin(), names.end() - 1, names.back()) != names.end() - 1)
             return fail(ErrorCode::usage, scene + ": another scene has the same picture " + options.output + names.back());
     }
+    if (const auto made = make_folder(options.output); !made) return tl::unexpected(made.error());
     int code = 0;
     for (const std::string& scene : options.words) {
         const auto done = render_scene(options, scene);
@@ -174,9 +175,10 @@ Result<int> run_render(RenderCommandOptions options) {
         return fail(ErrorCode::usage, "unexpected argument " + words[1] +
                                           (is_scene(words[1]) ? ": several scenes need -o FOLDER/" : unknown_format(words[1])) +
                                           "; see halflit render --help");
+    if (words.size() > 1) return render_all(options);
     if (folder)
         if (const auto made = make_folder(options.output); !made) return tl::unexpected(made.error());
-    return words.size() > 1 ? render_all(options) : render_scene(options, words.empty() ? "" : words[0]);
+    return render_scene(options, words.empty() ? "" : words[0]);
 }
 
 ReadValue read_path(std::string& path) {

@@ -26,15 +26,10 @@ tl::unexpected<Error> expected_one_of(const std::vector<std::string>& names, con
 ReadValue choice(int& target, std::vector<int> allowed) {
     return [&target, allowed = std::move(allowed)](const std::string& text) -> Result<void> {
         const auto value = parse_int(text, 1, std::numeric_limits<int>::max());
-        std::vector<std::string> names;
-        for (const int one : allowed) {
-            if (value && *value == one) {
-                target = one;
-                return {};
-            }
-            names.push_back(std::to_string(one));
-        }
-        return expected_one_of(names, text);
+        if (!value || std::find(allowed.begin(), allowed.end(), *value) == allowed.end())
+            return fail(ErrorCode::usage, fmt::format("expected one of {}, found '{}'", fmt::join(allowed, ", "), text));
+        target = static_cast<int>(*value);
+        return {};
     };
 }
 
@@ -124,6 +119,14 @@ Result<void> read_point(std::optional<Vec3f>& point, const std::string& text) {
     return {};
 }
 
+/// Other programs write "+Z" or "Z" for "z".
+std::string plain_axis(std::string text) {
+    if (text.starts_with('+')) text.erase(0, 1);
+    for (char& c : text)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return text;
+}
+
 FlagGroup camera_flags(RenderOptions& o) {
     return {
         "Camera (default: the file's first camera, or a view of the whole scene)",
@@ -143,7 +146,7 @@ FlagGroup camera_flags(RenderOptions& o) {
           fmt::format("Axis of the model that points up (default {}). The scene is turned so that it becomes y; the coordinates of other "
                       "flags are those of the turned scene",
                       name_of(o.up, kUpAxisNames)),
-          named(o.up, kUpAxisNames)}}};
+          [read = named(o.up, kUpAxisNames)](const std::string& text) { return read(plain_axis(text)); }}}};
 }
 
 Result<void> read_light(std::vector<Light>& lights, const std::string& text) {

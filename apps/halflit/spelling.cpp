@@ -28,8 +28,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 std::string nearest(std::string_view word, std::span<const std::string> candidates) {
     constexpr std::size_t kLongestWord = 200;  // the distance takes time and memory with the square of the length
     if (word.size() > kLongestWord) return {};
+    const std::size_t dashes = std::min(word.find_first_not_of('-'), word.size());  // of a flag; they are hardly ever wrong
     std::string best;
-    std::size_t best_distance = std::min<std::size_t>(3, word.size() / 2 + 1);
+    std::size_t best_distance = std::min<std::size_t>(3, (word.size() - dashes) / 2 + 1);
     for (const std::string& candidate : candidates)
         if (candidate.size() <= kLongestWord)
             if (const std::size_t distance = edit_distance(word, candidate); distance < best_distance) {

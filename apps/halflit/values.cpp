@@ -136,7 +136,7 @@ Result<std::vector<float>> parse_floats(std::string_view text, std::size_t count
 }
 
 Result<PictureSize> parse_size(std::string_view text) {
-    const auto parts = split(text, "x");
+    const auto parts = split(text, "x,");
     const auto side = [](std::string_view part) { return parse_int(part, 1, std::numeric_limits<int>::max()); };
     const auto width = side(parts.front()), height = side(parts.back());
     if (parts.size() > 2 || !width || !height)

@@ -23,7 +23,7 @@ namespace halflit::cli {
 struct PictureSize {
     int width = 0, height = 0;
 };
-/// "1280x720", or "256" for a square. Sides from 1 to 2^31 - 1; make_render_job checks the number of pixels.
+/// "1280x720" or "1280,720", or "256" for a square. Sides from 1 to 2^31 - 1; make_render_job checks the number of pixels.
 [[nodiscard]] Result<PictureSize> parse_size(std::string_view text);
 
 /// "X,Y,W,H" with X and Y from 0, W and H from 1.

@@ -141,6 +141,7 @@ TEST_CASE("camera: each axis that points up becomes y", "[cli][camera]") {
         for (const double value : info["bounds"]["max"]) bounds.push_back(value);
         CHECK(bounds == expected);
     }
+    CHECK(run({"info", folder.file("t.gltf"), "--up=+Z"}).out == run({"info", folder.file("t.gltf"), "--up", "z"}).out);
 }
 
 TEST_CASE("camera: a scene turned with its camera and lights gives the same picture", "[cli][camera]") {

@@ -58,9 +58,12 @@ TEST_CASE("values: a number must be all of the text, finite and in range", "[cli
 }
 
 TEST_CASE("values: a size is two sides, or the one of a square", "[cli][values]") {
-    const auto wide = parse_size("1280x720"), square = parse_size("256");
+    const auto wide = parse_size("1280x720"), comma = parse_size("1280,720"), square = parse_size("256");
     REQUIRE(wide);
+    REQUIRE(comma);
     REQUIRE(square);
+    CHECK(comma->width == 1280);
+    CHECK(comma->height == 720);
     CHECK(wide->width == 1280);
     CHECK(wide->height == 720);
     CHECK(square->width == 256);
