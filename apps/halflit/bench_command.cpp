@@ -7,7 +7,7 @@
 #include "apps/halflit/text_file.hpp"
 #include "halflit/image.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>

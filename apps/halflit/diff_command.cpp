@@ -10,7 +10,7 @@
 #include "apps/io/image_reader.hpp"
 #include "halflit/image.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include <memory>

@@ -10,7 +10,7 @@
 #include "sh/sun.hpp"
 #include "shading/environment.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>

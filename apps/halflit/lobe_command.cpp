@@ -6,7 +6,7 @@
 #include "apps/halflit/text_file.hpp"
 #include "sh/lobe_error.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "halflit/lobe.hpp"
 #include "shading/lobe_range.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <charconv>
 #include <cmath>

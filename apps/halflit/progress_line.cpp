@@ -2,7 +2,7 @@
 
 #include "apps/halflit/messages.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <unistd.h>
 

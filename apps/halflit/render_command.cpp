@@ -12,7 +12,7 @@
 #include "apps/lab/output_folder.hpp"
 #include "halflit/image.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cerrno>

@@ -8,7 +8,7 @@
 #include "sh/trig.hpp"
 #include "shading/environment.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #include "apps/halflit/plan_names.hpp"
 #include "halflit/version.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include <sys/resource.h>

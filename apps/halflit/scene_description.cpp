@@ -6,7 +6,7 @@
 #include "raster/frame_plan.hpp"
 #include "raster/scene/mesh_topology.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include <charconv>

@@ -3,7 +3,7 @@
 #include "apps/halflit/built_in_scenes.hpp"
 #include "apps/halflit/file_names.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <unistd.h>
 

@@ -4,7 +4,7 @@
 #include "shading/model/constants.hpp"
 #include "shading/model/srgb.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <charconv>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "halflit/image.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

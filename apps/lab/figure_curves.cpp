@@ -2,7 +2,7 @@
 #include "apps/lab/figure_entries.hpp"
 #include "sh/lobe_error.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

@@ -5,7 +5,7 @@
 #include "sh/trig.hpp"
 #include "shading/model/scalar.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

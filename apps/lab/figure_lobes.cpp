@@ -3,7 +3,7 @@
 #include "apps/lab/figure_studio.hpp"
 #include "sh/lobe_error.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace halflit::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include "halflit/camera.hpp"
 #include "halflit/shapes.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace halflit::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include "apps/lab/figure.hpp"
 #include "apps/lab/output_folder.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <memory>

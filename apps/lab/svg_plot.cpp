@@ -2,7 +2,7 @@
 
 #include "apps/lab/plot_scale.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

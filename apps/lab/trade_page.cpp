@@ -3,7 +3,7 @@
 #include "apps/lab/trade_report.hpp"
 #include "halflit/image.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

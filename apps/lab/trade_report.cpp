@@ -3,7 +3,7 @@
 #include "apps/halflit/plan_names.hpp"
 #include "apps/halflit/run_report.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
