@@ -47,9 +47,11 @@ std::string quoted(std::string_view text, std::string_view special) {
     return out;
 }
 
-/// The part before the first colon or semicolon, which is short enough for a list.
+/// The first part of an explanation, which is short enough for a list.
 std::string brief(const std::string& help) {
-    const std::size_t end = std::min(help.find("; "), help.find(": "));
+    constexpr std::size_t kLeast = 12;  // shorter parts are names of values, as in "hard: shadows cut off .."
+    std::size_t end = help.size();
+    for (const char* mark : {"; ", ": ", ". ", " ("}) end = std::min(end, help.find(mark, kLeast));
     return help.substr(0, end);
 }
 
@@ -84,6 +86,9 @@ std::string bash_completion(std::span<const Command> commands) {
            " --help --version\" -- \"$word\") $(compgen -f -- \"$word\"))\n"
            "        return\n"
            "    fi\n"
+           "    [[ \" " +
+           command_words(commands) +
+           " \" == *\" $command \"* ]] || command=render\n"
            "    case \"$command $before\" in\n" +
            values +
            "    esac\n"
@@ -127,6 +132,9 @@ std::string zsh_completion(std::span<const Command> commands) {
            "        return\n"
            "    fi\n"
            "    local command=$words[2]\n"
+           "    [[ \" " +
+           command_words(commands) +
+           " \" == *\" $command \"* ]] || command=render\n"
            "    shift words\n"
            "    (( CURRENT-- ))\n"
            "    case $command in\n" +
@@ -137,12 +145,18 @@ std::string zsh_completion(std::span<const Command> commands) {
 }
 
 std::string fish_completion(std::span<const Command> commands) {
+    std::vector<std::string> others;  // without one of these, the command is render
+    for (const Command& command : commands)
+        if (command.name != "render") others.push_back(command.name);
     std::string text = "# fish completion of halflit\n";
     for (const Command& command : commands)
         text += "complete -c halflit -n __fish_use_subcommand -a " + command.name + " -d '" + quoted(brief(command.help), "\\") + "'\n";
     for (const Command& command : commands)
         for (const Flag* flag : flags_of(command)) {
-            text += "complete -c halflit -n '__fish_seen_subcommand_from " + command.name + "'";
+            text += "complete -c halflit -n '" +
+                    (command.name == "render" ? "not __fish_seen_subcommand_from " + joined(others, " ")
+                                              : "__fish_seen_subcommand_from " + command.name) +
+                    "'";
             for (const std::string& name : words_of(flag->names, ','))
                 text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
             if (takes_file(flag->form) || takes_folder(flag->form))
