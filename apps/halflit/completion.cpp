@@ -136,6 +136,7 @@ std::string zsh_completion(std::span<const Command> commands) {
            command_words(commands) +
            " \" == *\" $command \"* ]] || command=render\n"
            "    shift words\n"
+           "    words[1]=$command\n"
            "    (( CURRENT-- ))\n"
            "    case $command in\n" +
            cases +
