@@ -77,7 +77,7 @@ Result<int> run_bench(const BenchOptions& options) {
     if (!bytes) return tl::unexpected(bytes.error());
     const double encode_ms = encoding.ms();
 
-    Json report = report_head();
+    Json report = report_head("bench");
     report["scene"] = options.scene;
     report["frames"] = options.frames;
     report["min_ms"] = *std::min_element(measured->ms.begin(), measured->ms.end());

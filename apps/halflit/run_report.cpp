@@ -32,7 +32,9 @@ Json work_json(const WorkCounts& work) {
 
 }  // namespace
 
-Json report_head() { return {{"status", "ok"}, {"halflit", version()}, {"pixel_epoch", kPixelEpoch}}; }
+Json report_head(std::string_view kind) {
+    return {{"schema", fmt::format("halflit.{}/1", kind)}, {"status", "ok"}, {"halflit", version()}, {"pixel_epoch", kPixelEpoch}};
+}
 
 void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered, const Image& picture) {
     report["size"] = {job.width, job.height};
@@ -100,7 +102,7 @@ std::string to_text(const Json& json) { return json.dump(2, ' ', false, Json::er
 
 std::string picture_report(const std::string& output, const RenderJob& job, const RenderReport& rendered, const Image& picture,
                            double encode_ms) {
-    Json report = report_head();
+    Json report = report_head("report");
     report["output"] = output;
     add_frame(report, job, rendered, picture);
     report["encode_ms"] = encode_ms;
@@ -108,7 +110,7 @@ std::string picture_report(const std::string& output, const RenderJob& job, cons
 }
 
 std::string error_report(int code, const std::string& message) {
-    Json report = report_head();
+    Json report = report_head("report");
     report["status"] = "error";
     report["error"] = {{"code", code}, {"message", message}};
     return to_text(report);

@@ -7,13 +7,15 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <string>
+#include <string_view>
 
 namespace halflit::cli {
 
 using Json = nlohmann::ordered_json;
 
-/// {"status": "ok", "halflit": version, "pixel_epoch": N}
-[[nodiscard]] Json report_head();
+/// {"schema": "halflit.KIND/1", "status": "ok", "halflit": version, "pixel_epoch": N}. The number is that of
+/// docs/schema/KIND-1.schema.json. It rises when a key is removed or changes its meaning, and stays when one is added.
+[[nodiscard]] Json report_head(std::string_view kind);
 
 /// Adds the frame: size, hash, instruction set, threads, times, counts, warnings, peak memory.
 void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered, const Image& picture);
@@ -34,7 +36,7 @@ void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered,
 /// The report of a picture that was drawn and encoded.
 [[nodiscard]] std::string picture_report(const std::string& output, const RenderJob& job, const RenderReport& rendered,
                                          const Image& picture, double encode_ms);
-/// {"status": "error", ..., "error": {"code": N, "message": "..."}}
+/// A report of render with {"status": "error", ..., "error": {"code": N, "message": "..."}}.
 [[nodiscard]] std::string error_report(int code, const std::string& message);
 
 }  // namespace halflit::cli

@@ -202,7 +202,11 @@ Result<std::string> describe_scene(const RenderJob& job, bool json) {
     description["shadows"] = shadows_json(*frame, job.settings);
     description["materials"] = materials_json(job, plan);
     description["warnings"] = job.warnings;
-    if (json) return to_text(description);
+    if (json) {
+        Json report = report_head("info");
+        report.update(description);
+        return to_text(report);
+    }
     std::string text;
     for (const auto& [key, value] : description.items()) append_lines(text, key, value, 0);
     return text;

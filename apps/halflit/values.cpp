@@ -124,6 +124,14 @@ Result<float> parse_float(std::string_view text, float min, float max) {
     return expected(fmt::format("a number from {} to {}", min, max), text);
 }
 
+Result<double> parse_share(std::string_view text) {
+    const bool percent = text.ends_with('%');
+    const double whole = percent ? 100.0 : 1.0;
+    const auto value = number<double>(text.substr(0, text.size() - (percent ? 1 : 0)));
+    if (!value || !(*value >= 0.0 && *value <= whole)) return expected("a share such as 0.5% or 0.005, from 0 to 1", text);
+    return *value / whole;
+}
+
 Result<std::vector<float>> parse_floats(std::string_view text, std::size_t count) {
     std::vector<float> values;
     for (const std::string_view part : split(text, ",")) {

@@ -17,6 +17,9 @@ namespace halflit::cli {
 /// A finite number in [min, max].
 [[nodiscard]] Result<float> parse_float(std::string_view text, float min, float max);
 
+/// "0.5%" or "0.005": a share from 0 to 1.
+[[nodiscard]] Result<double> parse_share(std::string_view text);
+
 /// "X,Y,Z": `count` finite numbers.
 [[nodiscard]] Result<std::vector<float>> parse_floats(std::string_view text, std::size_t count);
 

@@ -81,7 +81,7 @@ std::string trade_csv(const std::vector<TradeRow>& rows, const TradeSpace& space
 std::string trade_json(const std::vector<TradeRow>& rows, const TradeBench& bench) {
     const RenderJob& job = bench.job();
     const TradeRow& exact = exact_row(rows, bench.space());
-    Json report = report_head();
+    Json report = report_head("trade");
     report["scene"] = job.source.name;
     report["size"] = {job.width, job.height};
     report["samples"] = job.settings.samples;
