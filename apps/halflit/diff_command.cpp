@@ -56,17 +56,11 @@ Result<int> run_files(const DiffOptions& options) {
 Result<int> run_folders(const DiffOptions& options) {
     const auto files = diff_folders(options.a, options.b, options.tolerance, options.output);
     if (!files) return tl::unexpected(files.error());
-    int code = 0;
-    for (const DiffedFile& file : *files) {
-        if (file.status == DiffStatus::failed)
-            code = static_cast<int>(file.error);
-        else if (!file.passed() && code == 0)
-            code = static_cast<int>(ErrorCode::negative_result);
-    }
+    const int code = exit_code_of(*files);
     Json json = head_of(options);
     json["passed"] = code == 0;
     json.update(folders_json(*files, options.tolerance));
-    if (const auto written = write_text("-", options.json ? to_text(json) : folders_text(*files)); !written)
+    if (const auto written = write_text("-", options.json ? to_text(json) : diffs_text(*files, "file")); !written)
         return tl::unexpected(written.error());
     return code;
 }

@@ -10,14 +10,12 @@
 namespace halflit::cli {
 namespace {
 
-constexpr PictureSize kUsualSize{1280, 720};
-
 struct InfoOptions : RenderOptions {
     bool json = false;
 };
 
 Result<int> run_info(const InfoOptions& options) {
-    const auto job = make_render_job(options, kUsualSize);
+    const auto job = make_render_job(options, kRenderSize);
     if (!job) return tl::unexpected(job.error());
     for (const std::string& warning : job->warnings) print_warning(warning);
     const auto described = describe_scene(*job, options.json);
@@ -30,7 +28,7 @@ Result<int> run_info(const InfoOptions& options) {
 
 Command info_command() {
     const auto options = std::make_shared<InfoOptions>();
-    auto groups = render_flags(*options, kUsualSize);
+    auto groups = render_flags(*options, kRenderSize);
     groups.push_back({"Output", {{"--json", "", "Print one JSON object", set_to(options->json)}}});
     return {"info", "Describe a scene, and what drawing it requires", {scene_argument(*options, true)}, std::move(groups), [options] {
                 return run_info(*options);

@@ -67,24 +67,29 @@ const char* diff_status_name(DiffStatus status) {
     return kNames[static_cast<std::size_t>(status)];
 }
 
+Result<DiffedFile> diff_images(const Image& a, const Image& b, const DiffTolerance& tolerance, std::string path,
+                               const std::string& picture) {
+    DiffedFile file{.path = std::move(path)};
+    if (a.width != b.width || a.height != b.height) {
+        file.status = DiffStatus::size;
+        file.message = fmt::format("{}x{}, expected {}x{}", b.width, b.height, a.width, a.height);
+        return file;
+    }
+    file.diff = compare_pictures(a, b);
+    file.status = file.diff->count == 0 ? DiffStatus::equal : passes(*file.diff, tolerance) ? DiffStatus::within : DiffStatus::differs;
+    if (picture.empty() || file.diff->count == 0) return file;
+    if (const auto made = make_parent(picture); !made) return tl::unexpected(made.error());
+    if (const auto written = write_image(picture, difference_image(a, b)); !written) return tl::unexpected(written.error());
+    return file;
+}
+
 Result<DiffedFile> diff_files(const std::string& a_path, const std::string& b_path, const DiffTolerance& tolerance, std::string path,
                               const std::string& picture) {
     const auto a = read_named(a_path);
     if (!a) return tl::unexpected(a.error());
     const auto b = read_named(b_path);
     if (!b) return tl::unexpected(b.error());
-    DiffedFile file{.path = std::move(path)};
-    if (a->width != b->width || a->height != b->height) {
-        file.status = DiffStatus::size;
-        file.message = fmt::format("{}x{}, expected {}x{}", b->width, b->height, a->width, a->height);
-        return file;
-    }
-    file.diff = compare_pictures(*a, *b);
-    file.status = file.diff->count == 0 ? DiffStatus::equal : passes(*file.diff, tolerance) ? DiffStatus::within : DiffStatus::differs;
-    if (picture.empty() || file.diff->count == 0) return file;
-    if (const auto made = make_parent(picture); !made) return tl::unexpected(made.error());
-    if (const auto written = write_image(picture, difference_image(*a, *b)); !written) return tl::unexpected(written.error());
-    return file;
+    return diff_images(*a, *b, tolerance, std::move(path), picture);
 }
 
 Result<std::vector<DiffedFile>> diff_folders(const std::string& a, const std::string& b, const DiffTolerance& tolerance,
@@ -105,7 +110,7 @@ Result<std::vector<DiffedFile>> diff_folders(const std::string& a, const std::st
             continue;
         }
         const std::string picture = pictures.empty() ? "" : (fs::path(pictures) / (path + ".png")).string();
-        auto file = diff_files((fs::path(a) / path).string(), (fs::path(b) / path).string(), tolerance, path, picture);
+        auto file = diff_files(path_in(a, path), path_in(b, path), tolerance, path, picture);
         if (!file)
             file = DiffedFile{.path = path, .status = DiffStatus::failed, .message = file.error().message, .error = file.error().code};
         files.push_back(std::move(*file));
@@ -113,14 +118,14 @@ Result<std::vector<DiffedFile>> diff_folders(const std::string& a, const std::st
     return files;
 }
 
-std::string folders_text(const std::vector<DiffedFile>& files) {
+std::string diffs_text(const std::vector<DiffedFile>& files, std::string_view noun) {
     std::size_t width = 0;
     for (const DiffedFile& file : files) width = std::max(width, printable(file.path).size());
     std::string text, sums;
     for (const DiffedFile& file : files) text += line_of(file, width);
     for (const DiffStatus status : kAllStatus)
         if (const std::size_t n = count(files, status); n > 0) sums += fmt::format(", {} {}", n, diff_status_name(status));
-    return text + fmt::format("{} file{}: {}\n", files.size(), files.size() == 1 ? "" : "s", sums.substr(2));
+    return text + fmt::format("{} {}{}: {}\n", files.size(), noun, files.size() == 1 ? "" : "s", sums.empty() ? "" : sums.substr(2));
 }
 
 Json diff_json(const PictureDiff& diff, const DiffTolerance& tolerance) {
@@ -135,16 +140,28 @@ Json diff_json(const PictureDiff& diff, const DiffTolerance& tolerance) {
             {"psnr", psnr ? Json(*psnr) : Json(nullptr)}};
 }
 
-Json folders_json(const std::vector<DiffedFile>& files, const DiffTolerance& tolerance) {
-    Json list = Json::array(), sums = Json::object();
+Json sums_json(const std::vector<DiffedFile>& files) {
+    Json sums = Json::object();
     for (const DiffStatus status : kAllStatus) sums[diff_status_name(status)] = count(files, status);
+    return sums;
+}
+
+Json folders_json(const std::vector<DiffedFile>& files, const DiffTolerance& tolerance) {
+    Json list = Json::array();
     for (const DiffedFile& file : files) {
         Json one{{"path", file.path}, {"status", diff_status_name(file.status)}};
         if (file.diff) one.update(diff_json(*file.diff, tolerance));
         if (!file.message.empty()) one["message"] = file.message;
         list.push_back(std::move(one));
     }
-    return {{"sums", std::move(sums)}, {"files", std::move(list)}};
+    return {{"sums", sums_json(files)}, {"files", std::move(list)}};
+}
+
+int exit_code_of(const std::vector<DiffedFile>& files) {
+    for (const DiffedFile& file : files)
+        if (file.status == DiffStatus::failed) return static_cast<int>(file.error);
+    const bool passed = std::all_of(files.begin(), files.end(), [](const DiffedFile& file) { return file.passed(); });
+    return passed ? 0 : static_cast<int>(ErrorCode::negative_result);
 }
 
 }  // namespace halflit::cli

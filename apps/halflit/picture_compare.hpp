@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace halflit::cli {
@@ -33,7 +34,10 @@ struct DiffedFile {
     [[nodiscard]] bool passed() const { return status == DiffStatus::equal || status == DiffStatus::within; }
 };
 
-/// Compares two files; `path` is the result's. A difference picture is written to `picture` if that is not empty and a pixel differs.
+/// Compares two pictures in memory. A difference picture is written to `picture` if that is not empty and a pixel differs.
+[[nodiscard]] Result<DiffedFile> diff_images(const Image& a, const Image& b, const DiffTolerance& tolerance, std::string path,
+                                             const std::string& picture);
+/// Compares two files; `path` is the result's.
 [[nodiscard]] Result<DiffedFile> diff_files(const std::string& a, const std::string& b, const DiffTolerance& tolerance, std::string path,
                                             const std::string& picture);
 
@@ -42,11 +46,17 @@ struct DiffedFile {
 [[nodiscard]] Result<std::vector<DiffedFile>> diff_folders(const std::string& a, const std::string& b, const DiffTolerance& tolerance,
                                                            const std::string& pictures);
 
-/// One line for each file, the columns aligned, and a line with the sums.
-[[nodiscard]] std::string folders_text(const std::vector<DiffedFile>& files);
+/// One line for each file, the columns aligned, and a line with the sums; `noun`: "file".
+[[nodiscard]] std::string diffs_text(const std::vector<DiffedFile>& files, std::string_view noun);
 
 /// {"max", "mean", "count", "count_above", "share_above", "pixels", "psnr"}; above the tolerance's codes.
 [[nodiscard]] Json diff_json(const PictureDiff& diff, const DiffTolerance& tolerance);
+/// The number of files by status.
+[[nodiscard]] Json sums_json(const std::vector<DiffedFile>& files);
+/// {"sums", "files"}
 [[nodiscard]] Json folders_json(const std::vector<DiffedFile>& files, const DiffTolerance& tolerance);
+
+/// 0 if all passed, 1 for differences, the error's code if a file has failed.
+[[nodiscard]] int exit_code_of(const std::vector<DiffedFile>& files);
 
 }  // namespace halflit::cli

@@ -23,8 +23,6 @@
 namespace halflit::cli {
 namespace {
 
-constexpr PictureSize kUsualSize{1280, 720};
-
 struct RenderCommandOptions : RenderOptions {
     std::vector<std::string> words;  ///< scenes, and the picture as the last of several
     std::string output;              ///< empty: named after the scene
@@ -87,7 +85,7 @@ Result<std::string> render_and_write(const RenderCommandOptions& options) {
     for (const std::string& path : {options.output, options.report.empty() ? "-" : options.report})
         if (const auto checked = check_writable(path); !checked) return tl::unexpected(checked.error());
     warn_of_lost_transparency(options, *format);
-    auto job = make_render_job(options, kUsualSize);
+    auto job = make_render_job(options, kRenderSize);
     if (!job) return tl::unexpected(job.error());
     Image image = make_image(*job, is_linear(*format));
     const auto rendered = draw(*job, image);
@@ -194,7 +192,7 @@ ReadValue read_path(std::string& path) {
 Command render_command() {
     const auto options = std::make_shared<RenderCommandOptions>();
     RenderCommandOptions& o = *options;
-    auto groups = render_flags(o, kUsualSize);
+    auto groups = render_flags(o, kRenderSize);
     groups.push_back(
         {"Output",
          {{"-o,--output", "FILE",

@@ -1,5 +1,6 @@
 #include "apps/halflit/render_options.hpp"
 
+#include "apps/halflit/command_line.hpp"
 #include "apps/halflit/lobe_model.hpp"
 #include "apps/halflit/plan_names.hpp"
 #include "apps/halflit/spelling.hpp"
@@ -363,6 +364,16 @@ std::vector<FlagGroup> render_flags(RenderOptions& o, PictureSize usual) {
             machine_flags(o.execution),
             file_flags(o),
             {"Messages", message_flags()}};
+}
+
+Result<RenderOptions> parse_render_flags(std::vector<std::string> flags) {
+    RenderOptions options;
+    const Command command{"render", "", {}, render_flags(options, kRenderSize), {}};
+    flags.insert(flags.begin(), command.name);
+    const auto line = parse_command_line({&command, 1}, std::move(flags));
+    if (!line) return tl::unexpected(line.error());
+    if (line->wanted != ParsedLine::Wanted::run) return fail(ErrorCode::usage, "expected flags of a picture, found --help or --version");
+    return options;
 }
 
 }  // namespace halflit::cli

@@ -17,6 +17,9 @@
 
 namespace halflit::cli {
 
+/// Picture size of render and info without --size.
+inline constexpr PictureSize kRenderSize{1280, 720};
+
 /// Values of the flags. The initial values here are the defaults; the help text prints them.
 struct RenderOptions {
     std::string scene;  ///< a file, "-" for standard input, or a built-in scene
@@ -55,5 +58,8 @@ struct RenderOptions {
 
 /// `usual`: the default picture size, which is reduced to the aspect ratio of the file's camera.
 [[nodiscard]] std::vector<FlagGroup> render_flags(RenderOptions& options, PictureSize usual);
+
+/// Reads flags that are not from the command line, such as those of a list of scenes. A scene among them is refused.
+[[nodiscard]] Result<RenderOptions> parse_render_flags(std::vector<std::string> flags);
 
 }  // namespace halflit::cli
