@@ -1,14 +1,14 @@
 // halflit bench: the time of a frame, from a scene in memory to 8-bit codes in memory.
-#include "apps/halflit/cli_support.hpp"
 #include "apps/halflit/commands.hpp"
 #include "apps/halflit/messages.hpp"
 #include "apps/halflit/render_job.hpp"
 #include "apps/halflit/run_report.hpp"
 #include "apps/halflit/stopwatch.hpp"
-#include "apps/io/atomic_file.hpp"
+#include "apps/halflit/text_file.hpp"
 #include "halflit/image.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -77,7 +77,7 @@ Result<int> run_bench(const BenchOptions& options) {
     if (!bytes) return tl::unexpected(bytes.error());
     const double encode_ms = encoding.ms();
 
-    Json report = report_head();
+    Json report = report_head("bench");
     report["scene"] = options.scene;
     report["frames"] = options.frames;
     report["min_ms"] = *std::min_element(measured->ms.begin(), measured->ms.end());
@@ -85,27 +85,24 @@ Result<int> run_bench(const BenchOptions& options) {
     add_frame(report, *job, measured->fastest, picture);
     report["encode_ms"] = encode_ms;
     const std::string text = options.json ? to_text(report) : table(report);
-    if (const auto written = io::write_file("-", {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}); !written)
-        return tl::unexpected(written.error());
+    if (const auto written = write_text("-", text); !written) return tl::unexpected(written.error());
     return 0;
 }
 
 }  // namespace
 
-Command add_bench_command(CLI::App& root) {
-    CLI::App* app = root.add_subcommand("bench", "Time the drawing of a scene, from the scene in memory to 8-bit codes in memory");
+Command bench_command() {
     const auto options = std::make_shared<BenchOptions>();
-    add_render_options(*app, *options, true, kUsualSize);
-    constexpr const char* kGroup = "Measurement";
-    add_value(*app, "--frames", "N", "Number of frames (default 10)", [options](const std::string& text) -> Result<void> {
-        const auto frames = parse_int(text, 1, 1000000);
-        if (!frames) return tl::unexpected(frames.error());
-        options->frames = static_cast<int>(*frames);
-        return {};
-    })->group(kGroup);
-    app->add_flag("--keep", options->keep, "Let each frame reuse what the one before computed, as for a scene at rest")->group(kGroup);
-    app->add_flag("--json", options->json, "Print one JSON object")->group(kGroup);
-    return {app, [options] { return run_bench(*options); }};
+    auto groups = render_flags(*options, kUsualSize);
+    groups.push_back({"Measurement",
+                      {{"--frames", "N", "Number of frames (default 10)", read_int(options->frames, 1, 1000000)},
+                       {"--keep", "", "Let each frame reuse what the one before computed, as for a scene at rest", set_to(options->keep)},
+                       {"--json", "", "Print one JSON object", set_to(options->json)}}});
+    return {"bench",
+            "Time the drawing of a scene, from the scene in memory to 8-bit codes in memory",
+            {scene_argument(*options, true)},
+            std::move(groups),
+            [options] { return run_bench(*options); }};
 }
 
 }  // namespace halflit::cli

@@ -48,6 +48,10 @@ Scene sphere_scene(std::int64_t triangles) {
 
 }  // namespace
 
+bool is_built_in_name(std::string_view name) {
+    return name == "demo" || name.starts_with(kSpherePrefix) || name.starts_with(kLightsPrefix);
+}
+
 Result<std::optional<Scene>> built_in_scene(std::string_view name) {
     if (name == "demo") return demo_scene();
     if (name.starts_with(kLightsPrefix)) {

@@ -1,28 +1,27 @@
-// The sub-commands. Each adds itself to the command line and returns the function that runs it.
+// The sub-commands, as tables.
 #pragma once
 
-#include "halflit/error.hpp"
-
-#include <functional>
-
-namespace CLI {
-class App;
-}
+#include "apps/halflit/flags.hpp"
 
 namespace halflit::cli {
 
-struct Command {
-    CLI::App* app = nullptr;
-    std::function<Result<int>()> run;  ///< the exit code: 0, or 1 for a negative result
-};
+[[nodiscard]] Command render_command();
+[[nodiscard]] Command bench_command();
+[[nodiscard]] Command info_command();
+[[nodiscard]] Command diff_command();
+[[nodiscard]] Command golden_command();
+[[nodiscard]] Command lobe_command();
+[[nodiscard]] Command env_command();
+[[nodiscard]] Command figures_command();
+[[nodiscard]] Command trade_command();
 
-[[nodiscard]] Command add_render_command(CLI::App& root);
-[[nodiscard]] Command add_bench_command(CLI::App& root);
-[[nodiscard]] Command add_info_command(CLI::App& root);
-[[nodiscard]] Command add_diff_command(CLI::App& root);
-[[nodiscard]] Command add_lobe_command(CLI::App& root);
-[[nodiscard]] Command add_env_command(CLI::App& root);
-[[nodiscard]] Command add_figures_command(CLI::App& root);
-[[nodiscard]] Command add_trade_command(CLI::App& root);
+// Hidden.
+[[nodiscard]] Command help_command();
+[[nodiscard]] Command man_command();
+[[nodiscard]] Command completion_command();
+[[nodiscard]] Command flags_command();
+
+/// In the order of the help text.
+[[nodiscard]] std::vector<Command> all_commands();
 
 }  // namespace halflit::cli

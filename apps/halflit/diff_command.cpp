@@ -1,16 +1,16 @@
-// halflit diff: the difference of two pictures, in 8-bit codes.
-#include "apps/halflit/cli_support.hpp"
+// halflit diff: the difference of two pictures, or of two folders of pictures, in 8-bit codes.
 #include "apps/halflit/commands.hpp"
-#include "apps/halflit/picture_diff.hpp"
+#include "apps/halflit/messages.hpp"
+#include "apps/halflit/picture_compare.hpp"
 #include "apps/halflit/run_report.hpp"
+#include "apps/halflit/text_file.hpp"
 #include "apps/halflit/values.hpp"
-#include "apps/io/atomic_file.hpp"
-#include "apps/io/file_access.hpp"
-#include "apps/io/image_reader.hpp"
 #include "halflit/image.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <memory>
 
 namespace halflit::cli {
@@ -18,78 +18,87 @@ namespace {
 
 struct DiffOptions {
     std::string a, b;
-    int max_codes = 0;
+    DiffTolerance tolerance;
     bool json = false;
-    std::string output;  ///< empty: no difference image
+    std::string output;  ///< empty: no difference picture
 };
-
-Result<Image> read_picture(const std::string& path) {
-    const auto file = io::read_file(path);
-    if (!file) return tl::unexpected(file.error());
-    auto decoded = io::decode_image(*file);
-    if (!decoded) return fail(decoded.error().code, path + ": " + decoded.error().message);
-    return Image{decoded->width, decoded->height, std::move(decoded->rgba8), {}};
-}
-
-Result<void> write_difference(const std::string& path, const Image& a, const Image& b) {
-    const auto format = output_format_of(path);
-    if (!format) return tl::unexpected(format.error());
-    if (is_linear(*format)) return fail(ErrorCode::usage, path + ": expected a picture of 8-bit codes (.png .jpg .bmp .tga)");
-    const auto bytes = encode_image(difference_image(a, b), *format);
-    if (!bytes) return tl::unexpected(bytes.error());
-    return io::write_file(path, *bytes);
-}
 
 std::string text_of(const PictureDiff& diff) {
     return fmt::format("max {} codes, mean {:.6g} codes, {} of {} pixels differ, PSNR {}\n", diff.max, diff.mean(), diff.count, diff.pixels,
                        diff.psnr() ? fmt::format("{:.2f} dB", *diff.psnr()) : "infinite");
 }
 
-Json json_of(const PictureDiff& diff) {
-    const auto psnr = diff.psnr();
-    return {{"max", diff.max},
-            {"mean", diff.mean()},
-            {"count", diff.count},
-            {"pixels", diff.pixels},
-            {"psnr", psnr ? Json(*psnr) : Json(nullptr)}};
+Json head_of(const DiffOptions& options) {
+    Json head = report_head("diff");
+    head["tolerance"] = {{"max_codes", options.tolerance.max_codes}, {"max_share", options.tolerance.max_share}};
+    return head;
+}
+
+Result<int> run_files(const DiffOptions& options) {
+    if (!options.output.empty()) {
+        const auto format = output_format_of(options.output);
+        if (!format) return tl::unexpected(format.error());
+        if (is_linear(*format))
+            return fail(ErrorCode::usage, printable(options.output) + ": expected a picture of 8-bit codes (.png .jpg .bmp .tga)");
+    }
+    const auto file = diff_files(options.a, options.b, options.tolerance, options.b, options.output);
+    if (!file) return tl::unexpected(file.error());
+    if (file->status == DiffStatus::size)
+        return fail(ErrorCode::bad_input, fmt::format("{}: {} as {}", printable(options.b), file->message, printable(options.a)));
+    Json json = head_of(options);
+    json["passed"] = file->passed();
+    json.update(diff_json(*file->diff, options.tolerance));
+    if (const auto written = write_text("-", options.json ? to_text(json) : text_of(*file->diff)); !written)
+        return tl::unexpected(written.error());
+    return file->passed() ? 0 : static_cast<int>(ErrorCode::negative_result);
+}
+
+Result<int> run_folders(const DiffOptions& options) {
+    const auto files = diff_folders(options.a, options.b, options.tolerance, options.output);
+    if (!files) return tl::unexpected(files.error());
+    const int code = exit_code_of(*files);
+    Json json = head_of(options);
+    json["passed"] = code == 0;
+    json.update(folders_json(*files, options.tolerance));
+    if (const auto written = write_text("-", options.json ? to_text(json) : diffs_text(*files, "file")); !written)
+        return tl::unexpected(written.error());
+    return code;
 }
 
 Result<int> run_diff(const DiffOptions& options) {
     if (options.output == "-") return fail(ErrorCode::usage, "-o: expected a file name; standard output is for the numbers");
-    const auto a = read_picture(options.a);
-    if (!a) return tl::unexpected(a.error());
-    const auto b = read_picture(options.b);
-    if (!b) return tl::unexpected(b.error());
-    if (a->width != b->width || a->height != b->height)
-        return fail(ErrorCode::bad_input,
-                    fmt::format("{}: {}x{}, expected {}x{} as {}", options.b, b->width, b->height, a->width, a->height, options.a));
-    const PictureDiff diff = compare_pictures(*a, *b);
-    if (!options.output.empty())
-        if (const auto written = write_difference(options.output, *a, *b); !written) return tl::unexpected(written.error());
-    const std::string text = options.json ? to_text(json_of(diff)) : text_of(diff);
-    if (const auto written = io::write_file("-", {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}); !written)
-        return tl::unexpected(written.error());
-    return diff.max > options.max_codes ? static_cast<int>(ErrorCode::negative_result) : 0;
+    std::error_code ignored;
+    const bool a = std::filesystem::is_directory(options.a, ignored), b = std::filesystem::is_directory(options.b, ignored);
+    if (a != b)
+        return fail(ErrorCode::usage, fmt::format("{}: expected two files or two folders, found one of each", printable(options.b)));
+    return a ? run_folders(options) : run_files(options);
 }
 
 }  // namespace
 
-Command add_diff_command(CLI::App& root) {
-    CLI::App* app = root.add_subcommand("diff", "Compare two PNG or JPEG pictures; exit code 1 if they differ by more than --max");
+Command diff_command() {
     const auto options = std::make_shared<DiffOptions>();
-    app->add_option("A", options->a, "The expected picture")->required()->type_name("");
-    app->add_option("B", options->b, "The picture to compare with it")->required()->type_name("");
-    add_value(*app, "--max", "CODES", "Largest difference in any channel that still passes, 0 to 255 (default 0)",
-              [options](const std::string& text) -> Result<void> {
-                  const auto codes = parse_int(text, 0, 255);
-                  if (!codes) return tl::unexpected(codes.error());
-                  options->max_codes = static_cast<int>(*codes);
-                  return {};
-              });
-    app->add_flag("--json", options->json, "Print one JSON object");
-    app->add_option("-o,--output", options->output, "Write the absolute differences as a picture, stretched to the full range")
-        ->type_name("FILE");
-    return {app, [options] { return run_diff(*options); }};
+    DiffOptions& o = *options;
+    return {
+        "diff",
+        "Compare two pictures (PNG, JPEG, BMP, TGA, or HDR by its sRGB codes), or two folders of them; exit code 1 if they differ by more "
+        "than --max and --max-share allow",
+        {{.name = "A", .help = "The expected picture, or a folder", .read = read_text(o.a), .required = true, .form = "FILE"},
+         {.name = "B",
+          .help = "What to compare with it; files in folders are paired by their paths",
+          .read = read_text(o.b),
+          .required = true,
+          .form = "FILE"}},
+        {{"Flags",
+          {{"--max", "CODES", "Largest difference in any channel that still passes, 0 to 255 (default 0)",
+            read_int(o.tolerance.max_codes, 0, 255)},
+           {"--max-share", "SHARE", "Share of the pixels that may differ by more, such as 0.1% or 0.001 (default 0)",
+            [&o](const std::string& text) { return assign(o.tolerance.max_share, parse_share(text)); }},
+           {"--json", "", "Print one JSON object", set_to(o.json)},
+           {"-o,--output", "FILE|DIR",
+            "Write the absolute differences as a picture, stretched to the full range; for folders a folder of such pictures",
+            read_text(o.output)}}}},
+        [options] { return run_diff(*options); }};
 }
 
 }  // namespace halflit::cli

@@ -1,17 +1,17 @@
 // halflit env: an environment's bands of spherical harmonics, its suns, and the number of bands that it needs.
-#include "apps/halflit/cli_support.hpp"
 #include "apps/halflit/commands.hpp"
 #include "apps/halflit/messages.hpp"
 #include "apps/halflit/run_report.hpp"
 #include "apps/halflit/scene_source.hpp"
+#include "apps/halflit/text_file.hpp"
 #include "apps/halflit/values.hpp"
-#include "apps/io/atomic_file.hpp"
 #include "halflit/image.hpp"
 #include "sh/order.hpp"
 #include "sh/sun.hpp"
 #include "shading/environment.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -136,26 +136,26 @@ Result<int> run_env(const EnvOptions& options) {
     if (!environment) return tl::unexpected(environment.error());
     const Description description = look_at(std::move(*environment));
     const std::string text = options.json ? to_text(json_of(description, options.bands)) : text_of(description, options.bands);
-    if (const auto written = io::write_file("-", {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}); !written)
-        return tl::unexpected(written.error());
+    if (const auto written = write_text("-", text); !written) return tl::unexpected(written.error());
     return 0;
 }
 
 }  // namespace
 
-Command add_env_command(CLI::App& root) {
-    CLI::App* app =
-        root.add_subcommand("env", "Describe an environment: its bands of spherical harmonics, its suns, and how many bands it needs");
+Command env_command() {
     const auto options = std::make_shared<EnvOptions>();
-    app->add_option("ENVIRONMENT", options->name, "A Radiance picture (.hdr), or sky for the built-in one")->required()->type_name("");
-    add_value(*app, "--bands", "N", "Number of bands to list, 1 to 10 (default 10)", [options](const std::string& text) -> Result<void> {
-        const auto bands = parse_int(text, 1, sh::kMaxBands);
-        if (!bands) return tl::unexpected(bands.error());
-        options->bands = static_cast<int>(*bands);
-        return {};
-    });
-    app->add_flag("--json", options->json, "Print one JSON object");
-    return {app, [options] { return run_env(*options); }};
+    EnvOptions& o = *options;
+    return {"env",
+            "Describe an environment: its bands of spherical harmonics, its suns, and how many bands it needs",
+            {{.name = "ENVIRONMENT",
+              .help = "A Radiance picture (.hdr), or sky for the built-in one",
+              .read = read_text(o.name),
+              .required = true,
+              .form = "FILE|sky"}},
+            {{"Flags",
+              {{"--bands", "N", "Number of bands to list, 1 to 10 (default 10)", read_int(o.bands, 1, sh::kMaxBands)},
+               {"--json", "", "Print one JSON object", set_to(o.json)}}}},
+            [options] { return run_env(*options); }};
 }
 
 }  // namespace halflit::cli

@@ -1,13 +1,13 @@
 // halflit lobe: a diffuse lobe's curve, its bands (coefficients in spherical harmonics), and the error of its series of N bands.
-#include "apps/halflit/cli_support.hpp"
 #include "apps/halflit/commands.hpp"
 #include "apps/halflit/lobe_model.hpp"
 #include "apps/halflit/messages.hpp"
 #include "apps/halflit/run_report.hpp"
-#include "apps/io/atomic_file.hpp"
+#include "apps/halflit/text_file.hpp"
 #include "sh/lobe_error.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <memory>
@@ -94,28 +94,38 @@ Result<int> run_lobe(const LobeOptions& options) {
         print_warning(fmt::format("power {}: below 1 the curve {} at its boundary", model->lobe.power,
                                   model->lobe.power == 0.0 ? "jumps" : "has an infinite slope"));
     const std::string text = options.json ? to_text(describe(*model)) : description(*model);
-    if (const auto written = io::write_file("-", {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}); !written)
-        return tl::unexpected(written.error());
+    if (const auto written = write_text("-", text); !written) return tl::unexpected(written.error());
     return 0;
 }
 
 }  // namespace
 
-Command add_lobe_command(CLI::App& root) {
-    CLI::App* app = root.add_subcommand(
-        "lobe", "Describe a diffuse lobe: its curve, its bands of spherical harmonics, and the error of a series of few bands");
+Command lobe_command() {
     const auto options = std::make_shared<LobeOptions>();
-    app->add_option("MODEL", options->model.name, "lambert, green, half-lambert, valve, sloan or mcauley")->required()->type_name("");
-    add_value(*app, "--wrap", "W",
-              "Wrap, 0 to 1: light reaches surfaces whose cosine to the light is above -W (default for green, sloan, mcauley: 0.5)",
-              [options](const std::string& text) { return assign(options->model.wrap, parse_wrap(text)); });
-    add_value(*app, "--power", "N", "Exponent, 0 to 10000 (default for sloan, mcauley: 1 + W)",
-              [options](const std::string& text) { return assign(options->model.power, parse_power(text)); });
-    app->add_flag_function(
-        "--normalize,!--no-normalize", [options](std::int64_t count) { options->model.normalize = count > 0; },
-        "Scale so that the mean over all light directions is Lambert's");
-    app->add_flag("--json", options->json, "Print one JSON object");
-    return {app, [options] { return run_lobe(*options); }};
+    LobeModelOptions& model = options->model;
+    const auto normalize = [&model](bool value) -> ReadValue {
+        return [&model, value](const std::string&) -> Result<void> {
+            model.normalize = value;
+            return {};
+        };
+    };
+    return {"lobe",
+            "Describe a diffuse lobe: its curve, its bands of spherical harmonics, and the error of a series of few bands",
+            {{.name = "MODEL",
+              .help = "lambert, green, half-lambert, valve, sloan or mcauley",
+              .read = read_text(model.name),
+              .required = true,
+              .form = joined(lobe_name_list(), "|")}},
+            {{"Flags",
+              {{"--wrap", "W",
+                "Wrap, 0 to 1: light reaches surfaces whose cosine to the light is above -W (default for green, sloan, mcauley: 0.5)",
+                [&model](const std::string& text) { return assign(model.wrap, parse_wrap(text)); }},
+               {"--power", "N", "Exponent, 0 to 10000 (default for sloan, mcauley: 1 + W)",
+                [&model](const std::string& text) { return assign(model.power, parse_power(text)); }},
+               {"--normalize", "", "Scale so that the mean over all light directions is Lambert's", normalize(true)},
+               {"--no-normalize", "", "Do not scale", normalize(false)},
+               {"--json", "", "Print one JSON object", set_to(options->json)}}}},
+            [options] { return run_lobe(*options); }};
 }
 
 }  // namespace halflit::cli

@@ -1,10 +1,11 @@
 #include "apps/halflit/lobe_model.hpp"
 
 #include "apps/halflit/messages.hpp"
+#include "apps/halflit/spelling.hpp"
 #include "halflit/lobe.hpp"
 #include "shading/lobe_range.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <charconv>
 #include <cmath>
@@ -38,6 +39,16 @@ Result<double> parse_parameter(const std::string& text, double most, const char*
 
 }  // namespace
 
+std::vector<std::string> lobe_name_list() {
+    std::vector<std::string> names;
+    for (const NamedLobe& lobe : kNamedLobes) names.emplace_back(lobe.name);
+    return names;
+}
+
+std::string did_you_mean_lobe(const std::string& name) {
+    return find_named_lobe(name) != nullptr ? std::string() : did_you_mean(name, lobe_name_list());
+}
+
 Result<double> parse_wrap(const std::string& text) { return parse_parameter(text, kMaxLobeWrap, &shading::why_not_wrap); }
 
 Result<double> parse_power(const std::string& text) { return parse_parameter(text, kMaxLobePower, &shading::why_not_power); }
@@ -45,7 +56,8 @@ Result<double> parse_power(const std::string& text) { return parse_parameter(tex
 Result<LobeModel> make_lobe_model(const LobeModelOptions& options) {
     const NamedLobe* model = find_named_lobe(options.name);
     if (model == nullptr)
-        return fail(ErrorCode::usage, fmt::format("MODEL: expected {}, found '{}'", lobe_names(), printable(options.name)));
+        return fail(ErrorCode::usage, fmt::format("MODEL: expected {}, found '{}'{}", lobe_names(), printable(options.name),
+                                                  did_you_mean_lobe(options.name)));
     const double own_wrap = model->takes_wrap ? options.wrap.value_or(double{kUsualWrap}) : double{model->wrap};
     const double own_power = double{model->power} + double{model->power_per_wrap} * own_wrap;
     const double w = options.wrap.value_or(own_wrap), n = options.power.value_or(own_power);

@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace halflit::cli {
 
@@ -20,6 +21,11 @@ struct LobeModel {
     std::string name;
     sh::WrapLobe lobe;
 };
+
+/// All names, in the order of lobe_names().
+[[nodiscard]] std::vector<std::string> lobe_name_list();
+/// " (did you mean NAME?)", or nothing if `name` is a lobe or none is spelled alike.
+[[nodiscard]] std::string did_you_mean_lobe(const std::string& name);
 
 /// Wrap w in [0, 1]; the error says why another value is refused.
 [[nodiscard]] Result<double> parse_wrap(const std::string& text);

@@ -1,16 +1,17 @@
 // halflit: the command line. Parses, dispatches, and turns errors into one line and an exit code.
+#include "apps/halflit/command_line.hpp"
 #include "apps/halflit/commands.hpp"
+#include "apps/halflit/help_text.hpp"
 #include "apps/halflit/interrupt.hpp"
 #include "apps/halflit/messages.hpp"
-#include "apps/halflit/usage_error.hpp"
+#include "apps/halflit/scene_source.hpp"
+#include "apps/halflit/terminal.hpp"
 #include "halflit/version.hpp"
-
-#include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -40,29 +41,47 @@ int run(const Command& command) {
     }
 }
 
+int print(const std::string& text) {
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    return std::fflush(stdout) == 0 ? 0 : static_cast<int>(ErrorCode::io);
+}
+
+/// `halflit SCENE` is `halflit render SCENE`; its flags may come first.
+bool means_render(std::span<const Command> commands, const std::vector<std::string>& arguments) {
+    if (arguments.empty()) return false;
+    const std::string& first = arguments[0];
+    const auto is_first = [&](const Command& command) { return command.name == first; };
+    if (std::any_of(commands.begin(), commands.end(), is_first)) return false;
+    if (!first.starts_with('-') || first == "-") return is_scene(first);
+    const std::string name = first.substr(0, first.find('='));
+    for (const Flag* flag : flags_of(commands[0]))
+        for (const std::string& spelling : words_of(flag->names, ','))
+            if (spelling == name || (spelling.size() == 2 && name.starts_with(spelling)))
+                return std::any_of(arguments.begin() + 1, arguments.end(), is_scene);
+    return false;
+}
+
 int parse_and_run(int argc, char** argv) {
-    CLI::App root("Renders glTF models to pictures on the CPU.", "halflit");
-    root.footer(
-        "Run 'halflit COMMAND --help' for the flags of a command.\n"
-        "Exit codes: 0 ok, 1 negative result, 2 usage, 3 bad input, 4 cannot read or write, 5 limit hit, 6 internal error, 128+n signal "
-        "n.");
-    root.require_subcommand(1);
-    root.set_version_flag("--version", fmt::format("halflit {} (pixel_epoch {})", version(), kPixelEpoch));
-    const Command commands[] = {add_render_command(root), add_bench_command(root), add_info_command(root),    add_diff_command(root),
-                                add_lobe_command(root),   add_env_command(root),   add_figures_command(root), add_trade_command(root)};
-    try {
-        root.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) {
-            root.exit(error);  // --help and --version
-            return std::fflush(stdout) == 0 ? 0 : static_cast<int>(ErrorCode::io);
-        }
-        print_error(usage_message(root, error));
-        return static_cast<int>(ErrorCode::usage);
+    const std::vector<Command> commands = all_commands();
+    std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+    if (arguments.empty() && ::isatty(STDOUT_FILENO) == 1) return print(program_help(commands, help_width()));
+    if (means_render(commands, arguments)) arguments.insert(arguments.begin(), commands[0].name);
+    const auto line = parse_command_line(commands, std::move(arguments));
+    if (!line) {
+        print_error(line.error().message);
+        return static_cast<int>(line.error().code);
     }
-    for (const Command& command : commands)
-        if (command.app->parsed()) return run(command);
-    return static_cast<int>(ErrorCode::internal);
+    switch (line->wanted) {
+        case ParsedLine::Wanted::run:
+            return run(*line->command);
+        case ParsedLine::Wanted::version:
+            return print("halflit " + std::string(version()) + " (pixel_epoch " + std::to_string(kPixelEpoch) + ")\n");
+        case ParsedLine::Wanted::help:
+        case ParsedLine::Wanted::help_all:
+            break;
+    }
+    if (line->command == nullptr) return print(program_help(commands, help_width()));
+    return print(command_help(*line->command, line->wanted == ParsedLine::Wanted::help_all, help_width()));
 }
 
 }  // namespace

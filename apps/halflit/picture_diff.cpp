@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 
 namespace halflit::cli {
 
@@ -14,6 +15,14 @@ std::optional<double> PictureDiff::psnr() const {
     if (sum_squares == 0) return std::nullopt;
     const double mean_square = static_cast<double>(sum_squares) / (4.0 * static_cast<double>(pixels));
     return 10.0 * std::log10(255.0 * 255.0 / mean_square);
+}
+
+std::uint64_t PictureDiff::count_above(int codes) const {
+    return std::accumulate(pixels_by_codes.begin() + std::clamp(codes + 1, 0, 256), pixels_by_codes.end(), std::uint64_t{0});
+}
+
+bool passes(const PictureDiff& diff, const DiffTolerance& tolerance) {
+    return static_cast<double>(diff.count_above(tolerance.max_codes)) <= tolerance.max_share * static_cast<double>(diff.pixels);
 }
 
 PictureDiff compare_pictures(const Image& a, const Image& b) {
@@ -30,6 +39,7 @@ PictureDiff compare_pictures(const Image& a, const Image& b) {
         }
         diff.max = std::max(diff.max, largest);
         diff.count += largest > 0;
+        ++diff.pixels_by_codes[static_cast<std::size_t>(largest)];
     }
     return diff;
 }

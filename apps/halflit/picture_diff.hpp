@@ -3,6 +3,7 @@
 
 #include "halflit/target.hpp"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -14,12 +15,22 @@ struct PictureDiff {
     std::uint64_t pixels = 0;  ///< pixels of each picture
     std::uint64_t sum = 0;     ///< sum of absolute differences over all channels
     std::uint64_t sum_squares = 0;
+    std::array<std::uint64_t, 256> pixels_by_codes{};  ///< pixels by the largest difference of their channels
 
     /// Mean absolute difference over all channels of all pixels.
     [[nodiscard]] double mean() const;
     /// 10 log10(255^2 / mean square); empty if the pictures are equal.
     [[nodiscard]] std::optional<double> psnr() const;
+    /// Pixels in which a channel differs by more than `codes`.
+    [[nodiscard]] std::uint64_t count_above(int codes) const;
 };
+
+/// The difference that still passes: at most the share `max_share` of the pixels (0 to 1) may differ by more than `max_codes`.
+struct DiffTolerance {
+    int max_codes = 0;
+    double max_share = 0.0;
+};
+[[nodiscard]] bool passes(const PictureDiff& diff, const DiffTolerance& tolerance);
 
 [[nodiscard]] PictureDiff compare_pictures(const Image& a, const Image& b);
 

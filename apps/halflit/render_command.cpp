@@ -1,16 +1,20 @@
 // halflit render: draws a scene into a picture.
-#include "apps/halflit/cli_support.hpp"
 #include "apps/halflit/commands.hpp"
+#include "apps/halflit/file_names.hpp"
 #include "apps/halflit/interrupt.hpp"
 #include "apps/halflit/messages.hpp"
+#include "apps/halflit/progress_line.hpp"
 #include "apps/halflit/render_job.hpp"
 #include "apps/halflit/run_report.hpp"
 #include "apps/halflit/stopwatch.hpp"
+#include "apps/halflit/text_file.hpp"
 #include "apps/io/atomic_file.hpp"
+#include "apps/lab/output_folder.hpp"
 #include "halflit/image.hpp"
 
-#include <sys/stat.h>
+#include <fmt/core.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <memory>
@@ -19,31 +23,17 @@
 namespace halflit::cli {
 namespace {
 
-constexpr PictureSize kUsualSize{1280, 720};
-
 struct RenderCommandOptions : RenderOptions {
-    std::string output;  ///< empty: named after the scene
-    std::string report;  ///< empty: none
+    std::vector<std::string> words;  ///< scenes, and the picture as the last of several
+    std::string output;              ///< empty: named after the scene
+    std::string report;              ///< empty: none
 };
 
 /// The scene's name without folder and extension, as a PNG in the current folder.
 std::string default_output(const std::string& scene) {
-    const std::string name = scene.substr(scene.rfind('/') + 1);  // npos + 1 is 0
-    const std::string stem = name.substr(0, name.rfind('.'));
+    const std::string stem = stem_of(scene);
     const bool file = !scene.empty() && scene != "-" && !stem.empty();
     return (file ? stem.substr(0, stem.find(':')) : "halflit") + ".png";
-}
-
-bool same_file(const std::string& a, const std::string& b) {
-    struct stat first {
-    }, second{};
-    return ::stat(a.c_str(), &first) == 0 && ::stat(b.c_str(), &second) == 0 && first.st_dev == second.st_dev &&
-           first.st_ino == second.st_ino;
-}
-
-bool is_directory(const std::string& path) {
-    struct stat status {};
-    return ::stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode);
 }
 
 /// Refuses output paths that would overwrite the scene or each other.
@@ -56,15 +46,49 @@ Result<void> check_paths(const RenderCommandOptions& options) {
     return {};
 }
 
-Result<void> render_and_write(const RenderCommandOptions& options, Json& report) {
-    if (is_directory(options.output)) return fail(ErrorCode::io, options.output + ": " + std::strerror(EISDIR));
+/// These formats have no alpha.
+void warn_of_lost_transparency(const RenderCommandOptions& options, OutputFormat format) {
+    const Settings& settings = options.settings;
+    const bool transparent = settings.background_linear.w < 1.0f && !settings.background_environment;
+    if (transparent && (format == OutputFormat::jpg || format == OutputFormat::hdr))
+        print_warning(options.output + ": this format has no transparency; the picture is shown over black (.png .bmp .tga keep it)");
+}
+
+/// Shows the progress of a drawing that takes longer than half a second.
+Result<RenderReport> draw(RenderJob& job, Image& image) {
+    constexpr double kDelayMs = 500;
+    ProgressLine line(false, kDelayMs);
+    job.execution.progress = [&line](double share) { line.show(share); };
+    return Renderer().render(*job.prepared, job.camera, job.settings, target_of(image), job.execution);
+}
+
+void print_choices(const RenderJob& job, const RenderReport& rendered, double encode_ms) {
+    if (verbosity() != Verbosity::verbose) return;
+    print_detail(fmt::format("scene: {}, {} triangles", job.source.name, rendered.triangles_submitted));
+    for (const std::string& choice : job.choices) print_detail(choice);
+    print_detail(fmt::format("picture: {}x{}, {} samples, {}, {} threads", job.width, job.height, job.settings.samples,
+                             isa_name(rendered.isa), rendered.threads));
+    const auto& ms = rendered.ms;
+    print_detail(
+        fmt::format("ms: load {:.1f}, prepare {:.1f}, plan {:.1f}, shadows {:.1f}, cull {:.1f}, transform {:.1f}, bin {:.1f}, "
+                    "tiles {:.1f}, encode {:.1f}",
+                    job.load_ms, job.prepare_ms, ms.plan, ms.shadows, ms.cull, ms.transform, ms.bin, ms.tiles, encode_ms));
+}
+
+/// Returns the report.
+Result<std::string> render_and_write(const RenderCommandOptions& options) {
+    if (is_folder(options.output))
+        return fail(ErrorCode::io, options.output + ": " + std::strerror(EISDIR) + " (-o " + options.output + "/ writes into it)");
     const auto format = output_format_of(options.output);
     if (!format) return tl::unexpected(format.error());
-    if (const auto checked = check_paths(options); !checked) return checked;
-    auto job = make_render_job(options, kUsualSize);
+    if (const auto checked = check_paths(options); !checked) return tl::unexpected(checked.error());
+    for (const std::string& path : {options.output, options.report.empty() ? "-" : options.report})
+        if (const auto checked = check_writable(path); !checked) return tl::unexpected(checked.error());
+    warn_of_lost_transparency(options, *format);
+    auto job = make_render_job(options, kRenderSize);
     if (!job) return tl::unexpected(job.error());
     Image image = make_image(*job, is_linear(*format));
-    const auto rendered = Renderer().render(*job->prepared, job->camera, job->settings, target_of(image), job->execution);
+    const auto rendered = draw(*job, image);
     if (!rendered) return tl::unexpected(rendered.error());
     for (const auto& warnings : {job->warnings, rendered->warnings})
         for (const std::string& warning : warnings) print_warning(warning);
@@ -74,63 +98,119 @@ Result<void> render_and_write(const RenderCommandOptions& options, Json& report)
     const auto bytes = encode_image(picture, *format);
     if (!bytes) return tl::unexpected(bytes.error());
     const double encode_ms = encoding.ms();
-    if (const auto written = io::write_file(options.output, *bytes); !written) return written;
+    if (const auto written = io::write_file(options.output, *bytes); !written) return tl::unexpected(written.error());
+    print_choices(*job, *rendered, encode_ms);
     if (options.output != "-") print_note("wrote " + options.output);
-    add_frame(report, *job, *rendered, picture);
-    report["encode_ms"] = encode_ms;
-    return {};
+    return picture_report(options.output, *job, *rendered, picture, encode_ms);
 }
 
-Result<void> render_within_memory(const RenderCommandOptions& options, Json& report) {
+Result<std::string> render_within_memory(const RenderCommandOptions& options) {
     try {
-        return render_and_write(options, report);
+        return render_and_write(options);
     } catch (const std::bad_alloc&) {
         return fail(ErrorCode::limit, "out of memory");
     }
 }
 
-Result<int> run_render(RenderCommandOptions options) {
-    if (options.output.empty()) options.output = default_output(options.scene);
+Result<int> render_scene(RenderCommandOptions options, const std::string& scene) {
+    options.scene = scene;
+    if (options.output.empty() || options.output.ends_with('/')) options.output += default_output(scene);
     if (!options.report.empty())
         set_last_words([path = options.report](int signal) {
-            (void)write_json(path, error_report(128 + signal, "interrupted by signal " + std::to_string(signal)));
+            (void)write_text(path, error_report(128 + signal, "interrupted by signal " + std::to_string(signal)));
         });
-    Json report = report_head();
-    report["output"] = options.output;
-    const Result<void> done = render_within_memory(options, report);
-    if (!done) report = error_report(static_cast<int>(done.error().code), done.error().message);
+    const Result<std::string> done = render_within_memory(options);
+    const std::string report = done ? *done : error_report(static_cast<int>(done.error().code), done.error().message);
     // No report is written if its path was refused above because it is the scene's or the picture's.
     if (!options.report.empty() && check_paths(options)) {
-        const Result<void> written = write_json(options.report, report);
+        const Result<void> written = write_text(options.report, report);
         if (!written && done) return tl::unexpected(written.error());
     }
     if (!done) return tl::unexpected(done.error());
     return 0;
 }
 
+/// Several scenes, each to a picture of its name. A scene that fails does not stop the others; the exit code is the first failure's.
+Result<int> render_all(RenderCommandOptions options) {
+    if (!options.report.empty()) return fail(ErrorCode::usage, "--report: expected one scene");
+    if (!options.output.ends_with('/')) options.output += '/';
+    std::vector<std::string> names;
+    for (const std::string& scene : options.words) {
+        names.push_back(default_output(scene));
+        if (std::find(names.begin(), names.end() - 1, names.back()) != names.end() - 1)
+            return fail(ErrorCode::usage, scene + ": another scene has the same picture " + options.output + names.back());
+    }
+    if (const auto made = make_folder(options.output); !made) return tl::unexpected(made.error());
+    int code = 0;
+    for (const std::string& scene : options.words) {
+        const auto done = render_scene(options, scene);
+        if (done) continue;
+        print_error(done.error().message);
+        if (code == 0) code = static_cast<int>(done.error().code);
+    }
+    return code;
+}
+
+/// A name with a picture's extension.
+bool is_picture_name(const std::string& word) { return word != "-" && output_format_of(word).has_value(); }
+
+/// After a word that is neither a scene nor a picture's name.
+std::string unknown_format(const std::string& word) {
+    const auto format = output_format_of(word);
+    return format ? std::string() : format.error().message.substr(word.size());  // begins with the word
+}
+
+Result<int> run_render(RenderCommandOptions options) {
+    std::vector<std::string>& words = options.words;
+    if (words.size() > 1 && is_picture_name(words.back())) {
+        if (!options.output.empty())
+            return fail(ErrorCode::usage, "unexpected argument " + words.back() + ": the picture is named by -o " + options.output);
+        options.output = words.back();
+        words.pop_back();
+    }
+    const bool folder = options.output.ends_with('/') || (words.size() > 1 && is_folder(options.output));
+    if (words.size() > 1 && !folder)
+        return fail(ErrorCode::usage, "unexpected argument " + words[1] +
+                                          (is_scene(words[1]) ? ": several scenes need -o FOLDER/" : unknown_format(words[1])) +
+                                          "; see halflit render --help");
+    if (words.size() > 1) return render_all(options);
+    if (folder)
+        if (const auto made = make_folder(options.output); !made) return tl::unexpected(made.error());
+    return render_scene(options, words.empty() ? "" : words[0]);
+}
+
+ReadValue read_path(std::string& path) {
+    return [&path](const std::string& text) -> Result<void> {
+        if (text.empty()) return fail(ErrorCode::usage, "expected a file name or -, found nothing");
+        path = text;
+        return {};
+    };
+}
+
 }  // namespace
 
-Command add_render_command(CLI::App& root) {
-    CLI::App* app = root.add_subcommand("render", "Draw a scene into a picture; without one, the demo scene");
+Command render_command() {
     const auto options = std::make_shared<RenderCommandOptions>();
-    add_render_options(*app, *options, false, kUsualSize);
-    constexpr const char* kGroup = "Output";
-    add_value(*app, "-o,--output", "FILE",
-              "A .png, .jpg, .bmp, .tga or .hdr file, or - for PNG on standard output (default: SCENE's name.png)",
-              [options](const std::string& text) -> Result<void> {
-                  if (text.empty()) return fail(ErrorCode::usage, "expected a file name or -, found nothing");
-                  options->output = text;
-                  return {};
-              })
-        ->group(kGroup);
-    add_value(*app, "--report", "FILE.json|-", "Write size, hash, times and counts as JSON; on failure, the error",
-              [options](const std::string& text) -> Result<void> {
-                  if (text.empty()) return fail(ErrorCode::usage, "expected a file name or -, found nothing");
-                  options->report = text;
-                  return {};
-              })
-        ->group(kGroup);
-    return {app, [options] { return run_render(*options); }};
+    RenderCommandOptions& o = *options;
+    auto groups = render_flags(o, kRenderSize);
+    groups.push_back(
+        {"Output",
+         {{"-o,--output", "FILE",
+           "A .png, .jpg, .bmp, .tga or .hdr file; - for PNG on standard output; FOLDER/ for one picture of each scene (default: "
+           "SCENE's name.png)",
+           read_path(o.output)},
+          {"--report", "FILE.json|-", "Write size, hash, times and counts as JSON; on failure, the error", read_path(o.report)}}});
+    Positional scene = scene_argument(o, false);
+    scene.help += ". A picture's name after it is the output";
+    scene.usage = "SCENE... [PICTURE]";
+    scene.read = [&o](const std::string& text) -> Result<void> {
+        o.words.push_back(text);
+        return {};
+    };
+    scene.repeated = true;
+    return {"render", "Draw a scene into a picture; without one, the demo scene", {std::move(scene)}, std::move(groups), [options] {
+                return run_render(*options);
+            }};
 }
 
 }  // namespace halflit::cli

@@ -8,7 +8,7 @@
 #include "sh/trig.hpp"
 #include "shading/environment.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 
@@ -34,6 +34,13 @@ PictureSize shaped(PictureSize usual, const Camera& camera) {
     return {side(fitted), side(fitted / aspect)};
 }
 
+std::string camera_choice(const Camera* of_file, const RenderOptions& options) {
+    if (of_file != nullptr) return "camera: the file's" + (of_file->name.empty() ? "" : ", " + of_file->name);
+    if (options.camera_position)
+        return fmt::format("camera: at {},{},{}", options.camera_position->x, options.camera_position->y, options.camera_position->z);
+    return fmt::format("camera: a view of the whole scene, azimuth {}, elevation {}", options.view.azimuth_deg, options.view.elevation_deg);
+}
+
 Result<const Camera*> find_camera(const std::vector<Camera>& cameras, const std::string& wanted) {
     for (const Camera& camera : cameras)
         if (camera.name == wanted) return &camera;
@@ -44,13 +51,14 @@ Result<const Camera*> find_camera(const std::vector<Camera>& cameras, const std:
                 fmt::format("--camera: expected an index below {} or a camera's name, found '{}'", cameras.size(), wanted));
 }
 
-/// Chooses the size unless --size gave it. Returns the file's camera to draw with, which is used unchanged; null: a view of the scene.
-Result<const Camera*> choose_view(RenderJob& job, const RenderOptions& options, PictureSize usual) {
+/// Chooses the size unless --size gave it. Returns the camera to draw with, which is used unchanged; none: a view of the whole scene.
+Result<std::optional<Camera>> choose_view(RenderJob& job, const RenderOptions& options, PictureSize usual) {
     const std::vector<Camera>& cameras = job.scene().cameras;
-    const Camera* chosen = options.own_view ? nullptr : choose_camera(job.scene(), job.prepared->bounds());
-    if (chosen == nullptr && !cameras.empty() && !options.own_view && !options.camera)
+    const Camera* chosen = options.own_view() ? nullptr : choose_camera(job.scene(), job.prepared->bounds());
+    if (chosen == nullptr && !cameras.empty() && !options.own_view() && !options.camera)
         job.warnings.push_back(
-            "the file's camera shows almost nothing of the scene: drawn from a camera of its own (--camera 0: the file's)");
+            "the file's camera shows almost nothing of the scene: drawn from a camera of its own (--camera 0: the file's; --camera frame: "
+            "without this warning)");
     if (options.camera) {
         const auto found = find_camera(cameras, *options.camera);
         if (!found) return tl::unexpected(found.error());
@@ -60,7 +68,12 @@ Result<const Camera*> choose_view(RenderJob& job, const RenderOptions& options, 
     job.width = size.width;
     job.height = size.height;
     if (const auto checked = check_size(size, options.settings.region); !checked) return tl::unexpected(checked.error());
-    return chosen;
+    job.choices.push_back(camera_choice(chosen, options));
+    if (chosen != nullptr) return *chosen;
+    if (!options.camera_position) return std::nullopt;
+    const Bounds& bounds = job.prepared->bounds();
+    const Vec3f target = options.camera_target.value_or(bounds.empty ? Vec3f{0, 0, 0} : bounds.center());
+    return placed_camera(*options.camera_position, target, options.view.fov_y_deg, bounds);
 }
 
 /// Replaces the ambient light by the environment, and adds its suns as lights.
@@ -76,7 +89,7 @@ Result<void> add_environment(Scene& scene, const RenderOptions& options) {
 }
 
 /// Chooses camera, lights, ambient light and exposure: what the flags say, and auto_setup for the rest.
-Result<void> choose_setup(RenderJob& job, const RenderOptions& options, const Camera* camera) {
+Result<void> choose_setup(RenderJob& job, const RenderOptions& options, const std::optional<Camera>& camera) {
     Scene& scene = job.scene();
     AutoOptions choice;
     if (!options.scene_lights) {
@@ -87,15 +100,20 @@ Result<void> choose_setup(RenderJob& job, const RenderOptions& options, const Ca
     }
     if (!options.environment.empty())
         if (const auto added = add_environment(scene, options); !added) return added;
-    if (camera != nullptr) choice.camera = *camera;
-    choice.frame = camera == nullptr;
+    choice.camera = camera;
+    choice.frame = !camera;
     choice.view = options.view;
     choice.ambient_linear = options.ambient_linear;
     choice.exposure = options.exposure;
     scene.lights.insert(scene.lights.end(), options.lights.begin(), options.lights.end());
+    const std::size_t given = scene.lights.size();
     const AutoSetup setup = auto_setup(scene, job.prepared->bounds(), job.width, job.height, choice);
     job.camera = setup.camera;
     job.settings.exposure = setup.settings.exposure;
+    job.choices.push_back(fmt::format("lights: {}{}{}{}", scene.lights.size(), scene.lights.size() > given ? ", added by default" : "",
+                                      scene.environment != nullptr ? ", and the environment " + options.environment : "",
+                                      scene.ambient.sky_linear == Vec3f{} ? "" : ", and ambient light"));
+    job.choices.push_back(fmt::format("exposure: {}{}", job.settings.exposure, options.exposure ? "" : ", chosen"));
     return {};
 }
 
@@ -116,7 +134,11 @@ Result<void> choose_settings(Settings& settings, const RenderOptions& options) {
 Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usual) {
     if (options.settings.background_environment && options.environment.empty())
         return fail(ErrorCode::usage, "--background: environment needs --env");
-    if (options.camera && options.own_view)
+    if (options.camera_position && (options.camera || options.whole_scene))
+        return fail(ErrorCode::usage, "--camera-position: cannot be combined with --camera, --azimuth, --elevation or --zoom");
+    if (options.camera_target && !options.camera_position)
+        return fail(ErrorCode::usage, "--camera-target: expected together with --camera-position");
+    if (options.camera && options.own_view())
         return fail(ErrorCode::usage,
                     "--camera: cannot be combined with --azimuth, --elevation, --zoom or --fov, which make a camera of their own");
     if (options.size)
@@ -136,6 +158,7 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
     job.load_ms = loading.ms();
     job.source = std::move(*source);
     job.warnings = job.source.warnings;
+    turn_upright(job.scene(), options.up);
 
     const Stopwatch preparing;
     auto prepared = PreparedScene::make(job.scene(), job.execution);

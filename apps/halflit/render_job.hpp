@@ -21,6 +21,7 @@ struct RenderJob {
     int width = 0, height = 0;
     double load_ms = 0, prepare_ms = 0;
     std::vector<std::string> warnings;
+    std::vector<std::string> choices;  ///< what was chosen, one line each
 
     [[nodiscard]] Scene& scene() { return *source.scene; }
     [[nodiscard]] const Scene& scene() const { return *source.scene; }

@@ -1,6 +1,8 @@
 // Flags that decide the picture. render, bench, info and trade share them, so that bench measures and info describes what render draws.
 #pragma once
 
+#include "apps/halflit/flags.hpp"
+#include "apps/halflit/scene_view.hpp"
 #include "apps/halflit/values.hpp"
 #include "apps/io/lobe_name.hpp"
 #include "halflit/auto_setup.hpp"
@@ -13,11 +15,10 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace halflit::cli {
+
+/// Picture size of render and info without --size.
+inline constexpr PictureSize kRenderSize{1280, 720};
 
 /// Values of the flags. The initial values here are the defaults; the help text prints them.
 struct RenderOptions {
@@ -26,9 +27,15 @@ struct RenderOptions {
     Settings settings = usual_settings();  ///< the flags' values; lobe and exposure are chosen later, with the scene
     Execution execution;
 
-    std::optional<std::string> camera;
+    std::optional<std::string> camera;  ///< a camera of the file: its index or name
     ViewSettings view;
-    bool own_view = false;  ///< --azimuth, --elevation, --zoom or --fov was given
+    bool whole_scene = false;  ///< --camera frame, --azimuth, --elevation or --zoom was given
+    bool fov_given = false;    ///< --fov was given
+    std::optional<Vec3f> camera_position, camera_target;
+    UpAxis up = UpAxis::y;
+
+    /// A camera of the flags, not of the file.
+    [[nodiscard]] bool own_view() const { return whole_scene || fov_given || camera_position; }
 
     std::optional<std::string> lobe_name;
     io::LobeParameters lobe;
@@ -46,8 +53,13 @@ struct RenderOptions {
 /// The lobe that the flags choose for materials without one of their own; empty if they choose none.
 [[nodiscard]] Result<std::optional<Lobe>> chosen_lobe(const RenderOptions& options);
 
-/// Adds the flags to a sub-command; `options` must outlive it. `scene_required`: the SCENE argument must be given. `usual`: the default
-/// picture size, which is reduced to the aspect ratio of the file's camera.
-void add_render_options(CLI::App& app, RenderOptions& options, bool scene_required, PictureSize usual);
+/// The SCENE argument. `options` must outlive what these functions return.
+[[nodiscard]] Positional scene_argument(RenderOptions& options, bool required);
+
+/// `usual`: the default picture size, which is reduced to the aspect ratio of the file's camera.
+[[nodiscard]] std::vector<FlagGroup> render_flags(RenderOptions& options, PictureSize usual);
+
+/// Reads flags that are not from the command line, such as those of a list of scenes. A scene among them is refused.
+[[nodiscard]] Result<RenderOptions> parse_render_flags(std::vector<std::string> flags);
 
 }  // namespace halflit::cli

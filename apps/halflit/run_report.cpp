@@ -1,10 +1,10 @@
 #include "apps/halflit/run_report.hpp"
 
 #include "apps/halflit/plan_names.hpp"
-#include "apps/io/atomic_file.hpp"
 #include "halflit/version.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include <sys/resource.h>
 
@@ -32,13 +32,8 @@ Json work_json(const WorkCounts& work) {
 
 }  // namespace
 
-Json report_head() { return {{"status", "ok"}, {"halflit", version()}, {"pixel_epoch", kPixelEpoch}}; }
-
-Json error_report(int code, const std::string& message) {
-    Json report = report_head();
-    report["status"] = "error";
-    report["error"] = {{"code", code}, {"message", message}};
-    return report;
+Json report_head(std::string_view kind) {
+    return {{"schema", fmt::format("halflit.{}/1", kind)}, {"status", "ok"}, {"halflit", version()}, {"pixel_epoch", kPixelEpoch}};
 }
 
 void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered, const Image& picture) {
@@ -105,9 +100,20 @@ Json environment_use_json(const EnvironmentUse& use, const Settings& settings) {
 
 std::string to_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
-Result<void> write_json(const std::string& path, const Json& json) {
-    const std::string text = to_text(json);
-    return io::write_file(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+std::string picture_report(const std::string& output, const RenderJob& job, const RenderReport& rendered, const Image& picture,
+                           double encode_ms) {
+    Json report = report_head("report");
+    report["output"] = output;
+    add_frame(report, job, rendered, picture);
+    report["encode_ms"] = encode_ms;
+    return to_text(report);
+}
+
+std::string error_report(int code, const std::string& message) {
+    Json report = report_head("report");
+    report["status"] = "error";
+    report["error"] = {{"code", code}, {"message", message}};
+    return to_text(report);
 }
 
 }  // namespace halflit::cli

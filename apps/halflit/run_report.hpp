@@ -1,20 +1,21 @@
-// The report: one JSON object about one run, for scripts. It is also written when a run fails.
+// The report: one JSON object about one run, for scripts. It is also written when a run fails. A source that makes such objects itself
+// includes <nlohmann/json.hpp>, which takes long to compile.
 #pragma once
 
 #include "apps/halflit/render_job.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
+#include <string_view>
 
 namespace halflit::cli {
 
 using Json = nlohmann::ordered_json;
 
-/// {"status": "ok", "halflit": version, "pixel_epoch": N}
-[[nodiscard]] Json report_head();
-/// {"status": "error", ..., "error": {"code": N, "message": "..."}}
-[[nodiscard]] Json error_report(int code, const std::string& message);
+/// {"schema": "halflit.KIND/1", "status": "ok", "halflit": version, "pixel_epoch": N}. The number is that of
+/// docs/schema/KIND-1.schema.json. It rises when a key is removed or changes its meaning, and stays when one is added.
+[[nodiscard]] Json report_head(std::string_view kind);
 
 /// Adds the frame: size, hash, instruction set, threads, times, counts, warnings, peak memory.
 void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered, const Image& picture);
@@ -32,7 +33,10 @@ void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered,
 /// Text with a newline at the end. Bytes that are not UTF-8 are replaced.
 [[nodiscard]] std::string to_text(const Json& json);
 
-/// Writes to a file, which is replaced in one step, or to standard output ("-").
-Result<void> write_json(const std::string& path, const Json& json);
+/// The report of a picture that was drawn and encoded.
+[[nodiscard]] std::string picture_report(const std::string& output, const RenderJob& job, const RenderReport& rendered,
+                                         const Image& picture, double encode_ms);
+/// A report of render with {"status": "error", ..., "error": {"code": N, "message": "..."}}.
+[[nodiscard]] std::string error_report(int code, const std::string& message);
 
 }  // namespace halflit::cli

@@ -6,7 +6,8 @@
 #include "raster/frame_plan.hpp"
 #include "raster/scene/mesh_topology.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include <charconv>
 #include <iterator>
@@ -179,7 +180,7 @@ void append_lines(std::string& text, const std::string& label, const Json& value
 
 }  // namespace
 
-Result<Json> describe_scene(const RenderJob& job) {
+Result<std::string> describe_scene(const RenderJob& job, bool json) {
     const Scene& scene = job.scene();
     Json description{{"scene", job.source.name}};
     if (job.source.file) description["file"] = file_json(*job.source.file);
@@ -201,10 +202,11 @@ Result<Json> describe_scene(const RenderJob& job) {
     description["shadows"] = shadows_json(*frame, job.settings);
     description["materials"] = materials_json(job, plan);
     description["warnings"] = job.warnings;
-    return description;
-}
-
-std::string description_text(const Json& description) {
+    if (json) {
+        Json report = report_head("info");
+        report.update(description);
+        return to_text(report);
+    }
     std::string text;
     for (const auto& [key, value] : description.items()) append_lines(text, key, value, 0);
     return text;

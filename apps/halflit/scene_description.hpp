@@ -1,18 +1,14 @@
-// Description of a scene, as JSON and as text.
+// Description of a scene, as JSON or as text.
 #pragma once
 
 #include "apps/halflit/render_job.hpp"
-#include "apps/halflit/run_report.hpp"
 
 #include <string>
 
 namespace halflit::cli {
 
 /// Describes the file's contents, what is drawn, and for each material the stages of shading that its plan requires and those that it does
-/// without.
-[[nodiscard]] Result<Json> describe_scene(const RenderJob& job);
-
-/// The same as indented lines of text. Names are escaped (see printable).
-[[nodiscard]] std::string description_text(const Json& description);
+/// without. Text is one indented line for each value, with names escaped (see printable).
+[[nodiscard]] Result<std::string> describe_scene(const RenderJob& job, bool json);
 
 }  // namespace halflit::cli

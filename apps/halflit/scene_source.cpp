@@ -1,8 +1,9 @@
 #include "apps/halflit/scene_source.hpp"
 
 #include "apps/halflit/built_in_scenes.hpp"
+#include "apps/halflit/file_names.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <unistd.h>
 
@@ -47,14 +48,21 @@ Result<SceneSource> load_scene(const RenderOptions& options) {
     if (!built_in) return tl::unexpected(built_in.error());
     if (*built_in) return SceneSource{name, std::make_unique<Scene>(std::move(**built_in)), std::nullopt, {}};
     auto loaded = load_model(options);
+    if (!loaded && loaded.error().code == ErrorCode::io && name != "-")
+        return fail(ErrorCode::io, loaded.error().message + did_you_mean_file(name, {"demo", "sphere:N", "lights:N"}));
     if (!loaded) return tl::unexpected(loaded.error());
     return SceneSource{name == "-" ? kStandardInput : name, std::make_unique<Scene>(std::move(loaded->scene)), std::move(loaded->info),
                        std::move(loaded->warnings)};
 }
 
+bool is_scene(const std::string& name) { return name == "-" || is_built_in_name(name) || is_model_name(name) || is_file(name); }
+
 Result<EnvironmentImage> find_environment(const std::string& name) {
     if (name == "sky") return built_in_sky();
-    return read_environment(name);
+    auto environment = read_environment(name);
+    if (!environment && environment.error().code == ErrorCode::io)
+        return fail(ErrorCode::io, environment.error().message + did_you_mean_file(name, {"sky"}));
+    return environment;
 }
 
 }  // namespace halflit::cli

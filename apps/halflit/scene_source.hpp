@@ -24,6 +24,9 @@ struct SceneSource {
 /// An empty name is the demo scene. Built-in names come before files: a file called "demo" is given as "./demo".
 [[nodiscard]] Result<SceneSource> load_scene(const RenderOptions& options);
 
+/// True for what load_scene can be asked for: a built-in scene, standard input ("-"), a model's name or a file that is there.
+[[nodiscard]] bool is_scene(const std::string& name);
+
 /// "sky" is the built-in environment; anything else is a file.
 [[nodiscard]] Result<EnvironmentImage> find_environment(const std::string& name);
 

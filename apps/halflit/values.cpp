@@ -4,7 +4,7 @@
 #include "shading/model/constants.hpp"
 #include "shading/model/srgb.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <charconv>
 #include <cmath>
@@ -124,6 +124,14 @@ Result<float> parse_float(std::string_view text, float min, float max) {
     return expected(fmt::format("a number from {} to {}", min, max), text);
 }
 
+Result<double> parse_share(std::string_view text) {
+    const bool percent = text.ends_with('%');
+    const double whole = percent ? 100.0 : 1.0;
+    const auto value = number<double>(text.substr(0, text.size() - (percent ? 1 : 0)));
+    if (!value || !(*value >= 0.0 && *value <= whole)) return expected("a share such as 0.5% or 0.005, from 0 to 1", text);
+    return *value / whole;
+}
+
 Result<std::vector<float>> parse_floats(std::string_view text, std::size_t count) {
     std::vector<float> values;
     for (const std::string_view part : split(text, ",")) {
@@ -136,10 +144,11 @@ Result<std::vector<float>> parse_floats(std::string_view text, std::size_t count
 }
 
 Result<PictureSize> parse_size(std::string_view text) {
-    const auto parts = split(text, "x");
+    const auto parts = split(text, "x,");
     const auto side = [](std::string_view part) { return parse_int(part, 1, std::numeric_limits<int>::max()); };
     const auto width = side(parts.front()), height = side(parts.back());
-    if (parts.size() != 2 || !width || !height) return expected("WIDTHxHEIGHT in pixels, both from 1, as in 1280x720", text);
+    if (parts.size() > 2 || !width || !height)
+        return expected("WIDTHxHEIGHT or the side of a square, in pixels from 1, as in 1280x720 or 256", text);
     return PictureSize{static_cast<int>(*width), static_cast<int>(*height)};
 }
 

@@ -17,13 +17,16 @@ namespace halflit::cli {
 /// A finite number in [min, max].
 [[nodiscard]] Result<float> parse_float(std::string_view text, float min, float max);
 
+/// "0.5%" or "0.005": a share from 0 to 1.
+[[nodiscard]] Result<double> parse_share(std::string_view text);
+
 /// "X,Y,Z": `count` finite numbers.
 [[nodiscard]] Result<std::vector<float>> parse_floats(std::string_view text, std::size_t count);
 
 struct PictureSize {
     int width = 0, height = 0;
 };
-/// "1280x720". Sides from 1 to 2^31 - 1; make_render_job checks the number of pixels.
+/// "1280x720" or "1280,720", or "256" for a square. Sides from 1 to 2^31 - 1; make_render_job checks the number of pixels.
 [[nodiscard]] Result<PictureSize> parse_size(std::string_view text);
 
 /// "X,Y,W,H" with X and Y from 0, W and H from 1.

@@ -70,7 +70,7 @@ Vec3d sky_pixel(int x, int y, const Sun& sun) {
 Result<EnvironmentImage> read_environment(const std::string& path, const EnvironmentLimits& limits) {
     const auto file = read_file(path, limits.max_file_bytes);
     if (!file) return tl::unexpected(file.error());
-    auto image = decode_rgbe(*file, {limits.max_width, limits.max_height});
+    auto image = decode_rgbe(*file, {.max_width = limits.max_width, .max_height = limits.max_height});
     if (!image) return fail(image.error().code, printable(path) + ": " + image.error().message);
     return EnvironmentImage{image->width, image->height, std::move(image->rgb), false};
 }

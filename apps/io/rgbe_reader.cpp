@@ -258,6 +258,9 @@ Result<RgbeImage> decode_rgbe(std::span<const std::byte> file, const RgbeLimits&
     if (header->width > limits.max_width || header->height > limits.max_height)
         return fail(ErrorCode::limit, fmt::format("has {}x{} pixels, the limit is {}x{}", header->width, header->height, limits.max_width,
                                                   limits.max_height));
+    if (static_cast<std::size_t>(header->width) * static_cast<std::size_t>(header->height) > limits.max_pixels)
+        return fail(ErrorCode::limit,
+                    fmt::format("has {}x{} pixels, the limit is {} in all", header->width, header->height, limits.max_pixels));
     const auto scales = make_scales(*header);
     const int lines = header->columns ? header->width : header->height;
     std::vector<Rgbe> line(static_cast<std::size_t>(header->columns ? header->height : header->width));

@@ -12,6 +12,7 @@ namespace halflit::io {
 
 struct RgbeLimits {
     int max_width = 16384, max_height = 8192;  ///< limits of the picture as it is shown
+    std::size_t max_pixels = ~std::size_t{0};
 };
 
 struct RgbeImage {

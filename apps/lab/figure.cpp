@@ -1,15 +1,18 @@
 #include "apps/lab/figure.hpp"
 
+#include "apps/lab/figure_sources.hpp"
+#include "apps/lab/rich_text.hpp"
 #include "halflit/image.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 
 namespace halflit::cli {
 namespace {
 
-constexpr double kMargin = 24, kGap = 8, kRowLabel = 96, kColumnLabel = 22, kSectionTitle = 26, kPartGap = 18, kMinWidth = 720;
+constexpr double kMargin = 24, kGap = 8, kRowLabel = 96, kColumnLabel = 22, kSectionTitle = 26, kPartGap = 18, kCaptionGap = 6,
+                 kMinWidth = 720;
 constexpr int kSheetGap = 8;  ///< pixels between the pictures of a PNG sheet
 
 double label_width(const PictureGrid& grid) {
@@ -80,6 +83,15 @@ Result<double> add_part(SvgPage& page, double top, double page_width, const Plot
     return height;
 }
 
+/// The plots as the page shows them. A plot that is the figure's only part needs no title beside the figure's.
+PlotRow shown_plots(const Figure& figure, const PlotRow& plots) {
+    PlotRow shown = plots;
+    if (figure.parts.size() == 1 && shown.size() == 1) shown[0].title.clear();
+    return shown;
+}
+
+std::string source_line(const FigureSource& source) { return fmt::format("{} {}", source.key, source.text); }
+
 /// A page with all parts of the figure, or with the plots alone.
 Result<std::string> page_of(const FigureEntry& entry, const Figure& figure, bool plots_alone) {
     double width = kMinWidth;
@@ -91,11 +103,16 @@ Result<std::string> page_of(const FigureEntry& entry, const Figure& figure, bool
     double y = 74;
     for (const auto& part : figure.parts) {
         if (plots_alone && std::holds_alternative<PictureGrid>(part)) continue;
-        const auto height = std::visit([&](const auto& p) { return add_part(page, y, width, p); }, part);
+        const auto* plots = std::get_if<PlotRow>(&part);
+        const auto height = plots != nullptr ? add_part(page, y, width, shown_plots(figure, *plots))
+                                             : add_part(page, y, width, std::get<PictureGrid>(part));
         if (!height) return tl::unexpected(height.error());
         y += *height + kPartGap;
     }
     y += page.paragraph(kMargin, y, width - 2 * kMargin, figure.caption, {.size = 12.5});
+    y += kCaptionGap;
+    for (const FigureSource& source : sources_in(entry.source))
+        y += page.paragraph(kMargin, y, width - 2 * kMargin, source_line(source), {.size = 11, .color = "#666"});
     return page.finish(width, y + kMargin, entry.title);
 }
 
@@ -148,7 +165,7 @@ section { margin-bottom: 3rem }
 </head>
 <body>
 <h1>Figures</h1>
-<p>Drawn and computed by halflit. The keys name the literature listed in sh/README.md.</p>
+<p>Drawn and computed by halflit. The sources are listed at the end.</p>
 )";
 
 }  // namespace
@@ -178,20 +195,34 @@ Result<std::vector<FigureFile>> figure_files(const FigureEntry& entry, const Fig
 }
 
 std::string figure_index(std::span<const MadeFigure> figures) {
-    std::string html = kIndexHead;
+    std::string html = kIndexHead, all_sources;
+    html += "<ul>\n";
     for (const MadeFigure& figure : figures) {
-        const std::string caption = xml_escaped(figure.caption);
-        html += fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", figure.entry->name, xml_escaped(figure.entry->title));
-        bool on_page = false;  // an SVG page shows source and caption itself
-        for (const std::string& file : figure.files) {
-            on_page = on_page || file.ends_with(".svg");
-            html += file.ends_with(".csv") ? fmt::format("<p><a href=\"{0}\">{0}</a>: the numbers</p>\n", file)
-                                           : fmt::format("<img src=\"{}\" alt=\"{}\">\n", file, caption);
+        html += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", figure.entry->name, rich_html(figure.entry->title));
+        all_sources += figure.entry->source;
+    }
+    html += "</ul>\n";
+    for (const MadeFigure& figure : figures) {
+        html += fmt::format("<section id=\"{}\">\n", figure.entry->name);
+        // An SVG page shows title, source, caption and sources itself.
+        const bool on_page = std::any_of(figure.files.begin(), figure.files.end(), [](const auto& file) { return file.ends_with(".svg"); });
+        if (!on_page)
+            html +=
+                fmt::format("<h2>{}</h2>\n<p class=\"source\">{}</p>\n", rich_html(figure.entry->title), xml_escaped(figure.entry->source));
+        for (const std::string& file : figure.files)
+            html += file.ends_with(".csv")
+                        ? fmt::format("<p><a href=\"{0}\">{0}</a>: the numbers</p>\n", file)
+                        : fmt::format("<img src=\"{}\" alt=\"{}\">\n", file, xml_escaped(rich_plain(figure.entry->title)));
+        if (!on_page) {
+            html += fmt::format("<p>{}</p>\n", rich_html(figure.caption));
+            for (const FigureSource& source : sources_in(figure.entry->source))
+                html += fmt::format("<p class=\"source\">{}</p>\n", xml_escaped(source_line(source)));
         }
-        if (!on_page) html += fmt::format("<p>{}</p>\n<p class=\"source\">{}</p>\n", caption, xml_escaped(figure.entry->source));
         html += "</section>\n";
     }
-    return html + "</body>\n</html>\n";
+    html += "<h2>Sources</h2>\n<ul>\n";
+    for (const FigureSource& source : sources_in(all_sources)) html += fmt::format("<li>{}</li>\n", xml_escaped(source_line(source)));
+    return html + "</ul>\n</body>\n</html>\n";
 }
 
 }  // namespace halflit::cli

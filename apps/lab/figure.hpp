@@ -25,7 +25,7 @@ struct PictureGrid {
 using PlotRow = std::vector<Plot>;
 
 struct Figure {
-    std::string caption;  ///< says what was computed: model, parameters, light
+    std::string caption;  ///< says what was computed: model, parameters, light; may have the marks of rich_text.hpp
     std::vector<std::variant<PictureGrid, PlotRow>> parts;
 };
 
@@ -33,7 +33,7 @@ struct Figure {
 struct FigureEntry {
     const char* name;  ///< name on the command line and of the files
     const char* title;
-    const char* source;  ///< the figure that it remakes; keys resolve in sh/README.md
+    const char* source;  ///< the figure that it remakes; the page lists what the keys name
     Result<Figure> (*make)();
 };
 

@@ -3,7 +3,7 @@
 #include "apps/lab/figure_studio.hpp"
 #include "sh/lobe_error.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace halflit::cli {
 namespace {
@@ -40,8 +40,8 @@ Result<Figure> make_wrap_form_figure() {
     if (!pictures) return tl::unexpected(pictures.error());
     return Figure{
         .caption =
-            "One directional light of strength 1 from the right, a little above and behind (direction 1, 0.35, -0.3), on a bust whose "
-            "diffuse lobe is Sloan's, (max(0, cos t + a)/(1 + a))^(1 + a), with t the angle between normal and light. No ambient light, no "
+            "One directional light of strength 1 from the right, a little above and behind (direction 1, 0.35, −0.3), on a bust whose "
+            "diffuse lobe is Sloan's, (max(0, cos θ + a)/(1 + a))^{1+a}, with θ the angle between normal and light. No ambient light, no "
             "shadows. The terminator is the line where the surface turns away from the light. The further the lobe reaches beyond it, the "
             "softer the form looks.",
         .parts = {std::move(*pictures)}};
@@ -58,9 +58,9 @@ Result<Figure> make_backlight_figure() {
     if (!pictures) return tl::unexpected(pictures.error());
     return Figure{
         .caption =
-            "A white sphere with a directional light of strength 2 directly behind it. With t the angle between normal and light, "
-            "all visible points have cos t <= 0. Left: (1 + cos t)/2, which times the strength is 1 at the outline. Right: its "
-            "square, ((1 + cos t)/2)^2, which leaves a narrower and dimmer rim.",
+            "A white sphere with a directional light of strength 2 directly behind it. With θ the angle between normal and light, "
+            "all visible points have cos θ ≤ 0. Left: (1 + cos θ)/2, which times the strength is 1 at the outline. Right: its "
+            "square, ((1 + cos θ)/2)^{2}, which leaves a narrower and dimmer rim.",
         .parts = {std::move(*pictures)}};
 }
 
@@ -68,8 +68,8 @@ Result<Figure> make_green_sloan_figure() {
     Figure figure{
         .caption =
             "White matte surfaces under one directional light of strength 1 from the upper right (direction 1, 1, 0.6), no ambient "
-            "light; t is the angle between normal and light. Upper rows: Green's lobe max(0, cos t + w)/(1 + w). Lower rows: "
-            "Sloan's (max(0, cos t + a)/(1 + a))^(1 + a). Both are Lambert's at 0. At 1 Green's is much flatter, while Sloan's "
+            "light; θ is the angle between normal and light. Upper rows: Green's lobe max(0, cos θ + w)/(1 + w). Lower rows: "
+            "Sloan's (max(0, cos θ + a)/(1 + a))^{1+a}. Both are Lambert's at 0. At 1 Green's is much flatter, while Sloan's "
             "keeps the cosine's shape around its peak.",
         .parts = {}};
     for (const Subject subject : kSubjects) {
@@ -100,7 +100,7 @@ Result<Figure> make_normalized_figure() {
     });
     if (!pictures) return tl::unexpected(pictures.error());
     Plot plot{.title = "The three lobes, as they are (dashed) and normalised",
-              .x = {.label = "cos t", .min = -1, .max = 1},
+              .x = {.label = "cos θ", .min = -1, .max = 1},
               .y = {.label = "reflected", .min = 0, .max = 1.75},
               .series = {},
               .marks = {},
@@ -115,9 +115,9 @@ Result<Figure> make_normalized_figure() {
     }
     return Figure{
         .caption =
-            "The lobe (max(0, cos t + w)/(1 + w))^n as it is, and normalised: times (n + 1)/(2(1 + w)), which makes the mean over all "
+            "The lobe (max(0, cos θ + w)/(1 + w))^{n} as it is, and normalised: times (n + 1)/(2(1 + w)), which makes the mean over all "
             "light "
-            "directions Lambert's. Here t is the angle between normal and light. The factors are 3/4, 5/6 and 5/3, so the first two lobes "
+            "directions Lambert's. Here θ is the angle between normal and light. The factors are 3/4, 5/6 and 5/3, so the first two lobes "
             "get darker and the last one brighter. One directional light of strength 0.6 (direction 0.8, 0.6, 0.5), chosen so that nothing "
             "clips. From single directions more light may be reflected than arrives; only the mean is kept.",
         .parts = {std::move(*pictures), PlotRow{plot}}};
@@ -125,7 +125,7 @@ Result<Figure> make_normalized_figure() {
 
 Result<Figure> make_half_lambert_figure() {
     const Lobe lobes[] = {Lobe::lambert(), Lobe::half_lambert(), Lobe::valve()};
-    PictureGrid grid{.columns = {"max(0, x)", "(1 + x)/2", "((1 + x)/2)^2"}, .rows = {"", ""}, .width = 220};
+    PictureGrid grid{.columns = {"max(0, x)", "(1 + x)/2", "((1 + x)/2)^{2}"}, .rows = {"", ""}, .width = 220};
     auto pictures = take_grid(std::move(grid), [&](std::size_t row, std::size_t column) {
         Shot shot = lit(shot_of(kSubjects[row], lobes[column]), {1, 0.7f, 0.25f}, 1.0f);
         shot.width = shot.height = 440;
@@ -133,7 +133,7 @@ Result<Figure> make_half_lambert_figure() {
     });
     if (!pictures) return tl::unexpected(pictures.error());
     PlotRow plots;
-    const PlotAxis x{.label = "x = N.L", .min = -1, .max = 1}, y{.label = "reflected", .min = 0, .max = 1};
+    const PlotAxis x{.label = "x = N·L", .min = -1, .max = 1}, y{.label = "reflected", .min = 0, .max = 1};
     for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) {
         Plot plot{.title = i == 1 ? "Linear" : "Squared",
                   .x = x,
@@ -144,15 +144,15 @@ Result<Figure> make_half_lambert_figure() {
                   .width = 380,
                   .height = 290};
         plot.series = {over_cosine("max(0, x)", lobes[0], "#cc2222"),
-                       i == 1 ? over_cosine("(1 + x)/2", lobes[1], "#2255cc") : over_cosine("((1 + x)/2)^2", lobes[2], "#e08214")};
+                       i == 1 ? over_cosine("(1 + x)/2", lobes[1], "#2255cc") : over_cosine("((1 + x)/2)^{2}", lobes[2], "#e08214")};
         plots.push_back(std::move(plot));
     }
     return Figure{
         .caption =
-            "One directional light of strength 1 (direction 1, 0.7, 0.25), no ambient light, sRGB output and nothing else; x = N.L is the "
+            "One directional light of strength 1 (direction 1, 0.7, 0.25), no ambient light, sRGB output and nothing else; x = N·L is the "
             "cosine between normal and light. Lambert leaves half of the form black. Half-Lambert shows all of it, but too brightly. Its "
-            "square has Lambert's values and slopes at x = -1 and x = 1. Both are exactly Lambert under other lights: half-Lambert under a "
-            "hemisphere of constant light, its square under a hemisphere of 2 cos^2 of the angle to its axis.",
+            "square has Lambert's values and slopes at x = −1 and x = 1. Both are exactly Lambert under other lights: half-Lambert under a "
+            "hemisphere of constant light, its square under a hemisphere of 2 cos^{2} of the angle to its axis.",
         .parts = {std::move(*pictures), std::move(plots)}};
 }
 

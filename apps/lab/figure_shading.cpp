@@ -4,7 +4,7 @@
 #include "halflit/camera.hpp"
 #include "halflit/shapes.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace halflit::cli {
 namespace {
@@ -77,9 +77,9 @@ Result<Figure> make_light_sources_figure() {
     return Figure{
         .caption =
             "Four balls on a floor, Lambert's lobe, a little ambient light, and shadow maps. Directional: the same light everywhere, from "
-            "(-1, 1.4, 0.8), strength 0.9; shadows are parallel. Point: at (0, 1.5, 0) between the balls, strength 2 at distance 1, "
+            "(−1, 1.4, 0.8), strength 0.9; shadows are parallel. Point: at (0, 1.5, 0) between the balls, strength 2 at distance 1, "
             "falling "
-            "with the square of the distance; shadows point away from the light. Spot: from (-1.4, 2.8, 1.2) towards (0, 0, -0.1), "
+            "with the square of the distance; shadows point away from the light. Spot: from (−1.4, 2.8, 1.2) towards (0, 0, −0.1), "
             "strength "
             "9 on its axis at distance 1. Away from the axis it is multiplied by the sixth power of the cosine of the angle, and it ends "
             "at "

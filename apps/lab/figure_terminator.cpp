@@ -3,7 +3,9 @@
 #include "apps/lab/figure_studio.hpp"
 #include "halflit/shapes.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
+
+#include <cmath>
 
 namespace halflit::cli {
 namespace {
@@ -67,6 +69,9 @@ Result<PlotRow> profiles(Body body) {
     return plots;
 }
 
+/// Two decimals, with a typographic minus.
+std::string typographic(double value) { return fmt::format("{}{:.2f}", value < 0 ? "−" : "", std::abs(value)); }
+
 /// The largest x where `cut` has less than half of the light of `whole`; -1 if there is none.
 double cut_at(const PlotSeries& whole, const PlotSeries& cut) {
     double x = -1;
@@ -83,7 +88,7 @@ Result<Figure> make_terminator_figure() {
         const char *name, *short_name;
     };
     constexpr Section kSections[] = {{Body::smooth, "Sphere", "sphere"},
-                                     {Body::coarse, "Coarse sphere, 32 by 16", "coarse sphere"},
+                                     {Body::coarse, "Coarse sphere, 32 × 16", "coarse sphere"},
                                      {Body::shadowed, "Sphere with the shadow of a ball", "ball's shadow"}};
     Figure figure;
     std::vector<double> cuts;
@@ -106,13 +111,13 @@ Result<Figure> make_terminator_figure() {
         "White bodies of radius 1 with Sloan's lobe f, one directional light of strength 1 from the right, a shadow map of 2048 texels. "
         "Rows: shadows off (f); hard (f times visibility); soft-split (Lambert's part times visibility, while the wrapped rest fades with "
         "the distance to the blocker, here over 9a/4). The plots show linear light along a row of pixels a tenth of the radius above the "
-        "middle. On the sphere x is N.L, the cosine between normal and light, and the first plot is f. The terminator, where a body turns "
-        "away from the light, is at x = 0. There hard visibility cuts f off, a step of f(0) = (a/(1 + a))^(1 + a): 0, 0.134, 0.192, 0.227 "
-        "and 0.250 for the five wraps. Because the map is looked up 3 texels off the surface, the step is seen at x = {:.2f} on the sphere "
-        "and at {:.2f} on the coarse one, whose edges show. Soft-split is f on the lit side and continuous at the terminator. In the "
+        "middle. On the sphere x is N·L, the cosine between normal and light, and the first plot is f. The terminator, where a body turns "
+        "away from the light, is at x = 0. There hard visibility cuts f off, a step of f(0) = (a/(1 + a))^{{1+a}}: 0, 0.134, 0.192, 0.227 "
+        "and 0.250 for the five wraps. Because the map is looked up 3 texels off the surface, the step is seen at x = {} on the sphere "
+        "and at {} on the coarse one, whose edges show. Soft-split is f on the lit side and continuous at the terminator. In the "
         "shadow "
         "of the ball, which has radius 0.2 and is 5 away towards the light, it is dark on both sides.",
-        cuts[0], cuts[1]);
+        typographic(cuts[0]), typographic(cuts[1]));
     return figure;
 }
 

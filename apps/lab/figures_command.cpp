@@ -1,15 +1,16 @@
 // halflit figures: remakes figures of the literature.
-#include "apps/halflit/cli_support.hpp"
 #include "apps/halflit/commands.hpp"
+#include "apps/halflit/file_names.hpp"
 #include "apps/halflit/messages.hpp"
+#include "apps/halflit/spelling.hpp"
+#include "apps/halflit/text_file.hpp"
 #include "apps/io/atomic_file.hpp"
 #include "apps/lab/figure.hpp"
 #include "apps/lab/output_folder.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 
 namespace halflit::cli {
@@ -29,12 +30,13 @@ Result<void> write_list() {
 }
 
 Result<const FigureEntry*> entry_named(const std::string& name) {
-    std::string known;
+    std::vector<std::string> known;
     for (const FigureEntry& entry : all_figures()) {
         if (name == entry.name) return &entry;
-        known += (known.empty() ? "" : ", ") + std::string(entry.name);
+        known.emplace_back(entry.name);
     }
-    return fail(ErrorCode::usage, fmt::format("NAME: expected one of {}; found '{}'", known, printable(name)));
+    return fail(ErrorCode::usage,
+                fmt::format("NAME: expected one of {}; found '{}'{}", joined(known, ", "), printable(name), did_you_mean(name, known)));
 }
 
 /// Every name is checked before anything is made; a name that is given twice counts once.
@@ -57,7 +59,7 @@ Result<MadeFigure> make_and_write(const FigureEntry& entry, const FiguresOptions
     if (!files) return tl::unexpected(files.error());
     MadeFigure made{&entry, figure->caption, {}};
     for (const FigureFile& file : *files) {
-        const std::string path = (std::filesystem::path(options.folder) / file.name).string();
+        const std::string path = path_in(options.folder, file.name);
         if (const auto written = io::write_file(path, file.bytes); !written) return tl::unexpected(written.error());
         print_note("wrote " + path);
         made.files.push_back(file.name);
@@ -80,7 +82,7 @@ Result<int> run_figures(const FiguresOptions& options) {
         made.push_back(std::move(*figure));
     }
     if (options.names.empty()) {
-        const std::string path = (std::filesystem::path(options.folder) / "index.html").string();
+        const std::string path = path_in(options.folder, "index.html");
         if (const auto written = write_text(path, figure_index(made)); !written) return tl::unexpected(written.error());
         print_note("wrote " + path);
     }
@@ -89,21 +91,34 @@ Result<int> run_figures(const FiguresOptions& options) {
 
 }  // namespace
 
-Command add_figures_command(CLI::App& root) {
-    CLI::App* app = root.add_subcommand("figures", "Remake the figures of the literature, with captions that say what was computed");
+Command figures_command() {
     const auto options = std::make_shared<FiguresOptions>();
-    app->add_option("NAME", options->names, "Figures to make (see --list); without a name, all of them and an index.html")->type_name("");
-    add_value(*app, "-o,--output", "DIR", "Folder for the files; created if missing (default figures)",
-              [options](const std::string& text) { return assign(options->folder, parse_folder(text)); });
-    add_value(*app, "--format", "svg|png",
-              "svg: a page of pictures and plots with labels and caption (default); png: one sheet of pictures without text, plots as SVG",
-              [options](const std::string& text) -> Result<void> {
-                  if (text != "svg" && text != "png") return fail(ErrorCode::usage, "expected svg or png, found '" + printable(text) + "'");
-                  options->format = text == "svg" ? FigureFormat::svg : FigureFormat::png;
-                  return {};
-              });
-    app->add_flag("--list", options->list, "List all figures and their sources");
-    return {app, [options] { return run_figures(*options); }};
+    FiguresOptions& o = *options;
+    const auto read_name = [&o](const std::string& text) -> Result<void> {
+        o.names.push_back(text);
+        return {};
+    };
+    const auto read_format = [&o](const std::string& text) -> Result<void> {
+        if (text != "svg" && text != "png") return fail(ErrorCode::usage, "expected svg or png, found '" + printable(text) + "'");
+        o.format = text == "svg" ? FigureFormat::svg : FigureFormat::png;
+        return {};
+    };
+    return {"figures",
+            "Remake the figures of the literature, with captions that say what was computed",
+            {{.name = "NAME",
+              .help = "Figures to make (see --list); without a name, all of them and an index.html",
+              .read = read_name,
+              .repeated = true}},
+            {{"Flags",
+              {{"-o,--output", "DIR", "Folder for the files; created if missing (default figures)",
+                [&o](const std::string& text) { return assign(o.folder, parse_folder(text)); }},
+               {"--format", "svg|png",
+                "svg: a page of pictures and plots with labels and caption (default); png: one sheet of pictures without text, plots as "
+                "SVG",
+                read_format},
+               {"--list", "", "List all figures and their sources", set_to(o.list)}}},
+             {"Messages", message_flags()}},
+            [options] { return run_figures(*options); }};
 }
 
 }  // namespace halflit::cli

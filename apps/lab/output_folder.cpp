@@ -1,9 +1,8 @@
 #include "apps/lab/output_folder.hpp"
 
 #include "apps/halflit/messages.hpp"
-#include "apps/io/atomic_file.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <filesystem>
 
@@ -20,10 +19,6 @@ Result<void> make_folder(const std::string& path) {
     if (!error && !std::filesystem::is_directory(path, error)) error = std::make_error_code(std::errc::not_a_directory);
     if (error) return fail(ErrorCode::io, fmt::format("{}: {}", printable(path), error.message()));
     return {};
-}
-
-Result<void> write_text(const std::string& path, const std::string& text) {
-    return io::write_file(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
 }  // namespace halflit::cli

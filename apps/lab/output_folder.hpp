@@ -13,7 +13,4 @@ namespace halflit::cli {
 /// Creates the folder and its parents where they are missing.
 Result<void> make_folder(const std::string& path);
 
-/// Writes to a file, which is replaced in one step, or to standard output ("-").
-Result<void> write_text(const std::string& path, const std::string& text);
-
 }  // namespace halflit::cli

@@ -1,6 +1,8 @@
 #include "apps/lab/svg_page.hpp"
 
-#include <fmt/format.h>
+#include "apps/lab/rich_text.hpp"
+
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +50,9 @@ std::string xml_escaped(std::string_view text) {
 }
 
 double text_width(std::string_view text, double size) {
-    const auto characters = std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+    const std::string shown = rich_plain(text);
+    const auto characters =
+        std::count_if(shown.begin(), shown.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
     return 0.53 * size * static_cast<double>(characters);
 }
 
@@ -60,7 +64,7 @@ std::string text_element(double x, double y, std::string_view svg_content, const
 }
 
 void SvgPage::text(double x, double y, std::string_view line, const TextStyle& style) {
-    body_ += text_element(x, y, xml_escaped(line), style);
+    body_ += text_element(x, y, rich_svg(line, style.size), style);
 }
 
 double SvgPage::paragraph(double x, double y, double width, std::string_view text, const TextStyle& style) {
@@ -68,7 +72,7 @@ double SvgPage::paragraph(double x, double y, double width, std::string_view tex
     double baseline = y + style.size;
     std::string line;
     const auto end_line = [&] {
-        body_ += text_element(x, baseline, xml_escaped(line), style);
+        body_ += text_element(x, baseline, rich_svg(line, style.size), style);
         baseline += leading;
         line.clear();
     };
@@ -93,7 +97,7 @@ std::string SvgPage::finish(double width, double height, std::string_view title)
         "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"{0:g}\" height=\"{1:g}\" "
         "viewBox=\"0 0 {0:g} {1:g}\" font-family=\"{2}\">\n<title>{3}</title>\n<rect width=\"100%\" height=\"100%\" "
         "fill=\"white\"/>\n{4}</svg>\n",
-        std::ceil(width), std::ceil(height), kFont, xml_escaped(title), body_);
+        std::ceil(width), std::ceil(height), kFont, xml_escaped(rich_plain(title)), body_);
 }
 
 }  // namespace halflit::cli

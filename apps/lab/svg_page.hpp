@@ -33,8 +33,9 @@ struct TextStyle {
 /// A page under construction. Positions are in pixels from the top left.
 class SvgPage {
 public:
+    /// Text may have the marks of rich_text.hpp.
     void text(double x, double y, std::string_view line, const TextStyle& style = {});
-    /// Adds text broken into lines of at most `width`; returns its height. y is the upper edge.
+    /// Adds such text broken into lines of at most `width`; returns its height. y is the upper edge.
     double paragraph(double x, double y, double width, std::string_view text, const TextStyle& style = {});
     /// Adds a picture, the bytes of a PNG file, scaled to the box.
     void png(double x, double y, double width, double height, std::span<const std::uint8_t> bytes);

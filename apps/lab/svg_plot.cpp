@@ -1,8 +1,9 @@
 #include "apps/lab/svg_plot.hpp"
 
 #include "apps/lab/plot_scale.hpp"
+#include "apps/lab/rich_text.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
@@ -54,7 +55,7 @@ public:
 
     std::string write() {
         if (!plot_.title.empty())
-            out_ += text_element((left_ + right_) / 2, 18, xml_escaped(plot_.title), {.size = 13, .anchor = "middle", .bold = true});
+            out_ += text_element((left_ + right_) / 2, 18, rich_svg(plot_.title, 13), {.size = 13, .anchor = "middle", .bold = true});
         add_axes();
         // A nested svg element clips at the axes without needing an id.
         out_ += fmt::format("<svg x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" overflow=\"hidden\">\n", left_, top_,
@@ -89,15 +90,15 @@ private:
             }
             out_ += line_element(left_, y, left_ + (tick.label.empty() ? 3 : 5), y, kAxisColor);
         }
-        out_ += text_element((left_ + right_) / 2, plot_.height - 8, xml_escaped(plot_.x.label), {.anchor = "middle"});
+        out_ += text_element((left_ + right_) / 2, plot_.height - 8, rich_svg(plot_.x.label, 12), {.anchor = "middle"});
         if (!plot_.y.label.empty())
-            out_ += text_element(14, (top_ + bottom_) / 2, xml_escaped(plot_.y.label), {.anchor = "middle", .turn_deg = -90});
+            out_ += text_element(14, (top_ + bottom_) / 2, rich_svg(plot_.y.label, 12), {.anchor = "middle", .turn_deg = -90});
     }
 
     void add_mark(const PlotMark& mark) {
         const double x = x_.place(mark.x) * width();
         out_ += line_element(x, 0, x, height(), "#777", " stroke-dasharray=\"3 3\"");
-        out_ += text_element(x + 4, 13, xml_escaped(mark.label), {.size = 10, .color = "#555"});
+        out_ += text_element(x + 4, 13, rich_svg(mark.label, 10), {.size = 10, .color = "#555"});
     }
 
     /// Position of a point in pixels. Far values are clamped, so that coordinates stay small.
@@ -160,7 +161,7 @@ private:
                 out_ += fmt::format("<path d=\"M{:.2f} {:.2f} h{:g}\" {}/>\n", start, line, kSample, stroke(series, color));
             if (has_dots(series))
                 out_ += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3.2\" fill=\"{}\"/>\n", start + kSample / 2, line, color);
-            out_ += text_element(start + kSample + kPad, line + 4, xml_escaped(series.name), {.size = 11});
+            out_ += text_element(start + kSample + kPad, line + 4, rich_svg(series.name, 11), {.size = 11});
             line += kLine;
         }
     }
@@ -196,7 +197,8 @@ std::string plots_csv(std::span<const Plot> plots) {
     for (const Plot& plot : plots)
         for (const PlotSeries& series : plot.series)
             for (const Vec2<double>& point : series.points)
-                text += fmt::format("{},{},{:.10g},{:.10g}\n", csv_field(plot.title), csv_field(series.name), point.x, point.y);
+                text += fmt::format("{},{},{:.10g},{:.10g}\n", csv_field(rich_plain(plot.title)), csv_field(rich_plain(series.name)),
+                                    point.x, point.y);
     return text;
 }
 

@@ -1,4 +1,5 @@
-// Plots as SVG: axes, curves, scattered points, legends. Dark on white; alone, on a page with others, or inline in HTML.
+// Plots as SVG: axes, curves, scattered points, legends. Dark on white; alone, on a page with others, or inline in HTML. Titles, names of
+// series and labels of axes and marks may have superscripts and subscripts (rich_text.hpp).
 #pragma once
 
 #include "apps/lab/svg_page.hpp"

@@ -5,7 +5,7 @@
 #include "raster/frame_plan.hpp"
 #include "raster/scene/prepared_data.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -1,13 +1,13 @@
 // halflit trade: measures time and error of one scene with many settings, and shows the errors.
-#include "apps/halflit/cli_support.hpp"
 #include "apps/halflit/commands.hpp"
+#include "apps/halflit/file_names.hpp"
 #include "apps/halflit/messages.hpp"
 #include "apps/halflit/progress_line.hpp"
+#include "apps/halflit/text_file.hpp"
 #include "apps/lab/output_folder.hpp"
 #include "apps/lab/trade_report.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 
 namespace halflit::cli {
@@ -35,9 +35,9 @@ Result<void> write_all(const std::vector<TradeRow>& rows, TradeBench& bench, con
     const auto page = trade_page(rows, bench);
     if (!page) return tl::unexpected(page.error());
     const std::pair<const char*, std::string> files[] = {
-        {"trade.csv", trade_csv(rows, bench.space())}, {"trade.json", to_text(trade_json(rows, bench))}, {"index.html", *page}};
+        {"trade.csv", trade_csv(rows, bench.space())}, {"trade.json", trade_json(rows, bench)}, {"index.html", *page}};
     for (const auto& [name, text] : files) {
-        const std::string path = (std::filesystem::path(folder) / name).string();
+        const std::string path = path_in(folder, name);
         if (const auto written = write_text(path, text); !written) return tl::unexpected(written.error());
         print_note("wrote " + path);
     }
@@ -45,6 +45,7 @@ Result<void> write_all(const std::vector<TradeRow>& rows, TradeBench& bench, con
 }
 
 Result<int> run_trade(TradeOptions options) {
+    if (options.quick && options.all) return fail(ErrorCode::usage, "--all: cannot be combined with --quick");
     options.settings.shading.accuracy = Accuracy::reference;  // keeps the environment's image
     auto job = make_render_job(options, kUsualSize);
     if (!job) return tl::unexpected(job.error());
@@ -65,43 +66,36 @@ Result<int> run_trade(TradeOptions options) {
     return std::all_of(rows->begin(), rows->end(), [](const TradeRow& row) { return row.kept(); }) ? 0 : 1;
 }
 
+Result<void> read_lobes(std::vector<TradeLobe>& lobes, const std::string& text) {
+    for (const std::string& name : words_of(text + ",", ',')) {
+        const auto lobe = parse_trade_lobe(name);
+        if (!lobe) return tl::unexpected(lobe.error());
+        lobes.push_back(*lobe);
+    }
+    return {};
+}
+
 }  // namespace
 
-Command add_trade_command(CLI::App& root) {
-    CLI::App* app = root.add_subcommand("trade", "Measure time and error of a scene drawn with many settings");
+Command trade_command() {
     const auto options = std::make_shared<TradeOptions>();
-    add_render_options(*app, *options, true, kUsualSize);
-    // Flags of the settings that trade varies itself.
-    for (const char* varied : {"--accuracy", "--max-error", "--texture-filter", "--shading", "--sh-order"})
-        app->remove_option(app->get_option(varied));
-    constexpr const char* kGroup = "Comparison";
-    add_value(*app, "-o,--output", "DIR", "Folder for index.html, trade.csv and trade.json; created if missing (default trade)",
-              [options](const std::string& text) { return assign(options->folder, parse_folder(text)); })
-        ->group(kGroup);
-    add_value(*app, "--frames", "N", "Frames for each setting, drawn in turn with frames of exact (default 5)",
-              [options](const std::string& text) -> Result<void> {
-                  const auto frames = parse_int(text, 1, 1000);
-                  if (!frames) return tl::unexpected(frames.error());
-                  options->frames = static_cast<int>(*frames);
-                  return {};
-              })
-        ->group(kGroup);
-    add_value(*app, "--lobes", "NAME,...", "Also measure these lobes, on every material: NAME, NAME:WRAP or NAME:WRAP:POWER",
-              [options](const std::string& text) -> Result<void> {
-                  for (std::size_t start = 0; start <= text.size();) {
-                      const std::size_t end = std::min(text.find(',', start), text.size());
-                      const auto lobe = parse_trade_lobe(text.substr(start, end - start));
-                      if (!lobe) return tl::unexpected(lobe.error());
-                      options->lobes.push_back(*lobe);
-                      start = end + 1;
-                  }
-                  return {};
-              })
-        ->group(kGroup);
-    CLI::Option* quick = app->add_flag("--quick", options->quick, "Vary one setting at a time")->group(kGroup);
-    app->add_flag("--all", options->all, "Measure all combinations, those of shadows too")->group(kGroup)->excludes(quick);
-    app->add_flag("--progress", options->progress, "Show progress even if standard error is not a terminal")->group(kGroup);
-    return {app, [options] { return run_trade(*options); }};
+    TradeOptions& o = *options;
+    auto groups = render_flags(o, kUsualSize);
+    constexpr std::string_view kVaried[] = {"--accuracy", "--max-error", "--texture-filter", "--shading", "--sh-order"};
+    remove_flags(groups, kVaried);
+    groups.push_back(
+        {"Comparison",
+         {{"-o,--output", "DIR", "Folder for index.html, trade.csv and trade.json; created if missing (default trade)",
+           [&o](const std::string& text) { return assign(o.folder, parse_folder(text)); }},
+          {"--frames", "N", "Frames for each setting, drawn in turn with frames of exact (default 5)", read_int(o.frames, 1, 1000)},
+          {"--lobes", "NAME,...", "Also measure these lobes, on every material: NAME, NAME:WRAP or NAME:WRAP:POWER",
+           [&o](const std::string& text) { return read_lobes(o.lobes, text); }},
+          {"--quick", "", "Vary one setting at a time", set_to(o.quick)},
+          {"--all", "", "Measure all combinations, those of shadows too", set_to(o.all)},
+          {"--progress", "", "Show progress even if standard error is not a terminal", set_to(o.progress)}}});
+    return {"trade", "Measure time and error of a scene drawn with many settings", {scene_argument(o, true)}, std::move(groups), [options] {
+                return run_trade(*options);
+            }};
 }
 
 }  // namespace halflit::cli

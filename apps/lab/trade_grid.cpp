@@ -5,7 +5,7 @@
 #include "apps/io/lobe_name.hpp"
 #include "sh/basis.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

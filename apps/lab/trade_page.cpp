@@ -3,7 +3,7 @@
 #include "apps/lab/trade_report.hpp"
 #include "halflit/image.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,14 +23,20 @@ constexpr const char* kHead = R"(<!DOCTYPE html>
 <meta name="viewport" content="width=device-width">
 <title>halflit: time and error of {0}</title>
 <style>
-body {{ max-width: 62rem; margin: 2rem auto; padding: 0 1rem; font: 16px/1.5 system-ui, sans-serif; color: #222; background: #fff }}
+body {{ max-width: 66rem; margin: 2rem auto; padding: 0 1rem; font: 16px/1.5 system-ui, sans-serif; color: #222; background: #fff }}
 svg {{ max-width: 100%; height: auto }}
 table {{ border-collapse: collapse; font-size: 13px; margin: 1rem 0 }}
-th, td {{ padding: .15rem .5rem; text-align: right; border-bottom: 1px solid #e4e4e4; white-space: nowrap }}
-th:nth-child(-n+2), td:nth-child(-n+2) {{ text-align: left }}
-tr.front {{ background: #eef5fb; font-weight: 600 }}
+th, td {{ padding: .2rem .4rem; text-align: right; vertical-align: top; border-bottom: 1px solid #e4e4e4 }}
+th {{ vertical-align: bottom; line-height: 1.25 }}
+td {{ white-space: nowrap }}
+table.all th:nth-child(-n+2), table.all td:nth-child(-n+2), table.offers :is(th, td):last-child {{ text-align: left; white-space: normal }}
+table.all td:nth-child(2) {{ min-width: 14rem }}
+table.all td:last-child {{ white-space: normal; min-width: 5rem }}
+tr.front {{ background: #eef5fb }}
+tr.front td:nth-child(2) {{ font-weight: 600 }}
 tr.broken td {{ color: #b00020 }}
-.scroll {{ overflow-x: auto }}
+code {{ display: block; font: 12px/1.4 ui-monospace, monospace; color: #444; user-select: all; overflow-wrap: anywhere }}
+.offers code {{ font-size: 13px }}
 .pictures {{ display: grid; grid-template-columns: repeat(auto-fill, minmax(18rem, 1fr)); gap: 1rem }}
 figure {{ margin: 0 }}
 figcaption {{ font-size: 13px; color: #444 }}
@@ -95,28 +101,42 @@ Plot plot_of(const std::vector<TradeRow>& rows, std::optional<std::size_t> lobe,
     return plot;
 }
 
+/// The flags as text that one click selects.
+std::string flags_html(const TradeRow& row) { return row.flags.empty() ? "" : "<code>" + xml_escaped(row.flags) + "</code>"; }
+
+std::string bound_text(const TradeRow& row) {
+    if (!row.bound) return "";
+    const char* state = !row.kept() ? ", violated" : row.bound->within ? "" : ", above the budget";
+    return fmt::format("{:.3g}{}", row.bound->codes, state);
+}
+
 std::string table_row(const TradeRow& row) {
     return fmt::format(
-        "<tr class=\"{}{}\"><td>{}</td><td>{}</td><td>{:.2f}</td><td>{:.3f}</td><td>{:.2f} to "
+        "<tr class=\"{}{}\"><td>{}</td><td>{}{}</td><td>{:.2f}</td><td>{:.3f}</td><td>{:.2f} to "
         "{:.2f}</td><td>{:.2f}</td><td>{:.3g}</td><td>{:.3g}</td>"
-        "<td>{:.3g}</td><td>{}</td><td>{:.3g} %</td><td>{}</td><td>{}</td></tr>\n",
+        "<td>{:.3g}</td><td>{}</td><td>{:.3g} %</td><td>{}</td></tr>\n",
         row.front ? "front" : "", row.kept() ? "" : " broken", row.number > 0 ? fmt::format("{}", row.number) : "", xml_escaped(row.name),
-        row.ms, row.ratio, row.ratio_min, row.ratio_max, row.cpu_ratio, row.error.max, row.error.p999, row.error.mean,
-        row.error.psnr ? fmt::format("{:.1f}", *row.error.psnr) : "", 100 * row.error.share_off,
-        row.bound ? fmt::format("{:.3g}", row.bound->codes) : "",
-        !row.bound          ? ""
-        : !row.kept()       ? "violated"
-        : row.bound->within ? "holds"
-                            : "holds, but is above the budget");
+        flags_html(row), row.ms, row.ratio, row.ratio_min, row.ratio_max, row.cpu_ratio, row.error.max, row.error.p999, row.error.mean,
+        row.error.psnr ? fmt::format("{:.1f}", *row.error.psnr) : "", 100 * row.error.share_off, bound_text(row));
 }
 
 std::string table_of(const std::vector<TradeRow>& rows) {
     std::string html =
-        "<div class=\"scroll\"><table>\n<tr><th></th><th>settings</th><th>ms</th><th>time</th><th>range of time</th><th>CPU time</th>"
-        "<th>largest error</th><th>error of 99.9 %</th><th>mean error</th><th>PSNR, dB</th><th>pixels off by 1 or more</th>"
-        "<th>bound</th><th></th></tr>\n";
+        "<table class=\"all\">\n<tr><th></th><th>settings, and flags to copy</th><th>ms</th><th>time</th><th>range of time</th>"
+        "<th>CPU time</th><th>largest error</th><th>error of 99.9 %</th><th>mean error</th><th>PSNR, dB</th><th>pixels off by 1</th>"
+        "<th>bound</th></tr>\n";
     for (const TradeRow* row : rows_by_time(rows)) html += table_row(*row);
-    return html + "</table></div>\n";
+    return html + "</table>\n";
+}
+
+/// The settings to use, by the error that is allowed.
+std::string offers_of(const std::vector<TradeRow>& rows, const TradeSpace& space) {
+    const std::vector<TradeOffer> offers = trade_offers(rows, space);
+    if (offers.empty()) return "<p>Nothing is surely cheaper than exact.</p>\n";
+    std::string html = "<table class=\"offers\">\n<tr><th>error of 99.9 % at most</th><th>time</th><th>flags to copy</th></tr>\n";
+    for (const TradeOffer& offer : offers)
+        html += fmt::format("<tr><td>{:g}</td><td>{:.2f}</td><td>{}</td></tr>\n", offer.codes, offer.row->ratio, flags_html(*offer.row));
+    return html + "</table>\n";
 }
 
 Result<std::string> picture(const Image& image, const std::string& caption) {
@@ -185,6 +205,8 @@ Result<std::string> trade_page(const std::vector<TradeRow>& rows, TradeBench& be
         const std::string title = lobe ? "Lobe " + bench.space().lobes[*lobe].name : "Error against time";
         html += plot_svg(plot_of(rows, lobe, title));
     }
+    html += "<h2>Cheapest settings</h2>\n<p>Settings that were faster than exact in every pair of frames, by more than the noise.</p>\n" +
+            offers_of(rows, bench.space());
     html += "<h2>All settings, by time</h2>\n" + table_of(rows) + "<h2>Pictures</h2>\n";
     const auto pictures = all_pictures(rows, bench);
     if (!pictures) return pictures;

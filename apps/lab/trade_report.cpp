@@ -1,8 +1,10 @@
 #include "apps/lab/trade_report.hpp"
 
 #include "apps/halflit/plan_names.hpp"
+#include "apps/halflit/run_report.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -76,10 +78,10 @@ std::string trade_csv(const std::vector<TradeRow>& rows, const TradeSpace& space
     return text;
 }
 
-Json trade_json(const std::vector<TradeRow>& rows, const TradeBench& bench) {
+std::string trade_json(const std::vector<TradeRow>& rows, const TradeBench& bench) {
     const RenderJob& job = bench.job();
     const TradeRow& exact = exact_row(rows, bench.space());
-    Json report = report_head();
+    Json report = report_head("trade");
     report["scene"] = job.source.name;
     report["size"] = {job.width, job.height};
     report["samples"] = job.settings.samples;
@@ -90,17 +92,19 @@ Json trade_json(const std::vector<TradeRow>& rows, const TradeBench& bench) {
     report["warnings"] = job.warnings;
     report["rows"] = Json::array();
     for (const TradeRow& row : rows) report["rows"].push_back(row_json(row, bench.space()));
-    return report;
+    return to_text(report);
 }
 
 std::string trade_summary(const std::vector<TradeRow>& rows, const TradeBench& bench) {
     std::string text = fmt::format("{} at {}x{}, {} samples: exact takes {:.2f} ms, noise {:.2f} to {:.2f} times that\n",
                                    bench.job().source.name, bench.job().width, bench.job().height, bench.job().settings.samples,
                                    bench.exact_ms(), exact_row(rows, bench.space()).ratio_min, exact_row(rows, bench.space()).ratio_max);
-    text += " error at most    time   flags (error of 99.9 % of the pixels in 8-bit codes; time of exact = 1)\n";
-    for (const double codes : kAllowances)
-        if (const TradeRow* row = cheapest_within(rows, codes); row != nullptr)
-            text += fmt::format("{:>14g}  {:>6.2f}   {}\n", codes, row->ratio, row->flags.empty() ? "no flags" : row->flags);
+    const std::vector<TradeOffer> offers = trade_offers(rows, bench.space());
+    if (offers.empty())
+        text += "nothing is surely cheaper than exact\n";
+    else
+        text += " error at most    time   flags (error of 99.9 % of the pixels in 8-bit codes; time of exact = 1)\n";
+    for (const TradeOffer& offer : offers) text += fmt::format("{:>14g}  {:>6.2f}   {}\n", offer.codes, offer.row->ratio, offer.row->flags);
     for (const TradeRow& row : rows)
         if (!row.kept())
             text += fmt::format("bound violated: {} has an error of {:.4g} codes, its bound is {:.4g}\n", row.name, row.error.max,
@@ -115,13 +119,19 @@ std::vector<const TradeRow*> rows_by_time(const std::vector<TradeRow>& rows) {
     return sorted;
 }
 
-const TradeRow* cheapest_within(const std::vector<TradeRow>& rows, double codes) {
-    const TradeRow* best = nullptr;
-    for (const TradeRow& row : rows)
-        if (!row.choice.lobe && row.error.p999 <= codes && row.choice.accuracy != Accuracy::reference &&
-            (best == nullptr || row.ratio < best->ratio))
-            best = &row;
-    return best;
+std::vector<TradeOffer> trade_offers(const std::vector<TradeRow>& rows, const TradeSpace& space) {
+    const TradeRow& exact = exact_row(rows, space);
+    const auto surely_cheaper = [&](const TradeRow& row) { return row.ratio_max < 1 && row.ratio < exact.ratio_min; };
+    std::vector<TradeOffer> offers;
+    for (const double codes : kAllowances) {
+        const TradeRow* best = nullptr;
+        for (const TradeRow& row : rows)
+            if (!row.choice.lobe && row.error.p999 <= codes && row.choice.accuracy != Accuracy::reference && surely_cheaper(row) &&
+                (best == nullptr || row.ratio < best->ratio))
+                best = &row;
+        if (best != nullptr && (offers.empty() || offers.back().row != best)) offers.push_back({codes, best});
+    }
+    return offers;
 }
 
 const TradeRow& exact_row(const std::vector<TradeRow>& rows, const TradeSpace& space) {

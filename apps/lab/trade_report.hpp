@@ -1,7 +1,6 @@
 // Results of `halflit trade` as CSV, JSON, text and HTML.
 #pragma once
 
-#include "apps/halflit/run_report.hpp"
 #include "apps/lab/trade_bench.hpp"
 
 #include <string>
@@ -13,7 +12,7 @@ namespace halflit::cli {
 [[nodiscard]] std::string trade_csv(const std::vector<TradeRow>& rows, const TradeSpace& space);
 
 /// {..., "noise": [low, high], "rows": [...]}: noise is the range of exact's time divided by that of another frame of exact.
-[[nodiscard]] Json trade_json(const std::vector<TradeRow>& rows, const TradeBench& bench);
+[[nodiscard]] std::string trade_json(const std::vector<TradeRow>& rows, const TradeBench& bench);
 
 /// A few lines of text: the cheapest flags for each error, and the bounds that did not hold.
 [[nodiscard]] std::string trade_summary(const std::vector<TradeRow>& rows, const TradeBench& bench);
@@ -23,9 +22,14 @@ namespace halflit::cli {
 
 /// Rows sorted by ratio, the fastest first.
 [[nodiscard]] std::vector<const TradeRow*> rows_by_time(const std::vector<TradeRow>& rows);
-/// The fastest row of the scene's own lobe, budgets included and the reference not, whose error.p999 is at most `codes`; null if there is
-/// none.
-[[nodiscard]] const TradeRow* cheapest_within(const std::vector<TradeRow>& rows, double codes);
+/// The fastest row of the scene's own lobe whose error.p999 is at most `codes`.
+struct TradeOffer {
+    double codes = 0;
+    const TradeRow* row = nullptr;
+};
+/// Offers by falling accuracy, each row once, at the least error that allows it. Only rows that are surely cheaper than exact: faster in
+/// every pair of frames, and by more than exact against itself varies. May be empty.
+[[nodiscard]] std::vector<TradeOffer> trade_offers(const std::vector<TradeRow>& rows, const TradeSpace& space);
 /// The row of the scene's own lobe with exact settings.
 [[nodiscard]] const TradeRow& exact_row(const std::vector<TradeRow>& rows, const TradeSpace& space);
 

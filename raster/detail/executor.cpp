@@ -3,6 +3,7 @@
 #include "raster/detail/fp_environment.hpp"
 
 #ifdef HALFLIT_ONETBB
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #else
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <limits>
 
 namespace halflit::raster {
 namespace {
@@ -40,6 +42,8 @@ void run_catching(const Loop& loop, const std::function<void(int)>& task) {
 struct Executor::Arena {
     explicit Arena(int thread_count) : arena(thread_count) {}
     static int all_threads() { return static_cast<int>(tbb::this_task_arena::max_concurrency()); }
+    /// oneTBB runs no more threads than this, and prints a warning when asked for more.
+    static int most_threads() { return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)); }
     void run(int count, const std::function<void(int)>& task) {
         arena.execute([&] { tbb::parallel_for(0, count, task, tbb::simple_partitioner()); });
     }
@@ -52,6 +56,7 @@ struct Executor::Arena {
 struct Executor::Arena {
     explicit Arena(int thread_count) : threads(thread_count) {}
     static int all_threads() { return static_cast<int>(std::thread::hardware_concurrency()); }
+    static int most_threads() { return std::numeric_limits<int>::max(); }
     void run(int count, const std::function<void(int)>& task) {
         std::atomic<int> next{0};
         const auto work = [&] {
@@ -79,7 +84,8 @@ Executor::~Executor() = default;
 
 void Executor::configure(int threads, const ParallelFor& hook) {
     hook_ = hook;
-    const int wanted = threads > 0 ? threads : std::max(Arena::all_threads(), 1);
+    const int most = hook ? std::numeric_limits<int>::max() : std::max(Arena::most_threads(), 1);
+    const int wanted = std::min(threads > 0 ? threads : std::max(Arena::all_threads(), 1), most);
     if (arena_ && wanted == threads_) return;
     threads_ = wanted;
     arena_ = threads_ > 1 ? std::make_unique<Arena>(threads_) : nullptr;

@@ -32,6 +32,7 @@ public:
 
     /// threads: 0 for one per core. hook: the host's loop; empty: oneTBB or the standard library.
     void configure(int threads, const ParallelFor& hook);
+    /// Number of threads that run; oneTBB limits it to the cores.
     [[nodiscard]] int threads() const { return threads_; }
     void run(int count, const std::function<void(int)>& body);
 

@@ -170,6 +170,25 @@ TEST_CASE("figures: pictures show the lobes' values, alike in a sheet and on a p
     CHECK(same);
 }
 
+TEST_CASE("figures: a page has its title once and says what its citations name", "[cli][figures]") {
+    const TemporaryFolder folder;
+    REQUIRE(run({"figures", "sh-error", "curves", "-o", folder.path()}).code == 0);
+    const std::string svg = contents(folder.file("sh-error.svg")), literature = contents(HALFLIT_SOURCE_DIR "/sh/README.md");
+    const std::string title = "Error of Sloan's lobe in order-3 spherical harmonics";
+    const auto count = [](const std::string& text, const std::string& part) {
+        std::size_t n = 0;
+        for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++n;
+        return n;
+    };
+    CHECK(count(svg, title) == 2);                            // one is shown, one is for screen readers
+    CHECK(count(svg, "Order-3 error of Sloan's lobe") == 0);  // the only plot needs no title of its own
+    const std::size_t row = literature.find("| [SNY11] | ") + 12;
+    const std::string source = literature.substr(row, literature.find(" |", row) - row);
+    REQUIRE(source.find("Wrap Shading") != std::string::npos);
+    CHECK(count(svg, "[SNY11] " + source) == 1);
+    CHECK(count(contents(folder.file("curves.svg")), "[SNY11] " + source) == 1);
+}
+
 TEST_CASE("figures: an unknown name ends before anything is made, and lists the known ones", "[cli][figures]") {
     const TemporaryFolder folder;
     const Outcome outcome = run({"figures", "curves", "figure-7", "-o", folder.file("out")});
@@ -192,8 +211,16 @@ TEST_CASE("figures: all of them come with an index, and the terminator's profile
     const TemporaryFolder folder;
     const Outcome outcome = run({"figures", "-o", folder.path()});
     REQUIRE(outcome.code == 0);
-    const std::string index = contents(folder.file("index.html"));
+    const std::string index = contents(folder.file("index.html")), literature = contents(HALFLIT_SOURCE_DIR "/sh/README.md");
     CHECK(index.ends_with("</html>\n"));
+    for (const char* key : {"SNY11", "McA13", "Lis", "CMSC", "Green04", "Valve06"}) {
+        const std::size_t row = literature.find("| [" + std::string(key) + "] | ");
+        REQUIRE(row != std::string::npos);
+        const std::size_t start = literature.find(" | ", row) + 3;
+        INFO(key);
+        CHECK(index.find("<li>[" + std::string(key) + "] " + literature.substr(start, literature.find(" |", start) - start) + "</li>") !=
+              std::string::npos);
+    }
     for (const std::string& name : kNames) {
         INFO(name);
         CHECK(index.find("<img src=\"" + name + ".svg\"") != std::string::npos);

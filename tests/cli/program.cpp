@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <thread>
 
 namespace halflit::test {
 namespace {
@@ -23,6 +24,9 @@ namespace {
     for (int fd = 0; fd < 3; ++fd) ::dup2(streams[fd], fd);
     if (settings.closed) ::close(*settings.closed);
     if (!settings.folder.empty() && ::chdir(settings.folder.c_str()) != 0) ::_exit(125);
+    ::unsetenv("COLUMNS");
+    ::unsetenv("NO_COLOR");
+    ::setenv("TERM", "xterm", 1);
     for (const auto& [name, value] : settings.environment) ::setenv(name.c_str(), value.c_str(), 1);
     if (settings.largest_file) {
         const struct rlimit limit { *settings.largest_file, *settings.largest_file };
@@ -51,6 +55,44 @@ int wait_for(pid_t child, const RunSettings& settings, int held_input) {
     return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
+/// A terminal without a screen: what the program writes to it is collected.
+class Terminal {
+public:
+    explicit Terminal(int columns) : master_(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
+        REQUIRE(master_ >= 0);
+        REQUIRE(::grantpt(master_) == 0);
+        REQUIRE(::unlockpt(master_) == 0);
+        slave_ = ::open(::ptsname(master_), O_RDWR | O_NOCTTY | O_CLOEXEC);
+        REQUIRE(slave_ >= 0);
+        struct winsize size {};
+        size.ws_col = static_cast<unsigned short>(columns);
+        REQUIRE(::ioctl(slave_, TIOCSWINSZ, &size) == 0);
+        reader_ = std::thread([this] {
+            char part[4096];
+            for (ssize_t got; (got = ::read(master_, part, sizeof part)) > 0;) text_.append(part, static_cast<std::size_t>(got));
+        });
+    }
+    ~Terminal() {
+        if (reader_.joinable()) (void)text();
+    }
+    Terminal(const Terminal&) = delete;
+    Terminal& operator=(const Terminal&) = delete;
+
+    [[nodiscard]] int end() const { return slave_; }
+    /// All that was written. Call it when the program has ended: reading ends when nobody holds the other end.
+    std::string text() {
+        ::close(slave_);
+        reader_.join();
+        ::close(master_);
+        return text_;
+    }
+
+private:
+    int master_, slave_ = -1;
+    std::thread reader_;
+    std::string text_;
+};
+
 }  // namespace
 
 Outcome run(const std::vector<std::string>& arguments, const RunSettings& settings) {
@@ -61,9 +103,13 @@ Outcome run(const std::vector<std::string>& arguments, const RunSettings& settin
         REQUIRE(::pipe2(pipe_ends, O_CLOEXEC) == 0);
         REQUIRE(::write(pipe_ends[1], settings.input.data(), settings.input.size()) == static_cast<ssize_t>(settings.input.size()));
     }
+    std::optional<Terminal> terminal;
+    if (settings.terminal_columns) terminal.emplace(*settings.terminal_columns);
+    const auto output = [&](const char* name) {
+        return terminal ? ::dup(terminal->end()) : ::open(folder.file(name).c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+    };
     const int streams[3] = {settings.hold_input_open ? pipe_ends[0] : ::open(folder.file("in").c_str(), O_RDONLY | O_CLOEXEC),
-                            ::open(folder.file("out").c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600),
-                            ::open(folder.file("err").c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600)};
+                            output("out"), output("err")};
     std::vector<std::string> words = {HALFLIT_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
@@ -77,7 +123,7 @@ Outcome run(const std::vector<std::string>& arguments, const RunSettings& settin
     outcome.code = wait_for(child, settings, pipe_ends[0]);
     for (const int fd : {streams[0], streams[1], streams[2], pipe_ends[1]})
         if (fd >= 0) ::close(fd);
-    outcome.out = contents(folder.file("out"));
+    outcome.out = terminal ? terminal->text() : contents(folder.file("out"));
     outcome.err = contents(folder.file("err"));
     return outcome;
 }

@@ -22,6 +22,8 @@ struct RunSettings {
     std::optional<int> closed{};                                     ///< a standard stream that is closed
     /// Called repeatedly while the program runs. A number is a signal, which is sent once.
     std::function<std::optional<int>()> signal{};
+    /// Standard output and standard error are a terminal of this width; `out` has both, with "\r\n" as its lines end.
+    std::optional<int> terminal_columns{};
     bool hold_input_open = false;  ///< standard input does not end; `signal` is called once `input` has been read
 };
 

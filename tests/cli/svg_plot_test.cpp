@@ -1,4 +1,5 @@
 #include "apps/lab/svg_plot.hpp"
+#include "apps/lab/rich_text.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -82,6 +83,21 @@ TEST_CASE("plot: text is escaped, and nothing refers outside or by an id", "[cli
     CHECK(count(svg, "href") == 0);
     CHECK(count(svg, "http") == 2);  // the two namespaces
     CHECK(plots_csv(std::vector{plot}) == "plot,series,x,y\n\"a < b & \"\"c\"\"\",<script>,0,0\n\"a < b & \"\"c\"\"\",<script>,1,1\n");
+}
+
+TEST_CASE("rich text: raised and lowered parts in SVG, HTML and plain text", "[cli][plot]") {
+    CHECK(rich_html("(f \u2212 f_{3})^{2} < 1") == "(f \u2212 f<sub>3</sub>)<sup>2</sup> &lt; 1");
+    CHECK(rich_plain("(f \u2212 f_{3})^{2}, x^{1+a}, N\u00b7L") == "(f - f_3)^2, x^(1+a), N.L");
+    CHECK(rich_svg("a & b", 10) == "a &amp; b");
+    // What follows a raised part returns to the baseline: the shifts add up to 0.
+    const std::string svg = rich_svg("x^{2}_{1} y", 10);
+    const std::vector<double> shifts = attribute(svg, "tspan", "dy");
+    REQUIRE(shifts.size() == 3);
+    CHECK(shifts[0] < 0);
+    CHECK(shifts[0] + shifts[1] > 0);
+    CHECK(shifts[0] + shifts[1] + shifts[2] == Approx(0).margin(1e-9));
+    CHECK(count(svg, "</tspan> <tspan") == 1);  // the space is between the elements
+    CHECK(rich_plain("an open ^{brace") == "an open ^{brace");
 }
 
 TEST_CASE("plot: without data, or with one value, there is still an axis", "[cli][plot]") {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <set>
+#include <sstream>
 
 using namespace halflit::test;
 
@@ -107,6 +108,7 @@ TEST_CASE("trade: page, table and report are complete, and list the same rows", 
         CHECK(row["bound"]["within"] == (row["bound"]["bound_codes"] <= row["max_error"]));
     }
     CHECK(row_named(rows, "within 0.5 codes")["flags"] == "--max-error 0.5");
+    CHECK(page.find("<code>--max-error 0.5</code>") != std::string::npos);
     CHECK(row_named(rows, "exact, hard shadows")["flags"] == "--shadows hard");
     CHECK(row_named(rows, "exact, nearest")["flags"] == "--texture-filter nearest");
     // Without shadows, those of the balls are missing.
@@ -198,6 +200,30 @@ TEST_CASE("trade: the combinations are the product of what the scene has", "[cli
     CHECK(rows_with({"--all"}) == 1 + 3 * 3 * 7 + budgets);  // two modes of three sizes, and off
     CHECK(rows_with({"--shadows", "off"}) == 1 + 3 * 3 + budgets);
     CHECK(rows_with({"--shadow-size", "1024", "--quick"}) == 1 + 1 + 2 + 2 + (kinds_alone - 1) + budgets);
+}
+
+TEST_CASE("trade: the summary offers settings that were faster in every pair of frames, each once", "[cli][trade]") {
+    const TemporaryFolder folder;
+    const Outcome outcome = run({"trade", "sphere:2000", "--quick", "--size", "64x36", "--frames", "3", "-o", folder.path()});
+    REQUIRE(outcome.code == 0);
+    const Json rows = rows_of(folder.path());
+    const Json& exact = row_named(rows, "exact");
+    const auto surely_cheaper = [&](const Json& row) { return row["ratio_range"][1] < 1.0 && row["ratio"] < exact["ratio_range"][0]; };
+    std::istringstream lines(outcome.out);
+    std::set<std::string> offered;
+    std::size_t count_of_lines = 0;
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t flags = line.find(" --");
+        if (flags == std::string::npos) continue;
+        offered.insert(line.substr(flags + 1));
+        ++count_of_lines;
+    }
+    CHECK(offered.size() == count_of_lines);
+    for (const Json& row : rows)
+        if (offered.contains(row["flags"].get<std::string>())) CHECK(surely_cheaper(row));
+    const bool any = std::any_of(rows.begin(), rows.end(), [&](const Json& row) { return surely_cheaper(row) && error_of(row) <= 8; });
+    CHECK(offered.empty() != any);
+    CHECK((outcome.out.find("nothing is surely cheaper than exact") != std::string::npos) == offered.empty());
 }
 
 TEST_CASE("trade: progress is one line, and only if asked for or on a terminal", "[cli][trade]") {

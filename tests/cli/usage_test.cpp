@@ -23,6 +23,25 @@ TEST_CASE("usage: an invalid command line ends with 2 and says what was expected
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
         {{}, "no command"},
         {{"rendr"}, "did you mean render?"},
+        {{"demmo"}, "unknown command demmo (did you mean demo?)"},
+        {{"help", "rendr"}, "did you mean render?"},
+        {{"render", "demo", "sphere:500"}, "unexpected argument sphere:500: several scenes need -o FOLDER/"},
+        {{"render", "demo", "picture.gif"}, "unexpected argument picture.gif"},
+        {{"render", "demo", "a.png", "-o", "b.png"}, "the picture is named by -o b.png"},
+        {{"render", "demo", "./demo", "-o", "out/", "--report", "r.json"}, "--report"},
+        {{"render", "--camera-position", "1,2"}, "3 numbers"},
+        {{"render", "--camera-position", "1,2,3", "--camera", "0"}, "--camera-position"},
+        {{"render", "--camera-position", "1,2,3", "--camera", "frame"}, "--camera-position"},
+        {{"render", "--camera-target", "1,2,3"}, "--camera-position"},
+        {{"render", "--up", "w"}, "one of x, y, z, -x, -y, -z"},
+        {{"render", "--specular", "phnog"}, "did you mean phong?"},
+        {{"render", "--lobe", "lambret"}, "did you mean lambert?"},
+        {{"render", "demo", "--resolution", "64x64"}, "unknown flag --resolution (did you mean --size?)"},
+        {{"render", "demo", "--bg=white"}, "did you mean --background?"},
+        {{"version"}, "did you mean --version?"},
+        {{"convert", "demo"}, "unknown command convert (did you mean render?)"},
+        {{"lobe", "valv"}, "did you mean valve?"},
+        {{"figures", "curvs"}, "did you mean curves?"},
         {{"render", "--siez", "8x8"}, "did you mean --size?"},
         {{"render", "--zzzzzzzz"}, "unknown flag --zzzzzzzz"},
         {{"render", "demo", "extra"}, "unexpected argument extra"},
@@ -30,7 +49,7 @@ TEST_CASE("usage: an invalid command line ends with 2 and says what was expected
         {{"render", "--size", "0x0"}, "'0x0'"},
         {{"render", "--size", "-1"}, "'-1'"},
         {{"render", "--size", "8x8", "--size", "9x9"}, "--size"},
-        {{"render", "--size", "8"}, "WIDTHxHEIGHT"},
+        {{"render", "--size", "8x"}, "WIDTHxHEIGHT"},
         {{"render", "--size", "8x8x8"}, "WIDTHxHEIGHT"},
         {{"render", "--samples", "3"}, "1, 4, 8"},
         {{"render", "--size", "8x8", "--region", "0,0,9,8"}, "8x8"},
@@ -79,6 +98,19 @@ TEST_CASE("usage: a missing scene ends with 4 and the system's reason", "[cli]")
     check_error(run({"info", "missing.glb"}), 4, "No such file or directory");
 }
 
+TEST_CASE("usage: a file that is not there is an error with the name of a file that is spelled alike", "[cli]") {
+    const TemporaryFolder folder;
+    write_contents(folder.file("duck.glb"), "");
+    const std::string meant = "did you mean duck.glb?";
+    check_error(run({"render", "duck.gbl"}, {.folder = folder.path()}), 4, meant);
+    check_error(run({"duk.glb"}, {.folder = folder.path()}), 4, meant);
+    check_error(run({"duck.gbl"}, {.folder = folder.path()}), 2, meant);
+    check_error(run({"diff", "duk.glb", "duck.glb"}, {.folder = folder.path()}), 4, meant);
+    check_error(run({"render", folder.file("dukc.glb")}), 4, "did you mean " + folder.file("duck.glb"));
+    check_error(run({"render", "sphere"}, {.folder = folder.path()}), 4, "did you mean sphere:N?");
+    check_error(run({"render", "--env", "skyy"}, {.folder = folder.path()}), 4, "did you mean sky?");
+}
+
 TEST_CASE("usage: bytes that are no model end with 3", "[cli]") {
     const TemporaryFolder folder;
     write_contents(folder.file("noise.glb"), "this is not a model");
@@ -103,11 +135,16 @@ TEST_CASE("usage: help and version go to standard output and end with 0", "[cli]
     CHECK(version.code == 0);
     CHECK(version.out.starts_with("halflit "));
     CHECK(version.out.find("pixel_epoch") != std::string::npos);
-    for (const std::string command : {"render", "bench", "info", "diff"}) {
+    CHECK(run({"-V"}).out == version.out);
+    for (const std::string command : {"render", "bench", "info", "diff", "lobe", "env", "figures", "trade"}) {
         const Outcome help = run({command, "--help"});
         INFO(command);
         CHECK(help.code == 0);
         CHECK(help.err.empty());
         CHECK(help.out.find("Usage: halflit " + command) != std::string::npos);
+        CHECK(run({command, "-h"}).out == help.out);
+        CHECK(run({"help", command}).out == help.out);
     }
+    CHECK(run({"help"}).out == run({"--help"}).out);
+    CHECK(run({"-h"}).out == run({"--help"}).out);
 }

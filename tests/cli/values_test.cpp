@@ -57,6 +57,23 @@ TEST_CASE("values: a number must be all of the text, finite and in range", "[cli
     CHECK(!parse_float("1.0001", 0, 1));
 }
 
+TEST_CASE("values: a size is two sides, or the one of a square", "[cli][values]") {
+    const auto wide = parse_size("1280x720"), comma = parse_size("1280,720"), square = parse_size("256");
+    REQUIRE(wide);
+    REQUIRE(comma);
+    REQUIRE(square);
+    CHECK(comma->width == 1280);
+    CHECK(comma->height == 720);
+    CHECK(wide->width == 1280);
+    CHECK(wide->height == 720);
+    CHECK(square->width == 256);
+    CHECK(square->height == 256);
+    for (const char* bad : {"", "x", "8x", "x8", "8x8x8", "0", "-1", "8 x 8", "1.5"}) {
+        INFO(bad);
+        CHECK(!parse_size(bad));
+    }
+}
+
 TEST_CASE("values: a light's keys come in any order, with colons or semicolons", "[cli][values]") {
     const auto a = parse_light("spot:pos=1,2,3:dir=0,0,-2:cone=10,30:color=#fff:intensity=4:range=9:radius=0.5");
     const auto b = parse_light("spot;intensity=4;radius=0.5;range=9;cone=10,30;dir=0,0,-2;color=white;pos=1,2,3");

@@ -1,4 +1,4 @@
-// The decoders behind image_reader, one per format.
+// The decoders behind image_reader and picture_reader, one per format.
 #pragma once
 
 #include "apps/io/image_reader.hpp"
@@ -9,6 +9,8 @@ Result<ImageHeader> read_png_header(std::span<const std::byte> file, const Image
 Result<DecodedImage> decode_png(std::span<const std::byte> file, const ImageLimits& limits, bool keep_16_bits);
 Result<ImageHeader> read_jpeg_header(std::span<const std::byte> file, const ImageLimits& limits);
 Result<DecodedImage> decode_jpeg(std::span<const std::byte> file, const ImageLimits& limits);
+Result<DecodedImage> decode_bmp(std::span<const std::byte> file, const ImageLimits& limits);
+Result<DecodedImage> decode_tga(std::span<const std::byte> file, const ImageLimits& limits);
 
 /// Fails unless width and height are at least 1 and within the limits.
 Result<void> check_image_size(std::uint64_t width, std::uint64_t height, const ImageLimits& limits);

@@ -1,0 +1,37 @@
+// Names of files: what is there, and what was probably meant.
+#pragma once
+
+#include "halflit/error.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace halflit::cli {
+
+/// True for anything but a folder.
+[[nodiscard]] bool is_file(const std::string& path);
+[[nodiscard]] bool is_folder(const std::string& path);
+
+/// True if both are there and are the same file.
+[[nodiscard]] bool same_file(const std::string& a, const std::string& b);
+
+/// True if the name ends in `.glb` or `.gltf`, in any case.
+[[nodiscard]] bool is_model_name(std::string_view path);
+
+/// Paths of the files in the same folder, as they would be typed. Reads at most 1,000 names.
+[[nodiscard]] std::vector<std::string> files_beside(const std::string& path);
+
+/// " (did you mean FILE?)" if `path` is not there and a file in its folder, or one of the other `names`, is spelled alike.
+[[nodiscard]] std::string did_you_mean_file(const std::string& path, std::vector<std::string> names = {});
+
+/// Fails (io) with the reason if a file cannot be created or replaced at `path`. Standard output ("-") passes.
+[[nodiscard]] Result<void> check_writable(const std::string& path);
+
+/// The name without folder and extension: "duck" for "models/duck.glb".
+[[nodiscard]] std::string stem_of(const std::string& path);
+
+/// The path of a file in the folder.
+[[nodiscard]] std::string path_in(const std::string& folder, const std::string& name);
+
+}  // namespace halflit::cli

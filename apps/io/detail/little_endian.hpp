@@ -1,0 +1,14 @@
+// Little-endian numbers in the headers of BMP and TGA files.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace halflit::io::detail {
+
+inline std::uint32_t byte_at(std::span<const std::byte> file, std::size_t at) { return std::to_integer<std::uint32_t>(file[at]); }
+inline std::uint32_t u16_at(std::span<const std::byte> file, std::size_t at) { return byte_at(file, at) | byte_at(file, at + 1) << 8; }
+inline std::uint32_t u32_at(std::span<const std::byte> file, std::size_t at) { return u16_at(file, at) | u16_at(file, at + 2) << 16; }
+
+}  // namespace halflit::io::detail
