@@ -45,7 +45,11 @@ int32_t halflit_scene_create(halflit_scene** scene) {
 }
 
 int32_t halflit_scene_create_demo(halflit_scene** scene) {
-    return guarded(__func__, {{scene, "scene"}}, [&] { return hand_over(LoadedScene{demo_scene(), {}, {}}, scene); });
+    return guarded(__func__, {{scene, "scene"}}, [&] {
+        LoadedScene demo;
+        demo.scene = demo_scene();
+        return hand_over(std::move(demo), scene);
+    });
 }
 
 int32_t halflit_scene_load(const char* path, const halflit_load_options* options, halflit_scene** scene) {

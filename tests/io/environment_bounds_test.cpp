@@ -124,16 +124,16 @@ TEST_CASE("environment: at full size no error is above its bound, and no bound t
     for (const std::string name : {"kiara_1_dawn_1k.hdr", "studio_small_03_1k.hdr", "spiaggia_di_mondello_1k.hdr"}) {
         const auto picture = read_environment((*asset_dir() / "environments" / name).string());
         REQUIRE(picture);
-        const Projection whole(picture->view());
-        const Reflected exact = by_brute_force(FullSizeImage(picture->view()), normals);
+        const Projection whole(shading::view_of(*picture));
+        const Reflected exact = by_brute_force(FullSizeImage(shading::view_of(*picture)), normals);
         check_orders(name, whole, exact, normals, as_is);
-        const FullSizeImage finer(picture->view(), 2);
+        const FullSizeImage finer(shading::view_of(*picture), 2);
         for (std::size_t i = 0; i < 3; ++i) {
             const auto again = finer.reflected(normals[i]);
             for (std::size_t k = 0; k < FullSizeImage::kLobes; ++k)
                 noise = std::max(noise, largest_difference(again[k], exact[i][k]) / largest(whole.mean()));
         }
-        const SunExtraction parts = extract_suns(picture->view(), whole);
+        const SunExtraction parts = extract_suns(shading::view_of(*picture), whole);
         if (parts.suns.empty()) {
             check_orders(name, whole, exact, normals, without_suns);
             continue;

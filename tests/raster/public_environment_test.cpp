@@ -16,7 +16,8 @@ constexpr double kPi = 3.14159265358979323846;
 
 EnvironmentImage constant(int width, int height, Vec3f radiance) {
     EnvironmentImage image{width, height, {}, false};
-    for (int i = 0; i < width * height; ++i) image.rgb.insert(image.rgb.end(), {radiance.x, radiance.y, radiance.z});
+    for (int i = 0; i < width * height; ++i)
+        for (const float channel : {radiance.x, radiance.y, radiance.z}) image.rgb.push_back(channel);
     return image;
 }
 
