@@ -20,8 +20,9 @@ struct AutoOptions {
     bool add_lights = true;                 ///< a scene without any light gets some
 };
 
+/// What auto_setup() chose; render() takes both. The lights are in the scene.
 struct AutoSetup {
-    Camera camera;
+    Camera camera;        ///< the view to draw
     Settings settings;    ///< usual_settings() and the exposure
     bool framed = false;  ///< the camera is a view of the whole scene
 };

@@ -11,16 +11,17 @@ namespace halflit {
 
 struct Scene;
 
+/// A view of the world. Distances are world units.
 struct Camera {
-    std::string name;
-    Mat4 world_from_camera;  ///< rigid: rotation and translation, as look_at() makes
-    bool orthographic = false;
+    std::string name;                ///< for messages and choices; may be empty
+    Mat4 world_from_camera;          ///< rigid: rotation and translation, as look_at() makes
+    bool orthographic = false;       ///< false: perspective
     float fov_y_rad = 0.785398163f;  ///< perspective: full vertical angle, in (0, pi)
     float aspect = 0.0f;             ///< perspective: width / height that the view is made for; 0: that of the picture
-    float half_height = 1.0f;        ///< orthographic: half the height of the view; half_width likewise, 0: from the picture's aspect
-    float half_width = 0.0f;
-    float near_z = 0.1f;  ///< > 0 for perspective
-    float far_z = 0.0f;   ///< > near_z; 0: no far limit (perspective only)
+    float half_height = 1.0f;        ///< orthographic: half the height of the view
+    float half_width = 0.0f;         ///< orthographic: half its width; 0: from the picture's aspect
+    float near_z = 0.1f;             ///< distance along -z from which on things are drawn; > 0 for perspective
+    float far_z = 0.0f;              ///< distance up to which they are drawn, > near_z; 0: no far limit (perspective only)
     friend bool operator==(const Camera&, const Camera&) = default;
 };
 
@@ -29,7 +30,7 @@ struct ViewSettings {
     float azimuth_deg = 35.0f;    ///< around `up`; 0: seen from +z; positive: from the right
     float elevation_deg = 20.0f;  ///< above the horizon
     float zoom = 1.0f;            ///< 2 makes things twice as large
-    float fov_y_deg = 35.0f;
+    float fov_y_deg = 35.0f;      ///< full vertical angle before the zoom
 };
 
 /// Perspective camera that sees all of `bounds` at the given aspect ratio, by default in a three-quarter view. In the tighter direction the

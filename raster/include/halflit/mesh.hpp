@@ -12,8 +12,8 @@ namespace halflit {
 
 /// Counter-clockwise triangles are front faces. Attribute arrays are empty or as long as `positions`.
 struct Mesh {
-    std::string name;
-    std::vector<Vec3f> positions;
+    std::string name;                    ///< for messages; may be empty
+    std::vector<Vec3f> positions;        ///< object space, any unit
     std::vector<Vec3f> normals;          ///< any length > 0; lit materials need them (see generate_flat_normals), and a frame without warns
     std::vector<Vec4f> tangents;         ///< xyz any length > 0, w = +1 or -1: bitangent = cross(normal, tangent) * w
     std::vector<Vec2f> uv0, uv1;         ///< v points down: v = 0 is the first row of the texture
@@ -24,19 +24,19 @@ struct Mesh {
 
 /// A mesh placed in the world.
 struct Instance {
-    int mesh = 0;  ///< index into Scene::meshes
-    Mat4 world_from_object;
+    int mesh = 0;            ///< index into Scene::meshes
+    Mat4 world_from_object;  ///< any affine matrix; the last row is 0 0 0 1
 };
 
 /// Smallest axis-aligned box around a set of points, in the points' space.
 struct Bounds {
-    Vec3f min{0, 0, 0}, max{0, 0, 0};
-    bool empty = true;
+    Vec3f min{0, 0, 0}, max{0, 0, 0};  ///< corners; meaningless while `empty`
+    bool empty = true;                 ///< no point was added yet
     /// Adds a point; ignores it if it is not finite.
     HALFLIT_API void add(Vec3f p);
-    /// Adds a box.
+    /// Adds a box; ignores it if it is empty.
     HALFLIT_API void include(const Bounds& other);
-    [[nodiscard]] HALFLIT_API Vec3f center() const;
+    [[nodiscard]] HALFLIT_API Vec3f center() const;  ///< middle between min and max
     [[nodiscard]] HALFLIT_API float radius() const;  ///< half the diagonal
 };
 

@@ -35,14 +35,18 @@ public:
     [[nodiscard]] HALFLIT_API static Result<PreparedScene> make(const Scene& scene, const Execution& execution = {});
     static Result<PreparedScene> make(Scene&& scene, const Execution& execution = {}) = delete;  // it would not outlive the call
 
+    /// @{
+    /// What is moved from may only be assigned to or destroyed.
     HALFLIT_API PreparedScene(PreparedScene&&) noexcept;
     HALFLIT_API PreparedScene& operator=(PreparedScene&&) noexcept;
+    /// @}
     HALFLIT_API ~PreparedScene();
 
     /// Redoes what changed, and sums over all instances: 0.03 ms for one of 1,000 moved instances, 14 ms for one of a million. After an
     /// error no frame is drawn until an update succeeds; that one also redoes what the failed ones were told.
     [[nodiscard]] HALFLIT_API Result<void> update(const SceneChanges& changes, const Execution& execution = {});
 
+    /// The scene that it was made from.
     [[nodiscard]] HALFLIT_API const Scene& scene() const;
     /// World-space box of everything drawn; the same as scene_bounds().
     [[nodiscard]] HALFLIT_API const Bounds& bounds() const;

@@ -21,8 +21,11 @@ class Renderer {
 public:
     HALFLIT_API Renderer();
     HALFLIT_API ~Renderer();
+    /// @{
+    /// What is moved from may only be assigned to or destroyed.
     HALFLIT_API Renderer(Renderer&&) noexcept;
     HALFLIT_API Renderer& operator=(Renderer&&) noexcept;
+    /// @}
 
     /// Draws a prepared scene. For sequences of pictures: PreparedScene::update tells what changed.
     [[nodiscard]] HALFLIT_API Result<RenderReport> render(const PreparedScene& scene, const Camera& camera, const Settings& settings,

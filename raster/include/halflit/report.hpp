@@ -31,9 +31,11 @@ struct WorkCounts {
     std::array<std::uint64_t, 3> light_lanes{};  ///< pairs of a light and a lane, by LightType
     std::uint64_t shadow_lookup_lanes = 0;       ///< pairs whose light has a shadow map
 
+    /// stage_lanes of one stage.
     [[nodiscard]] std::uint64_t lanes(Stage stage) const {
         return stage_lanes[static_cast<std::size_t>(std::countr_zero(static_cast<std::uint32_t>(stage)))];
     }
+    /// Adds the counts of another frame, or of another part of this one.
     WorkCounts& operator+=(const WorkCounts& other) {
         for (std::size_t i = 0; i < stage_lanes.size(); ++i) stage_lanes[i] += other.stage_lanes[i];
         for (std::size_t i = 0; i < light_lanes.size(); ++i) light_lanes[i] += other.light_lanes[i];
@@ -46,21 +48,24 @@ struct WorkCounts {
 
 /// Times are milliseconds of wall clock.
 struct RenderReport {
+    /// Time of each step. They do not overlap; what is between them is in total_ms alone.
     struct StageTimes {
-        double prepare = 0;    ///< preparing the scene; 0 if it was prepared before
-        double plan = 0;       ///< near 0 if the last frame's plan is used again
-        double shadows = 0;    ///< shadow maps
-        double cull = 0;       ///< instances and clusters out of view or facing away
-        double transform = 0;  ///< vertices to the window, vertex records, light at vertices
-        double bin = 0;        ///< triangle set-up and tile lists
-        double tiles = 0;      ///< visibility, shading, blending, resolving
-    } ms;
-    double total_ms = 0;
-    int threads = 1;
-    Isa isa = Isa::scalar;
-    std::uint64_t triangles_submitted = 0, triangles_drawn = 0;  ///< drawn: set up for tiles; pieces of clipped triangles count singly
-    std::uint64_t triangles_not_finite = 0;                      ///< dropped for a NaN or infinite vertex
-    std::uint64_t pixels_visible = 0, fragments_shaded = 0;
+        double prepare = 0;                   ///< preparing the scene; 0 if it was prepared before
+        double plan = 0;                      ///< near 0 if the last frame's plan is used again
+        double shadows = 0;                   ///< shadow maps
+        double cull = 0;                      ///< instances and clusters out of view or facing away
+        double transform = 0;                 ///< vertices to the window, vertex records, light at vertices
+        double bin = 0;                       ///< triangle set-up and tile lists
+        double tiles = 0;                     ///< visibility, shading, blending, resolving
+    } ms;                                     ///< the steps' times
+    double total_ms = 0;                      ///< of the whole call
+    int threads = 1;                          ///< threads that worked on the frame
+    Isa isa = Isa::scalar;                    ///< instruction set of the kernels
+    std::uint64_t triangles_submitted = 0;    ///< triangles of the scene, over all instances
+    std::uint64_t triangles_drawn = 0;        ///< set up for tiles; pieces of clipped triangles count singly
+    std::uint64_t triangles_not_finite = 0;   ///< dropped for a NaN or infinite vertex
+    std::uint64_t pixels_visible = 0;         ///< pixels of which an opaque or masked surface covers a sample
+    std::uint64_t fragments_shaded = 0;       ///< pairs of a pixel and a triangle whose colour was computed
     std::uint64_t nan_pixels = 0;             ///< fragments with a NaN in their colour; it is written as 0
     WorkCounts work;                          ///< shading work, stage by stage
     std::vector<EnvironmentUse> environment;  ///< series of the drawn materials, one per lobe

@@ -14,12 +14,14 @@
 
 namespace halflit {
 
+/// Geometry, its materials, its lights, and views of it. Indices in it begin at 0.
 struct Scene {
-    std::vector<Mesh> meshes;
+    std::vector<Mesh> meshes;         ///< triangles; drawn where an instance places them
     std::vector<Instance> instances;  ///< drawn in this order
-    std::vector<Material> materials;
-    std::vector<Texture> textures;  ///< shared by materials
-    std::vector<Light> lights;      ///< summed in this order; empty: see add_default_lights
+    std::vector<Material> materials;  ///< shared by meshes
+    std::vector<Texture> textures;    ///< shared by materials
+    std::vector<Light> lights;        ///< summed in this order; empty: see add_default_lights
+    /// Light from all around, black by default.
     Ambient ambient;
     std::shared_ptr<const Environment> environment;  ///< replaces `ambient`; its suns must be in `lights` (see set_environment)
     /// The lights are made for exposure 1. False: they come from a file, in a unit whose scale is not known; auto_setup() chooses the

@@ -15,18 +15,20 @@ namespace halflit {
 
 /// The part of the picture to draw, in pixels; width 0 means all of it. Pixels outside are not touched.
 struct Region {
-    int x = 0, y = 0, width = 0, height = 0;
+    int x = 0, y = 0;           ///< its upper left corner, from that of the picture
+    int width = 0, height = 0;  ///< it must lie inside the picture
     friend bool operator==(const Region&, const Region&) = default;
 };
 
 /// Everything besides scene, camera and size that decides a pixel.
 struct Settings {
-    Region region{};
+    Region region{};                      ///< part of the picture to draw
     int samples = 1;                      ///< per pixel: 1, 4 or 8
     Vec4f background_linear{0, 0, 0, 0};  ///< linear colour, not premultiplied; w = 0 is transparent, without a colour
     bool background_environment = false;  ///< true: the scene's environment, if it kept its image
     float exposure = 1.0f;                ///< factor on all light, > 0
-    ShadingSettings shading{};
+    ShadingSettings shading{};            ///< light and textures
+    /// Effect of shadows on wrapped light; off: no shadow maps are drawn.
     ShadowMode shadows = ShadowMode::soft_split;
     int shadow_size = 2048;  ///< texels on a side of a shadow map, a power of two from 64 to 4096; a cube's faces have half
     std::size_t shadow_memory_limit = std::size_t{256} << 20;  ///< bytes; shadow maps are halved in size until all fit

@@ -21,13 +21,13 @@ struct Target {
     std::uint8_t* pixels = nullptr;  ///< sRGB codes, four bytes a pixel in the order of `format`; alpha is linear
     float* linear = nullptr;         ///< linear light after exposure, four floats (RGBA) a pixel; aligned to 4 bytes, stride too
 
-    PixelFormat format = PixelFormat::rgba8;
+    PixelFormat format = PixelFormat::rgba8;  ///< of `pixels`
     /// Colour is multiplied by alpha, in both outputs: a code becomes (code * alpha + 127) / 255, without the fraction.
     bool premultiplied = false;
     /// The memory holds Settings::region alone: its first row is the region's first row. Otherwise it holds the whole picture, of which the
     /// pixels outside the region are not touched.
     bool region_alone = false;
-    std::size_t row_bytes = 0, linear_row_bytes = 0;
+    std::size_t row_bytes = 0, linear_row_bytes = 0;  ///< strides of `pixels` and `linear`
 
     /// What each pixel's first sample shows; blended surfaces and the background do not count. Aligned to 4 bytes.
     float* depth = nullptr;  ///< distance along the view axis, world units; infinity where nothing is
@@ -36,12 +36,12 @@ struct Target {
     float* normal = nullptr;
     std::uint32_t* instance = nullptr;  ///< index into Scene::instances, plus 1; 0 where nothing is
     std::uint32_t* triangle = nullptr;  ///< number of the triangle in the instance's mesh, plus 1; 0 where nothing is
-    std::size_t depth_row_bytes = 0, normal_row_bytes = 0, instance_row_bytes = 0, triangle_row_bytes = 0;
+    std::size_t depth_row_bytes = 0, normal_row_bytes = 0, instance_row_bytes = 0, triangle_row_bytes = 0;  ///< strides of these planes
 };
 
 /// A picture with its own memory. Either array may be empty.
 struct Image {
-    int width = 0, height = 0;
+    int width = 0, height = 0;        ///< pixels
     std::vector<std::uint8_t> rgba8;  ///< width * height * 4 sRGB codes, alpha linear and not premultiplied
     std::vector<float> rgba_linear;   ///< width * height * 4, linear light, alpha not premultiplied
 };

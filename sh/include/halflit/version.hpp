@@ -3,9 +3,12 @@
 
 #include "halflit/export.hpp"
 
+/// @{
+/// Part of the headers' version.
 #define HALFLIT_VERSION_MAJOR 0
 #define HALFLIT_VERSION_MINOR 1
 #define HALFLIT_VERSION_PATCH 0
+/// @}
 
 namespace halflit {
 

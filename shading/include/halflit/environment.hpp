@@ -19,6 +19,7 @@ struct EnvironmentImage {
     bool calibrated = false;    ///< made for exposure 1; false: the scale of its unit is not known, as with most files
 };
 
+/// Decisions about an environment that are made once, when it is prepared.
 struct EnvironmentOptions {
     bool extract_suns = true;  ///< make directional lights of suns where that lowers the bound on the error
     double rotate_rad = 0.0;   ///< about +y, counter-clockwise seen from above

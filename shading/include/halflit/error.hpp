@@ -18,15 +18,17 @@ enum class ErrorCode {
     cancelled = 7         ///< Execution::cancelled stopped the frame
 };
 
+/// Reason of a failure: the code is for the program, the message for its user.
 struct Error {
-    ErrorCode code = ErrorCode::bad_input;
-    std::string message;  ///< "FILE: place: what was found, what was expected"; one line, UTF-8, no trailing full stop
+    ErrorCode code = ErrorCode::bad_input;  ///< kind of failure
+    std::string message;                    ///< "FILE: place: what was found, what was expected"; one line, UTF-8, no trailing full stop
 };
 
 /// A value, or an Error: `if (!result) report(result.error().message); else use(*result);`
 template <class T>
 using Result = tl::expected<T, Error>;
 
+/// The error of a function that returns a Result: `return fail(ErrorCode::usage, "..");`
 [[nodiscard]] inline tl::unexpected<Error> fail(ErrorCode code, std::string message) {
     return tl::unexpected<Error>(Error{code, static_cast<std::string&&>(message)});
 }

@@ -8,25 +8,31 @@
 
 namespace halflit {
 
-enum class LightType : std::uint8_t { directional, point, spot };
+/// Shape of a source's light.
+enum class LightType : std::uint8_t {
+    directional,  ///< parallel, from infinitely far
+    point,        ///< in all directions from a point; falls off with the squared distance
+    spot          ///< a point light inside a cone
+};
 
+/// A source of light. Members that its type does not name are ignored.
 struct Light {
-    LightType type = LightType::directional;
-    Vec3f color_linear{1, 1, 1};          ///< directional: irradiance/pi; point and spot: the same at distance 1
-    Vec3f position_ws{0, 0, 0};           ///< point, spot
-    Vec3f direction_ws{0, -1, 0};         ///< directional, spot: the way the light travels, unit length
-    float range = 0.0f;                   ///< point, spot: zero beyond this distance; 0 means no limit
-    float source_radius = 0.0f;           ///< point, spot: smaller distances count as this; 0 means 1e-4
-    float inner_cone_rad = 0.0f;          ///< spot: full intensity up to this angle from the axis
-    float outer_cone_rad = 0.785398163f;  ///< spot: zero from this angle on, pi/4 by default
-    float cone_power = 0.0f;              ///< spot: factor cos(angle to the axis)^cone_power, [CMSC]; 0 to 1e5; 0: the cone alone
+    LightType type = LightType::directional;  ///< decides which members count
+    Vec3f color_linear{1, 1, 1};              ///< directional: irradiance/pi; point and spot: the same at distance 1
+    Vec3f position_ws{0, 0, 0};               ///< point, spot
+    Vec3f direction_ws{0, -1, 0};             ///< directional, spot: the way the light travels, unit length
+    float range = 0.0f;                       ///< point, spot: zero beyond this distance; 0 means no limit
+    float source_radius = 0.0f;               ///< point, spot: smaller distances count as this; 0 means 1e-4
+    float inner_cone_rad = 0.0f;              ///< spot: full intensity up to this angle from the axis
+    float outer_cone_rad = 0.785398163f;      ///< spot: zero from this angle on, pi/4 by default
+    float cone_power = 0.0f;                  ///< spot: factor cos(angle to the axis)^cone_power, [CMSC]; 0 to 1e5; 0: the cone alone
     friend bool operator==(const Light&, const Light&) = default;
 };
 
 /// Ambient light from all around, blended between ground and sky: L(n) = ground + (sky - ground) (1 + n.y) / 2.
 struct Ambient {
-    Vec3f sky_linear{0, 0, 0};
-    Vec3f ground_linear{0, 0, 0};
+    Vec3f sky_linear{0, 0, 0};     ///< L(0, 1, 0)
+    Vec3f ground_linear{0, 0, 0};  ///< L(0, -1, 0)
 };
 
 }  // namespace halflit

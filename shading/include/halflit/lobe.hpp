@@ -16,14 +16,16 @@ struct Lobe {
     float power = 1.0f;      ///< n >= 0
     bool normalize = false;  ///< scale by (n+1) / (2 (1+w)), so that the mean over light directions is Lambert's
 
-    static constexpr Lobe lambert() { return {0.0f, 1.0f, false}; }
-    static constexpr Lobe green(float w) { return {w, 1.0f, false}; }
-    static constexpr Lobe half_lambert() { return {1.0f, 1.0f, false}; }
-    static constexpr Lobe valve() { return {1.0f, 2.0f, false}; }
+    static constexpr Lobe lambert() { return {0.0f, 1.0f, false}; }       ///< max(0, x)
+    static constexpr Lobe green(float w) { return {w, 1.0f, false}; }     ///< max(0, (x + w) / (1 + w)) [Green04]
+    static constexpr Lobe half_lambert() { return {1.0f, 1.0f, false}; }  ///< (x + 1) / 2
+    static constexpr Lobe valve() { return {1.0f, 2.0f, false}; }         ///< ((x + 1) / 2)^2 [Valve06]
     /// The generalised lobe of [SNY11] eq. 3: w = a, n = 1 + a; a = 0 is Lambert, a = 1 is Valve.
     static constexpr Lobe sloan(float a) { return {a, 1.0f + a, false}; }
+    /// Any wrap and power, normalised [McA13].
     static constexpr Lobe mcauley(float w, float n) { return {w, n, true}; }
 
+    /// Factor of f: 1 if not `normalize`.
     [[nodiscard]] constexpr float scale() const { return normalize ? (power + 1.0f) / (2.0f * (1.0f + wrap)) : 1.0f; }
     friend constexpr bool operator==(const Lobe&, const Lobe&) = default;
 };
@@ -38,11 +40,13 @@ inline constexpr float kMaxLobePower = 10000.0f;
 
 /// A model of the literature, by the name that users type. Its power is power + power_per_wrap w.
 struct NamedLobe {
-    std::string_view name;
-    bool takes_wrap;  ///< the user chooses w; otherwise it is `wrap`
-    float wrap, power, power_per_wrap;
-    bool normalize;  ///< as in Lobe
+    std::string_view name;        ///< lower case, as in kNamedLobes
+    bool takes_wrap;              ///< the user chooses w; otherwise it is `wrap`
+    float wrap;                   ///< w where the user does not choose it
+    float power, power_per_wrap;  ///< the lobe's power is power + power_per_wrap w
+    bool normalize;               ///< as in Lobe
 };
+/// All models, by the names of Lobe's constructors.
 inline constexpr NamedLobe kNamedLobes[] = {{"lambert", false, 0, 1, 0, false},      {"green", true, 0, 1, 0, false},
                                             {"half-lambert", false, 1, 1, 0, false}, {"valve", false, 1, 2, 0, false},
                                             {"sloan", true, 0, 1, 1, false},         {"mcauley", true, 0, 1, 1, true}};

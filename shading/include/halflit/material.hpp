@@ -10,21 +10,27 @@
 
 namespace halflit {
 
-enum class AlphaMode : std::uint8_t { opaque, mask, blend };
+/// Meaning of a surface's alpha.
+enum class AlphaMode : std::uint8_t {
+    opaque,  ///< none: alpha counts as 1
+    mask,    ///< drawn where alpha >= alpha_cutoff, opaque there
+    blend    ///< drawn over what is behind, in the order of instances and triangles
+};
 
+/// A surface. The defaults are glTF's: white, metallic and rough.
 struct Material {
-    std::string name;
-    Vec4f base_color{1, 1, 1, 1};  ///< linear; w is alpha
-    float metallic = 1.0f, roughness = 1.0f;
-    Vec3f emissive{0, 0, 0};  ///< linear, KHR_materials_emissive_strength multiplied in
-    float normal_scale = 1.0f;
-    float occlusion_strength = 1.0f;
-    AlphaMode alpha_mode = AlphaMode::opaque;
-    float alpha_cutoff = 0.5f;  ///< mask: drawn where alpha >= cutoff
-    bool double_sided = false;
-    bool unlit = false;         ///< colour is base_color (times texture and vertex colour), no light
-    Lobe lobe;                  ///< diffuse lobe
-    bool has_own_lobe = false;  ///< the file chose the lobe; a setting for all materials does not replace it
+    std::string name;                          ///< for messages; may be empty
+    Vec4f base_color{1, 1, 1, 1};              ///< linear; w is alpha
+    float metallic = 1.0f, roughness = 1.0f;   ///< in [0, 1], times the texture's
+    Vec3f emissive{0, 0, 0};                   ///< linear, KHR_materials_emissive_strength multiplied in
+    float normal_scale = 1.0f;                 ///< factor on x and y of the normal texture
+    float occlusion_strength = 1.0f;           ///< in [0, 1]: 0 ignores the occlusion texture; ambient light alone is occluded
+    AlphaMode alpha_mode = AlphaMode::opaque;  ///< meaning of alpha
+    float alpha_cutoff = 0.5f;                 ///< mask: drawn where alpha >= cutoff
+    bool double_sided = false;                 ///< back faces are drawn too, with their normals turned around
+    bool unlit = false;                        ///< colour is base_color (times texture and vertex colour), no light
+    Lobe lobe;                                 ///< diffuse lobe
+    bool has_own_lobe = false;                 ///< the file chose the lobe; a setting for all materials does not replace it
 
     TextureUse base_color_texture;          ///< sRGB, alpha linear
     TextureUse metallic_roughness_texture;  ///< linear: G roughness, B metallic

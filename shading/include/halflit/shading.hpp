@@ -8,6 +8,7 @@
 
 namespace halflit {
 
+/// Arithmetic of shading: its error, and so its time.
 enum class Accuracy : std::uint8_t {
     reference,  ///< float64 and the C library, environments by direct integration: slow; errors are measured against it
     exact,      ///< float32, elementary functions within about 2 ulp
@@ -18,8 +19,8 @@ enum class Accuracy : std::uint8_t {
 /// Bound on the error of a frame in 8-bit sRGB codes: 255 times the encoded value, before it is rounded to a whole code, of a pixel that
 /// one surface fills. `codes` is the sum of the parts below it, for the material where that sum is largest.
 struct ErrorBound {
-    double budget = 0;  ///< codes asked for; 0: no budget, and nothing below is known
-    double codes = 0;
+    double budget = 0;       ///< codes asked for; 0: no budget, and nothing below is known
+    double codes = 0;        ///< the bound
     bool within = true;      ///< codes <= budget; if not, rounding and bands alone exceed it for some material, which is computed exactly
     double rounding = 0;     ///< float32 itself, and texture filters
     double lobes = 0;        ///< shorter polynomials for t^n, or curves
@@ -50,21 +51,22 @@ enum class TextureDetail : std::uint8_t {
 enum class ShadingRate : std::uint8_t {
     flat,     ///< once a visible triangle, at its centroid, with the triangle's own normal
     gouraud,  ///< once a vertex, interpolated
-    pixel
+    pixel     ///< once a pixel for each triangle that it shows
 };
 
+/// How fragments are shaded: the part of Settings that decides light and texture.
 struct ShadingSettings {
-    ShadingRate rate = ShadingRate::pixel;
+    ShadingRate rate = ShadingRate::pixel;          ///< how often light is evaluated
     std::optional<Lobe> lobe;                       ///< replaces the lobe of all materials but those with Material::has_own_lobe
     SpecularModel specular = SpecularModel::blinn;  ///< none: no specular stage, albedo is the base colour itself
     bool normalize_specular = true;  ///< times (s + 8) / 8, so that sharper highlights are brighter; off: a peak of 1 for every exponent
     int environment_bands = 0;       ///< of spherical harmonics, 1..10; 0: the fewest whose error is within environment_tolerance
     double environment_tolerance = 1.0 / 510.0;  ///< relative to display white, in linear light; the default is half an 8-bit code
-    Accuracy accuracy = Accuracy::exact;
+    Accuracy accuracy = Accuracy::exact;         ///< exact if there is an error budget
     /// An error budget in 8-bit codes. 0: `accuracy` decides. Above 0: the cheapest way whose proven bound is below this (ErrorBound), for
     /// ShadingRate::pixel, TextureDetail::full and Accuracy::exact alone.
     double max_error_codes = 0.0;
-    TextureDetail texture_detail = TextureDetail::full;
+    TextureDetail texture_detail = TextureDetail::full;  ///< upper limit of the filters
     friend bool operator==(const ShadingSettings&, const ShadingSettings&) = default;
 };
 

@@ -13,29 +13,37 @@
 
 namespace halflit {
 
+/// Texture outside the coordinates [0, 1]: repeated, repeated with every other copy mirrored, or its edge continued.
 enum class TextureWrap : std::uint8_t { repeat, mirror, clamp };
+/// Texels of a level that a look-up reads: the nearest, or the four around it, interpolated.
 enum class TextureFilter : std::uint8_t { nearest, linear };
+/// Levels that a look-up reads: the largest alone, the one nearest in size, or the two nearest, interpolated.
 enum class MipFilter : std::uint8_t { none, nearest, linear };
+/// Encoding of the 8-bit red, green and blue that a texture is made from.
 enum class ColorSpace : std::uint8_t { srgb, linear };
 
+/// Rules by which a texture is read.
 struct Sampler {
-    TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
-    TextureFilter mag = TextureFilter::linear, min = TextureFilter::linear;
-    MipFilter mip = MipFilter::linear;
+    TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;  ///< along u; along v
+    TextureFilter mag = TextureFilter::linear, min = TextureFilter::linear;  ///< where texels are larger than pixels; smaller
+    MipFilter mip = MipFilter::linear;                                       ///< where texels are smaller than pixels
     friend bool operator==(const Sampler&, const Sampler&) = default;
 };
 
+/// One mip level, and its place in Texture::data().
 struct TextureLevel {
     std::int32_t width = 0, height = 0;  ///< texels, >= 1
     std::int32_t offset = 0;             ///< position of texel (0, 0) in the data, in texels
 };
 
+/// No texture has more levels; a side of kMaxTextureSide has 15.
 inline constexpr int kMaxTextureLevels = 16;
+/// Largest width and height, texels.
 inline constexpr int kMaxTextureSide = 16384;
 
 /// Range of a texture's channels over all levels, in units of 1 / 65535, for bounds on the error of filtering.
 struct TextureRange {
-    std::uint16_t least[4], most[4];
+    std::uint16_t least[4], most[4];  ///< smallest and largest value of each channel
     std::uint16_t step[4];  ///< the largest difference between neighbours in a row or a column, those across opposite edges included
 };
 
@@ -48,10 +56,15 @@ public:
     /// The same from 16-bit channels, taken as they are (linear).
     [[nodiscard]] HALFLIT_API static Result<Texture> from_rgba16(std::span<const std::uint16_t> rgba16, int width, int height);
 
+    /// Texels of level 0; 0 for a texture without levels, made by the default constructor.
     [[nodiscard]] int width() const { return levels_.empty() ? 0 : levels_[0].width; }
+    /// As width().
     [[nodiscard]] int height() const { return levels_.empty() ? 0 : levels_[0].height; }
+    /// Full size first; each next level has half the sides, rounded down, to 1 x 1.
     [[nodiscard]] std::span<const TextureLevel> levels() const { return levels_; }
+    /// All levels: four numbers a texel, linear, 65535 is 1.
     [[nodiscard]] std::span<const std::uint16_t> data() const { return data_; }
+    /// Least and most of each channel, computed when the texture was made.
     [[nodiscard]] const TextureRange& range() const { return range_; }
 
 private:
@@ -67,9 +80,11 @@ private:
 struct TextureUse {
     int texture = -1;  ///< index into Scene::textures; -1: not used
     int uv_set = 0;    ///< 0 or 1
-    Sampler sampler;
+    Sampler sampler;   ///< filters, and what is outside [0, 1]
     /// uv' = (row_u.x u + row_u.y v + row_u.z, row_v.x u + row_v.y v + row_v.z): KHR_texture_transform as a matrix.
-    Vec3f row_u{1, 0, 0}, row_v{0, 1, 0};
+    Vec3f row_u{1, 0, 0};
+    Vec3f row_v{0, 1, 0};  ///< see row_u
+    /// True if there is a texture.
     [[nodiscard]] bool used() const { return texture >= 0; }
 };
 

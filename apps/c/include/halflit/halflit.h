@@ -1,21 +1,18 @@
 // halflit for C, and for languages that call C: glTF or arrays in, picture out.
 //
-// Handles   halflit_scene and halflit_renderer are made by a function that ends in create or load, and freed by one that ends in destroy.
-// Results   A function that can fail returns a code: HALFLIT_OK, which is 0, or one of the HALFLIT_ERROR codes. halflit_last_error() has
-// the
-//           message. Results of a call come through its last pointers; they are written if the code is HALFLIT_OK. A null pointer is an
-//           error (usage), unless the function says otherwise.
-// Structs   The first member is the struct's size, so that a program and a newer library agree on what both know:
-//               halflit_settings settings;
-//               halflit_settings_init(&settings, sizeof settings);  // sets the size and the defaults
-//           Members that an older program does not have keep their defaults. If a newer program sets members that this library does not
-//           know, the call fails (usage). Structs without an init function are results: set their size, the call fills in the rest.
-//           Reserved members are 0.
-// Memory    Arrays and strings that are handed over are copied, or used during the call alone. Pictures are drawn into the caller's memory.
-// Numbers   Truth is an int32_t: 0 or not. Strings are UTF-8. Indices begin at 0. A matrix is 16 floats, column after column; points are
-//           columns. The world is right-handed with y up. Colours are linear light with Rec. 709 primaries, if nothing else is said.
-// Threads   Different scenes and renderers may be used by different threads at once. Several renderers may draw one scene at once; a call
-//           that would change it meanwhile fails (usage). A renderer draws one frame at a time. Destroy nothing that is in use.
+// - Handles: halflit_scene and halflit_renderer are made by a function that ends in create or load, and freed by one that ends in destroy.
+// - Results: A function that can fail returns a code: HALFLIT_OK, which is 0, or one of the HALFLIT_ERROR codes. halflit_last_error() has
+//   the message. Results of a call come through its last pointers; they are written if the code is HALFLIT_OK. A null pointer is an error
+//   (usage), unless the function says otherwise.
+// - Structs: The first member is the struct's size, so that a program and a newer library agree on what both know. After
+//   `halflit_settings settings; halflit_settings_init(&settings, sizeof settings);` the size and the defaults are set. Members that an
+//   older program does not have keep their defaults. If a newer program sets members that this library does not know, the call fails
+//   (usage). Structs without an init function are results: set their size, the call fills in the rest. Reserved members are 0.
+// - Memory: Arrays and strings that are handed over are copied, or used during the call alone. Pictures are drawn into the caller's memory.
+// - Numbers: Truth is an int32_t: 0 or not. Strings are UTF-8. Indices begin at 0. A matrix is 16 floats, column after column; points are
+//   columns. The world is right-handed with y up. Colours are linear light with Rec. 709 primaries, if nothing else is said.
+// - Threads: Different scenes and renderers may be used by different threads at once. Several renderers may draw one scene at once; a call
+//   that would change it meanwhile fails (usage). A renderer draws one frame at a time. Destroy nothing that is in use.
 #ifndef HALFLIT_HALFLIT_H
 #define HALFLIT_HALFLIT_H
 
@@ -62,26 +59,28 @@ typedef struct halflit_scene halflit_scene;
 typedef struct halflit_load_options {
     size_t size;
     const char* const* allow_external;  ///< folders, besides the model's own, in which referenced files may lie
-    size_t allow_external_count;
-    uint64_t max_file_bytes;   ///< each file: the model, a buffer, a picture
-    uint64_t max_total_bytes;  ///< all buffers together
-    uint64_t max_json_tokens;
-    uint64_t max_texture_bytes;   ///< all textures together, 10.7 bytes a pixel
-    uint64_t max_texture_pixels;  ///< one texture
-    uint64_t max_geometry_bytes;  ///< all vertices, indices and instances together
-    uint64_t max_lights;
-    int32_t max_json_depth, max_texture_side, max_jpeg_scans;
-    int32_t lenient;  ///< draw what can be drawn: magenta for broken textures, triangles with bad indices left out
+    size_t allow_external_count;        ///< number of these folders
+    uint64_t max_file_bytes;            ///< each file: the model, a buffer, a picture
+    uint64_t max_total_bytes;           ///< all buffers together
+    uint64_t max_json_tokens;           ///< names and values
+    uint64_t max_texture_bytes;         ///< all textures together, 10.7 bytes a pixel
+    uint64_t max_texture_pixels;        ///< one texture
+    uint64_t max_geometry_bytes;        ///< all vertices, indices and instances together
+    uint64_t max_lights;                ///< lights of the drawn nodes
+    int32_t max_json_depth;             ///< objects and arrays inside each other
+    int32_t max_texture_side;           ///< texels
+    int32_t max_jpeg_scans;             ///< passes over the picture of a progressive JPEG
+    int32_t lenient;                    ///< draw what can be drawn: magenta for broken textures, triangles with bad indices left out
 } halflit_load_options;
 HALFLIT_C_API int32_t halflit_load_options_init(halflit_load_options* options, size_t size);
 
 /// Numbers of a scene's parts.
 typedef struct halflit_counts {
     size_t size;
-    uint64_t triangles;  ///< over all instances
-    int32_t meshes, instances, materials, textures, cameras;
-    int32_t lights;    ///< without the suns of the environment
-    int32_t warnings;  ///< of loading
+    uint64_t triangles;                                       ///< over all instances
+    int32_t meshes, instances, materials, textures, cameras;  ///< one more than the largest index
+    int32_t lights;                                           ///< without the suns of the environment
+    int32_t warnings;                                         ///< of loading
     int32_t reserved;
 } halflit_counts;
 
@@ -97,6 +96,7 @@ HALFLIT_C_API int32_t halflit_scene_create_demo(halflit_scene** scene);
 /// Frees a scene. Null is allowed.
 HALFLIT_C_API void halflit_scene_destroy(halflit_scene* scene);
 
+/// Counts the scene's parts. Set counts->size before.
 HALFLIT_C_API int32_t halflit_scene_get_counts(const halflit_scene* scene, halflit_counts* counts);
 /// A warning of loading: one line, valid as long as the scene.
 HALFLIT_C_API int32_t halflit_scene_get_warning(const halflit_scene* scene, int32_t index, const char** text);
@@ -105,6 +105,7 @@ HALFLIT_C_API int32_t halflit_scene_get_bounds(const halflit_scene* scene, float
 
 // ---- materials and textures --------------------------------------------------------------------------------------------
 
+/// Encodings of a texture's red, green and blue.
 enum { HALFLIT_COLOR_SRGB = 0, HALFLIT_COLOR_LINEAR = 1 };
 
 /// Adds a texture: four bytes a pixel (RGBA), row 0 on top, rows row_bytes apart (0: without gaps). color is that of red, green and blue;
@@ -115,9 +116,13 @@ HALFLIT_C_API int32_t halflit_scene_add_texture(halflit_scene* scene, const uint
 HALFLIT_C_API int32_t halflit_scene_set_texture(halflit_scene* scene, int32_t index, const uint8_t* rgba8, int32_t width, int32_t height,
                                                 size_t row_bytes, int32_t color);
 
+/// Meaning of alpha: none; drawn where it reaches alpha_cutoff; drawn over what is behind, in the order of instances and triangles.
 enum { HALFLIT_ALPHA_OPAQUE = 0, HALFLIT_ALPHA_MASK = 1, HALFLIT_ALPHA_BLEND = 2 };
+/// Texture outside the coordinates 0 to 1: repeated, repeated with every other copy mirrored, or its edge continued.
 enum { HALFLIT_WRAP_REPEAT = 0, HALFLIT_WRAP_MIRROR = 1, HALFLIT_WRAP_CLAMP = 2 };
+/// Texels of a level that a look-up reads: the nearest, or the four around it.
 enum { HALFLIT_FILTER_NEAREST = 0, HALFLIT_FILTER_LINEAR = 1 };
+/// Levels that a look-up reads: the largest alone, the one nearest in size, or the two nearest.
 enum { HALFLIT_MIP_NONE = 0, HALFLIT_MIP_NEAREST = 1, HALFLIT_MIP_LINEAR = 2 };
 
 /// A material's use of a texture.
@@ -143,17 +148,18 @@ HALFLIT_C_API int32_t halflit_lobe_by_name(const char* name, float wrap, halflit
 /// The parameters of glTF's metallic-roughness materials, and a lobe. Defaults: white, metallic 1, roughness 1, Lambert.
 typedef struct halflit_material {
     size_t size;
-    const char* name;     ///< may be null. From halflit_scene_get_material: valid until the scene is changed or destroyed
-    float base_color[4];  ///< with alpha
-    float metallic, roughness;
-    float emissive[3];
-    float normal_scale, occlusion_strength;
-    float alpha_cutoff;    ///< for HALFLIT_ALPHA_MASK: drawn where alpha is at least this
-    int32_t alpha_mode;    ///< HALFLIT_ALPHA
-    int32_t double_sided;  ///< draw back faces too
-    int32_t unlit;         ///< base colour alone, without light
-    int32_t own_lobe;      ///< halflit_settings.override_lobe does not replace this material's lobe
-    halflit_lobe lobe;
+    const char* name;           ///< may be null. From halflit_scene_get_material: valid until the scene is changed or destroyed
+    float base_color[4];        ///< with alpha
+    float metallic, roughness;  ///< 0 to 1, times the texture's
+    float emissive[3];          ///< light of its own
+    float normal_scale;         ///< factor on x and y of the normal texture
+    float occlusion_strength;   ///< 0 to 1; 0 ignores the occlusion texture
+    float alpha_cutoff;         ///< for HALFLIT_ALPHA_MASK: drawn where alpha is at least this
+    int32_t alpha_mode;         ///< HALFLIT_ALPHA
+    int32_t double_sided;       ///< draw back faces too
+    int32_t unlit;              ///< base colour alone, without light
+    int32_t own_lobe;           ///< halflit_settings.override_lobe does not replace this material's lobe
+    halflit_lobe lobe;          ///< of diffuse light
     halflit_texture_use base_color_texture;          ///< sRGB
     halflit_texture_use metallic_roughness_texture;  ///< linear: green is roughness, blue metallic
     halflit_texture_use normal_texture;              ///< linear, in tangent space
@@ -164,7 +170,9 @@ HALFLIT_C_API int32_t halflit_material_init(halflit_material* material, size_t s
 
 /// Adds a material, whose textures must be in the scene. index may be null.
 HALFLIT_C_API int32_t halflit_scene_add_material(halflit_scene* scene, const halflit_material* material, int32_t* index);
+/// Reads a material. Set material->size before.
 HALFLIT_C_API int32_t halflit_scene_get_material(const halflit_scene* scene, int32_t index, halflit_material* material);
+/// Replaces a material, in all meshes that have it.
 HALFLIT_C_API int32_t halflit_scene_set_material(halflit_scene* scene, int32_t index, const halflit_material* material);
 
 // ---- meshes and instances ----------------------------------------------------------------------------------------------
@@ -180,9 +188,9 @@ typedef struct halflit_mesh {
     const float* uv1;         ///< 2 floats each
     const float* colors;      ///< 4 floats each: linear, with alpha
     const uint32_t* indices;  ///< 3 for each triangle; null: vertices 0 1 2, 3 4 5 and so on
-    size_t vertex_count;
-    size_t index_count;
-    int32_t material;  ///< index; -1: the default material, white and rough
+    size_t vertex_count;      ///< elements of each array
+    size_t index_count;       ///< 3 for each triangle; 0 without indices
+    int32_t material;         ///< index; -1: the default material, white and rough
     int32_t reserved;
 } halflit_mesh;
 HALFLIT_C_API int32_t halflit_mesh_init(halflit_mesh* mesh, size_t size);
@@ -208,9 +216,9 @@ HALFLIT_C_API int32_t halflit_scene_set_instance(halflit_scene* scene, int32_t i
 /// A camera is at the origin of its own space and looks along -z, with +x to the right and +y up.
 typedef struct halflit_camera {
     size_t size;
-    const char* name;             ///< from halflit_scene_get_camera, valid as long as the scene; otherwise not read
-    float world_from_camera[16];  ///< rigid: rotation and translation
-    int32_t orthographic;
+    const char* name;               ///< from halflit_scene_get_camera, valid as long as the scene; otherwise not read
+    float world_from_camera[16];    ///< rigid: rotation and translation
+    int32_t orthographic;           ///< 0: perspective
     float fov_y_rad;                ///< perspective: full vertical angle, 0 to pi
     float aspect;                   ///< perspective: width / height that the view is made for; 0: that of the picture
     float half_height, half_width;  ///< orthographic: half the view's size, world units; half_width 0: from the picture's aspect
@@ -231,14 +239,15 @@ HALFLIT_C_API int32_t halflit_scene_get_camera(const halflit_scene* scene, int32
 
 // ---- light -------------------------------------------------------------------------------------------------------------
 
+/// Shapes of a source's light: parallel, from infinitely far; in all directions from a point; a point's light inside a cone.
 enum { HALFLIT_LIGHT_DIRECTIONAL = 0, HALFLIT_LIGHT_POINT = 1, HALFLIT_LIGHT_SPOT = 2 };
 
 /// A light. Colour 1 makes a white surface exactly white that faces the light: a directional one, or another at distance 1. Defaults:
 /// white, directional, straight down.
 typedef struct halflit_light {
     size_t size;
-    int32_t type;  ///< HALFLIT_LIGHT
-    float color[3];
+    int32_t type;                          ///< HALFLIT_LIGHT
+    float color[3];                        ///< directional: irradiance / pi; point, spot: the same at distance 1
     float position[3];                     ///< point, spot: world space
     float direction[3];                    ///< directional, spot: the way the light travels, of any length above 0
     float range;                           ///< point, spot: no light beyond; 0: no limit
@@ -251,7 +260,9 @@ HALFLIT_C_API int32_t halflit_light_init(halflit_light* light, size_t size);
 
 /// Adds a light. index may be null.
 HALFLIT_C_API int32_t halflit_scene_add_light(halflit_scene* scene, const halflit_light* light, int32_t* index);
+/// Reads a light. Set light->size before.
 HALFLIT_C_API int32_t halflit_scene_get_light(const halflit_scene* scene, int32_t index, halflit_light* light);
+/// Replaces a light.
 HALFLIT_C_API int32_t halflit_scene_set_light(halflit_scene* scene, int32_t index, const halflit_light* light);
 /// Sets the light from all around: sky from above, ground from below. An environment replaces it.
 HALFLIT_C_API int32_t halflit_scene_set_ambient(halflit_scene* scene, const float sky[3], const float ground[3]);
@@ -260,6 +271,7 @@ HALFLIT_C_API int32_t halflit_scene_add_default_lights(halflit_scene* scene, con
 /// Removes the lights, the ambient light and the environment.
 HALFLIT_C_API int32_t halflit_scene_clear_lights(halflit_scene* scene);
 
+/// Decisions about an environment that are made once, when it is set.
 typedef struct halflit_environment_options {
     size_t size;
     double rotate_rad;     ///< about +y, counter-clockwise seen from above
@@ -282,15 +294,21 @@ HALFLIT_C_API int32_t halflit_scene_set_sky(halflit_scene* scene, const halflit_
 
 // ---- settings of a picture ---------------------------------------------------------------------------------------------
 
+/// Arithmetic of shading: float64 and slow; float32; about one 8-bit code from exact; less.
 enum { HALFLIT_ACCURACY_REFERENCE = 0, HALFLIT_ACCURACY_EXACT = 1, HALFLIT_ACCURACY_DISPLAY = 2, HALFLIT_ACCURACY_FAST = 3 };
+/// How often light is evaluated: once a triangle, a vertex or a pixel.
 enum { HALFLIT_RATE_FLAT = 0, HALFLIT_RATE_GOURAUD = 1, HALFLIT_RATE_PIXEL = 2 };
+/// Upper limits of the texture filters: the sampler's own; one mip level; one texel of it.
 enum { HALFLIT_DETAIL_FULL = 0, HALFLIT_DETAIL_BILINEAR = 1, HALFLIT_DETAIL_NEAREST = 2 };
+/// Shapes of highlights: none; by the mirrored light; by the half vector.
 enum { HALFLIT_SPECULAR_NONE = 0, HALFLIT_SPECULAR_PHONG = 1, HALFLIT_SPECULAR_BLINN = 2 };
+/// Effects of a shadow on light past the terminator: none; a step; a soft end.
 enum { HALFLIT_SHADOWS_OFF = 0, HALFLIT_SHADOWS_HARD = 1, HALFLIT_SHADOWS_SOFT_SPLIT = 2 };
 
 /// A part of a picture, in pixels; width 0: all of it.
 typedef struct halflit_region {
-    int32_t x, y, width, height;
+    int32_t x, y;           ///< its upper left corner, from that of the picture
+    int32_t width, height;  ///< it must lie inside the picture
 } halflit_region;
 
 /// Everything besides scene, camera and size that decides a pixel. Defaults in parentheses.
@@ -331,8 +349,8 @@ HALFLIT_C_API int32_t halflit_auto_setup(halflit_scene* scene, int32_t width, in
 /// frame, by several at once. They must return, and must not draw or destroy the scene.
 typedef struct halflit_execution {
     size_t size;
-    const char* isa;  ///< instruction set: scalar, sse2, sse4.1, avx2, avx512 or neon64; null: the best one
-    void* user;
+    const char* isa;                   ///< instruction set: scalar, sse2, sse4.1, avx2, avx512 or neon64; null: the best one
+    void* user;                        ///< handed to the functions below
     int32_t (*cancelled)(void* user);  ///< asked before each tile; not 0: stop the frame
     /// Told after each tile which pixels are final.
     void (*on_tile)(void* user, int32_t x, int32_t y, int32_t width, int32_t height);
@@ -371,38 +389,43 @@ enum {
 /// aligned to 4 bytes, rows too.
 typedef struct halflit_target {
     size_t size;
-    void* pixels;
-    size_t row_bytes;
-    float* depth;  ///< distance along the view axis, world units; infinity where nothing is
-    size_t depth_row_bytes;
-    float* normal;  ///< 3 floats a pixel: unit normal in world space, towards the viewer; 0 where nothing is
-    size_t normal_row_bytes;
-    uint32_t* instance;  ///< index of the instance plus 1; 0 where nothing is
-    size_t instance_row_bytes;
-    uint32_t* triangle;  ///< number of the triangle in its mesh plus 1; 0 where nothing is
-    size_t triangle_row_bytes;
-    int32_t width, height;  ///< pixels, of the whole picture: what the camera sees
-    int32_t format;         ///< HALFLIT_FORMAT, of `pixels`
-    int32_t region_alone;   ///< the memory holds halflit_settings.region alone, not the whole picture
+    void* pixels;               ///< null: no colours are drawn
+    size_t row_bytes;           ///< stride of `pixels`
+    float* depth;               ///< distance along the view axis, world units; infinity where nothing is
+    size_t depth_row_bytes;     ///< stride
+    float* normal;              ///< 3 floats a pixel: unit normal in world space, towards the viewer; 0 where nothing is
+    size_t normal_row_bytes;    ///< stride
+    uint32_t* instance;         ///< index of the instance plus 1; 0 where nothing is
+    size_t instance_row_bytes;  ///< stride
+    uint32_t* triangle;         ///< number of the triangle in its mesh plus 1; 0 where nothing is
+    size_t triangle_row_bytes;  ///< stride
+    int32_t width, height;      ///< pixels, of the whole picture: what the camera sees
+    int32_t format;             ///< HALFLIT_FORMAT, of `pixels`
+    int32_t region_alone;       ///< the memory holds halflit_settings.region alone, not the whole picture
 } halflit_target;
 HALFLIT_C_API int32_t halflit_target_init(halflit_target* target, size_t size);
 
 /// Times and counts of a frame. Times are milliseconds of wall clock.
 typedef struct halflit_report {
     size_t size;
-    double total_ms;
-    double prepare_ms;  ///< preparing the scene, or what changed in it
-    double plan_ms, shadows_ms, cull_ms, transform_ms, bin_ms, tiles_ms;
-    double error_budget;  ///< codes; 0: no budget, and the error is not known
-    double error_codes;   ///< bound on the error with a budget, in 8-bit codes
-    uint64_t triangles_submitted, triangles_drawn;
-    uint64_t triangles_not_finite;  ///< left out for a vertex that is NaN or infinite
-    uint64_t pixels_visible, fragments_shaded;
-    uint64_t nan_pixels;   ///< fragments with a NaN in their colour, written as 0
-    char isa[16];          ///< instruction set
-    int32_t error_within;  ///< error_codes is at most error_budget
-    int32_t threads;
-    int32_t warnings;  ///< see halflit_renderer_get_warning
+    double total_ms;                       ///< the whole call
+    double prepare_ms;                     ///< preparing the scene, or what changed in it
+    double plan_ms;                        ///< near 0 if the last frame's plan is used again
+    double shadows_ms;                     ///< shadow maps
+    double cull_ms, transform_ms, bin_ms;  ///< geometry: leaving out, vertices, lists of triangles for each tile
+    double tiles_ms;                       ///< visibility and shading
+    double error_budget;                   ///< codes; 0: no budget, and the error is not known
+    double error_codes;                    ///< bound on the error with a budget, in 8-bit codes
+    uint64_t triangles_submitted;          ///< triangles of the scene, over all instances
+    uint64_t triangles_drawn;              ///< set up for tiles; pieces of clipped triangles count singly
+    uint64_t triangles_not_finite;         ///< left out for a vertex that is NaN or infinite
+    uint64_t pixels_visible;               ///< pixels of which an opaque or masked surface covers a sample
+    uint64_t fragments_shaded;             ///< pairs of a pixel and a triangle whose colour was computed
+    uint64_t nan_pixels;                   ///< fragments with a NaN in their colour, written as 0
+    char isa[16];                          ///< instruction set
+    int32_t error_within;                  ///< error_codes is at most error_budget
+    int32_t threads;                       ///< threads that worked on the frame
+    int32_t warnings;                      ///< see halflit_renderer_get_warning
     int32_t reserved;
 } halflit_report;
 

@@ -18,43 +18,50 @@ namespace halflit {
 
 /// Above a limit, loading ends with ErrorCode::limit.
 struct LoadLimits {
-    std::size_t max_file_bytes = std::size_t{512} << 20;  ///< each file: the model, a buffer, a picture
-    std::size_t max_total_bytes = std::size_t{2} << 30;   ///< all buffers together
-    int max_json_depth = 64;
-    std::size_t max_json_tokens = 50'000'000;
-    std::size_t max_texture_bytes = std::size_t{1} << 30;  ///< all textures together, as the renderer keeps them (10.7 bytes per pixel)
-    int max_texture_side = 16384;
+    std::size_t max_file_bytes = std::size_t{512} << 20;     ///< each file: the model, a buffer, a picture
+    std::size_t max_total_bytes = std::size_t{2} << 30;      ///< all buffers together
+    int max_json_depth = 64;                                 ///< objects and arrays inside each other
+    std::size_t max_json_tokens = 50'000'000;                ///< names and values
+    std::size_t max_texture_bytes = std::size_t{1} << 30;    ///< all textures, as the renderer keeps them (10.7 bytes per pixel)
+    int max_texture_side = 16384;                            ///< texels; at most kMaxTextureSide
     std::size_t max_texture_pixels = std::size_t{64} << 20;  ///< one texture
-    int max_jpeg_scans = 64;
+    int max_jpeg_scans = 64;                                 ///< passes over the picture of a progressive JPEG, which bound its time
     /// All vertices, indices and instances together. A small file gets less: 32 MiB plus 96 bytes for each byte of the file. No real model
     /// needs more, and a crafted one cannot become many times larger than its file. The JSON objects have the same limit.
     std::uint64_t max_geometry_bytes = std::uint64_t{16} << 30;
-    std::size_t max_lights = 1024;
+    std::size_t max_lights = 1024;  ///< lights of the drawn nodes
 };
 
+/// How a file is read; the defaults are strict.
 struct LoadOptions {
     bool lenient = false;                     ///< draw what can be drawn: magenta for broken textures, triangles with bad indices left out
     std::vector<std::string> allow_external;  ///< folders, besides the model's own, in which referenced files may lie
-    LoadLimits limits;
+    LoadLimits limits;                        ///< on memory and time
 };
 
 /// Contents of the file, drawn or not.
 struct SceneInfo {
-    std::string version, generator;
+    std::string version, generator;  ///< asset.version and asset.generator
+    /// @{
+    /// Number in the file.
     std::size_t meshes = 0, primitives = 0, nodes = 0, materials = 0, textures = 0, images = 0, animations = 0, skins = 0, cameras = 0,
                 lights = 0;
     std::size_t scenes = 0, morph_targets = 0;
+    /// @}
     std::size_t point_and_line_primitives = 0;  ///< primitives of the drawn nodes that are left out
     std::uint64_t triangles_stored = 0;         ///< triangles of the meshes that are drawn, each once
     std::uint64_t triangles_drawn = 0;          ///< triangles over all instances
     std::uint64_t vertices = 0;                 ///< vertices after splitting for flat normals and tangents
-    std::vector<std::string> extensions_used, extensions_required;
+    /// Names, as the file lists them.
+    std::vector<std::string> extensions_used;
+    /// Those without which the file must not be drawn.
+    std::vector<std::string> extensions_required;
 };
 
 /// Transform of a node: the images of x, y and z, and that of the origin. In double, as chains of nodes are rounded to float once, at the
 /// end.
 struct NodeTransform {
-    Vec3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, origin{0, 0, 0};
+    Vec3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, origin{0, 0, 0};  ///< in the parent's space; by default the identity
 
     NodeTransform() = default;
     /// Not explicit: poses are made by translation(), rotation() and scaling(). The matrix's last row counts as 0 0 0 1.
@@ -64,18 +71,19 @@ struct NodeTransform {
 
 /// A node of the file, and what it places in the scene: nothing if the scene that was loaded does not draw it.
 struct Node {
-    std::string name;
-    int parent = -1;  ///< index into LoadedScene::nodes; -1: none
-    NodeTransform parent_from_node;
-    std::vector<int> instances;   ///< indices into Scene::instances, one for each primitive of its mesh; skinned ones are left out
-    int camera = -1, light = -1;  ///< indices into Scene::cameras and Scene::lights; -1: none
+    std::string name;                ///< may be empty
+    int parent = -1;                 ///< index into LoadedScene::nodes; -1: none
+    NodeTransform parent_from_node;  ///< for pose()
+    std::vector<int> instances;      ///< indices into Scene::instances, one for each primitive of its mesh; skinned ones are left out
+    int camera = -1, light = -1;     ///< indices into Scene::cameras and Scene::lights; -1: none
 };
 
+/// A file's scene and what there is to say about it.
 struct LoadedScene {
-    Scene scene;
+    Scene scene;                        ///< the file's default scene, or else its first
     std::vector<Node> nodes;            ///< all nodes of the file, by their numbers in it
     std::vector<std::string> warnings;  ///< one line each, no file prefix
-    SceneInfo info;
+    SceneInfo info;                     ///< counts for the user
 };
 
 /// Loads the model at `path`; files that it refers to are read from its folder. Error messages begin with `path`. Thread-safe.

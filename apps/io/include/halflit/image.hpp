@@ -14,8 +14,10 @@
 
 namespace halflit {
 
+/// Formats of picture files; hdr is Radiance's RGBE.
 enum class OutputFormat : std::uint8_t { png, bmp, tga, jpg, hdr };
 
+/// Largest number of pixels of a picture file.
 inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 28;
 
 /// The format by the path's extension, in any case; "-" (standard output) is PNG. Anything else is a usage error that lists the formats.
@@ -31,9 +33,10 @@ inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 28;
 /// Encodes by the path's extension and writes the file, which is either old or new, never half written; "-" is standard output.
 [[nodiscard]] HALFLIT_API Result<void> write_image(const std::string& path, const Image& image);
 
+/// Above a limit, reading ends with ErrorCode::limit.
 struct EnvironmentLimits {
-    int max_width = 16384, max_height = 8192;  ///< pixels
-    std::size_t max_file_bytes = std::size_t{1} << 30;
+    int max_width = 16384, max_height = 8192;           ///< pixels
+    std::size_t max_file_bytes = std::size_t{1} << 30;  ///< bytes as stored
 };
 
 /// A Radiance file (.hdr). Any aspect is accepted: the picture always covers the whole sphere. Values above 1e30 are clamped to it.
