@@ -1,6 +1,6 @@
 # Builds and runs a consumer of the package, outside the tree.
-#   cmake -DWAY=find_package|add_subdirectory|FetchContent|pkg-config -DSOURCE=tree -DBUILD=build-tree -DWORK=folder [-DCOMPONENTS=raster;io]
-#         [-DCOMPILER=c++] [-DMAKE_PROGRAM=ninja] -P run.cmake
+#   cmake -DWAY=find_package|add_subdirectory|FetchContent|pkg-config -DSOURCE=tree -DBUILD=build-tree -DWORK=folder
+#         [-DCOMPONENTS=raster;io] [-DCOMPILER=c++] [-DMAKE_PROGRAM=ninja] -P run.cmake
 set(here ${CMAKE_CURRENT_LIST_DIR})
 function(run)
     execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)

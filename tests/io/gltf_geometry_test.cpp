@@ -141,7 +141,8 @@ TEST_CASE("gltf: sparse values replace elements, of a view or of zeros", "[io]")
     file.views += R"(,{"buffer":0,"byteOffset":)" + offset + R"(,"byteLength":28})";
     file.bin.insert(file.bin.end(), sparse.begin(), sparse.end());
     const std::string members =
-        R"("componentType":5126,"count":3,"type":"VEC3","sparse":{"count":2,"indices":{"bufferView":1,"componentType":5123},"values":{"bufferView":1,"byteOffset":4}})";
+        R"("componentType":5126,"count":3,"type":"VEC3","sparse":{"count":2,"indices":{"bufferView":1,"componentType":5123},)"
+        R"("values":{"bufferView":1,"byteOffset":4}})";
     file.accessors = R"({"bufferView":0,)" + members + "},{" + members + "}";
     file.attributes = R"("POSITION":0,"NORMAL":1)";
     const Mesh mesh = load_ok(file.file()).scene.meshes.at(0);

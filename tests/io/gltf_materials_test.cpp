@@ -43,7 +43,9 @@ TEST_CASE("materials: factors, alpha mode and sides are read", "[io]") {
     CHECK(plain.alpha_mode == AlphaMode::opaque);
     CHECK(!plain.has_own_lobe);
     const Material m = material_of(with_material(
-        R"("name":"m","pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,0.4],"metallicFactor":0.5,"roughnessFactor":0.25},"emissiveFactor":[1,0.5,0],"alphaMode":"MASK","alphaCutoff":0.75,"doubleSided":true,"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":4},"KHR_materials_unlit":{}})"));
+        R"("name":"m","pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,0.4],"metallicFactor":0.5,"roughnessFactor":0.25},)"
+        R"("emissiveFactor":[1,0.5,0],"alphaMode":"MASK","alphaCutoff":0.75,"doubleSided":true,)"
+        R"("extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":4},"KHR_materials_unlit":{}})"));
     CHECK(m.name == "m");
     CHECK(m.base_color == Vec4f{0.1f, 0.2f, 0.3f, 0.4f});
     CHECK(m.metallic == 0.5f);
@@ -60,7 +62,8 @@ TEST_CASE("materials: one texture for each picture and colour space", "[io]") {
     const Bytes red = plain_png(2, 2, 255, 0, 0), grey = plain_png(4, 2, 128, 128, 128);
     const std::string textures = R"({"source":0},{"source":1},{"source":0,"sampler":0})";
     const LoadedScene loaded = load_ok(with_material(
-        R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":1},"metallicRoughnessTexture":{"index":2}},"emissiveTexture":{"index":2},"occlusionTexture":{"index":1,"strength":0.5},"normalTexture":{"index":1,"scale":2})",
+        R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":1},"metallicRoughnessTexture":{"index":2}},)"
+        R"("emissiveTexture":{"index":2},"occlusionTexture":{"index":1,"strength":0.5},"normalTexture":{"index":1,"scale":2})",
         {red, grey}, textures, R"(,"samplers":[{"wrapS":33071,"wrapT":33648,"magFilter":9728,"minFilter":9985}])"));
     const Material& m = loaded.scene.materials[0];
     CHECK(loaded.scene.textures.size() == 3);

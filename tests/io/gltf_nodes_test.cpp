@@ -104,10 +104,13 @@ TEST_CASE("nodes: a file without anything to draw loads with a warning", "[io]")
 
 TEST_CASE("nodes: cameras are placed without their nodes' scale", "[io]") {
     const std::string cameras =
-        R"(,"cameras":[{"type":"perspective","name":"front","perspective":{"yfov":0.5,"znear":0.25,"aspectRatio":1.5}},{"type":"orthographic","orthographic":{"xmag":2,"ymag":-3,"znear":0,"zfar":10}},{"type":"perspective","perspective":{"yfov":0.5,"znear":-1}}])";
+        R"(,"cameras":[{"type":"perspective","name":"front","perspective":{"yfov":0.5,"znear":0.25,"aspectRatio":1.5}},)"
+        R"({"type":"orthographic","orthographic":{"xmag":2,"ymag":-3,"znear":0,"zfar":10}},)"
+        R"({"type":"perspective","perspective":{"yfov":0.5,"znear":-1}}])";
     // A quarter turn about y carries -z to -x.
     const std::string nodes =
-        R"({"camera":0,"translation":[1,2,3],"rotation":[0,0.70710678118654757,0,0.70710678118654757],"scale":[5,-7,2]},{"camera":1,"name":"top"},{"camera":2})";
+        R"({"camera":0,"translation":[1,2,3],"rotation":[0,0.70710678118654757,0,0.70710678118654757],"scale":[5,-7,2]},)"
+        R"({"camera":1,"name":"top"},{"camera":2})";
     const LoadedScene loaded = load_ok(with_nodes(nodes, "", cameras));
     REQUIRE(loaded.scene.cameras.size() == 2);
     const Camera& c = loaded.scene.cameras[0];
@@ -127,10 +130,13 @@ TEST_CASE("nodes: cameras are placed without their nodes' scale", "[io]") {
 }
 
 TEST_CASE("nodes: lights shine along -z, with colour times intensity over pi", "[io]") {
-    const std::string lights =
-        R"(,"extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":[{"type":"directional","color":[1,0.5,0],"intensity":3},{"type":"point","range":7,"intensity":2},{"type":"spot","spot":{"innerConeAngle":0.25,"outerConeAngle":0.5}},{"type":"area"}]}})";
+    const std::string lights = R"(,"extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":[)"
+                               R"({"type":"directional","color":[1,0.5,0],"intensity":3},{"type":"point","range":7,"intensity":2},)"
+                               R"({"type":"spot","spot":{"innerConeAngle":0.25,"outerConeAngle":0.5}},{"type":"area"}]}})";
     const std::string nodes =
-        R"({"extensions":{"KHR_lights_punctual":{"light":0}},"rotation":[0,0.70710678118654757,0,0.70710678118654757],"scale":[3,3,3]},{"extensions":{"KHR_lights_punctual":{"light":1}},"translation":[4,5,6]},{"extensions":{"KHR_lights_punctual":{"light":2}}},{"extensions":{"KHR_lights_punctual":{"light":3}}})";
+        R"({"extensions":{"KHR_lights_punctual":{"light":0}},"rotation":[0,0.70710678118654757,0,0.70710678118654757],"scale":[3,3,3]},)"
+        R"({"extensions":{"KHR_lights_punctual":{"light":1}},"translation":[4,5,6]},{"extensions":{"KHR_lights_punctual":{"light":2}}},)"
+        R"({"extensions":{"KHR_lights_punctual":{"light":3}}})";
     const LoadedScene loaded = load_ok(with_nodes(nodes, "", lights));
     REQUIRE(loaded.scene.lights.size() == 3);
     const Light &sun = loaded.scene.lights[0], &point = loaded.scene.lights[1], &spot = loaded.scene.lights[2];

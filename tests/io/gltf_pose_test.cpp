@@ -15,7 +15,8 @@ using namespace halflit::test;
 namespace {
 
 const char* const kRest =
-    R"(,"cameras":[{"type":"perspective","perspective":{"yfov":0.5,"znear":0.25}}],"extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","range":7,"intensity":2},{"type":"directional"}]}})";
+    R"(,"cameras":[{"type":"perspective","perspective":{"yfov":0.5,"znear":0.25}}],"extensionsUsed":["KHR_lights_punctual"],)"
+    R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","range":7,"intensity":2},{"type":"directional"}]}})";
 
 /// A file with a mesh of two primitives and the given nodes and scenes.
 Bytes with_nodes(const std::string& nodes, const std::string& scenes) {
@@ -31,7 +32,10 @@ Bytes with_nodes(const std::string& nodes, const std::string& scenes) {
 /// lights hang on the hand; node 6 is not in the scene.
 std::string arm(const std::string& elbow) {
     return R"({"name":"hand","mesh":0,"translation":[0,2.1,0.3],"scale":[0.7,-1.3,2],"children":[3,4,5]},{"name":"elbow",)" + elbow +
-           R"(,"children":[0]},{"name":"shoulder","mesh":0,"translation":[0.1,0.2,0.3],"rotation":[0.3,0.1,-0.5,0.6],"children":[1]},{"name":"eye","camera":0,"rotation":[0.1,0.9,0.2,0.3]},{"extensions":{"KHR_lights_punctual":{"light":0}},"translation":[0.3,0.3,0.3]},{"extensions":{"KHR_lights_punctual":{"light":1}},"rotation":[0.7,0.1,0.2,0.3]},{"name":"elsewhere","mesh":0})";
+           R"(,"children":[0]},{"name":"shoulder","mesh":0,"translation":[0.1,0.2,0.3],"rotation":[0.3,0.1,-0.5,0.6],)"
+           R"("children":[1]},{"name":"eye","camera":0,"rotation":[0.1,0.9,0.2,0.3]},)"
+           R"({"extensions":{"KHR_lights_punctual":{"light":0}},"translation":[0.3,0.3,0.3]},)"
+           R"({"extensions":{"KHR_lights_punctual":{"light":1}},"rotation":[0.7,0.1,0.2,0.3]},{"name":"elsewhere","mesh":0})";
 }
 
 const std::string kBent = R"("translation":[0.7,1.1,-0.1],"rotation":[0.2,0.3,0.1,0.9])";

@@ -25,8 +25,8 @@ inline Bytes rich_file(bool embedded = false) {
     const int joints = file.add(joint_numbers, R"("componentType":5121,"count":3,"type":"VEC4")");
     const int bind = file.add(matrices, R"("componentType":5126,"count":2,"type":"MAT4")");
     const int sparse = file.add(
-        floats,
-        R"("componentType":5126,"count":3,"type":"VEC3","sparse":{"count":2,"indices":{"bufferView":4,"componentType":5123},"values":{"bufferView":0}})");
+        floats, R"("componentType":5126,"count":3,"type":"VEC3","sparse":{"count":2,"indices":{"bufferView":4,"componentType":5123},)"
+                R"("values":{"bufferView":0}})");
     const int picture = file.add(plain_png(3, 2, 200, 100, 50), R"("componentType":5121,"count":1,"type":"SCALAR")");
     file.attributes += ",\"NORMAL\":" + text(normal) + ",\"TEXCOORD_0\":" + text(uv) + ",\"COLOR_0\":" + text(color) +
                        ",\"JOINTS_0\":" + text(joints) + ",\"WEIGHTS_0\":" + text(color);

@@ -1,8 +1,8 @@
 // Errors of preparing a scene and of updating it.
 #include "halflit/prepared_scene.hpp"
-#include "raster/scene/prepared_data.hpp"
 #include "halflit/scene.hpp"
 #include "halflit/shapes.hpp"
+#include "raster/scene/prepared_data.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,8 +1,11 @@
 # Rules about sources that no compiler checks. Includes point left only, among layers and among the subfolders of a layer. Public headers,
-# those in a folder include/halflit, include nothing but each other, the standard library and tl::expected. Only the vocabulary names xsimd and intrinsics. Kernels call nothing whose result depends on the
-# machine.
+# those in a folder include/halflit, include nothing but each other, the standard library and tl::expected. Only the vocabulary names xsimd
+# and intrinsics. Kernels call nothing whose result depends on the machine.
 #   cmake -DROOT=source-tree -P layering.cmake
 set(layers sh shading raster apps)
+# Functions of the standard library that a kernel must not call.
+string(CONCAT library_function "std::(sqrt|pow|exp2?|log2?|sin|cos|tan|atan2?|acos|asin|fma|floor|ceil|round|nearbyint|l?lrint"
+    "|fabs|abs|min|max|clamp|hypot)[^a-z0-9_]")
 # Subfolders of a layer, with the includes that a file of each must not have.
 set(subfolders
     "shading/model/=shading/((plan|budget|reference|kernels)/|planner)"
@@ -91,8 +94,7 @@ foreach(layer IN LISTS layers)
             if((in_kernel OR in_vocabulary) AND line MATCHES "#include <(cmath|math|algorithm|numeric|functional|complex)")
                 list(APPEND failures "${file}: kernels use only their vocabulary: ${line}")
             endif()
-            if((in_kernel OR in_vocabulary) AND
-               line MATCHES "std::(sqrt|pow|exp2?|log2?|sin|cos|tan|atan2?|acos|asin|fma|floor|ceil|round|nearbyint|l?lrint|fabs|abs|min|max|clamp|hypot)[^a-z0-9_]")
+            if((in_kernel OR in_vocabulary) AND line MATCHES "${library_function}")
                 list(APPEND failures "${file}: not the same on every machine: ${line}")
             endif()
             if((in_kernel OR in_vocabulary) AND line MATCHES "(rsqrt|reciprocal|rcp14|rcp_ps|f?n?m[as][dc]d?_ps|xsimd::f?n?m[as])")
