@@ -44,8 +44,9 @@ Result<Material> make_material(const Scene& scene, const halflit_material* given
 /// Copies an array of T, each made of floats alone; a null pointer gives an empty one.
 template <class T>
 std::vector<T> copied(const float* from, std::size_t count) {
-    std::vector<T> values(from != nullptr ? count : 0);
-    if (!values.empty()) std::memcpy(static_cast<void*>(values.data()), from, count * sizeof(T));
+    if (from == nullptr || count == 0) return {};
+    std::vector<T> values(count);
+    std::memcpy(static_cast<void*>(values.data()), from, count * sizeof(T));
     return values;
 }
 

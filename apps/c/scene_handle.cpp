@@ -45,12 +45,14 @@ std::optional<Mesh> completed(const Scene& scene, const Mesh& mesh) {
 
 void halflit_scene::put_mesh(std::size_t index, Mesh given) {
     std::optional<Mesh> full = completed(scene, given);
-    if (full)
+    if (full) {
         given_meshes.insert_or_assign(index, std::move(given));
-    else
+        given = std::move(*full);
+    } else {
         given_meshes.erase(index);
+    }
     if (index == scene.meshes.size()) scene.meshes.emplace_back();
-    scene.meshes[index] = full ? std::move(*full) : std::move(given);
+    scene.meshes[index] = std::move(given);
 }
 
 void halflit_scene::complete_meshes_of(std::size_t material) {

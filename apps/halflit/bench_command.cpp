@@ -1,5 +1,6 @@
 // halflit bench: the time of a frame, from a scene in memory to 8-bit codes in memory.
 #include "apps/halflit/commands.hpp"
+#include "apps/halflit/median.hpp"
 #include "apps/halflit/messages.hpp"
 #include "apps/halflit/render_job.hpp"
 #include "apps/halflit/run_report.hpp"
@@ -17,18 +18,12 @@
 namespace halflit::cli {
 namespace {
 
-constexpr PictureSize kUsualSize{1920, 1080};
+constexpr PictureSize kBenchSize{1920, 1080};
 
 struct BenchOptions : RenderOptions {
     int frames = 10;
     bool keep = false, json = false;
 };
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const std::size_t middle = values.size() / 2;
-    return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
-}
 
 struct Measured {
     std::vector<double> ms;
@@ -64,7 +59,7 @@ std::string table(const Json& report) {
 }
 
 Result<int> run_bench(const BenchOptions& options) {
-    const auto job = make_render_job(options, kUsualSize);
+    const auto job = make_render_job(options, kBenchSize);
     if (!job) return tl::unexpected(job.error());
     Image image = make_image(*job, false);
     const auto measured = measure(*job, options.frames, options.keep, image);
@@ -93,7 +88,7 @@ Result<int> run_bench(const BenchOptions& options) {
 
 Command bench_command() {
     const auto options = std::make_shared<BenchOptions>();
-    auto groups = render_flags(*options, kUsualSize);
+    auto groups = render_flags(*options, kBenchSize);
     groups.push_back({"Measurement",
                       {{"--frames", "N", "Number of frames (default 10)", read_int(options->frames, 1, 1000000)},
                        {"--keep", "", "Let each frame reuse what the one before computed, as for a scene at rest", set_to(options->keep)},

@@ -23,7 +23,10 @@ struct LobeOptions {
     bool json = false;
 };
 
-double sample_cosine(int i) { return (i - kSamples / 2) / static_cast<double>(kSamples / 2); }
+double sample_cosine(int i) {
+    constexpr int kMiddle = kSamples / 2;
+    return (i - kMiddle) / static_cast<double>(kMiddle);
+}
 
 Json describe(const LobeModel& model) {
     const sh::WrapLobe& lobe = model.lobe;
@@ -51,10 +54,10 @@ Json describe(const LobeModel& model) {
 
 /// Text plot of the curve over the cosine, 61 columns by 12 rows.
 std::string curve(const sh::WrapLobe& lobe) {
-    constexpr int kColumns = 61, kRows = 12;
+    constexpr int kColumns = 61, kRows = 12, kMiddle = kColumns / 2;
     std::vector<std::string> rows(kRows, std::string(kColumns, ' '));
     for (int column = 0; column < kColumns; ++column) {
-        const double x = (column - kColumns / 2) / static_cast<double>(kColumns / 2);
+        const double x = (column - kMiddle) / static_cast<double>(kMiddle);
         const double height = lobe.scale > 0 ? sh::lobe_value(lobe, x) / lobe.scale * (kRows - 1) : 0.0;
         rows[static_cast<std::size_t>(kRows - 1 - std::lround(height))][static_cast<std::size_t>(column)] = '*';
     }

@@ -1,5 +1,7 @@
 #include "apps/io/atomic_file.hpp"
 
+#include "apps/io/errno_text.hpp"
+
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -8,7 +10,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -17,7 +18,7 @@ namespace halflit::io {
 namespace {
 
 tl::unexpected<Error> system_error(const std::string& place, int error) {
-    return fail(ErrorCode::io, error == EPIPE ? std::string() : place + ": " + std::strerror(error));
+    return fail(ErrorCode::io, error == EPIPE ? std::string() : place + ": " + errno_text(error));
 }
 
 /// The temporary files that exist now, for abandon_files.

@@ -1,12 +1,12 @@
 #include "apps/io/file_access.hpp"
 
+#include "apps/io/errno_text.hpp"
 #include "apps/io/text.hpp"
 
 #include <fmt/format.h>
 
 #include <cerrno>
 #include <cstdint>
-#include <cstring>
 #include <utility>
 
 #include <fcntl.h>
@@ -42,11 +42,6 @@ private:
 
 // O_NONBLOCK: opening a FIFO without a writer returns at once, and fstat then refuses it.
 constexpr int kOpenFlags = O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK;
-
-std::string errno_text(int error) {
-    char buffer[128] = "";
-    return ::strerror_r(error, buffer, sizeof buffer);  // the GNU form: returns the text
-}
 
 /// Reads an open file that must be regular. `cannot_read` is the code for faults of the file system.
 Result<std::vector<std::byte>> read_regular(int fd, std::size_t max_bytes, ErrorCode cannot_read) {

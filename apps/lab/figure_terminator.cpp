@@ -10,7 +10,7 @@
 namespace halflit::cli {
 namespace {
 
-constexpr float kWraps[] = {0.0f, 0.25f, 0.5f, 0.75f, 1.0f};
+constexpr float kSphereWraps[] = {0.0f, 0.25f, 0.5f, 0.75f, 1.0f};
 constexpr ShadowMode kModes[] = {ShadowMode::off, ShadowMode::hard, ShadowMode::soft_split};
 constexpr const char* kModeNames[] = {"off", "hard", "soft-split"};
 
@@ -59,7 +59,7 @@ Result<PlotRow> profiles(Body body) {
                   .legend = LegendPlace::top_left,
                   .width = 330,
                   .height = 260};
-        for (const float wrap : kWraps) {
+        for (const float wrap : kSphereWraps) {
             auto series = profile(body, kModes[mode], wrap);
             if (!series) return tl::unexpected(series.error());
             plot.series.push_back(std::move(*series));
@@ -97,8 +97,8 @@ Result<Figure> make_terminator_figure() {
                          .columns = {"a = 0", "a = 1/4", "a = 1/2", "a = 3/4", "a = 1"},
                          .rows = {kModeNames[0], kModeNames[1], kModeNames[2]},
                          .width = 170};
-        auto pictures = take_grid(std::move(grid),
-                                  [&](std::size_t row, std::size_t column) { return shot_of(section.body, kModes[row], kWraps[column]); });
+        auto pictures = take_grid(
+            std::move(grid), [&](std::size_t row, std::size_t column) { return shot_of(section.body, kModes[row], kSphereWraps[column]); });
         if (!pictures) return tl::unexpected(pictures.error());
         auto plots = profiles(section.body);
         if (!plots) return tl::unexpected(plots.error());

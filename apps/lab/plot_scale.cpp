@@ -20,15 +20,15 @@ double tick_step(double span) {
 }
 
 /// A number with a typographic minus and without negative zero.
-std::string number(double value) {
+std::string tick_text(double value) {
     std::string text = fmt::format("{:.6g}", value == 0.0 ? 0.0 : value);
     if (text.starts_with('-')) text.replace(0, 1, "\u2212");
     return text;
 }
 
 std::string power_of_ten(int exponent) {
-    if (exponent >= -2 && exponent <= 3) return number(std::pow(10.0, exponent));
-    return fmt::format("10<tspan dy=\"-4\" font-size=\"8\">{}</tspan>", number(exponent));
+    if (exponent >= -2 && exponent <= 3) return tick_text(std::pow(10.0, exponent));
+    return fmt::format("10<tspan dy=\"-4\" font-size=\"8\">{}</tspan>", tick_text(exponent));
 }
 
 }  // namespace
@@ -73,7 +73,7 @@ std::vector<PlotTick> PlotScale::ticks() const {
     std::vector<PlotTick> ticks;
     const double step = step_ > 0 ? step_ : tick_step(max_ - min_);
     const auto first = static_cast<int>(std::ceil(min_ / step - 1e-6)), last = static_cast<int>(std::floor(max_ / step + 1e-6));
-    for (int i = first; i <= last; ++i) ticks.push_back({i * step, number(i * step)});
+    for (int i = first; i <= last; ++i) ticks.push_back({i * step, tick_text(i * step)});
     return ticks;
 }
 
@@ -89,7 +89,7 @@ std::vector<PlotTick> PlotScale::log_ticks() const {
             if (digit == 1)
                 ticks.push_back({value, (exponent - first) % every == 0 ? power_of_ten(exponent) : ""});
             else if (every == 1)
-                ticks.push_back({value, short_axis && (digit == 2 || digit == 5) ? number(value) : ""});
+                ticks.push_back({value, short_axis && (digit == 2 || digit == 5) ? tick_text(value) : ""});
         }
     return ticks;
 }

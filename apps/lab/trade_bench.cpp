@@ -1,5 +1,6 @@
 #include "apps/lab/trade_bench.hpp"
 
+#include "apps/halflit/median.hpp"
 #include "apps/halflit/plan_names.hpp"
 #include "apps/halflit/stopwatch.hpp"
 #include "raster/frame_plan.hpp"
@@ -11,12 +12,6 @@
 
 namespace halflit::cli {
 namespace {
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const std::size_t middle = values.size() / 2;
-    return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
-}
 
 template <class T>
 void add_once(std::vector<T>& list, T value) {

@@ -13,7 +13,7 @@
 namespace halflit::cli {
 namespace {
 
-constexpr PictureSize kUsualSize{640, 360};
+constexpr PictureSize kTradeSize{640, 360};
 
 struct TradeOptions : RenderOptions {
     std::string folder = "trade";
@@ -47,7 +47,7 @@ Result<void> write_all(const std::vector<TradeRow>& rows, TradeBench& bench, con
 Result<int> run_trade(TradeOptions options) {
     if (options.quick && options.all) return fail(ErrorCode::usage, "--all: cannot be combined with --quick");
     options.settings.shading.accuracy = Accuracy::reference;  // keeps the environment's image
-    auto job = make_render_job(options, kUsualSize);
+    auto job = make_render_job(options, kTradeSize);
     if (!job) return tl::unexpected(job.error());
     if (const auto folder = make_folder(options.folder); !folder) return tl::unexpected(folder.error());
     for (const std::string& warning : job->warnings) print_warning(warning);
@@ -80,7 +80,7 @@ Result<void> read_lobes(std::vector<TradeLobe>& lobes, const std::string& text) 
 Command trade_command() {
     const auto options = std::make_shared<TradeOptions>();
     TradeOptions& o = *options;
-    auto groups = render_flags(o, kUsualSize);
+    auto groups = render_flags(o, kTradeSize);
     constexpr std::string_view kVaried[] = {"--accuracy", "--max-error", "--texture-filter", "--shading", "--sh-order"};
     remove_flags(groups, kVaried);
     groups.push_back(

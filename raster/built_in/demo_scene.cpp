@@ -12,11 +12,11 @@ namespace halflit {
 namespace {
 
 constexpr float kBallRadius = 0.5f, kBallStep = 1.22f;
-constexpr int kBalls = 5;
+constexpr int kBalls = 5, kMiddleBall = kBalls / 2;
 constexpr Vec3f kPlinthFoot{0.0f, 0.0f, -2.7f};
 constexpr float kPlinthRadius = 1.5f, kPlinthSide = 0.95f, kPlinthLip = 0.05f;
 
-Vec3f ball_foot(int i) { return {kBallStep * static_cast<float>(i - kBalls / 2), 0.0f, 0.0f}; }
+Vec3f ball_foot(int i) { return {kBallStep * static_cast<float>(i - kMiddleBall), 0.0f, 0.0f}; }
 
 int add_material(Scene& scene, const char* name, Vec3f color, float metallic, float roughness) {
     Material m;

@@ -9,15 +9,15 @@
 namespace halflit::raster {
 namespace {
 
-constexpr int kSquares = 32;  ///< squares on a side of the floor
+constexpr int kSquares = 32, kMiddleSquare = kSquares / 2;  ///< squares on a side of the floor
 constexpr float kSquare = 2.0f, kLampHeight = 0.8f, kRange = 3.0f;
-constexpr int kPillars = 13;  ///< pillars on a side
+constexpr int kPillars = 13, kMiddlePillar = kPillars / 2;  ///< pillars on a side
 constexpr Vec3f kPillarHalf{0.2f, 0.6f, 0.2f};
 
 /// Middle of the square in this column and row, at this height.
 Vec3f square(int column, int row, float height) {
-    return {kSquare * (static_cast<float>(column - kSquares / 2) + 0.5f), height,
-            kSquare * (static_cast<float>(row - kSquares / 2) + 0.5f)};
+    return {kSquare * (static_cast<float>(column - kMiddleSquare) + 0.5f), height,
+            kSquare * (static_cast<float>(row - kMiddleSquare) + 0.5f)};
 }
 
 /// Squares from the middle outwards, ring by ring.
@@ -65,8 +65,8 @@ Scene lights_scene(int lights, bool ranged) {
     for (int row = 0; row < kPillars; ++row)
         for (int column = 0; column < kPillars; ++column) {
             // Pillars are at every second corner of the squares, so that none stands below a lamp.
-            const float x = 2 * kSquare * static_cast<float>(column - kPillars / 2),
-                        z = 2 * kSquare * static_cast<float>(row - kPillars / 2);
+            const float x = 2 * kSquare * static_cast<float>(column - kMiddlePillar),
+                        z = 2 * kSquare * static_cast<float>(row - kMiddlePillar);
             pillars.push_back({x, kPillarHalf.y, z});
         }
     add(scene, make_box(kPillarHalf), "pillar", {0.7f, 0.5f, 0.4f, 1}, pillars);

@@ -12,14 +12,14 @@ namespace halflit::io::detail {
 
 namespace {
 
-constexpr std::array<std::int8_t, 256> make_base64_table() {
-    std::array<std::int8_t, 256> table{};
+constexpr std::array<std::int16_t, 256> make_base64_table() {
+    std::array<std::int16_t, 256> table{};
     table.fill(-1);
     constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    for (std::size_t i = 0; i < kDigits.size(); ++i) table[static_cast<unsigned char>(kDigits[i])] = static_cast<std::int8_t>(i);
+    for (std::size_t i = 0; i < kDigits.size(); ++i) table[static_cast<unsigned char>(kDigits[i])] = static_cast<std::int16_t>(i);
     return table;
 }
-constexpr std::array<std::int8_t, 256> kBase64 = make_base64_table();
+constexpr std::array<std::int16_t, 256> kBase64 = make_base64_table();
 
 int hex_digit(char c) {
     if (c >= '0' && c <= '9') return c - '0';
