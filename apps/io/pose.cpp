@@ -61,7 +61,7 @@ Result<std::vector<Affine>> place_all(std::span<const Node> nodes) {
 /// Sets a value. Returns true if its bytes change.
 template <class T>
 bool replace(T& value, const T& by) {
-    if (std::memcmp(&value, &by, sizeof value) == 0) return false;
+    if (std::memcmp(&value, &by, sizeof value) == 0) return false;  // NOLINT(bugprone-suspicious-memory-comparison): bits are meant
     value = by;
     return true;
 }
