@@ -1,8 +1,8 @@
 // The command line as users type it: scenes without a command, pictures without a flag, folders, terminals.
 #include "tests/cli/program.hpp"
 
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include "tests/support/catch.hpp"
 
 #include <algorithm>
 #include <cstdlib>

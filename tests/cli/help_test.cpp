@@ -1,7 +1,7 @@
 // Help texts, manual pages and completions, which are made from one set of tables.
 #include "tests/cli/program.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <algorithm>
 #include <sstream>

@@ -3,7 +3,7 @@
 #include "apps/io/image_reader.hpp"
 #include "halflit/image.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <fcntl.h>
 #include <sys/ioctl.h>

@@ -1,8 +1,8 @@
 #include "halflit/target.hpp"
 #include "tests/cli/program.hpp"
 
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include "tests/support/catch.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,7 +1,7 @@
 #include "apps/lab/svg_plot.hpp"
 #include "apps/lab/rich_text.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,6 +1,6 @@
 #include "apps/lab/trade_error.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <cmath>
 

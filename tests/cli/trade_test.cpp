@@ -1,7 +1,7 @@
 #include "tests/cli/program.hpp"
 
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include "tests/support/catch.hpp"
 
 #include <algorithm>
 #include <set>

@@ -1,6 +1,6 @@
 #include "tests/cli/program.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 using namespace halflit::test;
 

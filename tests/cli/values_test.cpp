@@ -2,7 +2,7 @@
 
 #include "apps/halflit/messages.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <cmath>
 #include <cstdio>

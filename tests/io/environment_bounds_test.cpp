@@ -8,7 +8,7 @@
 #include "tests/support/assets.hpp"
 #include "tests/support/skip.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <cmath>
 #include <sstream>

@@ -3,7 +3,7 @@
 #include "apps/io/detail/uri.hpp"
 #include "tests/io/gltf_builder.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <filesystem>
 #include <fstream>

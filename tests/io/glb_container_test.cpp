@@ -1,6 +1,6 @@
 #include "tests/io/gltf_builder.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 using namespace halflit;
 using namespace halflit::test;

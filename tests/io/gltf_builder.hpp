@@ -3,7 +3,7 @@
 
 #include "halflit/gltf.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <algorithm>
 #include <cstddef>

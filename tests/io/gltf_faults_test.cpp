@@ -1,7 +1,7 @@
 // Faulty files: each fault is refused with the right code, one line, and a place; some files are drawn as far as possible.
 #include "tests/io/gltf_builder.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <chrono>
 #include <string>

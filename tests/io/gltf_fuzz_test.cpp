@@ -1,7 +1,7 @@
 // Random damage: whatever the bytes, loading ends with a scene or an error.
 #include "tests/io/rich_file.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <random>
 #include <string>

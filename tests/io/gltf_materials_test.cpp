@@ -1,6 +1,6 @@
 #include "tests/io/png_maker.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 #include "sh/trig.hpp"
 #include "tests/io/gltf_builder.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <cmath>
 

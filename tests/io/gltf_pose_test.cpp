@@ -3,7 +3,7 @@
 #include "tests/io/gltf_builder.hpp"
 #include "tests/support/random.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <cstring>
 #include <limits>

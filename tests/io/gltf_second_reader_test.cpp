@@ -7,8 +7,8 @@
 #include "tests/support/assets.hpp"
 #include "tests/support/skip.hpp"
 
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include "tests/support/catch.hpp"
 
 #include <filesystem>
 

@@ -2,7 +2,7 @@
 
 #include "tests/io/png_maker.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <cstdio>
 #include <cstdlib>

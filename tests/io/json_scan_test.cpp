@@ -2,7 +2,7 @@
 
 #include "apps/io/detail/json_place.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <string>
 #include <vector>

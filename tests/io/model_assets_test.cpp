@@ -3,7 +3,7 @@
 #include "tests/support/assets.hpp"
 #include "tests/support/skip.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <algorithm>
 #include <map>

@@ -2,7 +2,7 @@
 
 #include "halflit/image.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <cmath>
 #include <string>

@@ -4,7 +4,7 @@
 #include "tests/raster/random_trial.hpp"
 #include "tests/raster/test_scenes.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <algorithm>
 #include <cmath>

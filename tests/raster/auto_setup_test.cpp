@@ -4,7 +4,7 @@
 #include "halflit/renderer.hpp"
 #include "halflit/shapes.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <cmath>
 #include <limits>

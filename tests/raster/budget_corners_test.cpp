@@ -5,7 +5,7 @@
 #include "tests/support/cameras.hpp"
 #include "tests/support/random.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "sh/mat4.hpp"
 #include "sh/trig.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <cmath>
 #include <limits>

@@ -6,7 +6,7 @@
 #include "sh/mat4.hpp"
 #include "tests/raster/random_geometry.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <cstring>
 

@@ -4,7 +4,7 @@
 #include "raster/view/projection.hpp"
 #include "sh/mat4.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <algorithm>
 #include <cmath>

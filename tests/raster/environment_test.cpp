@@ -7,7 +7,7 @@
 #include "tests/support/cameras.hpp"
 #include "tests/support/isas.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <cstring>
 #include <limits>

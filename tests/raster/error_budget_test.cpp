@@ -2,7 +2,7 @@
 #include "shading/reference/reference.hpp"
 #include "tests/raster/random_trial.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "tests/raster/test_scenes.hpp"
 #include "tests/support/isas.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <atomic>
 #include <cstring>

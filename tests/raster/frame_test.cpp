@@ -5,7 +5,7 @@
 #include "tests/raster/kernel_fixture.hpp"
 #include "tests/support/cameras.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #include "shading/environment.hpp"
 #include "tests/raster/test_scenes.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <algorithm>
 #include <cstdlib>

@@ -3,7 +3,7 @@
 #include "raster/built_in/hall_of_lamps.hpp"
 #include "tests/support/setup.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 
 #include "halflit/shapes.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <limits>
 

@@ -3,7 +3,7 @@
 #include "halflit/shapes.hpp"
 #include "tests/support/cameras.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 using namespace halflit;
 using Bytes = std::vector<std::uint8_t>;

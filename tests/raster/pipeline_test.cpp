@@ -6,7 +6,7 @@
 #include "tests/support/cameras.hpp"
 #include "tests/support/random.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 using namespace halflit;
 using namespace halflit::raster;

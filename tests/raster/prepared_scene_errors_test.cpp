@@ -4,7 +4,7 @@
 #include "halflit/shapes.hpp"
 #include "raster/scene/prepared_data.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <limits>
 

@@ -2,7 +2,7 @@
 #include "raster/scene/prepared_data.hpp"
 #include "tests/raster/random_geometry.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -3,7 +3,7 @@
 #include "halflit/renderer.hpp"
 #include "halflit/scene.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <cmath>
 #include <limits>

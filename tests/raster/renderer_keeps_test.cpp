@@ -5,7 +5,7 @@
 #include "tests/raster/test_scenes.hpp"
 #include "tests/support/random.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <cstring>
 #include <functional>

@@ -4,7 +4,7 @@
 #include "tests/support/isas.hpp"
 #include "tests/support/setup.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <cmath>
 #include <limits>

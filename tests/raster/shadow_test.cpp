@@ -5,7 +5,7 @@
 #include "shading/plan/shadow_map_plan.hpp"
 #include "tests/raster/shadow_setup.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <cmath>
 

@@ -3,7 +3,7 @@
 #include "sh/mat4.hpp"
 #include "tests/raster/random_geometry.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <algorithm>
 #include <array>

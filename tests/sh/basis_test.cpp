@@ -4,7 +4,7 @@
 #include "sh/quadrature.hpp"
 #include "tests/support/random.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "sh/order.hpp"
 #include "tests/sh/sky_images.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <cmath>
 

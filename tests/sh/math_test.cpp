@@ -2,7 +2,7 @@
 #include "halflit/math.hpp"
 #include "tests/support/random.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <cmath>
 #include <limits>

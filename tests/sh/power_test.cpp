@@ -1,6 +1,6 @@
 #include "sh/power.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <cmath>
 

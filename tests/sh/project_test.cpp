@@ -2,7 +2,7 @@
 
 #include "tests/sh/sky_images.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <cmath>
 

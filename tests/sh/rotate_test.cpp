@@ -5,7 +5,7 @@
 #include "sh/window.hpp"
 #include "tests/sh/sky_images.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <cmath>
 

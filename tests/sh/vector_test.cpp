@@ -1,7 +1,7 @@
 #include "halflit/math.hpp"
 #include "sh/mat4.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <cmath>
 #include <limits>

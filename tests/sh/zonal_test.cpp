@@ -4,7 +4,7 @@
 #include "sh/lobe_error.hpp"
 #include "sh/quadrature.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "shading/kernels/shade_kernels.hpp"
 #include "shading/reference/reference.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <algorithm>
 

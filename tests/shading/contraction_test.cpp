@@ -4,7 +4,7 @@
 #include "floats.hpp"
 #include "tests/support/skip.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 using namespace halflit;
 using namespace halflit::testing;

@@ -1,7 +1,7 @@
 // Memory that an environment holds: none by default, and of an image only what was asked for.
 #include "shading/environment.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <optional>
 #if defined(__GLIBC__) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 33)

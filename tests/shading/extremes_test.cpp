@@ -8,7 +8,7 @@
 #include "shading/planner.hpp"
 #include "tests/support/isas.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 #include "tests/support/all_cores.hpp"
 #include "tests/support/skip.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <algorithm>
 #include <cstring>

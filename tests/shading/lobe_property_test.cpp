@@ -5,7 +5,7 @@
 #include "shading/reference/reference.hpp"
 #include "tests/support/isas.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 #include "shading/planner.hpp"
 #include "shading/reference/reference.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 using namespace halflit;
 using namespace halflit::shading;

@@ -1,7 +1,7 @@
 // The frame plan asks for what a material needs, and for nothing else.
 #include "shading/planner.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <limits>
 

@@ -5,7 +5,7 @@
 #include "lobe_curve/lobe_curve.hpp"
 #include "shading/reference/reference.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <cmath>
 #include <vector>

@@ -5,7 +5,7 @@
 #include "shading/planner.hpp"
 #include "shading/reference/shadow.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <algorithm>
 

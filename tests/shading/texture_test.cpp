@@ -4,7 +4,7 @@
 #include "floats.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 using namespace halflit;
 using namespace halflit::shading;

@@ -3,7 +3,7 @@
 #define CATCH_CONFIG_RUNNER
 #include "tests/support/skip.hpp"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.hpp"
 
 #include <cstdio>
 
@@ -14,9 +14,17 @@ constexpr int kSkipped = 4;  // SKIP_RETURN_CODE in tests/CMakeLists.txt
 
 int tests_run = 0;
 
-class CountTests : public Catch::TestEventListenerBase {
+#if CATCH_VERSION_MAJOR >= 3
+using Listener = Catch::EventListenerBase;
+constexpr auto kNoTests = Catch::WarnAbout::UnmatchedTestSpec;
+#else
+using Listener = Catch::TestEventListenerBase;
+constexpr auto kNoTests = Catch::WarnAbout::NoTests;
+#endif
+
+class CountTests : public Listener {
 public:
-    using TestEventListenerBase::TestEventListenerBase;
+    using Listener::Listener;
     void testCaseStarting(const Catch::TestCaseInfo&) override { ++tests_run; }
 };
 CATCH_REGISTER_LISTENER(CountTests)
@@ -26,7 +34,7 @@ CATCH_REGISTER_LISTENER(CountTests)
 int main(int argc, char** argv) {
     Catch::Session session;
     // A test that compares nothing, and a filter that finds no test, fail.
-    session.configData().warnings = static_cast<Catch::WarnAbout::What>(Catch::WarnAbout::NoAssertions | Catch::WarnAbout::NoTests);
+    session.configData().warnings = static_cast<Catch::WarnAbout::What>(Catch::WarnAbout::NoAssertions | kNoTests);
     if (session.applyCommandLine(argc, argv) != 0) return kFailed;
     if (session.run() != 0) return kFailed;
     const auto& skipped = halflit::test::skipped_tests();
