@@ -1,5 +1,6 @@
 # How the project's libraries are made.
 #   halflit_flags                            the project's compiler flags and internal include folders; not for consumers
+#   halflit_unity(TARGET GROUPS...)          sources of a target that are compiled together
 #   halflit_layer(NAME SOURCES... UNITY...)  a static library halflit_NAME, one layer or component, with its public headers
 #   halflit_component(NAME OUTPUT LAYERS...) the target halflit::NAME for consumers, made of layers, static or shared
 
@@ -18,23 +19,30 @@ foreach(folder sh shading raster apps/io)
     target_include_directories(halflit_flags INTERFACE ${PROJECT_SOURCE_DIR}/${folder}/include)
 endforeach()
 
-# UNITY: groups of sources that are compiled together, each a list separated by commas.
+# Adds sources to a target: GROUP a.cpp b.cpp.. GROUP c.cpp.. Those of a group are compiled together.
+function(halflit_unity target)
+    set(number 0)
+    foreach(word IN LISTS ARGN)
+        if(word STREQUAL "GROUP")
+            math(EXPR number "${number} + 1")
+        else()
+            target_sources(${target} PRIVATE ${word})
+            set_source_files_properties(${word} PROPERTIES UNITY_GROUP ${target}_${number})
+        endif()
+    endforeach()
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ${HALFLIT_UNITY} UNITY_BUILD_MODE GROUP)
+endfunction()
+
+# UNITY: groups as for halflit_unity.
 function(halflit_layer name)
     cmake_parse_arguments(arg "" "" "SOURCES;UNITY" ${ARGN})
     set(target halflit_${name})
     add_library(${target} STATIC ${arg_SOURCES})
-    set(number 0)
-    foreach(group IN LISTS arg_UNITY)
-        string(REPLACE "," ";" sources "${group}")
-        target_sources(${target} PRIVATE ${sources})
-        math(EXPR number "${number} + 1")
-        set_source_files_properties(${sources} PROPERTIES UNITY_GROUP ${name}_${number})
-    endforeach()
+    halflit_unity(${target} ${arg_UNITY})
     set_target_properties(${target} PROPERTIES
         CXX_STANDARD 20 CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF
         POSITION_INDEPENDENT_CODE ON
-        CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
-        UNITY_BUILD ${HALFLIT_UNITY} UNITY_BUILD_MODE GROUP)
+        CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:halflit_flags>)
     target_compile_features(${target} PUBLIC cxx_std_20)
     if(HALFLIT_SHARED)
