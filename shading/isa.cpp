@@ -79,7 +79,7 @@ bool isa_available(Isa isa) {
 }
 
 Result<Isa> default_isa() {
-    // The only place where the library reads an environment variable. NOLINTNEXTLINE(concurrency-mt-unsafe): nothing in it sets one.
+    // The only place where the library reads an environment variable.
     if (const char* name = std::getenv("HALFLIT_KERNEL"); name != nullptr && std::string_view(name) != "auto")
         return named_isa(name, "HALFLIT_KERNEL");
     Isa widest = Isa::scalar;

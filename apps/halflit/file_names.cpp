@@ -1,6 +1,7 @@
 #include "apps/halflit/file_names.hpp"
 
 #include "apps/halflit/spelling.hpp"
+#include "apps/io/errno_text.hpp"
 
 #include <dirent.h>
 #include <sys/stat.h>
@@ -8,7 +9,6 @@
 
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <memory>
 
 namespace halflit::cli {
@@ -26,7 +26,7 @@ bool ends_with_any_case(std::string_view text, std::string_view end) {
     return true;
 }
 
-tl::unexpected<Error> refused(const std::string& path, int error) { return fail(ErrorCode::io, path + ": " + std::strerror(error)); }
+tl::unexpected<Error> refused(const std::string& path, int error) { return fail(ErrorCode::io, path + ": " + io::errno_text(error)); }
 
 }  // namespace
 

@@ -89,7 +89,8 @@ Result<int> run_update(const GoldenOptions& options) {
     const auto before = list->hashes;
     auto results = update_golden(*list, *scenes);
     for (const auto& [name, hash] : before)
-        if (std::none_of(list->scenes.begin(), list->scenes.end(), [&](const GoldenScene& scene) { return scene.name == name; })) {
+        if (std::none_of(list->scenes.begin(), list->scenes.end(),
+                         [&, &name = name](const GoldenScene& scene) { return scene.name == name; })) {
             list->hashes.erase(name);
             print_note(fmt::format("{} is no longer in the list; {} is left", name, printable(list->picture(name))));
         }

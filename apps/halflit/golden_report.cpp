@@ -11,7 +11,7 @@
 namespace halflit::cli {
 namespace {
 
-constexpr const char* kHead = R"(<!DOCTYPE html>
+constexpr const char* kGoldenHead = R"(<!DOCTYPE html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
@@ -29,7 +29,8 @@ pre {{ margin: .5rem 0; padding: .4rem .6rem; background: #f4f4f4; white-space: 
 .pictures {{ display: grid; grid-template-columns: repeat(3, 1fr); gap: .75rem; margin-top: .75rem }}
 figure {{ margin: 0; min-width: 0 }}
 figcaption {{ font-size: 14px; color: #444 }}
-img {{ display: block; width: 100%; height: auto; border: 1px solid #ddd; background: repeating-conic-gradient(#ccc 0 25%, #fff 0 50%) 0 0/16px 16px }}
+img {{ display: block; width: 100%; height: auto; border: 1px solid #ddd;
+  background: repeating-conic-gradient(#ccc 0 25%, #fff 0 50%) 0 0/16px 16px }}
 table {{ border-collapse: collapse; font-size: 14px }}
 th, td {{ padding: .15rem .75rem .15rem 0; text-align: left; border-bottom: 1px solid #e4e4e4; overflow-wrap: anywhere }}
 td:nth-child(2) {{ font-family: monospace }}
@@ -99,7 +100,7 @@ std::string golden_page(const GoldenList& list, const std::vector<GoldenResult>&
     const std::size_t failed = failures(results);
     const std::string title = failed == 0 ? fmt::format("All {} golden pictures match", results.size())
                                           : fmt::format("{} of {} golden pictures do not match", failed, results.size());
-    std::string html = fmt::format(kHead, title);
+    std::string html = fmt::format(kGoldenHead, title);
     html += fmt::format("<p>List: <code>{}</code>. The commands draw the pictures again in its folder.</p>\n", shown(list.folder));
     for (const bool failures_now : {true, false})
         for (const GoldenResult& result : results)

@@ -9,6 +9,7 @@
 #include "apps/halflit/stopwatch.hpp"
 #include "apps/halflit/text_file.hpp"
 #include "apps/io/atomic_file.hpp"
+#include "apps/io/errno_text.hpp"
 #include "apps/lab/output_folder.hpp"
 #include "halflit/image.hpp"
 
@@ -16,7 +17,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <memory>
 #include <new>
 
@@ -78,7 +78,7 @@ void print_choices(const RenderJob& job, const RenderReport& rendered, double en
 /// Returns the report.
 Result<std::string> render_and_write(const RenderCommandOptions& options) {
     if (is_folder(options.output))
-        return fail(ErrorCode::io, options.output + ": " + std::strerror(EISDIR) + " (-o " + options.output + "/ writes into it)");
+        return fail(ErrorCode::io, options.output + ": " + io::errno_text(EISDIR) + " (-o " + options.output + "/ writes into it)");
     const auto format = output_format_of(options.output);
     if (!format) return tl::unexpected(format.error());
     if (const auto checked = check_paths(options); !checked) return tl::unexpected(checked.error());

@@ -2,13 +2,13 @@
 
 #include "apps/halflit/built_in_scenes.hpp"
 #include "apps/halflit/file_names.hpp"
+#include "apps/io/errno_text.hpp"
 
 #include <fmt/core.h>
 
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 
 namespace halflit::cli {
 namespace {
@@ -29,7 +29,7 @@ Result<std::vector<std::byte>> read_standard_input(std::size_t max_bytes) {
         const int error = errno;
         bytes.resize(size + (got > 0 ? static_cast<std::size_t>(got) : 0));
         if (got == 0) return bytes;
-        if (got < 0 && error != EINTR) return fail(ErrorCode::io, fmt::format("{}: {}", kStandardInput, std::strerror(error)));
+        if (got < 0 && error != EINTR) return fail(ErrorCode::io, fmt::format("{}: {}", kStandardInput, io::errno_text(error)));
     }
 }
 
