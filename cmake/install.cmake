@@ -23,6 +23,17 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/halflitConfigVersion.cmak
 install(FILES ${PROJECT_BINARY_DIR}/halflitConfig.cmake ${PROJECT_BINARY_DIR}/halflitConfigVersion.cmake DESTINATION ${package_dir}
     COMPONENT development)
 
+# Paths in .pc files start at the file itself, so that the installed tree may lie anywhere, unless a folder was given as an absolute path.
+file(RELATIVE_PATH pc_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+string(REGEX REPLACE "/$" "" pc_prefix "\${pcfiledir}/${pc_prefix}")
+set(pc_libdir "\${prefix}/${CMAKE_INSTALL_LIBDIR}")
+set(pc_includedir "\${prefix}/${CMAKE_INSTALL_INCLUDEDIR}")
+if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}" OR IS_ABSOLUTE "${CMAKE_INSTALL_INCLUDEDIR}")
+    set(pc_prefix ${CMAKE_INSTALL_PREFIX})
+    set(pc_libdir ${CMAKE_INSTALL_FULL_LIBDIR})
+    set(pc_includedir ${CMAKE_INSTALL_FULL_INCLUDEDIR})
+endif()
+
 # halflit_pkg_config(FILE DESCRIPTION LIBRARIES REQUIRES): one .pc file.
 function(halflit_pkg_config file description libraries requires)
     configure_file(${PROJECT_SOURCE_DIR}/cmake/halflit.pc.in ${PROJECT_BINARY_DIR}/${file}.pc @ONLY)
@@ -64,22 +75,32 @@ if(TARGET halflit)
     else()
         install(TARGETS halflit RUNTIME COMPONENT program)
     endif()
-    # Manual pages and completions come from the program's own tables.
-    set(pages ${PROJECT_BINARY_DIR}/pages)
-    add_custom_command(OUTPUT ${pages}/halflit.1 COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:halflit> -DPAGES=${pages}
-        -P ${PROJECT_SOURCE_DIR}/cmake/pages.cmake DEPENDS halflit)
-    add_custom_target(halflit_pages ALL DEPENDS ${pages}/halflit.1)
-    install(DIRECTORY ${pages}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program FILES_MATCHING PATTERN "*.1")
-    install(FILES ${pages}/halflit.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME halflit
-        COMPONENT program)
-    install(FILES ${pages}/_halflit DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT program)
+    # Manual pages and completions come from the program's own tables, so it must run on this machine.
+    if(NOT CMAKE_CROSSCOMPILING)
+        set(pages ${PROJECT_BINARY_DIR}/pages)
+        add_custom_command(OUTPUT ${pages}/halflit.1 ${pages}/halflit.bash ${pages}/_halflit ${pages}/halflit.fish
+            COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:halflit> -DPAGES=${pages} -P ${PROJECT_SOURCE_DIR}/cmake/pages.cmake
+            DEPENDS halflit ${PROJECT_SOURCE_DIR}/cmake/pages.cmake)
+        add_custom_target(halflit_pages ALL DEPENDS ${pages}/halflit.1)
+        install(DIRECTORY ${pages}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program FILES_MATCHING PATTERN "*.1")
+        install(FILES ${pages}/halflit.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME halflit
+            COMPONENT program)
+        install(FILES ${pages}/_halflit DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT program)
+        install(FILES ${pages}/halflit.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
+    endif()
 endif()
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 
 # Packages: `./dev package`.
+if(NOT PROJECT_IS_TOP_LEVEL)
+    return()
+endif()
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS libexpected-dev)
 set(CPACK_PACKAGE_NAME halflit)
 set(CPACK_PACKAGE_VENDOR "The halflit authors")
-set(CPACK_PACKAGE_CONTACT "The halflit authors <halflit@localhost>")
+set(CPACK_PACKAGE_CONTACT "The halflit authors")
+set(CPACK_DEBIAN_PACKAGE_MAINTAINER "The halflit authors <halflit@invalid>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_PACKAGE_FILE_NAME halflit-${PROJECT_VERSION}-${CMAKE_SYSTEM_PROCESSOR})
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)

@@ -84,6 +84,7 @@ function(halflit_component name output)
     set_target_properties(${target} PROPERTIES
         OUTPUT_NAME ${output} LINKER_LANGUAGE CXX EXPORT_NAME ${name}
         VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+        INSTALL_RPATH "$ORIGIN"
         LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/exported.map)
     target_link_options(${target} PRIVATE -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/exported.map -Wl,--no-undefined)
     target_link_libraries(${target} PUBLIC ${arg_NEEDS} PRIVATE ${arg_PRIVATE})

@@ -174,8 +174,11 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, 
         memory.shading);
     if (!plan.shadow_views.empty()) plan.casters = plan_casters(prepared, options);
     plan.light_culler = LightCuller(plan.shading.lights);
-    if (settings.background_environment && scene.environment != nullptr && !scene.environment->rgb.empty())
+    if (settings.background_environment) {
+        if (scene.environment == nullptr || scene.environment->rgb.empty())
+            return fail(ErrorCode::usage, "background_environment: the scene has no environment that kept its image (keep_image)");
         plan.background = Background(*scene.environment, camera, width, height, settings.exposure);
+    }
     plan.background_linear = settings.background_linear;
     plan.exposure = settings.exposure;
     plan.depth = depth_map(camera, static_cast<float>(width) / static_cast<float>(height));

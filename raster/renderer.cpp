@@ -42,6 +42,15 @@ void add_counts(const ViewGeometry& geometry, const TileCounts& tiles, RenderRep
         report.warnings.push_back(std::to_string(report.nan_pixels) + " fragments came out as NaN and were written as 0");
 }
 
+/// Checks all arguments but the scene. Returns the instruction set to use.
+Result<Isa> check_call(const Settings& settings, const Target& target, const Execution& execution) {
+    const auto isa = check_execution(execution);
+    if (!isa) return isa;
+    if (auto ok = check_settings(settings, target.width, target.height); !ok) return tl::unexpected<Error>(ok.error());
+    if (auto ok = check_target(target, settings.region); !ok) return tl::unexpected<Error>(ok.error());
+    return isa;
+}
+
 }  // namespace
 
 struct Renderer::Impl {
@@ -111,9 +120,8 @@ struct Renderer::Impl {
     Result<RenderReport> render(const PreparedData& scene, const Camera& camera, const Settings& settings, const Target& target,
                                 const Execution& execution, RenderReport report) {
         Stopwatch watch;
-        const auto isa = check_execution(execution);
+        const auto isa = check_call(settings, target, execution);
         if (!isa) return tl::unexpected<Error>(isa.error());
-        if (auto ok = check_target(target, settings.region); !ok) return tl::unexpected<Error>(ok.error());
         if (auto ok = make_plan(scene, camera, settings, target, execution.tile_size); !ok) return tl::unexpected<Error>(ok.error());
         const RasterKernels& raster = raster_kernels(*isa);
         const shading::ShadeKernels& shade = shading::shade_kernels(*isa);
@@ -202,6 +210,7 @@ Result<RenderReport> Renderer::render(const Scene& scene, const Camera& camera, 
     return timed([&]() -> Result<RenderReport> {
         Stopwatch watch;
         RenderReport report;
+        if (const auto checked = check_call(settings, target, execution); !checked) return tl::unexpected<Error>(checked.error());
         const auto prepared = PreparedData::make(scene, execution);
         if (!prepared) return tl::unexpected<Error>(prepared.error());
         report.ms.prepare = watch.lap();
@@ -211,7 +220,7 @@ Result<RenderReport> Renderer::render(const Scene& scene, const Camera& camera, 
 
 Result<RenderReport> render(const Scene& scene, const Camera& camera, const Settings& settings, const Target& target,
                             const Execution& execution) {
-    return Renderer().render(scene, camera, settings, target, execution);
+    return guarded("rendering", [&] { return Renderer().render(scene, camera, settings, target, execution); });
 }
 
 }  // namespace halflit

@@ -170,6 +170,7 @@ int32_t halflit_scene_add_mesh(halflit_scene* scene, const halflit_mesh* mesh, i
         auto made = make_mesh(scene->scene, mesh);
         if (!made) return tl::unexpected<Error>(made.error());
         scene->changes.structure();
+        if (made->normals.empty()) scene->added_flat.insert(scene->scene.meshes.size());
         scene->put_mesh(scene->scene.meshes.size(), std::move(*made));
         tell_last(scene->scene.meshes, index);
         return {};
@@ -183,6 +184,8 @@ int32_t halflit_scene_set_mesh(halflit_scene* scene, int32_t index, const halfli
         auto made = make_mesh(scene->scene, mesh);
         if (!made) return tl::unexpected<Error>(made.error());
         scene->changes.mesh(*at);
+        scene->added_flat.erase(*at);
+        if (made->normals.empty()) scene->added_flat.insert(*at);
         scene->put_mesh(*at, std::move(*made));
         return {};
     });
@@ -192,6 +195,9 @@ int32_t halflit_scene_set_vertices(halflit_scene* scene, int32_t index, const fl
     return changing(__func__, scene, {{positions, "positions"}}, [&]() -> Result<void> {
         const auto at = check_index(index, scene->scene.meshes.size(), "mesh");
         if (!at) return tl::unexpected<Error>(at.error());
+        if (*at < scene->file_meshes)
+            return fail(ErrorCode::usage,
+                        "mesh " + std::to_string(index) + ": comes from a file, and the caller does not know its vertices");
         const auto given = scene->given_meshes.find(*at);
         Mesh& mesh = scene->scene.meshes[*at];
         const std::size_t expected = given != scene->given_meshes.end() ? given->second.positions.size() : mesh.positions.size();
@@ -204,11 +210,18 @@ int32_t halflit_scene_set_vertices(halflit_scene* scene, int32_t index, const fl
         if (given != scene->given_meshes.end()) {
             Mesh whole = given->second;
             whole.positions = std::move(new_positions);
-            if (normals != nullptr) whole.normals = std::move(new_normals);
+            whole.normals = normals != nullptr                ? std::move(new_normals)
+                            : scene->added_flat.contains(*at) ? std::vector<Vec3f>{}
+                                                              : whole.normals;
             scene->put_mesh(*at, std::move(whole));
         } else {
-            mesh.positions = std::move(new_positions);
-            if (normals != nullptr) mesh.normals = std::move(new_normals);
+            Mesh whole = std::move(mesh);
+            whole.positions = std::move(new_positions);
+            if (normals != nullptr)
+                whole.normals = std::move(new_normals);
+            else if (scene->added_flat.contains(*at))
+                whole.normals.clear();
+            scene->put_mesh(*at, std::move(whole));
         }
         return {};
     });

@@ -17,6 +17,7 @@ Result<void> hand_over(Result<LoadedScene> loaded, halflit_scene** scene) {
     if (!loaded) return tl::unexpected<Error>(loaded.error());
     auto made = std::make_unique<halflit_scene>();
     made->scene = std::move(loaded->scene);
+    made->file_meshes = made->scene.meshes.size();
     made->warnings = std::move(loaded->warnings);
     *scene = made.release();
     return {};

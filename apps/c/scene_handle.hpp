@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -53,6 +54,8 @@ struct halflit_scene {
     std::vector<std::string> warnings;
     /// The last lights of the scene are the environment's suns; callers do not see them.
     std::size_t sun_count = 0;
+    std::size_t file_meshes = 0;       ///< the first meshes, which a file or the library brought
+    std::set<std::size_t> added_flat;  ///< meshes that the caller added without normals
     halflit::c::GivenMeshes given_meshes;
 
     mutable std::mutex access;  ///< held while the scene is read or changed; not while it is drawn

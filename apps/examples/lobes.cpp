@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
     Scene scene;
     float x = 0;
     for (const NamedLobe& named : kNamedLobes) {
-        const float wrap = named.takes_wrap ? 0.5f : named.wrap;
+        const float wrap = named.takes_wrap ? kUsualWrap : named.wrap;
         Material clay;
         clay.name = std::string(named.name);
         clay.base_color = {0.85f, 0.8f, 0.75f, 1};

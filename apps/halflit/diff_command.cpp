@@ -1,5 +1,6 @@
 // halflit diff: the difference of two pictures, or of two folders of pictures, in 8-bit codes.
 #include "apps/halflit/commands.hpp"
+#include "apps/halflit/file_names.hpp"
 #include "apps/halflit/messages.hpp"
 #include "apps/halflit/picture_compare.hpp"
 #include "apps/halflit/run_report.hpp"
@@ -67,6 +68,9 @@ Result<int> run_folders(const DiffOptions& options) {
 
 Result<int> run_diff(const DiffOptions& options) {
     if (options.output == "-") return fail(ErrorCode::usage, "-o: expected a file name; standard output is for the numbers");
+    for (const std::string& input : {options.a, options.b})
+        if (!options.output.empty() && same_file(options.output, input))
+            return fail(ErrorCode::io, printable(options.output) + ": is compared and is not overwritten");
     std::error_code ignored;
     const bool a = std::filesystem::is_directory(options.a, ignored), b = std::filesystem::is_directory(options.b, ignored);
     if (a != b)

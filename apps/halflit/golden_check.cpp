@@ -127,9 +127,9 @@ std::vector<GoldenResult> update_golden(GoldenList& list, const std::vector<cons
             result.hash = hash_of(*actual);
             std::error_code ignored;
             const bool exists = fs::exists(path, ignored);
-            if (exists && result.hash == result.expected_hash) return {};
             const auto before = exists ? io::read_picture(path) : fail(ErrorCode::io, "");
             const bool same = before && hash_of(*before) == result.hash;
+            if (same && result.hash == result.expected_hash) return {};
             if (exists && !same && result.expected_hash.empty())
                 return fail(ErrorCode::io, printable(path) + ": exists, is not in hashes.txt and is not overwritten");
             if (before) {

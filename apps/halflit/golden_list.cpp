@@ -144,7 +144,7 @@ Result<std::string> confined(const std::string& folder, const std::string& relat
     const bool climbs = std::any_of(path.begin(), path.end(), [](const fs::path& part) { return part == ".."; });
     std::error_code error;
     const fs::path base = fs::weakly_canonical(folder, error), whole = fs::weakly_canonical(fs::path(folder) / path, error);
-    const bool below = !error && std::mismatch(base.begin(), base.end(), whole.begin(), whole.end()).first == base.end();
+    const bool below = !error && !base.empty() && std::mismatch(base.begin(), base.end(), whole.begin(), whole.end()).first == base.end();
     if (path.empty() || path.is_absolute() || climbs || !below)
         return fail(ErrorCode::bad_input,
                     fmt::format("{}: expected a path within the folder of {}, found '{}'", what, kListName, printable(relative)));

@@ -10,6 +10,7 @@
 #include "apps/halflit/text_file.hpp"
 #include "apps/io/atomic_file.hpp"
 #include "apps/io/errno_text.hpp"
+#include "apps/io/picture_reader.hpp"
 #include "apps/lab/output_folder.hpp"
 #include "halflit/image.hpp"
 
@@ -152,7 +153,7 @@ Result<int> render_all(RenderCommandOptions options) {
 }
 
 /// A name with a picture's extension.
-bool is_picture_name(const std::string& word) { return word != "-" && output_format_of(word).has_value(); }
+using io::is_picture_name;
 
 /// After a word that is neither a scene nor a picture's name.
 std::string unknown_format(const std::string& word) {

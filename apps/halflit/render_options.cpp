@@ -368,7 +368,8 @@ std::vector<FlagGroup> render_flags(RenderOptions& o, PictureSize usual) {
 
 Result<RenderOptions> parse_render_flags(std::vector<std::string> flags) {
     RenderOptions options;
-    const Command command{"render", "", {}, render_flags(options, kRenderSize), {}};
+    Command command{"render", "", {}, render_flags(options, kRenderSize), {}};
+    command.groups.pop_back();  // those of messages set what all scenes print
     flags.insert(flags.begin(), command.name);
     const auto line = parse_command_line({&command, 1}, std::move(flags));
     if (!line) return tl::unexpected(line.error());

@@ -6,6 +6,8 @@
 #include "sh/equirect.hpp"
 #include "sh/trig.hpp"
 
+#include <new>
+
 namespace halflit {
 
 using namespace io;
@@ -68,11 +70,15 @@ Vec3d sky_pixel(int x, int y, const Sun& sun) {
 }  // namespace
 
 Result<EnvironmentImage> read_environment(const std::string& path, const EnvironmentLimits& limits) {
-    const auto file = read_file(path, limits.max_file_bytes);
-    if (!file) return tl::unexpected(file.error());
-    auto image = decode_rgbe(*file, {.max_width = limits.max_width, .max_height = limits.max_height});
-    if (!image) return fail(image.error().code, printable(path) + ": " + image.error().message);
-    return EnvironmentImage{image->width, image->height, std::move(image->rgb), false};
+    try {
+        const auto file = read_file(path, limits.max_file_bytes);
+        if (!file) return tl::unexpected(file.error());
+        auto image = decode_rgbe(*file, {.max_width = limits.max_width, .max_height = limits.max_height});
+        if (!image) return fail(image.error().code, printable(path) + ": " + image.error().message);
+        return EnvironmentImage{image->width, image->height, std::move(image->rgb), false};
+    } catch (const std::bad_alloc&) {
+        return fail(ErrorCode::limit, printable(path) + ": out of memory");
+    }
 }
 
 EnvironmentImage built_in_sky() {

@@ -111,7 +111,9 @@ Result<std::vector<std::uint8_t>> encode_image(const Image& image, OutputFormat 
     const std::int64_t pixels = std::int64_t{w} * h;
     if (pixels > kMaxImagePixels) return fail(ErrorCode::limit, "a picture of more than 2^28 pixels cannot be encoded");
     const std::size_t values = is_linear(format) ? image.rgba_linear.size() : image.rgba8.size();
-    if (values != static_cast<std::size_t>(pixels) * 4) return fail(ErrorCode::internal, "the picture's pixels do not match its size");
+    if (values != static_cast<std::size_t>(pixels) * 4)
+        return fail(ErrorCode::usage, std::string(is_linear(format) ? "rgba_linear" : "rgba8") + ": " + std::to_string(values) +
+                                          " values, expected " + std::to_string(pixels * 4));
     if (format == OutputFormat::jpg && (w > 65535 || h > 65535)) return fail(ErrorCode::limit, "JPG holds at most 65535 pixels a side");
     if (format == OutputFormat::tga && (w > 65535 || h > 65535)) return fail(ErrorCode::limit, "TGA holds at most 65535 pixels a side");
 

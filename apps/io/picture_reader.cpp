@@ -18,6 +18,9 @@ bool starts_with(std::span<const std::byte> file, std::string_view prefix) {
            std::equal(prefix.begin(), prefix.end(), file.begin(), [](char a, std::byte b) { return std::byte(a) == b; });
 }
 
+/// Whatever halflit draws and writes may be read again.
+constexpr ImageLimits kOwnPictures{.max_side = 32768, .max_pixels = static_cast<std::size_t>(kMaxImagePixels), .max_jpeg_scans = 64};
+
 /// The 8-bit code nearest to the sRGB encoding of `linear`. The limits between codes are decoded, which needs no C library function, so
 /// that the same file gives the same codes everywhere.
 std::uint8_t code_of(float linear) {
@@ -58,7 +61,7 @@ Result<Image> decode_picture(std::span<const std::byte> file, std::string_view n
 Result<Image> read_picture(const std::string& path) {
     const auto file = read_file(path);
     if (!file) return tl::unexpected(file.error());
-    auto picture = decode_picture(*file, path);
+    auto picture = decode_picture(*file, path, kOwnPictures);
     if (!picture) return fail(picture.error().code, printable(path) + ": " + picture.error().message);
     return picture;
 }

@@ -84,8 +84,8 @@ Executor::~Executor() = default;
 
 void Executor::configure(int threads, const ParallelFor& hook) {
     hook_ = hook;
-    const int most = hook ? std::numeric_limits<int>::max() : std::max(Arena::most_threads(), 1);
-    const int wanted = std::min(threads > 0 ? threads : std::max(Arena::all_threads(), 1), most);
+    if (hook_) return;
+    const int wanted = std::min(threads > 0 ? threads : std::max(Arena::all_threads(), 1), std::max(Arena::most_threads(), 1));
     if (arena_ && wanted == threads_) return;
     threads_ = wanted;
     arena_ = threads_ > 1 ? std::make_unique<Arena>(threads_) : nullptr;

@@ -33,7 +33,8 @@ public:
     /// threads: 0 for one per core. hook: the host's loop; empty: oneTBB or the standard library.
     void configure(int threads, const ParallelFor& hook);
     /// Number of threads that run; oneTBB limits it to the cores.
-    [[nodiscard]] int threads() const { return threads_; }
+    /// 0 with a host's loop, whose threads are not known.
+    [[nodiscard]] int threads() const { return hook_ ? 0 : threads_; }
     void run(int count, const std::function<void(int)>& body);
 
 private:

@@ -9,7 +9,7 @@
 
 namespace halflit::raster {
 
-/// Fails (usage) for a stride that is smaller than a row, and for an address or a stride that its type cannot have.
+/// Fails (usage) for a stride that is smaller than a row, and for memory or a stride that is not aligned.
 [[nodiscard]] Result<void> check_target(const Target& target, const Region& region);
 
 /// One plane: `channels` values of type T a pixel, addressed by the picture's coordinates.

@@ -1,5 +1,5 @@
 // One tile of the picture, from triangle lists to pixels. Visibility comes first, then each visible pixel is shaded once per triangle that
-// it shows, then transparent triangles are blended in submission order, then the framebuffer is written.
+// it shows, then transparent triangles are blended in submission order, then the caller's memory is written.
 #pragma once
 
 #include "raster/frame_plan.hpp"
@@ -44,7 +44,7 @@ private:
     void clear();                          ///< fills a tile that has triangles with the background
     void fill_background();                ///< writes a tile that has no triangles
     void fill_samples();                   ///< sets every sample to the environment behind its pixel
-    void write(const FragmentList& list);  ///< writes the scratch's block to the framebuffer or to samples
+    void write(const FragmentList& list);  ///< writes the scratch's block to the caller's memory or to samples
     void write_samples(const FragmentList& list, bool blend);
     void resolve();
     [[nodiscard]] float* sample_color(int s) { return scratch_.color.data() + static_cast<std::size_t>(s) * 4 * kTilePixels; }
@@ -56,7 +56,7 @@ private:
     int samples_;
     TileScratch& scratch_;
     TileCounts counts_;
-    bool direct_ = true;  ///< one opaque sample per pixel: shaded colours go straight to the framebuffer
+    bool direct_ = true;  ///< one opaque sample per pixel: shaded colours go straight to the caller's memory
 };
 
 }  // namespace halflit::raster

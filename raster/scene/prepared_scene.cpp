@@ -1,6 +1,7 @@
 // The public face of PreparedData.
 #include "halflit/prepared_scene.hpp"
 
+#include "raster/detail/guarded.hpp"
 #include "raster/scene/prepared_data.hpp"
 
 namespace halflit {
@@ -11,9 +12,11 @@ PreparedScene& PreparedScene::operator=(PreparedScene&&) noexcept = default;
 PreparedScene::~PreparedScene() = default;
 
 Result<PreparedScene> PreparedScene::make(const Scene& scene, const Execution& execution) {
-    auto data = raster::PreparedData::make(scene, execution);
-    if (!data) return tl::unexpected<Error>(data.error());
-    return PreparedScene(std::make_unique<raster::PreparedData>(std::move(*data)));
+    return raster::guarded("preparing a scene", [&]() -> Result<PreparedScene> {
+        auto data = raster::PreparedData::make(scene, execution);
+        if (!data) return tl::unexpected<Error>(data.error());
+        return PreparedScene(std::make_unique<raster::PreparedData>(std::move(*data)));
+    });
 }
 
 Result<void> PreparedScene::update(const SceneChanges& changes, const Execution& execution) { return data_->update(changes, execution); }

@@ -12,12 +12,13 @@ namespace halflit {
 
 /// Counter-clockwise triangles are front faces. Attribute arrays are empty or as long as `positions`.
 struct Mesh {
-    std::string name;                    ///< for messages; may be empty
-    std::vector<Vec3f> positions;        ///< object space, any unit
-    std::vector<Vec3f> normals;          ///< any length > 0; lit materials need them (see generate_flat_normals), and a frame without warns
-    std::vector<Vec4f> tangents;         ///< xyz any length > 0, w = +1 or -1: bitangent = cross(normal, tangent) * w
-    std::vector<Vec2f> uv0, uv1;         ///< v points down: v = 0 is the first row of the texture
-    std::vector<Vec4f> colors;           ///< linear RGBA
+    std::string name;              ///< for messages; may be empty
+    std::vector<Vec3f> positions;  ///< object space, any unit
+    std::vector<Vec3f> normals;    ///< any length > 0; lit materials need them (see generate_flat_normals), a frame that draws a lit mesh
+                                   ///< without them has a warning
+    std::vector<Vec4f> tangents;   ///< xyz any length > 0, w = +1 or -1: bitangent = cross(normal, tangent) * w
+    std::vector<Vec2f> uv0, uv1;   ///< v points down: v = 0 is the first row of the texture
+    std::vector<Vec4f> colors;     ///< linear RGBA
     std::vector<std::uint32_t> indices;  ///< three per triangle, each < positions.size()
     int material = -1;                   ///< index into Scene::materials; -1: the default material
 };

@@ -31,7 +31,8 @@ struct SceneChanges {
 /// may draw from it at once; none may while it is updated.
 class PreparedScene {
 public:
-    /// Fails (bad_input) for a faulty scene: an index out of range, arrays of different lengths, an invalid lobe.
+    /// Of the execution, threads and parallel_for count. Fails (bad_input) for a faulty scene: an index out of range, arrays of different
+    /// lengths, an invalid lobe.
     [[nodiscard]] HALFLIT_API static Result<PreparedScene> make(const Scene& scene, const Execution& execution = {});
     static Result<PreparedScene> make(Scene&& scene, const Execution& execution = {}) = delete;  // it would not outlive the call
 

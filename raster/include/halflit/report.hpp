@@ -59,7 +59,7 @@ struct RenderReport {
         double tiles = 0;                     ///< visibility, shading, blending, resolving
     } ms;                                     ///< the steps' times
     double total_ms = 0;                      ///< of the whole call
-    int threads = 1;                          ///< threads that worked on the frame
+    int threads = 1;                          ///< threads that the frame could use; 0: a host's loop
     Isa isa = Isa::scalar;                    ///< instruction set of the kernels
     std::uint64_t triangles_submitted = 0;    ///< triangles of the scene, over all instances
     std::uint64_t triangles_drawn = 0;        ///< set up for tiles; pieces of clipped triangles count singly

@@ -53,7 +53,9 @@ struct Execution {
     std::optional<Isa> isa{};    ///< instruction set; empty: default_isa()
     ParallelFor parallel_for{};  ///< the host's threads; empty: oneTBB, or the standard library's threads if built without it
 
-    std::function<bool()> cancelled{};             ///< asked before each tile; true stops the frame (ErrorCode::cancelled)
+    /// Asked before each tile of the picture, not while the scene is prepared or shadow maps are drawn. True stops the frame
+    /// (ErrorCode::cancelled).
+    std::function<bool()> cancelled{};
     std::function<void(const Region&)> on_tile{};  ///< told after each tile which pixels are final
     /// Told the share of the tiles that are done, in (0, 1]; one call at a time, in rising order.
     std::function<void(double share)> progress{};

@@ -1,7 +1,7 @@
 // Marks what a shared library exports. Everything else in it is hidden.
 #pragma once
 
-/// On a function that programs may call.
+/// Marks a function that programs may call.
 #ifdef HALFLIT_BUILDING_SHARED
 #define HALFLIT_API __attribute__((visibility("default")))
 #else

@@ -1,4 +1,4 @@
-// Errors. No exception leaves the library: a call that can fail returns a Result.
+// Errors. A call that can fail returns a Result, and no exception leaves it. A call without a Result may throw std::bad_alloc alone.
 #pragma once
 
 #include <tl/expected.hpp>

@@ -200,7 +200,7 @@ HALFLIT_C_API int32_t halflit_scene_add_mesh(halflit_scene* scene, const halflit
 /// Replaces a mesh, in all its instances; counts and material may differ.
 HALFLIT_C_API int32_t halflit_scene_set_mesh(halflit_scene* scene, int32_t index, const halflit_mesh* mesh);
 /// Moves a mesh's vertices: 3 floats for each. vertex_count is that with which the mesh was added. normals may be null: the mesh keeps its
-/// normals if it was added with some, and is flat again if not. For a mesh of a file, vertices are as the library split them.
+/// normals if it was added with some, and is flat again if not. For meshes that the caller added; one of a file is refused (2, usage).
 HALFLIT_C_API int32_t halflit_scene_set_vertices(halflit_scene* scene, int32_t index, const float* positions, const float* normals,
                                                  size_t vertex_count);
 
@@ -242,7 +242,7 @@ HALFLIT_C_API int32_t halflit_scene_get_camera(const halflit_scene* scene, int32
 /// Shapes of a source's light: parallel, from infinitely far; in all directions from a point; a point's light inside a cone.
 enum { HALFLIT_LIGHT_DIRECTIONAL = 0, HALFLIT_LIGHT_POINT = 1, HALFLIT_LIGHT_SPOT = 2 };
 
-/// A light. Colour 1 makes a white surface exactly white that faces the light: a directional one, or another at distance 1. Defaults:
+/// A light. A directional light of colour 1 makes a white surface that faces it exactly white; other lights do so at distance 1. Defaults:
 /// white, directional, straight down.
 typedef struct halflit_light {
     size_t size;
@@ -393,7 +393,7 @@ typedef struct halflit_target {
     size_t row_bytes;           ///< stride of `pixels`
     float* depth;               ///< distance along the view axis, world units; infinity where nothing is
     size_t depth_row_bytes;     ///< stride
-    float* normal;              ///< 3 floats a pixel: unit normal in world space, towards the viewer; 0 where nothing is
+    float* normal;              ///< 3 floats a pixel: unit normal of the vertices, world space; turned on double-sided backs; 0: nothing
     size_t normal_row_bytes;    ///< stride
     uint32_t* instance;         ///< index of the instance plus 1; 0 where nothing is
     size_t instance_row_bytes;  ///< stride

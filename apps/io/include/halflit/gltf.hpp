@@ -78,7 +78,7 @@ struct Node {
     int camera = -1, light = -1;     ///< indices into Scene::cameras and Scene::lights; -1: none
 };
 
-/// A file's scene and what there is to say about it.
+/// A file's scene, its nodes, and the loader's warnings and counts.
 struct LoadedScene {
     Scene scene;                        ///< the file's default scene, or else its first
     std::vector<Node> nodes;            ///< all nodes of the file, by their numbers in it
