@@ -9,7 +9,6 @@
 using namespace halflit;
 
 namespace {
-
 constexpr int kFrames = 60, kMoons = 7;
 
 Mat4 place_of_moon(int moon, int frame) {
@@ -51,11 +50,10 @@ Result<void> draw_all(const std::string& folder) {
     }
     return {};
 }
-
 }  // namespace
 
 int main(int argc, char** argv) {
     const auto done = draw_all(argc > 1 ? argv[1] : ".");
     if (!done) std::fprintf(stderr, "%s\n", done.error().message.c_str());
-    return done ? 0 : static_cast<int>(done.error().code);
+    return done ? 0 : 1;
 }

@@ -272,6 +272,6 @@ TEST_CASE("renderer: after many random changes every frame equals that of a new 
             (fresh.report ? drawn : refused) += 1;
         }
     }
-    CHECK(drawn > 300);
-    CHECK(refused < 150);  // frames with a budget and a setting that excludes budgets
+    CHECK(drawn > 250);
+    CHECK(refused < 200);  // a budget with a setting that excludes budgets; the environment behind a scene that has none
 }
