@@ -9,7 +9,8 @@
 namespace halflit {
 namespace {
 
-constexpr double kLeastShare = 0.05;
+/// A duck that is drawn a fifth of the picture wide has a box of 15 %.
+constexpr double kLeastShare = 1.0 / 6.0;
 
 /// Smallest rectangle of the picture around what is added, in [-1, 1]^2.
 class PictureRectangle {

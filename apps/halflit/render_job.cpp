@@ -57,8 +57,7 @@ Result<std::optional<Camera>> choose_view(RenderJob& job, const RenderOptions& o
     const Camera* chosen = options.own_view() ? nullptr : choose_camera(job.scene(), job.prepared->bounds());
     if (chosen == nullptr && !cameras.empty() && !options.own_view() && !options.camera)
         job.warnings.push_back(
-            "the file's camera shows almost nothing of the scene: drawn from a camera of its own (--camera 0: the file's; --camera frame: "
-            "without this warning)");
+            "the file's camera shows the scene small or not at all: drawn from a view of the whole scene (--camera 0: by the file's)");
     if (options.camera) {
         const auto found = find_camera(cameras, *options.camera);
         if (!found) return tl::unexpected(found.error());

@@ -201,10 +201,10 @@ TEST_CASE("setup: a scene's first camera is taken, unless it shows almost nothin
     CHECK(!chosen(seen_from({0, 2, 0}, {0, 3, 0})));
     CHECK(!chosen(seen_from({100, 100, 100}, {0, 0, 0})));
 
-    // The front of the box is a square of half size 1 at the distance d - 1: its share is (1 / ((d - 1) tan 22.5 deg))^2, which is 5 % at
-    // d = 11.797. The box behind it does not stand out.
-    CHECK(chosen(seen_from({0, 0, 11.7f}, {0, 0, 0})));
-    CHECK(!chosen(seen_from({0, 0, 11.9f}, {0, 0, 0})));
+    // The front of the box is a square of half size 1 at the distance d - 1: its share is (1 / ((d - 1) tan 22.5 deg))^2, which is 1/6 at
+    // d = 6.914. The box behind it does not stand out.
+    CHECK(chosen(seen_from({0, 0, 6.9f}, {0, 0, 0})));
+    CHECK(!chosen(seen_from({0, 0, 6.95f}, {0, 0, 0})));
 
     // Nearer than the near plane, or beyond the far one.
     Camera camera = seen_from({0, 0, 5}, {0, 0, 0});
@@ -218,10 +218,10 @@ TEST_CASE("setup: a scene's first camera is taken, unless it shows almost nothin
 
     camera = seen_from({0, 0, 5}, {0, 0, 0});
     camera.orthographic = true;
-    camera.half_height = camera.half_width = 4.4f;  // (1 / 4.4)^2 = 5.2 %
+    camera.half_height = camera.half_width = 2.4f;  // (1 / 2.4)^2 = 17.4 %
     camera.far_z = 100;
     CHECK(chosen(camera));
-    camera.half_height = camera.half_width = 4.5f;  // 4.9 %
+    camera.half_height = camera.half_width = 2.5f;  // 16 %
     CHECK(!chosen(camera));
     camera = seen_from({0, 0, 5}, {0, 0, 10});
     camera.orthographic = true;
