@@ -39,8 +39,8 @@ struct AutoSetup {
 /// The same. bounds: scene_bounds(scene).
 [[nodiscard]] HALFLIT_API AutoSetup auto_setup(Scene& scene, const Bounds& bounds, int width, int height, const AutoOptions& options);
 
-/// The scene's first camera, or null if it has none, or if that camera shows it small or not at all: the box around the scene, between the camera's
-/// near and far plane, fills less than a sixth of its picture. Where nothing has bounds, the first camera.
+/// The scene's first camera, or null if it has none, or if that camera shows it small or not at all: the box around the scene, between the
+/// camera's near and far plane, fills less than a sixth of its picture. Where nothing has bounds, the first camera.
 [[nodiscard]] HALFLIT_API const Camera* choose_camera(const Scene& scene, const Bounds& bounds);
 
 }  // namespace halflit
