@@ -22,6 +22,7 @@ Result<void> check_settings(const Settings& settings, int width, int height) {
         return fail(ErrorCode::usage, "shadow size: " + std::to_string(side) + ", expected a power of two from 64 to 4096");
     if (!(settings.shadow_fade >= 0.0f && settings.shadow_fade < 3e38f))
         return fail(ErrorCode::usage, "shadow fade: expected a distance, or 0");
+    if (settings.shadows > ShadowMode::soft_split) return fail(ErrorCode::usage, "shadows: found a value that no name stands for");
     if (auto ok = shading::check_options(settings.shading); !ok) return ok;
     const Region& r = settings.region;
     if (r.width != 0 && (r.x < 0 || r.y < 0 || r.width < 1 || r.height < 1 || r.width > width - r.x || r.height > height - r.y))

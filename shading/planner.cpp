@@ -81,6 +81,9 @@ void plan_shadows(const ShadowInputs& shadows, ShadingPlan& plan) {
 }  // namespace
 
 Result<void> check_options(const ShadingSettings& options) {
+    if (options.rate > ShadingRate::pixel || options.specular > SpecularModel::blinn || options.accuracy > Accuracy::fast ||
+        options.texture_detail > TextureDetail::nearest)
+        return fail(ErrorCode::usage, "shading settings: found a value that no name stands for");
     if (options.lobe)
         if (const auto lobe = check_lobe(*options.lobe); !lobe) return fail(ErrorCode::usage, "lobe: " + lobe.error().message);
     if (options.environment_bands < 0 || options.environment_bands > sh::kMaxBands)

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <stdexcept>
 
 namespace halflit::cli {
 namespace {
@@ -23,6 +24,7 @@ namespace fs = std::filesystem;
 constexpr const char* kListName = "golden.json";
 constexpr const char* kHashesName = "hashes.txt";
 constexpr const char* kSchema = "halflit.golden-list/1";
+constexpr int kMaxDepth = 16;
 constexpr std::size_t kMaxListBytes = std::size_t{16} << 20;
 
 bool is_name_character(char c) {
@@ -90,7 +92,12 @@ Result<GoldenScene> scene_of(const Json& json, std::size_t index) {
 Result<std::vector<GoldenScene>> scenes_of(const std::string& text) {
     Json json;
     try {
-        json = Json::parse(text);
+        json = Json::parse(text, [&](int depth, Json::parse_event_t, Json&) {
+            if (depth > kMaxDepth) throw std::length_error("nested deeper than 16 levels");
+            return true;
+        });
+    } catch (const std::length_error& error) {
+        return fail(ErrorCode::bad_input, error.what());
     } catch (const Json::exception& exception) {
         const std::string what = exception.what();  // "[json.exception.parse_error.101] parse error at line 3, column 5: ..."
         return fail(ErrorCode::bad_input, printable(what.substr(std::min(what.find("] ") + 2, what.size()))));

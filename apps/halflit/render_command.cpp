@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <filesystem>
 #include <memory>
 #include <new>
 
@@ -39,7 +40,10 @@ std::string default_output(const std::string& scene) {
 
 /// Refuses output paths that would overwrite the scene or each other.
 Result<void> check_paths(const RenderCommandOptions& options) {
-    if (!options.report.empty() && options.report == options.output)
+    std::error_code ignored;
+    const auto place = [&](const std::string& path) { return std::filesystem::weakly_canonical(path, ignored); };
+    if (!options.report.empty() &&
+        (options.report == options.output || (options.report != "-" && place(options.report) == place(options.output))))
         return fail(ErrorCode::usage, "--report: expected another file than the picture's, found '" + options.report + "'");
     for (const std::string& path : {options.output, options.report})
         if (path != "-" && !path.empty() && !options.scene.empty() && same_file(path, options.scene))

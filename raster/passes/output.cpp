@@ -1,6 +1,7 @@
 #include "raster/passes/output.hpp"
 
 #include <cstring>
+#include <limits>
 #include <string>
 
 namespace halflit::raster {
@@ -16,6 +17,8 @@ Result<void> check_plane(const char* name, const void* data, std::size_t row_byt
     if (row_bytes < row)
         return fail(ErrorCode::usage, std::string(name) + ": rows of " + std::to_string(row_bytes) + " bytes, expected at least " +
                                           std::to_string(row) + " for " + std::to_string(width) + " pixels");
+    if (row_bytes > std::numeric_limits<std::int32_t>::max())
+        return fail(ErrorCode::usage, std::string(name) + ": rows of " + std::to_string(row_bytes) + " bytes, expected at most 2^31 - 1");
     if (row_bytes % alignment != 0)
         return fail(ErrorCode::usage, std::string(name) + ": rows of " + std::to_string(row_bytes) + " bytes, expected a multiple of " +
                                           std::to_string(alignment));

@@ -179,3 +179,16 @@ TEST_CASE("frame: stops when asked to, and draws again afterwards", "[raster][se
         CHECK(pixels == expected);
     }
 }
+
+TEST_CASE("settings: values that no name stands for are usage errors", "[raster][settings]") {
+    const auto refused_with = [](auto change) {
+        Settings s;
+        change(s);
+        return refused(outcome(box_scene(), s), ErrorCode::usage);
+    };
+    CHECK(refused_with([](Settings& s) { s.shading.rate = static_cast<ShadingRate>(9); }));
+    CHECK(refused_with([](Settings& s) { s.shading.specular = static_cast<SpecularModel>(9); }));
+    CHECK(refused_with([](Settings& s) { s.shading.accuracy = static_cast<Accuracy>(255); }));
+    CHECK(refused_with([](Settings& s) { s.shading.texture_detail = static_cast<TextureDetail>(3); }));
+    CHECK(refused_with([](Settings& s) { s.shadows = static_cast<ShadowMode>(3); }));
+}

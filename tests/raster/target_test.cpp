@@ -358,3 +358,15 @@ TEST_CASE("target: every format has the same bytes by every instruction set, til
             }
     }
 }
+
+TEST_CASE("target: a stride that a negative number became is refused", "[raster][target]") {
+    const Scene scene = demo_scene();
+    std::vector<std::uint8_t> pixels(std::size_t{4} * 8 * 8);
+    Target target{8, 8, pixels.data()};
+    for (const long stride : {-1L, -32L, -4096L}) {
+        target.row_bytes = static_cast<std::size_t>(stride);
+        const auto report = render(scene, scene.cameras[0], {}, target);
+        REQUIRE_FALSE(report);
+        CHECK(report.error().code == ErrorCode::usage);
+    }
+}
