@@ -118,13 +118,11 @@ struct Renderer::Impl {
     }
 
     Result<RenderReport> render(const PreparedData& scene, const Camera& camera, const Settings& settings, const Target& target,
-                                const Execution& execution, RenderReport report) {
+                                const Execution& execution, Isa isa, RenderReport report) {
         Stopwatch watch;
-        const auto isa = check_call(settings, target, execution);
-        if (!isa) return tl::unexpected<Error>(isa.error());
         if (auto ok = make_plan(scene, camera, settings, target, execution.tile_size); !ok) return tl::unexpected<Error>(ok.error());
-        const RasterKernels& raster = raster_kernels(*isa);
-        const shading::ShadeKernels& shade = shading::shade_kernels(*isa);
+        const RasterKernels& raster = raster_kernels(isa);
+        const shading::ShadeKernels& shade = shading::shade_kernels(isa);
         executor.configure(execution.threads, execution.parallel_for);
         const bool by_reference = plan.options.accuracy == Accuracy::reference;
         if (by_reference)
@@ -158,7 +156,7 @@ struct Renderer::Impl {
         report.ms.tiles = watch.lap();
 
         report.threads = executor.threads();
-        report.isa = *isa;
+        report.isa = isa;
         report.environment = plan.environment_uses;
         report.error = plan.shading.error;
         report.warnings.insert(report.warnings.end(), plan.warnings.begin(), plan.warnings.end());
@@ -202,7 +200,11 @@ Result<RenderReport> timed(const Body& body) {
 
 Result<RenderReport> Renderer::render(const PreparedScene& scene, const Camera& camera, const Settings& settings, const Target& target,
                                       const Execution& execution) {
-    return timed([&] { return impl_->render(scene.data(), camera, settings, target, execution, {}); });
+    return timed([&]() -> Result<RenderReport> {
+        const auto isa = check_call(settings, target, execution);
+        if (!isa) return tl::unexpected<Error>(isa.error());
+        return impl_->render(scene.data(), camera, settings, target, execution, *isa, {});
+    });
 }
 
 Result<RenderReport> Renderer::render(const Scene& scene, const Camera& camera, const Settings& settings, const Target& target,
@@ -210,11 +212,12 @@ Result<RenderReport> Renderer::render(const Scene& scene, const Camera& camera, 
     return timed([&]() -> Result<RenderReport> {
         Stopwatch watch;
         RenderReport report;
-        if (const auto checked = check_call(settings, target, execution); !checked) return tl::unexpected<Error>(checked.error());
+        const auto isa = check_call(settings, target, execution);
+        if (!isa) return tl::unexpected<Error>(isa.error());
         const auto prepared = PreparedData::make(scene, execution);
         if (!prepared) return tl::unexpected<Error>(prepared.error());
         report.ms.prepare = watch.lap();
-        return impl_->render(*prepared, camera, settings, target, execution, std::move(report));
+        return impl_->render(*prepared, camera, settings, target, execution, *isa, std::move(report));
     });
 }
 

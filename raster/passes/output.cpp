@@ -3,6 +3,7 @@
 #include <cstring>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace halflit::raster {
 namespace {
@@ -63,31 +64,16 @@ Output::Output(const Target& target, const Region& region)
     triangle = {target.triangle, target.triangle_row_bytes, 1, width, x0, y0};
 }
 
-void Output::write_codes(int x, int y, const std::uint32_t* from, int count) const {
-    std::uint8_t* to = codes.at(x, y);
-    if (straight_rgba_) {
-        std::memcpy(to, from, 4 * static_cast<std::size_t>(count));
-        return;
-    }
-    for (int i = 0; i < count; ++i, to += 4) {
+void Output::finish_codes(std::uint32_t* codes_of_pixels, int count) const {
+    if (straight_rgba_) return;
+    for (int i = 0; i < count; ++i) {
         std::uint8_t rgba[4];
-        std::memcpy(rgba, from + i, 4);
+        std::memcpy(rgba, codes_of_pixels + i, 4);
         if (premultiplied_)
             for (int c = 0; c < 3; ++c) rgba[c] = static_cast<std::uint8_t>(times(rgba[c], rgba[3]));
-        to[0] = bgra_ ? rgba[2] : rgba[0];
-        to[1] = rgba[1];
-        to[2] = bgra_ ? rgba[0] : rgba[2];
-        to[3] = rgba[3];
+        if (bgra_) std::swap(rgba[0], rgba[2]);
+        std::memcpy(codes_of_pixels + i, rgba, 4);
     }
-}
-
-void Output::write_linear(int x, int y, float red, float green, float blue, float alpha) const {
-    const float factor = premultiplied_ ? alpha : 1.0f;
-    float* p = linear.at(x, y);
-    p[0] = red * factor;
-    p[1] = green * factor;
-    p[2] = blue * factor;
-    p[3] = alpha;
 }
 
 }  // namespace halflit::raster

@@ -42,10 +42,17 @@ public:
     /// `region`: the pixels that are drawn, never empty.
     Output(const Target& target, const Region& region);
 
-    /// Writes `count` neighbours of a row, from straight RGBA codes.
-    void write_codes(int x, int y, const std::uint32_t* codes, int count) const;
+    /// Turns straight RGBA codes into those that the target holds, in place.
+    void finish_codes(std::uint32_t* codes_of_pixels, int count) const;
     /// Writes one pixel, from straight linear RGBA.
-    void write_linear(int x, int y, float red, float green, float blue, float alpha) const;
+    void write_linear(int x, int y, float red, float green, float blue, float alpha) const {
+        const float factor = premultiplied_ ? alpha : 1.0f;
+        float* p = linear.at(x, y);
+        p[0] = red * factor;
+        p[1] = green * factor;
+        p[2] = blue * factor;
+        p[3] = alpha;
+    }
 
     Plane<std::uint8_t> codes;
     Plane<float> linear, depth, normal;

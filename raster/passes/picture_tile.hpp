@@ -35,8 +35,7 @@ private:
     void shade_visible();
     void shade(FragmentList& list);  ///< writes the colour rows of the scratch's block
     // planes.cpp
-    void write_planes();                     ///< depth and numbers of what each pixel's first sample shows
-    void write_empty_planes();               ///< of a tile that has no triangles
+    void write_planes(bool empty);           ///< depth and numbers of what each pixel's first sample shows; empty: no triangles
     void write_normals(FragmentList& list);  ///< overwrites the scratch's block
     // blend.cpp
     void blend_layers();

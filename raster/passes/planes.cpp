@@ -5,13 +5,13 @@
 
 namespace halflit::raster {
 
-void PictureTile::write_planes() {
+void PictureTile::write_planes(bool empty) {
     const Output& output = pass_.output;
     const ViewGeometry& geometry = pass_.view.geometry;
     for (int y = 0; y < rect_.height; ++y)
         for (int x = 0; x < rect_.width; ++x) {
             const int at = y * kTileStride + x, x_px = rect_.x + x, y_px = rect_.y + y;
-            const std::uint32_t id = scratch_.buffers.triangle[0][at];
+            const std::uint32_t id = empty ? kNoTriangle : scratch_.buffers.triangle[0][at];
             const bool seen = id != kNoTriangle;
             if (output.depth)
                 *output.depth.at(x_px, y_px) = seen ? static_cast<float>(plan_.depth.distance(double{scratch_.buffers.depth[0][at]}))
@@ -20,18 +20,6 @@ void PictureTile::write_planes() {
                 for (int i = 0; i < 3; ++i) output.normal.at(x_px, y_px)[i] = 0.0f;
             if (output.instance) *output.instance.at(x_px, y_px) = seen ? geometry.draw_of(geometry.record(id)).instance + 1 : 0;
             if (output.triangle) *output.triangle.at(x_px, y_px) = seen ? geometry.triangle_of(id) + 1 : 0;
-        }
-}
-
-void PictureTile::write_empty_planes() {
-    const Output& output = pass_.output;
-    for (int y = rect_.y; y < rect_.y + rect_.height; ++y)
-        for (int x = rect_.x; x < rect_.x + rect_.width; ++x) {
-            if (output.depth) *output.depth.at(x, y) = std::numeric_limits<float>::infinity();
-            if (output.normal)
-                for (int i = 0; i < 3; ++i) output.normal.at(x, y)[i] = 0.0f;
-            if (output.instance) *output.instance.at(x, y) = 0;
-            if (output.triangle) *output.triangle.at(x, y) = 0;
         }
 }
 

@@ -44,7 +44,8 @@ void PictureTile::write(const FragmentList& list) {
     if (output.codes) {
         alignas(64) std::uint32_t code[shading::kBlockSize];
         pass_.view.shade.encode_srgb8(block.red, block.green, block.blue, block.alpha, exposure, code, list.count);
-        for (int l = 0; l < list.count; ++l) output.write_codes(list.x_px[l], list.y_px[l], &code[l], 1);
+        output.finish_codes(code, list.count);
+        for (int l = 0; l < list.count; ++l) std::memcpy(output.codes.at(list.x_px[l], list.y_px[l]), &code[l], 4);
     }
     if (output.linear)
         for (int l = 0; l < list.count; ++l)
@@ -102,8 +103,10 @@ void PictureTile::fill_background() {
         }
         std::uint32_t code[kTileStride];
         pass_.view.shade.encode_srgb8(red, green, blue, alpha, 1.0f, code, 1);
+        output.finish_codes(code, 1);
         for (int x = 1; x < rect_.width; ++x) code[x] = code[0];
-        for (int y = 0; y < rect_.height; ++y) output.write_codes(rect_.x, rect_.y + y, code, rect_.width);
+        for (int y = 0; y < rect_.height; ++y)
+            std::memcpy(output.codes.at(rect_.x, rect_.y + y), code, 4 * static_cast<std::size_t>(rect_.width));
     }
     if (output.linear)
         for (int y = 0; y < rect_.height; ++y)
@@ -128,7 +131,8 @@ void PictureTile::resolve() {
         }
         if (output.codes) {
             pass_.view.shade.encode_srgb8(row[0], row[1], row[2], row[3], 1.0f, code, rect_.width);
-            output.write_codes(rect_.x, rect_.y + y, code, rect_.width);
+            output.finish_codes(code, rect_.width);
+            std::memcpy(output.codes.at(rect_.x, rect_.y + y), code, 4 * static_cast<std::size_t>(rect_.width));
         }
         if (output.linear)
             for (int x = 0; x < rect_.width; ++x) output.write_linear(rect_.x + x, rect_.y + y, row[0][x], row[1][x], row[2][x], row[3][x]);

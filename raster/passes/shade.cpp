@@ -7,14 +7,15 @@ namespace halflit::raster {
 
 TileCounts PictureTile::draw() {
     direct_ = samples_ == 1 && !pass_.view.geometry.has(AlphaMode::blend);
-    if (pass_.view.geometry.tile_is_empty(tile_)) {
+    const bool empty = pass_.view.geometry.tile_is_empty(tile_);
+    if (empty) {
         fill_background();
-        if (pass_.output.has_planes()) write_empty_planes();
-        return counts_;
+    } else {
+        draw_visibility(pass_.view, tile_, scratch_, counts_);
+        clear();
     }
-    draw_visibility(pass_.view, tile_, scratch_, counts_);
-    clear();
-    if (pass_.output.has_planes()) write_planes();
+    if (pass_.output.has_planes()) write_planes(empty);
+    if (empty) return counts_;
     shade_visible();
     if (!direct_) {
         blend_layers();
