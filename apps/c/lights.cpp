@@ -17,11 +17,6 @@ bool is_dark(const Scene& scene) {
            scene.ambient.ground_linear == Vec3f{};
 }
 
-void remove_suns(halflit_scene& scene) {
-    scene.scene.lights.resize(scene.light_count());
-    scene.sun_count = 0;
-}
-
 /// Lights the scene by the image, in the place of an earlier environment.
 Result<void> light_by(halflit_scene& scene, const EnvironmentImage& image, const EnvironmentOptions& options) {
     auto made = make_environment(image, options);
@@ -29,7 +24,6 @@ Result<void> light_by(halflit_scene& scene, const EnvironmentImage& image, const
     const std::size_t suns = environment_suns(**made).size();
     scene.changes.lights();
     scene.scene.lights.reserve(scene.light_count() + suns);
-    remove_suns(scene);
     set_environment(scene.scene, std::move(*made));
     scene.sun_count = suns;
     return {};

@@ -2,6 +2,7 @@
 #include "sh/mat4.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace halflit {
 
@@ -49,8 +50,9 @@ void set_environment(Scene& scene, std::shared_ptr<const Environment> environmen
     scene.ambient = {};
     if (scene.environment != nullptr)
         for (const Light& sun : environment_suns(*scene.environment)) {
-            const auto found = std::find(scene.lights.begin(), scene.lights.end(), sun);
-            if (found != scene.lights.end()) scene.lights.erase(found);
+            // The last one: suns are added at the end, and the host may have added an equal light before.
+            const auto found = std::find(scene.lights.rbegin(), scene.lights.rend(), sun);
+            if (found != scene.lights.rend()) scene.lights.erase(std::next(found).base());
         }
     if (environment != nullptr) {
         const std::span<const Light> suns = environment_suns(*environment);

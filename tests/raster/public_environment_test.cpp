@@ -153,3 +153,23 @@ TEST_CASE("environment: it outlives the image and the pointer that a scene was g
         CHECK(linear[i + 3] == 1.0f);
     }
 }
+
+TEST_CASE("environment: a second one replaces the first one's suns, and no light of the host", "[raster][environment]") {
+    const auto first = make_environment(with_sun(10, 5)), second = make_environment(with_sun(40, 8));
+    REQUIRE(first);
+    REQUIRE(second);
+    REQUIRE(environment_suns(**first).size() == 1);
+    Light lamp;
+    lamp.type = LightType::point;
+    Scene scene;
+    scene.lights = {environment_suns(**first)[0], lamp};  // the host's own light equals the sun
+    const std::vector<Light> own = scene.lights;
+    set_environment(scene, *first);
+    set_environment(scene, *second);
+    REQUIRE(scene.lights.size() == 3);
+    CHECK(scene.lights[0] == own[0]);
+    CHECK(scene.lights[1] == own[1]);
+    CHECK(scene.lights[2] == environment_suns(**second)[0]);
+    set_environment(scene, nullptr);
+    CHECK(scene.lights == own);
+}
