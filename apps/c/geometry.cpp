@@ -170,8 +170,7 @@ int32_t halflit_scene_add_mesh(halflit_scene* scene, const halflit_mesh* mesh, i
         auto made = make_mesh(scene->scene, mesh);
         if (!made) return tl::unexpected<Error>(made.error());
         scene->changes.structure();
-        if (made->normals.empty()) scene->added_flat.insert(scene->scene.meshes.size());
-        scene->put_mesh(scene->scene.meshes.size(), std::move(*made));
+        scene->put_given_mesh(scene->scene.meshes.size(), std::move(*made));
         tell_last(scene->scene.meshes, index);
         return {};
     });
@@ -184,9 +183,7 @@ int32_t halflit_scene_set_mesh(halflit_scene* scene, int32_t index, const halfli
         auto made = make_mesh(scene->scene, mesh);
         if (!made) return tl::unexpected<Error>(made.error());
         scene->changes.mesh(*at);
-        scene->added_flat.erase(*at);
-        if (made->normals.empty()) scene->added_flat.insert(*at);
-        scene->put_mesh(*at, std::move(*made));
+        scene->put_given_mesh(*at, std::move(*made));
         return {};
     });
 }
@@ -199,30 +196,17 @@ int32_t halflit_scene_set_vertices(halflit_scene* scene, int32_t index, const fl
             return fail(ErrorCode::usage,
                         "mesh " + std::to_string(index) + ": comes from a file, and the caller does not know its vertices");
         const auto given = scene->given_meshes.find(*at);
-        Mesh& mesh = scene->scene.meshes[*at];
-        const std::size_t expected = given != scene->given_meshes.end() ? given->second.positions.size() : mesh.positions.size();
-        if (vertex_count != expected)
+        Mesh mesh = given != scene->given_meshes.end() ? given->second : scene->scene.meshes[*at];
+        if (vertex_count != mesh.positions.size())
             return fail(ErrorCode::usage, "mesh " + std::to_string(index) + ": " + std::to_string(vertex_count) + " vertices, expected " +
-                                              std::to_string(expected));
-        auto new_positions = copied<Vec3f>(positions, vertex_count);
-        auto new_normals = copied<Vec3f>(normals, vertex_count);
+                                              std::to_string(mesh.positions.size()));
+        mesh.positions = copied<Vec3f>(positions, vertex_count);
+        if (normals != nullptr)
+            mesh.normals = copied<Vec3f>(normals, vertex_count);
+        else if (scene->added_flat.contains(*at))
+            mesh.normals.clear();
         scene->changes.mesh(*at);
-        if (given != scene->given_meshes.end()) {
-            Mesh whole = given->second;
-            whole.positions = std::move(new_positions);
-            whole.normals = normals != nullptr                ? std::move(new_normals)
-                            : scene->added_flat.contains(*at) ? std::vector<Vec3f>{}
-                                                              : whole.normals;
-            scene->put_mesh(*at, std::move(whole));
-        } else {
-            Mesh whole = std::move(mesh);
-            whole.positions = std::move(new_positions);
-            if (normals != nullptr)
-                whole.normals = std::move(new_normals);
-            else if (scene->added_flat.contains(*at))
-                whole.normals.clear();
-            scene->put_mesh(*at, std::move(whole));
-        }
+        scene->put_mesh(*at, std::move(mesh));
         return {};
     });
 }

@@ -55,6 +55,14 @@ void halflit_scene::put_mesh(std::size_t index, Mesh given) {
     scene.meshes[index] = std::move(given);
 }
 
+void halflit_scene::put_given_mesh(std::size_t index, Mesh given) {
+    if (given.normals.empty())
+        added_flat.insert(index);
+    else
+        added_flat.erase(index);
+    put_mesh(index, std::move(given));
+}
+
 void halflit_scene::complete_meshes_of(std::size_t material) {
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         Mesh& mesh = scene.meshes[i];

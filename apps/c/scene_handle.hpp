@@ -69,6 +69,8 @@ struct halflit_scene {
     /// Makes `given` the mesh at `index`, which may be the next one. Adds the normals and tangents that its material requires. Requires:
     /// indices and material in range.
     void put_mesh(std::size_t index, halflit::Mesh given);
+    /// The same for a mesh that the caller gives whole. Remembers whether it came without normals.
+    void put_given_mesh(std::size_t index, halflit::Mesh given);
     /// Adds what a material, which has changed, requires of its meshes.
     void complete_meshes_of(std::size_t material);
 
