@@ -2,10 +2,10 @@
 
 #include "apps/halflit/file_names.hpp"
 #include "apps/halflit/messages.hpp"
+#include "apps/halflit/output_folder.hpp"
 #include "apps/halflit/render_job.hpp"
 #include "apps/halflit/stopwatch.hpp"
 #include "apps/io/picture_reader.hpp"
-#include "apps/lab/output_folder.hpp"
 #include "halflit/image.hpp"
 #include "halflit/target.hpp"
 

@@ -3,10 +3,10 @@
 #include "apps/halflit/built_in_scenes.hpp"
 #include "apps/halflit/file_names.hpp"
 #include "apps/halflit/messages.hpp"
+#include "apps/halflit/output_folder.hpp"
 #include "apps/halflit/run_report.hpp"
 #include "apps/halflit/text_file.hpp"
 #include "apps/io/file_access.hpp"
-#include "apps/lab/output_folder.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

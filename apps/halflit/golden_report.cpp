@@ -1,7 +1,7 @@
 #include "apps/halflit/golden_report.hpp"
 
 #include "apps/halflit/messages.hpp"
-#include "apps/lab/svg_page.hpp"
+#include "apps/halflit/xml_text.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-#include "apps/lab/output_folder.hpp"
+#include "apps/halflit/output_folder.hpp"
 
 #include "apps/halflit/messages.hpp"
 

@@ -2,9 +2,9 @@
 
 #include "apps/halflit/file_names.hpp"
 #include "apps/halflit/messages.hpp"
+#include "apps/halflit/output_folder.hpp"
 #include "apps/io/picture_reader.hpp"
 #include "apps/io/text.hpp"
-#include "apps/lab/output_folder.hpp"
 #include "halflit/image.hpp"
 
 #include <fmt/format.h>

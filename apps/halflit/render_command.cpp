@@ -3,6 +3,7 @@
 #include "apps/halflit/file_names.hpp"
 #include "apps/halflit/interrupt.hpp"
 #include "apps/halflit/messages.hpp"
+#include "apps/halflit/output_folder.hpp"
 #include "apps/halflit/progress_line.hpp"
 #include "apps/halflit/render_job.hpp"
 #include "apps/halflit/run_report.hpp"
@@ -11,7 +12,6 @@
 #include "apps/io/atomic_file.hpp"
 #include "apps/io/errno_text.hpp"
 #include "apps/io/picture_reader.hpp"
-#include "apps/lab/output_folder.hpp"
 #include "halflit/image.hpp"
 
 #include <fmt/core.h>

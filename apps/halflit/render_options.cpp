@@ -353,7 +353,10 @@ Positional scene_argument(RenderOptions& o, bool required) {
             .form = "FILE"};
 }
 
-std::vector<FlagGroup> render_flags(RenderOptions& o, PictureSize usual) {
+namespace {
+
+/// The flags that decide the picture and its speed.
+std::vector<FlagGroup> scene_flags(RenderOptions& o, PictureSize usual) {
     return {picture_flags(o, usual),
             camera_flags(o),
             light_flags(o),
@@ -362,14 +365,21 @@ std::vector<FlagGroup> render_flags(RenderOptions& o, PictureSize usual) {
             surface_flags(o),
             accuracy_flags(o.settings.shading),
             machine_flags(o.execution),
-            file_flags(o),
-            {"Messages", message_flags()}};
+            file_flags(o)};
+}
+
+}  // namespace
+
+std::vector<FlagGroup> render_flags(RenderOptions& o, PictureSize usual) {
+    std::vector<FlagGroup> groups = scene_flags(o, usual);
+    groups.push_back({"Messages", message_flags()});
+    return groups;
 }
 
 Result<RenderOptions> parse_render_flags(std::vector<std::string> flags) {
     RenderOptions options;
-    Command command{"render", "", {}, render_flags(options, kRenderSize), {}};
-    command.groups.pop_back();  // those of messages set what all scenes print
+    // Without the flags of messages, which would set what all scenes print.
+    const Command command{"render", "", {}, scene_flags(options, kRenderSize), {}};
     flags.insert(flags.begin(), command.name);
     const auto line = parse_command_line({&command, 1}, std::move(flags));
     if (!line) return tl::unexpected(line.error());

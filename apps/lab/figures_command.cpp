@@ -2,11 +2,11 @@
 #include "apps/halflit/commands.hpp"
 #include "apps/halflit/file_names.hpp"
 #include "apps/halflit/messages.hpp"
+#include "apps/halflit/output_folder.hpp"
 #include "apps/halflit/spelling.hpp"
 #include "apps/halflit/text_file.hpp"
 #include "apps/io/atomic_file.hpp"
 #include "apps/lab/figure.hpp"
-#include "apps/lab/output_folder.hpp"
 
 #include <fmt/core.h>
 

@@ -26,29 +26,6 @@ std::string base64(std::span<const std::uint8_t> bytes) {
     return text;
 }
 
-std::string xml_escaped(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                out += c;
-        }
-    }
-    return out;
-}
-
 double text_width(std::string_view text, double size) {
     const std::string shown = rich_plain(text);
     const auto characters =

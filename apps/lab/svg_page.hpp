@@ -6,11 +6,9 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include "apps/halflit/xml_text.hpp"
 
 namespace halflit::cli {
-
-/// Text escaped for the inside of an element or attribute.
-[[nodiscard]] std::string xml_escaped(std::string_view text);
 
 /// Bytes in base64, for a data: URL.
 [[nodiscard]] std::string base64(std::span<const std::uint8_t> bytes);

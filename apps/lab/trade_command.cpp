@@ -2,9 +2,9 @@
 #include "apps/halflit/commands.hpp"
 #include "apps/halflit/file_names.hpp"
 #include "apps/halflit/messages.hpp"
+#include "apps/halflit/output_folder.hpp"
 #include "apps/halflit/progress_line.hpp"
 #include "apps/halflit/text_file.hpp"
-#include "apps/lab/output_folder.hpp"
 #include "apps/lab/trade_report.hpp"
 
 #include <algorithm>
