@@ -2,14 +2,7 @@
 #   cmake -DWAY=find_package|add_subdirectory|FetchContent|pkg-config -DSOURCE=tree -DBUILD=build-tree -DWORK=folder
 #         [-DCOMPONENTS=raster;io] [-DCOMPILER=c++] [-DMAKE_PROGRAM=ninja] -P run.cmake
 set(here ${CMAKE_CURRENT_LIST_DIR})
-function(run)
-    execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
-    if(NOT status EQUAL 0)
-        list(JOIN ARGN " " command)
-        message(FATAL_ERROR "${command}\n${output}")
-    endif()
-    set(output "${output}" PARENT_SCOPE)
-endfunction()
+include(${here}/run_command.cmake)
 
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})

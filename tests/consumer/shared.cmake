@@ -2,14 +2,7 @@
 #   cmake -DSOURCE=tree -DWORK=folder -DCOMPILER=c++ -DC_COMPILER=cc -DMAKE_PROGRAM=ninja [-DLAUNCHER=ccache] [-DPYTHON=python3] -DNM=nm
 #         -P shared.cmake
 set(here ${CMAKE_CURRENT_LIST_DIR})
-function(run)
-    execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
-    if(NOT status EQUAL 0)
-        list(JOIN ARGN " " command)
-        message(FATAL_ERROR "${command}\n${output}")
-    endif()
-    set(output "${output}" PARENT_SCOPE)
-endfunction()
+include(${here}/run_command.cmake)
 
 set(prefix ${WORK}/prefix)
 file(REMOVE_RECURSE ${prefix} ${WORK}/consumer)
