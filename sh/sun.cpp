@@ -11,8 +11,9 @@ constexpr int kJudgedOrder = 5;
 constexpr int kMaxCandidates = 8;
 /// Choice of the level that a source is cut at. Where nearly all light is the sun's, the sun's own part dominates the bound and hides the
 /// part that is left in the image. So the lowest level is taken whose bound is at most kAsGood times the best. Levels go on below the mean
-/// luminance where the sun makes most of it, down to kAboveRest times the mean luminance of the rest.
-constexpr double kAsGood = 1.01, kAboveRest = 4.0;
+/// luminance where the sun makes most of it, down to kAboveRest times the mean luminance of the rest. The rest is a difference, of which
+/// rounding leaves nothing below kRounded times the mean luminance: it may even come out negative.
+constexpr double kAsGood = 1.01, kAboveRest = 4.0, kRounded = 0x1p-40;
 
 struct Pixel {
     int x = 0, y = 0;
@@ -223,7 +224,8 @@ SunExtraction extract_suns(const EquirectView& image, const Projection& full, co
             suns.push_back(candidate.sun);
             cuts.push_back({level, judge.bound(without(state, candidate), suns), candidate.sun});
             best = std::min(best, cuts.back().bound);
-            floor = std::min(mean, kAboveRest * luminance(state.projection.mean() - candidate.sun.irradiance * (0.25 / kPi)));
+            const double rest = luminance(state.projection.mean() - candidate.sun.irradiance * (0.25 / kPi));
+            floor = std::min(mean, kAboveRest * std::max(rest, kRounded * mean));
         }
         if (!(best < target)) continue;
         const auto lowest = std::find_if(cuts.rbegin(), cuts.rend(), [best](const Cut& cut) { return cut.bound <= kAsGood * best; });

@@ -52,6 +52,22 @@ TEST_CASE("sun: a disc is found where it stands, with its irradiance, colour and
     }
 }
 
+TEST_CASE("sun: one pixel may be brighter than all others by any factor that float32 holds", "[sh][sun]") {
+    // In such an image the mean without the sun is a difference that rounds to anything, below zero too.
+    for (const int exponent : {10, 40, 54, 62, 90, 126}) {
+        INFO("2^" << exponent);
+        Sky sky = painted_sky(64, 32, [](Vec3d) { return Vec3d{0x1p-9, 0x1p-9, 0x1p-9}; });
+        const double peak = std::ldexp(1.0, exponent);
+        for (std::size_t c = 0; c < 3; ++c) sky.rgb[3 * (13 * 64 + 21) + c] = static_cast<float>(peak);
+        const SunExtraction found = extract_suns(sky.view(), Projection(sky.view()));
+        REQUIRE(found.suns.size() == 1);
+        CHECK(degrees_between(found.suns[0].direction, equirect_direction(21.5 / 64, 13.5 / 32)) < 1e-3);
+        const double share = found.suns[0].irradiance.x / (peak * pixel_solid_angle(64, 32, 13));
+        CHECK(share > 0.9);
+        CHECK(share < 1.000001);
+    }
+}
+
 TEST_CASE("sun: energy is kept, and the returned projection is that of the residual image", "[sh][sun]") {
     const Sky sky = sky_with_sun({0.36, 0.48, 0.8}, 1.5, {3000, 2500, 1500});
     const Projection full(sky.view());
