@@ -2,15 +2,21 @@
 
 #include "apps/io/errno_text.hpp"
 
+#include <dirent.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
+#include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
 #include <mutex>
+#include <optional>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -25,14 +31,14 @@ tl::unexpected<Error> system_error(const std::string& place, int error) {
 class Pending {
 public:
     static Pending& instance() {
-        static Pending pending;
+        static Pending& pending = *new Pending;  // never destroyed: at the process's end a thread may wait in abandon()
         return pending;
     }
 
     /// Creates a file and returns its descriptor, or -1 with errno.
     int create(const std::string& path, mode_t mode) {
-        const std::lock_guard lock(mutex_);
-        if (closed_to_this_thread()) return errno = EINTR, -1;
+        std::unique_lock lock(mutex_);
+        wait_if_abandoned(lock);
         constexpr int kFlags = O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW;
         int fd = ::open(path.c_str(), kFlags, mode);
         if (fd < 0 && errno == EEXIST) {
@@ -46,12 +52,42 @@ public:
 
     /// Renames the temporary file to the target. Returns 0 or errno; the temporary file is gone either way.
     int publish(const std::string& path, const std::string& target) {
-        const std::lock_guard lock(mutex_);
-        if (closed_to_this_thread()) return EINTR;
+        std::unique_lock lock(mutex_);
+        wait_if_abandoned(lock);
         const int error = std::rename(path.c_str(), target.c_str()) == 0 ? 0 : errno;
         if (error != 0) ::unlink(path.c_str());
         std::erase(paths_, path);
+        published_ |= error == 0;
         return error;
+    }
+
+    /// Gives a file without a name the target's. Returns 0 or errno. A kill leaves no other file behind, except between two system calls
+    /// where the target exists and has to be replaced.
+    int publish_unnamed(int fd, const std::string& temporary, const std::string& target, bool exists) {
+        std::unique_lock lock(mutex_);
+        wait_if_abandoned(lock);
+        const std::string source = "/proc/self/fd/" + std::to_string(fd);
+        const auto link = [&](const std::string& name) {
+            return ::linkat(AT_FDCWD, source.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0 ? 0 : errno;
+        };
+        int error = exists ? EEXIST : link(target);
+        if (error == EEXIST) {
+            ::unlink(temporary.c_str());
+            error = link(temporary);
+            if (error == 0 && std::rename(temporary.c_str(), target.c_str()) != 0) {
+                error = errno;
+                ::unlink(temporary.c_str());
+            }
+        }
+        published_ |= error == 0;
+        return error;
+    }
+
+    void begin_set() {
+        const std::lock_guard lock(mutex_);
+        in_set_ = true;
+        published_ = false;
+        settled_.notify_all();
     }
 
     void remove(const std::string& path) {
@@ -61,19 +97,25 @@ public:
     }
 
     void abandon() {
-        const std::lock_guard lock(mutex_);
+        std::unique_lock lock(mutex_);
+        settled_.wait(lock, [this] { return !(in_set_ && published_); });
         abandoned_by_ = std::this_thread::get_id();
         for (const std::string& path : paths_) ::unlink(path.c_str());
         paths_.clear();
     }
 
 private:
-    [[nodiscard]] bool closed_to_this_thread() const {
-        return abandoned_by_ != std::thread::id() && abandoned_by_ != std::this_thread::get_id();
+    /// The process is about to end by a signal: its exit code must not tell of a fault that there was not.
+    void wait_if_abandoned(std::unique_lock<std::mutex>& lock) {
+        if (abandoned_by_ == std::thread::id() || abandoned_by_ == std::this_thread::get_id()) return;
+        lock.unlock();
+        for (;;) ::pause();
     }
 
     std::mutex mutex_;
     std::vector<std::string> paths_;
+    bool in_set_ = false, published_ = false;
+    std::condition_variable settled_;
     std::thread::id abandoned_by_;  ///< the only thread that may write; none: all may
 };
 
@@ -106,20 +148,67 @@ std::string temporary_name(const std::string& target) {
     return directory + "." + name + ".halflit-" + std::to_string(::getpid()) + ".tmp";
 }
 
-int replace_file(const std::string& target, std::span<const std::uint8_t> bytes, mode_t mode, bool keep_mode) {
+/// Writes a file that has no name yet. Returns 0 or errno.
+int fill(int fd, std::span<const std::uint8_t> bytes, mode_t mode, bool keep_mode) {
+    if (const int error = write_all(fd, bytes); error != 0) return error;
+    if (keep_mode && ::fchmod(fd, mode) != 0) return errno;
+    return flush(fd);
+}
+
+/// The same as replace_file, by a file without a name. None: the file system, or a system without /proc, cannot do it.
+std::optional<int> replace_by_unnamed(const std::string& target, std::span<const std::uint8_t> bytes, mode_t mode, bool exists) {
+#ifdef O_TMPFILE
+    const std::size_t slash = target.rfind('/');
+    const std::string folder = slash == std::string::npos ? "." : slash == 0 ? "/" : target.substr(0, slash);
+    if (::access("/proc/self/fd", X_OK) != 0) return std::nullopt;
+    const int fd = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, mode);
+    if (fd < 0) return std::nullopt;  // the other way names the fault
+    int error = fill(fd, bytes, mode, exists);
+    if (error == 0) error = Pending::instance().publish_unnamed(fd, temporary_name(target), target, exists);
+    ::close(fd);
+    return error;
+#else
+    (void)target, (void)bytes, (void)mode, (void)exists;
+    return std::nullopt;
+#endif
+}
+
+/// Removes temporary files of this target whose process was killed. Others have the same name only by the target's will.
+void remove_stale(const std::string& target) {
+    const std::string own = temporary_name(target);
+    const std::size_t slash = own.rfind('/'), number = own.rfind('-') + 1;
+    const std::string folder = slash == std::string::npos ? "" : own.substr(0, slash + 1);
+    const std::string prefix = own.substr(folder.size(), number - folder.size()), suffix = ".tmp";
+    DIR* const list = ::opendir(folder.empty() ? "." : folder.c_str());
+    if (list == nullptr) return;
+    while (const dirent* entry = ::readdir(list)) {
+        const std::string_view name = entry->d_name;
+        if (!name.starts_with(prefix) || !name.ends_with(suffix)) continue;
+        const std::string_view digits = name.substr(prefix.size(), name.size() - prefix.size() - suffix.size());
+        pid_t process = 0;
+        const auto parsed = std::from_chars(digits.data(), digits.data() + digits.size(), process);
+        if (parsed.ec != std::errc() || parsed.ptr != digits.data() + digits.size() || process <= 0) continue;
+        if (::kill(process, 0) != 0 && errno == ESRCH) ::unlink((folder + std::string(name)).c_str());
+    }
+    ::closedir(list);
+}
+
+/// exists: the target is a file, whose mode is kept.
+int replace_file(const std::string& target, std::span<const std::uint8_t> bytes, mode_t mode, bool exists) {
+    if (const auto done = replace_by_unnamed(target, bytes, mode, exists)) return *done;
     Pending& pending = Pending::instance();
     const std::string temporary = temporary_name(target);
     const int fd = pending.create(temporary, mode);
     if (fd < 0) return errno;
-    int error = write_all(fd, bytes);
-    if (error == 0 && keep_mode && ::fchmod(fd, mode) != 0) error = errno;
-    if (error == 0) error = flush(fd);
+    int error = fill(fd, bytes, mode, exists);
     if (::close(fd) != 0 && error == 0) error = errno;
     if (error != 0) {
         pending.remove(temporary);
         return error;
     }
-    return pending.publish(temporary, target);
+    error = pending.publish(temporary, target);
+    if (error == 0) remove_stale(target);
+    return error;
 }
 
 }  // namespace
@@ -152,6 +241,8 @@ Result<void> write_file(const std::string& path, std::span<const std::uint8_t> b
     if (error != 0) return system_error(path, error);
     return {};
 }
+
+void begin_file_set() { Pending::instance().begin_set(); }
 
 void abandon_files() { Pending::instance().abandon(); }
 
