@@ -69,6 +69,14 @@ float environment_exposure(const Environment& environment) {
     return static_cast<float>(0.5 / level);
 }
 
+/// Two texels for a pixel of the longer side, where a map shows what the picture shows. Larger maps only cost time and memory.
+int shadow_size_for(int width, int height) {
+    constexpr int kLeast = 256;
+    int size = kLeast;
+    while (size < Settings{}.shadow_size && size / 2 < std::max(width, height)) size *= 2;
+    return size;
+}
+
 bool is_dark(const Ambient& ambient) { return ambient.sky_linear == Vec3f{} && ambient.ground_linear == Vec3f{}; }
 
 /// Adds the light that the scene lacks. Returns the exposure.
@@ -109,6 +117,7 @@ AutoSetup auto_setup(Scene& scene, const Bounds& bounds, int width, int height, 
     const float aspect = static_cast<float>(width) / static_cast<float>(height);
     setup.camera = chosen != nullptr ? *chosen : frame_scene(scene, bounds, aspect, options.view);
     setup.settings = usual_settings();
+    setup.settings.shadow_size = shadow_size_for(width, height);
     const float exposure = light_scene(scene, bounds, setup.camera, options);
     setup.settings.exposure = options.exposure.value_or(exposure);
     return setup;

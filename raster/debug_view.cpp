@@ -19,7 +19,7 @@ Result<VisibilityView> draw_view(const Scene& scene, const Camera& camera, const
     if (!isa) return tl::unexpected<Error>(isa.error());
     const RasterKernels& raster = raster_kernels(*isa);
     Executor executor;
-    executor.configure(execution.threads, execution.parallel_for);
+    executor.configure(execution);
     ViewGeometry geometry;
     if (auto ok = geometry.make(*prepared, plan->picture, raster, executor, true); !ok) return tl::unexpected<Error>(ok.error());
     VertexRecords records;
@@ -30,7 +30,7 @@ Result<VisibilityView> draw_view(const Scene& scene, const Camera& camera, const
     view.triangle.assign(pixels, 0);
     view.depth.assign(pixels, 0.0f);
     Pool<TileScratch> scratch;
-    const TilePass pass{geometry, records, plan->shading.materials, raster, shading::shade_kernels(*isa)};
+    const TilePass pass{geometry, records, plan->shading.materials, raster, shading::shade_kernels(*isa), executor.stop()};
     executor.run(plan->picture.tile_count(), [&](int tile) {
         Pool<TileScratch>::Loan loan(scratch);
         TileCounts ignored;

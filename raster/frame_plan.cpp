@@ -53,6 +53,7 @@ shading::SceneFacts scene_facts(const PreparedData& scene, std::span<const Light
     std::map<std::array<double, 3>, double> distances;  // of this plan alone: lights that move all the time must not fill the memory
     const double position_error = kPositionError * largest_coordinate(scene.bounds());
     for (const LightPlan& light : lights) {
+        if (memory.stop != nullptr) memory.stop->check();
         if (light.type == LightType::directional) {
             facts.light_attenuation.push_back(1.0);
             facts.light_farthest_squared.push_back(0.0);
@@ -151,7 +152,8 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, 
     if (!finite_views) return fail(ErrorCode::bad_input, "the camera's matrix is not finite");
     plan.shadow_views = std::move(shadows->views);
     if (memory.shadow_texels && shadows->texel_count > 0) {
-        const float* texels = memory.shadow_texels->reserve(shadows->texel_count);
+        const float* texels = memory.stop != nullptr ? memory.shadow_texels->reserve(shadows->texel_count, *memory.stop)
+                                                     : memory.shadow_texels->reserve(shadows->texel_count);
         for (std::size_t i = 0; i < shadows->maps.size(); ++i) shadows->maps[i].distance = texels + shadows->first_texel[i];
     }
 

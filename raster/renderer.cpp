@@ -8,7 +8,6 @@
 #include "raster/passes/shading_rate.hpp"
 #include "raster/passes/shadow_maps.hpp"
 
-#include <atomic>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -89,19 +88,12 @@ struct Renderer::Impl {
         normals.make(geometry, normal_materials, kernels, executor);
     }
 
-    /// Draws all tiles of the picture. Fails if the caller cancels, and if the host's loop leaves a tile out.
-    Result<TileCounts> draw_tiles(const PicturePass& pass, const Execution& execution) {
+    TileCounts draw_tiles(const PicturePass& pass, const Execution& execution) {
         std::mutex counting;
         TileCounts sum;
         int done = 0;
-        std::atomic<bool> stopped{false};
         const int count = plan.picture.tile_count();
         executor.run(count, [&](int tile) {
-            if (stopped.load(std::memory_order_relaxed)) return;
-            if (execution.cancelled && execution.cancelled()) {
-                stopped = true;
-                return;
-            }
             Pool<TileScratch>::Loan loan(scratch);
             const TileCounts counts = PictureTile(pass, tile, *loan).draw();
             if (execution.on_tile) {
@@ -113,17 +105,17 @@ struct Renderer::Impl {
             ++done;
             if (execution.progress) execution.progress(static_cast<double>(done) / count);
         });
-        if (stopped) return fail(ErrorCode::cancelled, "stopped on request");
         return sum;
     }
 
     Result<RenderReport> render(const PreparedData& scene, const Camera& camera, const Settings& settings, const Target& target,
                                 const Execution& execution, Isa isa, RenderReport report) {
         Stopwatch watch;
+        executor.configure(execution);
+        plan_memory.stop = &executor.stop();
         if (auto ok = make_plan(scene, camera, settings, target, execution.tile_size); !ok) return tl::unexpected<Error>(ok.error());
         const RasterKernels& raster = raster_kernels(isa);
         const shading::ShadeKernels& shade = shading::shade_kernels(isa);
-        executor.configure(execution.threads, execution.parallel_for);
         const bool by_reference = plan.options.accuracy == Accuracy::reference;
         if (by_reference)
             if (auto ok = reference.build(scene, plan.shading, plan.options); !ok) return tl::unexpected<Error>(ok.error());
@@ -145,14 +137,13 @@ struct Renderer::Impl {
         if (target.normal != nullptr) make_normals(scene, raster);
         report.ms.transform += watch.lap();
 
-        const TilePass normals_pass{geometry, normals, normal_materials, raster, shade};
-        const PicturePass pass{{geometry, records, plan.shading.materials, raster, shade, plan.shading.shadow_offset},
+        const TilePass normals_pass{geometry, normals, normal_materials, raster, shade, executor.stop()};
+        const PicturePass pass{{geometry, records, plan.shading.materials, raster, shade, executor.stop(), plan.shading.shadow_offset},
                                plan,
                                Output(target, plan.picture.region),
                                by_reference ? &reference : nullptr,
                                target.normal != nullptr ? &normals_pass : nullptr};
-        const auto tiles = draw_tiles(pass, execution);
-        if (!tiles) return tl::unexpected<Error>(tiles.error());
+        const TileCounts tiles = draw_tiles(pass, execution);
         report.ms.tiles = watch.lap();
 
         report.threads = executor.threads();
@@ -160,7 +151,7 @@ struct Renderer::Impl {
         report.environment = plan.environment_uses;
         report.error = plan.shading.error;
         report.warnings.insert(report.warnings.end(), plan.warnings.begin(), plan.warnings.end());
-        add_counts(geometry, *tiles, report);
+        add_counts(geometry, tiles, report);
         // An empty region is common; an empty whole picture is rarely intended.
         const Region& drawn = plan.picture.region;
         const bool whole_picture = drawn.width == target.width && drawn.height == target.height;

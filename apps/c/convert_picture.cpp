@@ -21,7 +21,7 @@ HALFLIT_ENDS_WITH(halflit_light, reserved);
 HALFLIT_ENDS_WITH(halflit_environment_options, reserved);
 HALFLIT_ENDS_WITH(halflit_camera, reserved);
 HALFLIT_ENDS_WITH(halflit_settings, reserved);
-HALFLIT_ENDS_WITH(halflit_execution, tile_size);
+HALFLIT_ENDS_WITH(halflit_execution, memory_limit);
 HALFLIT_ENDS_WITH(halflit_target, region_alone);
 HALFLIT_ENDS_WITH(halflit_report, reserved);
 #undef HALFLIT_ENDS_WITH
@@ -167,6 +167,9 @@ Result<Execution> execution(const halflit_execution* given) {
         return fail(ErrorCode::usage, "halflit_execution: tile_size is " + std::to_string(read->tile_size) + ", expected 16, 32 or 64");
     execution.threads = read->threads;
     execution.tile_size = read->tile_size;
+    if (!(read->time_limit_s >= 0.0)) return fail(ErrorCode::usage, "halflit_execution: time_limit_s: expected seconds, or 0 for no limit");
+    execution.time_limit_s = read->time_limit_s;
+    execution.memory_limit = read->memory_limit;
     void* const user = read->user;
     if (auto* const cancelled = read->cancelled) execution.cancelled = [=] { return cancelled(user) != 0; };
     if (auto* const on_tile = read->on_tile) execution.on_tile = [=](const Region& r) { on_tile(user, r.x, r.y, r.width, r.height); };

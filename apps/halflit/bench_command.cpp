@@ -38,7 +38,7 @@ Result<Measured> measure(const RenderJob& job, int frames, bool keep, Image& ima
     for (int i = 0; i < frames; ++i) {
         if (!keep) renderer.forget_frames();
         const Stopwatch watch;
-        const auto rendered = renderer.render(*job.prepared, job.camera, job.settings, target_of(image), job.execution);
+        const auto rendered = renderer.render(*job.prepared, job.camera, job.settings, target_of(job, image), job.execution);
         const double ms = watch.ms();
         if (!rendered) return tl::unexpected(rendered.error());
         if (measured.ms.empty() || ms < *std::min_element(measured.ms.begin(), measured.ms.end())) measured.fastest = *rendered;
@@ -66,9 +66,8 @@ Result<int> run_bench(const BenchOptions& options) {
     if (!measured) return tl::unexpected(measured.error());
     for (const std::string& warning : job->warnings) print_warning(warning);
 
-    const Image picture = cropped(std::move(image), job->settings.region);
     const Stopwatch encoding;
-    const auto bytes = encode_image(picture, OutputFormat::png);
+    const auto bytes = encode_image(image, OutputFormat::png);
     if (!bytes) return tl::unexpected(bytes.error());
     const double encode_ms = encoding.ms();
 
@@ -77,7 +76,7 @@ Result<int> run_bench(const BenchOptions& options) {
     report["frames"] = options.frames;
     report["min_ms"] = *std::min_element(measured->ms.begin(), measured->ms.end());
     report["median_ms"] = median(measured->ms);
-    add_frame(report, *job, measured->fastest, picture);
+    add_frame(report, *job, measured->fastest, image);
     report["encode_ms"] = encode_ms;
     const std::string text = options.json ? to_text(report) : table(report);
     if (const auto written = write_text("-", text); !written) return tl::unexpected(written.error());

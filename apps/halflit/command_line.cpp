@@ -140,9 +140,25 @@ std::string usage_message(const CLI::App& root, const CLI::ParseError& error, st
     return message + "; see halflit " + (command != nullptr ? command->name + " " : "") + "--help";
 }
 
+/// An empty argument comes from a variable that is not set: what it was to name would be chosen by default instead.
+Result<void> refuse_empty(const std::vector<std::string>& arguments) {
+    std::string flag;  // the one before
+    for (const std::string& argument : arguments) {
+        const bool assigns_nothing = argument.starts_with("--") && argument.ends_with('=');
+        if (argument.empty() || assigns_nothing) {
+            const std::string of = assigns_nothing ? argument.substr(0, argument.size() - 1) : flag;
+            return fail(ErrorCode::usage,
+                        (of.empty() ? "an empty argument" : of) + ": expected a value, found nothing (an empty variable?)");
+        }
+        flag = argument.starts_with('-') ? argument : "";
+    }
+    return {};
+}
+
 }  // namespace
 
 Result<ParsedLine> parse_command_line(std::span<const Command> commands, std::vector<std::string> arguments) {
+    if (const auto checked = refuse_empty(arguments); !checked) return tl::unexpected(checked.error());
     CLI::App root("", "halflit");
     root.set_help_flag("-h,--help");
     root.set_help_all_flag("--help-all");

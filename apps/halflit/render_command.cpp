@@ -64,7 +64,7 @@ Result<RenderReport> draw(RenderJob& job, Image& image) {
     constexpr double kDelayMs = 500;
     ProgressLine line(false, kDelayMs);
     job.execution.progress = [&line](double share) { line.show(share); };
-    return Renderer().render(*job.prepared, job.camera, job.settings, target_of(image), job.execution);
+    return Renderer().render(*job.prepared, job.camera, job.settings, target_of(job, image), job.timed_execution());
 }
 
 void print_choices(const RenderJob& job, const RenderReport& rendered, double encode_ms) {
@@ -94,19 +94,18 @@ Result<std::string> render_and_write(const RenderCommandOptions& options) {
     if (!job) return tl::unexpected(job.error());
     Image image = make_image(*job, is_linear(*format));
     const auto rendered = draw(*job, image);
-    if (!rendered) return tl::unexpected(rendered.error());
+    if (!rendered) return fail(rendered.error().code, job->source.name + ": " + rendered.error().message);
     for (const auto& warnings : {job->warnings, rendered->warnings})
         for (const std::string& warning : warnings) print_warning(warning);
 
-    const Image picture = cropped(std::move(image), job->settings.region);
     const Stopwatch encoding;
-    const auto bytes = encode_image(picture, *format);
+    const auto bytes = encode_image(image, *format);
     if (!bytes) return tl::unexpected(bytes.error());
     const double encode_ms = encoding.ms();
     if (const auto written = io::write_file(options.output, *bytes); !written) return tl::unexpected(written.error());
     print_choices(*job, *rendered, encode_ms);
     if (options.output != "-") print_note("wrote " + options.output);
-    return picture_report(options.output, *job, *rendered, picture, encode_ms);
+    return picture_report(options.output, *job, *rendered, image, encode_ms);
 }
 
 Result<std::string> render_within_memory(const RenderCommandOptions& options) {
@@ -119,6 +118,7 @@ Result<std::string> render_within_memory(const RenderCommandOptions& options) {
 
 Result<int> render_scene(RenderCommandOptions options, const std::string& scene) {
     options.scene = scene;
+    io::begin_file_set();
     if (options.output.empty() || options.output.ends_with('/')) options.output += default_output(scene);
     if (!options.report.empty())
         set_last_words([path = options.report](int signal) {

@@ -12,12 +12,17 @@
 
 #include <algorithm>
 
+#include <sys/resource.h>
+
 namespace halflit::cli {
 namespace {
 
 Result<void> check_size(PictureSize size, const Region& region) {
-    if (std::int64_t{size.width} * size.height > kMaxImagePixels)
-        return fail(ErrorCode::limit, fmt::format("--size: {}x{} is more than 2^28 pixels", size.width, size.height));
+    const bool whole = region.width == 0;
+    if (const PictureSize drawn = whole ? size : PictureSize{region.width, region.height};
+        std::int64_t{drawn.width} * drawn.height > kMaxImagePixels)
+        return fail(ErrorCode::limit, fmt::format("{}: {}x{} is more than 2^28 pixels{}", whole ? "--size" : "--region", drawn.width,
+                                                  drawn.height, whole ? "; --region draws a part" : ""));
     if (std::int64_t{region.x} + region.width > size.width || std::int64_t{region.y} + region.height > size.height)
         return fail(ErrorCode::usage, fmt::format("--region: expected a part of the {}x{} picture, found {},{},{},{}", size.width,
                                                   size.height, region.x, region.y, region.width, region.height));
@@ -109,11 +114,18 @@ Result<void> choose_setup(RenderJob& job, const RenderOptions& options, const st
     const AutoSetup setup = auto_setup(scene, job.prepared->bounds(), job.width, job.height, choice);
     job.camera = setup.camera;
     job.settings.exposure = setup.settings.exposure;
+    if (!options.shadow_size_given) job.settings.shadow_size = setup.settings.shadow_size;
     job.choices.push_back(fmt::format("lights: {}{}{}{}", scene.lights.size(), scene.lights.size() > given ? ", added by default" : "",
                                       scene.environment != nullptr ? ", and the environment " + options.environment : "",
                                       scene.ambient.sky_linear == Vec3f{} ? "" : ", and ambient light"));
     job.choices.push_back(fmt::format("exposure: {}{}", job.settings.exposure, options.exposure ? "" : ", chosen"));
     return {};
+}
+
+/// From now on, an allocation fails that would take the process beyond this.
+void limit_process_memory(std::size_t bytes) {
+    const rlimit limit{static_cast<rlim_t>(bytes), static_cast<rlim_t>(bytes)};
+    (void)::setrlimit(RLIMIT_DATA, &limit);
 }
 
 Result<void> choose_settings(Settings& settings, const RenderOptions& options) {
@@ -142,8 +154,10 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
                     "--camera: cannot be combined with --azimuth, --elevation, --zoom or --fov, which make a camera of their own");
     if (options.size)
         if (const auto checked = check_size(*options.size, options.settings.region); !checked) return tl::unexpected(checked.error());
+    if (options.max_memory_bytes > 0) limit_process_memory(options.max_memory_bytes);
     RenderJob job;
     job.execution = options.execution;
+    job.timeout_s = options.timeout_s;
     if (!job.execution.isa) {
         const auto isa = default_isa();
         if (!isa) return fail(ErrorCode::usage, isa.error().message);
@@ -160,7 +174,7 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
     turn_upright(job.scene(), options.up);
 
     const Stopwatch preparing;
-    auto prepared = PreparedScene::make(job.scene(), job.execution);
+    auto prepared = PreparedScene::make(job.scene(), job.timed_execution());
     if (!prepared) return tl::unexpected(prepared.error());
     job.prepared = std::move(*prepared);
     job.prepare_ms = preparing.ms();
@@ -170,37 +184,32 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
     const auto camera = choose_view(job, options, usual);
     if (!camera) return tl::unexpected(camera.error());
     if (const auto set_up = choose_setup(job, options, *camera); !set_up) return tl::unexpected(set_up.error());
-    if (const auto updated = job.prepared->update({.lights = true}); !updated) return tl::unexpected(updated.error());
+    if (const auto updated = job.prepared->update({.lights = true}, job.timed_execution()); !updated)
+        return tl::unexpected(updated.error());
     job.settings.region = options.settings.region.width > 0 ? options.settings.region : Region{0, 0, job.width, job.height};
     return job;
 }
 
+Execution RenderJob::timed_execution() const {
+    constexpr double kOverdue = 1e-9;
+    Execution out = execution;
+    if (timeout_s > 0.0) out.time_limit_s = std::max(timeout_s - started.ms() / 1000.0, kOverdue);
+    return out;
+}
+
 Image make_image(const RenderJob& job, bool linear) {
-    Image image{job.width, job.height, {}, {}};
-    const std::size_t values = static_cast<std::size_t>(job.width) * static_cast<std::size_t>(job.height) * 4;
+    const Region& region = job.settings.region;
+    Image image{region.width, region.height, {}, {}};
+    const std::size_t values = static_cast<std::size_t>(region.width) * static_cast<std::size_t>(region.height) * 4;
     image.rgba8.resize(values);
     if (linear) image.rgba_linear.resize(values);
     return image;
 }
 
-Target target_of(Image& image) {
-    return {image.width, image.height, image.rgba8.data(), image.rgba_linear.empty() ? nullptr : image.rgba_linear.data()};
-}
-
-Image cropped(Image image, const Region& region) {
-    if (region.width == image.width && region.height == image.height) return image;
-    Image part{region.width, region.height, {}, {}};
-    const auto copy_rows = [&](const auto& from, auto& to) {
-        if (from.empty()) return;
-        const std::ptrdiff_t stride = std::ptrdiff_t{4} * image.width, length = std::ptrdiff_t{4} * region.width;
-        for (int y = 0; y < region.height; ++y) {
-            const auto row = from.begin() + (region.y + y) * stride + std::ptrdiff_t{4} * region.x;
-            to.insert(to.end(), row, row + length);
-        }
-    };
-    copy_rows(image.rgba8, part.rgba8);
-    copy_rows(image.rgba_linear, part.rgba_linear);
-    return part;
+Target target_of(const RenderJob& job, Image& image) {
+    Target target{job.width, job.height, image.rgba8.data(), image.rgba_linear.empty() ? nullptr : image.rgba_linear.data()};
+    target.region_alone = true;
+    return target;
 }
 
 }  // namespace halflit::cli

@@ -214,26 +214,31 @@ Result<void> read_shadow_memory(std::size_t& bytes, const std::string& text) {
     return {};
 }
 
-FlagGroup shadow_flags(Settings& s) {
-    return {
-        "Shadows",
-        {{"--shadows", form_of(kShadowModeNames),
-          fmt::format("hard: shadows cut off wrapped light; soft-split: it fades with the distance to the blocker (default {})",
-                      name_of(s.shadows, kShadowModeNames)),
-          named(s.shadows, kShadowModeNames)},
-         {"--shadow-size", "N", fmt::format("Side of a shadow map in texels, a power of two from 64 to 4096 (default {})", s.shadow_size),
-          choice(s.shadow_size, {64, 128, 256, 512, 1024, 2048, 4096})},
-         {"--shadow-fade", "D",
-          "soft-split: distance to the blocker from which on no wrapped light is left (default: from object size and wrap)",
-          number(s.shadow_fade, 1e-6f, 1e9f)},
-         {"--shadow-memory", "MIB",
-          fmt::format("Memory limit of all shadow maps, 1 to 65536 MiB: they are halved in size until they fit (default {})",
-                      s.shadow_memory_limit / kMib),
-          [&s](const std::string& text) { return read_shadow_memory(s.shadow_memory_limit, text); }},
-         {"--shadow-terminator", form_of(kOffOn),
-          fmt::format("Look shadows of coarse meshes up on the smooth surface given by the vertex normals (default {})",
-                      name_of(s.shadow_terminator_offset, kOffOn)),
-          named(s.shadow_terminator_offset, kOffOn)}}};
+FlagGroup shadow_flags(RenderOptions& o) {
+    Settings& s = o.settings;
+    return {"Shadows",
+            {{"--shadows", form_of(kShadowModeNames),
+              fmt::format("hard: shadows cut off wrapped light; soft-split: it fades with the distance to the blocker (default {})",
+                          name_of(s.shadows, kShadowModeNames)),
+              named(s.shadows, kShadowModeNames)},
+             {"--shadow-size", "N",
+              fmt::format("Side of a shadow map in texels, a power of two from 64 to 4096 (default: twice the picture's, 256 to {})",
+                          s.shadow_size),
+              [&o, read = choice(s.shadow_size, {64, 128, 256, 512, 1024, 2048, 4096})](const std::string& text) {
+                  o.shadow_size_given = true;
+                  return read(text);
+              }},
+             {"--shadow-fade", "D",
+              "soft-split: distance to the blocker from which on no wrapped light is left (default: from object size and wrap)",
+              number(s.shadow_fade, 1e-6f, 1e9f)},
+             {"--shadow-memory", "MIB",
+              fmt::format("Memory limit of all shadow maps, 1 to 65536 MiB: they are halved in size until they fit (default {})",
+                          s.shadow_memory_limit / kMib),
+              [&s](const std::string& text) { return read_shadow_memory(s.shadow_memory_limit, text); }},
+             {"--shadow-terminator", form_of(kOffOn),
+              fmt::format("Look shadows of coarse meshes up on the smooth surface given by the vertex normals (default {})",
+                          name_of(s.shadow_terminator_offset, kOffOn)),
+              named(s.shadow_terminator_offset, kOffOn)}}};
 }
 
 FlagGroup surface_flags(RenderOptions& o) {
@@ -310,7 +315,19 @@ FlagGroup file_flags(RenderOptions& o) {
     constexpr std::int64_t kAny = std::numeric_limits<std::int64_t>::max();
     LoadLimits& limits = o.load.limits;
     return {"Untrusted files",
-            {{"--lenient", "", "Draw what can be drawn of a damaged file, with warnings", set_to(o.load.lenient)},
+            {{"--timeout", "SECONDS", "Stop a scene that is not loaded and drawn by then, with exit code 5",
+              parsed(o.timeout_s,
+                     [](const std::string& text) {
+                         return parse_float(text, 1e-3f, 1e6f).map([](float s) { return static_cast<double>(s); });
+                     })},
+             {"--max-memory", "MIB", "Stop a scene that needs more memory, all of the process counted, with exit code 5; at least 32",
+              parsed(o.max_memory_bytes,
+                     [](const std::string& text) {
+                         return parse_int(text, 32, std::int64_t{1} << 30).map([](std::int64_t n) {
+                             return static_cast<std::size_t>(n) * kMib;
+                         });
+                     })},
+             {"--lenient", "", "Draw what can be drawn of a damaged file, with warnings", set_to(o.load.lenient)},
              {.names = "--allow-external",
               .form = "DIR",
               .help = "Also allow references to files in this folder",
@@ -361,7 +378,7 @@ std::vector<FlagGroup> scene_flags(RenderOptions& o, PictureSize usual) {
             camera_flags(o),
             light_flags(o),
             environment_flags(o),
-            shadow_flags(o.settings),
+            shadow_flags(o),
             surface_flags(o),
             accuracy_flags(o.settings.shading),
             machine_flags(o.execution),

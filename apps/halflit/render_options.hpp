@@ -45,9 +45,12 @@ struct RenderOptions {
     std::string environment;  ///< a file, "sky", or empty
     bool environment_sun = true;
     float environment_rotate_deg = 0.0f;
-    std::optional<float> exposure;  ///< a factor; none: chosen from the lights
+    bool shadow_size_given = false;  ///< none: chosen for the picture's size
+    std::optional<float> exposure;   ///< a factor; none: chosen from the lights
 
     LoadOptions load;
+    double timeout_s = 0.0;            ///< for loading and drawing; 0: none
+    std::size_t max_memory_bytes = 0;  ///< of the process; 0: no limit
 };
 
 /// The lobe that the flags choose for materials without one of their own; empty if they choose none.

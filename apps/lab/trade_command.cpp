@@ -24,7 +24,7 @@ struct TradeOptions : RenderOptions {
 
 TradeSpace space_of(const RenderJob& job, const TradeOptions& options) {
     const Scene& scene = job.scene();
-    TradeSpace space{.shadows = options.settings.shadows, .shadow_size = options.settings.shadow_size, .lobes = options.lobes};
+    TradeSpace space{.shadows = options.settings.shadows, .shadow_size = job.settings.shadow_size, .lobes = options.lobes};
     space.environment = scene.environment != nullptr;
     space.textures = !scene.textures.empty();
     space.lights = !scene.lights.empty();

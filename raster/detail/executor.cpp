@@ -6,15 +6,15 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
-#else
-#include <system_error>
-#include <thread>
 #endif
 
 #include <algorithm>
 #include <atomic>
 #include <exception>
 #include <limits>
+#include <new>
+#include <system_error>
+#include <thread>
 
 namespace halflit::raster {
 namespace {
@@ -33,6 +33,28 @@ void run_catching(const Loop& loop, const std::function<void(int)>& task) {
         }
     });
     if (failure) std::rethrow_exception(failure);
+}
+
+/// Number of threads, at most `wanted`, that the system lets this process start. oneTBB's loops end with an exception where one of its
+/// threads does not start. What was found once is not tried again.
+int threads_that_start(int wanted) {
+    static std::atomic<int> proven{0};
+    if (wanted <= proven) return wanted;
+    std::mutex gate;
+    std::vector<std::thread> started;
+    {
+        const std::lock_guard closed(gate);  // they all live until the last has started
+        try {
+            started.reserve(static_cast<std::size_t>(wanted));
+            while (static_cast<int>(started.size()) < wanted) started.emplace_back([&gate] { const std::lock_guard pass(gate); });
+        } catch (const std::system_error&) {
+        } catch (const std::bad_alloc&) {
+        }
+    }
+    for (std::thread& thread : started) thread.join();
+    const int count = static_cast<int>(started.size());
+    if (count == wanted) proven = count;
+    return count;
 }
 
 }  // namespace
@@ -82,17 +104,21 @@ struct Executor::Arena {
 Executor::Executor() = default;
 Executor::~Executor() = default;
 
-void Executor::configure(int threads, const ParallelFor& hook) {
-    hook_ = hook;
+void Executor::configure(const Execution& execution) {
+    stop_.arm(execution);
+    hook_ = execution.parallel_for;
     if (hook_) return;
-    const int wanted = std::min(threads > 0 ? threads : std::max(Arena::all_threads(), 1), std::max(Arena::most_threads(), 1));
-    if (arena_ && wanted == threads_) return;
-    threads_ = wanted;
+    const int wanted =
+        std::min(execution.threads > 0 ? execution.threads : std::max(Arena::all_threads(), 1), std::max(Arena::most_threads(), 1));
+    if (arena_ && wanted == asked_) return;
+    asked_ = wanted;
+    threads_ = 1 + threads_that_start(wanted - 1);
     arena_ = threads_ > 1 ? std::make_unique<Arena>(threads_) : nullptr;
 }
 
 void Executor::run(int count, const std::function<void(int)>& body) {
     const std::function<void(int)> task = [&](int i) {
+        if (stop_.raised()) return;
         const FpEnvironment environment;
         body(i);
     };
@@ -117,6 +143,7 @@ void Executor::run(int count, const std::function<void(int)>& body) {
     } else {
         for (int i = 0; i < count; ++i) task(i);
     }
+    stop_.check();
 }
 
 }  // namespace halflit::raster

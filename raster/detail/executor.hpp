@@ -2,6 +2,7 @@
 #pragma once
 
 #include "halflit/settings.hpp"
+#include "raster/detail/stop_signal.hpp"
 
 #include <exception>
 #include <functional>
@@ -21,8 +22,8 @@ private:
     const char* what_;
 };
 
-/// Runs the parallel loops of a frame. Every task runs in the library's floating-point environment. `run` rethrows the first exception of a
-/// task: a lack of memory, or an exception of one of the host's functions.
+/// Runs the parallel loops of a call. Every task runs in the library's floating-point environment. `run` rethrows the first exception of a
+/// task: a lack of memory, or an exception of one of the host's functions. It throws Stopped if the call is to end before its work is done.
 class Executor {
 public:
     Executor();
@@ -30,18 +31,21 @@ public:
     Executor(const Executor&) = delete;
     Executor& operator=(const Executor&) = delete;
 
-    /// threads: 0 for one per core. hook: the host's loop; empty: oneTBB or the standard library.
-    void configure(int threads, const ParallelFor& hook);
+    /// Begins a call: takes its threads, its loop and its limits.
+    void configure(const Execution& execution);
     /// Number of threads that run; oneTBB limits it to the cores.
     /// 0 with a host's loop, whose threads are not known.
     [[nodiscard]] int threads() const { return hook_ ? 0 : threads_; }
     void run(int count, const std::function<void(int)>& body);
+    /// For tasks that take long: they check it now and then.
+    [[nodiscard]] StopSignal& stop() { return stop_; }
 
 private:
     struct Arena;
     std::unique_ptr<Arena> arena_;
     ParallelFor hook_;
-    int threads_ = 1;
+    int asked_ = 1, threads_ = 1;
+    StopSignal stop_;
 };
 
 /// Pool of working memory. An item is lent to one task at a time; the pool grows to the largest number of tasks that ran at once.

@@ -4,6 +4,7 @@
 #include "halflit/error.hpp"
 #include "raster/detail/executor.hpp"
 #include "raster/detail/fp_environment.hpp"
+#include "raster/detail/stop_signal.hpp"
 
 #include <exception>
 #include <new>
@@ -19,6 +20,8 @@ auto guarded(const char* doing, const Body& body) -> decltype(body()) {
         return body();
     } catch (const std::bad_alloc&) {
         return fail(ErrorCode::limit, std::string("out of memory while ") + doing);
+    } catch (const Stopped& stopped) {
+        return fail(stopped.error.code, stopped.error.message);
     } catch (const WrongLoop& e) {
         return fail(ErrorCode::usage, e.what());
     } catch (const std::exception& e) {

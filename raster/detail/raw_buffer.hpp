@@ -1,6 +1,9 @@
 // Working memory.
 #pragma once
 
+#include "raster/detail/stop_signal.hpp"
+
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 
@@ -19,6 +22,11 @@ public:
         }
         return data_.get();
     }
+    /// The same; the memory counts as the call's. Throws Stopped beyond its limit.
+    T* reserve(std::size_t count, StopSignal& stop) {
+        share_.hold(stop, std::max(count, capacity_) * sizeof(T));
+        return reserve(count);
+    }
     [[nodiscard]] T* data() { return data_.get(); }
     [[nodiscard]] const T* data() const { return data_.get(); }
     [[nodiscard]] std::size_t capacity() const { return capacity_; }
@@ -26,6 +34,7 @@ public:
 private:
     std::unique_ptr<T[]> data_;
     std::size_t capacity_ = 0;
+    MemoryShare share_;
 };
 
 }  // namespace halflit::raster

@@ -1,6 +1,7 @@
 // The bin pass: triangle set-up and the tiles' triangle lists. Drops back faces, triangles without area, and triangles that touch no pixel
 // of the region. Clips the few that cross the near plane or leave the guard band. Each tile's list is in submission order.
 #include "raster/passes/clip.hpp"
+#include "raster/passes/tile_grid.hpp"
 #include "raster/passes/view_geometry.hpp"
 #include "raster/view/culling.hpp"
 
@@ -20,30 +21,30 @@ struct BinInput {
     const std::uint8_t* outcodes;
     std::uint8_t* groups_drawn;
     bool numbered;  ///< keep each record's submission number
+    StopSignal& stop;
 };
+
+constexpr int kTrianglesBetweenChecks = 1024;
+/// A chunk lists the triangles of each tile as long as these are few. Long triangles touch hundreds of tiles each, and a file of some
+/// megabytes could fill the memory with lists: a chunk with more entries than this keeps none, and each tile looks through all its
+/// triangles.
+constexpr std::size_t kFreePairs = 1 << 16, kPairsPerTriangle = 32;
 
 class ChunkBuilder {
 public:
-    ChunkBuilder(const BinInput& input, Chunk& chunk) : in_(input), chunk_(chunk) {
-        const SamplePattern& samples = in_.view.samples;
-        for (int s = 0; s < samples.count; ++s) {
-            sample_min_x_ = std::min<int>(sample_min_x_, samples.x[s]);
-            sample_max_x_ = std::max<int>(sample_max_x_, samples.x[s]);
-            sample_min_y_ = std::min<int>(sample_min_y_, samples.y[s]);
-            sample_max_y_ = std::max<int>(sample_max_y_, samples.y[s]);
-        }
-        tile_shift_ = std::countr_zero(static_cast<unsigned>(in_.view.tile_size));
-    }
+    ChunkBuilder(const BinInput& input, Chunk& chunk) : in_(input), chunk_(chunk), grid_(input.view) {}
 
     void build() {
         chunk_.records.clear();
         chunk_.clip_screen.clear();
         chunk_.clip_vertices.clear();
         chunk_.pairs.clear();
+        chunk_.listed = true;
         chunk_.not_finite = 0;
         chunk_.numbers.clear();
         for (const TriangleRun& run : chunk_.runs) add_triangles(run);
-        sort_by_tile();
+        if (chunk_.listed) sort_by_tile();
+        count_memory();
     }
 
 private:
@@ -60,6 +61,7 @@ private:
         const std::uint32_t* index = in_.scene.source_mesh(draw.mesh).indices.data() + std::size_t{3} * run.first;
         const auto base = static_cast<std::uint32_t>(draw.vertex_base);
         for (std::uint32_t t = run.first; t < run.end; ++t, index += 3) {
+            if (++since_check_ == kTrianglesBetweenChecks) count_memory();
             const std::uint32_t v[3] = {base + index[0], base + index[1], base + index[2]};
             const unsigned c0 = in_.outcodes[v[0]], c1 = in_.outcodes[v[1]], c2 = in_.outcodes[v[2]];
             if ((c0 & c1 & c2 & kRejectWhenAll) != 0) continue;
@@ -118,13 +120,8 @@ private:
 
     /// Culls, records and bins a triangle or a piece of one. v: its corners, in the view's arrays or clip vertices.
     void add(const std::uint32_t (&v)[3], const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, const Source& source) {
-        const int least_x = std::min({a.x, b.x, c.x}), most_x = std::max({a.x, b.x, c.x});
-        const int least_y = std::min({a.y, b.y, c.y}), most_y = std::max({a.y, b.y, c.y});
-        const Region& r = in_.view.region;
-        const int x0 = std::max((least_x - sample_max_x_ + 255) >> 8, r.x), x1 = std::min((most_x - sample_min_x_) >> 8, r.x + r.width - 1);
-        const int y0 = std::max((least_y - sample_max_y_ + 255) >> 8, r.y),
-                  y1 = std::min((most_y - sample_min_y_) >> 8, r.y + r.height - 1);
-        if (x0 > x1 || y0 > y1) return;
+        const TileGrid::Pixels p = grid_.pixels(a, b, c);
+        if (p.empty()) return;
 
         const std::int64_t area = static_cast<std::int64_t>(b.x - a.x) * (c.y - a.y) - static_cast<std::int64_t>(c.x - a.x) * (b.y - a.y);
         if (area == 0) return;
@@ -132,7 +129,8 @@ private:
         const bool back = (area > 0) != source.draw.mirrored;
         if (back && source.draw.cull_back) return;
         const bool swap = area < 0;
-        if (x0 == x1 && y0 == y1 && in_.view.samples.count == 1 && !covers(a, swap ? c : b, swap ? b : c, x0 * 256, y0 * 256)) return;
+        if (p.x0 == p.x1 && p.y0 == p.y1 && in_.view.samples.count == 1 && !covers(a, swap ? c : b, swap ? b : c, p.x0 * 256, p.y0 * 256))
+            return;
 
         const auto record = static_cast<std::uint32_t>(chunk_.records.size());
         chunk_.records.push_back({{v[0], swap ? v[2] : v[1], swap ? v[1] : v[2]}, source.draw_index * 2 + (back ? 1u : 0u)});
@@ -140,13 +138,12 @@ private:
         for (int k = 0; k < 3; ++k)
             std::atomic_ref(in_.groups_drawn[source.draw.group_base + source.vertex[k] / kVertexGroup]).store(1, std::memory_order_relaxed);
 
-        const int tx0 = (x0 - r.x) >> tile_shift_, tx1 = (x1 - r.x) >> tile_shift_, ty0 = (y0 - r.y) >> tile_shift_,
-                  ty1 = (y1 - r.y) >> tile_shift_;
-        if (tx0 == tx1 || ty0 == ty1) {
-            for (int ty = ty0; ty <= ty1; ++ty)
-                for (int tx = tx0; tx <= tx1; ++tx) push(ty * in_.view.tiles_x + tx, record);
-        } else {
-            push_touched_tiles(a, swap ? c : b, swap ? b : c, tx0, ty0, tx1, ty1, record);
+        if (!chunk_.listed) return;
+        grid_.for_each(a, swap ? c : b, swap ? b : c, grid_.tiles(p),
+                       [&](int tile) { chunk_.pairs.push_back(static_cast<std::uint64_t>(tile) << 32 | record); });
+        if (chunk_.pairs.size() > kFreePairs + kPairsPerTriangle * chunk_.records.size()) {
+            chunk_.listed = false;
+            chunk_.drop_lists();
         }
     }
 
@@ -160,29 +157,12 @@ private:
         return inside(a, b) && inside(b, c) && inside(c, a);
     }
 
-    /// Adds the triangle to the tiles of a block, except those that lie wholly outside one of its edges.
-    void push_touched_tiles(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, int tx0, int ty0, int tx1, int ty1,
-                            std::uint32_t record) {
-        const ScreenVertex* corner[4] = {&a, &b, &c, &a};
-        const std::int64_t span = 256 * in_.view.tile_size;
-        for (int ty = ty0; ty <= ty1; ++ty) {
-            for (int tx = tx0; tx <= tx1; ++tx) {
-                // From half a pixel before the first centre to half a pixel behind the last: all samples of the tile.
-                const std::int64_t left = 256 * (in_.view.region.x + static_cast<std::int64_t>(tx) * in_.view.tile_size) - 128;
-                const std::int64_t top = 256 * (in_.view.region.y + static_cast<std::int64_t>(ty) * in_.view.tile_size) - 128;
-                bool outside = false;
-                for (int k = 0; k < 3; ++k) {
-                    const ScreenVertex &p = *corner[k], &q = *corner[k + 1];
-                    const std::int64_t ea = p.y - q.y, eb = q.x - p.x;
-                    const std::int64_t x = ea > 0 ? left + span : left, y = eb > 0 ? top + span : top;
-                    outside |= ea * (x - p.x) + eb * (y - p.y) < 0;
-                }
-                if (!outside) push(ty * in_.view.tiles_x + tx, record);
-            }
-        }
+    /// Ends the call if it holds too much memory or is to stop.
+    void count_memory() {
+        since_check_ = 0;
+        in_.stop.check();
+        chunk_.memory.hold(in_.stop, chunk_.bytes());
     }
-
-    void push(int tile, std::uint32_t record) { chunk_.pairs.push_back(static_cast<std::uint64_t>(tile) << 32 | record); }
 
     /// Counting sort; it is stable, so each tile keeps submission order.
     void sort_by_tile() {
@@ -199,14 +179,14 @@ private:
 
     const BinInput& in_;
     Chunk& chunk_;
-    int sample_min_x_ = 0, sample_max_x_ = 0, sample_min_y_ = 0, sample_max_y_ = 0;
-    int tile_shift_ = 6;
+    TileGrid grid_;
+    int since_check_ = 0;
 };
 
 }  // namespace
 
 void ViewGeometry::bin(Executor& executor) {
-    const BinInput input{*scene_, view_, draws_, screen_.data(), outcodes_.data(), groups_drawn_.data(), numbered_};
+    const BinInput input{*scene_, view_, draws_, screen_.data(), outcodes_.data(), groups_drawn_.data(), numbered_, executor.stop()};
     executor.run(static_cast<int>(chunk_count_), [&](int i) {
         const auto index = static_cast<std::size_t>(i);
         ChunkBuilder(input, *chunks_[index]).build();
@@ -218,6 +198,23 @@ void ViewGeometry::bin(Executor& executor) {
     for (std::size_t i = 0; i < chunk_count_; ++i)
         sources_.push_back(
             {chunks_[i]->records.data(), screen_.data(), chunks_[i]->clip_screen.data(), static_cast<std::uint32_t>(i << local_bits_)});
+}
+
+std::span<const std::uint32_t> ViewGeometry::tile_list(std::size_t chunk, int tile, std::vector<std::uint32_t>& scratch) const {
+    const Chunk& from = *chunks_[chunk];
+    if (from.listed) return from.tile(tile);
+    scratch.clear();
+    const TileGrid grid(view_);
+    const TriangleSource& source = sources_[chunk];
+    const auto corner = [&](std::uint32_t v) -> const ScreenVertex& {
+        return v < kClipVertex ? source.vertices[v] : source.clip_vertices[v - kClipVertex];
+    };
+    for (std::size_t i = 0; i < from.records.size(); ++i) {
+        const TriangleRecord& record = from.records[i];
+        if (grid.touches(corner(record.vertex[0]), corner(record.vertex[1]), corner(record.vertex[2]), tile))
+            scratch.push_back(static_cast<std::uint32_t>(i));
+    }
+    return scratch;
 }
 
 }  // namespace halflit::raster

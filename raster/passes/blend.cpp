@@ -8,7 +8,8 @@ void PictureTile::blend_layers() {
     if (!geometry.has(AlphaMode::blend)) return;
     const auto chunks = geometry.chunks();
     for (std::size_t c = 0; c < chunks.size(); ++c) {
-        for (const std::uint32_t record : chunks[c]->tile(tile_)) {
+        for (const std::uint32_t record : geometry.tile_list(c, tile_, scratch_.tile_list)) {
+            pass_.view.stop.check();
             if (geometry.draw_of(chunks[c]->records[record]).alpha_mode != AlphaMode::blend) continue;
             const CoverBox box = collect_covered(pass_.view, rect_, c, record, scratch_, [&](FragmentList& list) {
                 shade(list);

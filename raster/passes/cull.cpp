@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kInstancesPerTask = 1024;
 constexpr std::int64_t kLeastClusters = 16, kMostChunks = 128;  ///< clusters in a chunk; chunks in a view
+constexpr std::int64_t kMostTileLists = 1 << 22;                ///< of all chunks of a view, about; a list without entries takes 4 bytes
 
 Culler culler_of(const View& view, const Mat4& world_from_object, bool back_faces) {
     return {view, multiply_in_double(view.clip_from_world, world_from_object), determinant3(world_from_object) < 0.0, back_faces};
@@ -112,7 +113,7 @@ void ViewGeometry::list_draws(Executor& executor) {
         draw.triangle_base = triangle_base - triangles;
         draw.mirrored = determinant3(instances[i].world_from_object) < 0.0;
         const Material& material = scene_->material(scene_->material_of(mesh));
-        draw.cull_back = view_.cull_back_faces && !material.double_sided;
+        draw.cull_back = !material.double_sided;
         draw.alpha_mode = material.alpha_mode;
         has_mode_[static_cast<std::size_t>(draw.alpha_mode)] = true;
         triangle_count_ += triangles;
@@ -126,7 +127,8 @@ void ViewGeometry::cull_clusters(Executor& executor) {
     const auto groups = static_cast<std::size_t>(group_count_);
     std::memset(groups_seen_.reserve(groups + 1), 0, groups + 1);
     std::memset(groups_drawn_.reserve(groups + 1), 0, groups + 1);
-    const std::int64_t size = std::max(kLeastClusters, (cluster_count_ + kMostChunks - 1) / kMostChunks);
+    const std::int64_t chunks = std::clamp<std::int64_t>(kMostTileLists / std::max(view_.tile_count(), 1), 4, kMostChunks);
+    const std::int64_t size = std::max(kLeastClusters, (cluster_count_ + chunks - 1) / chunks);
     chunk_count_ = static_cast<std::size_t>((cluster_count_ + size - 1) / size);
     while (chunks_.size() < chunk_count_) chunks_.push_back(std::make_unique<Chunk>());
     executor.run(static_cast<int>(chunk_count_), [&](int i) {

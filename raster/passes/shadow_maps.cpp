@@ -17,7 +17,7 @@ Result<void> ShadowMaps::draw_face(const PreparedData& scene, const FramePlan& p
     // Alpha tests read vertex records.
     const bool masks = geometry_.has(AlphaMode::mask);
     if (masks) records_.make(geometry_, plan.casters, raster, executor);
-    const TilePass pass{geometry_, records_, plan.casters, raster, shade};
+    const TilePass pass{geometry_, records_, plan.casters, raster, shade, executor.stop()};
     executor.run(face.view.tile_count(), [&](int tile) {
         Pool<TileScratch>::Loan scratch(scratch_);
         TileCounts ignored;

@@ -16,6 +16,7 @@ struct TilePass {
     std::span<const shading::MaterialPlan> materials;
     const RasterKernels& raster;
     const shading::ShadeKernels& shade;
+    StopSignal& stop;            ///< checked while a tile is drawn
     bool shadow_offset = false;  ///< fill the kShadowX.. rows of fragments
 };
 
@@ -42,6 +43,7 @@ struct TileScratch {
     LightSelection lights;
     /// Linear light times alpha, and alpha, of every sample; used only where samples or layers are combined.
     RawBuffer<float> color;
+    std::vector<std::uint32_t> tile_list;  ///< ViewGeometry::tile_list's
 };
 
 /// Fills the attribute rows of the scratch's block for a list. The list is padded with copies of its last fragment.

@@ -9,8 +9,8 @@ namespace halflit::raster {
 
 void ViewGeometry::transform(const RasterKernels& kernels, Executor& executor) {
     constexpr std::int64_t kGroupsPerTask = 64;
-    ScreenVertex* screen = screen_.reserve(static_cast<std::size_t>(vertex_count_));
-    std::uint8_t* outcodes = outcodes_.reserve(static_cast<std::size_t>(vertex_count_));
+    ScreenVertex* screen = screen_.reserve(static_cast<std::size_t>(vertex_count_), executor.stop());
+    std::uint8_t* outcodes = outcodes_.reserve(static_cast<std::size_t>(vertex_count_), executor.stop());
     const std::uint8_t* seen = groups_seen_.data();
     executor.run(static_cast<int>((group_count_ + kGroupsPerTask - 1) / kGroupsPerTask), [&](int task) {
         std::int64_t group = task * kGroupsPerTask;

@@ -57,7 +57,7 @@ void VertexRecords::make(const ViewGeometry& geometry, std::span<const shading::
         record_bases_[d] = size;
         size += draws[d].vertex_count * strides_[d];
     }
-    float* records = records_.reserve(static_cast<std::size_t>(size));
+    float* records = records_.reserve(static_cast<std::size_t>(size), executor.stop());
     for (std::size_t d = 0; d < draws.size(); ++d) draw_records_[d] = {records + record_bases_[d] - draws[d].vertex_base * strides_[d]};
 
     constexpr std::int64_t kGroupsPerTask = 64;

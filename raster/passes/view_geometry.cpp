@@ -34,8 +34,22 @@ Result<void> ViewGeometry::make(const PreparedData& scene, const View& view, con
     return {};
 }
 
+std::size_t Chunk::bytes() const {
+    const auto size = [](const auto& list) { return list.capacity() * sizeof list[0]; };
+    return size(runs) + size(records) + size(numbers) + size(clip_screen) + size(clip_vertices) + size(pairs) + size(tile_begin) +
+           size(tile_list);
+}
+
+void Chunk::drop_lists() {
+    pairs = {};
+    tile_begin = {};
+    tile_list = {};
+}
+
 bool ViewGeometry::tile_is_empty(int tile) const {
-    return std::all_of(chunks().begin(), chunks().end(), [&](const std::unique_ptr<Chunk>& chunk) { return chunk->tile(tile).empty(); });
+    return std::all_of(chunks().begin(), chunks().end(), [&](const std::unique_ptr<Chunk>& chunk) {
+        return chunk->records.empty() || (chunk->listed && chunk->tile(tile).empty());
+    });
 }
 
 std::uint64_t ViewGeometry::triangles_drawn() const {

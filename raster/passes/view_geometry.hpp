@@ -59,8 +59,13 @@ struct Chunk {
     std::vector<std::uint64_t> pairs;       ///< tile << 32 | record, in submission order; scratch
     std::vector<std::uint32_t> tile_begin;  ///< per tile: first entry of tile_list; one more at the end
     std::vector<std::uint32_t> tile_list;
+    bool listed = true;            ///< false: too many entries, so there are no lists
     std::uint64_t not_finite = 0;  ///< triangles dropped for a NaN or infinite vertex
+    MemoryShare memory;
 
+    [[nodiscard]] std::size_t bytes() const;  ///< memory of all lists
+    void drop_lists();
+    /// Only if `listed`.
     [[nodiscard]] std::span<const std::uint32_t> tile(int number) const {
         const auto t = static_cast<std::size_t>(number);
         return std::span(tile_list).subspan(tile_begin[t], tile_begin[t + 1] - tile_begin[t]);
@@ -103,7 +108,10 @@ public:
     [[nodiscard]] std::uint32_t triangle_of(std::uint32_t id) const {
         return static_cast<std::uint32_t>(submission_of(id) - draw_of(record(id)).triangle_base);
     }
+    /// False if the tile may have triangles.
     [[nodiscard]] bool tile_is_empty(int tile) const;
+    /// Records of a chunk that may cover something of a tile, in submission order. scratch: may hold the result.
+    [[nodiscard]] std::span<const std::uint32_t> tile_list(std::size_t chunk, int tile, std::vector<std::uint32_t>& scratch) const;
 
     /// True if a drawn triangle reads the vertex group.
     [[nodiscard]] bool group_is_drawn(std::int64_t group) const { return groups_drawn_.data()[group] != 0; }

@@ -2,10 +2,13 @@
 #include "raster/passes/count_work.hpp"
 #include "raster/passes/tile.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 namespace halflit::raster {
 namespace {
+
+constexpr std::size_t kTrianglesARun = 4096;
 
 /// Draws one triangle of a masked material: the samples that pass its alpha test.
 void draw_masked(const TilePass& pass, const TileRect& rect, std::size_t chunk, std::uint32_t record, TileScratch& scratch,
@@ -71,21 +74,26 @@ void draw_visibility(const TilePass& pass, int tile, TileScratch& scratch, TileC
     const bool all_opaque = !geometry.has(AlphaMode::mask) && !geometry.has(AlphaMode::blend);
     const auto chunks = geometry.chunks();
     for (std::size_t c = 0; c < chunks.size(); ++c) {
-        const std::span<const std::uint32_t> list = chunks[c]->tile(tile);
+        const std::span<const std::uint32_t> list = geometry.tile_list(c, tile, scratch.tile_list);
         if (list.empty()) continue;
         const TriangleSource& source = geometry.source(c);
         if (all_opaque) {
-            pass.raster.rasterize(rect, samples, buffers, source, list.data(), static_cast<int>(list.size()));
+            for (std::size_t i = 0; i < list.size(); i += kTrianglesARun) {
+                if (i > 0) pass.stop.check();
+                const std::size_t count = std::min(list.size() - i, kTrianglesARun);
+                pass.raster.rasterize(rect, samples, buffers, source, list.data() + i, static_cast<int>(count));
+            }
             continue;
         }
         // Runs of opaque triangles go to the kernel as one list; masked ones are tested one by one.
         const auto mode = [&](std::size_t i) { return geometry.draw_of(source.records[list[i]]).alpha_mode; };
         for (std::size_t i = 0; i < list.size();) {
+            pass.stop.check();
             std::size_t run = i;
-            while (run < list.size() && mode(run) == AlphaMode::opaque) ++run;
+            while (run < list.size() && run - i < kTrianglesARun && mode(run) == AlphaMode::opaque) ++run;
             if (run > i) pass.raster.rasterize(rect, samples, buffers, source, list.data() + i, static_cast<int>(run - i));
             if (run < list.size() && mode(run) == AlphaMode::mask) draw_masked(pass, rect, c, list[run], scratch, counts);
-            i = run + 1;
+            i = run < list.size() && mode(run) == AlphaMode::opaque ? run : run + 1;
         }
     }
 }

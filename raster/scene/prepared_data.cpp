@@ -138,7 +138,7 @@ void PreparedData::collect() {
 Result<PreparedData> PreparedData::make(const Scene& scene, const Execution& execution) {
     return guarded("preparing a scene", [&]() -> Result<PreparedData> {
         Executor executor;
-        executor.configure(execution.threads, execution.parallel_for);
+        executor.configure(execution);
         PreparedData prepared;
         prepared.scene_ = &scene;
         prepared.meshes_.resize(scene.meshes.size());
@@ -201,7 +201,7 @@ Result<void> PreparedData::apply_pending(const Execution& execution) {
     const bool deformed = !pending_.deformed_meshes.empty();
     if (deformed) {
         Executor executor;
-        executor.configure(execution.threads, execution.parallel_for);
+        executor.configure(execution);
         std::vector<std::size_t>& which = pending_.deformed_meshes;
         std::sort(which.begin(), which.end());
         which.erase(std::unique(which.begin(), which.end()), which.end());

@@ -192,7 +192,6 @@ private:
     void add_view(const ShadowMapPlan& map, const Camera& camera, bool sees_scene) {
         ShadowView& face = out_.views.emplace_back();
         face.view = make_view(camera, map.size, map.size, {}, kMaxTileSize, 1);
-        face.view.cull_back_faces = false;
         face.perspective = !camera.orthographic;
         face.near_z = camera.near_z;
         face.far_z = camera.far_z;

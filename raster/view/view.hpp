@@ -13,7 +13,6 @@ struct View {
     Region region;  ///< the pixels that are drawn: inside the window, never empty
     int tile_size = 64, tiles_x = 0, tiles_y = 0;
     SamplePattern samples;
-    bool cull_back_faces = true;  ///< drop back faces of meshes whose material is not double sided
 
     [[nodiscard]] int tile_count() const { return tiles_x * tiles_y; }
     [[nodiscard]] TileRect tile_rect(int tile) const {

@@ -148,3 +148,18 @@ TEST_CASE("usage: help and version go to standard output and end with 0", "[cli]
     CHECK(run({"help"}).out == run({"--help"}).out);
     CHECK(run({"-h"}).out == run({"--help"}).out);
 }
+
+TEST_CASE("usage: an argument without text is refused, as a variable that is not set gives it", "[cli]") {
+    const TemporaryFolder folder;
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"render", "", "-o", "x.png"},
+                                                      {"render", "demo", "-o", ""},
+                                                      {"demo", "--env="},
+                                                      {"render", "demo", "--report="},
+                                                      {"", "-o", "x.png"},
+                                                      {"info", ""}}) {
+        const Outcome outcome = run(arguments, {.folder = folder.path()});
+        CHECK(outcome.code == 2);
+        CHECK(outcome.err.find("empty") != std::string::npos);
+        CHECK(folder.names().empty());
+    }
+}

@@ -188,9 +188,9 @@ TEST_CASE("execution: a loop of the host that leaves items out is an error", "[r
 
 TEST_CASE("execution: an item runs once, however often the host's loop asks", "[raster][execution]") {
     raster::Executor executor;
-    executor.configure(1, [](int count, const std::function<void(int)>& body) {
-        for (int i = -2; i < 3 * count; ++i) body(i / 2);
-    });
+    executor.configure({.threads = 1, .parallel_for = [](int count, const std::function<void(int)>& body) {
+                            for (int i = -2; i < 3 * count; ++i) body(i / 2);
+                        }});
     std::vector<int> runs(10);
     CHECK_THROWS(executor.run(10, [&](int i) { ++runs.at(static_cast<std::size_t>(i)); }));
     CHECK(runs == std::vector<int>(10, 1));

@@ -45,7 +45,30 @@ void set_local(ShadowSetup& setup, bool spot, Vec3f position, Vec3f direction) {
 
 }  // namespace
 
-TEST_CASE("shadows: a light inside a closed mesh lights nothing outside it", "[raster][shadow]") {
+TEST_CASE("shadows: a light sees of a single-sided mesh what a camera sees there", "[raster][shadow]") {
+    // A square between the lamp and the floor. Its front faces up, to the lamp, or down, away from it.
+    for (const bool spot : {false, true}) {
+        for (const bool faces_light : {false, true}) {
+            for (const bool double_sided : {false, true}) {
+                INFO((spot ? "spot" : "point") << (faces_light ? ", front" : ", back") << (double_sided ? ", double-sided" : ""));
+                ShadowSetup setup(Lobe::sloan(0.5f), ShadowMode::hard);
+                setup.settings.shadow_size = 256;
+                set_local(setup, spot, {0.01f, 1.0f, 0.02f}, {0, -1, 0});
+                setup.scene.materials[0].double_sided = double_sided;
+                setup.add(make_plane(1, 4));
+                const Mat4 over{{{1, 0, 0, 0}, {0, -1, 0, 0}, {0, 0, -1, 0}, {0, 0.9f, 0, 1}}};  // half a turn around x
+                setup.add(make_plane(0.1f, 1), faces_light ? translation({0, 0.9f, 0}) : over);
+                look_down(setup);
+                setup.camera.world_from_camera.c[3].y = 0.8f;  // below the square
+                const std::vector<float> floor = on_all_sets(setup, 64);
+                const float middle = floor[4 * (32 * 64 + 32)];
+                CHECK((middle == 0.0f) == (faces_light || double_sided));
+            }
+        }
+    }
+}
+
+TEST_CASE("shadows: a light inside a closed double-sided mesh lights nothing outside it", "[raster][shadow]") {
     for (const bool spot : {false, true}) {
         for (const bool box : {false, true}) {
             for (const ShadowMode mode : {ShadowMode::hard, ShadowMode::soft_split}) {
@@ -54,6 +77,7 @@ TEST_CASE("shadows: a light inside a closed mesh lights nothing outside it", "[r
                 setup.settings.shadow_fade = 0.1f;
                 setup.settings.shadow_size = 256;
                 set_local(setup, spot, {0.01f, 0.5f, 0.02f}, {0, -1, 0});
+                setup.scene.materials[0].double_sided = true;  // the light sees the mesh from inside
                 setup.add(make_plane(1, 4));
                 ShadowSetup open = setup;
                 setup.add(box ? make_box({0.15f, 0.15f, 0.15f}) : make_sphere(0.2f, 32, 16), translation({0, 0.5f, 0}));

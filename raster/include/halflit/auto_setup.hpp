@@ -23,7 +23,7 @@ struct AutoOptions {
 /// What auto_setup() chose; render() takes both. The lights are in the scene.
 struct AutoSetup {
     Camera camera;        ///< the view to draw
-    Settings settings;    ///< usual_settings() and the exposure
+    Settings settings;    ///< usual_settings(), the exposure, and shadow maps for the picture's size: twice its longer side, 256 to 2048
     bool framed = false;  ///< the camera is a view of the whole scene
 };
 

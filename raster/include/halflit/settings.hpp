@@ -53,9 +53,14 @@ struct Execution {
     std::optional<Isa> isa{};    ///< instruction set; empty: default_isa()
     ParallelFor parallel_for{};  ///< the host's threads; empty: oneTBB, or the standard library's threads if built without it
 
-    /// Asked before each tile of the picture, not while the scene is prepared or shadow maps are drawn. True stops the frame
-    /// (ErrorCode::cancelled).
+    /// Asked before each part of the work, some hundred times a frame. True stops the call (ErrorCode::cancelled).
     std::function<bool()> cancelled{};
+    /// Wall clock for the call, seconds; 0: no limit. A call that takes longer stops within a tile's time (ErrorCode::limit).
+    double time_limit_s = 0.0;
+    /// Working memory for the call, bytes: vertices, triangle lists and shadow maps of a frame, kept from frame to frame. 0: no limit. A
+    /// frame that needs more stops (ErrorCode::limit). The caller's scene and target, and fixed buffers of about 1 MB a thread, do not
+    /// count.
+    std::size_t memory_limit = 0;
     std::function<void(const Region&)> on_tile{};  ///< told after each tile which pixels are final
     /// Told the share of the tiles that are done, in (0, 1]; one call at a time, in rising order.
     std::function<void(double share)> progress{};

@@ -351,15 +351,17 @@ typedef struct halflit_execution {
     size_t size;
     const char* isa;                   ///< instruction set: scalar, sse2, sse4.1, avx2, avx512 or neon64; null: the best one
     void* user;                        ///< handed to the functions below
-    int32_t (*cancelled)(void* user);  ///< asked before each tile; not 0: stop the frame
+    int32_t (*cancelled)(void* user);  ///< asked before each part of the work; not 0: stop
     /// Told after each tile which pixels are final.
     void (*on_tile)(void* user, int32_t x, int32_t y, int32_t width, int32_t height);
     void (*progress)(void* user, double share);  ///< told the share that is done, in (0, 1], one call at a time
     /// The host's own threads: calls body(task, i) for every i from 0 to count - 1, in any order, on any threads; returns when all are
     /// done.
     void (*parallel_for)(void* user, int32_t count, void (*body)(void* task, int32_t i), void* task);
-    int32_t threads;    ///< 0: one for each core; not used with parallel_for
-    int32_t tile_size;  ///< 16, 32 or 64 pixels
+    int32_t threads;      ///< 0: one for each core; not used with parallel_for
+    int32_t tile_size;    ///< 16, 32 or 64 pixels
+    double time_limit_s;  ///< wall clock for a frame, seconds; 0: no limit. Beyond it the frame fails with HALFLIT_ERROR_LIMIT
+    size_t memory_limit;  ///< working memory for a frame, bytes; 0: no limit. Beyond it the frame fails with HALFLIT_ERROR_LIMIT
 } halflit_execution;
 HALFLIT_C_API int32_t halflit_execution_init(halflit_execution* execution, size_t size);
 

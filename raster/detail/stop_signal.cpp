@@ -1,0 +1,38 @@
+#include "raster/detail/stop_signal.hpp"
+
+#include <string>
+
+namespace halflit::raster {
+
+void StopSignal::arm(const Execution& execution) {
+    cancelled_ = execution.cancelled ? &execution.cancelled : nullptr;
+    time_limit_s_ = execution.time_limit_s;
+    memory_limit_ = execution.memory_limit;
+    reason_ = none;
+    if (time_limit_s_ > 0.0) {
+        const auto limit = std::chrono::duration<double>(time_limit_s_ < 1e9 ? time_limit_s_ : 1e9);
+        deadline_ = std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(limit);
+    }
+}
+
+bool StopSignal::raised() {
+    if (reason_.load(std::memory_order_relaxed) != none) return true;
+    if (cancelled_ != nullptr && (*cancelled_)()) reason_ = cancelled;
+    if (time_limit_s_ > 0.0 && std::chrono::steady_clock::now() >= deadline_) reason_ = time;
+    return reason_.load(std::memory_order_relaxed) != none;
+}
+
+void StopSignal::check() {
+    if (!raised()) return;
+    if (reason_ == cancelled) throw Stopped{{ErrorCode::cancelled, "stopped on request"}};
+    throw Stopped{{ErrorCode::limit, "the time limit was reached before the work was done"}};
+}
+
+void StopSignal::take_memory(std::size_t bytes) {
+    const std::size_t before = memory_.fetch_add(bytes, std::memory_order_relaxed);
+    if (memory_limit_ == 0 || before + bytes <= memory_limit_) return;
+    memory_.fetch_sub(bytes, std::memory_order_relaxed);
+    throw Stopped{{ErrorCode::limit, "drawing needs more than " + std::to_string(memory_limit_) + " bytes of working memory, which is the limit"}};
+}
+
+}  // namespace halflit::raster

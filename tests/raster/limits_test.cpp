@@ -1,0 +1,133 @@
+// Limits on the time and the working memory of a call.
+#include "halflit/renderer.hpp"
+#include "halflit/shapes.hpp"
+#include "raster/passes/view_geometry.hpp"
+#include "tests/support/cameras.hpp"
+#include "tests/support/random.hpp"
+
+#include "tests/support/catch.hpp"
+
+#include <chrono>
+#include <cmath>
+
+using namespace halflit;
+using halflit::test::Random;
+
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// Long thin triangles through the middle of the picture, in one mesh: each touches most tiles of a row, a column or a diagonal.
+Scene spokes(int count) {
+    Random random(7);
+    Scene scene;
+    scene.materials.resize(1);
+    scene.materials[0].double_sided = true;
+    scene.materials[0].unlit = true;
+    Mesh mesh;
+    mesh.material = 0;
+    for (int i = 0; i < count; ++i) {
+        const float angle = random.real32(0, 6.2831853), z = random.real32(-0.5, 0.5);
+        const auto at = [&](float a) { return Vec3f{std::cos(a), std::sin(a), z}; };
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        const Vec3f color{random.real32(0, 1), random.real32(0, 1), random.real32(0, 1)};
+        for (const float a : {angle, angle + 0.01f, angle + 3.1415927f}) {
+            mesh.positions.push_back(at(a));
+            mesh.colors.push_back({color.x, color.y, color.z, 1});
+        }
+        for (std::uint32_t k = 0; k < 3; ++k) mesh.indices.push_back(first + k);
+    }
+    scene.meshes.push_back(std::move(mesh));
+    scene.instances.push_back({0, {}});
+    return scene;
+}
+
+Camera front() {
+    Camera camera = halflit::test::camera_at({0, 0, 2}, {0, 0, 0});
+    camera.orthographic = true;
+    camera.half_height = 1;
+    return camera;
+}
+
+Result<RenderReport> draw(Renderer& renderer, const Scene& scene, Bytes& pixels, int side, const Execution& execution) {
+    pixels.assign(std::size_t{4} * static_cast<std::size_t>(side * side), 0);
+    return renderer.render(scene, front(), {}, {.width = side, .height = side, .pixels = pixels.data()}, execution);
+}
+
+double seconds_of(const std::function<void()>& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+TEST_CASE("limits: a frame beyond its time says so, and the next one is drawn", "[raster][execution]") {
+    // 20,000 layers on all tiles: some seconds of work.
+    Scene scene = spokes(40);
+    Mesh& mesh = scene.meshes[0];
+    mesh.positions = {{-1, -1, 0}, {3, -1, 0}, {-1, 3, 0}};
+    mesh.colors.clear();
+    mesh.indices.clear();
+    for (int i = 0; i < 20000; ++i) mesh.indices.insert(mesh.indices.end(), {0, 1, 2});
+    scene.materials[0].alpha_mode = AlphaMode::blend;
+    scene.materials[0].base_color.w = 0.5f;
+    Renderer renderer;
+    Bytes pixels;
+    for (const int threads : {1, 3}) {
+        Result<RenderReport> stopped;
+        const double took = seconds_of([&] { stopped = draw(renderer, scene, pixels, 512, {.threads = threads, .time_limit_s = 0.05}); });
+        REQUIRE(!stopped);
+        CHECK(stopped.error().code == ErrorCode::limit);
+        CHECK(stopped.error().message.find("time") != std::string::npos);
+        CHECK(took < 2.0);  // a part of the work takes milliseconds; a busy machine may take a hundred times as long
+        const Scene small = spokes(10);
+        REQUIRE(draw(renderer, small, pixels, 64, {.threads = threads, .time_limit_s = 1e6}));
+        Bytes fresh;
+        Renderer other;
+        REQUIRE(draw(other, small, fresh, 64, {}));
+        CHECK(pixels == fresh);
+    }
+}
+
+TEST_CASE("limits: a scene's preparation stops too", "[raster][execution]") {
+    const Scene scene = spokes(50000);
+    const auto prepared = PreparedScene::make(scene, {.time_limit_s = 1e-9});
+    REQUIRE(!prepared);
+    CHECK(prepared.error().code == ErrorCode::limit);
+}
+
+TEST_CASE("limits: a frame beyond its memory says so, and the same renderer draws it within more", "[raster][execution]") {
+    const Scene scene = spokes(20000);
+    Renderer renderer;
+    Bytes pixels, expected;
+    Renderer other;
+    REQUIRE(draw(other, scene, expected, 200, {}));
+    for (const std::size_t limit : {std::size_t{1}, std::size_t{100'000}, std::size_t{1'000'000}}) {
+        const auto stopped = draw(renderer, scene, pixels, 200, {.memory_limit = limit});
+        REQUIRE(!stopped);
+        CHECK(stopped.error().code == ErrorCode::limit);
+        CHECK(stopped.error().message.find(std::to_string(limit)) != std::string::npos);
+    }
+    for (int frame = 0; frame < 3; ++frame) {
+        REQUIRE(draw(renderer, scene, pixels, 200, {.memory_limit = 100'000'000}));
+        CHECK(pixels == expected);
+    }
+}
+
+TEST_CASE("limits: triangles that touch hundreds of tiles each are drawn without lists of them, to the same pixels", "[raster]") {
+    const Scene scene = spokes(6000);
+    Bytes expected;
+    for (const int tile : {64, 32, 16}) {  // 36, 144 and 576 tiles: the first keep their lists
+        Renderer renderer;
+        Bytes pixels;
+        REQUIRE(draw(renderer, scene, pixels, 384, {.tile_size = tile}));
+        if (expected.empty()) expected = pixels;
+        CHECK(pixels == expected);
+    }
+    // 12 bytes for each entry: a spoke touches some 500 of the 128 x 128 tiles.
+    const Scene many = spokes(50000);
+    Renderer renderer;
+    Bytes pixels;
+    REQUIRE(draw(renderer, many, pixels, 2048, {.tile_size = 16, .memory_limit = 64'000'000}));
+}
