@@ -5,8 +5,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
+#include <cstdlib>
 #include <utility>
 
 #include <fcntl.h>
@@ -101,9 +103,56 @@ Descriptor open_beneath(int folder, const std::string& relative) {
     return open_by_walk(folder, relative);
 }
 
+/// Removes "." and resolves ".." by the text alone, as RFC 3986 (5.2.4) does. A relative name may begin with ".." afterwards. A name that
+/// must be a folder's keeps its last slash, so that a file is not found by it.
+std::string normalised(std::string_view path) {
+    const bool is_absolute = path.starts_with('/');
+    std::vector<std::string_view> parts;
+    bool folder = true;
+    for (std::size_t at = 0; at < path.size();) {
+        const std::size_t slash = std::min(path.find('/', at), path.size());
+        const std::string_view part = path.substr(at, slash - at);
+        folder = part.empty() || part == "." || part == "..";
+        if (part == ".." && !parts.empty() && parts.back() != "..")
+            parts.pop_back();
+        else if (part == ".." ? !is_absolute : !folder)
+            parts.push_back(part);
+        folder = folder || slash + 1 == path.size();
+        at = slash + 1;
+    }
+    std::string out = is_absolute ? "/" : "";
+    for (std::size_t i = 0; i < parts.size(); ++i) out.append(i == 0 ? "" : "/").append(parts[i]);
+    if (folder && !parts.empty() && parts.back() != "..") out += '/';
+    return out;
+}
+
+/// The path without symbolic links, or nothing.
+std::string place_of(const std::string& path) {
+    char* found = ::realpath(path.c_str(), nullptr);
+    std::string out = found == nullptr ? "" : found;
+    ::free(found);
+    return out;
+}
+
+/// The path from the root, with symbolic links as they are.
+std::string absolute(const std::string& path) {
+    std::string out = normalised(path.starts_with('/') ? path : place_of(".") + "/" + path);
+    if (out.size() > 1 && out.ends_with('/')) out.pop_back();
+    return out;
+}
+
+/// The rest of `path` below `folder`, both absolute and normalised; nothing if it is not below.
+std::string name_below(const std::string& folder, const std::string& path) {
+    if (folder.empty() || path.empty() || !path.starts_with(folder)) return "";
+    if (folder == "/") return path.substr(1);
+    return path.size() > folder.size() && path[folder.size()] == '/' ? path.substr(folder.size() + 1) : "";
+}
+
 }  // namespace
 
 Result<std::vector<std::byte>> read_file(const std::string& path, std::size_t max_bytes) {
+    if (path.find('\0') != std::string::npos)
+        return fail(ErrorCode::io, fmt::format("{}: cannot be opened: a file name cannot hold a zero byte", printable(path)));
     const Descriptor file(::open(path.c_str(), kOpenFlags));
     if (file.get() < 0) return fail(ErrorCode::io, fmt::format("{}: cannot be opened: {}", printable(path), errno_text(errno)));
     auto bytes = read_regular(file.get(), max_bytes, ErrorCode::io);
@@ -111,14 +160,32 @@ Result<std::vector<std::byte>> read_file(const std::string& path, std::size_t ma
     return bytes;
 }
 
-ModelFolder::ModelFolder(std::string base_dir, std::vector<std::string> also_allowed) : base_dir_(std::move(base_dir)) {
-    if (!base_dir_.empty()) folders_.push_back(::open(base_dir_.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
-    for (const std::string& folder : also_allowed) folders_.push_back(::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+ModelFolder::ModelFolder(std::string base_dir, std::vector<std::string> also_allowed) : has_base_(!base_dir.empty()) {
+    if (has_base_) add(base_dir);
+    for (const std::string& folder : also_allowed) {
+        const bool is_name = !folder.empty() && folder.find('\0') == std::string::npos;
+        errno = ENOENT;
+        if (is_name) add(folder);
+        if ((!is_name || folders_.back().descriptor < 0) && missing_.empty())
+            missing_ = fmt::format("the allowed folder \"{}\" cannot be opened: {}", printable(folder), errno_text(errno));
+    }
+}
+
+void ModelFolder::add(const std::string& path) {
+    const int fd = ::open(path.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
+    const int error = errno;
+    folders_.push_back({fd, absolute(path), fd >= 0 ? place_of(path) : ""});
+    errno = error;
 }
 
 ModelFolder::~ModelFolder() {
-    for (const int fd : folders_)
-        if (fd >= 0) ::close(fd);
+    for (const Folder& folder : folders_)
+        if (folder.descriptor >= 0) ::close(folder.descriptor);
+}
+
+Result<void> ModelFolder::check() const {
+    if (!missing_.empty()) return fail(ErrorCode::usage, missing_);
+    return {};
 }
 
 Result<std::vector<std::byte>> ModelFolder::read(std::string_view relative, std::size_t max_bytes) const {
@@ -130,19 +197,36 @@ Result<std::vector<std::byte>> ModelFolder::read(std::string_view relative, std:
     if (relative.find('\\') != std::string_view::npos) return refuse("expected '/' between folders, found '\\'");
     if (relative.front() == '/') return refuse("absolute names are not allowed, expected one below the model's folder");
 
+    // Whatever name is made below, open_beneath never leaves the folder that it is given.
     int error = ENOENT;
-    for (const int folder : folders_) {
-        if (folder < 0) continue;
-        const Descriptor file = open_beneath(folder, std::string(relative));
-        if (file.get() < 0) {
-            if (error == ENOENT) error = errno;
-            continue;
-        }
+    const auto open_in = [&](const Folder& folder, const std::string& name) {
+        Descriptor file = folder.descriptor < 0 || name.empty() ? Descriptor(-1) : open_beneath(folder.descriptor, name);
+        if (file.get() < 0 && folder.descriptor >= 0 && error == ENOENT) error = name.empty() ? EISDIR : errno;
+        return file;
+    };
+    const std::string name = normalised(relative);
+    const bool leads_up = name == ".." || name.starts_with("../");
+    Descriptor file(-1);
+    if (!leads_up)
+        for (std::size_t i = 0; i < folders_.size() && file.get() < 0; ++i) file = open_in(folders_[i], name);
+    if (file.get() < 0 && has_base_ && !folders_[0].at.empty()) {
+        // A name that leads out of the model's folder, itself or by a symbolic link, may lead back, or into one that is allowed.
+        if (leads_up) error = EXDEV;
+        const std::string target = normalised(folders_[0].at + "/" + std::string(relative));
+        const std::string real = folders_.size() > 1 ? place_of(target) : "";
+        for (std::size_t i = 0; i < folders_.size() && file.get() < 0; ++i)
+            for (const auto& [path, folder] : {std::pair(&target, &folders_[i].name), {&target, &folders_[i].at}, {&real, &folders_[i].at}})
+                if (const std::string below = name_below(*folder, *path); file.get() < 0 && !below.empty())
+                    file = open_in(folders_[i], below);
+    }
+    if (file.get() >= 0) {
         auto bytes = read_regular(file.get(), max_bytes, ErrorCode::bad_input);
         if (!bytes) return fail(bytes.error().code, fmt::format("\"{}\": {}", shown, bytes.error().message));
         return bytes;
     }
-    if (error == EXDEV || error == ELOOP) return refuse("leads out of the model's folder");
+    if (error == EXDEV || error == ELOOP)
+        return refuse(folders_.size() > (has_base_ ? 1 : 0) ? "leads out of the model's folder and of those that are allowed"
+                                                            : "leads out of the model's folder");
     if (error == ENOENT) return refuse("no such file");
     return refuse(fmt::format("cannot be opened: {}", errno_text(error)));
 }

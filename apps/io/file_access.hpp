@@ -17,24 +17,35 @@ inline constexpr std::size_t kDefaultMaxFileBytes = std::size_t{512} << 20;
 /// changed while it was read. The file is not mapped, so one that shrinks cannot raise SIGBUS.
 Result<std::vector<std::byte>> read_file(const std::string& path, std::size_t max_bytes = kDefaultMaxFileBytes);
 
-/// Opens files by the names that a model gives, below the model's folder only: no "..", no absolute name, no symbolic link that
-/// leads out, and regular files alone (a FIFO or a device is refused without waiting for it).
+/// Opens files by the names that a model gives, below the model's folder or one that is allowed: no absolute name, no ".." and no symbolic
+/// link that leads elsewhere, and regular files alone (a FIFO or a device is refused without waiting for it).
 class ModelFolder {
 public:
-    /// `base_dir` is the model's folder; empty means that there is none and every read is refused. `also_allowed` are
-    /// folders in which a name is looked up when the model's folder does not have it.
+    /// `base_dir` is the model's folder; empty means that there is none. `also_allowed` are folders in which a name is looked up when the
+    /// model's folder does not have it, and into which a name may lead.
     explicit ModelFolder(std::string base_dir = "", std::vector<std::string> also_allowed = {});
     ~ModelFolder();
     ModelFolder(const ModelFolder&) = delete;
     ModelFolder& operator=(const ModelFolder&) = delete;
+
+    /// An error (usage) that names the first folder of `also_allowed` which cannot be opened.
+    [[nodiscard]] Result<void> check() const;
 
     /// `relative` uses '/' and has been percent-decoded. All errors are bad_input, except limit above `max_bytes`; the message has no
     /// file prefix.
     [[nodiscard]] Result<std::vector<std::byte>> read(std::string_view relative, std::size_t max_bytes) const;
 
 private:
-    std::string base_dir_;
-    std::vector<int> folders_;  ///< open descriptors, the model's folder first; -1 where opening failed
+    struct Folder {
+        int descriptor;    ///< -1 where opening failed
+        std::string name;  ///< as it was given, made absolute, without "." and ".."
+        std::string at;    ///< its place, without symbolic links; empty where it is not known
+    };
+    void add(const std::string& path);
+
+    std::vector<Folder> folders_;  ///< the model's folder first, if there is one
+    bool has_base_ = false;
+    std::string missing_;  ///< message of check()
 };
 
 }  // namespace halflit::io

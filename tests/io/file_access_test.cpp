@@ -71,6 +71,68 @@ TEST_CASE("model folder: files below it are read, whatever leads elsewhere is no
     CHECK(wider.read("a.bin", 100)->size() == 3);
 }
 
+TEST_CASE("model folder: a name may lead into a folder that is allowed, and into no other", "[io]") {
+    const TemporaryFolder root;
+    root.write("models/a.bin", "abc");
+    root.write("textures/x.png", "texture");
+    root.write("textures/deep/y.png", "deeper");
+    root.write("textures-of-others/x.png", "secret");
+    root.write("secret.bin", "secret");
+    const std::string models = (root.path / "models").string(), textures = (root.path / "textures").string();
+    fs::create_symlink(root.path / "secret.bin", root.path / "textures/out.png");
+    fs::create_symlink(root.path, root.path / "textures/up");
+    fs::create_symlink("deep/y.png", root.path / "textures/inner.png");
+    fs::create_symlink(root.path / "textures", root.path / "models/linked");
+    fs::create_symlink(root.path / "textures", root.path / "other-name");
+    fs::create_symlink(root.path / "models", root.path / "linked-models");
+
+    for (const std::string& given : {textures, textures + "/", models + "/../textures", (root.path / "other-name").string()}) {
+        INFO(given);
+        const ModelFolder folder(models, {given});
+        CHECK(folder.check());
+        for (const char* name : {"../textures/x.png", "./../textures/deep/../x.png", "x.png", "linked/x.png", "sub/../../textures/x.png",
+                                 "../models/../textures/x.png", "../../../../../../../../../../../textures/../../x.png"}) {
+            INFO(name);
+            const bool beyond_root = std::string(name).starts_with("../../..");
+            const auto read = folder.read(name, 100);
+            CHECK(read.has_value() == !beyond_root);
+            if (read) CHECK(read->size() == 7);
+        }
+        CHECK(folder.read("../textures/deep/y.png", 100)->size() == 6);
+        CHECK(folder.read("../textures/inner.png", 100)->size() == 6);
+        for (const char* name : {"../textures/out.png", "../textures/up/secret.bin", "../secret.bin", "../textures-of-others/x.png",
+                                 "../textures", "../textures/", "../textures/x.png/", "linked/out.png", "linked/up/secret.bin", "..", "../",
+                                 "../models/../secret.bin", "../textures/../secret.bin", "linked/../../secret.bin"}) {
+            INFO(name);
+            const auto read = folder.read(name, 100);
+            REQUIRE(!read);
+            CHECK(read.error().code == ErrorCode::bad_input);
+        }
+    }
+    CHECK(ModelFolder(models, {(root.path / "other-name").string()}).read("../other-name/x.png", 100)->size() == 7);
+    CHECK(ModelFolder((root.path / "linked-models").string(), {textures}).read("../textures/x.png", 100)->size() == 7);
+    CHECK(!ModelFolder(models).read("../textures/x.png", 100));
+    CHECK(ModelFolder(models).read("../models/a.bin", 100)->size() == 3);
+}
+
+TEST_CASE("model folder: an allowed folder that is not there is an error that names it", "[io]") {
+    const TemporaryFolder root;
+    root.write("file.bin", "abc");
+    for (const std::string& missing : {(root.path / "none").string(), (root.path / "file.bin").string(), std::string()}) {
+        const ModelFolder folder(root.path.string(), {root.path.string(), missing});
+        REQUIRE(!folder.check());
+        CHECK(folder.check().error().code == ErrorCode::usage);
+        CHECK(folder.check().error().message.find("\"" + missing + "\"") != std::string::npos);
+    }
+    LoadOptions options;
+    options.allow_external = {(root.path / "none").string()};
+    root.write("model.gltf", R"({"asset":{"version":"2.0"}})");
+    const auto loaded = load_gltf((root.path / "model.gltf").string(), options);
+    REQUIRE(!loaded);
+    CHECK(loaded.error().code == ErrorCode::usage);
+    CHECK(loaded.error().message.find(options.allow_external[0]) != std::string::npos);
+}
+
 TEST_CASE("read file: errors of the file system are io errors", "[io]") {
     const TemporaryFolder folder;
     folder.write("a.bin", "abc");
@@ -78,6 +140,7 @@ TEST_CASE("read file: errors of the file system are io errors", "[io]") {
     CHECK(read_file((folder.path / "none.bin").string()).error().code == ErrorCode::io);
     CHECK(read_file(folder.path.string()).error().code == ErrorCode::io);
     CHECK(read_file("/dev/null").error().code == ErrorCode::io);
+    CHECK(read_file((folder.path / "a.bin").string() + std::string("\0.bin", 5)).error().code == ErrorCode::io);  // not a.bin
     CHECK(read_file((folder.path / "a.bin").string(), 2).error().code == ErrorCode::limit);
 }
 

@@ -99,6 +99,7 @@ std::unique_ptr<Document> open_document(std::span<const std::byte> bytes, const 
         refuse("", fmt::format("has {} bytes, the limit is {}", bytes.size(), options.limits.max_file_bytes), ErrorCode::limit);
     if (bytes.empty()) refuse("", "expected a glTF file, found no bytes at all");
     auto document = std::make_unique<Document>(options, base_dir);
+    take(document->folder.check(), "");
     GlbParts glb;
     glb.json = bytes;
     if (is_glb(bytes)) glb = take(split_glb(bytes), "");

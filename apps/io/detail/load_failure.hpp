@@ -24,6 +24,10 @@ T take(Result<T>&& result, std::string_view where) {
     return *std::move(result);
 }
 
+inline void take(Result<void>&& result, std::string_view where) {
+    if (!result) refuse(where, result.error().message, result.error().code);
+}
+
 /// Memory that a file may still use.
 class Budget {
 public:
