@@ -25,8 +25,10 @@ using namespace io::detail;
 
 LoadedScene build(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
     const std::unique_ptr<Document> document = open_document(bytes, base_dir, options);
-    const std::vector<Accessor> accessors = check_accessors(*document);
     const NodeTree tree = place_nodes(*document);
+    settle(*document, tree.drawn);
+    load_buffers(*document);
+    const std::vector<Accessor> accessors = check_accessors(*document);
     LoadedScene loaded;
     loaded.nodes = make_nodes(*document, tree);
     ImageStore images(*document, loaded.scene.textures);

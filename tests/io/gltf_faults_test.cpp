@@ -67,7 +67,9 @@ TEST_CASE("faults: numbers of any length are read, and refused only where double
         CHECK(refusal(camera(bad)).message.find("range of double") != std::string::npos);
     }
     CHECK(refusal(with("\"nodes\":[{\"translation\":[]}]")).message.find("expected 3 numbers, found 0") != std::string::npos);
-    CHECK(refusal(with("\"buffers\":[{\"byteLength\":9007199254740993}]")).message.find("2^53") != std::string::npos);
+    CHECK(refusal(changed(TriangleFile(), "\"byteLength\":36}]", "\"byteLength\":9007199254740993}]")).message.find("2^53") !=
+          std::string::npos);
+    CHECK(refusal(changed(TriangleFile(), "\"byteLength\":36}]", "\"byteLength\":36.0}]")).code == ErrorCode::negative_result);
 }
 
 TEST_CASE("faults: values of a wrong type or size are refused at their path", "[io]") {
@@ -101,34 +103,88 @@ TEST_CASE("faults: values of a wrong type or size are refused at their path", "[
     check("\"attributes\":{\"POSITION\":0}", "\"mode\":4", "primitives[0]");
 }
 
-TEST_CASE("faults: lists of a wrong length, and objects without the members of their type, are refused", "[io]") {
-    const auto with = [](const std::string& rest) {
-        TriangleFile t;
-        t.rest = "," + rest;
-        return refusal(t.file());
-    };
+namespace {
+
+/// The triangle with further members of the root. Its node uses element 0 of each array that these have, if `used`.
+Bytes with_members(const std::string& rest, bool used) {
+    TriangleFile t;
+    t.rest = "," + rest;
+    std::string node = "\"mesh\":0";
+    const auto has = [&](const char* key) { return used && rest.find(key) != std::string::npos; };
+    if (has("\"materials\"")) t.primitive = ",\"material\":0";
+    if (has("\"cameras\"")) node += ",\"camera\":0";
+    if (has("\"skins\"")) node += ",\"skin\":0";
+    if (has("\"lights\"")) node += ",\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}";
+    return glb(replaced(t.json(), "\"mesh\":0", node), t.bin);
+}
+
+}  // namespace
+
+TEST_CASE("faults: lists of a wrong length, and objects without the members of their type, are refused where they are drawn", "[io]") {
     const auto refused = [&](const std::string& rest, const std::string& path, const std::string& what) {
-        const Error error = with(rest);
+        const Error error = refusal(with_members(rest, true));
         INFO(rest << " gave " << error.message);
         CHECK(error.code == ErrorCode::bad_input);
         CHECK(error.message.find("test.glb: " + path + ": line 1, column ") == 0);
         CHECK(error.message.find(what) != std::string::npos);
+        const LoadedScene loaded = load_ok(with_members(rest, false));
+        const auto said = [&](const std::string& warning) {
+            return warning.find(path + ": ") == 0 && warning.find(what) != std::string::npos &&
+                   warning.ends_with("nothing that is drawn uses it");
+        };
+        CHECK(std::count_if(loaded.warnings.begin(), loaded.warnings.end(), said) == 1);
     };
     refused(R"("materials":[{"emissiveFactor":[1,1]}])", "materials[0].emissiveFactor", "expected 3 numbers, found 2");
     refused(R"("materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,1,1]}}])", "materials[0].pbrMetallicRoughness.baseColorFactor",
             "expected 4 numbers, found 3");
     refused(R"("cameras":[{"type":"perspective"}])", "cameras[0]", "\"perspective\"");
     refused(R"("cameras":[{"type":"orthographic","perspective":{"yfov":1,"znear":1}}])", "cameras[0]", "\"orthographic\"");
-    refused(R"("cameras":[{"type":"fisheye"}])", "cameras[0]", "\"fisheye\"");
+    refused(R"("cameras":[{"type":"fisheye"}])", "cameras[0].type", "\"fisheye\"");
     refused(R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot"}]}})", "extensions.KHR_lights_punctual.lights[0]", "\"spot\"");
     refused(R"("skins":[{}])", "skins[0]", "\"joints\"");
-    refused(R"("textures":[{"source":0}])", "textures[0].source", "the file has 0 images");
+    refused(R"("materials":[{"normalTexture":{"index":0}}],"textures":[{"source":0}])", "textures[0].source", "the file has 0 images");
     for (const char* sound :
          {R"("extras":[1e300,12345678901234567890])", R"("materials":[{"extras":7},{"extras":["halflit"]}])",
           R"("extensions":{"VENDOR_x":{"lights":5}})", R"("cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":1}}])"})
-        CHECK(with(sound).code == ErrorCode::negative_result);
+        CHECK(refusal(with_members(sound, false)).code == ErrorCode::negative_result);
     CHECK(refusal(changed(TriangleFile(), "\"count\":3", "\"count\":3.0")).code == ErrorCode::negative_result);  // JSON Schema: an integer
     CHECK(refusal(changed(TriangleFile(), "\"count\":3", "\"count\":0.3e1")).code == ErrorCode::negative_result);
+}
+
+TEST_CASE("faults: an element that is no object keeps the numbers of those after it", "[io]") {
+    TriangleFile t;
+    t.rest = R"(,"materials":[7,{"pbrMetallicRoughness":{"metallicFactor":0.25}}])";
+    t.primitive = ",\"material\":1";
+    const LoadedScene loaded = load_ok(t.file());
+    REQUIRE(loaded.scene.materials.size() == 2);
+    CHECK(loaded.scene.materials[1].metallic == 0.25f);
+    CHECK(loaded.warnings == std::vector<std::string>{"materials[0]: expected an object, found an integer, nothing that is drawn uses it"});
+}
+
+TEST_CASE("faults: a factor out of range is warned of at its path, and drawn as the nearest one in range", "[io]") {
+    const LoadedScene loaded =
+        load_ok(with_members(R"("materials":[{"emissiveFactor":[0,-1,0],"pbrMetallicRoughness":{"roughnessFactor":3}}])", true));
+    CHECK(loaded.warnings == std::vector<std::string>{"materials[0].emissiveFactor[1]: -1 is not in [0, 1], drawn as 0",
+                                                      "materials[0].pbrMetallicRoughness.roughnessFactor: 3 is not in [0, 1], drawn as 1"});
+    CHECK(loaded.scene.materials[0].roughness == 1.0f);
+    CHECK(loaded.scene.materials[0].emissive.y == 0.0f);
+}
+
+TEST_CASE("faults: of many warnings the first hundred are kept, and the rest are counted", "[io]") {
+    std::string materials = R"({"alphaCutoff":-1})";
+    for (int i = 1; i < 150'000; ++i) materials += R"(,{"alphaCutoff":-1})";
+    const LoadedScene loaded = load_ok(with_members("\"materials\":[" + materials + "]", false));
+    REQUIRE(loaded.warnings.size() == 101);
+    CHECK(loaded.warnings[99].find("materials[99].alphaCutoff: ") == 0);
+    CHECK(loaded.warnings[100] == "and 149900 further warnings");
+}
+
+TEST_CASE("faults: a buffer that nothing drawn uses is not read", "[io]") {
+    for (const char* unused :
+         {R"({"byteLength":4})", R"({"byteLength":4,"uri":"absent.bin"})", R"({"byteLength":4,"uri":"http://a/b"})", "{}", "7"}) {
+        INFO(unused);
+        CHECK(load(changed(TriangleFile(), "\"buffers\":[{\"byteLength\":36}", std::string("\"buffers\":[{\"byteLength\":36},") + unused)));
+    }
 }
 
 TEST_CASE("faults: accessors and views that leave their buffer are refused, for numbers of any size", "[io]") {

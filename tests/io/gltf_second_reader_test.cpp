@@ -209,8 +209,8 @@ bool compare_readers(const Bytes& bytes) {
     const std::string_view text(reinterpret_cast<const char*>(json.data()), json.size());
     tinygltf::Model second;
     if (!read_second(text, second)) return false;
-    std::vector<std::string> warnings;
-    const file::File first = io::detail::read_gltf_json(text, {}, {"objects", std::uint64_t{1} << 32}, warnings);
+    io::detail::Notes notes;
+    const file::File first = io::detail::read_gltf_json(text, {}, {"objects", std::uint64_t{1} << 32}, notes);
     CHECK(first.version == second.asset.version);
     CHECK(first.generator == second.asset.generator);
     CHECK(std::vector<std::string>(first.extensions_used.begin(), first.extensions_used.end()) == second.extensionsUsed);

@@ -29,9 +29,11 @@ Result<GlbParts> split_glb(std::span<const std::byte> file) {
     if (const std::uint32_t version = read_u32(file, 4); version != 2)
         return refuse(fmt::format("header: expected container version 2, found {}", version));
     const std::size_t length = read_u32(file, 8);
-    if (length != file.size()) return refuse(fmt::format("header: length is {}, but the file has {} bytes", length, file.size()));
+    if (length > file.size()) return refuse(fmt::format("header: length is {}, but the file has {} bytes", length, file.size()));
 
     GlbParts parts;
+    if (length < file.size())
+        parts.warnings.push_back(fmt::format("GLB: {} bytes after the length that the header gives, ignored", file.size() - length));
     std::size_t at = kHeaderBytes;
     for (int index = 0; at < length; ++index) {
         if (length - at < kChunkHeaderBytes)

@@ -40,7 +40,7 @@ Component component_of(int type, std::string_view where) {
         case 5126:
             return Component::f32;
         default:
-            refuse(where, fmt::format("componentType: expected 5120 to 5123, 5125 or 5126, found {}", type));
+            refuse(fmt::format("{}.componentType", where), fmt::format("expected 5120 to 5123, 5125 or 5126, found {}", type));
     }
 }
 
@@ -142,19 +142,32 @@ void Accessor::check(const Document& document, const file::Accessor& source) {
         refuse(name_, fmt::format("bufferViews[{}].byteStride is {}, expected at least the element's {} bytes", source.buffer_view, stride_,
                                   size));
     check_range(name_, source.byte_offset, count_, stride_, size, view.byte_length);
-    if (count_ > 0) data_ = document.view_data(source.buffer_view) + source.byte_offset;
+}
+
+void Accessor::warn_of_alignment(Document& document, const file::Accessor& source) const {
+    if (source.normalized && (component_ == Component::f32 || component_ == Component::u32))
+        document.warn(fmt::format("{}.normalized: componentType {} is never normalized, read as it is", name_, source.component_type));
+    if (source.buffer_view < 0) return;
+    const auto multiple = static_cast<std::uint64_t>(size_of(component_));
+    const file::BufferView& view = document.file.buffer_views[static_cast<std::size_t>(source.buffer_view)];
+    if (source.byte_offset % multiple != 0)
+        document.warn(
+            fmt::format("{}.byteOffset: expected a multiple of {}, found {}, read as it is", name_, multiple, source.byte_offset));
+    if (view.byte_offset % multiple != 0)
+        document.warn(fmt::format("bufferViews[{}].byteOffset: expected a multiple of {} for {}, found {}, read as it is",
+                                  source.buffer_view, multiple, name_, view.byte_offset));
 }
 
 void Accessor::check_sparse(Document& document, const file::Sparse& source) {
     const std::string where = name_ + ".sparse";
     const auto sparse_count = static_cast<std::uint64_t>(source.count);
     if (sparse_count == 0) return;
-    if (sparse_count > count_) refuse(where, fmt::format("count is {}, more than the accessor's {}", sparse_count, count_));
+    if (sparse_count > count_) refuse(where + ".count", fmt::format("is {}, more than the accessor's {}", sparse_count, count_));
     if (count_ > 0xFFFFFFFFull)
         refuse(where, fmt::format("the accessor has {} elements, the limit is 4294967295", count_), ErrorCode::limit);
     const Component index_type = component_of(source.index_component_type, where + ".indices");
     if (index_type != Component::u8 && index_type != Component::u16 && index_type != Component::u32)
-        refuse(where + ".indices", fmt::format("componentType: expected 5121, 5123 or 5125, found {}", source.index_component_type));
+        refuse(where + ".indices.componentType", fmt::format("expected 5121, 5123 or 5125, found {}", source.index_component_type));
 
     const auto& views = document.file.buffer_views;
     const auto& index_view = views[static_cast<std::size_t>(source.index_view)];
@@ -162,6 +175,16 @@ void Accessor::check_sparse(Document& document, const file::Sparse& source) {
     const std::uint64_t size = size_of(component_) * static_cast<std::uint64_t>(components_), index_size = size_of(index_type);
     const auto index_offset = static_cast<std::uint64_t>(source.index_offset),
                value_offset = static_cast<std::uint64_t>(source.value_offset);
+    const auto unaligned = [&](const char* which, std::uint64_t offset, std::uint64_t multiple) {
+        if (offset % multiple != 0)
+            document.warn(
+                fmt::format("{}.{}.byteOffset: expected a multiple of {}, found {}, read as it is", where, which, multiple, offset));
+    };
+    unaligned("indices", index_offset, index_size);
+    unaligned("values", value_offset, size_of(component_));
+    for (const int view : {source.index_view, source.value_view})
+        if (views[static_cast<std::size_t>(view)].byte_stride != 0)
+            document.warn(fmt::format("bufferViews[{}].byteStride: {} is packed, the stride is ignored", view, where));
     check_range(where + ".indices", index_offset, sparse_count, index_size, index_size, index_view.byte_length);
     check_range(where + ".values", value_offset, sparse_count, size, size, value_view.byte_length);
 
@@ -182,9 +205,24 @@ std::vector<Accessor> check_accessors(Document& document) {
     std::vector<Accessor> accessors(document.file.accessors.size());
     for (std::size_t i = 0; i < accessors.size(); ++i) {
         const file::Accessor& source = document.file.accessors[i];
-        accessors[i].name_ = fmt::format("accessors[{}]", i);
-        accessors[i].check(document, source);
-        if (source.sparse >= 0) accessors[i].check_sparse(document, document.file.sparse[static_cast<std::size_t>(source.sparse)]);
+        const bool used = document.used.has(Target::accessors, i);
+        if (!used && document.warnings_are_full()) continue;
+        Accessor& accessor = accessors[i];
+        accessor.name_ = fmt::format("accessors[{}]", i);
+        if (!used) {
+            // An index out of range, and a type that is not there, have been noted.
+            if (source.buffer_view >= static_cast<int>(document.file.buffer_views.size()) || source.component_type == 0) continue;
+            try {
+                accessor.check(document, source);
+            } catch (const LoadFailure& failure) {
+                document.warn(fmt::format("{}; {}", failure.error.message, kNothingUsesIt));
+            }
+            continue;
+        }
+        accessor.check(document, source);
+        accessor.warn_of_alignment(document, source);
+        if (source.buffer_view >= 0 && accessor.count_ > 0) accessor.data_ = document.view_data(source.buffer_view) + source.byte_offset;
+        if (source.sparse >= 0) accessor.check_sparse(document, document.file.sparse[static_cast<std::size_t>(source.sparse)]);
     }
     return accessors;
 }

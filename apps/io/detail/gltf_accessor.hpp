@@ -22,6 +22,7 @@ public:
     [[nodiscard]] int components() const { return components_; }  ///< 1, 2, 3, 4, 9 or 16
     [[nodiscard]] bool normalized() const { return normalized_; }
     [[nodiscard]] const std::string& name() const { return name_; }  ///< "accessors[3]", for messages
+    [[nodiscard]] std::size_t stride() const { return stride_; }     ///< bytes between elements; 0: no bufferView
 
     /// `out` takes components() values. Normalised integers become c/255, max(c/127, -1) and so on; others keep their value.
     void read_floats(std::size_t index, float* out) const;
@@ -31,6 +32,7 @@ public:
 private:
     friend std::vector<Accessor> check_accessors(Document& document);
     void check(const Document& document, const file::Accessor& source);
+    void warn_of_alignment(Document& document, const file::Accessor& source) const;
     void check_sparse(Document& document, const file::Sparse& source);
     [[nodiscard]] const std::byte* element(std::size_t index) const;  ///< null: zeros
 
@@ -44,7 +46,8 @@ private:
     std::string name_;
 };
 
-/// Every accessor of the file, checked against its view and buffer in 64-bit arithmetic. Throws LoadFailure.
+/// Every accessor of the file, checked against its view and buffer in 64-bit arithmetic. One that nothing drawn uses must not be read.
+/// Throws LoadFailure for the others.
 std::vector<Accessor> check_accessors(Document& document);
 
 }  // namespace halflit::io::detail

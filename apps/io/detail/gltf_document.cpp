@@ -2,12 +2,16 @@
 
 #include "apps/io/detail/glb_container.hpp"
 #include "apps/io/detail/gltf_json.hpp"
+#include "apps/io/detail/gltf_versions.hpp"
+#include "apps/io/detail/json_place.hpp"
 #include "apps/io/detail/uri.hpp"
 #include "apps/io/text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace halflit::io::detail {
 
@@ -22,38 +26,45 @@ std::vector<std::byte> fetch(const Document& document, const file::Buffer& entry
     return take(document.folder.read(take(decode_file_uri(*entry.uri), where), limit), where);
 }
 
-void load_buffers(Document& document, const GlbParts& glb) {
+void fetch_buffers(Document& document) {
     std::uint64_t total = 0;
     document.owned_buffers.reserve(document.file.buffers.size());
+    document.buffers.resize(document.file.buffers.size());
     for (std::size_t i = 0; i < document.file.buffers.size(); ++i) {
+        if (!document.used.has(Target::buffers, i)) continue;
         const file::Buffer& entry = document.file.buffers[i];
         const std::string where = fmt::format("buffers[{}]", i);
         std::span<const std::byte> bytes;
         if (entry.uri) {
             bytes = document.owned_buffers.emplace_back(fetch(document, entry, where + ".uri"));
-        } else if (i == 0 && glb.has_bin) {
-            bytes = glb.bin;
+        } else if (i == 0 && document.glb.has_bin) {
+            bytes = document.glb.bin;
         } else {
             refuse(where, "has no uri, and the file has no BIN chunk for it");
         }
         if (bytes.size() < entry.byte_length)
-            refuse(where, fmt::format("byteLength is {}, but only {} bytes are there", entry.byte_length, bytes.size()));
+            refuse(where + ".byteLength", fmt::format("is {}, but only {} bytes are there", entry.byte_length, bytes.size()));
         total += bytes.size();
         if (total > document.options.limits.max_total_bytes)
             refuse(where, fmt::format("the buffers have more than {} bytes, which is the limit", document.options.limits.max_total_bytes),
                    ErrorCode::limit);
-        document.buffers.push_back(bytes.first(static_cast<std::size_t>(entry.byte_length)));
+        document.buffers[i] = bytes.first(static_cast<std::size_t>(entry.byte_length));
     }
 }
 
-void check_buffer_views(const Document& document) {
-    for (std::size_t i = 0; i < document.file.buffer_views.size(); ++i) {
-        const file::BufferView& view = document.file.buffer_views[i];
-        const std::uint64_t end = view.byte_offset + view.byte_length;  // both at most 2^53
-        const std::size_t size = document.buffers[static_cast<std::size_t>(view.buffer)].size();
-        if (end > size)
-            refuse(fmt::format("bufferViews[{}]", i), fmt::format("byteOffset {} and byteLength {} end at {}, but buffer {} has {} bytes",
-                                                                  view.byte_offset, view.byte_length, end, view.buffer, size));
+void check_buffer_views(Document& document) {
+    const file::File& file = document.file;
+    for (std::size_t i = 0; i < file.buffer_views.size(); ++i) {
+        const file::BufferView& view = file.buffer_views[i];
+        if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= file.buffers.size()) continue;  // noted, and not used
+        const std::uint64_t end = view.byte_offset + view.byte_length;                                  // both at most 2^53
+        const std::uint64_t size = file.buffers[static_cast<std::size_t>(view.buffer)].byte_length;
+        const bool used = document.used.has(Target::buffer_views, i);
+        if (end <= size || (!used && document.warnings_are_full())) continue;
+        const std::string what = fmt::format("byteOffset {} and byteLength {} end at {}, but buffer {} has {} bytes", view.byte_offset,
+                                             view.byte_length, end, view.buffer, size);
+        if (used) refuse(fmt::format("bufferViews[{}]", i), what);
+        document.warn(fmt::format("bufferViews[{}]: {}; {}", i, what, kNothingUsesIt));
     }
 }
 
@@ -78,6 +89,15 @@ void fill_info(Document& document) {
     for (const std::string_view name : file.extensions_required) info.extensions_required.push_back(printable(name, 80));
 }
 
+JsonScanLimits scan_limits(const LoadOptions& options) { return {options.limits.max_json_depth, options.limits.max_json_tokens}; }
+
+/// The geometry that the file may have, by its size and that of the buffers read so far.
+void set_geometry_limit(Document& document) {
+    std::uint64_t size = document.file_bytes;
+    for (const auto& buffer : document.owned_buffers) size += buffer.size();
+    document.geometry.set_limit(std::min(document.options.limits.max_geometry_bytes, kFreeBytes + kBytesPerByte * size));
+}
+
 }  // namespace
 
 void Document::warn(std::string what) {
@@ -100,23 +120,50 @@ std::unique_ptr<Document> open_document(std::span<const std::byte> bytes, const 
     if (bytes.empty()) refuse("", "expected a glTF file, found no bytes at all");
     auto document = std::make_unique<Document>(options, base_dir);
     take(document->folder.check(), "");
-    GlbParts glb;
-    glb.json = bytes;
-    if (is_glb(bytes)) glb = take(split_glb(bytes), "");
-    for (std::string& warning : glb.warnings) document->warn(std::move(warning));
+    document->file_bytes = bytes.size();
+    document->glb.json = bytes;
+    if (is_glb(bytes)) document->glb = take(split_glb(bytes), "");
+    for (std::string& warning : document->glb.warnings) document->warn(std::move(warning));
 
-    const std::string_view text(reinterpret_cast<const char*>(glb.json.data()), glb.json.size());
-    const JsonScanLimits scan{options.limits.max_json_depth, options.limits.max_json_tokens};
-    document->file = read_gltf_json(text, scan, Budget("its objects", kFreeBytes + kBytesPerByte * text.size()), document->warnings);
-    load_buffers(*document, glb);
-    check_buffer_views(*document);
+    const std::string_view text(reinterpret_cast<const char*>(document->glb.json.data()), document->glb.json.size());
+    document->text = trimmed(text, document->warnings);
+    document->file = read_gltf_json(document->text, scan_limits(options), Budget("its objects", kFreeBytes + kBytesPerByte * text.size()),
+                                    document->notes);
+    check_extensions(*document);
     fill_info(*document);
-
-    std::uint64_t size = bytes.size();
-    for (const auto& buffer : document->owned_buffers) size += buffer.size();
-    document->geometry = Budget("the geometry", std::min(options.limits.max_geometry_bytes, kFreeBytes + kBytesPerByte * size));
+    set_geometry_limit(*document);
     document->encoded_images = Budget("reading the pictures", options.limits.max_total_bytes);
     return document;
+}
+
+void settle(Document& document, std::span<const int> drawn_nodes) {
+    document.used = find_used(document.file, drawn_nodes);
+    const auto drawn = [&](const Owner& owner) { return document.used.has(owner.target, owner.element); };
+    const JsonScanLimits limits = scan_limits(document.options);
+    for (const Note& fault : document.notes.faults)
+        if (drawn(fault.owner)) refuse_at(document.text, limits, fault.offset, fault.what, ErrorCode::bad_input);
+
+    std::vector<Note> notes = std::move(document.notes.warnings);
+    for (Note& fault : document.notes.faults) notes.push_back(std::move(fault));
+    const std::size_t most = std::min(notes.size(), Notes::kMostWarnings);
+    std::partial_sort(notes.begin(), notes.begin() + static_cast<std::ptrdiff_t>(most), notes.end(),
+                      [](const Note& a, const Note& b) { return a.offset < b.offset; });
+    document.warnings_left_out += document.notes.warnings_left_out + notes.size() - most;
+    notes.resize(most);
+    std::vector<std::size_t> offsets;
+    for (const Note& note : notes) offsets.push_back(note.offset);
+    const std::vector<std::string> paths = json_paths_at(document.text, offsets, limits);
+    for (std::size_t i = 0; i < notes.size(); ++i) {
+        const bool counts = notes[i].owner.target == Target::none || drawn(notes[i].owner);
+        document.warn(fmt::format("{}: {}, {}", printable(paths[i], 120), notes[i].what, counts ? notes[i].instead : kNothingUsesIt));
+    }
+    document.notes = {};
+}
+
+void load_buffers(Document& document) {
+    fetch_buffers(document);
+    check_buffer_views(document);
+    set_geometry_limit(document);
 }
 
 }  // namespace halflit::io::detail

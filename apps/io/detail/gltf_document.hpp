@@ -1,11 +1,15 @@
 // A glTF file while it is loaded: its parsed JSON, its buffers, and the warnings.
 #pragma once
 
+#include "apps/io/detail/glb_container.hpp"
 #include "apps/io/detail/gltf_file.hpp"
+#include "apps/io/detail/gltf_notes.hpp"
+#include "apps/io/detail/gltf_used.hpp"
 #include "apps/io/detail/load_failure.hpp"
 #include "apps/io/file_access.hpp"
 #include "halflit/gltf.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -18,23 +22,38 @@ namespace halflit::io::detail {
 struct Document {
     const LoadOptions& options;
     ModelFolder folder;
+    std::string_view text;  ///< the JSON text
+    Notes notes;            ///< what read_gltf_json found
+    GlbParts glb;
     file::File file;
-    std::vector<std::span<const std::byte>> buffers;  ///< byteLength bytes each
+    Used used;                                        ///< what the drawn nodes use; empty until settle() has run
+    std::vector<std::span<const std::byte>> buffers;  ///< byteLength bytes each; those that nothing drawn uses are empty
     std::vector<std::vector<std::byte>> owned_buffers;
     std::vector<std::string> warnings;
     std::size_t warnings_left_out = 0;
     SceneInfo info;
-    Budget geometry, encoded_images;
+    std::uint64_t file_bytes = 0;  ///< of the model's own file
+    Budget geometry{"the geometry", 0}, encoded_images;
 
     Document(const LoadOptions& load_options, const std::string& base_dir)
         : options(load_options), folder(base_dir, load_options.allow_external) {}
 
     /// Adds a warning; the first hundred different ones are kept.
     void warn(std::string what);
-    [[nodiscard]] const std::byte* view_data(int buffer_view) const;  ///< requires: check_buffer_views has run
+    [[nodiscard]] bool warnings_are_full() const { return warnings_left_out > 0; }
+    [[nodiscard]] const std::byte* view_data(int buffer_view) const;  ///< requires: check_buffer_views has run, and the view is used
 };
 
-/// Parses, checks and fetches buffers; throws LoadFailure. `bytes` must outlive the document.
+/// Words of a warning of a fault that does not touch the picture.
+inline constexpr const char* kNothingUsesIt = "nothing that is drawn uses it";
+
+/// Parses the text; throws LoadFailure. `bytes` must outlive the document.
 std::unique_ptr<Document> open_document(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options);
+
+/// Refuses the file for the first fault of an element that the drawn nodes use, and warns of all else that was noted.
+void settle(Document& document, std::span<const int> drawn_nodes);
+
+/// Fetches the buffers that are used, and checks the bufferViews. Throws LoadFailure.
+void load_buffers(Document& document);
 
 }  // namespace halflit::io::detail

@@ -103,6 +103,7 @@ struct Light {
 
 struct Image {
     std::optional<std::string_view> uri;
+    std::string_view mime_type;
     int buffer_view = -1;
 };
 

@@ -41,6 +41,7 @@ Texture ImageStore::make(int image, ColorSpace space) {
     std::string where = fmt::format("images[{}]", image);
     std::vector<std::byte> owned;
     std::span<const std::byte> bytes;
+    if (entry.buffer_view >= 0 && entry.uri) refuse(where, "has both a uri and a bufferView, which exclude each other");
     if (entry.buffer_view >= 0) {
         const file::BufferView& view = document_.file.buffer_views[static_cast<std::size_t>(entry.buffer_view)];
         bytes = {document_.view_data(entry.buffer_view), static_cast<std::size_t>(view.byte_length)};
@@ -58,6 +59,9 @@ Texture ImageStore::make(int image, ColorSpace space) {
 
     const ImageLimits image_limits{limits.max_texture_side, limits.max_texture_pixels, limits.max_jpeg_scans};
     const ImageHeader header = take(read_image_header(bytes, image_limits), where);
+    const std::string_view type = header.format == ImageFormat::png ? "image/png" : "image/jpeg";
+    if (!entry.mime_type.empty() && entry.mime_type != type)
+        document_.warn(fmt::format("images[{}].mimeType: is \"{}\", but the picture is {}", image, printable(entry.mime_type, 40), type));
     if (texture_bytes(header) > texture_memory_.left())
         refuse(where, fmt::format("the textures would take more than {} MB, which is the limit", limits.max_texture_bytes >> 20),
                ErrorCode::limit);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/io/detail/gltf_file.hpp"
+#include "apps/io/detail/gltf_notes.hpp"
 #include "apps/io/detail/json_scan.hpp"
 #include "apps/io/detail/load_failure.hpp"
 
@@ -11,8 +12,15 @@
 
 namespace halflit::io::detail {
 
-/// `text` must outlive the result, whose names point into it. Faults name path, line and column; no message has a file prefix.
-/// Throws LoadFailure. Takes the memory of all objects from `memory`.
-file::File read_gltf_json(std::string_view text, const JsonScanLimits& limits, Budget memory, std::vector<std::string>& warnings);
+/// `text` must outlive the result, whose names point into it, and begins after its byte order mark. Faults of elements go to `notes`;
+/// the values that they concern have their defaults, and indices among them may be out of range, except those of scene and children.
+/// Throws LoadFailure for other faults, with path, line and column. Takes the memory of all objects from `memory`.
+file::File read_gltf_json(std::string_view text, const JsonScanLimits& limits, Budget memory, Notes& notes);
+
+/// The JSON text without what glTF forbids before and after it: a byte order mark, which is warned of, and zeros.
+std::string_view trimmed(std::string_view text, std::vector<std::string>& warnings);
+
+/// Throws LoadFailure with path, line and column of `offset`.
+[[noreturn]] void refuse_at(std::string_view text, const JsonScanLimits& limits, std::size_t offset, std::string_view what, ErrorCode code);
 
 }  // namespace halflit::io::detail

@@ -23,21 +23,19 @@ double number_at(const std::vector<double>& values, std::size_t index, double ot
 
 // glTF 2.0, sampler: codes of OpenGL.
 constexpr int kNearest = 9728, kLinear = 9729, kNearestMipmapNearest = 9984, kLinearMipmapNearest = 9985, kNearestMipmapLinear = 9986;
-constexpr int kClampToEdge = 33071, kMirroredRepeat = 33648, kRepeat = 10497;
+constexpr int kClampToEdge = 33071, kMirroredRepeat = 33648;
 
-TextureWrap wrap_of(Document& document, int code) {
+TextureWrap wrap_of(int code) {
     if (code == kClampToEdge) return TextureWrap::clamp;
-    if (code == kMirroredRepeat) return TextureWrap::mirror;
-    if (code != kRepeat) document.warn(fmt::format("samplers: unknown wrap mode {}, drawn as repeat", code));
-    return TextureWrap::repeat;
+    return code == kMirroredRepeat ? TextureWrap::mirror : TextureWrap::repeat;
 }
 
-Sampler sampler_of(Document& document, int index) {
+Sampler sampler_of(const Document& document, int index) {
     Sampler sampler;
     if (index < 0) return sampler;
     const file::Sampler& source = document.file.samplers[static_cast<std::size_t>(index)];
-    sampler.wrap_u = wrap_of(document, source.wrap_s);
-    sampler.wrap_v = wrap_of(document, source.wrap_t);
+    sampler.wrap_u = wrap_of(source.wrap_s);
+    sampler.wrap_v = wrap_of(source.wrap_t);
     sampler.mag = source.mag_filter == kNearest ? TextureFilter::nearest : TextureFilter::linear;
     using enum MipFilter;
     switch (source.min_filter) {
@@ -81,7 +79,7 @@ class MaterialMaker {
 public:
     MaterialMaker(Document& document, ImageStore& images) : document_(document), images_(images) {}
 
-    Material make(std::size_t index, bool with_textures) {
+    Material make(std::size_t index, bool used) {
         const file::Material& source = document_.file.materials[index];
         where_ = fmt::format("materials[{}]", index);
         Material material;
@@ -101,13 +99,11 @@ public:
             material.alpha_mode = AlphaMode::mask;
         else if (source.alpha_mode == "BLEND")
             material.alpha_mode = AlphaMode::blend;
-        else if (source.alpha_mode != "OPAQUE")
-            document_.warn(fmt::format("{}.alphaMode: \"{}\" is unknown, drawn as OPAQUE", where_, printable(source.alpha_mode, 40)));
         material.alpha_cutoff = static_cast<float>(std::clamp(source.alpha_cutoff, 0.0, 1e6));
         material.double_sided = source.double_sided;
         material.unlit = source.unlit;
-        if (source.own_lobe) own_lobe(*source.own_lobe, material);
-        if (with_textures) {
+        if (source.own_lobe) own_lobe(*source.own_lobe, material, used);
+        if (used) {
             material.base_color_texture = use(source.base_color_texture, "pbrMetallicRoughness.baseColorTexture", ColorSpace::srgb);
             material.emissive_texture = use(source.emissive_texture, "emissiveTexture", ColorSpace::srgb);
             material.metallic_roughness_texture =
@@ -130,7 +126,9 @@ private:
         int uv_set = info.tex_coord;
         if (info.transform) apply_transform(*info.transform, use, uv_set);
         if (uv_set > 1) {
-            document_.warn(fmt::format("{}.{}: texCoord {} is not supported (0 and 1 are), left out", where_, key, uv_set));
+            const bool own = !info.transform || info.transform->tex_coord < 0;
+            document_.warn(fmt::format("{}.{}.{}texCoord: set {} is not supported (0 and 1 are), the texture is left out", where_, key,
+                                       own ? "" : "extensions.KHR_texture_transform.", uv_set));
             return use;
         }
         use.uv_set = uv_set;
@@ -140,9 +138,10 @@ private:
     }
 
     /// extras.halflit = {"lobe": "sloan", "wrap": 0.5, "power": 1.5, "normalize": true}
-    void own_lobe(const file::OwnLobe& own, Material& material) const {
+    void own_lobe(const file::OwnLobe& own, Material& material, bool used) const {
         const auto lobe = lobe_from_name(own.name, own.parameters);
-        if (!lobe) refuse(where_ + ".extras.halflit", lobe.error().message);
+        if (!lobe && used) refuse(where_ + ".extras.halflit", lobe.error().message);
+        if (!lobe) return document_.warn(fmt::format("{}.extras.halflit: {}, {}", where_, lobe.error().message, kNothingUsesIt));
         material.lobe = *lobe;
         material.has_own_lobe = true;
     }

@@ -21,13 +21,16 @@ public:
           tree_(tree),
           scene_(loaded.scene),
           nodes_(loaded.nodes),
-          reader_(document, accessors) {}
+          reader_(document, accessors),
+          mesh_checked_(document.file.meshes.size(), false) {}
 
     void run() {
         for (const int node : tree_.drawn)
             if (document_.file.nodes[static_cast<std::size_t>(node)].mesh >= 0) place(static_cast<std::size_t>(node));
-        if (document_.info.point_and_line_primitives > 0)
-            document_.warn(fmt::format("{} primitives are points or lines, which are not drawn", document_.info.point_and_line_primitives));
+        if (const std::size_t count = document_.info.point_and_line_primitives; count > 0)
+            document_.warn(count == 1 ? fmt::format("{}.mode: points and lines are not drawn", reader_.first_left_out())
+                                      : fmt::format("{}.mode: points and lines are not drawn, here and in {} more primitives",
+                                                    reader_.first_left_out(), count - 1));
     }
 
 private:
@@ -43,6 +46,7 @@ private:
         const auto own = std::span(document_.file.weights).subspan(node.weights.first, node.weights.count);
         std::vector<double> weights = own.empty() ? mesh.weights : std::vector(own.begin(), own.end());
         while (!weights.empty() && weights.back() == 0.0) weights.pop_back();
+        check_weights(index);
         const auto [entry, is_new] = made_.try_emplace(Key{node.mesh, node.skin, std::move(weights)});
         if (is_new) entry->second = make(static_cast<std::size_t>(node.mesh), node.skin, std::get<2>(entry->first));
 
@@ -58,6 +62,29 @@ private:
             scene_.instances.push_back({m, made.in_world ? Mat4{} : to_mat4(world)});
             document_.info.triangles_drawn += scene_.meshes[static_cast<std::size_t>(m)].indices.size() / 3;
         }
+    }
+
+    /// Each primitive of a mesh has the same number of morph targets, and each list of weights that number of entries.
+    void check_weights(std::size_t index) {
+        const file::Node& node = document_.file.nodes[index];
+        const auto mesh_index = static_cast<std::size_t>(node.mesh);
+        const file::Mesh& mesh = document_.file.meshes[mesh_index];
+        if (mesh.primitives.empty() || document_.warnings_are_full()) return;
+        const std::size_t targets = mesh.primitives.front().targets.size();
+        const auto check = [&](const std::string& where, std::size_t weights) {
+            if (weights > 0 && weights != targets)
+                document_.warn(fmt::format("{}.weights: expected {} entries, one for each morph target, found {}; {}", where, targets,
+                                           weights, weights < targets ? "the others count as 0" : "the last ones are ignored"));
+        };
+        if (node.weights.count > 0) check(fmt::format("nodes[{}]", index), node.weights.count);
+        if (mesh_checked_[mesh_index]) return;
+        mesh_checked_[mesh_index] = true;
+        check(fmt::format("meshes[{}]", mesh_index), mesh.weights.size());
+        for (std::size_t p = 1; p < mesh.primitives.size(); ++p)
+            if (mesh.primitives[p].targets.size() != targets)
+                document_.warn(
+                    fmt::format("meshes[{}].primitives[{}].targets: expected {} morph targets as in the first primitive, found {}",
+                                mesh_index, p, targets, mesh.primitives[p].targets.size()));
     }
 
     Made make(std::size_t mesh, int skin, const std::vector<double>& weights) {
@@ -90,16 +117,31 @@ private:
                                     (24 + (mesh.uv0.empty() ? 0 : 8) + (mesh.uv1.empty() ? 0 : 8) + (mesh.colors.empty() ? 0 : 16)));
             generate_flat_normals(mesh);
         }
-        if (mesh.material < 0 || !mesh.tangents.empty()) return;
+        if (mesh.material < 0) return;
+        check_texture_coordinates(read);
+        if (!mesh.tangents.empty()) return;
         const TextureUse& normal_map = scene_.materials[static_cast<std::size_t>(mesh.material)].normal_texture;
         if (!normal_map.used()) return;
-        if ((normal_map.uv_set == 1 ? mesh.uv1 : mesh.uv0).empty()) {
-            document_.warn(
-                fmt::format("{}: the material has a normal texture, but the mesh has no TEXCOORD_{}", read.where, normal_map.uv_set));
-            return;
-        }
+        if ((normal_map.uv_set == 1 ? mesh.uv1 : mesh.uv0).empty()) return;
         document_.geometry.take(corners * 16);
         generate_tangents(mesh, normal_map.uv_set);
+    }
+
+    /// Warns of textures of the material for which the mesh has no coordinates.
+    void check_texture_coordinates(const ReadMesh& read) {
+        const Material& material = scene_.materials[static_cast<std::size_t>(read.mesh.material)];
+        const std::pair<const TextureUse*, const char*> places[] = {
+            {&material.base_color_texture, "pbrMetallicRoughness.baseColorTexture"},
+            {&material.metallic_roughness_texture, "pbrMetallicRoughness.metallicRoughnessTexture"},
+            {&material.normal_texture, "normalTexture"},
+            {&material.occlusion_texture, "occlusionTexture"},
+            {&material.emissive_texture, "emissiveTexture"}};
+        for (const auto& [use, key] : places)
+            if (use->used() && (use->uv_set == 1 ? read.mesh.uv1 : read.mesh.uv0).empty() && !document_.warnings_are_full())
+                document_.warn(fmt::format("materials[{}].{}: {} has no TEXCOORD_{}, {}", read.mesh.material, key, read.where, use->uv_set,
+                                           use == &material.normal_texture && read.mesh.tangents.empty()
+                                               ? "drawn without it"
+                                               : "drawn with the colour at (0, 0)"));
     }
 
     Document& document_;
@@ -109,6 +151,7 @@ private:
     std::vector<Node>& nodes_;
     PrimitiveReader reader_;
     std::map<Key, Made> made_;
+    std::vector<bool> mesh_checked_;
 };
 
 }  // namespace

@@ -36,7 +36,9 @@ std::vector<int> find_parents(const file::File& file) {
 /// Appends the trees of `roots`, parents first and children in their order. Leaves out nodes that are marked in `seen`, and marks the
 /// others.
 void append_trees(const file::File& file, const std::vector<int>& roots, std::vector<bool>& seen, std::vector<int>& out) {
-    std::vector<int> open(roots.rbegin(), roots.rend());
+    std::vector<int> open;
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root)
+        if (static_cast<std::size_t>(*root) < seen.size()) open.push_back(*root);  // others are faults already
     while (!open.empty()) {
         const int node = open.back();
         open.pop_back();
@@ -48,9 +50,25 @@ void append_trees(const file::File& file, const std::vector<int>& roots, std::ve
     }
 }
 
+/// Warns of nodes that a scene lists though they are no roots, and of nodes that it lists twice.
+void check_roots(Document& document, std::size_t scene, const std::vector<int>& parent) {
+    const std::vector<int>& roots = document.file.scenes[scene].nodes;
+    std::vector<bool> seen(parent.size(), false);
+    for (std::size_t i = 0; i < roots.size(); ++i) {
+        const auto node = static_cast<std::size_t>(roots[i]);
+        if (node >= parent.size()) continue;
+        if (seen[node] && !document.warnings_are_full())
+            document.warn(fmt::format("scenes[{}].nodes[{}]: node {} is there twice, drawn once", scene, i, node));
+        else if (parent[node] >= 0 && !document.warnings_are_full())
+            document.warn(fmt::format("scenes[{}].nodes[{}]: node {} is a child of node {}, expected a root; drawn in its parent's space",
+                                      scene, i, node, parent[node]));
+        seen[node] = true;
+    }
+}
+
 }  // namespace
 
-NodeTree place_nodes(const Document& document) {
+NodeTree place_nodes(Document& document) {
     const file::File& file = document.file;
     const std::vector<file::Node>& nodes = file.nodes;
     NodeTree tree;
@@ -74,6 +92,7 @@ NodeTree place_nodes(const Document& document) {
         tree.drawn = std::move(order);
     } else {
         const std::size_t scene = static_cast<std::size_t>(std::max(file.scene, 0));
+        check_roots(document, scene, parent);
         seen.assign(nodes.size(), false);
         append_trees(file, file.scenes[scene].nodes, seen, tree.drawn);
     }

@@ -16,7 +16,7 @@ struct NodeTree {
 
 /// Places all nodes. Those of the default scene are drawn; without one those of the first scene, and all nodes if the file has no scenes.
 /// Throws LoadFailure for a cycle or a node with two parents.
-NodeTree place_nodes(const Document& document);
+NodeTree place_nodes(Document& document);
 
 /// All nodes of the file, as a host poses them. They place nothing yet.
 std::vector<Node> make_nodes(Document& document, const NodeTree& tree);

@@ -1,6 +1,5 @@
 #include "apps/io/detail/gltf_placed.hpp"
 
-#include "apps/io/text.hpp"
 #include "sh/trig.hpp"
 
 #include <fmt/format.h>
@@ -87,7 +86,11 @@ void place_cameras(Document& document, const NodeTree& tree, LoadedScene& loaded
         Camera camera;
         const Affine& world = tree.world_from_node[static_cast<std::size_t>(n)];
         if (!is_finite(world) || !set_projection(source, camera)) {
-            document.warn(fmt::format("cameras[{}]: its projection or its node's transform is not valid, left out", node.camera));
+            // A value of the projection that is out of range has been warned of.
+            const std::string of_values = fmt::format("cameras[{}].", node.camera);
+            if (std::none_of(document.warnings.begin(), document.warnings.end(),
+                             [&](const std::string& w) { return w.starts_with(of_values); }))
+                document.warn(fmt::format("cameras[{}]: its projection or its node's transform is not valid, left out", node.camera));
             continue;
         }
         camera.name = source.name.empty() ? node.name : source.name;
@@ -107,9 +110,8 @@ void place_lights(Document& document, const NodeTree& tree, LoadedScene& loaded)
         std::optional<Light> light = light_of(source);
         const Affine& world = tree.world_from_node[static_cast<std::size_t>(n)];
         if (!light || !is_finite(world)) {
-            document.warn(!light ? fmt::format("lights[{}]: the type \"{}\" is unknown, left out", node.light, printable(source.type, 40))
-                                 : fmt::format("nodes[{}]: its transform is not finite, its light is left out", n));
-            continue;
+            if (light) document.warn(fmt::format("nodes[{}]: its transform is not finite, its light is left out", n));
+            continue;  // a type that is unknown has been warned of
         }
         place(world, *light);
         if (lights.size() >= document.options.limits.max_lights)

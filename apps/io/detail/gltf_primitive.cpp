@@ -1,5 +1,7 @@
 #include "apps/io/detail/gltf_primitive.hpp"
 
+#include "apps/io/detail/gltf_vertex_values.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -76,25 +78,43 @@ std::vector<std::uint32_t> as_triangles(file::Mode mode, std::vector<std::uint32
 PrimitiveReader::PrimitiveReader(Document& document, const std::vector<Accessor>& accessors)
     : document_(document), accessors_(accessors), quantized_(document.file.uses("KHR_mesh_quantization")) {}
 
-const Accessor* PrimitiveReader::attribute(const std::string& where, const file::Attributes& attributes, const AttributeRule& rule,
-                                           std::optional<std::size_t> count) const {
+const Accessor* PrimitiveReader::attribute(const std::string& list, const file::Attributes& attributes, const AttributeRule& rule,
+                                           std::optional<std::size_t> count) {
     const int found = file::find(attributes, rule.name);
     if (found < 0) return nullptr;
     const Accessor& accessor = accessors_[static_cast<std::size_t>(found)];
+    const std::string where = fmt::format("{}.{}", list, rule.name);
     if (accessor.components() < rule.min_components || accessor.components() > rule.max_components)
-        refuse(where, fmt::format("{} ({}): expected {} components, found {}", rule.name, accessor.name(), rule.max_components,
-                                  accessor.components()));
+        refuse(where, fmt::format("{}: expected {} components, found {}", accessor.name(), rule.max_components, accessor.components()));
     const Component type = accessor.component();
     const bool base = contains(accessor.normalized() && type != f32 ? rule.normalized : rule.plain, type);
     const bool more = contains(accessor.normalized() ? rule.more_normalized : rule.more_plain, type);
     if (!base && !(more && quantized_))
-        refuse(where, fmt::format("{} ({}): found {}component type {}, which glTF does not allow here{}", rule.name, accessor.name(),
+        refuse(where, fmt::format("{}: found {}component type {}, which glTF does not allow here{}", accessor.name(),
                                   accessor.normalized() ? "normalized " : "", static_cast<int>(type),
                                   more ? " without KHR_mesh_quantization" : ""));
     if (count && accessor.count() != *count)
-        refuse(where,
-               fmt::format("{} ({}): expected {} elements as in POSITION, found {}", rule.name, accessor.name(), *count, accessor.count()));
+        refuse(where, fmt::format("{}: expected {} elements as in POSITION, found {}", accessor.name(), *count, accessor.count()));
+    warn_of_layout(where, found);
     return &accessor;
+}
+
+/// Vertex attributes lie at multiples of 4 bytes, and those that share a bufferView have a stride (glTF 2.0, 3.6.1.1 and 3.6.2.4).
+void PrimitiveReader::warn_of_layout(const std::string& where, int index) {
+    const file::Accessor& source = document_.file.accessors[static_cast<std::size_t>(index)];
+    if (source.buffer_view < 0 || document_.warnings_are_full()) return;
+    const Accessor& accessor = accessors_[static_cast<std::size_t>(index)];
+    if (source.byte_offset % 4 != 0 && size_of(accessor.component()) < 4)
+        document_.warn(fmt::format("{}.byteOffset: expected a multiple of 4 for vertices, found {}, read as it is", accessor.name(),
+                                   source.byte_offset));
+    if (accessor.stride() % 4 != 0)
+        document_.warn(fmt::format("{}: {}: the elements are {} bytes apart, expected a multiple of 4; read as they are", where,
+                                   accessor.name(), accessor.stride()));
+    const auto view = static_cast<std::size_t>(source.buffer_view);
+    if (document_.file.buffer_views[view].byte_stride != 0) return;
+    if (const auto [first, is_new] = attribute_of_view_.try_emplace(view, index); !is_new && first->second != index)
+        document_.warn(fmt::format(
+            "bufferViews[{}].byteStride: is not there, but several vertex attributes share the bufferView; read as packed", view));
 }
 
 std::vector<std::uint32_t> PrimitiveReader::triangle_indices(const file::Primitive& primitive, const std::string& where,
@@ -108,6 +128,9 @@ std::vector<std::uint32_t> PrimitiveReader::triangle_indices(const file::Primiti
             refuse(where + ".indices", fmt::format("{}: expected unsigned integers of one component, found {} of component type {}",
                                                    accessor->name(), accessor->components(), static_cast<int>(type)));
         count = accessor->count();
+        const file::Accessor& source = document_.file.accessors[static_cast<std::size_t>(primitive.indices)];
+        if (source.buffer_view >= 0 && document_.file.buffer_views[static_cast<std::size_t>(source.buffer_view)].byte_stride != 0)
+            document_.warn(fmt::format("bufferViews[{}].byteStride: expected none for indices, read with it", source.buffer_view));
     }
     const std::size_t most = mode == file::Mode::triangles ? kMaxIndices : kMaxIndices / 3;
     if (count > most) refuse(where, fmt::format("{} indices, the limit is {}", count, most), ErrorCode::limit);
@@ -124,7 +147,8 @@ std::vector<std::uint32_t> PrimitiveReader::triangle_indices(const file::Primiti
             if (run[i] < vertex_count && run[i] != restart) continue;
             if (!document_.options.lenient)
                 refuse(where + ".indices",
-                       fmt::format("{}: entry {} is {}, but there are {} vertices", accessor->name(), i, run[i], vertex_count));
+                       fmt::format("{}: entry {} is {}, {}", accessor->name(), i, run[i],
+                                   run[i] < vertex_count ? "which glTF reserves" : fmt::format("but there are {} vertices", vertex_count)));
             run[i] = 0xFFFFFFFFu;
         }
     }
@@ -177,7 +201,7 @@ std::vector<std::uint32_t> PrimitiveReader::gather_vertices(std::vector<std::uin
 }
 
 void PrimitiveReader::morph(const file::Primitive& primitive, const std::string& where, std::size_t vertex_count,
-                            std::span<const double> weights, ReadMesh& out) const {
+                            std::span<const double> weights, ReadMesh& out) {
     for (std::size_t t = 0; t < std::min(primitive.targets.size(), weights.size()); ++t) {
         const auto weight = static_cast<float>(std::clamp(weights[t], -1e30, 1e30));
         if (weight == 0.0f) continue;
@@ -206,21 +230,22 @@ std::optional<ReadMesh> PrimitiveReader::read(std::size_t mesh_index, std::size_
     if (primitive.mode > static_cast<int>(file::Mode::triangle_fan))
         refuse(out.where + ".mode", fmt::format("expected 0 to 6, found {}", primitive.mode));
     if (!file::draws_triangles(primitive)) {
-        ++document_.info.point_and_line_primitives;
+        if (document_.info.point_and_line_primitives++ == 0) first_left_out_ = out.where;
         return std::nullopt;
     }
-    const Accessor* position = attribute(out.where, primitive.attributes, kPosition, std::nullopt);
+    const std::string list = out.where + ".attributes";
+    const Accessor* position = attribute(list, primitive.attributes, kPosition, std::nullopt);
     if (position == nullptr) {
         document_.warn(fmt::format("{}: has no POSITION, not drawn", out.where));
         return std::nullopt;
     }
     const std::size_t count = position->count();
     if (count > kMaxIndices) refuse(out.where, fmt::format("{} vertices, the limit is {}", count, kMaxIndices), ErrorCode::limit);
-    const Accessor* normal = attribute(out.where, primitive.attributes, kNormal, count);
-    const Accessor* tangent = normal == nullptr ? nullptr : attribute(out.where, primitive.attributes, kTangent, count);
-    const Accessor* uv0 = attribute(out.where, primitive.attributes, kUv0, count);
-    const Accessor* uv1 = attribute(out.where, primitive.attributes, kUv1, count);
-    const Accessor* color = attribute(out.where, primitive.attributes, kColor, count);
+    const Accessor* normal = attribute(list, primitive.attributes, kNormal, count);
+    const Accessor* tangent = normal == nullptr ? nullptr : attribute(list, primitive.attributes, kTangent, count);
+    const Accessor* uv0 = attribute(list, primitive.attributes, kUv0, count);
+    const Accessor* uv1 = attribute(list, primitive.attributes, kUv1, count);
+    const Accessor* color = attribute(list, primitive.attributes, kColor, count);
 
     Mesh& mesh = out.mesh;
     mesh.name = document_.file.meshes[mesh_index].name;
@@ -240,6 +265,7 @@ std::optional<ReadMesh> PrimitiveReader::read(std::size_t mesh_index, std::size_
     if (uv0 != nullptr) mesh.uv0 = read_vec2(*uv0, vertices);
     if (uv1 != nullptr) mesh.uv1 = read_vec2(*uv1, vertices);
     if (color != nullptr) mesh.colors = read_vec4(*color, vertices, 1.0f);
+    warn_of_values(document_, list, mesh);
     morph(primitive, out.where, count, morph_weights, out);
     for (Vec4f& t : mesh.tangents) t.w = t.w < 0.0f ? -1.0f : 1.0f;
     return out;

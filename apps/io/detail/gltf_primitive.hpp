@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace halflit::io::detail {
@@ -32,20 +33,26 @@ public:
     /// Reads a primitive; empty if there is nothing to draw (points, lines, no positions, no triangles). `morph_weights` may be empty.
     std::optional<ReadMesh> read(std::size_t mesh, std::size_t primitive, std::span<const double> morph_weights);
 
-    /// The accessor of an attribute, or null if there is none. Throws if its type or its count is wrong.
-    [[nodiscard]] const Accessor* attribute(const std::string& where, const file::Attributes& attributes, const AttributeRule& rule,
-                                            std::optional<std::size_t> count) const;
+    /// The accessor of an attribute in `list` ("meshes[0].primitives[1].attributes"), or null if there is none. Throws if its type or its
+    /// count is wrong.
+    [[nodiscard]] const Accessor* attribute(const std::string& list, const file::Attributes& attributes, const AttributeRule& rule,
+                                            std::optional<std::size_t> count);
+
+    [[nodiscard]] const std::string& first_left_out() const { return first_left_out_; }  ///< the first primitive of points or lines
 
 private:
+    void warn_of_layout(const std::string& where, int accessor);
     std::vector<std::uint32_t> triangle_indices(const file::Primitive& primitive, const std::string& where, std::size_t vertex_count);
     std::vector<std::uint32_t> gather_vertices(std::vector<std::uint32_t>& indices, std::size_t vertex_count);
     void morph(const file::Primitive& primitive, const std::string& where, std::size_t vertex_count, std::span<const double> weights,
-               ReadMesh& out) const;
+               ReadMesh& out);
 
     Document& document_;
     const std::vector<Accessor>& accessors_;
     bool quantized_ = false;
-    std::vector<std::uint32_t> new_number_, stamp_of_;  // indexed by the file's vertex; a number is valid if its stamp is stamp_
+    std::string first_left_out_;
+    std::unordered_map<std::size_t, int> attribute_of_view_;  // the first accessor of vertices in each bufferView
+    std::vector<std::uint32_t> new_number_, stamp_of_;        // indexed by the file's vertex; a number is valid if its stamp is stamp_
     std::uint32_t stamp_ = 0;
 };
 

@@ -32,6 +32,9 @@ private:
         node.end = row.end;
         node.length = row.length;
         node.closed = row.closed;
+        node.mild = row.mild;
+        node.ranged = row.ranged;
+        node.range = row.range;
         node.required = row.path.back() == '!';
     }
 
@@ -102,6 +105,15 @@ std::size_t count_of(Target target, const file::File& file) {
             return file.textures.size();
     }
     return 0;
+}
+
+bool Range::holds(double value) const {
+    if (codes != nullptr) {
+        const int* code = codes;
+        while (*code >= 0 && static_cast<double>(*code) != value) ++code;
+        return *code >= 0;
+    }
+    return (low_open ? value > low : value >= low) && (high_open ? value < high : value <= high);
 }
 
 int SchemaNode::find(std::string_view key) const {

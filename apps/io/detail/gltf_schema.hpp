@@ -2,11 +2,12 @@
 // to, and the place of each value in a file::File.
 #pragma once
 
-#include "apps/io/detail/gltf_file.hpp"
+#include "apps/io/detail/gltf_target.hpp"
 #include "apps/io/detail/json_scan.hpp"
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -14,27 +15,6 @@
 namespace halflit::io::detail {
 
 class GltfFiller;
-
-/// Arrays that other parts refer to by index.
-enum class Target : std::uint8_t {
-    none,
-    accessors,
-    buffers,
-    buffer_views,
-    cameras,
-    images,
-    lights,
-    materials,
-    meshes,
-    nodes,
-    samplers,
-    scenes,
-    skins,
-    textures
-};
-
-[[nodiscard]] const char* name_of(Target target);  ///< "accessors"
-[[nodiscard]] std::size_t count_of(Target target, const file::File& file);
 
 enum class Rule : std::uint8_t {
     any,
@@ -52,11 +32,24 @@ enum class Rule : std::uint8_t {
 /// Takes a value, or the start or the end of an object or array. For these, `value` holds only type and offset.
 using Action = void (*)(GltfFiller& filler, const JsonValue& value);
 
+/// Values that a number may have. One outside is warned of, with what is done instead.
+struct Range {
+    double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+    bool low_open = false, high_open = false;
+    const int* codes = nullptr;     ///< the values that are allowed, ended by -1; null: all of the interval
+    const char* instead = nullptr;  ///< the value is not stored, and this is said; null: the nearest end of the interval is stored
+
+    [[nodiscard]] bool holds(double value) const;
+};
+
 struct SchemaNode {
     Rule rule = Rule::any;
     Target target = Target::none;
-    bool required = false;   ///< within its parent object
-    bool closed = false;     ///< an object that refuses keys outside `members`
+    bool required = false;  ///< within its parent object
+    bool closed = false;    ///< an object that refuses keys outside `members`
+    bool mild = false;      ///< nothing that is drawn depends on it: a wrong type or index is warned of
+    bool ranged = false;    ///< `range` restricts the value
+    Range range;
     std::size_t length = 0;  ///< elements of an array; 0: any number
     Action put = nullptr, end = nullptr;
     std::uint32_t required_mask = 0;    ///< bit i: members[i] is required
@@ -71,10 +64,13 @@ struct SchemaRow {
     std::string_view path;  ///< '/' between keys; '#': each element of an array; '*': each member of an object; "!" at the end: required
     Rule rule;
     Action put = nullptr;
-    Target target = Target::none;
+    Target target = Target::none;  ///< of an index: what it refers to; of an object: the array whose element it is
     Action end = nullptr;
     std::size_t length = 0;
     bool closed = false;
+    bool mild = false;
+    bool ranged = false;
+    Range range{};
 };
 
 [[nodiscard]] const SchemaNode& gltf_schema();  ///< the root; made once

@@ -1,170 +1,45 @@
 #include "apps/io/detail/gltf_schema_rows.hpp"
 
-#include "apps/io/detail/gltf_filler.hpp"
-#include "apps/io/detail/gltf_node_transform.hpp"
-#include "apps/io/text.hpp"
-
-#include <fmt/format.h>
+#include "apps/io/detail/gltf_schema_actions.hpp"
 
 namespace halflit::io::detail {
 
 namespace {
 
 using enum Rule;
-using file::File;
-using F = GltfFiller&;
-using V = const JsonValue&;
+using namespace actions;
 
-[[noreturn]] void fault(V value, std::string what) { throw JsonFault{ErrorCode::bad_input, value.offset, std::move(what)}; }
+// glTF 2.0, sampler: codes of OpenGL.
+constexpr int kMagFilters[] = {9728, 9729, -1}, kMinFilters[] = {9728, 9729, 9984, 9985, 9986, 9987, -1},
+              kWraps[] = {33071, 33648, 10497, -1};
 
-void assign(F, int& out, V value) { out = static_cast<int>(value.number); }
-void assign(F, std::uint64_t& out, V value) { out = static_cast<std::uint64_t>(value.number); }
-void assign(F, double& out, V value) { out = value.number; }
-void assign(F, bool& out, V value) { out = value.truth; }
-void assign(F f, std::string_view& out, V value) { out = f.keep(value); }
-void assign(F f, std::optional<std::string_view>& out, V value) { out = f.keep(value); }
-template <class T>
-void assign(F f, std::vector<T>& out, V value) {
-    assign(f, f.append(out), value);
+constexpr SchemaRow restricted(SchemaRow row, Range range) {
+    row.ranged = true;
+    row.range = range;
+    return row;
+}
+/// The nearest value of [low, high] is drawn.
+constexpr SchemaRow within(double low, double high, SchemaRow row) { return restricted(row, {.low = low, .high = high}); }
+constexpr SchemaRow at_least(double low, SchemaRow row, const char* instead = nullptr) {
+    return restricted(row, {.low = low, .instead = instead});
+}
+constexpr SchemaRow above(double low, const char* instead, SchemaRow row) {
+    return restricted(row, {.low = low, .low_open = true, .instead = instead});
+}
+constexpr SchemaRow one_of(const int* codes, const char* instead, SchemaRow row) {
+    return restricted(row, {.codes = codes, .instead = instead});
+}
+constexpr SchemaRow mild(SchemaRow row) {
+    row.mild = true;
+    return row;
 }
 
-/// Appends an element to a list of the file.
-template <auto List>
-void add(F f, V) {
-    f.append(f.file.*List);
-}
-
-/// Stores a value in a member of the list's last element; a member that is a list itself has it appended.
-template <auto List, auto Member>
-void put(F f, V value) {
-    assign(f, (f.file.*List).back().*Member, value);
-}
-
-template <auto Member>
-void put_file(F f, V value) {
-    assign(f, f.file.*Member, value);
-}
-
-template <auto Member>
-void put_sparse(F f, V value) {
-    assign(f, f.file.sparse.back().*Member, value);
-}
-
-template <auto Member>
-void put_primitive(F f, V value) {
-    assign(f, f.file.meshes.back().primitives.back().*Member, value);
-}
-
-/// Appends a number to the transform of the node that is being read.
-template <auto Member>
-void put_transform(F f, V value) {
-    (f.*Member).push_back(value.number);
-}
-
-/// Appends an entry to an array of the file and to the node's run of it.
-template <auto Array, auto Member>
-void put_run(F f, V value) {
-    assign(f, f.append(f.file.*Array), value);
-    file::Run& run = f.file.nodes.back().*Member;
-    if (run.count++ == 0) run.first = static_cast<std::uint32_t>((f.file.*Array).size() - 1);
-}
-
-template <auto Which, auto Member>
-void put_projection(F f, V value) {
-    assign(f, (*(f.file.cameras.back().*Which)).*Member, value);
-}
-
-template <auto Which>
-void begin_projection(F f, V) {
-    (f.file.cameras.back().*Which).emplace();
-}
-
-template <auto Member>
-void begin_place(F f, V) {
-    f.place = &(f.file.materials.back().*Member);
-}
-
-template <auto Member>
-void put_place(F f, V value) {
-    assign(f, f.place->*Member, value);
-}
-
-template <auto Member>
-void put_texture_transform(F f, V value) {
-    assign(f, (*f.place->transform).*Member, value);
-}
-
-template <auto Member>
-void put_own_lobe(F f, V value) {
-    (*f.file.materials.back().own_lobe).parameters.*Member = static_cast<float>(value.number);
-}
-
-void put_generator(F f, V value) {
-    if (value.type == JsonType::string) f.file.generator = f.keep(value);
-}
-
-void put_byte_stride(F f, V value) {
-    const int stride = static_cast<int>(value.number);
-    if (stride < 4 || stride > 252 || stride % 4 != 0)
-        fault(value, fmt::format("expected a multiple of 4 from 4 to 252, found {}", stride));
-    f.file.buffer_views.back().byte_stride = stride;
-}
-
-void put_accessor_type(F f, V value) {
-    static constexpr std::pair<std::string_view, int> kTypes[] = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4},
-                                                                  {"MAT2", 4},   {"MAT3", 9}, {"MAT4", 16}};
-    for (const auto& [name, components] : kTypes)
-        if (value.text == name) {
-            f.file.accessors.back().components = components;
-            return;
-        }
-    fault(value, fmt::format("expected SCALAR, VEC2 to VEC4 or MAT2 to MAT4, found \"{}\"", printable(value.text, 40)));
-}
-
-void begin_sparse(F f, V) {
-    f.append(f.file.sparse);
-    f.file.accessors.back().sparse = static_cast<int>(f.file.sparse.size() - 1);
-}
-
-void add_primitive(F f, V) {
-    ++f.file.primitives;
-    f.append(f.file.meshes.back().primitives);
-}
-
-void put_attribute(F f, V value) { f.append(f.file.meshes.back().primitives.back().attributes, {f.key, static_cast<int>(value.number)}); }
-
-void add_morph_target(F f, V) {
-    ++f.file.morph_targets;
-    f.append(f.file.meshes.back().primitives.back().targets);
-}
-
-void put_morph_attribute(F f, V value) {
-    f.append(f.file.meshes.back().primitives.back().targets.back(), {f.key, static_cast<int>(value.number)});
-}
-
-void begin_node(F f, V) {
-    f.append(f.file.nodes);
-    for (auto* list : {&f.matrix, &f.translation, &f.rotation, &f.scale}) list->clear();
-}
-
-void end_node(F f, V) {
-    if (f.matrix.empty() && f.translation.empty() && f.rotation.empty() && f.scale.empty()) return;
-    f.append(f.file.transforms, node_transform(f.matrix, f.translation, f.rotation, f.scale));
-    f.file.nodes.back().transform = static_cast<int>(f.file.transforms.size() - 1);
-}
-
-void end_camera(F f, V value) {
-    const file::Camera& camera = f.file.cameras.back();
-    if (camera.type != "perspective" && camera.type != "orthographic")
-        fault(value, fmt::format("type: expected perspective or orthographic, found \"{}\"", printable(camera.type, 40)));
-    if (!(camera.type == "perspective" ? camera.perspective : camera.orthographic))
-        fault(value, fmt::format("expected the key \"{}\", which is not there", camera.type));
-}
-
-void end_light(F f, V value) {
-    const file::Light& light = f.file.lights.back();
-    if (light.type == "spot" && !light.has_spot) fault(value, "expected the key \"spot\", which is not there");
-}
+constexpr double kHalfPi = 1.5707963267948966;
+constexpr const char* kNoCamera = "the camera is left out";
+constexpr const char* kEmpty = "it is empty";
+constexpr const char* kTrilinear = "drawn as 9987 (linear, within and between levels)";
+constexpr Range kFieldOfView{.low = 0, .high = 2 * kHalfPi, .low_open = true, .high_open = true, .instead = kNoCamera};
+constexpr Range kCone{.low = 0, .high = kHalfPi, .low_open = true};
 
 constexpr SchemaRow kRows[] = {
     {"asset!", object},
@@ -174,29 +49,29 @@ constexpr SchemaRow kRows[] = {
     {"extensionsUsed/#", string, put_file<&File::extensions_used>},
     {"extensionsRequired/#", string, put_file<&File::extensions_required>},
     {"scene", index, put_file<&File::scene>, Target::scenes},
-    {"scenes/#", object, add<&File::scenes>},
+    {"scenes/#", object, add<&File::scenes>, Target::scenes},
     {"scenes/#/nodes/#", index, put<&File::scenes, &file::Scene::nodes>, Target::nodes},
-    {"animations/#", object, [](F f, V) { ++f.file.animations; }},
+    mild({"animations/#", object, [](F f, V) { ++f.file.animations; }}),
 
-    {"buffers/#", object, add<&File::buffers>},
+    {"buffers/#", object, add<&File::buffers>, Target::buffers},
     {"buffers/#/uri", string, put<&File::buffers, &file::Buffer::uri>},
-    {"buffers/#/byteLength!", size, put<&File::buffers, &file::Buffer::byte_length>},
+    at_least(1, {"buffers/#/byteLength!", size, put<&File::buffers, &file::Buffer::byte_length>}, kEmpty),
 
-    {"bufferViews/#", object, add<&File::buffer_views>},
+    {"bufferViews/#", object, add<&File::buffer_views>, Target::buffer_views},
     {"bufferViews/#/buffer!", index, put<&File::buffer_views, &file::BufferView::buffer>, Target::buffers},
     {"bufferViews/#/byteOffset", size, put<&File::buffer_views, &file::BufferView::byte_offset>},
-    {"bufferViews/#/byteLength!", size, put<&File::buffer_views, &file::BufferView::byte_length>},
+    at_least(1, {"bufferViews/#/byteLength!", size, put<&File::buffer_views, &file::BufferView::byte_length>}, kEmpty),
     {"bufferViews/#/byteStride", code, put_byte_stride},
 
-    {"accessors/#", object, add<&File::accessors>},
+    {"accessors/#", object, add<&File::accessors>, Target::accessors},
     {"accessors/#/bufferView", index, put<&File::accessors, &file::Accessor::buffer_view>, Target::buffer_views},
     {"accessors/#/byteOffset", size, put<&File::accessors, &file::Accessor::byte_offset>},
     {"accessors/#/componentType!", code, put<&File::accessors, &file::Accessor::component_type>},
     {"accessors/#/normalized", boolean, put<&File::accessors, &file::Accessor::normalized>},
-    {"accessors/#/count!", size, put<&File::accessors, &file::Accessor::count>},
+    at_least(1, {"accessors/#/count!", size, put<&File::accessors, &file::Accessor::count>}, kEmpty),
     {"accessors/#/type!", string, put_accessor_type},
     {"accessors/#/sparse", object, begin_sparse},
-    {"accessors/#/sparse/count!", code, put_sparse<&file::Sparse::count>},
+    at_least(1, {"accessors/#/sparse/count!", code, put_sparse<&file::Sparse::count>}, "ignored"),
     {"accessors/#/sparse/indices!", object},
     {"accessors/#/sparse/indices/bufferView!", index, put_sparse<&file::Sparse::index_view>, Target::buffer_views},
     {"accessors/#/sparse/indices/byteOffset", code, put_sparse<&file::Sparse::index_offset>},
@@ -205,8 +80,8 @@ constexpr SchemaRow kRows[] = {
     {"accessors/#/sparse/values/bufferView!", index, put_sparse<&file::Sparse::value_view>, Target::buffer_views},
     {"accessors/#/sparse/values/byteOffset", code, put_sparse<&file::Sparse::value_offset>},
 
-    {"meshes/#", object, add<&File::meshes>},
-    {"meshes/#/name", string, put<&File::meshes, &file::Mesh::name>},
+    {"meshes/#", object, add<&File::meshes>, Target::meshes},
+    mild({"meshes/#/name", string, put<&File::meshes, &file::Mesh::name>}),
     {"meshes/#/weights/#", number, put<&File::meshes, &file::Mesh::weights>},
     {"meshes/#/primitives!", array},
     {"meshes/#/primitives/#", object, add_primitive},
@@ -218,80 +93,86 @@ constexpr SchemaRow kRows[] = {
     {"meshes/#/primitives/#/targets/#", object, add_morph_target},
     {"meshes/#/primitives/#/targets/#/*", index, put_morph_attribute, Target::accessors},
 
-    {"nodes/#", object, begin_node, Target::none, end_node},
-    {"nodes/#/name", string, put<&File::nodes, &file::Node::name>},
+    {"nodes/#", object, begin_node, Target::nodes, end_node},
+    mild({"nodes/#/name", string, put<&File::nodes, &file::Node::name>}),
     {"nodes/#/mesh", index, put<&File::nodes, &file::Node::mesh>, Target::meshes},
     {"nodes/#/skin", index, put<&File::nodes, &file::Node::skin>, Target::skins},
     {"nodes/#/camera", index, put<&File::nodes, &file::Node::camera>, Target::cameras},
     {"nodes/#/children/#", index, put_run<&File::children, &file::Node::children>, Target::nodes},
-    {"nodes/#/matrix", array, nullptr, Target::none, nullptr, 16},
+    {"nodes/#/matrix", array, [](F f, V value) { f.matrix_offset = value.offset; }, Target::none, nullptr, 16},
     {"nodes/#/matrix/#", number, put_transform<&GltfFiller::matrix>},
     {"nodes/#/translation", array, nullptr, Target::none, nullptr, 3},
     {"nodes/#/translation/#", number, put_transform<&GltfFiller::translation>},
-    {"nodes/#/rotation", array, nullptr, Target::none, nullptr, 4},
+    {"nodes/#/rotation", array, [](F f, V value) { f.rotation_offset = value.offset; }, Target::none, nullptr, 4},
     {"nodes/#/rotation/#", number, put_transform<&GltfFiller::rotation>},
     {"nodes/#/scale", array, nullptr, Target::none, nullptr, 3},
     {"nodes/#/scale/#", number, put_transform<&GltfFiller::scale>},
     {"nodes/#/weights/#", number, put_run<&File::weights, &file::Node::weights>},
     {"nodes/#/extensions/KHR_lights_punctual/light!", index, put<&File::nodes, &file::Node::light>, Target::lights},
 
-    {"skins/#", object, add<&File::skins>},
+    {"skins/#", object, add<&File::skins>, Target::skins},
     {"skins/#/joints!", array},
     {"skins/#/joints/#", index, put<&File::skins, &file::Skin::joints>, Target::nodes},
     {"skins/#/inverseBindMatrices", index, put<&File::skins, &file::Skin::inverse_bind_matrices>, Target::accessors},
-    {"skins/#/skeleton", index, nullptr, Target::nodes},
+    mild({"skins/#/skeleton", index, nullptr, Target::nodes}),
 
-    {"cameras/#", object, add<&File::cameras>, Target::none, end_camera},
-    {"cameras/#/name", string, put<&File::cameras, &file::Camera::name>},
-    {"cameras/#/type!", string, put<&File::cameras, &file::Camera::type>},
+    {"cameras/#", object, add<&File::cameras>, Target::cameras, end_camera},
+    mild({"cameras/#/name", string, put<&File::cameras, &file::Camera::name>}),
+    {"cameras/#/type!", string, put_camera_type},
     {"cameras/#/perspective", object, begin_projection<&file::Camera::perspective>},
-    {"cameras/#/perspective/yfov!", number, put_projection<&file::Camera::perspective, &file::Projection::yfov>},
-    {"cameras/#/perspective/znear!", number, put_projection<&file::Camera::perspective, &file::Projection::znear>},
-    {"cameras/#/perspective/zfar", number, put_projection<&file::Camera::perspective, &file::Projection::zfar>},
-    {"cameras/#/perspective/aspectRatio", number, put_projection<&file::Camera::perspective, &file::Projection::aspect_ratio>},
+    restricted({"cameras/#/perspective/yfov!", number, put_perspective<&file::Projection::yfov>}, kFieldOfView),
+    above(0, kNoCamera, {"cameras/#/perspective/znear!", number, put_perspective<&file::Projection::znear>}),
+    above(0, "drawn without a far plane", {"cameras/#/perspective/zfar", number, put_zfar<&file::Camera::perspective>}),
+    above(0, "drawn with the picture's", {"cameras/#/perspective/aspectRatio", number, put_perspective<&file::Projection::aspect_ratio>}),
     {"cameras/#/orthographic", object, begin_projection<&file::Camera::orthographic>},
-    {"cameras/#/orthographic/xmag!", number, put_projection<&file::Camera::orthographic, &file::Projection::xmag>},
-    {"cameras/#/orthographic/ymag!", number, put_projection<&file::Camera::orthographic, &file::Projection::ymag>},
-    {"cameras/#/orthographic/znear!", number, put_projection<&file::Camera::orthographic, &file::Projection::znear>},
-    {"cameras/#/orthographic/zfar!", number, put_projection<&file::Camera::orthographic, &file::Projection::zfar>},
+    {"cameras/#/orthographic/xmag!", number, put_magnification<&file::Projection::xmag>},
+    {"cameras/#/orthographic/ymag!", number, put_magnification<&file::Projection::ymag>},
+    at_least(0, {"cameras/#/orthographic/znear!", number, put_orthographic<&file::Projection::znear>}, kNoCamera),
+    above(0, kNoCamera, {"cameras/#/orthographic/zfar!", number, put_zfar<&file::Camera::orthographic>}),
 
     {"extensions/KHR_lights_punctual/lights!", array},
-    {"extensions/KHR_lights_punctual/lights/#", object, add<&File::lights>, Target::none, end_light},
-    {"extensions/KHR_lights_punctual/lights/#/type!", string, put<&File::lights, &file::Light::type>},
-    {"extensions/KHR_lights_punctual/lights/#/name", string},
-    {"extensions/KHR_lights_punctual/lights/#/color/#", number, put<&File::lights, &file::Light::color>},
-    {"extensions/KHR_lights_punctual/lights/#/intensity", number, put<&File::lights, &file::Light::intensity>},
-    {"extensions/KHR_lights_punctual/lights/#/range", number, put<&File::lights, &file::Light::range>},
-    {"extensions/KHR_lights_punctual/lights/#/spot", object, [](F f, V) { f.file.lights.back().has_spot = true; }},
-    {"extensions/KHR_lights_punctual/lights/#/spot/innerConeAngle", number, put<&File::lights, &file::Light::inner_cone_angle>},
-    {"extensions/KHR_lights_punctual/lights/#/spot/outerConeAngle", number, put<&File::lights, &file::Light::outer_cone_angle>},
+    {"extensions/KHR_lights_punctual/lights/#", object, add<&File::lights>, Target::lights, end_light},
+    {"extensions/KHR_lights_punctual/lights/#/type!", string, put_light_type},
+    mild({"extensions/KHR_lights_punctual/lights/#/name", string}),
+    {"extensions/KHR_lights_punctual/lights/#/color", array, nullptr, Target::none, nullptr, 3},
+    within(0, 1, {"extensions/KHR_lights_punctual/lights/#/color/#", number, put_light<&file::Light::color>}),
+    at_least(0, {"extensions/KHR_lights_punctual/lights/#/intensity", number, put_light<&file::Light::intensity>}),
+    above(0, "drawn without a range", {"extensions/KHR_lights_punctual/lights/#/range", number, put_light<&file::Light::range>}),
+    {"extensions/KHR_lights_punctual/lights/#/spot", object,
+     [](F f, V value) {
+         f.file.lights.back().has_spot = true;
+         f.spot_offset = value.offset;
+     }},
+    within(0, kHalfPi, {"extensions/KHR_lights_punctual/lights/#/spot/innerConeAngle", number, put_light<&file::Light::inner_cone_angle>}),
+    restricted({"extensions/KHR_lights_punctual/lights/#/spot/outerConeAngle", number, put_light<&file::Light::outer_cone_angle>}, kCone),
 
-    {"images/#", object, add<&File::images>},
+    {"images/#", object, add<&File::images>, Target::images},
     {"images/#/uri", string, put<&File::images, &file::Image::uri>},
     {"images/#/bufferView", index, put<&File::images, &file::Image::buffer_view>, Target::buffer_views},
-    {"textures/#", object, add<&File::textures>},
+    {"images/#/mimeType", string, put<&File::images, &file::Image::mime_type>},
+    {"textures/#", object, add<&File::textures>, Target::textures},
     {"textures/#/source", index, put<&File::textures, &file::Texture::source>, Target::images},
     {"textures/#/sampler", index, put<&File::textures, &file::Texture::sampler>, Target::samplers},
-    {"samplers/#", object, add<&File::samplers>},
-    {"samplers/#/magFilter", code, put<&File::samplers, &file::Sampler::mag_filter>},
-    {"samplers/#/minFilter", code, put<&File::samplers, &file::Sampler::min_filter>},
-    {"samplers/#/wrapS", code, put<&File::samplers, &file::Sampler::wrap_s>},
-    {"samplers/#/wrapT", code, put<&File::samplers, &file::Sampler::wrap_t>},
+    {"samplers/#", object, add<&File::samplers>, Target::samplers},
+    one_of(kMagFilters, "drawn as 9729 (linear)", {"samplers/#/magFilter", code, put_sampler<&file::Sampler::mag_filter>}),
+    one_of(kMinFilters, kTrilinear, {"samplers/#/minFilter", code, put_sampler<&file::Sampler::min_filter>}),
+    one_of(kWraps, "drawn as 10497 (repeat)", {"samplers/#/wrapS", code, put_sampler<&file::Sampler::wrap_s>}),
+    one_of(kWraps, "drawn as 10497 (repeat)", {"samplers/#/wrapT", code, put_sampler<&file::Sampler::wrap_t>}),
 
-    {"materials/#", object, add<&File::materials>},
-    {"materials/#/name", string, put<&File::materials, &file::Material::name>},
+    {"materials/#", object, add<&File::materials>, Target::materials},
+    mild({"materials/#/name", string, put<&File::materials, &file::Material::name>}),
     {"materials/#/emissiveFactor", array, nullptr, Target::none, nullptr, 3},
-    {"materials/#/emissiveFactor/#", number, put<&File::materials, &file::Material::emissive_factor>},
-    {"materials/#/alphaMode", string, put<&File::materials, &file::Material::alpha_mode>},
-    {"materials/#/alphaCutoff", number, put<&File::materials, &file::Material::alpha_cutoff>},
+    within(0, 1, {"materials/#/emissiveFactor/#", number, put<&File::materials, &file::Material::emissive_factor>}),
+    {"materials/#/alphaMode", string, put_alpha_mode},
+    at_least(0, {"materials/#/alphaCutoff", number, put<&File::materials, &file::Material::alpha_cutoff>}),
     {"materials/#/doubleSided", boolean, put<&File::materials, &file::Material::double_sided>},
     {"materials/#/pbrMetallicRoughness/baseColorFactor", array, nullptr, Target::none, nullptr, 4},
-    {"materials/#/pbrMetallicRoughness/baseColorFactor/#", number, put<&File::materials, &file::Material::base_color_factor>},
-    {"materials/#/pbrMetallicRoughness/metallicFactor", number, put<&File::materials, &file::Material::metallic_factor>},
-    {"materials/#/pbrMetallicRoughness/roughnessFactor", number, put<&File::materials, &file::Material::roughness_factor>},
-    {"materials/#/extensions/KHR_materials_unlit", any, [](F f, V) { f.file.materials.back().unlit = true; }},
-    {"materials/#/extensions/KHR_materials_emissive_strength/emissiveStrength", number,
-     put<&File::materials, &file::Material::emissive_strength>},
+    within(0, 1, {"materials/#/pbrMetallicRoughness/baseColorFactor/#", number, put<&File::materials, &file::Material::base_color_factor>}),
+    within(0, 1, {"materials/#/pbrMetallicRoughness/metallicFactor", number, put<&File::materials, &file::Material::metallic_factor>}),
+    within(0, 1, {"materials/#/pbrMetallicRoughness/roughnessFactor", number, put<&File::materials, &file::Material::roughness_factor>}),
+    {"materials/#/extensions/KHR_materials_unlit", object, [](F f, V) { f.file.materials.back().unlit = true; }},
+    at_least(0, {"materials/#/extensions/KHR_materials_emissive_strength/emissiveStrength", number,
+     put<&File::materials, &file::Material::emissive_strength>}),
     {"materials/#/extras", open},
     {.path = "materials/#/extras/halflit",
      .rule = object,
@@ -315,10 +196,12 @@ constexpr SchemaRow kTextureRows[] = {
     {"index!", index, put_place<&file::TexturePlace::index>, Target::textures},
     {"texCoord", code, put_place<&file::TexturePlace::tex_coord>},
     {"scale", number, put_place<&file::TexturePlace::scale>},
-    {"strength", number, put_place<&file::TexturePlace::strength>},
+    within(0, 1, {"strength", number, put_place<&file::TexturePlace::strength>}),
     {"extensions/KHR_texture_transform", object, [](F f, V) { f.place->transform.emplace(); }},
+    {"extensions/KHR_texture_transform/offset", array, nullptr, Target::none, nullptr, 2},
     {"extensions/KHR_texture_transform/offset/#", number, put_texture_transform<&file::TextureTransform::offset>},
     {"extensions/KHR_texture_transform/rotation", number, put_texture_transform<&file::TextureTransform::rotation>},
+    {"extensions/KHR_texture_transform/scale", array, nullptr, Target::none, nullptr, 2},
     {"extensions/KHR_texture_transform/scale/#", number, put_texture_transform<&file::TextureTransform::scale>},
     {"extensions/KHR_texture_transform/texCoord", code, put_texture_transform<&file::TextureTransform::tex_coord>},
 };

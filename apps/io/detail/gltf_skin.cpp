@@ -12,14 +12,19 @@ constexpr Component kSmallUnsigned[] = {u8, u16}, kFloatOnly[] = {f32};
 
 std::vector<Affine> joint_matrices(Document& document, const std::vector<Accessor>& accessors, const NodeTree& tree, int index) {
     const file::Skin& skin = document.file.skins[static_cast<std::size_t>(index)];
-    const std::string where = fmt::format("skins[{}]", index);
+    const std::string where = fmt::format("skins[{}].inverseBindMatrices", index);
     const Accessor* inverse_bind =
         skin.inverse_bind_matrices < 0 ? nullptr : &accessors[static_cast<std::size_t>(skin.inverse_bind_matrices)];
     if (inverse_bind != nullptr && (inverse_bind->components() != 16 || inverse_bind->component() != f32))
-        refuse(where, fmt::format("inverseBindMatrices ({}): expected MAT4 of float", inverse_bind->name()));
+        refuse(where, fmt::format("{}: expected MAT4 of float", inverse_bind->name()));
     if (inverse_bind != nullptr && inverse_bind->count() < skin.joints.size())
-        refuse(where, fmt::format("inverseBindMatrices ({}): expected {} matrices, one per joint, found {}", inverse_bind->name(),
-                                  skin.joints.size(), inverse_bind->count()));
+        refuse(where, fmt::format("{}: expected {} matrices, one per joint, found {}", inverse_bind->name(), skin.joints.size(),
+                                  inverse_bind->count()));
+    if (inverse_bind != nullptr) {
+        const int view = document.file.accessors[static_cast<std::size_t>(skin.inverse_bind_matrices)].buffer_view;
+        if (view >= 0 && document.file.buffer_views[static_cast<std::size_t>(view)].byte_stride != 0)
+            document.warn(fmt::format("bufferViews[{}].byteStride: expected none for matrices, read with it", view));
+    }
     document.geometry.take(skin.joints.size() * sizeof(Affine));
     std::vector<Affine> matrices;
     matrices.reserve(skin.joints.size());
@@ -29,6 +34,9 @@ std::vector<Affine> joint_matrices(Document& document, const std::vector<Accesso
         if (inverse_bind != nullptr) {
             inverse_bind->read_floats(j, m);
             for (std::size_t c = 0; c < 4; ++c) bind.c[c] = {m[4 * c], m[4 * c + 1], m[4 * c + 2]};
+            if (!is_finite(bind) && !document.warnings_are_full()) document.warn(fmt::format("{}: matrix {} is not finite", where, j));
+            if ((m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) && !document.warnings_are_full())
+                document.warn(fmt::format("{}: the last row of matrix {} is not 0 0 0 1, read as if it were", where, j));
         }
         matrices.push_back(tree.world_from_node[static_cast<std::size_t>(skin.joints[j])] * bind);
     }
@@ -42,15 +50,19 @@ struct Influences {
 
 }  // namespace
 
-bool apply_skin(Document& document, const std::vector<Accessor>& accessors, const PrimitiveReader& reader, const NodeTree& tree, int skin,
+bool apply_skin(Document& document, const std::vector<Accessor>& accessors, PrimitiveReader& reader, const NodeTree& tree, int skin,
                 const file::Primitive& primitive, ReadMesh& read) {
+    const std::string list = read.where + ".attributes";
     std::vector<Influences> sets;
     for (int set = 0;; ++set) {
         const std::string joints = fmt::format("JOINTS_{}", set), weights = fmt::format("WEIGHTS_{}", set);
         const Accessor* joint_accessor =
-            reader.attribute(read.where, primitive.attributes, {joints.c_str(), 4, 4, kSmallUnsigned, {}, {}, {}}, std::nullopt);
+            reader.attribute(list, primitive.attributes, {joints.c_str(), 4, 4, kSmallUnsigned, {}, {}, {}}, std::nullopt);
         const Accessor* weight_accessor =
-            reader.attribute(read.where, primitive.attributes, {weights.c_str(), 4, 4, kFloatOnly, kSmallUnsigned, {}, {}}, std::nullopt);
+            reader.attribute(list, primitive.attributes, {weights.c_str(), 4, 4, kFloatOnly, kSmallUnsigned, {}, {}}, std::nullopt);
+        if ((joint_accessor == nullptr) != (weight_accessor == nullptr))
+            document.warn(fmt::format("{}: {} is there without {}, ignored", list, joint_accessor != nullptr ? joints : weights,
+                                      joint_accessor != nullptr ? weights : joints));
         if (joint_accessor == nullptr || weight_accessor == nullptr) break;
         const std::size_t count = accessors[static_cast<std::size_t>(file::find(primitive.attributes, "POSITION"))].count();
         if (joint_accessor->count() != count || weight_accessor->count() != count)
@@ -62,6 +74,7 @@ bool apply_skin(Document& document, const std::vector<Accessor>& accessors, cons
 
     const std::vector<Affine> matrices = joint_matrices(document, accessors, tree, skin);
     Mesh& mesh = read.mesh;
+    std::size_t negative = 0, without = 0, other_sum = 0;
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         Affine blend{{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}};
         double sum = 0.0;
@@ -71,6 +84,7 @@ bool apply_skin(Document& document, const std::vector<Accessor>& accessors, cons
             set.joints->read_unsigned(read.source_vertices[v], joint);
             set.weights->read_floats(read.source_vertices[v], weight);
             for (std::size_t k = 0; k < 4; ++k) {
+                if (weight[k] < 0.0f) ++negative;
                 if (!(weight[k] > 0.0f)) continue;
                 if (joint[k] >= matrices.size())
                     refuse(read.where, fmt::format("{}: a vertex names joint {}, but skin {} has {}", set.joints->name(), joint[k], skin,
@@ -79,6 +93,11 @@ bool apply_skin(Document& document, const std::vector<Accessor>& accessors, cons
                 sum += double{weight[k]};
             }
         }
+        constexpr double kTolerance = 0.02;  // weights in 8-bit integers, each rounded alone, are wrong by up to 0.008 together
+        if (!(sum > 0.0))
+            ++without;
+        else if (!(sum > 1 - kTolerance && sum < 1 + kTolerance))
+            ++other_sum;
         if (!(sum > 0.0))
             blend = matrices.empty() ? Affine{} : matrices[0];
         else
@@ -97,6 +116,12 @@ bool apply_skin(Document& document, const std::vector<Accessor>& accessors, cons
             mesh.tangents[v] = {t.x, t.y, t.z, from.w};
         }
     }
+    const auto warn = [&](std::size_t count, const char* what) {
+        if (count > 0) document.warn(fmt::format("{}.WEIGHTS_0: {} of {} vertices have {}", list, count, mesh.positions.size(), what));
+    };
+    warn(negative, "negative weights, which are left out");
+    warn(without, "no weights, moved by the skin's first joint");
+    warn(other_sum, "weights whose sum is not 1, drawn divided by it");
     return true;
 }
 

@@ -8,7 +8,7 @@ namespace halflit::io::detail {
 
 /// Moves a mesh by `skin`; the result lies in world space (glTF ignores the transform of the mesh's own node). Returns false and leaves the
 /// mesh as it is if it has no joints. Throws LoadFailure.
-bool apply_skin(Document& document, const std::vector<Accessor>& accessors, const PrimitiveReader& reader, const NodeTree& tree, int skin,
+bool apply_skin(Document& document, const std::vector<Accessor>& accessors, PrimitiveReader& reader, const NodeTree& tree, int skin,
                 const file::Primitive& primitive, ReadMesh& read);
 
 }  // namespace halflit::io::detail

@@ -9,6 +9,7 @@
 #include <charconv>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace halflit::io::detail {
@@ -30,6 +31,44 @@ std::optional<std::pair<int, int>> parse_version(std::string_view text) {
     return v;
 }
 
+bool is_supported(std::string_view name) {
+    return std::find(std::begin(kSupportedExtensions), std::end(kSupportedExtensions), name) != std::end(kSupportedExtensions);
+}
+
+struct LeftOut {
+    std::string_view extension;
+    const char* what;  // is not drawn
+};
+
+/// Extensions whose data are ignored, and what the picture lacks for it.
+constexpr LeftOut kLeftOut[] = {
+    {"EXT_lights_image_based", "its environment is left out"},
+    {"EXT_mesh_gpu_instancing", "its instances are left out"},
+    {"EXT_mesh_manifold", "nothing is left out of the picture"},
+    {"EXT_meshopt_compression", "the data without compression are drawn"},
+    {"EXT_texture_avif", "the pictures of other formats are drawn"},
+    {"EXT_texture_webp", "the pictures of other formats are drawn"},
+    {"KHR_animation_pointer", "animations are left out"},
+    {"KHR_draco_mesh_compression", "the data without compression are drawn"},
+    {"KHR_materials_anisotropy", "highlights are drawn round"},
+    {"KHR_materials_clearcoat", "the coat is left out"},
+    {"KHR_materials_diffuse_transmission", "light does not pass through"},
+    {"KHR_materials_dispersion", "light is not split"},
+    {"KHR_materials_ior", "reflection is that of an index of 1.5"},
+    {"KHR_materials_iridescence", "the thin film is left out"},
+    {"KHR_materials_pbrSpecularGlossiness", "materials are drawn by metal and roughness"},
+    {"KHR_materials_sheen", "the sheen is left out"},
+    {"KHR_materials_specular", "reflection has its usual strength"},
+    {"KHR_materials_transmission", "surfaces are drawn opaque, or by their alpha"},
+    {"KHR_materials_variants", "the materials without a variant are drawn"},
+    {"KHR_materials_volume", "bodies are drawn hollow"},
+    {"KHR_node_visibility", "hidden nodes are drawn"},
+    {"KHR_texture_basisu", "the pictures of other formats are drawn"},
+    {"KHR_xmp_json_ld", "nothing is left out of the picture"},
+    {"MSFT_lod", "the finest level is drawn"},
+    {"MSFT_texture_dds", "the pictures of other formats are drawn"},
+};
+
 }  // namespace
 
 void check_versions(const file::File& file) {
@@ -43,12 +82,31 @@ void check_versions(const file::File& file) {
     }
     if (version->first != 2) refuse("asset.version", fmt::format("expected glTF 2, found \"{}\"", printable(file.version, 20)));
     for (const std::string_view name : file.extensions_required) {
-        if (std::find(std::begin(kSupportedExtensions), std::end(kSupportedExtensions), name) != std::end(kSupportedExtensions)) continue;
+        if (is_supported(name)) continue;
         const char* hint = name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression"
                                ? " (compressed geometry; save the model without it)"
                                : "";
         refuse("extensionsRequired", fmt::format("\"{}\" is not supported{}", printable(name, 80), hint));
     }
+}
+
+void check_extensions(Document& document) {
+    const file::File& file = document.file;
+    const std::set<std::string_view> used(file.extensions_used.begin(), file.extensions_used.end());
+    for (const std::string_view name : used) {
+        if (is_supported(name)) continue;
+        const auto* known =
+            std::find_if(std::begin(kLeftOut), std::end(kLeftOut), [&](const LeftOut& row) { return row.extension == name; });
+        document.warn(known != std::end(kLeftOut) ? fmt::format("extensionsUsed: {} is not supported, {}", name, known->what)
+                                                  : fmt::format("extensionsUsed: {} is not known, ignored", printable(name, 80)));
+    }
+    for (std::size_t i = 0; i < file.extensions_required.size(); ++i)
+        if (!used.contains(file.extensions_required[i]))
+            document.warn(fmt::format("extensionsRequired[{}]: {} is not in extensionsUsed, read as if it were", i,
+                                      printable(file.extensions_required[i], 80)));
+    if (file.animations > 0)
+        document.warn(fmt::format("animations: {} left out, drawn in the pose of the nodes",
+                                  file.animations == 1 ? "one is" : fmt::format("{} are", file.animations)));
 }
 
 }  // namespace halflit::io::detail

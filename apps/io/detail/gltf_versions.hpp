@@ -1,12 +1,16 @@
 // Check of a file's glTF version, and of the extensions that it requires.
 #pragma once
 
-#include "apps/io/detail/gltf_file.hpp"
+#include "apps/io/detail/gltf_document.hpp"
 
 namespace halflit::io::detail {
 
 /// Throws LoadFailure for another major version, a minimum above 2.0, or a required extension that is not supported.
 /// A later minor version without a minimum loads: by the specification a 2.0 reader can draw it.
 void check_versions(const file::File& file);
+
+/// Warns of what a file loses: extensions that it uses and that are not drawn, and animations. Warns of required extensions that the file
+/// does not list as used.
+void check_extensions(Document& document);
 
 }  // namespace halflit::io::detail

@@ -11,14 +11,14 @@ namespace halflit::io::detail {
 
 namespace {
 
-/// Follows the scan up to a given offset and gives the path there.
+/// Follows the scan past given offsets, which rise, and gives the paths there.
 class PathFinder final : public JsonVisitor {
 public:
-    explicit PathFinder(std::size_t offset) : wanted_(offset) {}
+    explicit PathFinder(std::span<const std::size_t> offsets) : wanted_(offsets) {}
     void on_key(const JsonValue& key) override {
-        if (key.offset > wanted_) throw JsonFault{};
+        pass(key.offset);
         levels_.back().key = key.text;
-        if (key.offset == wanted_) throw JsonFault{};
+        reach(key.offset);
     }
     void on_begin(JsonType type, std::size_t offset) override {
         enter(offset);
@@ -27,12 +27,10 @@ public:
     void on_end(std::size_t) override { levels_.pop_back(); }
     void on_value(const JsonValue& value, std::size_t) override { enter(value.offset); }
 
-    [[nodiscard]] std::string path() const {
-        std::string out;
-        for (const Level& level : levels_) {
-            if (level.object && !level.key.empty()) out += fmt::format("{}{}", out.empty() ? "" : ".", printable(level.key, 60));
-            if (!level.object && level.count > 0) out += fmt::format("[{}]", level.count - 1);
-        }
+    /// One path for each offset: those behind the end of the scan have the path of the end.
+    [[nodiscard]] std::vector<std::string> paths() const {
+        std::vector<std::string> out = found_;
+        out.resize(wanted_.size(), path());
         return out;
     }
 
@@ -42,12 +40,28 @@ private:
         std::size_t count;
         std::string key;
     };
-    void enter(std::size_t offset) {
-        if (offset > wanted_) throw JsonFault{};
-        if (!levels_.empty()) ++levels_.back().count;
-        if (offset == wanted_) throw JsonFault{};
+    [[nodiscard]] std::string path() const {
+        std::string out;
+        for (const Level& level : levels_) {
+            if (level.object && !level.key.empty()) out += fmt::format("{}{}", out.empty() ? "" : ".", printable(level.key, 60));
+            if (!level.object && level.count > 0) out += fmt::format("[{}]", level.count - 1);
+        }
+        return out;
     }
-    std::size_t wanted_;
+    void enter(std::size_t offset) {
+        pass(offset);
+        if (!levels_.empty()) ++levels_.back().count;
+        reach(offset);
+    }
+    /// Offsets before `offset` lie between two values: they have the path of the one before.
+    void pass(std::size_t offset) {
+        while (found_.size() < wanted_.size() && wanted_[found_.size()] < offset) found_.push_back(path());
+        if (found_.size() == wanted_.size()) throw JsonFault{};
+    }
+    void reach(std::size_t offset) { pass(offset + 1); }
+
+    std::span<const std::size_t> wanted_;
+    std::vector<std::string> found_;
     std::vector<Level> levels_;
 };
 
@@ -60,13 +74,18 @@ TextPlace place_of(std::string_view text, std::size_t offset) {
             1 + before.size() - (line_start == std::string_view::npos ? 0 : line_start + 1)};
 }
 
-std::string json_path_at(std::string_view text, std::size_t offset, const JsonScanLimits& limits) {
-    PathFinder finder(offset);
+std::vector<std::string> json_paths_at(std::string_view text, std::span<const std::size_t> offsets, const JsonScanLimits& limits) {
+    PathFinder finder(offsets);
+    if (offsets.empty()) return {};
     try {
         scan_json(text, limits, finder);
-    } catch (const JsonFault&) {  // the fault itself, or the offset was reached
+    } catch (const JsonFault&) {  // the fault itself, or the last offset was reached
     }
-    return finder.path();
+    return finder.paths();
+}
+
+std::string json_path_at(std::string_view text, std::size_t offset, const JsonScanLimits& limits) {
+    return json_paths_at(text, {&offset, 1}, limits).front();
 }
 
 }  // namespace halflit::io::detail

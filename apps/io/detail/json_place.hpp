@@ -4,8 +4,10 @@
 #include "apps/io/detail/json_scan.hpp"
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace halflit::io::detail {
 
@@ -18,5 +20,9 @@ struct TextPlace {
 /// "accessors[3].byteOffset" for the value (or key) at or before `offset`; empty for the root. Scans the text again, so it is for messages
 /// only.
 [[nodiscard]] std::string json_path_at(std::string_view text, std::size_t offset, const JsonScanLimits& limits);
+
+/// The paths of several offsets, which rise and are each the first byte of a value or a key, by one scan.
+[[nodiscard]] std::vector<std::string> json_paths_at(std::string_view text, std::span<const std::size_t> offsets,
+                                                     const JsonScanLimits& limits);
 
 }  // namespace halflit::io::detail

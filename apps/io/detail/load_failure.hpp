@@ -33,7 +33,8 @@ class Budget {
 public:
     Budget() = default;
     Budget(const char* what, std::uint64_t limit) : what_(what), limit_(limit) {}
-    void take(std::uint64_t bytes);  ///< throws LoadFailure with ErrorCode::limit
+    void take(std::uint64_t bytes);                          ///< throws LoadFailure with ErrorCode::limit
+    void set_limit(std::uint64_t limit) { limit_ = limit; }  ///< at least what is used
     [[nodiscard]] std::uint64_t left() const { return limit_ - used_; }
 
 private:

@@ -1,0 +1,117 @@
+#include "apps/io/detail/gltf_used.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+#include <utility>
+
+namespace halflit::io::detail {
+
+class UseFinder {
+public:
+    explicit UseFinder(const file::File& file) : file_(file) {
+        for (std::size_t target = 0; target < kTargets; ++target)
+            used_.of_[target].assign(count_of(static_cast<Target>(target), file), false);
+        targets_seen_.resize(file.meshes.size());
+        has_own_weights_.resize(file.meshes.size());
+        skinned_.resize(file.meshes.size());
+    }
+
+    Used run(std::span<const int> drawn_nodes) {
+        mark(Target::scenes, std::max(file_.scene, 0));
+        for (const int node : drawn_nodes) {
+            mark(Target::nodes, node);
+            follow(file_.nodes[static_cast<std::size_t>(node)]);
+        }
+        return std::move(used_);
+    }
+
+private:
+    /// True if the element is there and was not marked before.
+    bool mark(Target target, int element) {
+        std::vector<bool>& list = used_.of_[static_cast<std::size_t>(target)];
+        if (element < 0 || static_cast<std::size_t>(element) >= list.size() || list[static_cast<std::size_t>(element)]) return false;
+        list[static_cast<std::size_t>(element)] = true;
+        return true;
+    }
+
+    void follow(const file::Node& node) {
+        mark(Target::cameras, node.camera);
+        mark(Target::lights, node.light);
+        if (node.mesh < 0 || static_cast<std::size_t>(node.mesh) >= file_.meshes.size()) return;
+        const auto index = static_cast<std::size_t>(node.mesh);
+        const file::Mesh& mesh = file_.meshes[index];
+        if (mark(Target::meshes, node.mesh))
+            for (const file::Primitive& primitive : mesh.primitives) follow(primitive);
+        if (node.weights.count > 0) {
+            follow_targets(index, std::span(file_.weights).subspan(node.weights.first, node.weights.count));
+        } else if (!has_own_weights_[index]) {
+            has_own_weights_[index] = true;
+            follow_targets(index, mesh.weights);
+        }
+        if (node.skin < 0) return;
+        if (mark(Target::skins, node.skin)) accessor(file_.skins[static_cast<std::size_t>(node.skin)].inverse_bind_matrices);
+        if (skinned_[index]) return;
+        skinned_[index] = true;
+        for (const file::Primitive& primitive : mesh.primitives)
+            for (const auto& [name, value] : primitive.attributes)
+                if (name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_")) accessor(value);
+    }
+
+    void follow(const file::Primitive& primitive) {
+        if (!file::draws_triangles(primitive)) return;
+        static constexpr std::string_view kRead[] = {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"};
+        for (const auto& [name, value] : primitive.attributes)
+            if (std::find(std::begin(kRead), std::end(kRead), name) != std::end(kRead)) accessor(value);
+        accessor(primitive.indices);
+        if (!mark(Target::materials, primitive.material)) return;
+        const file::Material& m = file_.materials[static_cast<std::size_t>(primitive.material)];
+        for (const file::TexturePlace* place :
+             {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.occlusion_texture, &m.emissive_texture})
+            texture(place->index);
+    }
+
+    /// Morph targets with a weight other than 0.
+    void follow_targets(std::size_t mesh, std::span<const double> weights) {
+        std::vector<bool>& seen = targets_seen_[mesh];
+        if (seen.size() < weights.size()) seen.resize(weights.size(), false);
+        for (std::size_t t = 0; t < weights.size(); ++t) {
+            if (weights[t] == 0.0 || seen[t]) continue;
+            seen[t] = true;
+            for (const file::Primitive& primitive : file_.meshes[mesh].primitives)
+                if (t < primitive.targets.size())
+                    for (const auto& [name, value] : primitive.targets[t])
+                        if (name == "POSITION" || name == "NORMAL" || name == "TANGENT") accessor(value);
+        }
+    }
+
+    void accessor(int index) {
+        if (!mark(Target::accessors, index)) return;
+        const file::Accessor& entry = file_.accessors[static_cast<std::size_t>(index)];
+        view(entry.buffer_view);
+        if (entry.sparse < 0) return;
+        view(file_.sparse[static_cast<std::size_t>(entry.sparse)].index_view);
+        view(file_.sparse[static_cast<std::size_t>(entry.sparse)].value_view);
+    }
+
+    void view(int index) {
+        if (mark(Target::buffer_views, index)) mark(Target::buffers, file_.buffer_views[static_cast<std::size_t>(index)].buffer);
+    }
+
+    void texture(int index) {
+        if (!mark(Target::textures, index)) return;
+        const file::Texture& entry = file_.textures[static_cast<std::size_t>(index)];
+        mark(Target::samplers, entry.sampler);
+        if (mark(Target::images, entry.source)) view(file_.images[static_cast<std::size_t>(entry.source)].buffer_view);
+    }
+
+    const file::File& file_;
+    Used used_;
+    // By mesh: targets that have been followed, whether its own weights have been, and whether its joints have been.
+    std::vector<std::vector<bool>> targets_seen_;
+    std::vector<bool> has_own_weights_, skinned_;
+};
+
+Used find_used(const file::File& file, std::span<const int> drawn_nodes) { return UseFinder(file).run(drawn_nodes); }
+
+}  // namespace halflit::io::detail

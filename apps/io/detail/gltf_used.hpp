@@ -1,0 +1,28 @@
+// The elements of a file that its drawn nodes use. A fault of another element does not touch the picture.
+#pragma once
+
+#include "apps/io/detail/gltf_target.hpp"
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace halflit::io::detail {
+
+class Used {
+public:
+    [[nodiscard]] bool has(Target target, std::size_t element) const {
+        const std::vector<bool>& list = of_[static_cast<std::size_t>(target)];
+        return element < list.size() && list[element];
+    }
+
+private:
+    friend class UseFinder;
+    std::array<std::vector<bool>, kTargets> of_;
+};
+
+/// Follows the references from the drawn nodes. An index that is out of range is left out.
+[[nodiscard]] Used find_used(const file::File& file, std::span<const int> drawn_nodes);
+
+}  // namespace halflit::io::detail
