@@ -95,6 +95,14 @@ pair("3.7.2.1", "attributes of an application begin with a low line", lambda s: 
      lambda s: s.put(ATTRIBUTES + ".AGE", 3), None)
 pair("3.7.2.1", "sets of an attribute are numbered from 0", lambda s: s.put(ATTRIBUTES + ".COLOR_1", 5),
      lambda s: s.put(ATTRIBUTES + ".COLOR_01", 5), None)
+for name in ("TEXCOORD_2", "COLOR_1", "_AGE"):
+    for wrong in (99, -1, "3", None):
+        pair("5.24", "%s, which is not drawn, is %s" % (name, wrong), put((ATTRIBUTES + "." + name, 3 if name[0] == "T" else 5)),
+             put((ATTRIBUTES + "." + name, wrong)), None)
+pair("5.24", "joints of a mesh without a skin are whole",
+     lambda s: s.put("meshes[1].primitives[0].attributes", {"POSITION": 12, "JOINTS_0": s.accessor("VEC4", UBYTE, [0] * 12),
+                                                            "WEIGHTS_0": s.accessor("VEC4", FLOAT, [1, 0, 0, 0] * 3)}),
+     put(("meshes[1].primitives[0].attributes.JOINTS_0", 3)), None)
 
 # ---- 3.7.2.1: indices ------------------------------------------------------------------------------------------------------------------
 def indices(s, component, values_, **members):

@@ -1,6 +1,7 @@
 #include "apps/io/detail/gltf_file.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace halflit::io::detail::file {
 
@@ -9,6 +10,13 @@ int find(const Attributes& attributes, std::string_view name) {
         if (attribute == name) return accessor;
     return -1;
 }
+
+bool is_drawn(std::string_view attribute) {
+    static constexpr std::string_view kDrawn[] = {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"};
+    return std::find(std::begin(kDrawn), std::end(kDrawn), attribute) != std::end(kDrawn);
+}
+
+bool is_of_skin(std::string_view attribute) { return attribute.starts_with("JOINTS_") || attribute.starts_with("WEIGHTS_"); }
 
 bool File::uses(std::string_view extension) const {
     const auto holds = [&](const auto& list) { return std::find(list.begin(), list.end(), extension) != list.end(); };

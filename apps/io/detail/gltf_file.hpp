@@ -47,6 +47,8 @@ struct Accessor {
 /// Accessors by attribute name. There are few, so a list is as fast as a map, and smaller.
 using Attributes = std::vector<std::pair<std::string_view, int>>;
 [[nodiscard]] int find(const Attributes& attributes, std::string_view name);  ///< -1: not there
+[[nodiscard]] bool is_drawn(std::string_view attribute);                      ///< no set beyond those that the renderer has, no "_AGE"
+[[nodiscard]] bool is_of_skin(std::string_view attribute);                    ///< JOINTS_0, WEIGHTS_0, ...
 
 struct Primitive {
     Attributes attributes;

@@ -131,7 +131,10 @@ private:
             filler_.owner = {node->target, static_cast<std::uint32_t>(top.count - 1)};
             owner_depth_ = levels_.size();
         }
-        const bool good = check(*node, value);
+        // Attributes have free names. Those that are not drawn may be anything.
+        const bool drawn =
+            node != top.node->every || node->target != Target::accessors || file::is_drawn(filler_.key) || file::is_of_skin(filler_.key);
+        const bool good = check(*node, value, node->mild || !drawn);
         // An element that is no object counts as one, so that those after it keep their numbers.
         if ((good || element) && node->put != nullptr) put(*node, value);
         return good ? node : nullptr;
@@ -171,10 +174,10 @@ private:
     void end(const SchemaNode& node, const Level& level) {
         if (const std::uint32_t missing = node.required_mask & ~level.seen; missing != 0 && level.value.type == JsonType::object) {
             const auto which = static_cast<std::size_t>(std::countr_zero(missing));
-            fault(node, level.value.offset, fmt::format("expected the key \"{}\", which is not there", node.members[which].first));
+            fault(node.mild, level.value.offset, fmt::format("expected the key \"{}\", which is not there", node.members[which].first));
         }
         if (node.length > 0 && level.count != node.length)
-            fault(node, level.value.offset, fmt::format("expected {} numbers, found {}", node.length, level.count));
+            fault(node.mild, level.value.offset, fmt::format("expected {} numbers, found {}", node.length, level.count));
         if (node.end != nullptr) call(node.end, level.value);
     }
 
@@ -192,14 +195,14 @@ private:
     }
 
     /// Faults of the file itself end the reading; those of an element are noted.
-    void fault(const SchemaNode& node, std::size_t offset, std::string what) {
-        if (node.mild) return filler_.warn(offset, std::move(what), "ignored");
+    void fault(bool mild, std::size_t offset, std::string what) {
+        if (mild) return filler_.warn(offset, std::move(what), "ignored");
         if (filler_.owner.target == Target::none) throw JsonFault{ErrorCode::bad_input, offset, std::move(what)};
         filler_.fault(offset, std::move(what));
     }
 
     /// Notes a fault and returns false if a value is not of the schema's type.
-    bool check(const SchemaNode& node, const JsonValue& value) {
+    bool check(const SchemaNode& node, const JsonValue& value, bool mild) {
         const bool numeric = value.type == JsonType::integer || value.type == JsonType::number;
         double limit = 9007199254740992.0;  // 2^53
         bool good = true;
@@ -230,16 +233,16 @@ private:
                 good = numeric && value.number == std::trunc(value.number);  // 10.0 is an integer in JSON Schema
                 if (!good) break;
                 if (!value.exact || !(value.number >= 0 && value.number <= limit)) {
-                    fault(node, value.offset,
+                    fault(mild, value.offset,
                           !value.exact ? "expected an integer of at most 2^53 in size"
                                        : fmt::format("expected an integer from 0 to {:.0f}, found {:.0f}", limit, value.number));
                     return false;
                 }
                 if (node.rule == Rule::index)
-                    indices_.push_back({node.target, node.mild, static_cast<std::uint32_t>(value.number), filler_.owner, value.offset});
+                    indices_.push_back({node.target, mild, static_cast<std::uint32_t>(value.number), filler_.owner, value.offset});
                 return true;
         }
-        if (!good) fault(node, value.offset, fmt::format("expected {}, found {}", expected_by(node.rule), name_of(value.type)));
+        if (!good) fault(mild, value.offset, fmt::format("expected {}, found {}", expected_by(node.rule), name_of(value.type)));
         return good;
     }
 

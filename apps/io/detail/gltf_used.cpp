@@ -1,8 +1,6 @@
 #include "apps/io/detail/gltf_used.hpp"
 
 #include <algorithm>
-#include <iterator>
-#include <string_view>
 #include <utility>
 
 namespace halflit::io::detail {
@@ -55,14 +53,13 @@ private:
         skinned_[index] = true;
         for (const file::Primitive& primitive : mesh.primitives)
             for (const auto& [name, value] : primitive.attributes)
-                if (name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_")) accessor(value);
+                if (file::is_of_skin(name)) accessor(value);
     }
 
     void follow(const file::Primitive& primitive) {
         if (!file::draws_triangles(primitive)) return;
-        static constexpr std::string_view kRead[] = {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"};
         for (const auto& [name, value] : primitive.attributes)
-            if (std::find(std::begin(kRead), std::end(kRead), name) != std::end(kRead)) accessor(value);
+            if (file::is_drawn(name)) accessor(value);
         accessor(primitive.indices);
         if (!mark(Target::materials, primitive.material)) return;
         const file::Material& m = file_.materials[static_cast<std::size_t>(primitive.material)];

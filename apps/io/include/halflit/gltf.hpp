@@ -34,9 +34,11 @@ struct LoadLimits {
 
 /// How a file is read; the defaults are strict.
 struct LoadOptions {
-    bool lenient = false;                     ///< draw what can be drawn: magenta for broken textures, triangles with bad indices left out
-    std::vector<std::string> allow_external;  ///< folders, besides the model's own, in which referenced files may lie
-    LoadLimits limits;                        ///< on memory and time
+    bool lenient = false;  ///< draw what can be drawn: magenta for broken textures, triangles with bad indices left out
+    /// Folders, besides the model's own, in which referenced files may lie: a name is looked up below them, and may lead into them by "..".
+    /// One that cannot be opened is an error (usage).
+    std::vector<std::string> allow_external;
+    LoadLimits limits;  ///< on memory and time
 };
 
 /// Contents of the file, drawn or not.
@@ -80,10 +82,12 @@ struct Node {
 
 /// A file's scene, its nodes, and the loader's warnings and counts.
 struct LoadedScene {
-    Scene scene;                        ///< the file's default scene, or else its first
-    std::vector<Node> nodes;            ///< all nodes of the file, by their numbers in it
-    std::vector<std::string> warnings;  ///< one line each, no file prefix
-    SceneInfo info;                     ///< counts for the user
+    Scene scene;              ///< the file's default scene, or else its first
+    std::vector<Node> nodes;  ///< all nodes of the file, by their numbers in it
+    /// What the picture lacks, and values that the file must not have, by their JSON path: one line each, no file prefix, at most a hundred
+    /// and one that counts the others.
+    std::vector<std::string> warnings;
+    SceneInfo info;  ///< counts for the user
 };
 
 /// Loads the model at `path`; files that it refers to are read from its folder. Error messages begin with `path`. Thread-safe.
