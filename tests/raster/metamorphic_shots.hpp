@@ -1,0 +1,61 @@
+// Random scenes of all kinds, and ways to draw them that must not show.
+#pragma once
+
+#include "tests/raster/metamorphic_scene.hpp"
+#include "tests/raster/random_trial.hpp"
+
+#include <atomic>
+#include <thread>
+
+namespace halflit::raster::test {
+
+/// Bodies apart from each other, shapes with skies and many lights, or heaps of triangles of all sizes, some of them thin, inside each
+/// other.
+inline Shot any_shot(std::uint64_t seed) {
+    if (seed % 3 == 0) return separate_bodies(seed);
+    if (seed % 3 == 1) {
+        Trial trial = random_trial(static_cast<std::uint32_t>(seed));
+        return {std::move(trial.scene), trial.camera, trial.settings};
+    }
+    Random random(seed);
+    Shot shot;
+    for (int i = 0; i < 3; ++i) shot.scene.materials.push_back(random_material(random));
+    for (Material& material : shot.scene.materials) {
+        material.base_color_texture = material.normal_texture = {};
+        material.double_sided = random.chance(0.5);
+        if (random.chance(0.2)) material.alpha_mode = AlphaMode::blend, material.base_color.w = 0.5f;
+    }
+    for (int i = 0; i < 3; ++i) {
+        Mesh mesh = random_mesh(random, 2000);
+        generate_flat_normals(mesh);
+        mesh.material = i;
+        shot.scene.meshes.push_back(mesh);
+    }
+    for (int i = 0; i < 6; ++i) shot.scene.instances.push_back({random.index(3), random_place(random, 2)});
+    for (int i = 0; i < 3; ++i) shot.scene.lights.push_back(random_light(random));
+    shot.camera = random_camera(random);
+    shot.settings = random_settings(random);
+    return shot;
+}
+
+/// The host's threads stand in for oneTBB's under the thread sanitizer, which does not see how the system's oneTBB synchronises.
+inline Execution execution_of(int threads, int tile, Isa isa) {
+    Execution execution;
+    execution.threads = threads;
+    execution.tile_size = tile;
+    execution.isa = isa;
+#if defined(__SANITIZE_THREAD__)
+    if (threads > 1)
+        execution.parallel_for = [threads](int count, const std::function<void(int)>& body) {
+            std::atomic<int> next{0};
+            std::vector<std::jthread> others;
+            for (int t = 0; t < threads; ++t)
+                others.emplace_back([&] {
+                    for (int i = next++; i < count; i = next++) body(i);
+                });
+        };
+#endif
+    return execution;
+}
+
+}  // namespace halflit::raster::test
