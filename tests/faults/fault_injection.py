@@ -193,13 +193,14 @@ def main():
     arguments.add_argument("--stride", type=int, default=1, help="of allocations, every STRIDEth fails")
     arguments.add_argument("--rounds", type=int, default=len(ROUNDS), help="combinations of threads and shadows")
     arguments.add_argument("--kinds", default=",".join(ERRORS))
+    arguments.add_argument("--examples", type=int, default=3, help="number printed of outcomes that are wrong in the same way")
     arguments.add_argument("--on", action="store_true", help="all later calls fail too")
     options = arguments.parse_args()
     begin = time.monotonic()
     jobs = os.cpu_count() or 1
     places = [Place(os.path.join(options.folder, str(i))) for i in range(jobs)]
     free = list(places)
-    tried, not_reached, wrong_outcomes, codes = {}, 0, 0, {}
+    tried, not_reached, wrong_outcomes, codes, alike = {}, 0, 0, {}, {}
 
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         for round_ in ROUNDS[len(ROUNDS) - options.rounds :]:
@@ -222,12 +223,18 @@ def main():
                     not_reached += not outcome.fired
                     codes[outcome.code] = codes.get(outcome.code, 0) + 1
                     sentences = wrong(outcome, right, kind, error, options.on)
-                    if sentences:
-                        wrong_outcomes += 1
+                    if not sentences:
+                        continue
+                    wrong_outcomes += 1
+                    key = (kind, outcome.code, *sentences)
+                    alike[key] = alike.get(key, 0) + 1
+                    if alike[key] <= options.examples:
                         what = os.strerror(error) if error else "half of the bytes"
                         print("%s %d of %d (%s), threads %d, shadows %s, after '%s': exit code %d, %s | %s"
                               % (kind, at, right.calls, what, *round_, outcome.after, outcome.code, "; ".join(sentences),
                                  " / ".join(outcome.lines)))
+    for (kind, code, *sentences), count in alike.items():
+        print("%d times: %s, exit code %d, %s" % (count, kind, code, "; ".join(sentences)))
     if not tried:
         sys.exit("nothing was tried")
     points = ", ".join("%s %d" % pair for pair in tried.items())
