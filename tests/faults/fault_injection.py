@@ -191,6 +191,7 @@ def main():
     arguments.add_argument("shim")
     arguments.add_argument("folder")
     arguments.add_argument("--stride", type=int, default=1, help="of allocations, every STRIDEth fails")
+    arguments.add_argument("--first", type=int, default=1, help="number of the first allocation that fails")
     arguments.add_argument("--rounds", type=int, default=len(ROUNDS), help="combinations of threads and shadows")
     arguments.add_argument("--kinds", default=",".join(ERRORS))
     arguments.add_argument("--examples", type=int, default=3, help="number printed of outcomes that are wrong in the same way")
@@ -208,8 +209,8 @@ def main():
                 right = places[0].run(options.program, options.shim, round_, kind, 0, 0)
                 if right.code != 0 or right.report is None or wrong(right, right, kind, 0, False):
                     sys.exit("the undisturbed run failed: " + "\n".join(right.lines))
-                stride = options.stride if kind == "alloc" else 1
-                points = [(at, error) for error in ERRORS[kind] for at in range(1, right.calls + 1, stride)]
+                first, stride = (options.first, options.stride) if kind == "alloc" else (1, 1)
+                points = [(at, error) for error in ERRORS[kind] for at in range(first, right.calls + 1, stride)]
 
                 def attempt(point):
                     place = free.pop()
