@@ -9,6 +9,7 @@ import concurrent.futures
 import errno
 import json
 import os
+import re
 import shutil
 import struct
 import subprocess
@@ -161,7 +162,7 @@ def wrong(outcome, right, kind, error, on):
     if code not in allowed:
         found.append("expected exit code %s, found %d" % (" or ".join(map(str, allowed)), code))
     if outcome.left_over:
-        found.append("left over: " + " ".join(outcome.left_over))
+        found.append("left over: " + " ".join(re.sub(r"\d+", "PID", name) for name in outcome.left_over))
     if code == 0:
         if outcome.picture != right.picture:
             found.append("exit code 0 with another picture")
