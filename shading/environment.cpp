@@ -3,6 +3,7 @@
 #include "sh/sun.hpp"
 #include "sh/trig.hpp"
 #include "shading/model/scalar.hpp"
+#include "shading/out_of_memory.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -80,7 +81,7 @@ Result<std::shared_ptr<const Environment>> make_environment(const EnvironmentIma
         environment->calibrated = image.calibrated;
         return environment;
     } catch (const std::bad_alloc&) {
-        return fail(ErrorCode::limit, "out of memory while making an environment");
+        return fail_out_of_memory([] { return std::string("out of memory while making an environment"); });
     }
 }
 

@@ -1,6 +1,7 @@
 #include "halflit/texture.hpp"
 
 #include "shading/model/srgb.hpp"
+#include "shading/out_of_memory.hpp"
 
 #include <algorithm>
 #include <array>
@@ -141,7 +142,8 @@ Result<Texture> Texture::make(int width, int height, ReadTexel read_texel) {
         texture.range_ = range_of(texture.data_.data(), texture.levels_);
         return texture;
     } catch (const std::bad_alloc&) {
-        return fail(ErrorCode::limit, "texture: out of memory for " + std::to_string(width) + " x " + std::to_string(height) + " texels");
+        return fail_out_of_memory(
+            [&] { return "texture: out of memory for " + std::to_string(width) + " x " + std::to_string(height) + " texels"; });
     }
 }
 

@@ -12,7 +12,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 
@@ -86,11 +88,25 @@ int parse_and_run(int argc, char** argv) {
 
 }  // namespace
 
+/// Memory for the end of a program that has no other: the first allocation that fails frees it and tries again.
+std::atomic<void*> reserve = nullptr;
+
+void free_reserve() {
+    void* const kept = reserve.exchange(nullptr);
+    if (kept == nullptr) throw std::bad_alloc();
+    std::free(kept);
+}
+
 int main(int argc, char** argv) {
+    reserve = std::malloc(std::size_t{1} << 20);
+    std::set_new_handler(free_reserve);
     occupy_standard_streams();
-    handle_signals();
     try {
+        handle_signals();
         return parse_and_run(argc, argv);
+    } catch (const std::bad_alloc&) {
+        print_error("out of memory");
+        return static_cast<int>(ErrorCode::limit);
     } catch (const std::exception& exception) {
         print_error(std::string("internal error: ") + exception.what());
         return static_cast<int>(ErrorCode::internal);

@@ -24,7 +24,7 @@ namespace halflit::io {
 namespace {
 
 tl::unexpected<Error> system_error(const std::string& place, int error) {
-    return fail(ErrorCode::io, error == EPIPE ? std::string() : place + ": " + errno_text(error));
+    return fail(error == ENOMEM ? ErrorCode::limit : ErrorCode::io, error == EPIPE ? std::string() : place + ": " + errno_text(error));
 }
 
 /// The temporary files that exist now, for abandon_files.
@@ -40,6 +40,7 @@ public:
         std::unique_lock lock(mutex_);
         wait_if_abandoned(lock);
         constexpr int kFlags = O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW;
+        paths_.reserve(paths_.size() + 1);  // so that no exception leaves a file that is not listed
         int fd = ::open(path.c_str(), kFlags, mode);
         if (fd < 0 && errno == EEXIST) {
             // Left over from a killed process that had the same process id.

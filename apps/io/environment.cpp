@@ -5,6 +5,7 @@
 #include "apps/io/text.hpp"
 #include "sh/equirect.hpp"
 #include "sh/trig.hpp"
+#include "shading/out_of_memory.hpp"
 
 #include <new>
 
@@ -77,7 +78,7 @@ Result<EnvironmentImage> read_environment(const std::string& path, const Environ
         if (!image) return fail(image.error().code, printable(path) + ": " + image.error().message);
         return EnvironmentImage{image->width, image->height, std::move(image->rgb), false};
     } catch (const std::bad_alloc&) {
-        return fail(ErrorCode::limit, printable(path) + ": out of memory");
+        return fail_out_of_memory([&] { return printable(path) + ": out of memory"; });
     }
 }
 

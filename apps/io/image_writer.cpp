@@ -2,9 +2,13 @@
 
 #include "apps/io/atomic_file.hpp"
 #include "apps/io/text.hpp"
+#include "shading/out_of_memory.hpp"
 
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
+#include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <new>
 
@@ -13,6 +17,51 @@
 #pragma GCC diagnostic ignored "-Wshadow"
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 #pragma GCC diagnostic ignored "-Wunused-function"
+/// Memory of one encoder. stb's allocations are not checked by it, so a failed one throws; what it had is freed here.
+class EncoderMemory {
+public:
+    EncoderMemory() : outer_(current_) { current_ = this; }
+    ~EncoderMemory() {
+        while (first_.next != &first_) give(first_.next + 1);
+        current_ = outer_;
+    }
+    EncoderMemory(const EncoderMemory&) = delete;
+    EncoderMemory& operator=(const EncoderMemory&) = delete;
+
+    static void* take(std::size_t size) {
+        auto* const block = static_cast<Block*>(std::malloc(sizeof(Block) + size));
+        if (block == nullptr) throw std::bad_alloc();
+        Block& first = current_->first_;
+        block->next = first.next, block->previous = &first, block->size = size;
+        first.next->previous = block, first.next = block;
+        return block + 1;
+    }
+    static void give(void* memory) {
+        if (memory == nullptr) return;
+        Block* const block = static_cast<Block*>(memory) - 1;
+        block->next->previous = block->previous, block->previous->next = block->next;
+        std::free(block);
+    }
+    static void* resize(void* memory, std::size_t size) {
+        void* const larger = take(size);
+        if (memory != nullptr) std::memcpy(larger, memory, std::min(size, (static_cast<Block*>(memory) - 1)->size));
+        give(memory);
+        return larger;
+    }
+
+private:
+    struct alignas(std::max_align_t) Block {
+        Block *next, *previous;
+        std::size_t size;
+    };
+    Block first_{&first_, &first_, 0};
+    EncoderMemory* outer_;
+    static thread_local EncoderMemory* current_;
+};
+thread_local EncoderMemory* EncoderMemory::current_ = nullptr;
+#define STBIW_MALLOC(size) EncoderMemory::take(size)
+#define STBIW_REALLOC(memory, size) EncoderMemory::resize(memory, size)
+#define STBIW_FREE(memory) EncoderMemory::give(memory)
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #include <stb/stb_image_write.h>
@@ -64,6 +113,7 @@ std::vector<float> rgb_linear_over_black(const Image& image) {
 
 std::vector<std::uint8_t> encode(const Image& image, OutputFormat format) {
     const int w = image.width, h = image.height;
+    const EncoderMemory memory;
     Sink sink;
     int done = 0;
     switch (format) {
@@ -120,7 +170,7 @@ Result<std::vector<std::uint8_t>> encode_image(const Image& image, OutputFormat 
     try {
         return encode(image, format);
     } catch (const std::bad_alloc&) {
-        return fail(ErrorCode::limit, "out of memory while encoding the picture");
+        return fail_out_of_memory([] { return std::string("out of memory while encoding the picture"); });
     }
 }
 

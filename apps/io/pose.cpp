@@ -1,6 +1,7 @@
 #include "apps/io/detail/gltf_placed.hpp"
 #include "apps/io/detail/gltf_transform.hpp"
 #include "halflit/gltf.hpp"
+#include "shading/out_of_memory.hpp"
 
 #include <fmt/format.h>
 
@@ -97,7 +98,7 @@ Result<SceneChanges> pose(std::span<const Node> nodes, Scene& scene) {
         }
         return changes;
     } catch (const std::bad_alloc&) {
-        return fail(ErrorCode::limit, "out of memory while posing a scene");
+        return fail_out_of_memory([] { return std::string("out of memory while posing a scene"); });
     }
 }
 

@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <vector>
 
 namespace halflit::raster {
@@ -79,8 +80,12 @@ private:
         return std::make_unique<T>();
     }
     void give(std::unique_ptr<T> item) {
-        const std::lock_guard lock(mutex_);
-        free_.push_back(std::move(item));
+        // Runs in a destructor, where an exception would end the process. Without memory for the list, the item is dropped.
+        try {
+            const std::lock_guard lock(mutex_);
+            free_.push_back(std::move(item));
+        } catch (const std::bad_alloc&) {
+        }
     }
 
     std::mutex mutex_;

@@ -5,10 +5,12 @@
 #include "raster/detail/executor.hpp"
 #include "raster/detail/fp_environment.hpp"
 #include "raster/detail/stop_signal.hpp"
+#include "shading/out_of_memory.hpp"
 
 #include <exception>
 #include <new>
 #include <string>
+#include <utility>
 
 namespace halflit::raster {
 
@@ -19,9 +21,9 @@ auto guarded(const char* doing, const Body& body) -> decltype(body()) {
     try {
         return body();
     } catch (const std::bad_alloc&) {
-        return fail(ErrorCode::limit, std::string("out of memory while ") + doing);
-    } catch (const Stopped& stopped) {
-        return fail(stopped.error.code, stopped.error.message);
+        return fail_out_of_memory([&] { return std::string("out of memory while ") + doing; });
+    } catch (Stopped& stopped) {
+        return tl::unexpected(std::move(stopped.error));
     } catch (const WrongLoop& e) {
         return fail(ErrorCode::usage, e.what());
     } catch (const std::exception& e) {

@@ -32,7 +32,8 @@ void StopSignal::take_memory(std::size_t bytes) {
     const std::size_t before = memory_.fetch_add(bytes, std::memory_order_relaxed);
     if (memory_limit_ == 0 || before + bytes <= memory_limit_) return;
     memory_.fetch_sub(bytes, std::memory_order_relaxed);
-    throw Stopped{{ErrorCode::limit, "drawing needs more than " + std::to_string(memory_limit_) + " bytes of working memory, which is the limit"}};
+    throw Stopped{
+        {ErrorCode::limit, "drawing needs more than " + std::to_string(memory_limit_) + " bytes of working memory, which is the limit"}};
 }
 
 }  // namespace halflit::raster

@@ -23,13 +23,14 @@ struct Decoder {
     std::jmp_buf escape{};
     char message[JMSG_LENGTH_MAX] = "";
     int max_scans = 0;
-    bool too_many_scans = false;
+    bool too_many_scans = false, out_of_memory = false;
 
     Decoder() {
         info.err = jpeg_std_error(&errors);
         errors.error_exit = [](j_common_ptr common) {
             auto* self = static_cast<Decoder*>(common->client_data);
             common->err->format_message(common, self->message);
+            self->out_of_memory = common->err->msg_code == JERR_OUT_OF_MEMORY;
             std::longjmp(self->escape, 1);
         };
         errors.emit_message = [](j_common_ptr common, int level) {
@@ -92,7 +93,7 @@ struct Decoder {
 
     [[nodiscard]] tl::unexpected<Error> error() const {
         if (too_many_scans) return fail(ErrorCode::limit, fmt::format("JPEG: more than {} scans, which is the limit", max_scans));
-        return fail(ErrorCode::bad_input, fmt::format("JPEG: {}", message));
+        return fail(out_of_memory ? ErrorCode::limit : ErrorCode::bad_input, fmt::format("JPEG: {}", message));
     }
 };
 

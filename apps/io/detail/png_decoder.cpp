@@ -19,7 +19,10 @@ using Context = std::unique_ptr<spng_ctx, ContextDeleter>;
 constexpr std::size_t kMaxChunkBytes = std::size_t{16} << 20;  // limit of the chunks that libspng stores (text, profiles)
 constexpr std::uint64_t kMaxDeflateRatio = 1032;               // deflate cannot expand more: 258 bytes from 2 bits
 
-tl::unexpected<Error> png_error(int code) { return fail(ErrorCode::bad_input, fmt::format("PNG: {}", spng_strerror(code))); }
+tl::unexpected<Error> png_error(int code) {
+    const bool memory = code == SPNG_EMEM || code == SPNG_EZLIB_INIT;
+    return fail(memory ? ErrorCode::limit : ErrorCode::bad_input, fmt::format("PNG: {}", spng_strerror(code)));
+}
 
 struct Opened {
     Context context;
