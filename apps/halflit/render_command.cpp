@@ -21,6 +21,7 @@
 #include <filesystem>
 #include <memory>
 #include <new>
+#include <utility>
 
 namespace halflit::cli {
 namespace {
@@ -48,6 +49,21 @@ Result<void> check_paths(const RenderCommandOptions& options) {
     for (const std::string& path : {options.output, options.report})
         if (path != "-" && !path.empty() && !options.scene.empty() && same_file(path, options.scene))
             return fail(ErrorCode::io, path + ": is the scene itself and is not overwritten");
+    return {};
+}
+
+/// Refuses to overwrite a file that the scene was read from, such as a texture that has the picture's name. If the report would, it is not
+/// written at all: its path is cleared.
+Result<void> spare_inputs(RenderCommandOptions& options, const RenderJob& job) {
+    std::vector<std::string> inputs;
+    if (job.source.file) inputs = job.source.file->files;
+    if (!options.environment.empty() && options.environment != "sky") inputs.push_back(options.environment);
+    for (std::string* const path : {&options.output, &options.report})
+        for (const std::string& input : inputs)
+            if (*path != "-" && !path->empty() && same_file(*path, input)) {
+                const std::string name = path == &options.report ? std::exchange(options.report, "") : *path;
+                return fail(ErrorCode::io, name + ": the scene was read from it, and it is not overwritten (-o names another file)");
+            }
     return {};
 }
 
@@ -81,7 +97,7 @@ void print_choices(const RenderJob& job, const RenderReport& rendered, double en
 }
 
 /// Returns the report.
-Result<std::string> render_and_write(const RenderCommandOptions& options) {
+Result<std::string> render_and_write(RenderCommandOptions& options) {
     if (is_folder(options.output))
         return fail(ErrorCode::io, options.output + ": " + io::errno_text(EISDIR) + " (-o " + options.output + "/ writes into it)");
     const auto format = output_format_of(options.output);
@@ -92,6 +108,7 @@ Result<std::string> render_and_write(const RenderCommandOptions& options) {
     warn_of_lost_transparency(options, *format);
     auto job = make_render_job(options, kRenderSize);
     if (!job) return tl::unexpected(job.error());
+    if (const auto checked = spare_inputs(options, *job); !checked) return tl::unexpected(checked.error());
     Image image = make_image(*job, is_linear(*format));
     const auto rendered = draw(*job, image);
     if (!rendered) return fail(rendered.error().code, job->source.name + ": " + rendered.error().message);
@@ -102,13 +119,16 @@ Result<std::string> render_and_write(const RenderCommandOptions& options) {
     const auto bytes = encode_image(image, *format);
     if (!bytes) return tl::unexpected(bytes.error());
     const double encode_ms = encoding.ms();
-    if (const auto written = io::write_file(options.output, *bytes); !written) return tl::unexpected(written.error());
+    // Whatever can fail comes before the picture has its name.
+    std::string report = picture_report(options.output, *job, *rendered, image, encode_ms);
     print_choices(*job, *rendered, encode_ms);
-    if (options.output != "-") print_note("wrote " + options.output);
-    return picture_report(options.output, *job, *rendered, image, encode_ms);
+    const std::string note = "wrote " + options.output;
+    if (const auto written = io::write_file(options.output, *bytes); !written) return tl::unexpected(written.error());
+    if (options.output != "-") print_note(note);
+    return report;
 }
 
-Result<std::string> render_within_memory(const RenderCommandOptions& options) {
+Result<std::string> render_within_memory(RenderCommandOptions& options) {
     try {
         return render_and_write(options);
     } catch (const std::bad_alloc&) {

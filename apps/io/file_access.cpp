@@ -174,7 +174,7 @@ ModelFolder::ModelFolder(std::string base_dir, std::vector<std::string> also_all
 void ModelFolder::add(const std::string& path) {
     const int fd = ::open(path.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
     const int error = errno;
-    folders_.push_back({fd, absolute(path), fd >= 0 ? place_of(path) : ""});
+    folders_.push_back({fd, fd >= 0 ? 0 : error, absolute(path), fd >= 0 ? place_of(path) : ""});
     errno = error;
 }
 
@@ -188,7 +188,7 @@ Result<void> ModelFolder::check() const {
     return {};
 }
 
-Result<std::vector<std::byte>> ModelFolder::read(std::string_view relative, std::size_t max_bytes) const {
+Result<std::vector<std::byte>> ModelFolder::read(std::string_view relative, std::size_t max_bytes) {
     const std::string shown = printable(relative);
     const auto refuse = [&](std::string why) { return fail(ErrorCode::bad_input, fmt::format("\"{}\": {}", shown, why)); };
     if (folders_.empty()) return refuse("the model has no folder to read other files from");
@@ -201,7 +201,8 @@ Result<std::vector<std::byte>> ModelFolder::read(std::string_view relative, std:
     int error = ENOENT;
     const auto open_in = [&](const Folder& folder, const std::string& name) {
         Descriptor file = folder.descriptor < 0 || name.empty() ? Descriptor(-1) : open_beneath(folder.descriptor, name);
-        if (file.get() < 0 && folder.descriptor >= 0 && error == ENOENT) error = name.empty() ? EISDIR : errno;
+        if (file.get() < 0 && error == ENOENT) error = folder.descriptor < 0 ? folder.error : name.empty() ? EISDIR : errno;
+        if (file.get() >= 0) files_.push_back(folder.at + "/" + name);
         return file;
     };
     const std::string name = normalised(relative);
@@ -228,7 +229,11 @@ Result<std::vector<std::byte>> ModelFolder::read(std::string_view relative, std:
         return refuse(folders_.size() > (has_base_ ? 1 : 0) ? "leads out of the model's folder and of those that are allowed"
                                                             : "leads out of the model's folder");
     if (error == ENOENT) return refuse("no such file");
-    return refuse(fmt::format("cannot be opened: {}", errno_text(error)));
+    const bool process_is_full = error == EMFILE || error == ENFILE;
+    return fail(error == ENOMEM   ? ErrorCode::limit
+                : process_is_full ? ErrorCode::io
+                                  : ErrorCode::bad_input,
+                fmt::format("\"{}\": cannot be opened: {}", shown, errno_text(error)));
 }
 
 }  // namespace halflit::io

@@ -31,19 +31,23 @@ public:
     /// An error (usage) that names the first folder of `also_allowed` which cannot be opened.
     [[nodiscard]] Result<void> check() const;
 
-    /// `relative` uses '/' and has been percent-decoded. All errors are bad_input, except limit above `max_bytes`; the message has no
-    /// file prefix.
-    [[nodiscard]] Result<std::vector<std::byte>> read(std::string_view relative, std::size_t max_bytes) const;
+    /// `relative` uses '/' and has been percent-decoded. All errors are bad_input, except limit above `max_bytes` or without memory, and io
+    /// where the process cannot open more files; the message has no file prefix.
+    [[nodiscard]] Result<std::vector<std::byte>> read(std::string_view relative, std::size_t max_bytes);
+    /// The files that were opened, as paths from the root.
+    [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
 
 private:
     struct Folder {
         int descriptor;    ///< -1 where opening failed
+        int error;         ///< errno of that failure, or 0
         std::string name;  ///< as it was given, made absolute, without "." and ".."
         std::string at;    ///< its place, without symbolic links; empty where it is not known
     };
     void add(const std::string& path);
 
     std::vector<Folder> folders_;  ///< the model's folder first, if there is one
+    std::vector<std::string> files_;
     bool has_base_ = false;
     std::string missing_;  ///< message of check()
 };
