@@ -122,6 +122,29 @@ Result<void> choose_setup(RenderJob& job, const RenderOptions& options, const st
     return {};
 }
 
+/// The flags' coordinates are the file's; the scene may be drawn elsewhere, and larger or smaller.
+RenderOptions in_drawn_world(RenderOptions options, const SceneSource& source) {
+    const Vec3d origin = turned_upright(source.origin, options.up);
+    const auto times = [](float value, double factor) { return static_cast<float>(std::clamp(value * factor, -3e38, 3e38)); };
+    const auto place = [&](Vec3f& p) {
+        p = {times(1.0f, (p.x - origin.x) * source.scale), times(1.0f, (p.y - origin.y) * source.scale),
+             times(1.0f, (p.z - origin.z) * source.scale)};
+    };
+    if (options.camera_position) place(*options.camera_position);
+    if (options.camera_target) place(*options.camera_target);
+    options.settings.shadow_fade = times(options.settings.shadow_fade, source.scale);
+    for (Light& light : options.lights) {
+        if (light.type == LightType::directional) continue;
+        place(light.position_ws);
+        light.range = times(light.range, source.scale);
+        light.source_radius = times(light.source_radius, source.scale);
+        Vec3f& color = light.color_linear;  // falls with the squared distance
+        const double brighter = source.scale * source.scale;
+        color = {times(color.x, brighter), times(color.y, brighter), times(color.z, brighter)};
+    }
+    return options;
+}
+
 /// From now on, an allocation fails that would take the process beyond this.
 void limit_process_memory(std::size_t bytes) {
     const rlimit limit{static_cast<rlim_t>(bytes), static_cast<rlim_t>(bytes)};
@@ -166,7 +189,10 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
     if (const auto chosen = choose_settings(job.settings, options); !chosen) return tl::unexpected(chosen.error());
 
     const Stopwatch loading;
-    auto source = load_scene(options);
+    RenderOptions timed = options;
+    timed.load.recentre = true;
+    timed.load.limits.time_limit_s = options.timeout_s;
+    auto source = load_scene(timed);
     if (!source) return tl::unexpected(source.error());
     job.load_ms = loading.ms();
     job.source = std::move(*source);
@@ -181,9 +207,11 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
     const Bounds bounds = job.prepared->bounds();
     const bool loader_said_so = job.source.file && job.source.file->triangles_drawn == 0;
     if (bounds.empty && !loader_said_so) job.warnings.push_back("nothing to draw: no vertex has finite coordinates");
-    const auto camera = choose_view(job, options, usual);
+    const RenderOptions placed = in_drawn_world(options, job.source);
+    job.settings.shadow_fade = placed.settings.shadow_fade;
+    const auto camera = choose_view(job, placed, usual);
     if (!camera) return tl::unexpected(camera.error());
-    if (const auto set_up = choose_setup(job, options, *camera); !set_up) return tl::unexpected(set_up.error());
+    if (const auto set_up = choose_setup(job, placed, *camera); !set_up) return tl::unexpected(set_up.error());
     if (const auto updated = job.prepared->update({.lights = true}, job.timed_execution()); !updated)
         return tl::unexpected(updated.error());
     job.settings.region = options.settings.region.width > 0 ? options.settings.region : Region{0, 0, job.width, job.height};

@@ -46,13 +46,18 @@ Result<SceneSource> load_scene(const RenderOptions& options) {
     const std::string name = options.scene.empty() ? "demo" : options.scene;
     auto built_in = built_in_scene(name);
     if (!built_in) return tl::unexpected(built_in.error());
-    if (*built_in) return SceneSource{name, std::make_unique<Scene>(std::move(**built_in)), std::nullopt, {}};
+    if (*built_in)
+        return SceneSource{.name = name, .scene = std::make_unique<Scene>(std::move(**built_in)), .file = std::nullopt, .warnings = {}};
     auto loaded = load_model(options);
     if (!loaded && loaded.error().code == ErrorCode::io && name != "-")
         return fail(ErrorCode::io, loaded.error().message + did_you_mean_file(name, {"demo", "sphere:N", "lights:N"}));
     if (!loaded) return tl::unexpected(loaded.error());
-    return SceneSource{name == "-" ? kStandardInput : name, std::make_unique<Scene>(std::move(loaded->scene)), std::move(loaded->info),
-                       std::move(loaded->warnings)};
+    return SceneSource{name == "-" ? kStandardInput : name,
+                       std::make_unique<Scene>(std::move(loaded->scene)),
+                       std::move(loaded->info),
+                       std::move(loaded->warnings),
+                       loaded->origin,
+                       loaded->scale};
 }
 
 bool is_scene(const std::string& name) { return name == "-" || is_built_in_name(name) || is_model_name(name) || is_file(name); }

@@ -19,6 +19,8 @@ struct SceneSource {
     std::unique_ptr<Scene> scene;   ///< keeps its address when the source is moved
     std::optional<SceneInfo> file;  ///< counts for a file or standard input; the unit of such a scene's lights is not known
     std::vector<std::string> warnings;
+    Vec3d origin{0, 0, 0};  ///< a point p of the file is drawn at (p - origin) * scale
+    double scale = 1.0;
 };
 
 /// An empty name is the demo scene. Built-in names come before files: a file called "demo" is given as "./demo".

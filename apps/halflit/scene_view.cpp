@@ -46,6 +46,15 @@ void turn_upright(Scene& scene, UpAxis up) {
     }
 }
 
+Vec3d turned_upright(Vec3d point, UpAxis up) {
+    const Mat4 m = upright_from(up);
+    const auto row = [&](float Vec4f::*r) {
+        return static_cast<double>(m.c[0].*r) * point.x + static_cast<double>(m.c[1].*r) * point.y +
+               static_cast<double>(m.c[2].*r) * point.z;
+    };
+    return {row(&Vec4f::x), row(&Vec4f::y), row(&Vec4f::z)};
+}
+
 Camera placed_camera(Vec3f eye, Vec3f target, float fov_y_deg, const Bounds& bounds) {
     constexpr float kNearestShare = 1e-4f;  // of the distance to the scene's centre or of its radius
     Camera camera;

@@ -18,6 +18,8 @@ inline constexpr std::string_view kUpAxisNames[] = {"x", "y", "z", "-x", "-y", "
 
 /// Turns instances, cameras and lights by quarter turns, so that `up` becomes +y.
 void turn_upright(Scene& scene, UpAxis up);
+/// The same turn of a point.
+[[nodiscard]] Vec3d turned_upright(Vec3d point, UpAxis up);
 
 /// Perspective camera at `eye` that looks at `target`, with +y up. Its near plane is half way to the nearest point of `bounds`, or a small
 /// share of the scene's size if that is more.

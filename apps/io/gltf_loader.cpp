@@ -7,8 +7,10 @@
 #include "apps/io/detail/gltf_meshes.hpp"
 #include "apps/io/detail/gltf_nodes.hpp"
 #include "apps/io/detail/gltf_placed.hpp"
+#include "apps/io/detail/gltf_world.hpp"
 #include "apps/io/file_access.hpp"
 #include "apps/io/text.hpp"
+#include "shading/out_of_memory.hpp"
 
 #include <fmt/format.h>
 
@@ -25,22 +27,27 @@ using namespace io::detail;
 
 LoadedScene build(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
     const std::unique_ptr<Document> document = open_document(bytes, base_dir, options);
-    const NodeTree tree = place_nodes(*document);
+    document->check_time();
+    NodeTree tree = place_nodes(*document);
     settle(*document, tree.drawn);
     load_buffers(*document);
+    document->check_time();
     const std::vector<Accessor> accessors = check_accessors(*document);
     LoadedScene loaded;
     loaded.nodes = make_nodes(*document, tree);
     ImageStore images(*document, loaded.scene.textures);
     loaded.scene.materials = make_materials(*document, images, find_used_materials(*document, tree));
     place_meshes(*document, accessors, tree, loaded);
+    recentre(*document, tree, loaded);
     place_cameras(*document, tree, loaded);
     place_lights(*document, tree, loaded);
+    scale_views_and_lights(loaded);
     loaded.scene.calibrated = loaded.scene.lights.empty();
     if (loaded.scene.instances.empty()) document->warn("the model has nothing to draw");
     if (document->warnings_left_out > 0) document->warnings.push_back(fmt::format("and {} further warnings", document->warnings_left_out));
     loaded.warnings = std::move(document->warnings);
     loaded.info = std::move(document->info);
+    loaded.info.files = document->folder.files();
     return loaded;
 }
 
@@ -59,13 +66,17 @@ Result<LoadedScene> load_gltf_bytes(std::span<const std::byte> bytes, const std:
         return fail(code, fmt::format("{}: {}", printable(name), message));
     };
     try {
-        return build(bytes, base_dir, options);
-    } catch (const LoadFailure& failure) {
-        return failed(failure.error.code, failure.error.message);
-    } catch (const std::bad_alloc&) {
-        return failed(ErrorCode::limit, "out of memory");
-    } catch (const std::exception& error) {  // a decoder's, or the standard library's
-        return failed(ErrorCode::bad_input, printable(error.what()));
+        try {
+            return build(bytes, base_dir, options);
+        } catch (const LoadFailure& failure) {
+            return failed(failure.error.code, failure.error.message);
+        } catch (const std::bad_alloc&) {
+            return failed(ErrorCode::limit, "out of memory");
+        } catch (const std::exception& error) {  // a decoder's, or the standard library's
+            return failed(ErrorCode::bad_input, printable(error.what()));
+        }
+    } catch (const std::bad_alloc&) {  // of the message
+        return fail(ErrorCode::limit, "out of memory");
     }
 }
 
@@ -75,7 +86,7 @@ Result<LoadedScene> load_gltf(const std::string& path, const LoadOptions& option
         if (!bytes) return tl::unexpected(bytes.error());
         return load_gltf_bytes(*bytes, path, folder_of(path), options);
     } catch (const std::bad_alloc&) {
-        return fail(ErrorCode::limit, fmt::format("{}: out of memory", printable(path)));
+        return fail_out_of_memory([&] { return fmt::format("{}: out of memory", printable(path)); });
     }
 }
 

@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint64_t kFreeBytes = std::uint64_t{32} << 20;  // memory that any file may use
 constexpr std::uint64_t kBytesPerByte = 96;  // more for each byte of the file; the most that one needs is 76, a flat-shaded u8 index
 
-std::vector<std::byte> fetch(const Document& document, const file::Buffer& entry, std::string_view where) {
+std::vector<std::byte> fetch(Document& document, const file::Buffer& entry, std::string_view where) {
     const std::size_t limit = document.options.limits.max_file_bytes;
     if (is_data_uri(*entry.uri)) return take(decode_data_uri(*entry.uri, limit), where);
     return take(document.folder.read(take(decode_file_uri(*entry.uri), where), limit), where);
@@ -99,6 +99,12 @@ void set_geometry_limit(Document& document) {
 }
 
 }  // namespace
+
+void Document::check_time() const {
+    const double limit = options.limits.time_limit_s;
+    if (limit > 0.0 && std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count() > limit)
+        refuse("", "the time limit was reached before the file was read", ErrorCode::limit);
+}
 
 void Document::warn(std::string what) {
     constexpr std::size_t kMost = 100;

@@ -36,6 +36,7 @@ ImageStore::ImageStore(Document& document, std::vector<Texture>& textures)
     : document_(document), textures_(textures), texture_memory_("the textures", document.options.limits.max_texture_bytes) {}
 
 Texture ImageStore::make(int image, ColorSpace space) {
+    document_.check_time();
     const file::Image& entry = document_.file.images[static_cast<std::size_t>(image)];
     const LoadLimits& limits = document_.options.limits;
     std::string where = fmt::format("images[{}]", image);

@@ -91,6 +91,7 @@ private:
         Made made;
         const auto& primitives = document_.file.meshes[mesh].primitives;
         for (std::size_t p = 0; p < primitives.size(); ++p) {
+            document_.check_time();
             std::optional<ReadMesh> read = reader_.read(mesh, p, weights);
             if (!read) continue;
             if (skin >= 0) {

@@ -30,6 +30,7 @@ struct LoadLimits {
     /// needs more, and a crafted one cannot become many times larger than its file. The JSON objects have the same limit.
     std::uint64_t max_geometry_bytes = std::uint64_t{16} << 30;
     std::size_t max_lights = 1024;  ///< lights of the drawn nodes
+    double time_limit_s = 0.0;      ///< wall clock, asked for between the parts of the file; 0: no limit
 };
 
 /// How a file is read; the defaults are strict.
@@ -39,6 +40,10 @@ struct LoadOptions {
     /// One that cannot be opened is an error (usage).
     std::vector<std::string> allow_external;
     LoadLimits limits;  ///< on memory and time
+    /// Draws a scene at the origin that lies more than 1024 times its radius away from it, and scales one whose radius is beyond 2^-30 to
+    /// 2^30 by a power of two, so that float32 keeps its shape. LoadedScene::origin and scale say what was done. pose() places nodes in the
+    /// file's own world, so a host that poses such a scene leaves this off.
+    bool recentre = false;
 };
 
 /// Contents of the file, drawn or not.
@@ -54,6 +59,7 @@ struct SceneInfo {
     std::uint64_t triangles_stored = 0;         ///< triangles of the meshes that are drawn, each once
     std::uint64_t triangles_drawn = 0;          ///< triangles over all instances
     std::uint64_t vertices = 0;                 ///< vertices after splitting for flat normals and tangents
+    std::vector<std::string> files;             ///< files that the model refers to and that were read, as paths from the root
     /// Names, as the file lists them.
     std::vector<std::string> extensions_used;
     /// Those without which the file must not be drawn.
@@ -87,6 +93,9 @@ struct LoadedScene {
     /// What the picture lacks, and values that the file must not have, by their JSON path: one line each, no file prefix, at most a hundred
     /// and one that counts the others.
     std::vector<std::string> warnings;
+    /// A point p of the file's world is drawn at (p - origin) * scale; see LoadOptions::recentre.
+    Vec3d origin{0, 0, 0};
+    double scale = 1.0;
     SceneInfo info;  ///< counts for the user
 };
 
