@@ -31,8 +31,8 @@ std::pair<std::uint32_t, std::uint32_t> png_size(const std::string& png) {
 
 TEST_CASE("limits: a scene that takes longer than --timeout ends with 5, a report and no picture", "[cli]") {
     const TemporaryFolder folder;
-    const Outcome outcome = run({"sphere:1000000", "--size", "4096x4096", "--timeout", "0.01", "-o", folder.file("a.png"), "--report",
-                                 folder.file("a.json")});
+    const Outcome outcome =
+        run({"sphere:1000000", "--size", "4096x4096", "--timeout", "0.01", "-o", folder.file("a.png"), "--report", folder.file("a.json")});
     CHECK(outcome.code == 5);
     CHECK(outcome.err.find("time limit") != std::string::npos);
     CHECK(folder.names() == std::vector<std::string>{"a.json"});
@@ -45,8 +45,7 @@ TEST_CASE("limits: a scene that needs more than --max-memory ends with 5, a repo
     return;  // sanitizers take terabytes of addresses
 #endif
     const TemporaryFolder folder;
-    const Outcome outcome =
-        run({"sphere:1000000", "--max-memory", "64", "-o", folder.file("a.png"), "--report", folder.file("a.json")});
+    const Outcome outcome = run({"sphere:1000000", "--max-memory", "64", "-o", folder.file("a.png"), "--report", folder.file("a.json")});
     CHECK(outcome.code == 5);
     CHECK(outcome.err.find("memory") != std::string::npos);
     CHECK(folder.names() == std::vector<std::string>{"a.json"});

@@ -191,6 +191,7 @@ TEST_CASE("trade: the combinations are the product of what the scene has", "[cli
     const auto rows_with = [](std::vector<std::string> flags) {
         const TemporaryFolder folder;
         flags.insert(flags.begin(), "sphere:100");
+        if (std::find(flags.begin(), flags.end(), "--shadow-size") == flags.end()) flags.insert(flags.end(), {"--shadow-size", "2048"});
         return trade(folder, flags).size();
     };
     // Sum of: reference; tiers x rates; four other kinds of shadow; seven budgets.
