@@ -1,0 +1,54 @@
+#include "tests/fuzz/loading.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace halflit::fuzz {
+namespace {
+
+bool in_range(int index, std::size_t count) { return index >= -1 && index < static_cast<int>(count); }
+
+void check_mesh(const Mesh& mesh, const Scene& scene) {
+    const std::size_t n = mesh.positions.size();
+    const auto fits = [n](const auto& values) { return values.empty() || values.size() == n; };
+    HALFLIT_PROMISE(fits(mesh.normals) && fits(mesh.tangents) && fits(mesh.uv0) && fits(mesh.uv1) && fits(mesh.colors));
+    HALFLIT_PROMISE(mesh.indices.size() % 3 == 0);
+    for (const std::uint32_t index : mesh.indices) HALFLIT_PROMISE(index < n);
+    HALFLIT_PROMISE(in_range(mesh.material, scene.materials.size()));
+}
+
+bool is_plain(const std::string& text) {
+    return std::none_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
+}
+
+}  // namespace
+
+void check_loaded(const LoadedScene& loaded) {
+    const Scene& scene = loaded.scene;
+    for (const Mesh& mesh : scene.meshes) check_mesh(mesh, scene);
+    for (const Instance& instance : scene.instances)
+        HALFLIT_PROMISE(instance.mesh >= 0 && instance.mesh < static_cast<int>(scene.meshes.size()));
+    for (const Material& m : scene.materials) {
+        for (const TextureUse* use :
+             {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.occlusion_texture, &m.emissive_texture})
+            HALFLIT_PROMISE(in_range(use->texture, scene.textures.size()) && (use->uv_set == 0 || use->uv_set == 1));
+        HALFLIT_PROMISE(check_lobe(m.lobe).has_value());
+    }
+    for (const Node& node : loaded.nodes) {
+        HALFLIT_PROMISE(in_range(node.parent, loaded.nodes.size()));
+        HALFLIT_PROMISE(in_range(node.camera, scene.cameras.size()) && in_range(node.light, scene.lights.size()));
+        for (const int instance : node.instances) HALFLIT_PROMISE(instance >= 0 && instance < static_cast<int>(scene.instances.size()));
+    }
+    for (const std::string& warning : loaded.warnings) HALFLIT_PROMISE(is_plain(warning));
+    Scene posed = scene;
+    HALFLIT_PROMISE(pose(loaded.nodes, posed).has_value());
+    for (std::size_t i = 0; i < posed.instances.size(); ++i)  // nodes as loaded give the same bits
+        HALFLIT_PROMISE(std::memcmp(&posed.instances[i].world_from_object, &scene.instances[i].world_from_object, sizeof(Mat4)) == 0);
+}
+
+void check_error(const Error& error) {
+    HALFLIT_PROMISE(error.code == ErrorCode::bad_input || error.code == ErrorCode::limit);
+    HALFLIT_PROMISE(!error.message.empty() && is_plain(error.message));
+}
+
+}  // namespace halflit::fuzz

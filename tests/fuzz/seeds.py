@@ -1,0 +1,322 @@
+#!/usr/bin/env python3
+"""Writes seeds, small sound inputs of each fuzz target:  seeds.py FOLDER  makes FOLDER/TARGET/NAME."""
+import base64
+import json
+import pathlib
+import random
+import struct
+import sys
+import zlib
+
+FLAG_BYTES = 128  # of scene.cpp
+
+
+# ---- pictures ------------------------------------------------------------------------------------------------------------
+
+def png(width, height, bits, color, interlaced=False, extra=(), level=0):
+    """Samples count upwards. Blocks are stored by default, so that mutations reach the filters behind them."""
+    def chunk(kind, body):
+        return struct.pack('>I', len(body)) + kind + body + struct.pack('>I', zlib.crc32(kind + body))
+    channels = {0: 1, 2: 3, 3: 1, 4: 2, 6: 4}[color]
+    passes = [(0, 0, 1, 1)]
+    if interlaced:
+        passes = [(0, 0, 8, 8), (4, 0, 8, 8), (0, 4, 4, 8), (2, 0, 4, 4), (0, 2, 2, 4), (1, 0, 2, 2), (0, 1, 1, 2)]
+    raw, sample = bytearray(), 0
+    for x0, y0, dx, dy in passes:
+        columns = len(range(x0, width, dx))
+        for row in range(len(range(y0, height, dy)) if columns else 0):
+            raw.append(row % 5)  # all filters
+            for _ in range((columns * channels * bits + 7) // 8):
+                raw.append(sample * 37 % 256 if color != 3 else 0)
+                sample += 1
+    file = b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', struct.pack('>IIBBBBB', width, height, bits, color, 0, 0, interlaced))
+    for kind, body in extra:
+        file += chunk(kind, body)
+    return file + chunk(b'IDAT', zlib.compress(bytes(raw), level)) + chunk(b'IEND', b'')
+
+
+class Bits:
+    """Huffman-coded data of a JPEG: ones fill the last byte, and a zero follows each 255."""
+    def __init__(self):
+        self.text = ''
+
+    def put(self, value, count):
+        self.text += format(value, f'0{count}b') if count else ''
+
+    def bytes(self):
+        text = self.text + '1' * (-len(self.text) % 8)
+        return bytes(int(text[i:i + 8], 2) for i in range(0, len(text), 8)).replace(b'\xff', b'\xff\x00')
+
+
+def jpeg(width, height, components=1, progressive=False, restart=0, adobe=None):
+    """Blocks of one value, and one wave in the first of them. Both Huffman tables have the codes 00, 01, 10 and 110."""
+    def segment(kind, body):
+        return b'\xff' + bytes([kind]) + struct.pack('>H', len(body) + 2) + body
+    sampling = 0x22 if components == 3 else 0x11
+    file = b'\xff\xd8' + segment(0xDB, bytes([0] + [8] * 64))
+    if adobe is not None:
+        file += segment(0xEE, b'Adobe\0\x64\0\0\0\0' + bytes([adobe]))
+    frame = struct.pack('>BHHB', 8, height, width, components)
+    for i in range(components):
+        frame += bytes([i + 1, sampling if i == 0 else 0x11, 0])
+    file += segment(0xC2 if progressive else 0xC0, frame)
+    lengths = bytes([0, 3, 1] + [0] * 13)
+    file += segment(0xC4, b'\x00' + lengths + bytes([0, 3, 5, 1]))     # differences of 0, 3, 5 and 1 bits
+    file += segment(0xC4, b'\x10' + lengths + bytes([0, 1, 0x12, 0xF0]))  # end of block, a value, a zero and a value, sixteen zeros
+    if restart:
+        file += segment(0xDD, struct.pack('>H', restart))
+    mcu = 16 if components == 3 else 8
+    count = -(-width // mcu) * -(-height // mcu)
+    blocks = 6 if components == 3 else components
+
+    def scan(ids, first, last, writer, units):
+        out = segment(0xDA, bytes([len(ids)]) + b''.join(bytes([i, 0]) for i in ids) + bytes([first, last, 0]))
+        for i in range(0, units, restart or units):
+            data = Bits()
+            for k in range(i, min(i + (restart or units), units)):
+                writer(data, k)
+            out += data.bytes()
+            if i + (restart or units) < units:
+                out += bytes([0xFF, 0xD0 + i // restart % 8])
+        return out
+
+    def dc(data, k):
+        data.put(1, 2)
+        data.put(k % 4 + 4, 3)  # a difference of 3 bits
+
+    def ac(data, k):
+        if k == 0:
+            data.put(1, 2)
+            data.put(1, 1)
+        data.put(0, 2)  # end of block
+
+    def mcu_of(*parts):
+        def write(data, k):
+            for b in range(blocks):
+                for part in parts:
+                    part(data, k + b)
+        return write
+    ids = list(range(1, components + 1))
+    if not progressive:
+        file += scan(ids, 0, 63, mcu_of(dc, ac), count)
+    else:
+        file += scan(ids, 0, 0, mcu_of(dc), count)
+        for i in ids:
+            side = 8 if i == 1 or components != 3 else 16
+            file += scan([i], 1, 5, ac, -(-width // side) * -(-height // side))
+    return file + b'\xff\xd9'
+
+
+def pictures():
+    def palette(bits):
+        return [(b'PLTE', bytes(range(3 * min(4, 1 << bits)))), (b'tRNS', bytes([0, 128]))]
+    out = {f'png_{color}_{bits}': png(5, 4, bits, color) for color, bits in
+           [(0, 1), (0, 2), (0, 4), (0, 8), (0, 16), (2, 8), (2, 16), (4, 8), (4, 16), (6, 8), (6, 16)]}
+    out.update({f'png_3_{bits}': png(5, 4, bits, 3, extra=palette(bits)) for bits in (1, 2, 4, 8)})
+    out['png_interlaced'] = png(9, 9, 8, 6, interlaced=True)
+    out['png_interlaced_16'] = png(5, 6, 16, 2, interlaced=True)
+    out['png_interlaced_1'] = png(11, 3, 1, 0, interlaced=True)
+    out['png_compressed'] = png(17, 13, 8, 2, level=9)
+    out['png_trns_grey'] = png(3, 3, 8, 0, extra=[(b'tRNS', b'\0\x25')])
+    out['png_trns_rgb'] = png(3, 3, 16, 2, extra=[(b'tRNS', b'\0\x25\0\0\0\0')])
+    out['png_chunks'] = png(2, 2, 8, 2, extra=[
+        (b'gAMA', struct.pack('>I', 45455)), (b'cHRM', struct.pack('>8I', *range(8))), (b'sRGB', b'\0'), (b'sBIT', b'\5\6\5'),
+        (b'pHYs', struct.pack('>IIB', 1, 1, 1)), (b'bKGD', b'\0\1\0\2\0\3'), (b'tIME', b'\x07\xe9\1\1\1\1\1'), (b'tEXt', b'a\0b'),
+        (b'zTXt', b'a\0\0' + zlib.compress(b'text')), (b'iTXt', b'a\0\0\0en\0b\0text'), (b'iCCP', b'p\0\0' + zlib.compress(bytes(40))),
+        (b'sPLT', b'p\0\x08' + bytes(12)), (b'eXIf', b'II*\0' + bytes(8))])
+    out['jpeg_grey'] = jpeg(11, 9)
+    out['jpeg_color'] = jpeg(19, 18, 3)
+    out['jpeg_restart'] = jpeg(24, 24, 1, restart=2)
+    out['jpeg_progressive'] = jpeg(20, 12, 3, progressive=True)
+    out['jpeg_progressive_grey'] = jpeg(16, 8, 1, progressive=True)
+    out['jpeg_cmyk'] = jpeg(9, 8, 4)
+    out['jpeg_ycck'] = jpeg(9, 8, 4, adobe=2)
+    out['jpeg_rgb'] = jpeg(9, 8, 3, adobe=0)
+    return out
+
+
+def environments():
+    head = b'#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n'
+    pixel = bytes([128, 64, 32, 128])
+    runs = b''.join(bytes([2, 2, 0, 16]) + bytes([144, 90, 144, 60, 144, 30, 144, 129]) for _ in range(8))
+    literal = b''.join(bytes([2, 2, 0, 8]) + b''.join(bytes([8]) + bytes(range(120, 128)) for _ in range(4)) for _ in range(4))
+    sun = bytearray(pixel * 128)
+    sun[4 * 40:4 * 41] = bytes([255, 250, 200, 142])
+    return {
+        'flat': head + b'\n-Y 4 +X 8\n' + pixel * 32,
+        'runs': head + b'\n-Y 8 +X 16\n' + runs,
+        'literal': head + b'\n-Y 4 +X 8\n' + literal,
+        'old_runs': head + b'\n-Y 4 +X 6\n' + (pixel + bytes([1, 1, 1, 5])) * 4,
+        'columns': head + b'\n+X 4 -Y 6\n' + pixel * 24,
+        'upwards': head + b'\n+Y 4 -X 6\n' + pixel * 24,
+        'sun': head + b'\n-Y 8 +X 16\n' + bytes(sun),
+        'exposure': head + b'# comment\nEXPOSURE=2.5\nCOLORCORR= 1 2 0.5\nEXPOSURE=4\n\n-Y 1 +X 2\n' + pixel * 2,
+        'black': b'#?RGBE\n\n-Y 1 +X 1\n' + bytes(4),
+    }
+
+
+# ---- models --------------------------------------------------------------------------------------------------------------
+
+class Model:
+    """A glTF file: data by bytes(), accessors by add()."""
+    def __init__(self):
+        self.bin = bytearray()
+        self.json = {'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': [0]}], 'nodes': [{'mesh': 0}],
+                     'buffers': [], 'bufferViews': [], 'accessors': [], 'meshes': []}
+
+    def view(self, data, **members):
+        self.bin += bytes(-len(self.bin) % 4)
+        self.json['bufferViews'].append({'buffer': 0, 'byteOffset': len(self.bin), 'byteLength': len(data), **members})
+        self.bin += data
+        return len(self.json['bufferViews']) - 1
+
+    def add(self, values, code, kind, **members):
+        components = {'SCALAR': 1, 'VEC2': 2, 'VEC3': 3, 'VEC4': 4, 'MAT4': 16}[kind]
+        letter = {5120: 'b', 5121: 'B', 5122: 'h', 5123: 'H', 5125: 'I', 5126: 'f'}[code]
+        data = struct.pack(f'<{len(values)}{letter}', *values)
+        self.json['accessors'].append({'bufferView': self.view(data), 'componentType': code, 'count': len(values) // components,
+                                       'type': kind, **members})
+        return len(self.json['accessors']) - 1
+
+    def primitive(self, **members):
+        self.json['meshes'].append({'primitives': [members]})
+
+    def glb(self):
+        document = {key: value for key, value in self.json.items() if value != []}
+        document['buffers'] = [{'byteLength': len(self.bin)}]
+        text = json.dumps(document, separators=(',', ':')).encode()
+        text += b' ' * (-len(text) % 4)
+        data = bytes(self.bin) + bytes(-len(self.bin) % 4)
+        return (struct.pack('<4sII', b'glTF', 2, 28 + len(text) + len(data)) + struct.pack('<I4s', len(text), b'JSON') + text +
+                struct.pack('<I4s', len(data), b'BIN\0') + data)
+
+    def text(self):
+        document = {key: value for key, value in self.json.items() if value != []}
+        uri = 'data:application/octet-stream;base64,' + base64.b64encode(self.bin).decode()
+        document['buffers'] = [{'uri': uri, 'byteLength': len(self.bin)}]
+        return json.dumps(document, separators=(',', ':')).encode()
+
+
+TRIANGLE = [0, 0, 0, 1, 0, 0, 0, 1, 0]
+QUAD = [-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0.5]
+
+
+def triangle():
+    model = Model()
+    model.primitive(attributes={'POSITION': model.add(TRIANGLE, 5126, 'VEC3')})
+    return model
+
+
+def textured(picture=None, lit=True, mode='MASK'):
+    model = Model()
+    attributes = {'POSITION': model.add(QUAD, 5126, 'VEC3', min=[-1, -1, 0], max=[1, 1, 0.5]),
+                  'NORMAL': model.add([0, 0, 1] * 4, 5126, 'VEC3'),
+                  'TEXCOORD_0': model.add([0, 65535, 65535, 65535, 0, 0, 65535, 0], 5123, 'VEC2', normalized=True),
+                  'TEXCOORD_1': model.add([0, 1, 1, 1, 0, 0, 1, 0], 5126, 'VEC2'),
+                  'COLOR_0': model.add([255, 128, 64, 200] * 4, 5121, 'VEC4', normalized=True)}
+    model.primitive(attributes=attributes, indices=model.add([0, 1, 2, 3], 5121, 'SCALAR'), mode=5, material=0)
+    transform = {'KHR_texture_transform': {'offset': [0.1, 0.2], 'rotation': 0.5, 'scale': [2, 3], 'texCoord': 1}}
+    material = {'name': 'm', 'pbrMetallicRoughness': {
+        'baseColorTexture': {'index': 0, 'extensions': transform}, 'baseColorFactor': [1, 0.5, 0.25, 0.75], 'metallicFactor': 0.5,
+        'roughnessFactor': 0.4, 'metallicRoughnessTexture': {'index': 1}}, 'normalTexture': {'index': 1, 'scale': 0.5},
+        'occlusionTexture': {'index': 0, 'strength': 0.5, 'texCoord': 1}, 'emissiveTexture': {'index': 0}, 'emissiveFactor': [0.1, 0, 0],
+        'alphaMode': mode, 'alphaCutoff': 0.25, 'doubleSided': True,
+        'extensions': {'KHR_materials_emissive_strength': {'emissiveStrength': 2}},
+        'extras': {'halflit': {'lobe': 'mcauley', 'wrap': 0.5, 'power': 2, 'normalize': True}}}
+    if mode != 'MASK':
+        del material['alphaCutoff']
+    if not lit:
+        material['extensions']['KHR_materials_unlit'] = {}
+    picture = picture or png(4, 3, 8, 6)
+    uri = 'data:image/png;base64,' + base64.b64encode(png(2, 2, 16, 2)).decode()
+    model.json.update(materials=[material], textures=[{'source': 0, 'sampler': 0}, {'source': 1}],
+                      samplers=[{'magFilter': 9728, 'minFilter': 9987, 'wrapS': 33071, 'wrapT': 33648}],
+                      images=[{'bufferView': model.view(picture), 'mimeType': 'image/png'}, {'uri': uri}],
+                      extensionsUsed=['KHR_texture_transform', 'KHR_materials_emissive_strength', 'KHR_materials_unlit'])
+    return model
+
+
+def skinned():
+    model = Model()
+    identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
+    sparse = {'count': 2, 'indices': {'bufferView': model.view(struct.pack('<2H', 0, 2)), 'componentType': 5123},
+              'values': {'bufferView': model.view(struct.pack('<6f', 0, 0, 1, 0, 1, 1))}}
+    target = {'POSITION': model.add(TRIANGLE, 5126, 'VEC3', sparse=sparse)}
+    model.primitive(attributes={'POSITION': model.add(TRIANGLE, 5126, 'VEC3'), 'JOINTS_0': model.add([0, 1, 0, 0] * 3, 5121, 'VEC4'),
+                                'WEIGHTS_0': model.add([0.5, 0.5, 0, 0] * 3, 5126, 'VEC4')}, targets=[target],
+                    indices=model.add([0, 1, 2], 5125, 'SCALAR'))
+    model.json['meshes'][0]['weights'] = [0.5]
+    model.json.update(nodes=[{'mesh': 0, 'skin': 0, 'weights': [0.25]}, {'translation': [0, 1, 0], 'children': [2]},
+                             {'rotation': [0, 0, 0.6, 0.8], 'scale': [1, 2, 1]}], scenes=[{'nodes': [0, 1]}],
+                      skins=[{'joints': [1, 2], 'inverseBindMatrices': model.add(identity * 2, 5126, 'MAT4'), 'skeleton': 1}],
+                      animations=[{'channels': [{'sampler': 0, 'target': {'node': 1, 'path': 'translation'}}],
+                                   'samplers': [{'input': 0, 'output': 0}]}])
+    return model
+
+
+def lit():
+    model = Model()
+    model.primitive(attributes={'POSITION': model.add([0, 0, 0, 100, 0, 0, 0, 100, 0, 100, 100, 3], 5122, 'VEC3'),
+                                'NORMAL': model.add([0, 0, 127] * 4, 5120, 'VEC3', normalized=True)},
+                    indices=model.add([0, 1, 2, 2, 1, 3], 5123, 'SCALAR'))
+    # VEC3 of 1 or 2 bytes is padded to 4.
+    model.json['bufferViews'][0].update(byteLength=32, byteStride=8)
+    model.json['bufferViews'][1].update(byteLength=16, byteStride=4)
+    model.bin = bytearray()
+    views = [struct.pack('<16h', 0, 0, 0, 0, 100, 0, 0, 0, 0, 100, 0, 0, 100, 100, 3, 0), bytes([0, 0, 127, 0] * 4),
+             struct.pack('<6H', 0, 1, 2, 2, 1, 3)]
+    for view, data in zip(model.json['bufferViews'], views):
+        view.update(byteOffset=len(model.bin), byteLength=len(data))
+        model.bin += data
+    lights = [{'type': 'spot', 'spot': {'innerConeAngle': 0.2, 'outerConeAngle': 0.6}, 'intensity': 40, 'range': 500},
+              {'type': 'point', 'color': [1, 0.5, 0.2], 'intensity': 9}, {'type': 'directional', 'name': 'sun'}]
+    model.json.update(extensionsUsed=['KHR_lights_punctual', 'KHR_mesh_quantization'], extensionsRequired=['KHR_mesh_quantization'],
+                      extensions={'KHR_lights_punctual': {'lights': lights}},
+                      cameras=[{'type': 'perspective', 'perspective': {'yfov': 0.8, 'znear': 0.1, 'zfar': 900, 'aspectRatio': 1.5}, 'name': 'c'},
+                               {'type': 'orthographic', 'orthographic': {'xmag': 60, 'ymag': 60, 'znear': 0.1, 'zfar': 500}}],
+                      scenes=[{'nodes': [0, 1]}],
+                      nodes=[{'mesh': 0, 'children': [2, 3]}, {'camera': 0, 'matrix': [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 50, 50, 300, 1]},
+                             {'extensions': {'KHR_lights_punctual': {'light': 0}}, 'translation': [50, 50, 90], 'children': [4]},
+                             {'extensions': {'KHR_lights_punctual': {'light': 1}}, 'translation': [10, 50, 30]},
+                             {'extensions': {'KHR_lights_punctual': {'light': 2}}, 'camera': 1, 'translation': [10, 50, 30]}])
+    return model
+
+
+def two_quads():
+    """One above the other, turned: shadows, clipping, blending."""
+    model = textured(mode='BLEND')
+    turned = {'rotation': [0.38, 0, 0, 0.92], 'translation': [0, 0, 0.7], 'scale': [0.5, 0.5, 0.5]}
+    model.json['nodes'] = [{'mesh': 0}, {'mesh': 0, **turned}]
+    model.json['scenes'] = [{'nodes': [0, 1]}]
+    return model
+
+
+def models():
+    return {'triangle': triangle(), 'textured': textured(), 'unlit': textured(lit=False), 'jpeg': textured(jpeg(16, 16, 3)),
+            'skinned': skinned(), 'lit': lit(), 'two_quads': two_quads()}
+
+
+# ---- targets -------------------------------------------------------------------------------------------------------------
+
+def main():
+    folder = pathlib.Path(sys.argv[1])
+    numbers = random.Random(13)
+    made = models()
+    empty = json.dumps({'asset': {'version': '2.0'}}).encode()
+    seeds = {
+        'gltf_text': {'empty': empty, 'spaces': json.dumps(json.loads(triangle().text()), indent=1).encode(),
+                      **{name: model.text() for name, model in made.items()}},
+        'glb': {name: model.glb() for name, model in made.items()},
+        'picture': pictures(),
+        'hdr': environments(),
+        'scene': {**{f'{name}_{i}': model.glb() + numbers.randbytes(FLAG_BYTES) for name, model in made.items() for i in range(2)},
+                  **{f'code_{i}': numbers.randbytes(700 + FLAG_BYTES) for i in range(8)}},
+        'c_api': {f'calls_{i}': numbers.randbytes(400 + 200 * i) for i in range(12)},
+    }
+    for target, files in seeds.items():
+        (folder / target).mkdir(parents=True, exist_ok=True)
+        for name, data in files.items():
+            (folder / target / name).write_bytes(data)
+
+
+main()
