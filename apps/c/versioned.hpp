@@ -17,7 +17,8 @@ inline constexpr std::size_t kMostAddedBytes = 4096;
 
 /// Fails (usage) if the size is not one that a version of the struct may have.
 [[nodiscard]] inline Result<void> check_size(std::size_t size, std::size_t own_size, const char* name) {
-    if (size >= 2 * sizeof(std::size_t) && size <= own_size + kMostAddedBytes && size % 4 == 0) return {};
+    // Every version's size is a multiple of that of a pointer. Any other would cut a pointer into halves.
+    if (size >= 2 * sizeof(std::size_t) && size <= own_size + kMostAddedBytes && size % sizeof(void*) == 0) return {};
     return fail(ErrorCode::usage, std::string(name) + ": the member size is " + std::to_string(size) + ", expected sizeof(" + name +
                                       "), which is " + std::to_string(own_size) + " in this version of halflit");
 }

@@ -150,6 +150,8 @@ static void test_struct_sizes(void) {
         int32_t added[4];
     } newer;
     halflit_settings older;
+    halflit_execution execution;
+    halflit_renderer* renderer = NULL;
     halflit_counts counts;
     cube.settings.shadow_size = 2048;  // the default, which a shorter struct stands for
     older = cube.settings;
@@ -166,11 +168,11 @@ static void test_struct_sizes(void) {
     CHECK(draw(NULL, cube.scene, &cube.camera, &newer.known) == 0);
     CHECK(strstr(halflit_last_error(), "halflit_settings: members beyond byte") != NULL);
 
-    // A program that was built when `shadows` and what follows did not exist: those bytes belong to something else.
-    older.size = offsetof(halflit_settings, shadows);
-    memset(&older.shadows, 0x5a, sizeof older - offsetof(halflit_settings, shadows));
+    // A program that was built when `environment_bands` and what follows did not exist: those bytes belong to something else.
+    older.size = offsetof(halflit_settings, environment_bands);
+    memset(&older.environment_bands, 0x5a, sizeof older - offsetof(halflit_settings, environment_bands));
     CHECK(draw(NULL, cube.scene, &cube.camera, &older) == expected);
-    CHECK_OK(halflit_settings_init(&older, offsetof(halflit_settings, shadows)));
+    CHECK_OK(halflit_settings_init(&older, offsetof(halflit_settings, environment_bands)));
     CHECK(older.samples == 1 && older.shadows == 0x5a5a5a5a);
 
     older = cube.settings;
@@ -178,6 +180,11 @@ static void test_struct_sizes(void) {
     CHECK(draw(NULL, cube.scene, &cube.camera, &older) == 0 && strstr(halflit_last_error(), "the member size is 0") != NULL);
     older.size = (size_t)-1;
     CHECK(draw(NULL, cube.scene, &cube.camera, &older) == 0 && strstr(halflit_last_error(), "sizeof(halflit_settings)") != NULL);
+    older.size = offsetof(halflit_settings, environment_bands) - 4;
+    CHECK(draw(NULL, cube.scene, &cube.camera, &older) == 0 && strstr(halflit_last_error(), "the member size is") != NULL);
+    CHECK_OK(halflit_execution_init(&execution, sizeof execution));
+    execution.size = offsetof(halflit_execution, cancelled) + sizeof execution.cancelled / 2;
+    CHECK(halflit_renderer_create(&execution, &renderer) == HALFLIT_ERROR_USAGE && renderer == NULL);
     older.size = sizeof older;
     older.reserved = 1;
     CHECK(draw(NULL, cube.scene, &cube.camera, &older) == 0 && strstr(halflit_last_error(), "reserved") != NULL);
