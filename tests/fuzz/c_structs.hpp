@@ -5,6 +5,7 @@
 
 #include "halflit/halflit.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <memory>
@@ -41,20 +42,20 @@ public:
     T* get() { return reinterpret_cast<T*>(memory_.get()); }
     [[nodiscard]] std::size_t size() const { return size_; }
 
-    /// Sets a member, if the struct has it.
+    /// Sets a member, or the part of it that is within the size.
     template <class Member, class Value>
     void set(Member T::*member, const Value& value) {
         static const T example{};
         const auto offset = static_cast<std::size_t>(reinterpret_cast<const unsigned char*>(&(example.*member)) -
                                                      reinterpret_cast<const unsigned char*>(&example));
-        if (offset + sizeof(Member) > bytes_) return;
+        if (offset >= bytes_) return;
         Member typed{};
         static_assert(sizeof(Value) == sizeof(Member) || !std::is_array_v<Member>);
         if constexpr (std::is_array_v<Member>)
             std::memcpy(&typed, &value, sizeof typed);
         else
             typed = static_cast<Member>(value);
-        std::memcpy(memory_.get() + offset, &typed, sizeof typed);
+        std::memcpy(memory_.get() + offset, &typed, std::min(sizeof typed, bytes_ - offset));
     }
     /// Any bytes somewhere behind the size.
     void damage(Input& input, std::size_t first) {
