@@ -49,12 +49,14 @@ Rgba texel(const Texture& texture, const TextureLevel& level, const Sampler& sam
     return {c[0] / 65535.0, c[1] / 65535.0, c[2] / 65535.0, c[3] / 65535.0};
 }
 
+/// The number; 0 for NaN and where doubles are farther apart than 1, so that no texel is meant.
+long long whole(double x) { return x > -0x1p53 && x < 0x1p53 ? static_cast<long long>(x) : 0; }
+
 Rgba sample_level(const Texture& texture, const TextureLevel& level, const Sampler& sampler, TextureFilter filter, double u, double v) {
     const double x = u * level.width, y = v * level.height;
-    if (filter == TextureFilter::nearest)
-        return texel(texture, level, sampler, static_cast<long long>(std::floor(x)), static_cast<long long>(std::floor(y)));
+    if (filter == TextureFilter::nearest) return texel(texture, level, sampler, whole(std::floor(x)), whole(std::floor(y)));
     const double x0 = std::floor(x - 0.5), y0 = std::floor(y - 0.5);
-    const auto i = static_cast<long long>(x0), j = static_cast<long long>(y0);
+    const long long i = whole(x0), j = whole(y0);
     const Rgba upper = mix(texel(texture, level, sampler, i, j), texel(texture, level, sampler, i + 1, j), x - 0.5 - x0);
     const Rgba lower = mix(texel(texture, level, sampler, i, j + 1), texel(texture, level, sampler, i + 1, j + 1), x - 0.5 - x0);
     return mix(upper, lower, y - 0.5 - y0);
@@ -170,7 +172,7 @@ double lobe_value(const Lobe& lobe, double x) {
 
 Rgba sample(const Texture& texture, const Sampler& sampler, double u, double v, double lod) {
     const auto levels = texture.levels();
-    const bool magnified = lod <= 0;
+    const bool magnified = !(lod > 0);  // NaN too
     const TextureFilter filter = magnified ? sampler.mag : sampler.min;
     const double last = static_cast<double>(levels.size() - 1);
     if (sampler.mip == MipFilter::none || magnified) return sample_level(texture, levels[0], sampler, filter, u, v);
