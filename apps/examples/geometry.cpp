@@ -37,6 +37,7 @@ int main(int argc, char** argv) {
     scene.materials.resize(1);
     scene.materials[0].base_color = {0.35f, 0.42f, 0.2f, 1};
     scene.materials[0].metallic = 0;
+    scene.materials[0].double_sided = true;       // a surface without an underside: its back stops light too
     scene.materials[0].lobe = Lobe::sloan(0.4f);  // soft where the hills turn away from the sun
     scene.lights.resize(1);
     scene.lights[0].direction_ws = normalize_or({-1, -0.35f, -0.6f}, {0, -1, 0});  // the way the light travels

@@ -13,6 +13,7 @@
 #include <exception>
 #include <limits>
 #include <new>
+#include <stdexcept>
 #include <system_error>
 #include <thread>
 
@@ -62,7 +63,10 @@ int threads_that_start(int wanted) {
 #ifdef HALFLIT_ONETBB
 
 struct Executor::Arena {
-    explicit Arena(int thread_count) : arena(thread_count) {}
+    explicit Arena(int thread_count) : arena(thread_count) {
+        // oneTBB starts its threads with the first loop. If the system refuses one only now, better here than while a frame is drawn.
+        run(thread_count, [](int) {});
+    }
     static int all_threads() { return static_cast<int>(tbb::this_task_arena::max_concurrency()); }
     /// oneTBB runs no more threads than this, and prints a warning when asked for more.
     static int most_threads() { return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)); }
@@ -113,7 +117,13 @@ void Executor::configure(const Execution& execution) {
     if (arena_ && wanted == asked_) return;
     asked_ = wanted;
     threads_ = 1 + threads_that_start(wanted - 1);
-    arena_ = threads_ > 1 ? std::make_unique<Arena>(threads_) : nullptr;
+    arena_.reset();
+    if (threads_ == 1) return;
+    try {
+        arena_ = std::make_unique<Arena>(threads_);
+    } catch (const std::runtime_error&) {
+        threads_ = 1;
+    }
 }
 
 void Executor::run(int count, const std::function<void(int)>& body) {

@@ -47,7 +47,7 @@ TEST_CASE("model folder: files below it are read, whatever leads elsewhere is no
     fs::create_symlink(outside.path / "secret.bin", folder.path / "link.bin");
     fs::create_symlink(outside.path, folder.path / "linked-folder");
     REQUIRE(::mkfifo((folder.path / "fifo").c_str(), 0600) == 0);
-    const ModelFolder model(folder.path.string());
+    ModelFolder model(folder.path.string());
 
     CHECK(model.read("a.bin", 100)->size() == 3);
     CHECK(model.read("sub/with space.bin", 100)->size() == 4);
@@ -66,7 +66,7 @@ TEST_CASE("model folder: files below it are read, whatever leads elsewhere is no
     CHECK(model.read("a.bin", 2).error().code == ErrorCode::limit);
     CHECK(ModelFolder().read("a.bin", 100).error().code == ErrorCode::bad_input);
 
-    const ModelFolder wider(folder.path.string(), {outside.path.string()});
+    ModelFolder wider(folder.path.string(), {outside.path.string()});
     CHECK(wider.read("secret.bin", 100)->size() == 6);
     CHECK(wider.read("a.bin", 100)->size() == 3);
 }
@@ -88,7 +88,7 @@ TEST_CASE("model folder: a name may lead into a folder that is allowed, and into
 
     for (const std::string& given : {textures, textures + "/", models + "/../textures", (root.path / "other-name").string()}) {
         INFO(given);
-        const ModelFolder folder(models, {given});
+        ModelFolder folder(models, {given});
         CHECK(folder.check());
         for (const char* name : {"../textures/x.png", "./../textures/deep/../x.png", "x.png", "linked/x.png", "sub/../../textures/x.png",
                                  "../models/../textures/x.png", "../../../../../../../../../../../textures/../../x.png"}) {
@@ -119,7 +119,7 @@ TEST_CASE("model folder: an allowed folder that is not there is an error that na
     const TemporaryFolder root;
     root.write("file.bin", "abc");
     for (const std::string& missing : {(root.path / "none").string(), (root.path / "file.bin").string(), std::string()}) {
-        const ModelFolder folder(root.path.string(), {root.path.string(), missing});
+        ModelFolder folder(root.path.string(), {root.path.string(), missing});
         REQUIRE(!folder.check());
         CHECK(folder.check().error().code == ErrorCode::usage);
         CHECK(folder.check().error().message.find("\"" + missing + "\"") != std::string::npos);

@@ -40,7 +40,8 @@ Box box_of(const Mesh& mesh) {
 
 double largest(const Box& box) {
     if (box.empty()) return 0.0;
-    return std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.min.z), std::abs(box.max.x), std::abs(box.max.y), std::abs(box.max.z)});
+    return std::max(
+        {std::abs(box.min.x), std::abs(box.min.y), std::abs(box.min.z), std::abs(box.max.x), std::abs(box.max.y), std::abs(box.max.z)});
 }
 
 /// The power of two that takes x into [1, 2); 1 if x is within bounds already, or 0.
@@ -70,7 +71,8 @@ void recentre(Document& document, NodeTree& tree, LoadedScene& loaded) {
         const Box& box = boxes[static_cast<std::size_t>(scene.instances[i].mesh)];
         if (box.empty()) continue;
         for (int k = 0; k < 8; ++k)
-            world.include(apply(transforms[i], {k & 1 ? box.max.x : box.min.x, k & 2 ? box.max.y : box.min.y, k & 4 ? box.max.z : box.min.z}));
+            world.include(
+                apply(transforms[i], {k & 1 ? box.max.x : box.min.x, k & 2 ? box.max.y : box.min.y, k & 4 ? box.max.z : box.min.z}));
     }
     if (world.empty() || !std::isfinite(world.radius())) return;
     const bool far = length(world.center()) > kFarthest * world.radius();
@@ -81,9 +83,7 @@ void recentre(Document& document, NodeTree& tree, LoadedScene& loaded) {
     for (const Box& box : boxes) in_mesh.push_back(unit_scale(largest(box)));
     if (!far && scale == 1.0 && std::all_of(in_mesh.begin(), in_mesh.end(), [](double s) { return s == 1.0; })) return;
 
-    const auto moved = [&](const Affine& m) {
-        return Affine{{m.c[0] * scale, m.c[1] * scale, m.c[2] * scale, (m.c[3] - origin) * scale}};
-    };
+    const auto moved = [&](const Affine& m) { return Affine{{m.c[0] * scale, m.c[1] * scale, m.c[2] * scale, (m.c[3] - origin) * scale}}; };
     for (std::size_t i = 0; i < transforms.size(); ++i) {
         Affine m = moved(transforms[i]);
         for (int k = 0; k < 3; ++k) m.c[k] = m.c[k] * (1.0 / in_mesh[static_cast<std::size_t>(scene.instances[i].mesh)]);
@@ -98,7 +98,8 @@ void recentre(Document& document, NodeTree& tree, LoadedScene& loaded) {
     if (far)
         document.warn(fmt::format("the scene lies {:.3g} times its size away from the origin: it is drawn at the origin",
                                   length(origin) / std::max(2.0 * world.radius(), 1e-300)));
-    if (scale != 1.0) document.warn(fmt::format("the scene is {:.3g} units in size: it is drawn {:.3g} times as large", 2.0 * world.radius(), scale));
+    if (scale != 1.0)
+        document.warn(fmt::format("the scene is {:.3g} units in size: it is drawn {:.3g} times as large", 2.0 * world.radius(), scale));
 }
 
 void scale_views_and_lights(LoadedScene& loaded) {
