@@ -41,7 +41,6 @@ LoadedScene build(std::span<const std::byte> bytes, const std::string& base_dir,
     recentre(*document, tree, loaded);
     place_cameras(*document, tree, loaded);
     place_lights(*document, tree, loaded);
-    scale_views_and_lights(loaded);
     loaded.scene.calibrated = loaded.scene.lights.empty();
     if (loaded.scene.instances.empty()) document->warn("the model has nothing to draw");
     if (document->warnings_left_out > 0) document->warnings.push_back(fmt::format("and {} further warnings", document->warnings_left_out));

@@ -136,3 +136,30 @@ TEST_CASE("output: interrupted while it writes, a run leaves the old file or the
     else
         CHECK(outcome.code == 128 + SIGINT);
 }
+
+TEST_CASE("output: a file that the scene was read from is not overwritten", "[cli]") {
+    const TemporaryFolder folder;
+    REQUIRE(run({"demo", "--size", "8x8", "-o", folder.file("crate.png")}).code == 0);
+    std::ifstream texture(folder.file("crate.png"), std::ios::binary);
+    const std::string before((std::istreambuf_iterator<char>(texture)), {});
+    std::ofstream(folder.file("crate.gltf"))
+        << R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":)"
+        << R"({"POSITION":0,"TEXCOORD_0":1},"material":0}]}],"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],)"
+        << R"("textures":[{"source":0}],"images":[{"uri":"crate.png"}],"accessors":[{"componentType":5126,"count":3,"type":"VEC3"},)"
+        << R"({"componentType":5126,"count":3,"type":"VEC2"}]})";
+    const auto kept = [&] {
+        std::ifstream file(folder.file("crate.png"), std::ios::binary);
+        return std::string((std::istreambuf_iterator<char>(file)), {}) == before;
+    };
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"crate.gltf"},
+                                                      {"crate.gltf", "-o", "crate.png"},
+                                                      {"crate.gltf", "-o", "./crate.png"},
+                                                      {"crate.gltf", "-o", "new.png", "--report", "crate.png"}}) {
+        const Outcome outcome = run(arguments, {.folder = folder.path()});
+        CHECK(outcome.code == 4);
+        CHECK(outcome.err.find("crate.png") != std::string::npos);
+        CHECK(kept());
+        CHECK(folder.names() == std::vector<std::string>{"crate.gltf", "crate.png"});
+    }
+    CHECK(run({"crate.gltf", "-o", "new.png", "-q"}, {.folder = folder.path()}).code == 0);
+}

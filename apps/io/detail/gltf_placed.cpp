@@ -16,32 +16,36 @@ Vec3d unit_or(Vec3d v, Vec3d otherwise) {
     return len > 1e-200 && len < 1e200 ? v * (1.0 / len) : otherwise;
 }
 
-bool set_projection(const file::Camera& source, Camera& camera) {
+/// scale: of the drawn world.
+bool set_projection(const file::Camera& source, double scale, Camera& camera) {
     const auto in = [](double value, double low, double high) { return value > low && value < high; };
     if (source.type == "orthographic") {
         const file::Projection& o = *source.orthographic;
-        const double width = o.xmag < 0 ? -o.xmag : o.xmag, height = o.ymag < 0 ? -o.ymag : o.ymag;
-        if (!in(width, 0, 1e30) || !in(height, 0, 1e30) || !(o.znear >= 0 && o.znear < 1e30) || !in(o.zfar, o.znear, 1e30)) return false;
+        const double width = scale * (o.xmag < 0 ? -o.xmag : o.xmag), height = scale * (o.ymag < 0 ? -o.ymag : o.ymag);
+        const double near_z = scale * o.znear, far_z = scale * o.zfar;
+        if (!in(width, 0, 1e30) || !in(height, 0, 1e30) || !(near_z >= 0 && near_z < 1e30) || !in(far_z, near_z, 1e30)) return false;
         camera.orthographic = true;
         camera.half_width = static_cast<float>(width);
         camera.half_height = static_cast<float>(height);
-        camera.near_z = static_cast<float>(o.znear);
-        camera.far_z = static_cast<float>(o.zfar);
+        camera.near_z = static_cast<float>(near_z);
+        camera.far_z = static_cast<float>(far_z);
         return true;
     }
     const file::Projection& p = *source.perspective;
-    if (!in(p.yfov, 0, 3.1415926) || !in(p.znear, 0, 1e30)) return false;
-    if (p.zfar != 0 && !in(p.zfar, p.znear, 1e38)) return false;
+    const double near_z = scale * p.znear, far_z = scale * p.zfar;
+    if (!in(p.yfov, 0, 3.1415926) || !in(near_z, 0, 1e30)) return false;
+    if (far_z != 0 && !in(far_z, near_z, 1e38)) return false;
     if (p.aspect_ratio != 0 && !in(p.aspect_ratio, 0, 1e6)) return false;
     camera.fov_y_rad = static_cast<float>(p.yfov);
     camera.aspect = static_cast<float>(p.aspect_ratio);
-    camera.near_z = static_cast<float>(p.znear);
-    camera.far_z = static_cast<float>(p.zfar);
+    camera.near_z = static_cast<float>(near_z);
+    camera.far_z = static_cast<float>(far_z);
     return true;
 }
 
 /// KHR_lights_punctual gives lux (directional) and candela (point, spot); colours here are those values divided by pi.
-std::optional<Light> light_of(const file::Light& source) {
+/// scale: of the drawn world; the light of a lamp falls with the squared distance.
+std::optional<Light> light_of(const file::Light& source, double scale) {
     Light light;
     if (source.type == "point")
         light.type = LightType::point;
@@ -49,12 +53,13 @@ std::optional<Light> light_of(const file::Light& source) {
         light.type = LightType::spot;
     else if (source.type != "directional")
         return std::nullopt;
+    const double intensity = light.type == LightType::directional ? source.intensity : source.intensity * (scale * scale);
     const auto channel = [&](std::size_t c) {
         const double color = source.color.size() == 3 ? source.color[c] : 1.0;
-        return static_cast<float>(std::clamp(color, 0.0, 1e15) * std::clamp(source.intensity, 0.0, 1e15) / kPi);
+        return static_cast<float>(std::clamp(color, 0.0, 1e15) * std::clamp(intensity, 0.0, 1e15) / kPi);
     };
     light.color_linear = {channel(0), channel(1), channel(2)};
-    if (light.type != LightType::directional) light.range = static_cast<float>(std::clamp(source.range, 0.0, 1e18));
+    if (light.type != LightType::directional) light.range = static_cast<float>(std::clamp(source.range * scale, 0.0, 1e18));
     if (light.type == LightType::spot) {
         light.outer_cone_rad = static_cast<float>(std::clamp(source.outer_cone_angle, 0.0, kPi / 2));
         light.inner_cone_rad = std::min(static_cast<float>(std::clamp(source.inner_cone_angle, 0.0, kPi / 2)), light.outer_cone_rad);
@@ -85,7 +90,7 @@ void place_cameras(Document& document, const NodeTree& tree, LoadedScene& loaded
         const file::Camera& source = document.file.cameras[static_cast<std::size_t>(node.camera)];
         Camera camera;
         const Affine& world = tree.world_from_node[static_cast<std::size_t>(n)];
-        if (!is_finite(world) || !set_projection(source, camera)) {
+        if (!is_finite(world) || !set_projection(source, loaded.scale, camera)) {
             // A value of the projection that is out of range has been warned of.
             const std::string of_values = fmt::format("cameras[{}].", node.camera);
             if (std::none_of(document.warnings.begin(), document.warnings.end(),
@@ -107,7 +112,7 @@ void place_lights(Document& document, const NodeTree& tree, LoadedScene& loaded)
         const file::Node& node = document.file.nodes[static_cast<std::size_t>(n)];
         if (node.light < 0) continue;
         const file::Light& source = document.file.lights[static_cast<std::size_t>(node.light)];
-        std::optional<Light> light = light_of(source);
+        std::optional<Light> light = light_of(source, loaded.scale);
         const Affine& world = tree.world_from_node[static_cast<std::size_t>(n)];
         if (!light || !is_finite(world)) {
             if (light) document.warn(fmt::format("nodes[{}]: its transform is not finite, its light is left out", n));

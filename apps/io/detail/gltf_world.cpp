@@ -102,20 +102,4 @@ void recentre(Document& document, NodeTree& tree, LoadedScene& loaded) {
         document.warn(fmt::format("the scene is {:.3g} units in size: it is drawn {:.3g} times as large", 2.0 * world.radius(), scale));
 }
 
-void scale_views_and_lights(LoadedScene& loaded) {
-    if (loaded.scale == 1.0) return;
-    const double s = loaded.scale;
-    const auto times = [](float& value, double factor) { value = static_cast<float>(std::clamp(value * factor, 0.0, 3e38)); };
-    for (Camera& camera : loaded.scene.cameras)
-        for (float* const length : {&camera.half_width, &camera.half_height, &camera.near_z, &camera.far_z}) {
-            // Angles alone make a perspective camera's frustum.
-            if (camera.orthographic || length == &camera.near_z || length == &camera.far_z) times(*length, s);
-        }
-    for (Light& light : loaded.scene.lights) {
-        if (light.type == LightType::directional) continue;
-        times(light.range, s);
-        for (float* const c : {&light.color_linear.x, &light.color_linear.y, &light.color_linear.z}) times(*c, s * s);
-    }
-}
-
 }  // namespace halflit::io::detail

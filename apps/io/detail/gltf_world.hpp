@@ -10,7 +10,4 @@ namespace halflit::io::detail {
 /// `tree`, which place cameras and lights afterwards. Sets LoadedScene::origin and scale, and warns.
 void recentre(Document& document, NodeTree& tree, LoadedScene& loaded);
 
-/// Scales what cameras and lights hold besides their places.
-void scale_views_and_lights(LoadedScene& loaded);
-
 }  // namespace halflit::io::detail
