@@ -30,8 +30,8 @@ Bytes sheet(double positions, double scale, double offset) {
     for (int j = 0; j <= kSquares; ++j)
         for (int i = 0; i <= kSquares; ++i) {
             const double x = i / 4.0 - 1, y = j / 4.0 - 1;
-            append<float>(bin, {static_cast<float>(x * positions), static_cast<float>(y * positions),
-                                static_cast<float>(0.25 * x * y * positions)});
+            append<float>(
+                bin, {static_cast<float>(x * positions), static_cast<float>(y * positions), static_cast<float>(0.25 * x * y * positions)});
         }
     const std::size_t vertex_bytes = bin.size();
     for (std::uint16_t j = 0; j < kSquares; ++j)
@@ -51,9 +51,9 @@ Bytes sheet(double positions, double scale, double offset) {
                    R"(}],"cameras":[{"type":"perspective","perspective":{"yfov":0.6,"znear":)" + number(0.5 * unit) + ",\"zfar\":" +
                    number(50 * unit) + R"(}}],"extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":[)" +
                    R"({"type":"point","intensity":)" + number(6 * unit * unit) + ",\"range\":" + number(6 * unit) +
-                   R"(}]}},"buffers":[{"byteLength":)" + std::to_string(bin.size()) +
-                   R"(}],"bufferViews":[{"buffer":0,"byteLength":)" + std::to_string(vertex_bytes) + R"(},{"buffer":0,"byteOffset":)" +
-                   std::to_string(vertex_bytes) + ",\"byteLength\":" + std::to_string(bin.size() - vertex_bytes) +
+                   R"(}]}},"buffers":[{"byteLength":)" + std::to_string(bin.size()) + R"(}],"bufferViews":[{"buffer":0,"byteLength":)" +
+                   std::to_string(vertex_bytes) + R"(},{"buffer":0,"byteOffset":)" + std::to_string(vertex_bytes) +
+                   ",\"byteLength\":" + std::to_string(bin.size() - vertex_bytes) +
                    R"(}],"accessors":[{"bufferView":0,"componentType":5126,"count":81,"type":"VEC3"},)" +
                    R"({"bufferView":1,"componentType":5123,"count":384,"type":"SCALAR"}],)" +
                    R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}]})",
@@ -99,8 +99,15 @@ TEST_CASE("world: a scene of any size and place has the picture that it has at t
         double positions, scale, offset;
     };
     // Distances to lamps below 1e-4 count as 1e-4, so of small scenes only those that are scaled are alike.
-    for (const Case& c : {Case{1, 1, 1e5}, {1, 1, -1e7}, {1, 1, 1e12}, {1e10, 1, 0}, {1e-10, 1, 0}, {1, 1e-10, 1e5}, {0x1p-120, 0x1p120, 3e4},
-                          {0x1p100, 0x1p-100, 0}, {1e12, 1, 1e6}}) {
+    for (const Case& c : {Case{1, 1, 1e5},
+                          {1, 1, -1e7},
+                          {1, 1, 1e12},
+                          {1e10, 1, 0},
+                          {1e-10, 1, 0},
+                          {1, 1e-10, 1e5},
+                          {0x1p-120, 0x1p120, 3e4},
+                          {0x1p100, 0x1p-100, 0},
+                          {1e12, 1, 1e6}}) {
         INFO("positions " << c.positions << ", node's scale " << c.scale << ", offset " << c.offset);
         const LoadedScene loaded = load_ok(sheet(c.positions, c.scale, c.offset), recentred());
         const Drawn found = draw(loaded.scene);

@@ -80,7 +80,7 @@ TEST_CASE("limits: a frame beyond its time says so, and the next one is drawn", 
         REQUIRE(!stopped);
         CHECK(stopped.error().code == ErrorCode::limit);
         CHECK(stopped.error().message.find("time") != std::string::npos);
-        CHECK(took < 2.0);  // a part of the work takes milliseconds; a busy machine may take a hundred times as long
+        CHECK(took < 60.0);  // the work would take minutes under a sanitizer; a part of it takes milliseconds
         const Scene small = spokes(10);
         REQUIRE(draw(renderer, small, pixels, 64, {.threads = threads, .time_limit_s = 1e6}));
         Bytes fresh;

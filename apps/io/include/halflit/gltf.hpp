@@ -95,8 +95,8 @@ struct LoadedScene {
     std::vector<std::string> warnings;
     /// A point p of the file's world is drawn at (p - origin) * scale; see LoadOptions::recentre.
     Vec3d origin{0, 0, 0};
-    double scale = 1.0;
-    SceneInfo info;  ///< counts for the user
+    double scale = 1.0;  ///< a power of two
+    SceneInfo info;      ///< counts for the user
 };
 
 /// Loads the model at `path`; files that it refers to are read from its folder. Error messages begin with `path`. Thread-safe.
