@@ -159,6 +159,22 @@ struct Renderer::Impl {
             report.warnings.emplace_back("nothing to draw");
         return report;
     }
+
+    /// The same within Execution::memory_limit. What a renderer keeps of other frames may be more than the limit leaves: then it is
+    /// replaced by a fresh one, so that only the frame itself decides.
+    static Result<RenderReport> render_within_memory(std::unique_ptr<Impl>& impl, const PreparedData& scene, const Camera& camera,
+                                                     const Settings& settings, const Target& target, const Execution& execution, Isa isa,
+                                                     const RenderReport& report) {
+        const std::size_t held = impl->executor.stop().memory();
+        if (execution.memory_limit > 0 && held > execution.memory_limit) impl = std::make_unique<Impl>();
+        try {
+            return impl->render(scene, camera, settings, target, execution, isa, report);
+        } catch (const MemoryStopped&) {
+            impl = std::make_unique<Impl>();
+            if (held == 0) throw;
+        }
+        return impl->render(scene, camera, settings, target, execution, isa, report);
+    }
 };
 
 Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
@@ -194,7 +210,7 @@ Result<RenderReport> Renderer::render(const PreparedScene& scene, const Camera& 
     return timed([&]() -> Result<RenderReport> {
         const auto isa = check_call(settings, target, execution);
         if (!isa) return tl::unexpected<Error>(isa.error());
-        return impl_->render(scene.data(), camera, settings, target, execution, *isa, {});
+        return Impl::render_within_memory(impl_, scene.data(), camera, settings, target, execution, *isa, {});
     });
 }
 
@@ -208,7 +224,10 @@ Result<RenderReport> Renderer::render(const Scene& scene, const Camera& camera, 
         const auto prepared = PreparedData::make(scene, execution);
         if (!prepared) return tl::unexpected<Error>(prepared.error());
         report.ms.prepare = watch.lap();
-        return impl_->render(*prepared, camera, settings, target, execution, *isa, std::move(report));
+        Execution rest = execution;
+        constexpr double kOverdue = 1e-9;
+        if (rest.time_limit_s > 0.0) rest.time_limit_s = std::max(rest.time_limit_s - report.ms.prepare / 1000.0, kOverdue);
+        return Impl::render_within_memory(impl_, *prepared, camera, settings, target, rest, *isa, report);
     });
 }
 

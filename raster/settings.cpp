@@ -37,6 +37,7 @@ namespace halflit::raster {
 Result<Isa> check_execution(const Execution& execution) {
     if (execution.tile_size != 16 && execution.tile_size != 32 && execution.tile_size != 64)
         return fail(ErrorCode::usage, "tile size: " + std::to_string(execution.tile_size) + ", expected 16, 32 or 64");
+    if (!(execution.time_limit_s >= 0.0)) return fail(ErrorCode::usage, "time limit: expected seconds, or 0 for none");
     if (!execution.isa) return default_isa();
     if (!isa_available(*execution.isa))
         return fail(ErrorCode::usage, "this CPU does not run the instruction set " + std::string(isa_name(*execution.isa)));

@@ -167,7 +167,6 @@ Result<Execution> execution(const halflit_execution* given) {
         return fail(ErrorCode::usage, "halflit_execution: tile_size is " + std::to_string(read->tile_size) + ", expected 16, 32 or 64");
     execution.threads = read->threads;
     execution.tile_size = read->tile_size;
-    if (!(read->time_limit_s >= 0.0)) return fail(ErrorCode::usage, "halflit_execution: time_limit_s: expected seconds, or 0 for no limit");
     execution.time_limit_s = read->time_limit_s;
     execution.memory_limit = read->memory_limit;
     void* const user = read->user;

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <new>
 #include <utility>
@@ -39,30 +40,44 @@ std::string default_output(const std::string& scene) {
     return (file ? stem.substr(0, stem.find(':')) : "halflit") + ".png";
 }
 
-/// Refuses output paths that would overwrite the scene or each other.
+/// False for a file that is certainly no report. It could be one that the scene is read from, which is not known before that is loaded.
+bool may_be_report(const std::string& path) {
+    std::error_code ignored;
+    if (path.empty() || path == "-" || !std::filesystem::is_regular_file(path, ignored)) return true;
+    std::ifstream file(path, std::ios::binary);
+    char first = 0;
+    return !file.get(first) || first == '{';
+}
+
+/// Refuses output paths that would overwrite the scene, the environment or each other.
 Result<void> check_paths(const RenderCommandOptions& options) {
     std::error_code ignored;
     const auto place = [&](const std::string& path) { return std::filesystem::weakly_canonical(path, ignored); };
     if (!options.report.empty() &&
         (options.report == options.output || (options.report != "-" && place(options.report) == place(options.output))))
         return fail(ErrorCode::usage, "--report: expected another file than the picture's, found '" + options.report + "'");
-    for (const std::string& path : {options.output, options.report})
-        if (path != "-" && !path.empty() && !options.scene.empty() && same_file(path, options.scene))
+    for (const std::string& path : {options.output, options.report}) {
+        if (path == "-" || path.empty()) continue;
+        if (!options.scene.empty() && same_file(path, options.scene))
             return fail(ErrorCode::io, path + ": is the scene itself and is not overwritten");
+        if (!options.environment.empty() && same_file(path, options.environment))
+            return fail(ErrorCode::io, path + ": is the environment itself and is not overwritten");
+    }
+    if (!may_be_report(options.report))
+        return fail(ErrorCode::usage,
+                    "--report: expected a new file or an earlier report, found '" + options.report + "', which is neither");
     return {};
 }
 
 /// Refuses to overwrite a file that the scene was read from, such as a texture that has the picture's name. If the report would, it is not
 /// written at all: its path is cleared.
 Result<void> spare_inputs(RenderCommandOptions& options, const RenderJob& job) {
-    std::vector<std::string> inputs;
-    if (job.source.file) inputs = job.source.file->files;
-    if (!options.environment.empty() && options.environment != "sky") inputs.push_back(options.environment);
+    if (!job.source.file) return {};
     for (std::string* const path : {&options.output, &options.report})
-        for (const std::string& input : inputs)
+        for (const std::string& input : job.source.file->files)
             if (*path != "-" && !path->empty() && same_file(*path, input)) {
                 const std::string name = path == &options.report ? std::exchange(options.report, "") : *path;
-                return fail(ErrorCode::io, name + ": the scene was read from it, and it is not overwritten (-o names another file)");
+                return fail(ErrorCode::io, name + ": the scene was read from it, and it is not overwritten");
             }
     return {};
 }
@@ -140,7 +155,7 @@ Result<int> render_scene(RenderCommandOptions options, const std::string& scene)
     options.scene = scene;
     io::begin_file_set();
     if (options.output.empty() || options.output.ends_with('/')) options.output += default_output(scene);
-    if (!options.report.empty())
+    if (!options.report.empty() && check_paths(options))
         set_last_words([path = options.report](int signal) {
             (void)write_text(path, error_report(128 + signal, "interrupted by signal " + std::to_string(signal)));
         });

@@ -11,9 +11,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <mutex>
 #include <optional>
 #include <string_view>
@@ -99,7 +101,8 @@ public:
 
     void abandon() {
         std::unique_lock lock(mutex_);
-        settled_.wait(lock, [this] { return !(in_set_ && published_); });
+        // Not for ever: what comes after a picture may be a pipe that nobody reads.
+        settled_.wait_for(lock, std::chrono::seconds(2), [this] { return !(in_set_ && published_); });
         abandoned_by_ = std::this_thread::get_id();
         for (const std::string& path : paths_) ::unlink(path.c_str());
         paths_.clear();
@@ -165,8 +168,13 @@ std::optional<int> replace_by_unnamed(const std::string& target, std::span<const
     const int fd = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, mode);
     if (fd < 0) return std::nullopt;  // the other way names the fault
     int error = fill(fd, bytes, mode, exists);
-    if (error == 0) error = Pending::instance().publish_unnamed(fd, temporary_name(target), target, exists);
+    bool can_link = true;
+    if (error == 0) {
+        error = Pending::instance().publish_unnamed(fd, temporary_name(target), target, exists);
+        can_link = error != EPERM && error != ENOENT && error != EXDEV && error != EOPNOTSUPP;
+    }
     ::close(fd);
+    if (!can_link) return std::nullopt;
     return error;
 #else
     (void)target, (void)bytes, (void)mode, (void)exists;
@@ -174,7 +182,8 @@ std::optional<int> replace_by_unnamed(const std::string& target, std::span<const
 #endif
 }
 
-/// Removes temporary files of this target whose process was killed. Others have the same name only by the target's will.
+/// Removes temporary files of this target whose process was killed. Only halflit makes names of this form; the process may live on another
+/// machine that shares the folder, so a file is left alone for an hour.
 void remove_stale(const std::string& target) {
     const std::string own = temporary_name(target);
     const std::size_t slash = own.rfind('/'), number = own.rfind('-') + 1;
@@ -189,7 +198,11 @@ void remove_stale(const std::string& target) {
         pid_t process = 0;
         const auto parsed = std::from_chars(digits.data(), digits.data() + digits.size(), process);
         if (parsed.ec != std::errc() || parsed.ptr != digits.data() + digits.size() || process <= 0) continue;
-        if (::kill(process, 0) != 0 && errno == ESRCH) ::unlink((folder + std::string(name)).c_str());
+        const std::string path = folder + std::string(name);
+        struct stat info {};
+        constexpr time_t kHour = 3600;
+        if (::stat(path.c_str(), &info) != 0 || ::time(nullptr) - info.st_mtime < kHour) continue;
+        if (::kill(process, 0) != 0 && errno == ESRCH) ::unlink(path.c_str());
     }
     ::closedir(list);
 }

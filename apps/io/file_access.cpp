@@ -202,7 +202,7 @@ Result<std::vector<std::byte>> ModelFolder::read(std::string_view relative, std:
     const auto open_in = [&](const Folder& folder, const std::string& name) {
         Descriptor file = folder.descriptor < 0 || name.empty() ? Descriptor(-1) : open_beneath(folder.descriptor, name);
         if (file.get() < 0 && error == ENOENT) error = folder.descriptor < 0 ? folder.error : name.empty() ? EISDIR : errno;
-        if (file.get() >= 0) files_.push_back(folder.at + "/" + name);
+        if (file.get() >= 0) files_.push_back((folder.at.empty() ? folder.name : folder.at) + "/" + name);
         return file;
     };
     const std::string name = normalised(relative);

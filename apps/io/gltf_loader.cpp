@@ -29,7 +29,7 @@ LoadedScene build(std::span<const std::byte> bytes, const std::string& base_dir,
     const std::unique_ptr<Document> document = open_document(bytes, base_dir, options);
     document->check_time();
     NodeTree tree = place_nodes(*document);
-    settle(*document, tree.drawn);
+    settle(*document, tree.drawn, tree.parent);
     load_buffers(*document);
     document->check_time();
     const std::vector<Accessor> accessors = check_accessors(*document);

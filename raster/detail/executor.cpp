@@ -36,9 +36,10 @@ void run_catching(const Loop& loop, const std::function<void(int)>& task) {
     if (failure) std::rethrow_exception(failure);
 }
 
+#ifdef HALFLIT_ONETBB
 /// Number of threads, at most `wanted`, that the system lets this process start. oneTBB's loops end with an exception where one of its
-/// threads does not start. What was found once is not tried again.
-int threads_that_start(int wanted) {
+/// threads does not start. A number that did start is not tried again.
+int startable_threads(int wanted) {
     static std::atomic<int> proven{0};
     if (wanted <= proven) return wanted;
     std::mutex gate;
@@ -57,6 +58,7 @@ int threads_that_start(int wanted) {
     if (count == wanted) proven = count;
     return count;
 }
+#endif
 
 }  // namespace
 
@@ -64,9 +66,10 @@ int threads_that_start(int wanted) {
 
 struct Executor::Arena {
     explicit Arena(int thread_count) : arena(thread_count) {
-        // oneTBB starts its threads with the first loop. If the system refuses one only now, better here than while a frame is drawn.
+        // oneTBB starts its threads with the first loop. An exception for one that does not start is harmless here, not inside a frame.
         run(thread_count, [](int) {});
     }
+    static int threads_that_start(int wanted) { return startable_threads(wanted); }
     static int all_threads() { return static_cast<int>(tbb::this_task_arena::max_concurrency()); }
     /// oneTBB runs no more threads than this, and prints a warning when asked for more.
     static int most_threads() { return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)); }
@@ -81,6 +84,7 @@ struct Executor::Arena {
 /// Starts threads for each loop: about ten microseconds per loop more than oneTBB, which keeps its threads.
 struct Executor::Arena {
     explicit Arena(int thread_count) : threads(thread_count) {}
+    static int threads_that_start(int wanted) { return wanted; }  // each loop makes do with those that start
     static int all_threads() { return static_cast<int>(std::thread::hardware_concurrency()); }
     static int most_threads() { return std::numeric_limits<int>::max(); }
     void run(int count, const std::function<void(int)>& task) {
@@ -116,7 +120,7 @@ void Executor::configure(const Execution& execution) {
         std::min(execution.threads > 0 ? execution.threads : std::max(Arena::all_threads(), 1), std::max(Arena::most_threads(), 1));
     if (arena_ && wanted == asked_) return;
     asked_ = wanted;
-    threads_ = 1 + threads_that_start(wanted - 1);
+    threads_ = 1 + Arena::threads_that_start(wanted - 1);
     arena_.reset();
     if (threads_ == 1) return;
     try {
@@ -127,8 +131,12 @@ void Executor::configure(const Execution& execution) {
 }
 
 void Executor::run(int count, const std::function<void(int)>& body) {
+    std::atomic<bool> left_out{false};
     const std::function<void(int)> task = [&](int i) {
-        if (stop_.raised()) return;
+        if (stop_.raised()) {
+            left_out = true;
+            return;
+        }
         const FpEnvironment environment;
         body(i);
     };
@@ -153,7 +161,7 @@ void Executor::run(int count, const std::function<void(int)>& body) {
     } else {
         for (int i = 0; i < count; ++i) task(i);
     }
-    stop_.check();
+    if (left_out) stop_.check();
 }
 
 }  // namespace halflit::raster

@@ -17,9 +17,13 @@ void StopSignal::arm(const Execution& execution) {
 
 bool StopSignal::raised() {
     if (reason_.load(std::memory_order_relaxed) != none) return true;
-    if (cancelled_ != nullptr && (*cancelled_)()) reason_ = cancelled;
-    if (time_limit_s_ > 0.0 && std::chrono::steady_clock::now() >= deadline_) reason_ = time;
-    return reason_.load(std::memory_order_relaxed) != none;
+    const Reason found = cancelled_ != nullptr && (*cancelled_)()                               ? cancelled
+                         : time_limit_s_ > 0.0 && std::chrono::steady_clock::now() >= deadline_ ? time
+                                                                                                : none;
+    if (found == none) return false;
+    int first = none;
+    reason_.compare_exchange_strong(first, found);  // the first reason stays
+    return true;
 }
 
 void StopSignal::check() {
@@ -32,8 +36,8 @@ void StopSignal::take_memory(std::size_t bytes) {
     const std::size_t before = memory_.fetch_add(bytes, std::memory_order_relaxed);
     if (memory_limit_ == 0 || before + bytes <= memory_limit_) return;
     memory_.fetch_sub(bytes, std::memory_order_relaxed);
-    throw Stopped{
-        {ErrorCode::limit, "drawing needs more than " + std::to_string(memory_limit_) + " bytes of working memory, which is the limit"}};
+    throw MemoryStopped{
+        {{ErrorCode::limit, "drawing needs more than " + std::to_string(memory_limit_) + " bytes of working memory, which is the limit"}}};
 }
 
 }  // namespace halflit::raster

@@ -15,18 +15,22 @@ struct Stopped {
     Error error;
 };
 
+/// The same for a lack of memory.
+struct MemoryStopped : Stopped {};
+
 class StopSignal {
 public:
     /// Begins a call. The functions of `execution` must live until the call ends.
     void arm(const Execution& execution);
 
-    /// True from the moment on that the call is to end. Any thread may ask; asks the caller's `cancelled` and the clock.
+    /// True once the call is to end. Any thread may ask; asks the caller's `cancelled` and the clock.
     [[nodiscard]] bool raised();
     /// Throws Stopped if the signal is raised.
     void check();
 
     /// Working memory that the call holds. Throws Stopped, without counting, beyond the limit.
     void take_memory(std::size_t bytes);
+    [[nodiscard]] std::size_t memory() const { return memory_.load(std::memory_order_relaxed); }
     void give_memory(std::size_t bytes) { memory_.fetch_sub(bytes, std::memory_order_relaxed); }
 
 private:

@@ -41,9 +41,10 @@ std::size_t Chunk::bytes() const {
 }
 
 void Chunk::drop_lists() {
-    pairs = {};
-    tile_begin = {};
-    tile_list = {};
+    // Assigning {} would keep the memory.
+    std::vector<std::uint64_t>().swap(pairs);
+    std::vector<std::uint32_t>().swap(tile_begin);
+    std::vector<std::uint32_t>().swap(tile_list);
 }
 
 bool ViewGeometry::tile_is_empty(int tile) const {

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <csignal>
+#include <fstream>
+#include <iterator>
 
 using namespace halflit::test;
 
@@ -156,7 +158,7 @@ TEST_CASE("output: a file that the scene was read from is not overwritten", "[cl
                                                       {"crate.gltf", "-o", "./crate.png"},
                                                       {"crate.gltf", "-o", "new.png", "--report", "crate.png"}}) {
         const Outcome outcome = run(arguments, {.folder = folder.path()});
-        CHECK(outcome.code == 4);
+        CHECK(outcome.code == (arguments.back() == "crate.png" && arguments.size() == 5 ? 2 : 4));  // a report is refused before loading
         CHECK(outcome.err.find("crate.png") != std::string::npos);
         CHECK(kept());
         CHECK(folder.names() == std::vector<std::string>{"crate.gltf", "crate.png"});

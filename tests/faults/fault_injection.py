@@ -18,7 +18,7 @@ import time
 import zlib
 
 OLD_PICTURE = b"the old picture"
-OLD_REPORT = b"the old report"
+OLD_REPORT = b'{"status": "of an older run"}'
 HALF = 0  # error 0: half of the bytes are read or written
 
 # Kind of call: the errors that it ends with. An interrupted or partial transfer goes on, so these must not be seen from outside.

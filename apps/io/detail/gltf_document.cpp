@@ -142,8 +142,8 @@ std::unique_ptr<Document> open_document(std::span<const std::byte> bytes, const 
     return document;
 }
 
-void settle(Document& document, std::span<const int> drawn_nodes) {
-    document.used = find_used(document.file, drawn_nodes);
+void settle(Document& document, std::span<const int> drawn_nodes, std::span<const int> parents) {
+    document.used = find_used(document.file, drawn_nodes, parents);
     const auto drawn = [&](const Owner& owner) { return document.used.has(owner.target, owner.element); };
     const JsonScanLimits limits = scan_limits(document.options);
     for (const Note& fault : document.notes.faults)

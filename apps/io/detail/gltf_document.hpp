@@ -56,7 +56,8 @@ inline constexpr const char* kNothingUsesIt = "nothing that is drawn uses it";
 std::unique_ptr<Document> open_document(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options);
 
 /// Refuses the file for the first fault of an element that the drawn nodes use, and warns of all else that was noted.
-void settle(Document& document, std::span<const int> drawn_nodes);
+/// parents: of all nodes, -1 for none.
+void settle(Document& document, std::span<const int> drawn_nodes, std::span<const int> parents);
 
 /// Fetches the buffers that are used, and checks the bufferViews. Throws LoadFailure.
 void load_buffers(Document& document);

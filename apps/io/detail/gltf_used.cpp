@@ -15,12 +15,15 @@ public:
         skinned_.resize(file.meshes.size());
     }
 
-    Used run(std::span<const int> drawn_nodes) {
+    Used run(std::span<const int> drawn_nodes, std::span<const int> parents) {
         mark(Target::scenes, std::max(file_.scene, 0));
         for (const int node : drawn_nodes) {
-            mark(Target::nodes, node);
+            place(node, parents);
             follow(file_.nodes[static_cast<std::size_t>(node)]);
         }
+        for (std::size_t skin = 0; skin < file_.skins.size(); ++skin)
+            if (used_.of_[static_cast<std::size_t>(Target::skins)][skin])
+                for (const int joint : file_.skins[skin].joints) place(joint, parents);
         return std::move(used_);
     }
 
@@ -31,6 +34,11 @@ private:
         if (element < 0 || static_cast<std::size_t>(element) >= list.size() || list[static_cast<std::size_t>(element)]) return false;
         list[static_cast<std::size_t>(element)] = true;
         return true;
+    }
+
+    /// Marks a node and all above it, whose transforms place it. They need not be in the scene.
+    void place(int node, std::span<const int> parents) {
+        while (mark(Target::nodes, node)) node = parents[static_cast<std::size_t>(node)];
     }
 
     void follow(const file::Node& node) {
@@ -109,6 +117,8 @@ private:
     std::vector<bool> has_own_weights_, skinned_;
 };
 
-Used find_used(const file::File& file, std::span<const int> drawn_nodes) { return UseFinder(file).run(drawn_nodes); }
+Used find_used(const file::File& file, std::span<const int> drawn_nodes, std::span<const int> parents) {
+    return UseFinder(file).run(drawn_nodes, parents);
+}
 
 }  // namespace halflit::io::detail

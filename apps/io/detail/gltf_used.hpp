@@ -23,6 +23,6 @@ private:
 };
 
 /// Follows the references from the drawn nodes. An index that is out of range is left out.
-[[nodiscard]] Used find_used(const file::File& file, std::span<const int> drawn_nodes);
+[[nodiscard]] Used find_used(const file::File& file, std::span<const int> drawn_nodes, std::span<const int> parents);
 
 }  // namespace halflit::io::detail

@@ -47,7 +47,8 @@ double largest(const Box& box) {
 /// The power of two that takes x into [1, 2); 1 if x is within bounds already, or 0.
 double unit_scale(double x) {
     if (x == 0.0 || (x >= kSmallest && x <= kLargest)) return 1.0;
-    return std::ldexp(1.0, -std::ilogb(x));
+    constexpr int kMost = 1000;  // more would be infinite
+    return std::ldexp(1.0, std::min(-std::ilogb(x), kMost));
 }
 
 /// Transforms of all instances, in double. Skinned meshes are in world space.
@@ -75,7 +76,7 @@ void recentre(Document& document, NodeTree& tree, LoadedScene& loaded) {
                 apply(transforms[i], {k & 1 ? box.max.x : box.min.x, k & 2 ? box.max.y : box.min.y, k & 4 ? box.max.z : box.min.z}));
     }
     if (world.empty() || !std::isfinite(world.radius())) return;
-    const bool far = length(world.center()) > kFarthest * world.radius();
+    const bool far = world.radius() > 0.0 && length(world.center()) > kFarthest * world.radius();
     const Vec3d origin = far ? world.center() : Vec3d{};
     const double scale = unit_scale(world.radius());
     // Positions that are small or large themselves are scaled in the mesh, so that an instance's transform is neither.

@@ -53,7 +53,7 @@ struct Execution {
     std::optional<Isa> isa{};    ///< instruction set; empty: default_isa()
     ParallelFor parallel_for{};  ///< the host's threads; empty: oneTBB, or the standard library's threads if built without it
 
-    /// Asked before each part of the work, some hundred times a frame. True stops the call (ErrorCode::cancelled).
+    /// Asked before each part of the work, thousands of times in a large frame. True stops the call (ErrorCode::cancelled).
     std::function<bool()> cancelled{};
     /// Wall clock for the call, seconds; 0: no limit. A call that takes longer stops within a tile's time (ErrorCode::limit).
     double time_limit_s = 0.0;
