@@ -86,20 +86,20 @@ int parse_and_run(int argc, char** argv) {
     return print(command_help(*line->command, line->wanted == ParsedLine::Wanted::help_all, help_width()));
 }
 
-}  // namespace
-
 /// Memory for the end of a program that has no other: the first allocation that fails frees it and tries again.
-std::atomic<void*> reserve = nullptr;
+std::atomic<void*> last_memory = nullptr;
 
-void free_reserve() {
-    void* const kept = reserve.exchange(nullptr);
+void free_last_memory() {
+    void* const kept = last_memory.exchange(nullptr);
     if (kept == nullptr) throw std::bad_alloc();
     std::free(kept);
 }
 
+}  // namespace
+
 int main(int argc, char** argv) {
-    reserve = std::malloc(std::size_t{1} << 20);
-    std::set_new_handler(free_reserve);
+    last_memory = std::malloc(std::size_t{1} << 20);
+    std::set_new_handler(free_last_memory);
     occupy_standard_streams();
     try {
         handle_signals();

@@ -222,7 +222,8 @@ FlagGroup shadow_flags(RenderOptions& o) {
                           name_of(s.shadows, kShadowModeNames)),
               named(s.shadows, kShadowModeNames)},
              {"--shadow-size", "N",
-              fmt::format("Side of a shadow map in texels, a power of two from 64 to 4096 (default: twice the picture's, 256 to {})",
+              fmt::format("Side of a shadow map in texels, a power of two from 64 to 4096 (default: twice the picture's longer side or "
+                          "more, 256 to {})",
                           s.shadow_size),
               [&o, read = choice(s.shadow_size, {64, 128, 256, 512, 1024, 2048, 4096})](const std::string& text) {
                   o.shadow_size_given = true;

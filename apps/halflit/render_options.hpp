@@ -45,7 +45,7 @@ struct RenderOptions {
     std::string environment;  ///< a file, "sky", or empty
     bool environment_sun = true;
     float environment_rotate_deg = 0.0f;
-    bool shadow_size_given = false;  ///< none: chosen for the picture's size
+    bool shadow_size_given = false;  ///< false: chosen for the picture's size
     std::optional<float> exposure;   ///< a factor; none: chosen from the lights
 
     LoadOptions load;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kInstancesPerTask = 1024;
 constexpr std::int64_t kLeastClusters = 16, kMostChunks = 128;  ///< clusters in a chunk; chunks in a view
-constexpr std::int64_t kMostTileLists = 1 << 22;                ///< of all chunks of a view, about; a list without entries takes 4 bytes
+constexpr std::int64_t kMostTileLists = 1 << 22;  ///< chunks times tiles of a view, for four chunks or more; an empty list takes 4 bytes
 
 Culler culler_of(const View& view, const Mat4& world_from_object, bool back_faces) {
     return {view, multiply_in_double(view.clip_from_world, world_from_object), determinant3(world_from_object) < 0.0, back_faces};

@@ -52,10 +52,11 @@ void ReferenceShading::shade(const shading::ShadeKernels& kernels, const shading
     reference::Surroundings around;
     around.diffuse = diffuse_[index].get();
     around.specular = specular_[index].get();
+    // Rows of the block that the plan does not need hold what was there before.
+    const shading::SlotMask filled = scene_->available_slots()[index] & material_plan.slots;
     for (int lane = 0; lane < count; ++lane) {
         if (!hidden.empty()) around.hidden = std::span(hidden).subspan(static_cast<std::size_t>(lane) * light_count, light_count);
-        const reference::Rgba color =
-            reference::shade(frame_, scene_->material(index), scene_->available_slots()[index], block, lane, around);
+        const reference::Rgba color = reference::shade(frame_, scene_->material(index), filled, block, lane, around);
         block.red[lane] = static_cast<float>(color.r);
         block.green[lane] = static_cast<float>(color.g);
         block.blue[lane] = static_cast<float>(color.b);

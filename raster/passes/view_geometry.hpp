@@ -108,7 +108,7 @@ public:
     [[nodiscard]] std::uint32_t triangle_of(std::uint32_t id) const {
         return static_cast<std::uint32_t>(submission_of(id) - draw_of(record(id)).triangle_base);
     }
-    /// False if the tile may have triangles.
+    /// True only if no triangle touches the tile.
     [[nodiscard]] bool tile_is_empty(int tile) const;
     /// Records of a chunk that may cover something of a tile, in submission order. scratch: may hold the result.
     [[nodiscard]] std::span<const std::uint32_t> tile_list(std::size_t chunk, int tile, std::vector<std::uint32_t>& scratch) const;

@@ -55,7 +55,8 @@ struct Execution {
 
     /// Asked before each part of the work, thousands of times in a large frame. True stops the call (ErrorCode::cancelled).
     std::function<bool()> cancelled{};
-    /// Wall clock for the call, seconds; 0: no limit. A call that takes longer stops within a tile's time (ErrorCode::limit).
+    /// Wall clock for the call, seconds; 0: no limit. A call that takes longer stops at its next part (ErrorCode::limit): a tile, a mesh
+    /// that is prepared, a light that is planned.
     double time_limit_s = 0.0;
     /// Working memory for the call, bytes: vertices, triangle lists and shadow maps of a frame, kept from frame to frame. 0: no limit. A
     /// frame that needs more stops (ErrorCode::limit). The caller's scene and target, and fixed buffers of about 1 MB a thread, do not

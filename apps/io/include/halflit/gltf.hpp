@@ -30,7 +30,7 @@ struct LoadLimits {
     /// needs more, and a crafted one cannot become many times larger than its file. The JSON objects have the same limit.
     std::uint64_t max_geometry_bytes = std::uint64_t{16} << 30;
     std::size_t max_lights = 1024;  ///< lights of the drawn nodes
-    double time_limit_s = 0.0;      ///< wall clock, asked for between the parts of the file; 0: no limit
+    double time_limit_s = 0.0;      ///< wall clock, checked between the parts of the file; 0: no limit
 };
 
 /// How a file is read; the defaults are strict.
@@ -40,9 +40,10 @@ struct LoadOptions {
     /// One that cannot be opened is an error (usage).
     std::vector<std::string> allow_external;
     LoadLimits limits;  ///< on memory and time
-    /// Draws a scene at the origin that lies more than 1024 times its radius away from it, and scales one whose radius is beyond 2^-30 to
-    /// 2^30 by a power of two, so that float32 keeps its shape. LoadedScene::origin and scale say what was done. pose() places nodes in the
-    /// file's own world, so a host that poses such a scene leaves this off.
+    /// Moves a scene to the origin if it lies farther from it than 1024 times its radius, and scales it by a power of two if its radius is
+    /// below 2^-30 or above 2^30, so that float32 keeps its shape. Skinned meshes are rounded to float32 before they are moved.
+    /// LoadedScene::origin and scale say what was done. pose() places nodes in the file's own world, so a host that poses such a scene
+    /// leaves this off.
     bool recentre = false;
 };
 
