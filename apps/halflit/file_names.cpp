@@ -9,6 +9,7 @@
 
 #include <cerrno>
 #include <cstdlib>
+#include <fstream>
 #include <memory>
 
 namespace halflit::cli {
@@ -33,6 +34,14 @@ tl::unexpected<Error> refused(const std::string& path, int error) { return fail(
 bool is_file(const std::string& path) {
     struct stat status {};
     return ::stat(path.c_str(), &status) == 0 && !S_ISDIR(status.st_mode);
+}
+
+bool is_free_or_begins_with(const std::string& path, char first) {
+    struct stat status {};
+    if (path.empty() || path == "-" || ::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return true;
+    std::ifstream file(path, std::ios::binary);
+    char found = 0;
+    return !file.get(found) || found == first;
 }
 
 bool is_folder(const std::string& path) {

@@ -42,6 +42,8 @@ Result<int> run_check(const GoldenOptions& options) {
     if (!list) return tl::unexpected(list.error());
     const auto scenes = chosen_scenes(*list, options.names);
     if (!scenes) return tl::unexpected(scenes.error());
+    if (!is_free_or_begins_with(options.junit, '<'))
+        return fail(ErrorCode::usage, "--junit: expected a new file or an earlier report, found '" + printable(options.junit) + "'");
     const std::string folder = options.report.empty() ? path_in(options.folder, "report") : options.report;
     std::error_code ignored;
     if (fs::equivalent(folder, options.folder, ignored))

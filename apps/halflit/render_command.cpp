@@ -19,7 +19,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <new>
 #include <utility>
@@ -40,15 +39,6 @@ std::string default_output(const std::string& scene) {
     return (file ? stem.substr(0, stem.find(':')) : "halflit") + ".png";
 }
 
-/// False for a file that is certainly no report. It could be one that the scene is read from, which is not known before that is loaded.
-bool may_be_report(const std::string& path) {
-    std::error_code ignored;
-    if (path.empty() || path == "-" || !std::filesystem::is_regular_file(path, ignored)) return true;
-    std::ifstream file(path, std::ios::binary);
-    char first = 0;
-    return !file.get(first) || first == '{';
-}
-
 /// Refuses output paths that would overwrite the scene, the environment or each other.
 Result<void> check_paths(const RenderCommandOptions& options) {
     std::error_code ignored;
@@ -63,7 +53,7 @@ Result<void> check_paths(const RenderCommandOptions& options) {
         if (!options.environment.empty() && same_file(path, options.environment))
             return fail(ErrorCode::io, path + ": is the environment itself and is not overwritten");
     }
-    if (!may_be_report(options.report))
+    if (!is_free_or_begins_with(options.report, '{'))
         return fail(ErrorCode::usage,
                     "--report: expected a new file or an earlier report, found '" + options.report + "', which is neither");
     return {};

@@ -198,3 +198,15 @@ TEST_CASE("golden: scenes do not reach files outside the folder, and one that fa
     CHECK(junit.code == 3);
     CHECK(contents(folder.file("j.xml")).find("failures=\"0\" errors=\"7\"") != std::string::npos);
 }
+
+TEST_CASE("lists: --junit replaces no file that is not an earlier report", "[cli][golden]") {
+    const TemporaryFolder folder;
+    write_list(folder, Json::array({scene("ball", "sphere:12", {})}));
+    REQUIRE(run({"golden", "update", folder.path()}).code == 0);
+    for (const char* name : {"golden.json", "ball.png"}) {
+        const Outcome outcome = run({"golden", "check", folder.path(), "--junit", folder.file(name)});
+        CHECK(outcome.code == 2);
+        CHECK(outcome.err.find("--junit") != std::string::npos);
+    }
+    for (int i = 0; i < 2; ++i) CHECK(run({"golden", "check", folder.path(), "--junit", folder.file("results.xml")}).code == 0);
+}
