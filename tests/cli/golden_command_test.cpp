@@ -199,7 +199,7 @@ TEST_CASE("golden: scenes do not reach files outside the folder, and one that fa
     CHECK(contents(folder.file("j.xml")).find("failures=\"0\" errors=\"7\"") != std::string::npos);
 }
 
-TEST_CASE("lists: --junit replaces no file that is not an earlier report", "[cli][golden]") {
+TEST_CASE("golden: --junit replaces no file that is not an earlier report", "[cli][golden]") {
     const TemporaryFolder folder;
     write_list(folder, Json::array({scene("ball", "sphere:12", {})}));
     REQUIRE(run({"golden", "update", folder.path()}).code == 0);
