@@ -152,8 +152,7 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, 
     if (!finite_views) return fail(ErrorCode::bad_input, "the camera's matrix is not finite");
     plan.shadow_views = std::move(shadows->views);
     if (memory.shadow_texels && shadows->texel_count > 0) {
-        const float* texels = memory.stop != nullptr ? memory.shadow_texels->reserve(shadows->texel_count, *memory.stop)
-                                                     : memory.shadow_texels->reserve(shadows->texel_count);
+        const float* texels = memory.shadow_texels->reserve(shadows->texel_count, *memory.stop);
         for (std::size_t i = 0; i < shadows->maps.size(); ++i) shadows->maps[i].distance = texels + shadows->first_texel[i];
     }
 

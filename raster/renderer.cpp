@@ -224,9 +224,7 @@ Result<RenderReport> Renderer::render(const Scene& scene, const Camera& camera, 
         const auto prepared = PreparedData::make(scene, execution);
         if (!prepared) return tl::unexpected<Error>(prepared.error());
         report.ms.prepare = watch.lap();
-        Execution rest = execution;
-        constexpr double kOverdue = 1e-9;
-        if (rest.time_limit_s > 0.0) rest.time_limit_s = std::max(rest.time_limit_s - report.ms.prepare / 1000.0, kOverdue);
+        const Execution rest = with_time_left(execution, report.ms.prepare / 1000.0);
         return Impl::render_within_memory(impl_, *prepared, camera, settings, target, rest, *isa, report);
     });
 }

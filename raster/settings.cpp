@@ -5,6 +5,7 @@
 #include "raster/kernels/raster_kernels.hpp"
 #include "shading/planner.hpp"
 
+#include <algorithm>
 #include <string>
 
 namespace halflit {
@@ -42,6 +43,12 @@ Result<Isa> check_execution(const Execution& execution) {
     if (!isa_available(*execution.isa))
         return fail(ErrorCode::usage, "this CPU does not run the instruction set " + std::string(isa_name(*execution.isa)));
     return *execution.isa;
+}
+
+Execution with_time_left(Execution execution, double spent_s) {
+    constexpr double kOverdue = 1e-9;  // 0 would be no limit
+    if (execution.time_limit_s > 0.0) execution.time_limit_s = std::max(execution.time_limit_s - spent_s, kOverdue);
+    return execution;
 }
 
 }  // namespace halflit::raster

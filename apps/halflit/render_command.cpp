@@ -145,14 +145,15 @@ Result<int> render_scene(RenderCommandOptions options, const std::string& scene)
     options.scene = scene;
     io::begin_file_set();
     if (options.output.empty() || options.output.ends_with('/')) options.output += default_output(scene);
-    if (!options.report.empty() && check_paths(options))
+    const bool may_report = check_paths(options).has_value();
+    if (may_report && !options.report.empty())
         set_last_words([path = options.report](int signal) {
             (void)write_text(path, error_report(128 + signal, "interrupted by signal " + std::to_string(signal)));
         });
     const Result<std::string> done = render_within_memory(options);
     const std::string report = done ? *done : error_report(static_cast<int>(done.error().code), done.error().message);
-    // No report is written if its path was refused above because it is the scene's or the picture's.
-    if (!options.report.empty() && check_paths(options)) {
+    // A path that is an input's or the picture's was refused.
+    if (may_report && !options.report.empty()) {
         const Result<void> written = write_text(options.report, report);
         if (!written && done) return tl::unexpected(written.error());
     }

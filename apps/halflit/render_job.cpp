@@ -5,6 +5,7 @@
 #include "halflit/camera.hpp"
 #include "halflit/image.hpp"
 #include "halflit/scene.hpp"
+#include "raster/check_execution.hpp"
 #include "sh/trig.hpp"
 #include "shading/environment.hpp"
 
@@ -219,10 +220,9 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
 }
 
 Execution RenderJob::timed_execution() const {
-    constexpr double kOverdue = 1e-9;
     Execution out = execution;
-    if (timeout_s > 0.0) out.time_limit_s = std::max(timeout_s - started.ms() / 1000.0, kOverdue);
-    return out;
+    out.time_limit_s = timeout_s;
+    return raster::with_time_left(std::move(out), started.ms() / 1000.0);
 }
 
 Image make_image(const RenderJob& job, bool linear) {

@@ -36,30 +36,6 @@ void run_catching(const Loop& loop, const std::function<void(int)>& task) {
     if (failure) std::rethrow_exception(failure);
 }
 
-#ifdef HALFLIT_ONETBB
-/// Number of threads, at most `wanted`, that the system lets this process start. oneTBB's loops end with an exception where one of its
-/// threads does not start. A number that did start is not tried again.
-int startable_threads(int wanted) {
-    static std::atomic<int> proven{0};
-    if (wanted <= proven) return wanted;
-    std::mutex gate;
-    std::vector<std::thread> started;
-    {
-        const std::lock_guard closed(gate);  // they all live until the last has started
-        try {
-            started.reserve(static_cast<std::size_t>(wanted));
-            while (static_cast<int>(started.size()) < wanted) started.emplace_back([&gate] { const std::lock_guard pass(gate); });
-        } catch (const std::system_error&) {
-        } catch (const std::bad_alloc&) {
-        }
-    }
-    for (std::thread& thread : started) thread.join();
-    const int count = static_cast<int>(started.size());
-    if (count == wanted) proven = count;
-    return count;
-}
-#endif
-
 }  // namespace
 
 #ifdef HALFLIT_ONETBB
@@ -69,7 +45,27 @@ struct Executor::Arena {
         // oneTBB starts its threads with the first loop. An exception for one that does not start is harmless here, not inside a frame.
         run(thread_count, [](int) {});
     }
-    static int threads_that_start(int wanted) { return startable_threads(wanted); }
+    /// Number of threads, at most `wanted`, that the system lets this process start. oneTBB's loops end with an exception where one of its
+    /// threads does not start. A number that did start is not tried again.
+    static int threads_that_start(int wanted) {
+        static std::atomic<int> proven{0};
+        if (wanted <= proven) return wanted;
+        std::mutex gate;
+        std::vector<std::thread> started;
+        {
+            const std::lock_guard closed(gate);  // they all live until the last has started
+            try {
+                started.reserve(static_cast<std::size_t>(wanted));
+                while (static_cast<int>(started.size()) < wanted) started.emplace_back([&gate] { const std::lock_guard pass(gate); });
+            } catch (const std::system_error&) {
+            } catch (const std::bad_alloc&) {
+            }
+        }
+        for (std::thread& thread : started) thread.join();
+        const int count = static_cast<int>(started.size());
+        if (count == wanted) proven = count;
+        return count;
+    }
     static int all_threads() { return static_cast<int>(tbb::this_task_arena::max_concurrency()); }
     /// oneTBB runs no more threads than this, and prints a warning when asked for more.
     static int most_threads() { return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)); }

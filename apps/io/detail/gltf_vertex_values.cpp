@@ -1,5 +1,7 @@
 #include "apps/io/detail/gltf_vertex_values.hpp"
 
+#include "shading/model/numbers.hpp"
+
 #include <fmt/format.h>
 
 #include <cstddef>
@@ -9,10 +11,9 @@ namespace halflit::io::detail {
 
 namespace {
 
-bool finite(float v) { return v - v == 0.0f; }
-bool all_finite(Vec2f v) { return finite(v.x) && finite(v.y); }
-bool all_finite(Vec3f v) { return finite(v.x) && finite(v.y) && finite(v.z); }
-bool all_finite(Vec4f v) { return all_finite(Vec3f{v.x, v.y, v.z}) && finite(v.w); }
+using shading::finite;
+bool finite(Vec2f v) { return finite(v.x) && finite(v.y); }
+bool finite(Vec4f v) { return finite(Vec3f{v.x, v.y, v.z}) && finite(v.w); }
 
 template <class T, class Good>
 void warn_unless(Document& document, const std::string& list, const char* name, const std::vector<T>& values, const Good& good,
@@ -27,7 +28,7 @@ void warn_unless(Document& document, const std::string& list, const char* name, 
 template <class T>
 void warn_unless_finite(Document& document, const std::string& list, const char* name, const std::vector<T>& values) {
     warn_unless(
-        document, list, name, values, [](const T& v) { return all_finite(v); }, "are not finite");
+        document, list, name, values, [](const T& v) { return finite(v); }, "are not finite");
 }
 
 /// Length 1 within 5 %: a direction in 8-bit integers is wrong by up to 1 %, and one that is interpolated by an exporter by a little more.

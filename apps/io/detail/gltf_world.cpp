@@ -1,5 +1,7 @@
 #include "apps/io/detail/gltf_world.hpp"
 
+#include "shading/model/numbers.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,13 +30,12 @@ struct Box {
 
 Vec3d apply(const Affine& m, Vec3d p) { return transform_direction(m, p) + m.c[3]; }
 Vec3d to_double(Vec3f v) { return {v.x, v.y, v.z}; }
-bool finite(Vec3f v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// Box of a mesh's triangles.
 Box box_of(const Mesh& mesh) {
     Box box;
     for (const std::uint32_t index : mesh.indices)
-        if (finite(mesh.positions[index])) box.include(to_double(mesh.positions[index]));
+        if (shading::finite(mesh.positions[index])) box.include(to_double(mesh.positions[index]));
     return box;
 }
 
