@@ -1,14 +1,13 @@
 #include "raster/built_in/demo_parts.hpp"
 
 #include "sh/trig.hpp"
+#include "sh/vec3d.hpp"
 
 #include <algorithm>
 
 namespace halflit::raster::detail {
 
 namespace {
-
-Vec3f to_float(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 
 Vec3d unit(Vec3d v) { return v * (1.0 / length(v)); }
 

@@ -1,14 +1,13 @@
 #include "halflit/shapes.hpp"
 
 #include "sh/trig.hpp"
+#include "sh/vec3d.hpp"
 
 #include <algorithm>
 #include <cstdlib>
 
 namespace halflit {
 namespace {
-
-Vec3f to_float(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 
 /// Step `i` of `count` around the circle. Step `count` equals step 0 bit for bit, so that seams close.
 SinCos circle_step(int i, int count) { return sin_cos(2.0 * kPi * static_cast<double>(i % count) / static_cast<double>(count)); }

@@ -180,6 +180,13 @@ TEST_CASE("skins: vertices follow their joints, and the transform of the mesh's 
     // Joint 0 adds (0, 10, 0); joint 1 takes 1 off x, then adds (1, 10, 5).
     CHECK(loaded.scene.meshes.at(0).positions == std::vector<Vec3f>{{0, 10, 0}, {1, 10, 5}, {0, 11, 3.75f}});
     CHECK(loaded.scene.instances.at(0).world_from_object == Mat4{});
+    // Far from the origin, the instance holds the place, and the mesh keeps its shape.
+    LoadOptions recentred;
+    recentred.recentre = true;
+    const LoadedScene far = load_ok(glb(replaced(json, "\"translation\":[0,10,0]", "\"translation\":[1e9,10,3e8]"), file.bin), recentred);
+    const std::vector<Vec3f>& moved = far.scene.meshes.at(0).positions;
+    CHECK(moved[1] - moved[0] == Vec3f{1, 0, 5});
+    CHECK(moved[2] - moved[0] == Vec3f{0, 1, 3.75f});
     std::string bad = json;
     bad = replaced(bad, "\"joints\":[1,2]", "\"joints\":[1]");
     CHECK(refusal(glb(bad, file.bin)).find("joint 1") != std::string::npos);

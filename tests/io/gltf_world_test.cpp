@@ -98,11 +98,12 @@ TEST_CASE("world: a scene of any size and place has the picture that it has at t
     struct Case {
         double positions, scale, offset;
     };
-    // Distances to lamps below 1e-4 count as 1e-4, so of small scenes only those that are scaled are alike.
     for (const Case& c : {Case{1, 1, 1e5},
                           {1, 1, -1e7},
                           {1, 1, 1e12},
                           {1e10, 1, 0},
+                          {1e-4, 1, 0},
+                          {1e-6, 1, 0},
                           {1e-10, 1, 0},
                           {1, 1e-10, 1e5},
                           {0x1p-120, 0x1p120, 3e4},

@@ -5,7 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
+#include <optional>
 #include <span>
 #include <tuple>
 
@@ -34,9 +36,10 @@ public:
     }
 
 private:
+    /// A mesh of the scene, made of a primitive.
     struct Made {
-        std::vector<int> meshes;  // indices into the scene's meshes
-        bool in_world = false;    // skinned
+        int mesh;                       // index into the scene's meshes
+        std::optional<Vec3d> at_world;  // skinned: where it is placed, without the node's transform
     };
     using Key = std::tuple<int, int, std::vector<double>>;  // mesh, skin, morph weights
 
@@ -50,17 +53,20 @@ private:
         const auto [entry, is_new] = made_.try_emplace(Key{node.mesh, node.skin, std::move(weights)});
         if (is_new) entry->second = make(static_cast<std::size_t>(node.mesh), node.skin, std::get<2>(entry->first));
 
-        const Made& made = entry->second;
+        const std::vector<Made>& primitives = entry->second;
         const Affine& world = tree_.world_from_node[index];
-        if (!made.in_world && !is_finite(world)) {
+        const bool needs_world = std::any_of(primitives.begin(), primitives.end(), [](const Made& made) { return !made.at_world; });
+        if (needs_world && !is_finite(world)) {
             document_.warn(fmt::format("nodes[{}]: its transform is not finite, not drawn", index));
             return;
         }
-        document_.geometry.take(made.meshes.size() * (sizeof(Instance) + sizeof(int)));
-        for (const int m : made.meshes) {
-            if (!made.in_world) nodes_[index].instances.push_back(static_cast<int>(scene_.instances.size()));
-            scene_.instances.push_back({m, made.in_world ? Mat4{} : to_mat4(world)});
-            document_.info.triangles_drawn += scene_.meshes[static_cast<std::size_t>(m)].indices.size() / 3;
+        document_.geometry.take(primitives.size() * (sizeof(Instance) + sizeof(int)));
+        for (const auto& [mesh_of_scene, at_world] : primitives) {
+            if (!at_world) nodes_[index].instances.push_back(static_cast<int>(scene_.instances.size()));
+            Affine placed = world;
+            if (at_world) placed = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, *at_world}};
+            scene_.instances.push_back({mesh_of_scene, to_mat4(placed)});
+            document_.info.triangles_drawn += scene_.meshes[static_cast<std::size_t>(mesh_of_scene)].indices.size() / 3;
         }
     }
 
@@ -87,23 +93,23 @@ private:
                                 mesh_index, p, targets, mesh.primitives[p].targets.size()));
     }
 
-    Made make(std::size_t mesh, int skin, const std::vector<double>& weights) {
-        Made made;
+    std::vector<Made> make(std::size_t mesh, int skin, const std::vector<double>& weights) {
+        std::vector<Made> made;
         const auto& primitives = document_.file.meshes[mesh].primitives;
         for (std::size_t p = 0; p < primitives.size(); ++p) {
             document_.check_time();
             std::optional<ReadMesh> read = reader_.read(mesh, p, weights);
             if (!read) continue;
+            std::optional<Vec3d> at_world;
             if (skin >= 0) {
-                if (apply_skin(document_, accessors_, reader_, tree_, skin, primitives[p], *read))
-                    made.in_world = true;
-                else
+                at_world = apply_skin(document_, accessors_, reader_, tree_, skin, primitives[p], *read);
+                if (!at_world)
                     document_.warn(fmt::format("{}: has a skin, but no JOINTS_0 and WEIGHTS_0; drawn as a plain mesh", read->where));
             }
             complete(*read);
             document_.info.vertices += read->mesh.positions.size();
             document_.info.triangles_stored += read->mesh.indices.size() / 3;
-            made.meshes.push_back(static_cast<int>(scene_.meshes.size()));
+            made.push_back({static_cast<int>(scene_.meshes.size()), at_world});
             scene_.meshes.push_back(std::move(read->mesh));
         }
         return made;
@@ -151,7 +157,7 @@ private:
     Scene& scene_;
     std::vector<Node>& nodes_;
     PrimitiveReader reader_;
-    std::map<Key, Made> made_;
+    std::map<Key, std::vector<Made>> made_;
     std::vector<bool> mesh_checked_;
 };
 

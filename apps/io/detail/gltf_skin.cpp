@@ -1,5 +1,8 @@
 #include "apps/io/detail/gltf_skin.hpp"
+
+#include "apps/io/detail/double_box.hpp"
 #include "sh/mat4.hpp"
+#include "shading/model/numbers.hpp"
 
 #include <fmt/format.h>
 
@@ -43,6 +46,14 @@ std::vector<Affine> joint_matrices(Document& document, const std::vector<Accesso
     return matrices;
 }
 
+/// The middle of the points, rounded to float, if they are far from the origin; otherwise the origin.
+Vec3d place_of(const std::vector<Vec3d>& points) {
+    DoubleBox box;
+    for (const Vec3d& p : points)
+        if (shading::finite(to_float(p))) box.include(p);
+    return box.is_far() ? to_double(to_float(box.center())) : Vec3d{};
+}
+
 struct Influences {
     const Accessor* joints;
     const Accessor* weights;
@@ -50,8 +61,8 @@ struct Influences {
 
 }  // namespace
 
-bool apply_skin(Document& document, const std::vector<Accessor>& accessors, PrimitiveReader& reader, const NodeTree& tree, int skin,
-                const file::Primitive& primitive, ReadMesh& read) {
+std::optional<Vec3d> apply_skin(Document& document, const std::vector<Accessor>& accessors, PrimitiveReader& reader, const NodeTree& tree,
+                                int skin, const file::Primitive& primitive, ReadMesh& read) {
     const std::string list = read.where + ".attributes";
     std::vector<Influences> sets;
     for (int set = 0;; ++set) {
@@ -70,10 +81,12 @@ bool apply_skin(Document& document, const std::vector<Accessor>& accessors, Prim
                                            joint_accessor->count(), weight_accessor->count()));
         sets.push_back({joint_accessor, weight_accessor});
     }
-    if (sets.empty()) return false;
+    if (sets.empty()) return std::nullopt;
 
     const std::vector<Affine> matrices = joint_matrices(document, accessors, tree, skin);
     Mesh& mesh = read.mesh;
+    document.geometry.take(mesh.positions.size() * sizeof(Vec3d));
+    std::vector<Vec3d> positions(mesh.positions.size());
     std::size_t negative = 0, without = 0, other_sum = 0;
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         Affine blend{{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}};
@@ -103,7 +116,7 @@ bool apply_skin(Document& document, const std::vector<Accessor>& accessors, Prim
         else
             for (Vec3d& c : blend.c) c = c * (1.0 / sum);
         const Vec3f p = mesh.positions[v];
-        mesh.positions[v] = to_float(transform_direction(blend, {p.x, p.y, p.z}) + blend.c[3]);
+        positions[v] = transform_direction(blend, to_double(p)) + blend.c[3];
         const Mat4 m = to_mat4(blend);
         if (!mesh.normals.empty()) {
             const NormalMatrix n = normal_matrix(m);
@@ -122,7 +135,9 @@ bool apply_skin(Document& document, const std::vector<Accessor>& accessors, Prim
     warn(negative, "negative weights, which are left out");
     warn(without, "no weights, moved by the skin's first joint");
     warn(other_sum, "weights whose sum is not 1, drawn divided by it");
-    return true;
+    const Vec3d place = document.options.recentre ? place_of(positions) : Vec3d{};
+    for (std::size_t v = 0; v < positions.size(); ++v) mesh.positions[v] = to_float(positions[v] - place);
+    return place;
 }
 
 }  // namespace halflit::io::detail

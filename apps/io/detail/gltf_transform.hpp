@@ -3,6 +3,7 @@
 
 #include "halflit/gltf.hpp"
 #include "sh/mat4.hpp"
+#include "sh/vec3d.hpp"
 
 #include <cstddef>
 
@@ -27,8 +28,6 @@ inline bool is_finite(const Affine& m) {
             if (!(e > -3e38 && e < 3e38)) return false;  // within float's range
     return true;
 }
-
-inline Vec3f to_float(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 
 inline Mat4 to_mat4(const Affine& m) {
     Mat4 out;

@@ -1,5 +1,7 @@
 #include "apps/io/detail/gltf_world.hpp"
 
+#include "apps/io/detail/double_box.hpp"
+#include "sh/vec3d.hpp"
 #include "shading/model/numbers.hpp"
 
 #include <fmt/format.h>
@@ -12,49 +14,38 @@ namespace halflit::io::detail {
 
 namespace {
 
-/// Farther from the origin than this many times its radius, a scene loses more than 2^-14 of its size to float32's rounding.
-constexpr double kFarthest = 1024.0;
 /// Sizes between which products of coordinates stay far from float32's ends.
 constexpr double kSmallest = 0x1p-30, kLargest = 0x1p30;
-
-struct Box {
-    Vec3d min{1e300, 1e300, 1e300}, max{-1e300, -1e300, -1e300};
-    void include(Vec3d p) {
-        min = {std::min(min.x, p.x), std::min(min.y, p.y), std::min(min.z, p.z)};
-        max = {std::max(max.x, p.x), std::max(max.y, p.y), std::max(max.z, p.z)};
-    }
-    [[nodiscard]] bool empty() const { return !(min.x <= max.x); }
-    [[nodiscard]] Vec3d center() const { return (min + max) * 0.5; }
-    [[nodiscard]] double radius() const { return length(max - min) * 0.5; }
-};
+/// A scene below this size is scaled too, since distances to a lamp below 1e-4 count as that.
+constexpr double kSmallestScene = 0x1p-10;
 
 Vec3d apply(const Affine& m, Vec3d p) { return transform_direction(m, p) + m.c[3]; }
-Vec3d to_double(Vec3f v) { return {v.x, v.y, v.z}; }
 
-/// Box of a mesh's triangles.
-Box box_of(const Mesh& mesh) {
-    Box box;
+/// DoubleBox of a mesh's triangles.
+DoubleBox box_of(const Mesh& mesh) {
+    DoubleBox box;
     for (const std::uint32_t index : mesh.indices)
         if (shading::finite(mesh.positions[index])) box.include(to_double(mesh.positions[index]));
     return box;
 }
 
-double largest(const Box& box) {
+double largest(const DoubleBox& box) {
     if (box.empty()) return 0.0;
     return std::max(
         {std::abs(box.min.x), std::abs(box.min.y), std::abs(box.min.z), std::abs(box.max.x), std::abs(box.max.y), std::abs(box.max.z)});
 }
 
 /// The power of two that takes x into [1, 2); 1 if x is within bounds already, or 0.
-double unit_scale(double x) {
-    if (x == 0.0 || (x >= kSmallest && x <= kLargest)) return 1.0;
+double unit_scale(double x, double smallest) {
+    if (x == 0.0 || (x >= smallest && x <= kLargest)) return 1.0;
     constexpr int kMost = 1000;  // more would be infinite
     return std::ldexp(1.0, std::min(-std::ilogb(x), kMost));
 }
 
-/// Transforms of all instances, in double. Skinned meshes are in world space.
+/// Transforms of all instances, in double. Skinned meshes have none of their node's: their own is exact in float.
 std::vector<Affine> instance_transforms(const NodeTree& tree, const LoadedScene& loaded) {
-    std::vector<Affine> out(loaded.scene.instances.size());
+    std::vector<Affine> out;
+    for (const Instance& instance : loaded.scene.instances) out.push_back(to_affine(instance.world_from_object));
     for (std::size_t n = 0; n < loaded.nodes.size(); ++n)
         for (const int i : loaded.nodes[n].instances) out[static_cast<std::size_t>(i)] = tree.world_from_node[n];
     return out;
@@ -66,23 +57,23 @@ void recentre(Document& document, NodeTree& tree, LoadedScene& loaded) {
     Scene& scene = loaded.scene;
     if (!document.options.recentre || scene.instances.empty()) return;
     std::vector<Affine> transforms = instance_transforms(tree, loaded);
-    std::vector<Box> boxes;
+    std::vector<DoubleBox> boxes;
     for (const Mesh& mesh : scene.meshes) boxes.push_back(box_of(mesh));
-    Box world;
+    DoubleBox world;
     for (std::size_t i = 0; i < transforms.size(); ++i) {
-        const Box& box = boxes[static_cast<std::size_t>(scene.instances[i].mesh)];
+        const DoubleBox& box = boxes[static_cast<std::size_t>(scene.instances[i].mesh)];
         if (box.empty()) continue;
         for (int k = 0; k < 8; ++k)
             world.include(
                 apply(transforms[i], {k & 1 ? box.max.x : box.min.x, k & 2 ? box.max.y : box.min.y, k & 4 ? box.max.z : box.min.z}));
     }
     if (world.empty() || !std::isfinite(world.radius())) return;
-    const bool far = world.radius() > 0.0 && length(world.center()) > kFarthest * world.radius();
+    const bool far = world.is_far();
     const Vec3d origin = far ? world.center() : Vec3d{};
-    const double scale = unit_scale(world.radius());
+    const double scale = unit_scale(world.radius(), kSmallestScene);
     // Positions that are small or large themselves are scaled in the mesh, so that an instance's transform is neither.
     std::vector<double> in_mesh;
-    for (const Box& box : boxes) in_mesh.push_back(unit_scale(largest(box)));
+    for (const DoubleBox& box : boxes) in_mesh.push_back(unit_scale(largest(box), kSmallest));
     if (!far && scale == 1.0 && std::all_of(in_mesh.begin(), in_mesh.end(), [](double s) { return s == 1.0; })) return;
 
     const auto moved = [&](const Affine& m) { return Affine{{m.c[0] * scale, m.c[1] * scale, m.c[2] * scale, (m.c[3] - origin) * scale}}; };
@@ -100,7 +91,7 @@ void recentre(Document& document, NodeTree& tree, LoadedScene& loaded) {
     if (far)
         document.warn(fmt::format("the scene lies {:.3g} times its size away from the origin: it is drawn at the origin",
                                   length(origin) / std::max(2.0 * world.radius(), 1e-300)));
-    if (scale != 1.0)
+    if (unit_scale(world.radius(), kSmallest) != 1.0)
         document.warn(fmt::format("the scene is {:.3g} units in size: it is drawn {:.3g} times as large", 2.0 * world.radius(), scale));
 }
 

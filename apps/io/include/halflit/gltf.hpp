@@ -41,8 +41,8 @@ struct LoadOptions {
     std::vector<std::string> allow_external;
     LoadLimits limits;  ///< on memory and time
     /// Moves a scene to the origin if it lies farther from it than 1024 times its radius, and scales it by a power of two if its radius is
-    /// below 2^-30 or above 2^30, so that float32 keeps its shape. Skinned meshes are rounded to float32 before they are moved.
-    /// LoadedScene::origin and scale say what was done. pose() places nodes in the file's own world, so a host that poses such a scene
+    /// below 2^-10 or above 2^30, so that float32 keeps its shape and the least distance of lamps (Light::source_radius) is small beside
+    /// it. LoadedScene::origin and scale say what was done. pose() places nodes in the file's own world, so a host that poses such a scene
     /// leaves this off.
     bool recentre = false;
 };
@@ -60,7 +60,7 @@ struct SceneInfo {
     std::uint64_t triangles_stored = 0;         ///< triangles of the meshes that are drawn, each once
     std::uint64_t triangles_drawn = 0;          ///< triangles over all instances
     std::uint64_t vertices = 0;                 ///< vertices after splitting for flat normals and tangents
-    std::vector<std::string> files;             ///< files that the model refers to and that were read, as paths from the root
+    std::vector<std::string> files;             ///< paths of the files that the model refers to, drawn or not, and that are there
     /// Names, as the file lists them.
     std::vector<std::string> extensions_used;
     /// Those without which the file must not be drawn.
