@@ -5,7 +5,6 @@
 #include "raster/detail/executor.hpp"
 #include "raster/detail/fp_environment.hpp"
 #include "raster/detail/stop_signal.hpp"
-#include "shading/out_of_memory.hpp"
 
 #include <exception>
 #include <new>
@@ -19,17 +18,21 @@ template <class Body>
 auto guarded(const char* doing, const Body& body) -> decltype(body()) {
     const FpEnvironment environment;
     try {
-        return body();
-    } catch (const std::bad_alloc&) {
-        return fail_out_of_memory([&] { return std::string("out of memory while ") + doing; });
-    } catch (Stopped& stopped) {
-        return tl::unexpected(std::move(stopped.error));
-    } catch (const WrongLoop& e) {
-        return fail(ErrorCode::usage, e.what());
-    } catch (const std::exception& e) {
-        return fail(ErrorCode::internal, e.what());
-    } catch (...) {
-        return fail(ErrorCode::internal, std::string("a function of the caller threw an exception while ") + doing);
+        try {
+            return body();
+        } catch (const std::bad_alloc&) {
+            return fail(ErrorCode::limit, std::string("out of memory while ") + doing);
+        } catch (Stopped& stopped) {
+            return tl::unexpected(std::move(stopped.error));
+        } catch (const WrongLoop& e) {
+            return fail(ErrorCode::usage, e.what());
+        } catch (const std::exception& e) {
+            return fail(ErrorCode::internal, e.what());
+        } catch (...) {
+            return fail(ErrorCode::internal, std::string("a function of the caller threw an exception while ") + doing);
+        }
+    } catch (const std::bad_alloc&) {  // of the message; this one needs no memory
+        return fail(ErrorCode::limit, "out of memory");
     }
 }
 

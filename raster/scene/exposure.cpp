@@ -39,7 +39,7 @@ Vec3f light_level(const Scene& scene, const Bounds& bounds) {
 float auto_exposure(const Scene& scene, const Bounds& bounds) {
     const double luminance = sh::luminance(level(scene, bounds));
     // Beyond these limits the factor or its product with the light would leave the range of float.
-    if (!(luminance > 1e-18 && luminance < 1e18)) return 1.0f;
+    if (!(luminance > 1e-24 && luminance < 1e24)) return 1.0f;
     return static_cast<float>(1.0 / luminance);
 }
 

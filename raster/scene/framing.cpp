@@ -2,8 +2,13 @@
 
 #include "halflit/scene.hpp"
 #include "raster/detail/view_math.hpp"
+#include "raster/scene/placed_box.hpp"
 #include "sh/arc.hpp"
 #include "sh/mat4.hpp"
+#include "sh/vec3d.hpp"
+
+#include <optional>
+#include <vector>
 
 namespace halflit {
 
@@ -55,6 +60,13 @@ public:
           inner_x_(tan_y_ * usable_aspect(aspect) * (1.0 - kFrameMargin)),
           inner_y_(tan_y_ * (1.0 - kFrameMargin)) {}
 
+    /// True if adding the point would change nothing.
+    [[nodiscard]] bool has(Vec3d p) const {
+        const double x = dot(p, axes_.right), y = dot(p, axes_.up), z = dot(p, axes_.back);
+        return x_.low >= x + inner_x_ * z && x_.high <= x - inner_x_ * z && y_.low >= y + inner_y_ * z && y_.high <= y - inner_y_ * z &&
+               front_ >= z;
+    }
+
     /// Adds a point, given relative to the origin.
     void add(Vec3d p) {
         const double x = dot(p, axes_.right), y = dot(p, axes_.up), z = dot(p, axes_.back);
@@ -96,6 +108,37 @@ private:
     double front_ = -1e300;  // coordinate of the nearest point along `back`
 };
 
+/// Vertices of a mesh's triangles.
+struct UsedVertices {
+    std::vector<std::uint32_t> vertices;
+    Bounds bounds;
+};
+
+UsedVertices framed_vertices(const Mesh& mesh) {
+    std::vector<bool> used(mesh.positions.size());
+    for (const std::uint32_t index : mesh.indices)
+        if (index < used.size()) used[index] = true;
+    UsedVertices out;
+    for (std::uint32_t v = 0; v < used.size(); ++v) {
+        if (!used[v]) continue;
+        out.vertices.push_back(v);
+        out.bounds.add(mesh.positions[v]);
+    }
+    return out;
+}
+
+/// True if no vertex of the instance can change the fit, judged by its box. In scenes of many instances few are at the rim.
+bool is_seen_already(const ViewFit& fit, const UsedVertices& used, const Mat4& world_from_object, Vec3d center) {
+    if (used.bounds.empty) return true;
+    const Vec3f &low = used.bounds.min, &high = used.bounds.max;
+    const PlacedBox box({low.x, low.y, low.z}, {high.x, high.y, high.z}, world_from_object);
+    for (int k = 0; k < 8; ++k) {
+        const Vec3d corner{k & 1 ? box.high[0] : box.low[0], k & 2 ? box.high[1] : box.low[1], k & 4 ? box.high[2] : box.low[2]};
+        if (!fit.has(corner - center)) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 Camera frame_bounds(const Bounds& bounds, float aspect, const ViewSettings& view) {
@@ -115,15 +158,16 @@ Camera frame_scene(const Scene& scene, const Bounds& bounds, float aspect, const
     if (bounds.empty || !(bounds.radius() > 1e-5 * length(box.center)) || !(bounds.radius() < kMaxCoordinate))
         return frame_bounds(bounds, aspect, view);
     ViewFit fit(box.center, aspect, view);
+    std::vector<std::optional<UsedVertices>> used(scene.meshes.size());
     for (const Instance& instance : scene.instances) {
         if (instance.mesh < 0 || static_cast<std::size_t>(instance.mesh) >= scene.meshes.size()) continue;
-        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-        std::vector<bool> used(mesh.positions.size());
-        for (const std::uint32_t index : mesh.indices)
-            if (index < used.size()) used[index] = true;
-        for (std::size_t v = 0; v < used.size(); ++v) {
+        const auto m = static_cast<std::size_t>(instance.mesh);
+        const Mesh& mesh = scene.meshes[m];
+        if (!used[m]) used[m] = framed_vertices(mesh);
+        if (is_seen_already(fit, *used[m], instance.world_from_object, box.center)) continue;
+        for (const std::uint32_t v : used[m]->vertices) {
             const Vec3f p = transform_point(instance.world_from_object, mesh.positions[v]);
-            if (used[v] && finite(p)) fit.add(Vec3d{p.x, p.y, p.z} - box.center);
+            if (finite(p)) fit.add(to_double(p) - box.center);
         }
     }
     return fit.camera(length(box.half));

@@ -46,7 +46,7 @@ HALFLIT_API void set_environment(Scene& scene, std::shared_ptr<const Environment
 [[nodiscard]] HALFLIT_API Vec3f light_level(const Scene& scene, const Bounds& bounds);
 
 /// Exposure: the factor that scales the luminance (Rec. 709) of light_level to 1. So white surfaces come out near white, whatever unit the
-/// file's lights are in. 1 if there is no light, or if its luminance is outside (1e-18, 1e18). It depends on the lights and the scene's
+/// file's lights are in. 1 if there is no light, or if its luminance is outside (1e-24, 1e24). It depends on the lights and the scene's
 /// bounds, never on pixels: a crop, a tile or a second frame of the same scene keeps its values.
 [[nodiscard]] HALFLIT_API float auto_exposure(const Scene& scene, const Bounds& bounds);
 
