@@ -11,6 +11,7 @@
 #include "apps/halflit/text_file.hpp"
 #include "apps/io/atomic_file.hpp"
 #include "apps/io/errno_text.hpp"
+#include "apps/io/model_files.hpp"
 #include "apps/io/picture_reader.hpp"
 #include "halflit/image.hpp"
 
@@ -59,7 +60,7 @@ Result<void> check_paths(const RenderCommandOptions& options) {
     return {};
 }
 
-/// Refuses to overwrite a file that the scene was read from, such as a texture that has the picture's name. If the report would, it is not
+/// Refuses to overwrite a file that the scene refers to, such as a texture that has the picture's name. If the report would, it is not
 /// written at all: its path is cleared.
 Result<void> spare_inputs(RenderCommandOptions& options, const RenderJob& job) {
     if (!job.source.file) return {};
@@ -67,7 +68,7 @@ Result<void> spare_inputs(RenderCommandOptions& options, const RenderJob& job) {
         for (const std::string& input : job.source.file->files)
             if (*path != "-" && !path->empty() && same_file(*path, input)) {
                 const std::string name = path == &options.report ? std::exchange(options.report, "") : *path;
-                return fail(ErrorCode::io, name + ": the scene was read from it, and it is not overwritten");
+                return fail(ErrorCode::io, name + ": the scene refers to it, and it is not overwritten");
             }
     return {};
 }
@@ -161,16 +162,31 @@ Result<int> render_scene(RenderCommandOptions options, const std::string& scene)
     return 0;
 }
 
+/// Refuses pictures that would overwrite a file which one of the scenes refers to.
+Result<void> spare_inputs_of_all(const RenderCommandOptions& options, std::vector<std::string> pictures) {
+    std::erase_if(pictures, [](const std::string& picture) { return !is_file(picture); });
+    if (pictures.empty()) return {};
+    for (const std::string& scene : options.words) {
+        if (!is_file(scene)) continue;
+        for (const std::string& input : io::files_named_by(scene, options.load))
+            for (const std::string& picture : pictures)
+                if (same_file(picture, input))
+                    return fail(ErrorCode::io, picture + ": " + scene + " refers to it, and it is not overwritten");
+    }
+    return {};
+}
+
 /// Several scenes, each to a picture of its name. A scene that fails does not stop the others; the exit code is the first failure's.
 Result<int> render_all(RenderCommandOptions options) {
     if (!options.report.empty()) return fail(ErrorCode::usage, "--report: expected one scene");
     if (!options.output.ends_with('/')) options.output += '/';
     std::vector<std::string> names;
     for (const std::string& scene : options.words) {
-        names.push_back(default_output(scene));
+        names.push_back(options.output + default_output(scene));
         if (std::find(names.begin(), names.end() - 1, names.back()) != names.end() - 1)
-            return fail(ErrorCode::usage, scene + ": another scene has the same picture " + options.output + names.back());
+            return fail(ErrorCode::usage, scene + ": another scene has the same picture " + names.back());
     }
+    if (const auto checked = spare_inputs_of_all(options, names); !checked) return tl::unexpected(checked.error());
     if (const auto made = make_folder(options.output); !made) return tl::unexpected(made.error());
     int code = 0;
     for (const std::string& scene : options.words) {

@@ -188,6 +188,12 @@ Result<void> ModelFolder::check() const {
     return {};
 }
 
+std::vector<std::string> ModelFolder::places(std::string_view relative) const {
+    std::vector<std::string> paths;
+    for (const Folder& folder : folders_) paths.push_back(fmt::format("{}/{}", folder.name, relative));
+    return paths;
+}
+
 Result<std::vector<std::byte>> ModelFolder::read(std::string_view relative, std::size_t max_bytes) {
     const std::string shown = printable(relative);
     const auto refuse = [&](std::string why) { return fail(ErrorCode::bad_input, fmt::format("\"{}\": {}", shown, why)); };
@@ -202,7 +208,6 @@ Result<std::vector<std::byte>> ModelFolder::read(std::string_view relative, std:
     const auto open_in = [&](const Folder& folder, const std::string& name) {
         Descriptor file = folder.descriptor < 0 || name.empty() ? Descriptor(-1) : open_beneath(folder.descriptor, name);
         if (file.get() < 0 && error == ENOENT) error = folder.descriptor < 0 ? folder.error : name.empty() ? EISDIR : errno;
-        if (file.get() >= 0) files_.push_back((folder.at.empty() ? folder.name : folder.at) + "/" + name);
         return file;
     };
     const std::string name = normalised(relative);

@@ -34,8 +34,8 @@ public:
     /// `relative` uses '/' and has been percent-decoded. All errors are bad_input, except limit above `max_bytes` or without memory, and io
     /// where the process cannot open more files; the message has no file prefix.
     [[nodiscard]] Result<std::vector<std::byte>> read(std::string_view relative, std::size_t max_bytes);
-    /// The files that were opened, as paths from the root.
-    [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
+    /// Paths at which such a name may mean a file, whether it is there or not.
+    [[nodiscard]] std::vector<std::string> places(std::string_view relative) const;
 
 private:
     struct Folder {
@@ -47,7 +47,6 @@ private:
     void add(const std::string& path);
 
     std::vector<Folder> folders_;  ///< the model's folder first, if there is one
-    std::vector<std::string> files_;
     bool has_base_ = false;
     std::string missing_;  ///< message of check()
 };

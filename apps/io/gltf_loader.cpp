@@ -8,14 +8,19 @@
 #include "apps/io/detail/gltf_nodes.hpp"
 #include "apps/io/detail/gltf_placed.hpp"
 #include "apps/io/detail/gltf_world.hpp"
+#include "apps/io/detail/uri.hpp"
 #include "apps/io/file_access.hpp"
+#include "apps/io/model_files.hpp"
 #include "apps/io/text.hpp"
 #include "shading/out_of_memory.hpp"
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <exception>
 #include <new>
+#include <set>
 
 namespace halflit {
 
@@ -24,6 +29,23 @@ using namespace io;
 namespace {
 
 using namespace io::detail;
+
+/// The files that buffers and images name, drawn or not.
+std::vector<std::string> files_of(const Document& document) {
+    std::set<std::string_view> uris;
+    for (const file::Buffer& buffer : document.file.buffers)
+        if (buffer.uri && !is_data_uri(*buffer.uri)) uris.insert(*buffer.uri);
+    for (const file::Image& image : document.file.images)
+        if (image.uri && !is_data_uri(*image.uri)) uris.insert(*image.uri);
+    std::vector<std::string> files;
+    for (const std::string_view uri : uris) {
+        const Result<std::string> name = decode_file_uri(uri);
+        if (!name) continue;
+        for (std::string& path : document.folder.places(*name))
+            if (::access(path.c_str(), F_OK) == 0) files.push_back(std::move(path));
+    }
+    return files;
+}
 
 LoadedScene build(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
     const std::unique_ptr<Document> document = open_document(bytes, base_dir, options);
@@ -46,7 +68,7 @@ LoadedScene build(std::span<const std::byte> bytes, const std::string& base_dir,
     if (document->warnings_left_out > 0) document->warnings.push_back(fmt::format("and {} further warnings", document->warnings_left_out));
     loaded.warnings = std::move(document->warnings);
     loaded.info = std::move(document->info);
-    loaded.info.files = document->folder.files();
+    loaded.info.files = files_of(*document);
     return loaded;
 }
 
@@ -58,6 +80,15 @@ std::string folder_of(const std::string& path) {
 }
 
 }  // namespace
+
+std::vector<std::string> io::files_named_by(const std::string& path, const LoadOptions& options) {
+    try {
+        const auto bytes = read_file(path, options.limits.max_file_bytes);
+        return bytes ? files_of(*open_document(*bytes, folder_of(path), options)) : std::vector<std::string>();
+    } catch (const LoadFailure&) {
+        return {};
+    }
+}
 
 Result<LoadedScene> load_gltf_bytes(std::span<const std::byte> bytes, const std::string& name, const std::string& base_dir,
                                     const LoadOptions& options) {

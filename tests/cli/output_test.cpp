@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -164,4 +165,17 @@ TEST_CASE("output: a file that the scene was read from is not overwritten", "[cl
         CHECK(folder.names() == std::vector<std::string>{"crate.gltf", "crate.png"});
     }
     CHECK(run({"crate.gltf", "-o", "new.png", "-q"}, {.folder = folder.path()}).code == 0);
+    // Of several scenes, one may refer to a file that another's picture would replace, and that nothing draws.
+    std::ofstream(folder.file("plain.gltf"))
+        << R"({"asset":{"version":"2.0"},"images":[{"uri":"crate.png"}],"nodes":[{}],"scenes":[{"nodes":[0]}]})";
+    std::filesystem::rename(folder.file("crate.gltf"), folder.file("box.gltf"));
+    std::filesystem::copy_file(folder.file("plain.gltf"), folder.file("crate.glb"));
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"crate.glb", "box.gltf", "-o", "./"},
+                                                      {"plain.gltf", "crate.glb", "-o", "./"},
+                                                      {"crate.glb", "-o", "./"}}) {
+        const Outcome outcome = run(arguments, {.folder = folder.path()});
+        CHECK(outcome.code == 4);
+        CHECK(outcome.err.find("crate.png: ") != std::string::npos);
+        CHECK(kept());
+    }
 }
