@@ -58,6 +58,12 @@ Result<void> assign(Target& target, const Result<T>& value) {
     return {};
 }
 
+/// Reads with a parser of values.hpp.
+template <class Target, class Parser>
+[[nodiscard]] ReadValue parsed(Target& target, Parser parser) {
+    return [&target, parser](const std::string& text) { return assign(target, parser(text)); };
+}
+
 /// Stores the text itself.
 [[nodiscard]] inline ReadValue read_text(std::string& target) {
     return [&target](const std::string& text) -> Result<void> {

@@ -1,17 +1,20 @@
 #include "apps/halflit/render_job.hpp"
 
 #include "apps/halflit/stopwatch.hpp"
+#include "apps/io/errno_text.hpp"
 #include "halflit/auto_setup.hpp"
 #include "halflit/camera.hpp"
 #include "halflit/image.hpp"
 #include "halflit/scene.hpp"
 #include "raster/check_execution.hpp"
 #include "sh/trig.hpp"
+#include "sh/vec3d.hpp"
 #include "shading/environment.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cerrno>
 
 #include <sys/resource.h>
 
@@ -58,7 +61,8 @@ Result<const Camera*> find_camera(const std::vector<Camera>& cameras, const std:
 }
 
 /// Chooses the size unless --size gave it. Returns the camera to draw with, which is used unchanged; none: a view of the whole scene.
-Result<std::optional<Camera>> choose_view(RenderJob& job, const RenderOptions& options, PictureSize usual) {
+/// given: the flags as they were given, for messages.
+Result<std::optional<Camera>> choose_view(RenderJob& job, const RenderOptions& options, const RenderOptions& given, PictureSize usual) {
     const std::vector<Camera>& cameras = job.scene().cameras;
     const Camera* chosen = options.own_view() ? nullptr : choose_camera(job.scene(), job.prepared->bounds());
     if (chosen == nullptr && !cameras.empty() && !options.own_view() && !options.camera)
@@ -73,12 +77,12 @@ Result<std::optional<Camera>> choose_view(RenderJob& job, const RenderOptions& o
     job.width = size.width;
     job.height = size.height;
     if (const auto checked = check_size(size, options.settings.region); !checked) return tl::unexpected(checked.error());
-    job.choices.push_back(camera_choice(chosen, options));
+    job.choices.push_back(camera_choice(chosen, given));
     if (chosen != nullptr) return *chosen;
     if (!options.camera_position) return std::nullopt;
     const Bounds& bounds = job.prepared->bounds();
-    const Vec3f target = options.camera_target.value_or(bounds.empty ? Vec3f{0, 0, 0} : bounds.center());
-    return placed_camera(*options.camera_position, target, options.view.fov_y_deg, bounds);
+    const Vec3d target = options.camera_target.value_or(bounds.empty ? Vec3d{} : to_double(bounds.center()));
+    return placed_camera(to_float(*options.camera_position), to_float(target), options.view.fov_y_deg, bounds);
 }
 
 /// Replaces the ambient light by the environment, and adds its suns as lights.
@@ -110,7 +114,7 @@ Result<void> choose_setup(RenderJob& job, const RenderOptions& options, const st
     choice.view = options.view;
     choice.ambient_linear = options.ambient_linear;
     choice.exposure = options.exposure;
-    scene.lights.insert(scene.lights.end(), options.lights.begin(), options.lights.end());
+    for (const GivenLight& given : options.lights) scene.lights.push_back(given.light);
     const std::size_t given = scene.lights.size();
     const AutoSetup setup = auto_setup(scene, job.prepared->bounds(), job.width, job.height, choice);
     job.camera = setup.camera;
@@ -127,16 +131,17 @@ Result<void> choose_setup(RenderJob& job, const RenderOptions& options, const st
 RenderOptions in_drawn_world(RenderOptions options, const SceneSource& source) {
     const Vec3d origin = turned_upright(source.origin, options.up);
     const auto times = [](float value, double factor) { return static_cast<float>(std::clamp(value * factor, -3e38, 3e38)); };
-    const auto place = [&](Vec3f& p) {
-        p = {times(1.0f, (p.x - origin.x) * source.scale), times(1.0f, (p.y - origin.y) * source.scale),
-             times(1.0f, (p.z - origin.z) * source.scale)};
+    const auto placed = [&](Vec3d p) {
+        const auto within = [](double x) { return std::clamp(x, -3e38, 3e38); };
+        const Vec3d at = (p - origin) * source.scale;
+        return Vec3d{within(at.x), within(at.y), within(at.z)};
     };
-    if (options.camera_position) place(*options.camera_position);
-    if (options.camera_target) place(*options.camera_target);
+    if (options.camera_position) options.camera_position = placed(*options.camera_position);
+    if (options.camera_target) options.camera_target = placed(*options.camera_target);
     options.settings.shadow_fade = times(options.settings.shadow_fade, source.scale);
-    for (Light& light : options.lights) {
+    for (auto& [light, position] : options.lights) {
         if (light.type == LightType::directional) continue;
-        place(light.position_ws);
+        light.position_ws = to_float(placed(position));
         light.range = times(light.range, source.scale);
         light.source_radius = times(light.source_radius, source.scale);
         Vec3f& color = light.color_linear;  // falls with the squared distance
@@ -146,10 +151,14 @@ RenderOptions in_drawn_world(RenderOptions options, const SceneSource& source) {
     return options;
 }
 
-/// From now on, an allocation fails that would take the process beyond this.
-void limit_process_memory(std::size_t bytes) {
-    const rlimit limit{static_cast<rlim_t>(bytes), static_cast<rlim_t>(bytes)};
-    (void)::setrlimit(RLIMIT_DATA, &limit);
+/// From now on, an allocation fails that would take the process beyond this. A lower limit that the process has already stays.
+Result<void> limit_process_memory(std::size_t bytes) {
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_DATA, &limit) == 0) {
+        limit.rlim_cur = std::min({limit.rlim_cur, limit.rlim_max, static_cast<rlim_t>(bytes)});
+        if (::setrlimit(RLIMIT_DATA, &limit) == 0) return {};
+    }
+    return fail(ErrorCode::limit, std::string("--max-memory: the system does not set the limit: ") + io::errno_text(errno));
 }
 
 Result<void> choose_settings(Settings& settings, const RenderOptions& options) {
@@ -178,7 +187,8 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
                     "--camera: cannot be combined with --azimuth, --elevation, --zoom or --fov, which make a camera of their own");
     if (options.size)
         if (const auto checked = check_size(*options.size, options.settings.region); !checked) return tl::unexpected(checked.error());
-    if (options.max_memory_bytes > 0) limit_process_memory(options.max_memory_bytes);
+    if (options.max_memory_bytes > 0)
+        if (const auto limited = limit_process_memory(options.max_memory_bytes); !limited) return tl::unexpected(limited.error());
     RenderJob job;
     job.execution = options.execution;
     job.timeout_s = options.timeout_s;
@@ -210,7 +220,7 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
     if (bounds.empty && !loader_said_so) job.warnings.push_back("nothing to draw: no vertex has finite coordinates");
     const RenderOptions placed = in_drawn_world(options, job.source);
     job.settings.shadow_fade = placed.settings.shadow_fade;
-    const auto camera = choose_view(job, placed, usual);
+    const auto camera = choose_view(job, placed, options, usual);
     if (!camera) return tl::unexpected(camera.error());
     if (const auto set_up = choose_setup(job, placed, *camera); !set_up) return tl::unexpected(set_up.error());
     if (const auto updated = job.prepared->update({.lights = true}, job.timed_execution()); !updated)

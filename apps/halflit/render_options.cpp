@@ -1,10 +1,12 @@
 #include "apps/halflit/render_options.hpp"
 
 #include "apps/halflit/command_line.hpp"
+#include "apps/halflit/file_flags.hpp"
 #include "apps/halflit/lobe_model.hpp"
 #include "apps/halflit/plan_names.hpp"
 #include "apps/halflit/spelling.hpp"
 #include "halflit/scene.hpp"
+#include "sh/vec3d.hpp"
 
 #include <fmt/format.h>
 
@@ -17,7 +19,6 @@ namespace {
 
 constexpr std::string_view kOffOn[] = {"off", "on"};
 constexpr const char* kUsualBackground = "#3a3f47";
-constexpr std::size_t kMib = 1u << 20;
 
 tl::unexpected<Error> expected_one_of(const std::vector<std::string>& names, const std::string& found) {
     return fail(ErrorCode::usage, fmt::format("expected one of {}, found '{}'{}", joined(names, ", "), found, did_you_mean(found, names)));
@@ -53,12 +54,6 @@ std::string form_of(Names names) { return joined({names.begin(), names.end()}, "
 template <class T>
 std::string_view name_of(T value, Names names) {
     return names[static_cast<std::size_t>(value)];
-}
-
-/// Reads with a parser of values.hpp.
-template <class Target, class Parser>
-ReadValue parsed(Target& target, Parser parser) {
-    return [&target, parser](const std::string& text) { return assign(target, parser(text)); };
 }
 
 template <class Target>
@@ -113,13 +108,6 @@ Result<void> read_camera(RenderOptions& o, const std::string& text) {
     return {};
 }
 
-Result<void> read_point(std::optional<Vec3f>& point, const std::string& text) {
-    const auto values = parse_floats(text, 3);
-    if (!values) return tl::unexpected(values.error());
-    point = Vec3f{(*values)[0], (*values)[1], (*values)[2]};
-    return {};
-}
-
 /// Other programs write "+Z" or "Z" for "z".
 std::string plain_axis(std::string text) {
     if (text.starts_with('+')) text.erase(0, 1);
@@ -139,10 +127,9 @@ FlagGroup camera_flags(RenderOptions& o) {
                    90),
          view_flag(o.whole_scene, "--zoom", "N", "Enlarge it by this factor", o.view.zoom, 1e-3f, 1e3f),
          view_flag(o.fov_given, "--fov", "DEG", "Vertical field of view, 1 to 170", o.view.fov_y_deg, 1, 170),
-         {"--camera-position", "X,Y,Z", "Place the camera here",
-          [&o](const std::string& text) { return read_point(o.camera_position, text); }},
+         {"--camera-position", "X,Y,Z", "Place the camera here", parsed(o.camera_position, parse_point)},
          {"--camera-target", "X,Y,Z", "Point that a placed camera looks at (default: the centre of the scene)",
-          [&o](const std::string& text) { return read_point(o.camera_target, text); }},
+          parsed(o.camera_target, parse_point)},
          {"--up", form_of(kUpAxisNames),
           fmt::format("Axis of the model that points up (default {}). The scene is turned so that it becomes y; the coordinates of other "
                       "flags are those of the turned scene",
@@ -150,7 +137,7 @@ FlagGroup camera_flags(RenderOptions& o) {
           [read = named(o.up, kUpAxisNames)](const std::string& text) { return read(plain_axis(text)); }}}};
 }
 
-Result<void> read_light(std::vector<Light>& lights, const std::string& text) {
+Result<void> read_light(std::vector<GivenLight>& lights, const std::string& text) {
     const auto light = parse_light(text);
     if (!light) return tl::unexpected(light.error());
     lights.push_back(*light);
@@ -158,10 +145,10 @@ Result<void> read_light(std::vector<Light>& lights, const std::string& text) {
 }
 
 Result<void> read_ambient(std::optional<Vec3f>& ambient, const std::string& text) {
-    const auto rgb = parse_floats(text, 3);
+    const auto rgb = parse_point(text);
     if (!rgb) return tl::unexpected(rgb.error());
-    if ((*rgb)[0] < 0 || (*rgb)[1] < 0 || (*rgb)[2] < 0) return fail(ErrorCode::usage, "expected numbers from 0, found '" + text + "'");
-    ambient = Vec3f{(*rgb)[0], (*rgb)[1], (*rgb)[2]};
+    if (rgb->x < 0 || rgb->y < 0 || rgb->z < 0) return fail(ErrorCode::usage, "expected numbers from 0, found '" + text + "'");
+    ambient = to_float(*rgb);
     return {};
 }
 
@@ -300,55 +287,6 @@ FlagGroup machine_flags(Execution& e) {
               choice(e.tile_size, {16, 32, 64})}}};
 }
 
-template <class T>
-Flag limit_flag(const char* name, T& target, const char* what, std::int64_t max) {
-    const auto parse = [max](const std::string& text) {
-        return parse_int(text, 1, max).map([](std::int64_t n) { return static_cast<T>(n); });
-    };
-    return {.names = name,
-            .form = "N",
-            .help = fmt::format("Refuse {} (default {})", what, target),
-            .read = parsed(target, parse),
-            .advanced = true};
-}
-
-FlagGroup file_flags(RenderOptions& o) {
-    constexpr std::int64_t kAny = std::numeric_limits<std::int64_t>::max();
-    LoadLimits& limits = o.load.limits;
-    return {"Untrusted files",
-            {{"--timeout", "SECONDS", "Stop a scene that is not loaded and drawn by then, with exit code 5",
-              parsed(o.timeout_s,
-                     [](const std::string& text) {
-                         return parse_float(text, 1e-3f, 1e6f).map([](float s) { return static_cast<double>(s); });
-                     })},
-             {"--max-memory", "MIB", "Stop a scene that needs more memory, all of the process counted, with exit code 5; at least 32",
-              parsed(o.max_memory_bytes,
-                     [](const std::string& text) {
-                         return parse_int(text, 32, std::int64_t{1} << 30).map([](std::int64_t n) {
-                             return static_cast<std::size_t>(n) * kMib;
-                         });
-                     })},
-             {"--lenient", "", "Draw what can be drawn of a damaged file, with warnings", set_to(o.load.lenient)},
-             {.names = "--allow-external",
-              .form = "DIR",
-              .help = "Also allow references to files in this folder",
-              .read = [&o](const std::string& text) -> Result<void> {
-                  o.load.allow_external.push_back(text);
-                  return {};
-              },
-              .repeated = true},
-             limit_flag("--max-file-bytes", limits.max_file_bytes, "a larger model, buffer or picture file", kAny),
-             limit_flag("--max-total-bytes", limits.max_total_bytes, "more bytes in all buffers together", kAny),
-             limit_flag("--max-json-depth", limits.max_json_depth, "JSON nested deeper", 1000),
-             limit_flag("--max-json-tokens", limits.max_json_tokens, "JSON of more tokens", kAny),
-             limit_flag("--max-texture-side", limits.max_texture_side, "textures with longer sides", kMaxTextureSide),
-             limit_flag("--max-texture-pixels", limits.max_texture_pixels, "textures of more pixels", std::int64_t{1} << 28),
-             limit_flag("--max-texture-bytes", limits.max_texture_bytes, "more memory for all textures", kAny),
-             limit_flag("--max-jpeg-scans", limits.max_jpeg_scans, "JPEG files of more scans", 1 << 20),
-             limit_flag("--max-geometry-bytes", limits.max_geometry_bytes, "more memory for vertices and triangles", kAny),
-             limit_flag("--max-lights", limits.max_lights, "more lights", 1 << 20)}};
-}
-
 }  // namespace
 
 Result<std::optional<Lobe>> chosen_lobe(const RenderOptions& o) {
@@ -383,7 +321,7 @@ std::vector<FlagGroup> scene_flags(RenderOptions& o, PictureSize usual) {
             surface_flags(o),
             accuracy_flags(o.settings.shading),
             machine_flags(o.execution),
-            file_flags(o)};
+            untrusted_file_flags(o)};
 }
 
 }  // namespace

@@ -29,9 +29,9 @@ struct RenderOptions {
 
     std::optional<std::string> camera;  ///< a camera of the file: its index or name
     ViewSettings view;
-    bool whole_scene = false;  ///< --camera frame, --azimuth, --elevation or --zoom was given
-    bool fov_given = false;    ///< --fov was given
-    std::optional<Vec3f> camera_position, camera_target;
+    bool whole_scene = false;                             ///< --camera frame, --azimuth, --elevation or --zoom was given
+    bool fov_given = false;                               ///< --fov was given
+    std::optional<Vec3d> camera_position, camera_target;  ///< in the file's world
     UpAxis up = UpAxis::y;
 
     /// A camera of the flags, not of the file.
@@ -40,7 +40,7 @@ struct RenderOptions {
     std::optional<std::string> lobe_name;
     io::LobeParameters lobe;
     std::optional<Vec3f> ambient_linear;
-    std::vector<Light> lights;
+    std::vector<GivenLight> lights;  ///< in the file's world
     bool scene_lights = true;
     std::string environment;  ///< a file, "sky", or empty
     bool environment_sun = true;

@@ -1,6 +1,7 @@
 #include "apps/halflit/values.hpp"
 
 #include "sh/trig.hpp"
+#include "sh/vec3d.hpp"
 #include "shading/model/constants.hpp"
 #include "shading/model/srgb.hpp"
 
@@ -55,9 +56,7 @@ Vec4f color_from_codes(int red, int green, int blue, int alpha) {
 }
 
 Result<Vec3f> parse_vec3(std::string_view text) {
-    const auto values = parse_floats(text, 3);
-    if (!values) return tl::unexpected(values.error());
-    return Vec3f{(*values)[0], (*values)[1], (*values)[2]};
+    return parse_point(text).map([](Vec3d p) { return to_float(p); });
 }
 
 constexpr float kMax = std::numeric_limits<float>::max();
@@ -81,7 +80,8 @@ Result<void> store(T& target, const Result<T>& value) {
 }
 
 /// `intensity` is stored apart from the colour, so that the two keys may come in either order.
-Result<void> set_light_key(Light& light, float& intensity, std::string_view key, std::string_view value) {
+Result<void> set_light_key(GivenLight& given, float& intensity, std::string_view key, std::string_view value) {
+    Light& light = given.light;
     const bool placed = light.type != LightType::directional;
     if (key == "dir" && light.type != LightType::point) {
         const auto direction = parse_vec3(value);
@@ -90,7 +90,7 @@ Result<void> set_light_key(Light& light, float& intensity, std::string_view key,
         light.direction_ws = normalize_or(*direction, {0, -1, 0});
         return {};
     }
-    if (key == "pos" && placed) return store(light.position_ws, parse_vec3(value));
+    if (key == "pos" && placed) return store(given.position, parse_point(value));
     if (key == "range" && placed) return store(light.range, parse_float(value, 0.0f, kMax));
     if (key == "radius" && placed) return store(light.source_radius, parse_float(value, 0.0f, kMax));
     if (key == "cone" && light.type == LightType::spot) return set_cone(light, value);
@@ -132,15 +132,15 @@ Result<double> parse_share(std::string_view text) {
     return *value / whole;
 }
 
-Result<std::vector<float>> parse_floats(std::string_view text, std::size_t count) {
-    std::vector<float> values;
-    for (const std::string_view part : split(text, ",")) {
-        const auto value = parse_float(part, -kMax, kMax);
-        if (!value) return expected(fmt::format("{} numbers separated by commas", count), text);
-        values.push_back(*value);
+Result<Vec3d> parse_point(std::string_view text) {
+    const auto parts = split(text, ",");
+    double values[3] = {};
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const auto value = number<double>(parts[i]);
+        if (parts.size() != 3 || !value || !(std::abs(*value) <= double{kMax})) return expected("3 numbers separated by commas", text);
+        values[i] = *value;
     }
-    if (values.size() != count) return expected(fmt::format("{} numbers separated by commas", count), text);
-    return values;
+    return Vec3d{values[0], values[1], values[2]};
 }
 
 Result<PictureSize> parse_size(std::string_view text) {
@@ -186,9 +186,10 @@ Result<Vec4f> parse_color(std::string_view text) {
     }
 }
 
-Result<Light> parse_light(std::string_view text) {
+Result<GivenLight> parse_light(std::string_view text) {
     const auto parts = split(text, ":;");
-    Light light;
+    GivenLight given;
+    Light& light = given.light;
     if (parts[0] == "directional")
         light.type = LightType::directional;
     else if (parts[0] == "point")
@@ -201,11 +202,12 @@ Result<Light> parse_light(std::string_view text) {
     for (std::size_t i = 1; i < parts.size(); ++i) {
         const std::size_t equals = parts[i].find('=');
         if (equals == std::string_view::npos) return expected("key=value", parts[i]);
-        const auto set = set_light_key(light, intensity, parts[i].substr(0, equals), parts[i].substr(equals + 1));
+        const auto set = set_light_key(given, intensity, parts[i].substr(0, equals), parts[i].substr(equals + 1));
         if (!set) return tl::unexpected(set.error());
     }
     light.color_linear = light.color_linear * intensity;
-    return light;
+    light.position_ws = to_float(given.position);
+    return given;
 }
 
 }  // namespace halflit::cli

@@ -6,9 +6,9 @@
 #include "halflit/light.hpp"
 #include "halflit/renderer.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
-#include <vector>
 
 namespace halflit::cli {
 
@@ -20,8 +20,11 @@ namespace halflit::cli {
 /// "0.5%" or "0.005": a share from 0 to 1.
 [[nodiscard]] Result<double> parse_share(std::string_view text);
 
-/// "X,Y,Z": `count` finite numbers.
-[[nodiscard]] Result<std::vector<float>> parse_floats(std::string_view text, std::size_t count);
+/// Bytes in a mebibyte, the unit of the flags of memory.
+inline constexpr std::size_t kMib = std::size_t{1} << 20;
+
+/// "X,Y,Z": three numbers within the range of float. In double, as a scene may be moved before it is drawn.
+[[nodiscard]] Result<Vec3d> parse_point(std::string_view text);
 
 struct PictureSize {
     int width = 0, height = 0;
@@ -35,6 +38,12 @@ struct PictureSize {
 /// "#rgb", "#rrggbb", "#rrggbbaa" or a name, to linear light with linear alpha.
 [[nodiscard]] Result<Vec4f> parse_color(std::string_view text);
 
+/// A light, and the position that was given for it, which the light holds rounded to float.
+struct GivenLight {
+    Light light;
+    Vec3d position{};
+};
+
 /// "TYPE:key=value:key=value..." where TYPE is directional, point or spot; ';' separates as well as ':'.
 ///     dir=X,Y,Z      directional, spot: the way the light travels (default 0,-1,0)
 ///     pos=X,Y,Z      point, spot: where it is (default 0,0,0)
@@ -44,6 +53,6 @@ struct PictureSize {
 ///     radius=N       point, spot: radius of the source; attenuation treats smaller distances as N
 ///     cone=OUT or cone=IN,OUT   spot: half angles in degrees, full light within IN (default 0), none from OUT (default 45)
 ///     power=N        spot: factor cos(angle to the axis)^N, 0 to 1e5 (default 0)
-[[nodiscard]] Result<Light> parse_light(std::string_view text);
+[[nodiscard]] Result<GivenLight> parse_light(std::string_view text);
 
 }  // namespace halflit::cli

@@ -79,18 +79,20 @@ TEST_CASE("values: a light's keys come in any order, with colons or semicolons",
     const auto b = parse_light("spot;intensity=4;radius=0.5;range=9;cone=10,30;dir=0,0,-2;color=white;pos=1,2,3");
     REQUIRE(a);
     REQUIRE(b);
-    CHECK(a->type == LightType::spot);
-    CHECK(a->position_ws == Vec3f{1, 2, 3});
-    CHECK(a->direction_ws == Vec3f{0, 0, -1});
-    CHECK(a->color_linear == Vec3f{4, 4, 4});
-    CHECK(a->range == 9.0f);
-    CHECK(a->source_radius == 0.5f);
-    CHECK(static_cast<double>(a->inner_cone_rad) == Approx(10 * 3.14159265358979 / 180));
-    CHECK(static_cast<double>(a->outer_cone_rad) == Approx(30 * 3.14159265358979 / 180));
-    CHECK(b->position_ws == a->position_ws);
-    CHECK(b->direction_ws == a->direction_ws);
-    CHECK(b->color_linear == a->color_linear);
-    CHECK(b->outer_cone_rad == a->outer_cone_rad);
+    CHECK(a->light.type == LightType::spot);
+    CHECK(a->light.position_ws == Vec3f{1, 2, 3});
+    CHECK(a->position == Vec3d{1, 2, 3});
+    CHECK(a->light.direction_ws == Vec3f{0, 0, -1});
+    CHECK(a->light.color_linear == Vec3f{4, 4, 4});
+    CHECK(a->light.range == 9.0f);
+    CHECK(a->light.source_radius == 0.5f);
+    CHECK(static_cast<double>(a->light.inner_cone_rad) == Approx(10 * 3.14159265358979 / 180));
+    CHECK(static_cast<double>(a->light.outer_cone_rad) == Approx(30 * 3.14159265358979 / 180));
+    CHECK(b->light.position_ws == a->light.position_ws);
+    CHECK(b->light.direction_ws == a->light.direction_ws);
+    CHECK(b->light.color_linear == a->light.color_linear);
+    CHECK(b->light.outer_cone_rad == a->light.outer_cone_rad);
+    CHECK(parse_light("point:pos=1000000000.5,0,-1e38")->position == Vec3d{1000000000.5, 0, -1e38});  // not rounded to float
     for (const char* bad : {"", "lamp", "point:cone=3", "directional:pos=0,0,0", "spot:cone=1,2,3", "spot:cone=91", "point:pos",
                             "point:pos=1,2", "point:intensity=-1", "point:color=12", "point:", "point:shine=1"}) {
         INFO(bad);
