@@ -145,10 +145,10 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, 
     FramePlan plan;
     plan.options = options;
     plan.picture = make_view(camera, width, height, settings.region, tile_size, settings.samples);
-    auto shadows = plan_shadow_views(lights, prepared.bounds(), settings);
+    auto shadows = plan_shadow_views(lights, prepared.bounds(), prepared.shadow_casters(), settings);
     if (!shadows) return tl::unexpected<Error>(shadows.error());
     bool finite_views = all_finite(plan.picture.clip_from_world);
-    for (const ShadowView& face : shadows->views) finite_views &= !face.sees_scene || all_finite(face.view.clip_from_world);
+    for (const ShadowView& face : shadows->views) finite_views &= !face.sees_casters || all_finite(face.view.clip_from_world);
     if (!finite_views) return fail(ErrorCode::bad_input, "the camera's matrix is not finite");
     plan.shadow_views = std::move(shadows->views);
     if (memory.shadow_texels && shadows->texel_count > 0) {

@@ -144,7 +144,7 @@ Json shadows_json(const raster::FramePlan& frame, const Settings& settings) {
     for (const shading::ShadowMapPlan& map : frame.shading.shadow_maps) {
         const std::size_t faces = map.kind == shading::ShadowMapPlan::Kind::cube ? 6 : 1;
         std::size_t drawn = 0;
-        for (std::size_t i = 0; i < faces; ++i) drawn += frame.shadow_views[view++].sees_scene ? 1 : 0;
+        for (std::size_t i = 0; i < faces; ++i) drawn += frame.shadow_views[view++].sees_casters ? 1 : 0;
         maps.push_back({{"kind", kKinds[static_cast<std::size_t>(map.kind)]}, {"texels", map.size}, {"faces_drawn", drawn}});
     }
     return {{"mode", shadow_mode_name(settings.shadows)}, {"maps", std::move(maps)}};

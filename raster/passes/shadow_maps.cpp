@@ -9,7 +9,7 @@ Result<void> ShadowMaps::draw_face(const PreparedData& scene, const FramePlan& p
                                    const RasterKernels& raster, const shading::ShadeKernels& shade, Executor& executor) {
     const auto size = static_cast<std::size_t>(face.view.region.width);
     float* distance = texels + face.first_texel;
-    if (!face.sees_scene) {
+    if (!face.sees_casters) {
         std::fill_n(distance, size * size, shading::kNoBlocker);
         return {};
     }

@@ -154,6 +154,7 @@ Result<PreparedData> PreparedData::make(const Scene& scene, const Execution& exe
             for (std::size_t i = begin; i < std::min(begin + kInstancesPerTask, scene.instances.size()); ++i) prepared.place(i);
         });
         prepared.collect();
+        prepared.shadow_casters_ = collect_shadow_casters(scene, prepared.meshes_, prepared.instance_bounds_);
         prepared.note_coverage();
         prepared.revision_ = all_new_revisions();
         return prepared;
@@ -223,6 +224,8 @@ Result<void> PreparedData::apply_pending(const Execution& execution) {
         revision_.materials = next_revision();
         if (note_coverage()) revision_.coverage = next_revision();
     }
+    if (deformed || pending_.materials || !pending_.moved_instances.empty())
+        shadow_casters_ = collect_shadow_casters(scene, meshes_, instance_bounds_);
     if (pending_.lights) revision_.lights = next_revision();
     return {};
 }

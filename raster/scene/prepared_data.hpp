@@ -5,6 +5,7 @@
 #include "halflit/prepared_scene.hpp"
 #include "halflit/scene.hpp"
 #include "raster/scene/prepared_mesh.hpp"
+#include "raster/scene/shadow_casters.hpp"
 #include "shading/fragment_block.hpp"
 
 #include <cstdint>
@@ -41,6 +42,7 @@ public:
     [[nodiscard]] const PreparedMesh& mesh(int index) const { return meshes_[static_cast<std::size_t>(index)]; }
     /// World-space box of each instance.
     [[nodiscard]] std::span<const Bounds> instance_bounds() const { return instance_bounds_; }
+    [[nodiscard]] const ShadowCasters& shadow_casters() const { return shadow_casters_; }
     /// Number of triangles over all instances.
     [[nodiscard]] std::uint64_t triangle_count() const { return triangle_count_; }
     /// The largest magnitude of a texture coordinate, and the largest channel of a vertex colour (at least 1), of what is drawn.
@@ -84,6 +86,7 @@ private:
     std::vector<PreparedMesh> meshes_;
     std::vector<Bounds> instance_bounds_;
     Bounds bounds_;
+    ShadowCasters shadow_casters_;
     std::uint64_t triangle_count_ = 0;
     double largest_uv_ = 0, largest_color_ = 1;
     std::vector<double> object_radii_;

@@ -1,6 +1,7 @@
 #include "raster/view/shadow_views.hpp"
 
 #include "raster/detail/view_math.hpp"
+#include "raster/view/shadow_fit.hpp"
 #include "sh/arc.hpp"
 
 #include <algorithm>
@@ -11,20 +12,7 @@ namespace {
 using shading::LightPlan;
 using shading::ShadowMapPlan;
 
-struct Axes {
-    Vec3d right, up, back;
-};
-
-Vec3d unit(Vec3d v) { return v * (1.0 / length(v)); }
-
-/// Axes of a camera that looks along -back.
-Axes axes_for(Vec3d back) {
-    const double ay = back.y < 0 ? -back.y : back.y;
-    const Vec3d right = unit(cross(ay < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0}, back));
-    return {right, cross(back, right), back};
-}
-
-Camera camera_at(const Axes& axes, Vec3d eye) {
+Camera camera_at(const ViewAxes& axes, Vec3d eye) {
     const auto column = [](Vec3d v, float w) {
         return Vec4f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), w};
     };
@@ -44,7 +32,7 @@ void set_row(float (&row)[4], Vec3d direction, double offset) {
 
 /// Sets a map's rows: u and v in texels (perspective: times the distance), and the distance along the view. half: half the width of the
 /// view, world units (perspective: at distance 1).
-void set_rows(ShadowMapPlan& map, const Axes& axes, Vec3d eye, double half) {
+void set_rows(ShadowMapPlan& map, const ViewAxes& axes, Vec3d eye, double half) {
     const double s = 0.5 * map.size / half;
     const Vec3d forward = axes.back * -1.0;
     // Offset to the centre of the map; perspective: times the distance.
@@ -70,27 +58,9 @@ double cone_tangent(const LightPlan& light) {
     return cosine < 0.25 ? 0.0 : __builtin_sqrt(std::max(0.0, 1.0 - cosine * cosine)) / cosine;
 }
 
-/// True if the light needs six maps.
-bool is_cube(const LightPlan& light) {
-    return light.type == LightType::point || (light.type == LightType::spot && cone_tangent(light) == 0.0);
-}
-
-int size_of(const LightPlan& light, int side) { return is_cube(light) ? side / 2 : side; }
-
-/// Number of texels of all maps. side: texels on a side of a map that is not a cube's.
-std::size_t texel_count(std::span<const LightPlan> lights, const Bounds& bounds, int side) {
-    std::size_t count = 0;
-    for (const LightPlan& light : lights) {
-        if (!reaches(light, bounds)) continue;
-        const auto size = static_cast<std::size_t>(size_of(light, side));
-        count += size * size * (is_cube(light) ? 6 : 1);
-    }
-    return count;
-}
-
 /// True if a camera with a square field of view may see some of a box: not all corners are behind it or beyond one side. half: tangent of
 /// half the field of view.
-bool can_see(const Axes& axes, Vec3d eye, double half, const Bounds& bounds) {
+bool can_see(const ViewAxes& axes, Vec3d eye, double half, const Bounds& bounds) {
     int behind = 0, beyond[4] = {};
     for (int k = 0; k < 8; ++k) {
         const Vec3d p{k & 1 ? bounds.max.x : bounds.min.x, k & 2 ? bounds.max.y : bounds.min.y, k & 4 ? bounds.max.z : bounds.min.z};
@@ -102,86 +72,113 @@ bool can_see(const Axes& axes, Vec3d eye, double half, const Bounds& bounds) {
     return behind < 8 && beyond[0] < 8 && beyond[1] < 8 && beyond[2] < 8 && beyond[3] < 8;
 }
 
+/// The map that a light gets.
+struct Choice {
+    ShadowMapPlan::Kind kind = ShadowMapPlan::Kind::cube;
+    FittedView view;            ///< not of cubes
+    std::vector<Bounds> boxes;  ///< what it has to show; empty: there is no map
+};
+
+/// Wider views than this have larger texels than the faces of a cube. It is the tangent of half the angle.
+constexpr double kWidestView = 2.0;
+
+Choice choose(const LightPlan& light, const Bounds& bounds, const ShadowCasters& casters) {
+    Choice choice;
+    if (!reaches(light, bounds)) return choice;
+    const bool directional = light.type == LightType::directional;
+    const Vec3d place = to_double(directional ? light.to_light : light.position);
+    choice.boxes = casters.of_light(place, directional);
+    if (choice.boxes.empty()) return choice;
+    if (directional) {
+        choice.kind = ShadowMapPlan::Kind::orthographic;
+        choice.view = fit_directional(place, choice.boxes, bounds);
+        return choice;
+    }
+    const double cone = light.type == LightType::spot ? cone_tangent(light) : 0.0;
+    const auto fitted = fit_lamp(place, choice.boxes, bounds, cone > 0.0 ? std::min(cone, kWidestView) : kWidestView);
+    if (!fitted && cone == 0.0) return choice;
+    choice.kind = ShadowMapPlan::Kind::perspective;
+    if (fitted) {
+        choice.view = *fitted;
+    } else {
+        choice.view.axes = axes_for(unit(to_double(light.to_light)));
+        choice.view.eye = place;
+        choice.view.half = cone;
+    }
+    return choice;
+}
+
+int size_of(const Choice& choice, int side) { return choice.kind == ShadowMapPlan::Kind::cube ? side / 2 : side; }
+
+/// Number of texels of all maps. side: texels on a side of a map that is not a cube's.
+std::size_t texel_count(std::span<const Choice> choices, int side) {
+    std::size_t count = 0;
+    for (const Choice& choice : choices) {
+        if (choice.boxes.empty()) continue;
+        const auto size = static_cast<std::size_t>(size_of(choice, side));
+        count += size * size * (choice.kind == ShadowMapPlan::Kind::cube ? 6 : 1);
+    }
+    return count;
+}
+
 /// Plans the maps one after the other.
 class Planner {
 public:
-    Planner(const Bounds& bounds, int side, ShadowViews& out)
-        : bounds_(bounds),
-          center_{bounds.center().x, bounds.center().y, bounds.center().z},
-          radius_(bounds.radius()),
-          side_(side),
-          out_(out) {}
+    Planner(double radius, int side, ShadowViews& out) : radius_(radius), side_(side), out_(out) {}
 
-    void add(const LightPlan& light) {
+    void add(const LightPlan& light, const Choice& choice) {
         ShadowMapPlan map;
-        map.size = size_of(light, side_);
+        map.kind = choice.kind;
+        map.size = size_of(choice, side_);
         out_.map_of_light.back() = static_cast<std::int32_t>(out_.maps.size());
         out_.first_texel.push_back(out_.texel_count);
         const double usable = static_cast<double>(map.size) / (map.size - 2 * shading::kShadowBorder);
-        if (light.type == LightType::directional)
-            add_directional(light, map, usable);
-        else if (is_cube(light))
-            add_cube(light, map, usable);
+        if (map.kind == ShadowMapPlan::Kind::cube)
+            add_cube(light, choice.boxes, map, usable);
         else
-            add_cone(light, map, usable);
+            add_fitted(light, choice.view, map, usable);
         out_.maps.push_back(map);
     }
 
 private:
-    /// Fits the view to the scene's box, seen along the light.
-    void add_directional(const LightPlan& light, ShadowMapPlan& map, double usable) {
-        const Axes axes = axes_for(unit(to_double(light.to_light)));
-        double half = 0.0, depth = 0.0;
-        for (int k = 0; k < 8; ++k) {
-            const Vec3f p{k & 1 ? bounds_.max.x : bounds_.min.x, k & 2 ? bounds_.max.y : bounds_.min.y,
-                          k & 4 ? bounds_.max.z : bounds_.min.z};
-            const Vec3d q = Vec3d{p.x, p.y, p.z} - center_;
-            const double x = dot(q, axes.right), y = dot(q, axes.up), z = dot(q, axes.back);
-            half = std::max({half, x, -x, y, -y});
-            depth = std::max({depth, z, -z});
+    void add_fitted(const LightPlan& light, const FittedView& view, ShadowMapPlan& map, double usable) {
+        const double half = view.half * usable;
+        Camera camera = camera_at(view.axes, view.eye);
+        camera.orthographic = map.kind == ShadowMapPlan::Kind::orthographic;
+        if (camera.orthographic) {
+            camera.half_width = camera.half_height = static_cast<float>(half);
+            camera.near_z = 0.0f;
+            camera.far_z = static_cast<float>(view.far_z);
+        } else {
+            camera.fov_y_rad = static_cast<float>(2.0 * arc_tangent(half));
+            camera.near_z = static_cast<float>(std::max(view.near_z, least_distance(light)));
         }
-        half = std::max(half, 1e-3 * radius_) * usable;
-        depth = std::max(depth, 1e-3 * radius_) * 1.01;
-        const Vec3d eye = center_ + axes.back * depth;
-        Camera camera = camera_at(axes, eye);
-        camera.orthographic = true;
-        camera.half_width = camera.half_height = static_cast<float>(half);
-        camera.near_z = 0.0f;
-        camera.far_z = static_cast<float>(2.0 * depth);
-        map.kind = ShadowMapPlan::Kind::orthographic;
-        map.texel_size = static_cast<float>(2.0 * half / map.size);
-        set_rows(map, axes, eye, half);
+        set_texel_size(map, half, !camera.orthographic);
+        set_rows(map, view.axes, view.eye, half);
         add_view(map, camera, true);
     }
 
-    void add_cone(const LightPlan& light, ShadowMapPlan& map, double usable) {
-        const Axes axes = axes_for(unit(to_double(light.to_light)));
-        const double half = cone_tangent(light) * usable;
+    void add_cube(const LightPlan& light, std::span<const Bounds> boxes, ShadowMapPlan& map, double usable) {
+        set_texel_size(map, usable, true);
         const Vec3d eye = to_double(light.position);
-        Camera camera = camera_at(axes, eye);
-        camera.fov_y_rad = static_cast<float>(2.0 * arc_tangent(half));
-        camera.near_z = static_cast<float>(least_distance(light));
-        map.kind = ShadowMapPlan::Kind::perspective;
-        map.texel_size = static_cast<float>(2.0 * half / map.size);
-        set_rows(map, axes, eye, half);
-        add_view(map, camera, true);
-    }
-
-    void add_cube(const LightPlan& light, ShadowMapPlan& map, double usable) {
-        map.kind = ShadowMapPlan::Kind::cube;
-        map.texel_size = static_cast<float>(2.0 * usable / map.size);
         for (int i = 0; i < 3; ++i) map.origin[i] = light.position[i];
         for (int face = 0; face < 6; ++face) {
             // Face 2 a looks along +axis a, face 2 a + 1 along -axis a; u follows axis a + 1, v axis a + 2 with the face's sign.
             const double sign = (face & 1) ? -1.0 : 1.0;
             const Vec3d e[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
             const int a = face / 2;
-            const Axes axes{e[(a + 1) % 3], e[(a + 2) % 3] * -sign, e[a] * -sign};
-            Camera camera = camera_at(axes, to_double(light.position));
+            const ViewAxes axes{e[(a + 1) % 3], e[(a + 2) % 3] * -sign, e[a] * -sign};
+            Camera camera = camera_at(axes, eye);
             camera.fov_y_rad = static_cast<float>(2.0 * arc_tangent(usable));
             camera.near_z = static_cast<float>(least_distance(light));
-            add_view(map, camera, can_see(axes, to_double(light.position), usable, bounds_));
+            add_view(map, camera,
+                     std::any_of(boxes.begin(), boxes.end(), [&](const Bounds& box) { return can_see(axes, eye, usable, box); }));
         }
+    }
+
+    static void set_texel_size(ShadowMapPlan& map, double half, bool perspective) {
+        map.texel_size = static_cast<float>(2.0 * half / map.size);
+        map.offset = shading::shadow_offset(perspective ? map.texel_size : 0.0f);
     }
 
     /// Distance of the near plane. Geometry closer than the source's radius counts as the lamp itself.
@@ -189,19 +186,17 @@ private:
         return std::max({1e-4 * radius_, __builtin_sqrt(static_cast<double>(light.min_distance_squared)), 1e-30});
     }
 
-    void add_view(const ShadowMapPlan& map, const Camera& camera, bool sees_scene) {
+    void add_view(const ShadowMapPlan& map, const Camera& camera, bool sees_casters) {
         ShadowView& face = out_.views.emplace_back();
         face.view = make_view(camera, map.size, map.size, {}, kMaxTileSize, 1);
         face.perspective = !camera.orthographic;
         face.near_z = camera.near_z;
         face.far_z = camera.far_z;
         face.first_texel = out_.texel_count;
-        face.sees_scene = sees_scene;
+        face.sees_casters = sees_casters;
         out_.texel_count += static_cast<std::size_t>(map.size) * static_cast<std::size_t>(map.size);
     }
 
-    const Bounds& bounds_;
-    Vec3d center_;
     double radius_;
     int side_;
     ShadowViews& out_;
@@ -209,22 +204,25 @@ private:
 
 }  // namespace
 
-Result<ShadowViews> plan_shadow_views(std::span<const LightPlan> lights, const Bounds& bounds, const Settings& settings) {
+Result<ShadowViews> plan_shadow_views(std::span<const LightPlan> lights, const Bounds& bounds, const ShadowCasters& casters,
+                                      const Settings& settings) {
     ShadowViews out;
     int side = settings.shadow_size;
     if (settings.shadows == ShadowMode::off || lights.empty() || bounds.empty || !(bounds.radius() > 0.0f)) return out;
+    std::vector<Choice> choices;
+    for (const LightPlan& light : lights) choices.push_back(choose(light, bounds, casters));
     const std::size_t most = settings.shadow_memory_limit / sizeof(float);
-    while (side > 64 && texel_count(lights, bounds, side) > most) side /= 2;
-    if (texel_count(lights, bounds, side) > most)
+    while (side > 64 && texel_count(choices, side) > most) side /= 2;
+    if (texel_count(choices, side) > most)
         return fail(ErrorCode::limit, "shadow maps of " + std::to_string(lights.size()) + " lights do not fit in " +
                                           std::to_string(settings.shadow_memory_limit) + " bytes even at 64 texels a side");
     if (side < settings.shadow_size)
         out.warning = "shadow maps of " + std::to_string(side) + " texels a side instead of " + std::to_string(settings.shadow_size) +
                       ", to stay within " + std::to_string(settings.shadow_memory_limit) + " bytes";
-    Planner planner(bounds, side, out);
-    for (const LightPlan& light : lights) {
+    Planner planner(bounds.radius(), side, out);
+    for (std::size_t i = 0; i < lights.size(); ++i) {
         out.map_of_light.push_back(-1);
-        if (reaches(light, bounds)) planner.add(light);
+        if (!choices[i].boxes.empty()) planner.add(lights[i], choices[i]);
     }
     return out;
 }

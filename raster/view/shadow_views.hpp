@@ -3,6 +3,7 @@
 
 #include "halflit/mesh.hpp"
 #include "halflit/settings.hpp"
+#include "raster/scene/shadow_casters.hpp"
 #include "raster/view/view.hpp"
 #include "shading/plan/light_plan.hpp"
 #include "shading/plan/shadow_map_plan.hpp"
@@ -20,7 +21,7 @@ struct ShadowView {
     bool perspective = false;
     float near_z = 0, far_z = 0;  ///< planes of its camera
     std::size_t first_texel = 0;  ///< index of its first texel in those of all maps
-    bool sees_scene = true;       ///< false: the scene is out of view, and nothing is drawn
+    bool sees_casters = true;     ///< false: nothing that casts a shadow is in view, and nothing is drawn
     friend bool operator==(const ShadowView&, const ShadowView&) = default;
 };
 
@@ -33,10 +34,10 @@ struct ShadowViews {
     std::string warning;  ///< says that maps were made smaller; empty: they were not
 };
 
-/// Plans a map for every light that reaches the scene's bounds. Directional maps are fitted to the bounds, maps of spots to their cone.
-/// Points (and spots beyond 75 degrees) get six faces of half the size. All are halved in size until they fit
-/// Settings::shadow_memory_limit.
+/// Plans a map for every light that reaches the scene's bounds and that something casts a shadow of, fitted to the casters: directional
+/// maps, and those of lamps that see all of them within 127 degrees. Spots see no more than their cone. Other points, and spots beyond 75
+/// degrees, get six faces of half the size. All are halved in size until they fit Settings::shadow_memory_limit.
 [[nodiscard]] Result<ShadowViews> plan_shadow_views(std::span<const shading::LightPlan> lights, const Bounds& bounds,
-                                                    const Settings& settings);
+                                                    const ShadowCasters& casters, const Settings& settings);
 
 }  // namespace halflit::raster

@@ -25,28 +25,40 @@ struct MapPoint {
 
 HALFLIT_INLINE F row_product(const float (&row)[4], V3 p) { return ((F(row[0]) * p.x + F(row[1]) * p.y) + F(row[2]) * p.z) + F(row[3]); }
 
-/// Faces of a cube: +x, -x, +y, ..; u follows the next axis, v the one after it times the face's sign (raster/view/shadow_views.cpp).
-HALFLIT_INLINE MapPoint cube_point(const shading::ShadowMapPlan& map, V3 offset) {
-    const F ax = vabs(offset.x), ay = vabs(offset.y), az = vabs(offset.z);
-    const M is_x = (ax >= ay) & (ax >= az);
-    const M is_y = ay >= az;
-    const F major = sel(is_x, offset.x, sel(is_y, offset.y, offset.z));
-    const F along_u = sel(is_x, offset.y, sel(is_y, offset.z, offset.x));
-    const F along_v = sel(is_x, offset.z, sel(is_y, offset.x, offset.y));
-    const M negative = major < F(0.0f);
-    const F distance = vabs(major);
+/// The face of a cube that a direction from the light meets: +x, -x, +y, ..
+struct CubeFace {
+    M is_x, is_y;  ///< its axis; neither: z
+    M negative;
+
+    HALFLIT_INLINE explicit CubeFace(V3 offset) {
+        const F ax = vabs(offset.x), ay = vabs(offset.y), az = vabs(offset.z);
+        is_x = (ax >= ay) & (ax >= az);
+        is_y = ay >= az;
+        negative = along(offset) < F(0.0f);
+    }
+    /// The component along its axis.
+    [[nodiscard]] HALFLIT_INLINE F along(V3 v) const { return sel(is_x, v.x, sel(is_y, v.y, v.z)); }
+};
+
+/// A point in the map of a face; it may lie a few texels beyond its edge. u follows the next axis, v the one after it times the face's sign
+/// (raster/view/shadow_views.cpp).
+HALFLIT_INLINE MapPoint cube_point(const shading::ShadowMapPlan& map, const CubeFace& at, V3 offset) {
+    const F along_u = sel(at.is_x, offset.y, sel(at.is_y, offset.z, offset.x));
+    const F along_v = sel(at.is_x, offset.z, sel(at.is_y, offset.x, offset.y));
+    const F major = at.along(offset);
+    const F distance = sel(at.negative, F(0.0f) - major, major);
     const F inv = vdiv(F(1.0f), vmax(distance, F(1e-30f)));
     const F half(0.5f * static_cast<float>(map.size - 2 * shading::kShadowBorder)), middle(0.5f * static_cast<float>(map.size));
-    const I axis = sel(is_x, I(0), sel(is_y, I(2), I(4)));
-    const I face = axis + sel(negative, I(1), I(0));
+    const I axis = sel(at.is_x, I(0), sel(at.is_y, I(2), I(4)));
+    const I face = axis + sel(at.negative, I(1), I(0));
     // Six faces of at most 2^22 texels: exact in float, and a multiplication of integers is slow on some sets.
     const I base = round_even(to_float(face) * F(static_cast<float>(map.size * map.size)));
-    return {mad(along_u * inv, half, middle), mad(sel(negative, F(0.0f) - along_v, along_v) * inv, half, middle), distance, base,
+    return {mad(along_u * inv, half, middle), mad(sel(at.negative, F(0.0f) - along_v, along_v) * inv, half, middle), distance, base,
             distance > F(0.0f)};
 }
 
-HALFLIT_INLINE MapPoint map_point(const shading::ShadowMapPlan& map, V3 p) {
-    if (map.kind == shading::ShadowMapPlan::Kind::cube) return cube_point(map, p - broadcast(map.origin));
+/// A point in a map that is not a cube's. Where the filter would reach beyond the map, nothing casts a shadow.
+HALFLIT_INLINE MapPoint flat_point(const shading::ShadowMapPlan& map, V3 p) {
     MapPoint at{row_product(map.rows[0], p), row_product(map.rows[1], p), row_product(map.rows[2], p), I(0), F(0.0f) <= F(0.0f)};
     if (map.kind == shading::ShadowMapPlan::Kind::perspective) {
         at.inside = at.distance > F(0.0f);
@@ -54,9 +66,27 @@ HALFLIT_INLINE MapPoint map_point(const shading::ShadowMapPlan& map, V3 p) {
         at.u = at.u * inv;
         at.v = at.v * inv;
     }
-    const F size(static_cast<float>(map.size));
-    at.inside = at.inside & (at.u > F(0.0f)) & (at.v > F(0.0f)) & (at.u < size) & (at.v < size);
+    const F low(2.0f), high(static_cast<float>(map.size) - 2.0f);
+    at.inside = at.inside & (at.u > low) & (at.v > low) & (at.u < high) & (at.v < high);
     return at;
+}
+
+/// The place where a fragment is looked up: off its surface, so that a plane does not hide itself. texel: its width at the fragment.
+HALFLIT_INLINE MapPoint map_point(const shading::ShadowMapPlan& map, V3 p, V3 normal, F& texel) {
+    texel = F(map.texel_size);
+    const auto moved = [&](F normal_along_axis) {
+        const F sine = vsqrt(vmax(F(1.0f) - normal_along_axis * normal_along_axis, F(0.0f)));
+        return p + normal * ((texel * F(map.offset)) * sine);
+    };
+    if (map.kind == shading::ShadowMapPlan::Kind::cube) {
+        const V3 origin = broadcast(map.origin), offset = p - origin;
+        const CubeFace face(offset);
+        texel = texel * vabs(face.along(offset));
+        return cube_point(map, face, moved(face.along(normal)) - origin);
+    }
+    if (map.kind == shading::ShadowMapPlan::Kind::perspective) texel = texel * vmax(row_product(map.rows[2], p), F(0.0f));
+    const float(&axis)[4] = map.rows[2];
+    return flat_point(map, moved((F(axis[0]) * normal.x + F(axis[1]) * normal.y) + F(axis[2]) * normal.z));
 }
 
 /// Fading of wrapped light with the blocker's distance: MaterialPlan::shadow_fade_scale and shadow_turn_scale. scale 0: shadows cut it off.
@@ -73,11 +103,8 @@ HALFLIT_INLINE F faded(F v) {
 /// Hidden shares of a light at each lane. `normal`: unit normal of the surface.
 HALFLIT_INLINE HiddenShares hidden_share(const shading::ShadowMapPlan& map, V3 position, V3 normal, V3 to_light, ShadowFade fade,
                                          bool soft) {
-    const F cosine = dot(normal, to_light);
-    const F sine = vsqrt(vmax(F(1.0f) - cosine * cosine, F(0.0f)));
-    F texel(map.texel_size);
-    if (map.kind != shading::ShadowMapPlan::Kind::orthographic) texel = texel * map_point(map, position).distance;
-    const MapPoint at = map_point(map, position + normal * ((texel * F(shading::kShadowNormalOffset)) * sine));
+    F texel;
+    const MapPoint at = map_point(map, position, normal, texel);
     const F receiver = at.distance - mad(texel, F(shading::kShadowDepthBias), at.distance * F(shading::kShadowRelativeBias));
 
     const F limit(static_cast<float>(map.size) - 2.0f);
@@ -90,6 +117,7 @@ HALFLIT_INLINE HiddenShares hidden_share(const shading::ShadowMapPlan& map, V3 p
     if (soft) {
         // `own`: the body's own thickness towards the light, as a share of d0. A blocker nearer than that hides no wrapped light; one at d0
         // hides all. Light that nothing hides keeps its bits, because the reciprocal is at least 1.
+        const F cosine = dot(normal, to_light);
         const F own = vmin(vmax(F(0.0f) - cosine, F(0.0f)) * F(fade.turn), F(shading::kOwnThickness));
         left = vdiv(F(1.0f), F(1.0f) - own);
     }

@@ -7,14 +7,25 @@
 
 namespace halflit::shading {
 
-/// Width of the border of a map, in texels, around the part that it must show. A receiver is looked up 3 texels off its surface, among
-/// texels up to 2 away. With a narrower border, look-ups at the rim are clamped to the outline of the receiver's own object, which then
-/// hides itself.
-inline constexpr int kShadowBorder = 6;
+/// Width of the border of a map, in texels, around the part that it must show. A receiver is looked up 3 texels off its surface, which are
+/// up to 3 sqrt 2 at the edge of a cube's face, among texels up to 2 away. With a narrower border, look-ups at the rim are clamped to the
+/// outline of the receiver's own object, which then hides itself.
+inline constexpr int kShadowBorder = 7;
 
-/// Texels by which a receiver is moved off its surface, times the sine of the angle between light and normal. The far corner of the 4 x 4
-/// texels that it is compared with is 2 sqrt 2 away. A plane that falls away from the light by that much must not hide itself.
-inline constexpr float kShadowNormalOffset = 3.0f;
+/// Least distance by which a receiver is moved off its surface, in texels at its depth, times the sine of the angle between the normal and
+/// the map's axis.
+inline constexpr float kLeastShadowOffset = 3.0f;
+
+/// The distance that a map of this texel size needs, so that no plane that faces the light hides itself. The receiver is compared with
+/// texels up to 2 away along u and v, at its own depth t. Such a point, off by d, is in front of the plane if offset + dot(normal, d) >= 0.
+/// With |d| <= 2 sqrt 2 texels across the axis that is 2 sqrt 2 texels at depth t times the sine. Moving the receiver may take it farther
+/// from the light, by up to the offset itself, and a perspective texel with it.
+constexpr float shadow_offset(float texel_at_1) {
+    constexpr float kReach = 2.8284272f;  // 2 sqrt 2
+    const float needed = kReach / (1.0f - kReach * texel_at_1);
+    return needed > kLeastShadowOffset ? needed : kLeastShadowOffset;
+}
+
 /// Shift of a receiver towards the light, against rounding errors: in texels, and as a share of the distance.
 inline constexpr float kShadowDepthBias = 0.5f, kShadowRelativeBias = 4e-6f;
 
@@ -30,6 +41,7 @@ struct ShadowMapPlan {
     float rows[3][4] = {};
     float origin[3] = {};  ///< cube: the light
     float texel_size = 0;  ///< world units; perspective and cube: at distance 1
+    float offset = kLeastShadowOffset;  ///< distance of receivers from their surface, texels: shadow_offset()
 };
 
 inline constexpr float kNoBlocker = 3e38f;

@@ -3,6 +3,7 @@
 #include "shading/reference/reference.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace halflit::shading::reference {
@@ -14,41 +15,57 @@ struct MapPoint {
     int face = 0;
     bool inside = false;
     double margin = 0;  ///< distance to the rim or to the next face, world units
+    double texel = 0;   ///< width of a texel at the surface
 };
 
 double apply(const float (&row)[4], Vec3d p) { return double{row[0]} * p.x + double{row[1]} * p.y + double{row[2]} * p.z + double{row[3]}; }
 
-MapPoint cube_point(const ShadowMapPlan& map, Vec3d p) {
-    const double offset[3] = {p.x - double{map.origin[0]}, p.y - double{map.origin[1]}, p.z - double{map.origin[2]}};
-    int axis = 0;
-    for (int i = 1; i < 3; ++i)
-        if (std::fabs(offset[i]) > std::fabs(offset[axis])) axis = i;
-    const double along_u = offset[(axis + 1) % 3], along_v = offset[(axis + 2) % 3];
+/// Distance by which a receiver is moved off its surface. along_axis: cosine of the angle between the normal and the map's axis.
+double off_surface(const ShadowMapPlan& map, double texel, double along_axis) {
+    return double{map.offset} * texel * std::sqrt(std::max(0.0, 1 - along_axis * along_axis));
+}
+
+/// A point in the map of the face that `surface`, the point before it is moved, belongs to.
+MapPoint cube_point(const ShadowMapPlan& map, Vec3d surface, Vec3d normal) {
+    const auto from_light = [&](Vec3d p) {
+        return std::array{p.x - double{map.origin[0]}, p.y - double{map.origin[1]}, p.z - double{map.origin[2]}};
+    };
+    const auto before = from_light(surface);
+    std::size_t axis = 0;
+    for (std::size_t i = 1; i < 3; ++i)
+        if (std::fabs(before[i]) > std::fabs(before[axis])) axis = i;
+    const std::size_t next = (axis + 1) % 3, last = (axis + 2) % 3;
     MapPoint at;
-    at.distance = std::fabs(offset[axis]);
+    at.texel = double{map.texel_size} * std::fabs(before[axis]);
+    const auto offset = from_light(surface + normal * off_surface(map, at.texel, std::array{normal.x, normal.y, normal.z}[axis]));
+    const double sign = before[axis] < 0 ? -1 : 1, half = 0.5 * (map.size - 2 * kShadowBorder);
+    at.distance = sign * offset[axis];
     at.inside = at.distance > 0;
     if (!at.inside) return at;
-    const double sign = offset[axis] < 0 ? -1 : 1, half = 0.5 * (map.size - 2 * kShadowBorder);
-    at.face = 2 * axis + (sign < 0 ? 1 : 0);
-    at.u = along_u / at.distance * half + 0.5 * map.size;
-    at.v = sign * along_v / at.distance * half + 0.5 * map.size;
-    at.margin = at.distance - std::max(std::fabs(along_u), std::fabs(along_v));
+    at.face = static_cast<int>(2 * axis + (sign < 0 ? 1 : 0));
+    at.u = offset[next] / at.distance * half + 0.5 * map.size;
+    at.v = sign * offset[last] / at.distance * half + 0.5 * map.size;
+    at.margin = std::fabs(before[axis]) - std::max(std::fabs(before[next]), std::fabs(before[last]));
     return at;
 }
 
-MapPoint map_point(const ShadowMapPlan& map, Vec3d p) {
-    if (map.kind == ShadowMapPlan::Kind::cube) return cube_point(map, p);
-    MapPoint at{apply(map.rows[0], p), apply(map.rows[1], p), apply(map.rows[2], p), 0, true, 0};
+MapPoint map_point(const ShadowMapPlan& map, Vec3d surface, Vec3d normal) {
+    if (map.kind == ShadowMapPlan::Kind::cube) return cube_point(map, surface, normal);
     double texel = map.texel_size;
+    if (map.kind == ShadowMapPlan::Kind::perspective) texel *= std::max(0.0, apply(map.rows[2], surface));
+    const Vec3d axis{map.rows[2][0], map.rows[2][1], map.rows[2][2]};
+    const Vec3d p = surface + normal * off_surface(map, texel, dot(normal, axis));
+    MapPoint at{apply(map.rows[0], p), apply(map.rows[1], p), apply(map.rows[2], p), 0, true, 0, texel};
+    double width = map.texel_size;
     if (map.kind == ShadowMapPlan::Kind::perspective) {
-        if (!(at.distance > 0)) return {0, 0, at.distance, 0, false, -at.distance};
+        if (!(at.distance > 0)) return {0, 0, at.distance, 0, false, -at.distance, texel};
         at.u /= at.distance;
         at.v /= at.distance;
-        texel *= at.distance;
+        width *= at.distance;
     }
-    const double rim = std::min({at.u, at.v, map.size - at.u, map.size - at.v});
+    const double rim = std::min({at.u, at.v, map.size - at.u, map.size - at.v}) - 2.0;  // the filter's reach
     at.inside = rim > 0;
-    at.margin = std::fabs(rim) * texel;
+    at.margin = std::fabs(rim) * width;
     return at;
 }
 
@@ -67,18 +84,15 @@ double fade(double u) {
 Hidden hidden_share(const ShadowMapPlan& map, Vec3d position, Vec3d surface_normal, Vec3d to_light, const MaterialPlan& material,
                     ShadowMode mode) {
     if (mode == ShadowMode::off) return {};
-    const double cosine = dot(surface_normal, to_light), sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-    double texel = map.texel_size;
-    if (map.kind != ShadowMapPlan::Kind::orthographic) texel *= map_point(map, position).distance;
-    const MapPoint at = map_point(map, position + surface_normal * (double{kShadowNormalOffset} * texel * sine));
+    const double cosine = dot(surface_normal, to_light);
+    const MapPoint at = map_point(map, position, surface_normal);
     Hidden hidden{0, 0, at.margin};
     if (!at.inside) return hidden;
-    const double receiver = at.distance - double{kShadowDepthBias} * texel - double{kShadowRelativeBias} * at.distance;
+    const double receiver = at.distance - double{kShadowDepthBias} * at.texel - double{kShadowRelativeBias} * at.distance;
     const bool fades = mode == ShadowMode::soft_split && material.shadow_fade_scale > 0;
     // A body's own thickness towards the light, as a share of d0, is not counted where it turns away from the light.
     const double own = std::clamp(-cosine * double{material.shadow_turn_scale}, 0.0, double{kOwnThickness});
-    // Near the rim the box stays inside the map.
-    const double u = std::clamp(at.u, 2.0, map.size - 2.0), v = std::clamp(at.v, 2.0, map.size - 2.0);
+    const double u = at.u, v = at.v;
     const float* texels = map.distance + static_cast<std::size_t>(at.face) * static_cast<std::size_t>(map.size * map.size);
     const int first_i = static_cast<int>(std::floor(u - 1.5)), first_j = static_cast<int>(std::floor(v - 1.5));
     for (int j = std::max(first_j, 0); j < std::min(first_j + 4, map.size); ++j) {

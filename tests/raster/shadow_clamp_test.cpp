@@ -123,6 +123,8 @@ TEST_CASE("shadows: leaving out faces of a cube that see nothing changes no pixe
         set_local(setup, false, position, {0, -1, 0});
         setup.add(make_plane(1, 2));
         setup.add(make_box({0.2f, 0.2f, 0.2f}), translation({0.1f, 0.3f, 0}));
+        // A box behind the lamp: one view from it does not see them all.
+        setup.add(make_box({0.01f, 0.01f, 0.01f}), translation(position + Vec3f{0, 3, 0}));
         look_down(setup);
         const std::vector<float> few_faces = on_all_sets(setup, 64);
         // Tiny boxes on all sides, out of sight, extend the scene's box so that it meets every face.
@@ -143,6 +145,10 @@ TEST_CASE("shadows: casters without area or with a NaN vertex cast nothing", "[r
         if (kind == 0) setup.scene.lights[0].direction_ws = {-0.5f, -0.8f, 0.1f};
         setup.add(make_plane(1, 2));
         setup.add(make_box({0.2f, 0.2f, 0.2f}), translation({0.1f, 0.3f, 0}));
+        // The map shows the whole box of what follows, with it or without it.
+        for (const float x : {-0.5f, 0.5f})
+            for (const float z : {-0.5f, 0.5f})
+                for (const float y : {0.2f, 0.4f}) setup.add(make_box({0.01f, 0.01f, 0.01f}), translation({x, y, z}));
         look_down(setup);
         const std::vector<float> clean = on_all_sets(setup, 64);
         Mesh broken;
@@ -226,25 +232,25 @@ TEST_CASE("shadows: maps that do not fit their memory are halved, and the report
     look_down(setup);
     setup.settings.shadow_size = 256;
     const std::vector<float> full = setup.draw(64, 64);
-    // One map of 256 x 256 floats and six of 128 x 128: 655 360 bytes.
+    // Two maps of 256 x 256 floats: 524 288 bytes.
     const auto draw = [&](std::size_t limit, std::vector<float>& rgba) {
         setup.settings.shadow_memory_limit = limit;
         rgba.assign(4 * 64 * 64, 0.0f);
         return render(setup.scene, setup.camera, setup.settings, {64, 64, nullptr, rgba.data()}, setup.settings.execution);
     };
     std::vector<float> fits, halved, small;
-    const auto enough = draw(655360, fits), less = draw(655359, halved);
+    const auto enough = draw(524288, fits), less = draw(524287, halved);
     REQUIRE(enough);
     REQUIRE(less);
     CHECK(enough->warnings.empty());
     CHECK(differing(full, fits) == 0);
     REQUIRE(less->warnings.size() == 1);
-    CHECK(less->warnings[0] == "shadow maps of 128 texels a side instead of 256, to stay within 655359 bytes");
+    CHECK(less->warnings[0] == "shadow maps of 128 texels a side instead of 256, to stay within 524287 bytes");
     setup.settings.shadow_size = 128;
-    REQUIRE(draw(655360, small));
+    REQUIRE(draw(524288, small));
     CHECK(differing(halved, small) == 0);
     setup.settings.shadow_size = 256;
-    const auto refused = draw(40000, small);  // 64 x 64 and six of 32 x 32 take 40 960
+    const auto refused = draw(32767, small);  // two of 64 x 64 take 32 768
     REQUIRE_FALSE(refused);
     CHECK(refused.error().code == ErrorCode::limit);
 }
