@@ -82,7 +82,8 @@ Result<Figure> make_highlights_figure() {
         .caption = fmt::format("Phong's highlight is (R·V)^{{p}}, Blinn's is (N·H)^{{s}}: N is the normal, L the direction to the light, V "
                                "that to the eye, R the mirrored L, and H is half-way between L and V. On lacquer of roughness "
                                "{:g}, s = {:.0f}, and p = s/4 because R turns twice as fast as H. Both are multiplied by N·L and "
-                               "normalised by (s + 8)/8, which the source does not do. On the ball the two look alike. At "
+                               "normalised so that a mirror reflects no more light than it receives, which the source does not do. On the "
+                               "ball the two look alike. At "
                                "grazing angles Blinn's highlight grows long, as on a wet road, while Phong's stays round. One "
                                "directional light of strength 1.5.",
                                static_cast<double>(kRoughness), shading::specular_exponent(static_cast<double>(kRoughness))),

@@ -21,7 +21,7 @@ struct FlatCaster {
     Bounds box;
     Vec3d normal;  ///< unit
     double offset = 0;
-    double slack = 0;  ///< distance that counts as none, world units
+    double slack = 0;   ///< distance that counts as none, world units
     bool casts = true;  ///< false: blended, a receiver alone
     /// The least and the largest signed distance of the other planes' boxes.
     double lowest = 0, highest = 0;

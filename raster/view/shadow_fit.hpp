@@ -22,9 +22,9 @@ struct ViewAxes {
 struct FittedView {
     ViewAxes axes;
     Vec3d eye;
-    double half = 0;   ///< directional: world units; otherwise the tangent of half the angle
-    double near_z = 0; ///< distance of the nearest thing that may cast a shadow; 0 or less: some of them lie behind the eye
-    double far_z = 0;  ///< distance of the farthest thing
+    double half = 0;    ///< directional: world units; otherwise the tangent of half the angle
+    double near_z = 0;  ///< distance of the nearest thing that may cast a shadow; 0 or less: some of them lie behind the eye
+    double far_z = 0;   ///< distance of the farthest thing
 };
 
 /// The view along parallel light that shows all of `boxes`; its depth is that of `scene`. boxes: at least one.

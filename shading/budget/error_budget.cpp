@@ -57,7 +57,7 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
     if (has(kStageOcclusionTexture)) s.occlusion_error = filtered(material.occlusion_texture, {0});
     if (has(kStageEmissiveTexture)) s.emissive_error = filtered(material.emissive_texture, {0, 1, 2});
     s.exponent = specular_exponent(roughness);
-    s.normalization = plan.normalize_specular ? specular_normalization(0.5 * s.exponent) : 1.0;
+    s.normalization = plan.normalize_specular ? specular_normalization(0.5 * s.exponent, plan.specular == SpecularModel::phong) : 1.0;
     s.cosine_error = kCosineError;
     if (has(kStageNormalMap)) {
         // The three components are in [-1, 1], each off by twice its channel's error. The vector is no shorter than its z.

@@ -49,7 +49,8 @@ HALFLIT_INLINE IncidentLight incident_light(const shading::ShadingPlan& frame, c
         to_eye = view_vector(frame, position);
         light.roughness = vmax(surface.roughness, F(shading::kMinRoughness));
         shape.half_exponent = half_specular_exponent(light.roughness);
-        if (frame.normalize_specular) shape.normalization = specular_normalization(shape.half_exponent);
+        if (frame.normalize_specular)
+            shape.normalization = specular_normalization(shape.half_exponent, frame.specular == SpecularModel::phong);
     }
     if (has(material, kStageLights)) {
         const ShadowReceiver receiver{

@@ -14,10 +14,13 @@ HALFLIT_INLINE constexpr T half_specular_exponent(T roughness) {
     return vdiv(T(1.0f), alpha * alpha) - T(1.0f);
 }
 
-/// Factor (s + 8) / 8 from s / 2: makes sharper highlights brighter.
+/// Factor that makes sharper highlights brighter, from h = s / 2. Phong: (s + 8) / 8 = (p + 2) / 2 of p = s / 4, with which a mirror that
+/// faces the light reflects all of it. Blinn: all would be (s + 2)(s + 4) / (8 (2^(-s/2) + s)); this is at most 2.9 % less, and never more:
+/// (s^2 + 10 s + 32) / (8 (s + 4)) = (h + 3) / 4 + 1 / (2 (h + 2)).
 template <class T>
-HALFLIT_INLINE constexpr T specular_normalization(T half_exponent) {
-    return mad(T(0.25f), half_exponent, T(1.0f));
+HALFLIT_INLINE constexpr T specular_normalization(T half_exponent, bool phong) {
+    if (phong) return mad(T(0.25f), half_exponent, T(1.0f));
+    return mad(T(0.25f), half_exponent, T(0.75f)) + vdiv(T(0.5f), half_exponent + T(2.0f));
 }
 
 /// Share of the surroundings that a surface reflects: F0 seen straight on, rising towards 1 - roughness at grazing angles. `grazing` is

@@ -39,8 +39,8 @@ struct ShadowMapPlan {
     /// Rows applied to (x, y, z, 1) in world space. Orthographic: u, v in texels, and distance. Perspective: u and v times
     /// distance, and distance. Cube: unused.
     float rows[3][4] = {};
-    float origin[3] = {};  ///< cube: the light
-    float texel_size = 0;  ///< world units; perspective and cube: at distance 1
+    float origin[3] = {};               ///< cube: the light
+    float texel_size = 0;               ///< world units; perspective and cube: at distance 1
     float offset = kLeastShadowOffset;  ///< distance of receivers from their surface, texels: shadow_offset()
 };
 

@@ -142,7 +142,7 @@ Vec3d lit(const FrameInputs& frame, const Material& material, const Surface& sur
             const bool phong = frame.options.specular == SpecularModel::phong;
             const Vec3d reflection = scale(surface.normal, 2 * n_dot_l) - at.direction;
             const double cosine = phong ? dot(surface.to_eye, unit(reflection)) : dot(surface.normal, unit(at.direction + surface.to_eye));
-            const double factor = frame.options.normalize_specular ? (s + 8) / 8 : 1.0;
+            const double factor = !frame.options.normalize_specular ? 1.0 : phong ? (s + 8) / 8 : (s * s + 10 * s + 32) / (8 * (s + 4));
             if (cosine > 0)
                 reflected = reflected +
                             scale(surface.f0, factor * std::pow(std::min(cosine, 1.0), phong ? s / 4 : s) * n_dot_l * (1.0 - hidden.hard));

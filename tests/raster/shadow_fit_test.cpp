@@ -1,6 +1,6 @@
 // Shadow maps that fit: the shadow of a box against rays, for lamps far away and wide floors, and planes that face their light.
-#include "tests/raster/shadow_setup.hpp"
 #include "sh/vec3d.hpp"
+#include "tests/raster/shadow_setup.hpp"
 #include "tests/support/random.hpp"
 
 #include <algorithm>
@@ -15,7 +15,8 @@ namespace {
 /// True if the segment meets the box [low, high].
 bool meets(Vec3d from, Vec3d to, Vec3d low, Vec3d high) {
     double enter = 0.0, leave = 1.0;
-    for (const auto& [a, b, l, h] : {std::array{from.x, to.x, low.x, high.x}, {from.y, to.y, low.y, high.y}, {from.z, to.z, low.z, high.z}}) {
+    for (const auto& [a, b, l, h] :
+         {std::array{from.x, to.x, low.x, high.x}, {from.y, to.y, low.y, high.y}, {from.z, to.z, low.z, high.z}}) {
         const double d = b - a;
         if (d == 0.0) {
             if (a < l || a > h) return false;

@@ -235,7 +235,8 @@ TEST_CASE("shadow kernel: wrapped light does not return where a surface turns aw
             for (int k = 0; k < 200; ++k) {
                 const float x = -lobe.wrap * static_cast<float>(k) / 200;
                 // Position whose look-up, 3 texels of the small map off the surface, is |x| farther.
-                const float sine = std::sqrt(1 - x * x), off = kShadowNormalOffset * setup.plan.shadow_maps[0].texel_size * sine * x;
+                const float sine = std::sqrt(1 - x * x),
+                            off = setup.plan.shadow_maps[0].offset * setup.plan.shadow_maps[0].texel_size * sine * x;
                 FragmentBlock block = uniform({0, 0, x - off}, {sine, 0, x});
                 setup.shade(Isa::scalar, block);
                 const float left = block.red[0];

@@ -59,7 +59,7 @@ struct ShadingSettings {
     ShadingRate rate = ShadingRate::pixel;          ///< how often light is evaluated
     std::optional<Lobe> lobe;                       ///< replaces the lobe of all materials but those with Material::has_own_lobe
     SpecularModel specular = SpecularModel::blinn;  ///< none: no specular stage, albedo is the base colour itself
-    bool normalize_specular = true;  ///< times (s + 8) / 8, so that sharper highlights are brighter; off: a peak of 1 for every exponent
+    bool normalize_specular = true;  ///< sharper highlights are brighter, for the same light in all; off: a peak of 1 for every exponent
     int environment_bands = 0;       ///< of spherical harmonics, 1..10; 0: the fewest whose error is within environment_tolerance
     double environment_tolerance = 1.0 / 510.0;  ///< relative to display white, in linear light; the default is half an 8-bit code
     Accuracy accuracy = Accuracy::exact;         ///< exact if there is an error budget
