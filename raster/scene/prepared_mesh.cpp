@@ -156,14 +156,6 @@ const char* what_is_wrong(const Mesh& mesh) {
 
 }  // namespace
 
-int flat_axis(const Cluster& cluster) {
-    const auto extent = [&](int axis) { return cluster.max[axis] - cluster.min[axis]; };
-    const float size = std::max({extent(0), extent(1), extent(2)});
-    for (int axis = 0; axis < 3; ++axis)
-        if (extent(axis) <= 1e-6f * size) return axis;
-    return -1;
-}
-
 Result<PreparedMesh> prepare_mesh(const Mesh& mesh, Executor& executor) {
     if (const char* wrong = what_is_wrong(mesh)) return fail(ErrorCode::bad_input, wrong);
     PreparedMesh prepared;
@@ -204,12 +196,12 @@ Result<PreparedMesh> prepare_mesh(const Mesh& mesh, Executor& executor) {
         const Cluster& cluster = prepared.clusters[c];
         prepared.finite &= cluster.finite;
         if (cluster.min[0] > cluster.max[0]) continue;
-        prepared.has_flat_clusters |= flat_axis(cluster) >= 0;
         Bounds& box = prepared.superclusters[c / kSuperclusterSize];
         box.add(Vec3f{cluster.min[0], cluster.min[1], cluster.min[2]});
         box.add(Vec3f{cluster.max[0], cluster.max[1], cluster.max[2]});
     }
     for (const Bounds& box : prepared.superclusters) prepared.bounds.include(box);
+    prepared.faces = find_flat_faces(mesh);
     return prepared;
 }
 

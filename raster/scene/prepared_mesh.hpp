@@ -3,6 +3,7 @@
 
 #include "halflit/error.hpp"
 #include "halflit/mesh.hpp"
+#include "raster/scene/flat_faces.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -32,9 +33,6 @@ struct Cluster {
     bool finite;                ///< every vertex is finite
 };
 
-/// The object-space axis along which all of a cluster lies in one plane, but for 1e-6 of its size; -1 if there is none.
-[[nodiscard]] int flat_axis(const Cluster& cluster);
-
 /// Clusters per supercluster: searches test the box of a supercluster before those of its clusters.
 inline constexpr std::size_t kSuperclusterSize = 32;
 
@@ -46,7 +44,7 @@ struct PreparedMesh {
     float largest_uv = 0;                      ///< the largest magnitude of a texture coordinate
     float largest_color = 1;                   ///< the largest red, green or blue of the vertex colours, at least 1
     bool finite = true;                        ///< every used vertex is finite
-    bool has_flat_clusters = false;            ///< flat_axis() finds one
+    FlatFaces faces;                           ///< floors and walls, object space
 
     [[nodiscard]] std::size_t cluster_count() const { return clusters.empty() ? 0 : clusters.size() - 1; }
     [[nodiscard]] std::span<const std::uint32_t> groups_of(std::size_t cluster) const {

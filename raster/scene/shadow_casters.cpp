@@ -1,7 +1,6 @@
 #include "raster/scene/shadow_casters.hpp"
 
 #include "raster/detail/view_math.hpp"
-#include "raster/scene/placed_box.hpp"
 #include "sh/mat4.hpp"
 
 #include <algorithm>
@@ -9,124 +8,106 @@
 namespace halflit::raster {
 namespace {
 
-constexpr std::size_t kMostSolids = 64;  ///< boxes; more are merged, neighbours in the scene's order first
-constexpr std::size_t kMostPlanes = 64;  ///< further ones count as solids
-/// Distance that counts as none, as a share of the coordinates: above the rounding of positions, below any step of a model.
-constexpr double kSlack = 4e-6;
+/// World axis that each object axis lies along, and its direction there.
+struct AxisMap {
+    int axis[3] = {0, 1, 2};
+    bool flipped[3] = {};
+};
 
-double largest_coordinate(const Bounds& b) {
-    double largest = 0.0;
-    for (const float v : {b.min.x, b.min.y, b.min.z, b.max.x, b.max.y, b.max.z}) largest = larger(largest, magnitude(double{v}));
-    return largest;
+/// Returns false unless each object axis lies along a world axis, but for 1e-6.
+bool find_axes(const Mat4& m, AxisMap& map) {
+    bool taken[3] = {};
+    for (int k = 0; k < 3; ++k) {
+        const Vec3f c{m.c[k].x, m.c[k].y, m.c[k].z};
+        const double size = std::max({magnitude(c.x), magnitude(c.y), magnitude(c.z)});
+        int along = -1;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (magnitude(component(c, axis)) <= 1e-6 * size) continue;
+            if (along >= 0) return false;
+            along = axis;
+        }
+        if (along < 0 || taken[along]) return false;
+        taken[along] = true;
+        map.axis[k] = along;
+        map.flipped[k] = component(c, along) < 0.0f;
+    }
+    return true;
 }
 
-Vec3d corner(const Bounds& b, int k) { return {k & 1 ? b.max.x : b.min.x, k & 2 ? b.max.y : b.min.y, k & 4 ? b.max.z : b.min.z}; }
+Bounds placed(const Bounds& box, const Mat4& m) {
+    Bounds out;
+    if (box.empty) return out;
+    out.add(transform_point(m, box.min));
+    out.add(transform_point(m, box.max));
+    return out;
+}
 
-class Collector {
-public:
-    explicit Collector(const Scene& scene) : scene_(scene) {}
-
-    void add(const Instance& instance, const Mesh& mesh, const PreparedMesh& prepared, const Bounds& box) {
-        if (box.empty) return;
-        const bool blended = mesh.material >= 0 && scene_.materials[static_cast<std::size_t>(mesh.material)].alpha_mode == AlphaMode::blend;
-        if (!prepared.has_flat_clusters || !prepared.finite) return add_solid(box);
-        for (std::size_t c = 0; c < prepared.cluster_count(); ++c) {
-            const Cluster& cluster = prepared.clusters[c];
-            if (!(cluster.min[0] <= cluster.max[0])) continue;
-            const PlacedBox placed(cluster.min, cluster.max, instance.world_from_object);
-            const auto low = [&](int axis, float least) { return std::max(static_cast<float>(placed.low[axis]), least); };
-            const auto high = [&](int axis, float most) { return std::min(static_cast<float>(placed.high[axis]), most); };
-            const Bounds part{{low(0, box.min.x), low(1, box.min.y), low(2, box.min.z)},
-                              {high(0, box.max.x), high(1, box.max.y), high(2, box.max.z)},
-                              false};
-            const int axis = flat_axis(cluster);
-            if (axis < 0 || !add_flat(part, plane_normal(instance.world_from_object, axis), !blended)) add_solid(part);
-        }
-    }
-
-    [[nodiscard]] ShadowCasters finish() {
-        for (FlatCaster& plane : out_.planes)
-            for (const FlatCaster& other : out_.planes) {
-                if (&other == &plane) continue;
-                for (int k = 0; k < 8; ++k) {
-                    const double distance = dot(plane.normal, corner(other.box, k)) - plane.offset;
-                    plane.lowest = std::min(plane.lowest, distance);
-                    plane.highest = std::max(plane.highest, distance);
-                }
-            }
-        return std::move(out_);
-    }
-
-private:
-    /// World-space normal of an object-space plane; zero if it has none.
-    static Vec3d plane_normal(const Mat4& world_from_object, int axis) {
-        const Vec3d n = to_double(normal_matrix(world_from_object).c[axis]);
-        const double size = length(n);
-        return size > 0.0 ? n * (1.0 / size) : Vec3d{};
-    }
-
-    /// Returns false if there are too many planes, or this is none.
-    bool add_flat(const Bounds& box, Vec3d normal, bool casts) {
-        if (normal == Vec3d{}) return false;
-        // The box of a tilted plane is thick; its middle lies in the plane.
-        const double offset = dot(normal, (corner(box, 0) + corner(box, 7)) * 0.5), slack = kSlack * largest_coordinate(box);
-        for (FlatCaster& known : out_.planes) {
-            const double along = dot(known.normal, normal);
-            if (known.casts != casts || !(magnitude(along) > 1.0 - 1e-10)) continue;
-            if (magnitude(known.offset - (along < 0 ? -offset : offset)) > std::min(slack, known.slack)) continue;
-            known.box.include(box);
-            known.slack = std::max(known.slack, slack);
-            return true;
-        }
-        if (out_.planes.size() == kMostPlanes) return false;
-        out_.planes.push_back({box, normal, offset, slack, casts, 0.0, 0.0});
-        return true;
-    }
-
-    void add_solid(const Bounds& box) {
-        std::vector<Bounds>& solids = out_.solids;
-        if (in_last_ == merged_ || solids.empty()) {
-            if (solids.size() == kMostSolids) {
-                for (std::size_t i = 0; i < kMostSolids / 2; ++i) {
-                    solids[i] = solids[2 * i];
-                    solids[i].include(solids[2 * i + 1]);
-                }
-                solids.resize(kMostSolids / 2);
-                merged_ *= 2;
-            }
-            solids.emplace_back();
-            in_last_ = 0;
-        }
-        solids.back().include(box);
-        ++in_last_;
-    }
-
-    const Scene& scene_;
-    ShadowCasters out_;
-    std::size_t merged_ = 1, in_last_ = 0;  // boxes in each solid, and in the last one
+/// What an instance adds, in world space. blended: it casts no shadow.
+struct Part {
+    FlatFaces faces;
+    bool blended = false;
 };
+
+Part part_of(const Instance& instance, const PreparedMesh& mesh, const Bounds& box, bool blended) {
+    Part part{{}, blended};
+    AxisMap map;
+    if (mesh.faces.flats.empty || !find_axes(instance.world_from_object, map)) {
+        part.faces.rest = box;
+        return part;
+    }
+    part.faces.flats = placed(mesh.faces.flats, instance.world_from_object);
+    part.faces.rest = placed(mesh.faces.rest, instance.world_from_object);
+    for (int k = 0; k < 3; ++k)
+        for (const bool high : {false, true})
+            part.faces.faces[face_of(map.axis[k], high != map.flipped[k])] =
+                placed(mesh.faces.faces[face_of(k, high)], instance.world_from_object);
+    return part;
+}
 
 }  // namespace
 
-std::vector<Bounds> ShadowCasters::of_light(Vec3d position, bool directional) const {
-    std::vector<Bounds> boxes = solids;
-    for (const FlatCaster& plane : planes) {
-        if (!plane.casts) continue;
-        const double side = dot(plane.normal, position) - (directional ? 0.0 : plane.offset);
-        const double edge_on = directional ? 1e-6 : plane.slack;
-        const bool nothing_behind = side > edge_on ? plane.lowest >= -plane.slack : side < -edge_on && plane.highest <= plane.slack;
-        if (!nothing_behind) boxes.push_back(plane.box);
-    }
+std::vector<Bounds> ShadowCasters::of_light(Vec3d place, bool directional) const {
+    std::vector<Bounds> boxes;
+    if (!rest.empty) boxes.push_back(rest);
+    const double at[3] = {place.x, place.y, place.z};
+    for (int axis = 0; axis < 3; ++axis)
+        for (const bool high : {false, true}) {
+            const Bounds& face = faces[face_of(axis, high)];
+            if (face.empty) continue;
+            const double end = directional ? 0.0 : double{component(high ? flats.max : flats.min, axis)};
+            const double inwards = high ? end - at[axis] : at[axis] - end;
+            if (!(inwards > (directional ? 1e-6 : double{slack}))) boxes.push_back(face);
+        }
     return boxes;
 }
 
 ShadowCasters collect_shadow_casters(const Scene& scene, std::span<const PreparedMesh> meshes, std::span<const Bounds> boxes) {
-    Collector collector(scene);
-    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-        const auto mesh = static_cast<std::size_t>(scene.instances[i].mesh);
-        if (!scene.meshes[mesh].indices.empty()) collector.add(scene.instances[i], scene.meshes[mesh], meshes[mesh], boxes[i]);
-    }
-    return collector.finish();
+    const auto each_part = [&](const auto& f) {
+        for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+            const Instance& instance = scene.instances[i];
+            const auto index = static_cast<std::size_t>(instance.mesh);
+            const Mesh& mesh = scene.meshes[index];
+            if (boxes[i].empty || mesh.indices.empty()) continue;
+            const bool blended =
+                mesh.material >= 0 && scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode == AlphaMode::blend;
+            f(part_of(instance, meshes[index], boxes[i], blended));
+        }
+    };
+    ShadowCasters out;
+    each_part([&](const Part& part) { out.flats.include(part.faces.flats); });
+    out.slack = out.flats.empty ? 0.0f : face_slack(out.flats);
+    each_part([&](const Part& part) {
+        out.rest.include(part.faces.rest);
+        for (int axis = 0; axis < 3; ++axis)
+            for (const bool high : {false, true}) {
+                const Bounds& face = part.faces.faces[face_of(axis, high)];
+                if (face.empty || part.blended) continue;
+                const float off = high ? component(out.flats.max, axis) - component(face.max, axis)
+                                       : component(face.min, axis) - component(out.flats.min, axis);
+                (off <= out.slack ? out.faces[face_of(axis, high)] : out.rest).include(face);
+            }
+    });
+    return out;
 }
 
 }  // namespace halflit::raster

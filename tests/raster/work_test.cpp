@@ -53,6 +53,11 @@ struct Square {
         scene.lights.push_back(light);
         return scene.lights.back();
     }
+    /// Out of the picture. Without one, nothing casts a shadow, and there are no maps.
+    void add_caster() {
+        scene.meshes.push_back(make_sphere(0.1f, 8, 4));
+        scene.instances.push_back({static_cast<int>(scene.meshes.size()) - 1, translation({3, 0, 0})});
+    }
     void add_texture() {
         scene.textures.push_back(Texture::from_rgba8(std::vector<std::uint8_t>(4 * 16, 200), 4, 4, ColorSpace::linear).value());
     }
@@ -108,12 +113,14 @@ TEST_CASE("work: each light is evaluated once a fragment, and only the kinds tha
     check_stages(square.work(), kStageAmbient);
 }
 
-TEST_CASE("work: shadow look-ups are those of the lights that have a map, none without shadows", "[raster][work]") {
+TEST_CASE("work: shadow look-ups are those of the lights that have a map, none without shadows or casters", "[raster][work]") {
     Square square;
     for (const LightType type : {LightType::directional, LightType::point, LightType::spot}) square.add_light(type);
     CHECK(square.work().shadow_lookup_lanes == 0);
     square.settings.shadow_size = 64;
     square.settings.shadows = ShadowMode::hard;
+    CHECK(square.work().shadow_lookup_lanes == 0);
+    square.add_caster();
     CHECK(square.work().shadow_lookup_lanes == 3 * kPixels);
     square.settings.shadows = ShadowMode::soft_split;
     CHECK(square.work().shadow_lookup_lanes == 3 * kPixels);
@@ -161,6 +168,7 @@ TEST_CASE("work: Gouraud lights the vertices, flat shading the triangles, both l
     square.settings.shading.specular = SpecularModel::none;
     square.settings.shadow_size = 64;
     square.settings.shadows = ShadowMode::hard;
+    square.add_caster();
     square.add_light(LightType::point);
     square.settings.shading.rate = ShadingRate::gouraud;
     WorkCounts work = square.work();

@@ -1,0 +1,65 @@
+#include "raster/scene/flat_faces.hpp"
+
+#include "raster/detail/view_math.hpp"
+
+#include <algorithm>
+
+namespace halflit::raster {
+namespace {
+
+struct Triangle {
+    Vec3f low, high;  // its box
+
+    explicit Triangle(const Mesh& mesh, std::size_t i) {
+        const Vec3f &a = mesh.positions[mesh.indices[i]], &b = mesh.positions[mesh.indices[i + 1]], &c = mesh.positions[mesh.indices[i + 2]];
+        low = {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})};
+        high = {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})};
+        is_finite = finite(a) && finite(b) && finite(c);
+    }
+    void add_to(Bounds& bounds) const {
+        bounds.add(low);
+        bounds.add(high);
+    }
+    /// The axis that its plane lies across; -1: none.
+    [[nodiscard]] int flat_axis() const {
+        const Vec3f extent = high - low;
+        const float size = std::max({extent.x, extent.y, extent.z});
+        if (extent.y <= 1e-6f * size) return 1;  // floors are what there is most of
+        return extent.x <= 1e-6f * size ? 0 : extent.z <= 1e-6f * size ? 2 : -1;
+    }
+
+    bool is_finite;
+};
+
+}  // namespace
+
+float face_slack(const Bounds& b) {
+    float largest = 0.0f;
+    for (const float v : {b.min.x, b.min.y, b.min.z, b.max.x, b.max.y, b.max.z}) largest = std::max(largest, v < 0 ? -v : v);
+    return 4e-6f * largest;
+}
+
+FlatFaces find_flat_faces(const Mesh& mesh) {
+    FlatFaces out;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const Triangle triangle(mesh, i);
+        if (triangle.is_finite && triangle.flat_axis() >= 0) triangle.add_to(out.flats);
+    }
+    const float slack = out.flats.empty ? 0.0f : face_slack(out.flats);
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const Triangle triangle(mesh, i);
+        if (!triangle.is_finite) continue;
+        const int axis = triangle.flat_axis();
+        Bounds* group = &out.rest;
+        if (axis >= 0) {
+            if (component(triangle.low, axis) <= component(out.flats.min, axis) + slack)
+                group = &out.faces[face_of(axis, false)];
+            else if (component(triangle.high, axis) >= component(out.flats.max, axis) - slack)
+                group = &out.faces[face_of(axis, true)];
+        }
+        triangle.add_to(*group);
+    }
+    return out;
+}
+
+}  // namespace halflit::raster
