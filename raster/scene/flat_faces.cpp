@@ -11,7 +11,8 @@ struct Triangle {
     Vec3f low, high;  // its box
 
     explicit Triangle(const Mesh& mesh, std::size_t i) {
-        const Vec3f &a = mesh.positions[mesh.indices[i]], &b = mesh.positions[mesh.indices[i + 1]], &c = mesh.positions[mesh.indices[i + 2]];
+        const Vec3f &a = mesh.positions[mesh.indices[i]], &b = mesh.positions[mesh.indices[i + 1]],
+                    &c = mesh.positions[mesh.indices[i + 2]];
         low = {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})};
         high = {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})};
         is_finite = finite(a) && finite(b) && finite(c);
