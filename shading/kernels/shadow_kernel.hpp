@@ -71,22 +71,24 @@ HALFLIT_INLINE MapPoint flat_point(const shading::ShadowMapPlan& map, V3 p) {
     return at;
 }
 
-/// The place where a fragment is looked up: off its surface, so that a plane does not hide itself. texel: its width at the fragment.
+/// A point moved off its surface, so that a plane does not hide itself. along_axis: cosine between the normal and the map's axis.
+HALFLIT_INLINE V3 off_surface(const shading::ShadowMapPlan& map, V3 p, V3 normal, F texel, F along_axis) {
+    const F sine = vsqrt(vmax(F(1.0f) - along_axis * along_axis, F(0.0f)));
+    return p + normal * ((texel * F(map.offset)) * sine);
+}
+
+/// The place where a fragment is looked up. texel: set to a texel's width at the fragment.
 HALFLIT_INLINE MapPoint map_point(const shading::ShadowMapPlan& map, V3 p, V3 normal, F& texel) {
     texel = F(map.texel_size);
-    const auto moved = [&](F normal_along_axis) {
-        const F sine = vsqrt(vmax(F(1.0f) - normal_along_axis * normal_along_axis, F(0.0f)));
-        return p + normal * ((texel * F(map.offset)) * sine);
-    };
     if (map.kind == shading::ShadowMapPlan::Kind::cube) {
         const V3 origin = broadcast(map.origin), offset = p - origin;
         const CubeFace face(offset);
         texel = texel * vabs(face.along(offset));
-        return cube_point(map, face, moved(face.along(normal)) - origin);
+        return cube_point(map, face, off_surface(map, p, normal, texel, face.along(normal)) - origin);
     }
     if (map.kind == shading::ShadowMapPlan::Kind::perspective) texel = texel * vmax(row_product(map.rows[2], p), F(0.0f));
-    const float(&axis)[4] = map.rows[2];
-    return flat_point(map, moved((F(axis[0]) * normal.x + F(axis[1]) * normal.y) + F(axis[2]) * normal.z));
+    const F along_axis = (F(map.rows[2][0]) * normal.x + F(map.rows[2][1]) * normal.y) + F(map.rows[2][2]) * normal.z;
+    return flat_point(map, off_surface(map, p, normal, texel, along_axis));
 }
 
 /// Fading of wrapped light with the blocker's distance: MaterialPlan::shadow_fade_scale and shadow_turn_scale. scale 0: shadows cut it off.
