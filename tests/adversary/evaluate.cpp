@@ -1,0 +1,116 @@
+#include "tests/adversary/evaluate.hpp"
+
+#include "shading/reference/reference.hpp"
+#include "tests/adversary/whole_sky.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace halflit::adversary {
+namespace {
+
+struct Drawn {
+    std::vector<float> linear, normal;
+    std::vector<std::uint32_t> instance, triangle;
+    RenderReport report;
+};
+
+Result<Drawn> draw(Renderer& renderer, const Trial& trial, const Scene& scene, Accuracy accuracy, double codes) {
+    const std::size_t pixels = static_cast<std::size_t>(trial.width) * static_cast<std::size_t>(trial.height);
+    Drawn out{std::vector<float>(4 * pixels), std::vector<float>(3 * pixels), std::vector<std::uint32_t>(pixels), std::vector<std::uint32_t>(pixels), {}};
+    Settings settings = trial.settings;
+    settings.shading.accuracy = accuracy;
+    settings.shading.max_error_codes = codes;
+    Target target{trial.width, trial.height, nullptr, out.linear.data()};
+    target.normal = out.normal.data();
+    target.instance = out.instance.data();
+    target.triangle = out.triangle.data();
+    Execution execution;
+    execution.threads = 1;
+    auto report = renderer.render(scene, trial.camera, settings, target, execution);
+    if (!report) return tl::unexpected<Error>(report.error());
+    out.report = *std::move(report);
+    return out;
+}
+
+/// The bound holds for a pixel that one surface fills (ErrorBound). With one sample each pixel is. With more, those are taken whose
+/// neighbours show the same triangle: a triangle that holds their first samples holds all samples between them.
+bool filled(const Trial& trial, const Drawn& picture, int x, int y) {
+    const auto at = [&](int i, int j) {
+        const auto k = static_cast<std::size_t>(j * trial.width + i);
+        return std::pair(picture.instance[k], picture.triangle[k]);
+    };
+    if (at(x, y).first == 0) return false;
+    if (trial.settings.samples == 1) return true;
+    if (x == 0 || y == 0 || x + 1 == trial.width || y + 1 == trial.height) return false;
+    for (int j = y - 1; j <= y + 1; ++j)
+        for (int i = x - 1; i <= x + 1; ++i)
+            if (at(i, j) != at(x, y)) return false;
+    return true;
+}
+
+/// Code distance of a value to the interval [truth - slack, truth + slack].
+double codes_off(double value, double truth, double slack) {
+    using shading::reference::srgb_code;
+    if (value > truth) return std::max(0.0, srgb_code(value) - srgb_code(truth + slack));
+    return std::max(0.0, srgb_code(truth - slack) - srgb_code(value));
+}
+
+/// Raises the verdict to the worst pixel of the picture against `truth`, RGBA as in a Target; `slack` is the error of the truth itself.
+void compare(const Trial& trial, const Drawn& picture, const std::vector<float>& truth, double slack, Truth kind, Verdict& verdict) {
+    const double bound = std::max(picture.report.error.codes, 1e-9);
+    for (int y = 0; y < trial.height; ++y)
+        for (int x = 0; x < trial.width; ++x) {
+            if (!filled(trial, picture, x, y)) continue;
+            for (int c = 0; c < 3; ++c) {
+                const auto i = static_cast<std::size_t>(4 * (y * trial.width + x) + c);
+                if (picture.linear[i] == truth[i]) continue;
+                const double drawn = picture.linear[i], wanted = truth[i], off = codes_off(drawn, wanted, slack);
+                if (!(off > verdict.measured)) continue;
+                verdict.measured = off;
+                verdict.ratio = off / bound;
+                verdict.truth = kind;
+                verdict.x = x, verdict.y = y, verdict.channel = c;
+                verdict.drawn = drawn, verdict.true_value = wanted;
+            }
+        }
+}
+
+}  // namespace
+
+Term Verdict::term() const {
+    const double parts[kTerms] = {bound.rounding, bound.lobes, bound.specular, bound.environment, bound.left_out};
+    return static_cast<Term>(std::max_element(parts, parts + kTerms) - parts);
+}
+
+Verdict Judge::judge(const Trial& trial) {
+    Verdict verdict;
+    const auto picture = draw(budgeted_, trial, trial.scene, Accuracy::exact, trial.settings.shading.max_error_codes);
+    if (!picture) {
+        verdict.refused = picture.error().message;
+        return verdict;
+    }
+    verdict.bound = picture->report.error;
+    // A bound of 255 codes promises nothing.
+    if (verdict.bound.codes >= 255.0 || picture->report.pixels_visible == 0) return verdict;
+    // The whole sky is the better truth where it applies, and much the quicker one: the reference prepares each environment for a second.
+    if (!whole_sky_applies(trial)) {
+        const auto truth = draw(reference_, trial, trial.scene, Accuracy::reference, 0);
+        if (truth)
+            compare(trial, *picture, truth->linear, reference_slack(trial), Truth::reference, verdict);
+        else
+            verdict.refused = truth.error().message;
+        return verdict;
+    }
+    Scene without_sky = trial.scene;
+    set_environment(without_sky, nullptr);
+    const auto rest = draw(reference_, trial, without_sky, Accuracy::reference, 0);
+    if (!rest) return verdict;
+    std::vector<float> sum = rest->linear;
+    const double slack = add_whole_sky(trial, picture->instance, picture->normal, sum);
+    compare(trial, *picture, sum, slack, Truth::whole_sky, verdict);
+    return verdict;
+}
+
+}  // namespace halflit::adversary

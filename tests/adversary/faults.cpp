@@ -1,0 +1,32 @@
+#include "tests/adversary/faults.hpp"
+
+namespace halflit::adversary {
+namespace {
+
+constexpr KnownFault kKnown[] = {
+    {"soft-split: the excess of a wrapped lobe over max(0, N.L) is nearly black where the curve's absolute error is not", kAvoidSoftSplit, "", true},
+    {"a metal's highlight times its texture: the normalisation (s + 8) / 8 is left out of the bound on the texture's error", kAvoidMetalTextures, "", true},
+    {"suns taken out of an environment become points of light: their size is not in the bound, nor in the reference", kAvoidSuns, "", true},
+    {"zero normals under an environment are documented as dark, and get the light of some direction", kAvoidZeroNormals, "", true},
+    {"texture coordinates that are NaN under a normal map make the reference NaN", kAvoidOddCoordinates, "", true},
+};
+
+}  // namespace
+
+std::span<const KnownFault> known_faults() { return kKnown; }
+
+AvoidSet avoided() {
+    AvoidSet all = 0;
+    for (const KnownFault& fault : kKnown) all |= fault.open ? fault.avoid : 0u;
+    return all;
+}
+
+std::string explanation(Judge& judge, const Genome& genome) {
+    if (judge.judge(genome, avoided()).broken()) return "";
+    std::string text;
+    for (const KnownFault& fault : kKnown)
+        if (fault.open && !judge.judge(genome, fault.avoid).broken()) text += (text.empty() ? "" : " or ") + std::string(fault.what);
+    return text.empty() ? "several known faults together" : text;
+}
+
+}  // namespace halflit::adversary

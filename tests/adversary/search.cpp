@@ -1,0 +1,121 @@
+#include "tests/adversary/search.hpp"
+
+#include "tests/adversary/whole_sky.hpp"
+
+#include <chrono>
+
+namespace halflit::adversary {
+namespace {
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+class Search {
+public:
+    Search(const SearchOptions& options, const std::function<void(const Found&)>& on_broken)
+        : options_(options), on_broken_(on_broken), numbers_(options.seed ^ 0xC11B5u), begin_(now()) {}
+
+    SearchResult run() {
+        for (std::uint64_t restart = 0; !over(); ++restart) climb(best_fresh(restart));
+        result_.seconds = now() - begin_;
+        return std::move(result_);
+    }
+
+private:
+    [[nodiscard]] bool over() const {
+        return result_.scenes >= options_.scenes || now() - begin_ >= options_.seconds || (options_.stop_at_first && !result_.broken.empty());
+    }
+
+    Found tried(const Genome& genome, const Trial& trial) {
+        Found found{genome, judge_.judge(trial), ++result_.scenes};
+        const Verdict& v = found.verdict;
+        if (!v.refused.empty()) ++result_.refused;
+        if (v.bound.codes > 0 && v.bound.codes < 255) {
+            ++result_.drawn;
+            result_.within += v.bound.within ? 1 : 0;
+        }
+        if (v.ratio > result_.worst.verdict.ratio) result_.worst = found;
+        Found& of_term = result_.worst_of_term[static_cast<int>(v.term())];
+        if (v.ratio > of_term.verdict.ratio) of_term = found;
+        return found;
+    }
+
+    Found best_fresh(std::uint64_t restart) {
+        Found best;
+        for (int i = 0; i < options_.fresh_per_climb && !over(); ++i) {
+            const Genome genome = random_genome(options_.seed, restart * static_cast<std::uint64_t>(options_.fresh_per_climb) + static_cast<std::uint64_t>(i));
+            Found found = tried(genome, make_trial(genome, options_.avoid));
+            if (found.verdict.ratio > best.verdict.ratio || i == 0) best = std::move(found);
+            if (best.verdict.broken()) break;
+        }
+        return best;
+    }
+
+    /// The reference takes a second for each new environment and each new lobe under one, so that climbs there leave both as they are.
+    static GeneSet changeable(const Trial& trial) {
+        GeneSet read = trial.read;
+        if (trial.scene.environment == nullptr || whole_sky_applies(trial)) return read;
+        for (const int section : {int{kSky}, int{kMaterial}})
+            for (int i = 0; i < kSectionGenes; ++i) read.reset(static_cast<std::size_t>(section * kSectionGenes + i));
+        return read;
+    }
+
+    void climb(Found best) {
+        // A climb that is far below 1 and stays there is not worth its time.
+        const Trial first = make_trial(best.genome, options_.avoid);
+        GeneSet read = changeable(first);
+        const int patience = options_.climb_steps / (first.scene.environment != nullptr ? 4 : 1);  // such scenes take long
+        int idle = best.verdict.ratio > 0 ? patience : 0, steps = 0;
+        while (idle > 0 && !over() && !best.verdict.broken()) {
+            const Genome genome = mutated(best.genome, read, numbers_);
+            const Trial trial = make_trial(genome, options_.avoid);
+            Found next = tried(genome, trial);
+            --idle, ++steps;
+            if (!(next.verdict.ratio > best.verdict.ratio)) continue;
+            if (next.verdict.ratio > 1.05 * best.verdict.ratio) idle = patience;
+            best = std::move(next);
+            read = changeable(trial);
+            if (steps > 400) break;
+        }
+        if (!best.verdict.broken()) return;
+        result_.broken.push_back(best);
+        if (on_broken_) on_broken_(best);
+    }
+
+    const SearchOptions& options_;
+    const std::function<void(const Found&)>& on_broken_;
+    Numbers numbers_;
+    double begin_;
+    Judge judge_;
+    SearchResult result_;
+};
+
+}  // namespace
+
+SearchResult search(const SearchOptions& options, const std::function<void(const Found&)>& on_broken) { return Search(options, on_broken).run(); }
+
+Genome shrunk(Judge& judge, const Genome& genome, AvoidSet avoid, double keep, int tries) {
+    Genome best = genome;
+    const GeneSet read = make_trial(best, avoid).read;
+    for (std::size_t i = 0; i < kGenes; ++i)
+        if (!read[i]) best[i] = 0;
+    if (!(judge.judge(best, avoid).ratio > keep)) best = genome;
+    // Sections first, then single genes, until nothing changes.
+    for (std::size_t step = kSectionGenes; step >= 1 && tries > 0; step = step == 1 ? 0 : step / 4 < 1 ? 1 : step / 4) {
+        for (bool changed = true; changed && tries > 0;) {
+            changed = false;
+            for (std::size_t at = 0; at < kGenes && tries > 0; at += step) {
+                Genome smaller = best;
+                for (std::size_t i = at; i < at + step && i < kGenes; ++i) smaller[i] = 0;
+                if (smaller == best) continue;
+                --tries;
+                if (!(judge.judge(smaller, avoid).ratio > keep)) continue;
+                best = smaller;
+                changed = true;
+            }
+        }
+        if (step == 1) break;
+    }
+    return best;
+}
+
+}  // namespace halflit::adversary
