@@ -105,7 +105,7 @@ Verdict Judge::judge(const Trial& trial) {
     }
     Scene without_sky = trial.scene;
     set_environment(without_sky, nullptr);
-    const auto rest = draw(reference_, trial, without_sky, Accuracy::reference, 0);
+    const auto rest = draw(rest_, trial, without_sky, Accuracy::reference, 0);
     if (!rest) return verdict;
     std::vector<float> sum = rest->linear;
     const double slack = add_whole_sky(trial, picture->instance, picture->normal, sum);

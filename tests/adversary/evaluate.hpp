@@ -39,7 +39,7 @@ public:
     [[nodiscard]] Verdict judge(const Genome& genome, AvoidSet avoid) { return judge(make_trial(genome, avoid)); }
 
 private:
-    Renderer budgeted_, reference_;
+    Renderer budgeted_, reference_, rest_;
 };
 
 }  // namespace halflit::adversary

@@ -90,6 +90,19 @@ EnvironmentImage paint_sky(const SkyRecipe& r) {
     return image;
 }
 
+/// Leaves out what whole_sky_applies() refuses.
+void make_plain(Trial& trial) {
+    trial.settings.shading.specular = SpecularModel::none;
+    trial.settings.shadows = ShadowMode::off;
+    trial.settings.samples = 1;
+    for (Mesh& mesh : trial.scene.meshes) mesh.colors.clear();
+    for (Material& m : trial.scene.materials) {
+        m.base_color_texture = m.occlusion_texture = m.normal_texture = {};
+        m.alpha_mode = AlphaMode::opaque;
+        m.unlit = false;
+    }
+}
+
 struct Sky {
     EnvironmentImage image;
     EnvironmentOptions options;
@@ -135,8 +148,7 @@ void add_sky(const Genome& genome, AvoidSet avoid, Trial& trial) {
         recipe.seed = genes.seed() >> 14;
         recipe.extract = genes.chance(0.5) && (avoid & kAvoidSuns) == 0;
         const bool alone = genes.chance(0.5);
-        if (!genes.chance(0.2)) trial.settings.shading.specular = SpecularModel::none;
-        if (!genes.chance(0.3)) trial.settings.shadows = ShadowMode::off;
+        if (!genes.chance(0.15)) make_plain(trial);
         const Sky& made = prepared_sky(recipe);
         trial.sky = made.image;
         trial.sky_options = made.options;

@@ -50,30 +50,25 @@ private:
         return best;
     }
 
-    /// The reference takes a second for each new environment and each new lobe under one, so that climbs there leave both as they are.
-    static GeneSet changeable(const Trial& trial) {
-        GeneSet read = trial.read;
-        if (trial.scene.environment == nullptr || whole_sky_applies(trial)) return read;
-        for (const int section : {int{kSky}, int{kMaterial}})
-            for (int i = 0; i < kSectionGenes; ++i) read.reset(static_cast<std::size_t>(section * kSectionGenes + i));
-        return read;
-    }
+    /// The reference takes a second for each environment and lobe, so that climbs leave such scenes out.
+    static bool slow(const Trial& trial) { return trial.scene.environment != nullptr && !whole_sky_applies(trial); }
 
     void climb(Found best) {
         // A climb that is far below 1 and stays there is not worth its time.
         const Trial first = make_trial(best.genome, options_.avoid);
-        GeneSet read = changeable(first);
+        GeneSet read = first.read;
         const int patience = options_.climb_steps / (first.scene.environment != nullptr ? 4 : 1);  // such scenes take long
-        int idle = best.verdict.ratio > 0 ? patience : 0, steps = 0;
+        int idle = best.verdict.ratio > 0 && !slow(first) ? patience : 0, steps = 0;
         while (idle > 0 && !over() && !best.verdict.broken()) {
             const Genome genome = mutated(best.genome, read, numbers_);
             const Trial trial = make_trial(genome, options_.avoid);
-            Found next = tried(genome, trial);
             --idle, ++steps;
+            if (slow(trial)) continue;
+            Found next = tried(genome, trial);
             if (!(next.verdict.ratio > best.verdict.ratio)) continue;
             if (next.verdict.ratio > 1.05 * best.verdict.ratio) idle = patience;
             best = std::move(next);
-            read = changeable(trial);
+            read = trial.read;
             if (steps > 400) break;
         }
         if (!best.verdict.broken()) return;
