@@ -21,11 +21,13 @@ AvoidSet avoided() {
     return all;
 }
 
-std::string explanation(Judge& judge, const Genome& genome) {
-    if (judge.judge(genome, avoided()).broken()) return "";
+std::string explanation(Judge& judge, const Genome& genome, AvoidSet avoid) {
+    if (judge.judge(genome, avoid | avoided()).broken()) return "";
     std::string text;
-    for (const KnownFault& fault : kKnown)
-        if (fault.open && !judge.judge(genome, fault.avoid).broken()) text += (text.empty() ? "" : " or ") + std::string(fault.what);
+    for (const KnownFault& fault : kKnown) {
+        const bool present = fault.open && (avoid & fault.avoid) == 0;
+        if (present && !judge.judge(genome, avoid | fault.avoid).broken()) text += (text.empty() ? "" : ", or ") + std::string(fault.what);
+    }
     return text.empty() ? "several known faults together" : text;
 }
 

@@ -22,8 +22,8 @@ struct KnownFault {
 /// Parts that the search leaves out because of open faults.
 [[nodiscard]] AvoidSet avoided();
 
-/// The open faults that explain a broken promise: those whose parts alone make the scene keep it. "together: .." if it takes several; empty
-/// if the scene breaks the promise without any of those parts.
-[[nodiscard]] std::string explanation(Judge& judge, const Genome& genome);
+/// The open faults that explain a promise broken by the genome with `avoid`: those without whose parts the scene keeps it. Empty if the
+/// scene breaks it without the parts of all of them.
+[[nodiscard]] std::string explanation(Judge& judge, const Genome& genome, AvoidSet avoid);
 
 }  // namespace halflit::adversary

@@ -1,5 +1,6 @@
 // halflit_adversary: looks for scenes whose measured error is above the promised bound. `./dev adversary --help`.
 #include "tests/adversary/faults.hpp"
+#include "tests/adversary/glb_writer.hpp"
 #include "tests/adversary/search.hpp"
 
 #include <cstdio>
@@ -31,6 +32,19 @@ void print(const Verdict& v, const char* name) {
                 v.bound.within ? "true" : "false");
 }
 
+/// Writes the scene into the folder, if one was given, and prints how to draw it.
+void write(const Genome& genome, AvoidSet avoid, const std::string& folder, const std::string& name) {
+    if (folder.empty()) return;
+    const Trial trial = make_trial(genome, avoid);
+    const auto flags = write_trial(trial, folder + "/" + name);
+    if (!flags) {
+        std::printf("  not written: %s\n", flags.error().message.c_str());
+        return;
+    }
+    std::printf("  halflit trade %s\n", flags->c_str());
+    std::printf("  halflit render %s --max-error %.9g --report -\n", flags->substr(0, flags->find(" # ")).c_str(), trial.settings.shading.max_error_codes);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -55,6 +69,8 @@ int main(int argc, char** argv) {
             options.stop_at_first = true;
         else if (flag == "--shrink")
             shrink = true;
+        else if (flag == "--out")
+            out = value();
         else if (flag == "--genome")
             genome_text = value(), one = true;
         else
@@ -71,11 +87,12 @@ int main(int argc, char** argv) {
             const Genome small = shrunk(judge, genome, options.avoid, v.broken() ? 1.0 : 0.9 * v.ratio);
             print(judge.judge(small, options.avoid), text_of(small).c_str());
         }
+        write(genome, options.avoid, out, "scene");
         return v.broken() ? 1 : 0;
     }
     int unknown = 0;
     const SearchResult result = search(options, [&](const Found& found) {
-        const std::string why = explanation(judge, found.genome);
+        const std::string why = explanation(judge, found.genome, options.avoid);
         unknown += why.empty() ? 1 : 0;
         print(found.verdict, "broken promise");
         std::printf("  scene %llu of seed %llu; %s\n", static_cast<unsigned long long>(found.scene), static_cast<unsigned long long>(options.seed),
@@ -83,6 +100,7 @@ int main(int argc, char** argv) {
         const Genome small = shrunk(judge, found.genome, options.avoid, std::max(1.0, 0.5 * found.verdict.ratio), 400);
         print(judge.judge(small, options.avoid), "  made small");
         std::printf("  --avoid %u --genome %s\n", options.avoid, text_of(small).c_str());
+        write(small, options.avoid, out, "seed" + std::to_string(options.seed) + "_scene" + std::to_string(found.scene));
         std::fflush(stdout);
     });
     std::printf("seed %llu: %llu scenes in %.1f s (%.0f a second), %llu compared, %llu within their budget, %llu refused, %zu broken promises\n",

@@ -38,7 +38,7 @@ Material some_material(Genes& genes) {
     m.metallic = genes.chance(0.5) ? genes.real32(1, 0) : 0.0f;
     genes.skip(m.metallic > 0 ? 0 : 1);
     m.roughness = genes.real32(1, 0);
-    if (genes.chance(0.15)) m.roughness *= 0.125f;
+    if (genes.chance(0.3)) m.roughness *= 0.125f;
     const bool glows = genes.chance(0.15);
     const Vec3f glow = some_color(genes);
     const float glow_level = genes.octaves32(0x1p-10, 12);

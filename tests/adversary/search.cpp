@@ -15,7 +15,10 @@ public:
         : options_(options), on_broken_(on_broken), numbers_(options.seed ^ 0xC11B5u), begin_(now()) {}
 
     SearchResult run() {
-        for (std::uint64_t restart = 0; !over(); ++restart) climb(best_fresh(restart));
+        for (std::uint64_t restart = 0; !over(); ++restart) {
+            wanted_ = static_cast<int>(restart % (kTerms + 1));
+            climb(best_fresh(restart));
+        }
         result_.seconds = now() - begin_;
         return std::move(result_);
     }
@@ -23,6 +26,11 @@ public:
 private:
     [[nodiscard]] bool over() const {
         return result_.scenes >= options_.scenes || now() - begin_ >= options_.seconds || (options_.stop_at_first && !result_.broken.empty());
+    }
+
+    /// What a climb raises. Each part of the bound has climbs of its own, or all would end where bounds are tightest; the last is for all.
+    [[nodiscard]] double score(const Verdict& v) const {
+        return v.broken() || wanted_ == kTerms || static_cast<int>(v.term()) == wanted_ ? v.ratio : 0.1 * v.ratio;
     }
 
     Found tried(const Genome& genome, const Trial& trial) {
@@ -44,7 +52,7 @@ private:
         for (int i = 0; i < options_.fresh_per_climb && !over(); ++i) {
             const Genome genome = random_genome(options_.seed, restart * static_cast<std::uint64_t>(options_.fresh_per_climb) + static_cast<std::uint64_t>(i));
             Found found = tried(genome, make_trial(genome, options_.avoid));
-            if (found.verdict.ratio > best.verdict.ratio || i == 0) best = std::move(found);
+            if (score(found.verdict) > score(best.verdict) || i == 0) best = std::move(found);
             if (best.verdict.broken()) break;
         }
         return best;
@@ -65,8 +73,8 @@ private:
             --idle, ++steps;
             if (slow(trial)) continue;
             Found next = tried(genome, trial);
-            if (!(next.verdict.ratio > best.verdict.ratio)) continue;
-            if (next.verdict.ratio > 1.05 * best.verdict.ratio) idle = patience;
+            if (!(score(next.verdict) > score(best.verdict))) continue;
+            if (score(next.verdict) > 1.05 * score(best.verdict)) idle = patience;
             best = std::move(next);
             read = trial.read;
             if (steps > 400) break;
@@ -79,6 +87,7 @@ private:
     const SearchOptions& options_;
     const std::function<void(const Found&)>& on_broken_;
     Numbers numbers_;
+    int wanted_ = 0;  ///< a Term, or kTerms for any
     double begin_;
     Judge judge_;
     SearchResult result_;

@@ -15,7 +15,7 @@ struct SearchOptions {
     AvoidSet avoid = 0;
     double seconds = std::numeric_limits<double>::infinity();  ///< wall clock
     std::uint64_t scenes = std::numeric_limits<std::uint64_t>::max();
-    int climb_steps = 60;       ///< mutations without a better one that end a climb
+    int climb_steps = 100;      ///< mutations without a better one that end a climb
     int fresh_per_climb = 12;   ///< random scenes of which the best begins a climb
     bool stop_at_first = false; ///< end with the first broken promise
 };

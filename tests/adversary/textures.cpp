@@ -76,7 +76,7 @@ std::shared_ptr<const Picture> painted(const Recipe& recipe) {
 }  // namespace
 
 std::shared_ptr<const Picture> some_texture(Genes& genes, Slot slot, TextureUse& use) {
-    const double probability = slot == Slot::base_color ? 0.4 : slot == Slot::occlusion ? 0.1 : 0.25;
+    const double probability = slot == Slot::base_color ? 0.5 : slot == Slot::occlusion ? 0.1 : 0.25;
     if (!genes.chance(probability)) {
         genes.skip(kTextureGenes - 1);
         return nullptr;
