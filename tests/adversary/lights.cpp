@@ -1,4 +1,5 @@
 // Lights and environments of the trials.
+#include "sh/equirect.hpp"
 #include "tests/adversary/trial.hpp"
 
 #include <algorithm>
@@ -65,7 +66,7 @@ void add_light_kind(const Genome& genome, int kind, const Aim& aim, Trial& trial
 
 struct SkyRecipe {
     int kind, width;
-    double level, contrast, turn;
+    double level, contrast, sun_rad, turn;
     std::uint64_t seed;
     int suns;
     bool extract;
@@ -83,9 +84,16 @@ EnvironmentImage paint_sky(const SkyRecipe& r) {
             const double t = r.kind == 0 ? 1.0 : r.kind == 1 ? up : numbers.real(0, 1);
             for (int c = 0; c < 3; ++c) image.rgb.push_back(static_cast<float>(r.level * t * (1.0 - 0.2 * c * up)));
         }
+    // Discs that are brightest in their middle: those under 4 degrees may be taken out as suns.
     for (int i = 0; i < r.suns; ++i) {
-        const std::uint32_t at = numbers.below(static_cast<std::uint32_t>(image.width * image.height));
-        for (std::size_t c = 0; c < 3; ++c) image.rgb[3 * at + c] += static_cast<float>(r.level * r.contrast);
+        const Vec3d middle = sh::equirect_direction(numbers.real(0, 1), numbers.real(0.1, 0.9));
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x) {
+                const Vec3d d = sh::equirect_direction((x + 0.5) / image.width, (y + 0.5) / image.height);
+                const double inside = 1.0 - 2.0 * (1.0 - dot(d, middle)) / (r.sun_rad * r.sun_rad);  // about 1 - (angle / radius)^2
+                const auto at = static_cast<std::size_t>(3 * (y * image.width + x));
+                for (std::size_t c = 0; c < 3 && inside > 0; ++c) image.rgb[at + c] += static_cast<float>(r.level * r.contrast * inside);
+            }
     }
     return image;
 }
@@ -140,13 +148,14 @@ void add_sky(const Genome& genome, AvoidSet avoid, Trial& trial) {
     if (sky) {
         SkyRecipe recipe{};
         recipe.kind = genes.pick(3);
-        recipe.width = 8 << genes.pick(4);
+        recipe.width = 16 << genes.pick(5);
         recipe.level = about_exp2(std::floor(genes.real(-5, 2)));
         recipe.suns = genes.pick(4);
         recipe.contrast = genes.octaves(1, 14);
+        recipe.sun_rad = genes.octaves(1.0 / 128, 4);
         recipe.turn = genes.chance(0.3) ? 1.0 : 0.0;
         recipe.seed = genes.seed() >> 14;
-        recipe.extract = genes.chance(0.5) && (avoid & kAvoidSuns) == 0;
+        recipe.extract = genes.chance(0.7) && (avoid & kAvoidSuns) == 0;
         const bool alone = genes.chance(0.5);
         if (!genes.chance(0.15)) make_plain(trial);
         const Sky& made = prepared_sky(recipe);

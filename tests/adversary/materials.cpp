@@ -65,7 +65,7 @@ void add_materials(const Genome& genome, AvoidSet avoid, Trial& trial) {
         for (int slot = 0; slot < 4; ++slot) {
             Genes section(genome, kMaterialTextures + 2 * i + slot / 2, trial.read);
             section.skip(slot % 2 * kTextureGenes);
-            const auto picture = some_texture(section, static_cast<Slot>(slot), *uses[slot]);
+            const auto picture = some_texture(section, static_cast<Slot>(slot), avoid, *uses[slot]);
             if (picture == nullptr || ((avoid & kAvoidMetalTextures) != 0 && slot < 2)) {
                 *uses[slot] = {};
                 continue;

@@ -75,7 +75,7 @@ std::shared_ptr<const Picture> painted(const Recipe& recipe) {
 
 }  // namespace
 
-std::shared_ptr<const Picture> some_texture(Genes& genes, Slot slot, TextureUse& use) {
+std::shared_ptr<const Picture> some_texture(Genes& genes, Slot slot, AvoidSet avoid, TextureUse& use) {
     const double probability = slot == Slot::base_color ? 0.5 : slot == Slot::occlusion ? 0.1 : 0.25;
     if (!genes.chance(probability)) {
         genes.skip(kTextureGenes - 1);
@@ -89,13 +89,14 @@ std::shared_ptr<const Picture> some_texture(Genes& genes, Slot slot, TextureUse&
     r.pattern = static_cast<Pattern>(genes.pick(4));
     r.seed = genes.seed();
     // Contrast, tint and level: base colours and roughness from nearly nothing to 1, normals about (1/2, 1/2, 1).
-    const double contrast = genes.real(0, 1), level = genes.real(1, 0), tint = genes.real(0, 1);
+    const bool flat = slot == Slot::normal && (avoid & kAvoidShortNormals) != 0;
+    const double contrast = genes.real(0, flat ? 0.5 : 1.0), level = genes.real(1, 0), tint = genes.real(0, 1);
     for (int c = 0; c < 3; ++c) {
         const double top = level * (c == 0 ? 1.0 : 1.0 - 0.5 * tint * c);
         r.high[c] = slot == Slot::normal ? 0.5 + 0.5 * contrast * level : top;
         r.low[c] = slot == Slot::normal ? 1.0 - r.high[c] : top * (1 - contrast);
     }
-    r.odd = genes.chance(0.15);
+    r.odd = genes.chance(0.15) && !flat;
     use = {};
     if (genes.chance(0.4)) {
         const double scale = genes.octaves(1.0 / 8, 10);  // up to 128 times

@@ -16,6 +16,6 @@ enum class Slot { base_color, metallic_roughness, normal, occlusion };
 inline constexpr int kTextureGenes = 16;
 
 /// A texture and how it is used. Null if the genes say none.
-[[nodiscard]] std::shared_ptr<const Picture> some_texture(Genes& genes, Slot slot, TextureUse& use);
+[[nodiscard]] std::shared_ptr<const Picture> some_texture(Genes& genes, Slot slot, AvoidSet avoid, TextureUse& use);
 
 }  // namespace halflit::adversary

@@ -19,6 +19,7 @@ enum Avoid : std::uint32_t {
     kAvoidSuns = 1u << 2,              ///< suns taken out of an environment; they stay in it instead
     kAvoidZeroNormals = 1u << 3,       ///< zero normals; +y instead
     kAvoidOddCoordinates = 1u << 4,    ///< texture coordinates that are NaN; 0 instead
+    kAvoidShortNormals = 1u << 5,      ///< normal maps whose normals, between texels, may be shorter than a half
 };
 using AvoidSet = std::uint32_t;
 
