@@ -67,7 +67,8 @@ void change_normals(Genes& genes, AvoidSet avoid, Mesh& mesh) {
         if (kind <= 11) n = n * length;
         if (kind == 12) n = n * -1.0f;
         if (kind == 13) n = {0, 0, 0};
-        const Vec3f any{static_cast<float>(numbers.real(-1, 1)), static_cast<float>(numbers.real(-1, 1)), static_cast<float>(numbers.real(-1, 1))};
+        const Vec3f any{static_cast<float>(numbers.real(-1, 1)), static_cast<float>(numbers.real(-1, 1)),
+                        static_cast<float>(numbers.real(-1, 1))};
         if (kind == 14) n = n + any;
         if (kind == 15) n = any;
     }
@@ -91,8 +92,8 @@ void change_coordinates(Genes& genes, AvoidSet avoid, Mesh& mesh) {
 }
 
 Vec3f moved(const Mat4& m, Vec3f p, float w) {
-    return Vec3f{m.c[0].x, m.c[0].y, m.c[0].z} * p.x + Vec3f{m.c[1].x, m.c[1].y, m.c[1].z} * p.y + Vec3f{m.c[2].x, m.c[2].y, m.c[2].z} * p.z +
-           Vec3f{m.c[3].x, m.c[3].y, m.c[3].z} * w;
+    return Vec3f{m.c[0].x, m.c[0].y, m.c[0].z} * p.x + Vec3f{m.c[1].x, m.c[1].y, m.c[1].z} * p.y +
+           Vec3f{m.c[2].x, m.c[2].y, m.c[2].z} * p.z + Vec3f{m.c[3].x, m.c[3].y, m.c[3].z} * w;
 }
 
 /// Normals turn by the cofactors of the matrix.
@@ -114,7 +115,8 @@ Aim add_bodies(const Genome& genome, AvoidSet avoid, Trial& trial) {
         if (i == 0) {
             aim.point = moved(place, mesh.positions[vertex] * 0.9f, 1);
             aim.normal = turned(place, mesh.normals[vertex]);
-            aim.size = std::max({length(moved(place, {1, 0, 0}, 0)), length(moved(place, {0, 1, 0}, 0)), length(moved(place, {0, 0, 1}, 0))});
+            aim.size =
+                std::max({length(moved(place, {1, 0, 0}, 0)), length(moved(place, {0, 1, 0}, 0)), length(moved(place, {0, 0, 1}, 0))});
         } else {
             // The second body lies about the first, so that they meet in the picture and in the shadows.
             const Vec3f direction = some_direction(genes), aside = aim.point + direction * (aim.size * genes.real32(0.2, 2));
@@ -125,7 +127,8 @@ Aim add_bodies(const Genome& genome, AvoidSet avoid, Trial& trial) {
         if (genes.chance(0.15)) {
             Numbers numbers(genes.seed());
             for (std::size_t k = 0; k < mesh.positions.size(); ++k)
-                mesh.colors.push_back({static_cast<float>(numbers.real(0, 1)), static_cast<float>(numbers.real(0, 1)), static_cast<float>(numbers.real(0, 1)), 1});
+                mesh.colors.push_back({static_cast<float>(numbers.real(0, 1)), static_cast<float>(numbers.real(0, 1)),
+                                       static_cast<float>(numbers.real(0, 1)), 1});
         } else {
             genes.skip(1);
         }

@@ -18,7 +18,11 @@ struct Drawn {
 
 Result<Drawn> draw(Renderer& renderer, const Trial& trial, const Scene& scene, Accuracy accuracy, double codes) {
     const std::size_t pixels = static_cast<std::size_t>(trial.width) * static_cast<std::size_t>(trial.height);
-    Drawn out{std::vector<float>(4 * pixels), std::vector<float>(3 * pixels), std::vector<std::uint32_t>(pixels), std::vector<std::uint32_t>(pixels), {}};
+    Drawn out{std::vector<float>(4 * pixels),
+              std::vector<float>(3 * pixels),
+              std::vector<std::uint32_t>(pixels),
+              std::vector<std::uint32_t>(pixels),
+              {}};
     Settings settings = trial.settings;
     settings.shading.accuracy = accuracy;
     settings.shading.max_error_codes = codes;

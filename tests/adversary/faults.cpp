@@ -4,13 +4,16 @@ namespace halflit::adversary {
 namespace {
 
 constexpr KnownFault kKnown[] = {
-    {"soft-split: the excess of a wrapped lobe over max(0, N.L) is nearly black where the curve's absolute error is not", kAvoidSoftSplit, "", true},
-    {"a metal's highlight times its texture: the normalisation (s + 8) / 8 is left out of the bound on the texture's error", kAvoidMetalTextures, "", true},
+    {"soft-split: the excess of a wrapped lobe over max(0, N.L) is nearly black where the curve's absolute error is not", kAvoidSoftSplit,
+     "", true},
+    {"a metal's highlight times its texture: the normalisation (s + 8) / 8 is left out of the bound on the texture's error",
+     kAvoidMetalTextures, "", true},
     {"suns taken out of an environment become points of light: their size is not in the bound, nor in the reference", kAvoidSuns, "", true},
     {"zero normals under an environment are documented as dark, and get the light of some direction", kAvoidZeroNormals, "", true},
-    {"texture coordinates that are NaN under a normal map make the reference NaN", kAvoidOddCoordinates, "", true},
+    {"texture coordinates that are NaN count as 0, but make the reference NaN, which is written as 0", kAvoidOddCoordinates, "", true},
     {"a normal map whose texels point apart: between them normals are shorter than the tenth that the bound on rounding takes as the least",
-     kAvoidShortNormals, "192:16616385,193:11199502,195:15620556,197:8585976,198:15952995,200:16777215,289:16777215,416:9683322,440:6136462", true},
+     kAvoidShortNormals,
+     "192:16616385,193:11199502,195:15620556,197:8585976,198:15952995,200:16777215,289:16777215,416:9683322,440:6136462", true},
 };
 
 }  // namespace

@@ -60,7 +60,7 @@ bool read_genome(std::string_view text, Genome& genome) {
         if (second.ec != std::errc{} || index >= kGenes || value >= kGeneEnd) return false;
         genome[index] = value;
         at = second.ptr;
-        if (at != end && *at++ != ',') return false;
+        if (at != end && (*at++ != ',' || at == end)) return false;
     }
     return true;
 }

@@ -49,7 +49,8 @@ inline double about_exp2(double y) {
 /// Reads a section's genes in order, and notes which ones a scene depends on.
 class Genes {
 public:
-    Genes(const Genome& genome, int section, GeneSet& read) : genome_(genome), read_(read), at_(section * kSectionGenes), end_(at_ + kSectionGenes) {}
+    Genes(const Genome& genome, int section, GeneSet& read)
+        : genome_(genome), read_(read), at_(section * kSectionGenes), end_(at_ + kSectionGenes) {}
 
     double next() {
         const auto i = static_cast<std::size_t>(at_ < end_ ? at_++ : end_ - 1);

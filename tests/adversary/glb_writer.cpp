@@ -25,7 +25,8 @@ public:
 
     Result<std::string> file() {
         root_["asset"] = {{"version", "2.0"}, {"generator", "halflit_adversary"}};
-        root_["extensionsUsed"] = {"KHR_lights_punctual", "KHR_texture_transform", "KHR_materials_unlit", "KHR_materials_emissive_strength"};
+        root_["extensionsUsed"] = {"KHR_lights_punctual", "KHR_texture_transform", "KHR_materials_unlit",
+                                   "KHR_materials_emissive_strength"};
         for (const auto& picture : trial_.pictures) {
             const auto png = encode_image({picture->width, picture->height, picture->rgba8, {}}, OutputFormat::png);
             if (!png) return tl::unexpected<Error>(png.error());
@@ -70,7 +71,10 @@ private:
     }
     template <class T>
     int accessor(const std::vector<T>& values, const char* type, int component, std::size_t count) {
-        root_["accessors"].push_back({{"bufferView", view(values.data(), values.size() * sizeof(T))}, {"componentType", component}, {"count", count}, {"type", type}});
+        root_["accessors"].push_back({{"bufferView", view(values.data(), values.size() * sizeof(T))},
+                                      {"componentType", component},
+                                      {"count", count},
+                                      {"type", type}});
         return static_cast<int>(root_["accessors"].size()) - 1;
     }
     Json primitive(const Mesh& mesh) {
@@ -88,23 +92,30 @@ private:
         if (!mesh.uv0.empty()) at["TEXCOORD_0"] = accessor(mesh.uv0, "VEC2", kFloat, mesh.uv0.size());
         if (!mesh.uv1.empty()) at["TEXCOORD_1"] = accessor(mesh.uv1, "VEC2", kFloat, mesh.uv1.size());
         if (!mesh.colors.empty()) at["COLOR_0"] = accessor(mesh.colors, "VEC4", kFloat, mesh.colors.size());
-        return {{"attributes", at}, {"indices", accessor(mesh.indices, "SCALAR", kUnsigned, mesh.indices.size())}, {"material", mesh.material}};
+        return {
+            {"attributes", at}, {"indices", accessor(mesh.indices, "SCALAR", kUnsigned, mesh.indices.size())}, {"material", mesh.material}};
     }
     Json texture(const TextureUse& use) {
         constexpr int kWraps[] = {10497, 33648, 33071};
         const int min = use.sampler.mip == MipFilter::none ? 9729 : 9987;
-        root_["samplers"].push_back({{"wrapS", kWraps[static_cast<int>(use.sampler.wrap_u)]}, {"wrapT", kWraps[static_cast<int>(use.sampler.wrap_v)]}, {"minFilter", min}, {"magFilter", 9729}});
+        root_["samplers"].push_back({{"wrapS", kWraps[static_cast<int>(use.sampler.wrap_u)]},
+                                     {"wrapT", kWraps[static_cast<int>(use.sampler.wrap_v)]},
+                                     {"minFilter", min},
+                                     {"magFilter", 9729}});
         root_["textures"].push_back({{"source", use.texture}, {"sampler", root_["samplers"].size() - 1}});
         Json out = {{"index", root_["textures"].size() - 1}, {"texCoord", use.uv_set}};
         // KHR_texture_transform scales, then turns: it has no shear. Rows of another form are kept by their lengths and row_u's angle.
         const double su = std::hypot(use.row_u.x, use.row_v.x), sv = std::hypot(use.row_u.y, use.row_v.y);
-        out["extensions"]["KHR_texture_transform"] = {{"offset", {use.row_u.z, use.row_v.z}}, {"scale", {su, sv}}, {"rotation", std::atan2(-use.row_v.x, use.row_u.x)}};
+        out["extensions"]["KHR_texture_transform"] = {
+            {"offset", {use.row_u.z, use.row_v.z}}, {"scale", {su, sv}}, {"rotation", std::atan2(-use.row_v.x, use.row_u.x)}};
         return out;
     }
     Json material(const Material& m) {
         Json out;
         Json& pbr = out["pbrMetallicRoughness"];
-        pbr = {{"baseColorFactor", {m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w}}, {"metallicFactor", m.metallic}, {"roughnessFactor", m.roughness}};
+        pbr = {{"baseColorFactor", {m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w}},
+               {"metallicFactor", m.metallic},
+               {"roughnessFactor", m.roughness}};
         if (m.base_color_texture.used()) pbr["baseColorTexture"] = texture(m.base_color_texture);
         if (m.metallic_roughness_texture.used()) pbr["metallicRoughnessTexture"] = texture(m.metallic_roughness_texture);
         if (m.normal_texture.used()) (out["normalTexture"] = texture(m.normal_texture))["scale"] = m.normal_scale;
@@ -128,7 +139,9 @@ private:
     void light(const Light& l) {
         constexpr const char* kTypes[] = {"directional", "point", "spot"};
         const double most = std::max({l.color_linear.x, l.color_linear.y, l.color_linear.z, 1e-30f});
-        Json out = {{"type", kTypes[static_cast<int>(l.type)]}, {"intensity", most * double{kPi}}, {"color", {l.color_linear.x / most, l.color_linear.y / most, l.color_linear.z / most}}};
+        Json out = {{"type", kTypes[static_cast<int>(l.type)]},
+                    {"intensity", most * double{kPi}},
+                    {"color", {l.color_linear.x / most, l.color_linear.y / most, l.color_linear.z / most}}};
         if (l.range > 0 && l.type != LightType::directional) out["range"] = l.range;
         if (l.type == LightType::spot) out["spot"] = {{"innerConeAngle", l.inner_cone_rad}, {"outerConeAngle", l.outer_cone_rad}};
         Json& lights = root_["extensions"]["KHR_lights_punctual"]["lights"];
@@ -142,9 +155,12 @@ private:
         const Camera& c = trial_.camera;
         const double aspect = static_cast<double>(trial_.width) / trial_.height;
         if (c.orthographic)
-            root_["cameras"] = {{{"type", "orthographic"}, {"orthographic", {{"xmag", c.half_height * aspect}, {"ymag", c.half_height}, {"znear", c.near_z}, {"zfar", c.far_z}}}}};
+            root_["cameras"] = {
+                {{"type", "orthographic"},
+                 {"orthographic", {{"xmag", c.half_height * aspect}, {"ymag", c.half_height}, {"znear", c.near_z}, {"zfar", c.far_z}}}}};
         else
-            root_["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", c.fov_y_rad}, {"znear", c.near_z}, {"aspectRatio", aspect}}}}};
+            root_["cameras"] = {
+                {{"type", "perspective"}, {"perspective", {{"yfov", c.fov_y_rad}, {"znear", c.near_z}, {"aspectRatio", aspect}}}}};
         node({{"camera", 0}, {"matrix", matrix(c.world_from_camera)}});
     }
 
@@ -182,9 +198,12 @@ Result<std::string> write_trial(const Trial& trial, const std::string& path) {
     constexpr const char* kSpecular[] = {"none", "phong", "blinn"};
     constexpr const char* kShadows[] = {"off", "hard", "soft-split"};
     char flags[400];
-    std::snprintf(flags, sizeof flags, "%s.glb --size %dx%d --samples %d --background black --exposure %.9g --camera 0 --specular %s --specular-normalize %s --shadows %s --shadow-size %d --shadow-terminator %s",
-                  path.c_str(), trial.width, trial.height, s.samples, std::log2(double{s.exposure}), kSpecular[static_cast<int>(s.shading.specular)],
-                  s.shading.normalize_specular ? "on" : "off", kShadows[static_cast<int>(s.shadows)], s.shadow_size, s.shadow_terminator_offset ? "on" : "off");
+    std::snprintf(flags, sizeof flags,
+                  "%s.glb --size %dx%d --samples %d --background black --exposure %.9g --camera 0 --specular %s --specular-normalize %s "
+                  "--shadows %s --shadow-size %d --shadow-terminator %s",
+                  path.c_str(), trial.width, trial.height, s.samples, std::log2(double{s.exposure}),
+                  kSpecular[static_cast<int>(s.shading.specular)], s.shading.normalize_specular ? "on" : "off",
+                  kShadows[static_cast<int>(s.shadows)], s.shadow_size, s.shadow_terminator_offset ? "on" : "off");
     std::string text = flags;
     if (s.shadow_fade > 0) text += " --shadow-fade " + std::to_string(s.shadow_fade);
     if (s.shading.environment_bands > 0) text += " --sh-order " + std::to_string(s.shading.environment_bands);
@@ -195,7 +214,8 @@ Result<std::string> write_trial(const Trial& trial, const std::string& path) {
         const auto hdr = encode_image(sky, OutputFormat::hdr);
         if (!hdr) return tl::unexpected<Error>(hdr.error());
         if (auto ok = write_file(path + ".hdr", hdr->data(), hdr->size()); !ok) return tl::unexpected<Error>(ok.error());
-        text += " --env " + path + ".hdr --env-sun " + (trial.sky_options.extract_suns ? "on" : "off") + " --env-rotate " + std::to_string(trial.sky_options.rotate_rad * 57.29577951308232);
+        text += " --env " + path + ".hdr --env-sun " + (trial.sky_options.extract_suns ? "on" : "off") + " --env-rotate " +
+                std::to_string(trial.sky_options.rotate_rad * 57.29577951308232);
     } else {
         const Vec3f a = trial.scene.ambient.sky_linear;
         std::snprintf(flags, sizeof flags, " --ambient %.9g,%.9g,%.9g", double{a.x}, double{a.y}, double{a.z});

@@ -1,10 +1,7 @@
-// Lights and environments of the trials.
-#include "sh/equirect.hpp"
+// Lights of the trials, and the whole of one.
 #include "tests/adversary/trial.hpp"
 
 #include <algorithm>
-#include <list>
-#include <tuple>
 
 namespace halflit::adversary {
 namespace {
@@ -19,6 +16,12 @@ Vec3f towards_light(Genes& genes, const Aim& aim) {
     if (kind == 2) return normalize_or(aim.to_eye * -1.0f + any * off, aim.normal);
     const Vec3f mirrored = aim.normal * (2.0f * dot(aim.normal, aim.to_eye)) - aim.to_eye;
     return normalize_or(mirrored + any * off, aim.normal);
+}
+
+/// (s + 8) / 8 for the first material, s = 2 / alpha^2 - 2.
+float highlight_peak(const Trial& trial) {
+    const float roughness = std::max(trial.scene.materials[0].roughness, 0.07f), alpha = roughness * roughness;
+    return trial.settings.shading.normalize_specular ? (2.0f / (alpha * alpha) + 6.0f) * 0.125f : 1.0f;
 }
 
 void add_light_kind(const Genome& genome, int kind, const Aim& aim, Trial& trial) {
@@ -46,7 +49,10 @@ void add_light_kind(const Genome& genome, int kind, const Aim& aim, Trial& trial
     light.inner_cone_rad = light.outer_cone_rad * genes.real32(0, 0.9999);
     light.cone_power = genes.chance(0.25) ? genes.octaves32(0.25, 14) : 0.0f;
     if (light.cone_power == 0) genes.skip(1);
-    const float brightness = genes.chance(0.6) ? genes.octaves32(0x1p-6, 8) : genes.octaves32(1.0 / 4096, 20);
+    // Usual light; light from nearly none to far too much; or as much as makes the highlight usual, which is brighter by (s + 8) / 8.
+    const double level = genes.next();
+    float brightness = level < 0.3 || level > 0.7 ? genes.octaves32(0x1p-6, 8) : genes.octaves32(1.0 / 4096, 20);
+    if (level > 0.7) brightness /= highlight_peak(trial);
     const Vec3f color = some_color(genes);
     const int copies = genes.chance(0.12) ? std::max(2, static_cast<int>(genes.octaves(2, 5.5))) : 1;
     Numbers numbers(genes.seed());
@@ -64,111 +70,10 @@ void add_light_kind(const Genome& genome, int kind, const Aim& aim, Trial& trial
     }
 }
 
-struct SkyRecipe {
-    int kind, width;
-    double level, contrast, sun_rad, turn;
-    std::uint64_t seed;
-    int suns;
-    bool extract;
-    bool operator==(const SkyRecipe&) const = default;
-};
-
-EnvironmentImage paint_sky(const SkyRecipe& r) {
-    EnvironmentImage image;
-    image.width = r.width;
-    image.height = r.width / 2;
-    Numbers numbers(r.seed);
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x) {
-            const double up = 1.0 - (y + 0.5) / image.height;
-            const double t = r.kind == 0 ? 1.0 : r.kind == 1 ? up : numbers.real(0, 1);
-            for (int c = 0; c < 3; ++c) image.rgb.push_back(static_cast<float>(r.level * t * (1.0 - 0.2 * c * up)));
-        }
-    // Discs that are brightest in their middle: those under 4 degrees may be taken out as suns.
-    for (int i = 0; i < r.suns; ++i) {
-        const Vec3d middle = sh::equirect_direction(numbers.real(0, 1), numbers.real(0.1, 0.9));
-        for (int y = 0; y < image.height; ++y)
-            for (int x = 0; x < image.width; ++x) {
-                const Vec3d d = sh::equirect_direction((x + 0.5) / image.width, (y + 0.5) / image.height);
-                const double inside = 1.0 - 2.0 * (1.0 - dot(d, middle)) / (r.sun_rad * r.sun_rad);  // about 1 - (angle / radius)^2
-                const auto at = static_cast<std::size_t>(3 * (y * image.width + x));
-                for (std::size_t c = 0; c < 3 && inside > 0; ++c) image.rgb[at + c] += static_cast<float>(r.level * r.contrast * inside);
-            }
-    }
-    return image;
-}
-
-/// Leaves out what whole_sky_applies() refuses.
-void make_plain(Trial& trial) {
-    trial.settings.shading.specular = SpecularModel::none;
-    trial.settings.shadows = ShadowMode::off;
-    trial.settings.samples = 1;
-    for (Mesh& mesh : trial.scene.meshes) mesh.colors.clear();
-    for (Material& m : trial.scene.materials) {
-        m.base_color_texture = m.occlusion_texture = m.normal_texture = {};
-        m.alpha_mode = AlphaMode::opaque;
-        m.unlit = false;
-    }
-}
-
-struct Sky {
-    EnvironmentImage image;
-    EnvironmentOptions options;
-    std::shared_ptr<const Environment> environment;
-};
-
-/// The reference takes most of a second for a new environment, so that a search keeps them.
-const Sky& prepared_sky(const SkyRecipe& recipe) {
-    thread_local std::list<std::pair<SkyRecipe, Sky>> known;
-    for (auto i = known.begin(); i != known.end(); ++i)
-        if (i->first == recipe) {
-            known.splice(known.begin(), known, i);
-            return known.front().second;
-        }
-    Sky sky;
-    sky.image = paint_sky(recipe);
-    sky.options = {recipe.extract, recipe.turn, false, true};
-    sky.environment = *make_environment(sky.image, sky.options);
-    known.emplace_front(recipe, std::move(sky));
-    if (known.size() > 4) known.pop_back();
-    return known.front().second;
-}
-
 }  // namespace
 
 void add_lights(const Genome& genome, const Aim& aim, Trial& trial) {
     for (int kind = 0; kind < kLightKinds; ++kind) add_light_kind(genome, kind, aim, trial);
-}
-
-void add_sky(const Genome& genome, AvoidSet avoid, Trial& trial) {
-    Genes genes(genome, kSky, trial.read);
-    const bool ambient = genes.chance(0.5), sky = genes.chance(0.06);
-    const float level = genes.octaves32(1.0 / 1024, 11);
-    const Vec3f above = some_color(genes), below = some_color(genes);
-    if (sky) {
-        SkyRecipe recipe{};
-        recipe.kind = genes.pick(3);
-        recipe.width = 16 << genes.pick(5);
-        recipe.level = about_exp2(std::floor(genes.real(-5, 2)));
-        recipe.suns = genes.pick(4);
-        recipe.contrast = genes.octaves(1, 14);
-        recipe.sun_rad = genes.octaves(1.0 / 128, 4);
-        recipe.turn = genes.chance(0.3) ? 1.0 : 0.0;
-        recipe.seed = genes.seed() >> 14;
-        recipe.extract = genes.chance(0.7) && (avoid & kAvoidSuns) == 0;
-        const bool alone = genes.chance(0.5);
-        if (!genes.chance(0.15)) make_plain(trial);
-        const Sky& made = prepared_sky(recipe);
-        trial.sky = made.image;
-        trial.sky_options = made.options;
-        if (alone) trial.scene.lights.clear();
-        set_environment(trial.scene, made.environment);
-        trial.width = 32, trial.height = 24;  // sums over images take long
-        // One lobe, because the reference takes most of a second for each.
-        for (Material& m : trial.scene.materials) m.lobe = trial.scene.materials[0].lobe;
-    } else if (ambient) {
-        trial.scene.ambient = {above * level, below * (0.5f * level)};
-    }
 }
 
 Trial make_trial(const Genome& genome, AvoidSet avoid) {
@@ -183,7 +88,8 @@ Trial make_trial(const Genome& genome, AvoidSet avoid) {
     s.shading.specular = kModels[genes.pick(3)];
     s.shading.normalize_specular = !genes.chance(0.2);
     s.shading.environment_bands = genes.chance(0.05) ? 3 : 0;
-    constexpr ShadowMode kModes[] = {ShadowMode::off, ShadowMode::off, ShadowMode::off, ShadowMode::hard, ShadowMode::soft_split, ShadowMode::soft_split};
+    constexpr ShadowMode kModes[] = {ShadowMode::off,  ShadowMode::off,        ShadowMode::off,
+                                     ShadowMode::hard, ShadowMode::soft_split, ShadowMode::soft_split};
     s.shadows = kModes[genes.pick(6)];
     if (s.shadows == ShadowMode::soft_split && (avoid & kAvoidSoftSplit) != 0) s.shadows = ShadowMode::off;
     s.shadow_size = 64 << genes.pick(3);

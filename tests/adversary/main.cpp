@@ -1,112 +1,119 @@
 // halflit_adversary: looks for scenes whose measured error is above the promised bound. `./dev adversary --help`.
 #include "tests/adversary/faults.hpp"
-#include "tests/adversary/glb_writer.hpp"
+#include "tests/adversary/report.hpp"
 #include "tests/adversary/search.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
+#include <map>
 #include <string>
 
 using namespace halflit::adversary;
 
 namespace {
 
+constexpr int kShrunk = 3;  ///< scenes of one kind that are made small and written
+
 int usage() {
     std::puts(
-        "usage: halflit_adversary [--seed N] [--seconds S] [--scenes N] [--out FOLDER] [--known] [--first]\n"
+        "usage: halflit_adversary [--seed N] [--seconds S] [--scenes N] [--out FOLDER] [--known | --avoid BITS] [--first]\n"
         "       halflit_adversary --genome TEXT [--avoid BITS] [--shrink] [--out FOLDER]\n"
         "Looks for scenes in which the measured error is above the bound that the report promises. Exit code 1 if it finds one.\n"
         "  --known        do not leave out what open known faults need\n"
+        "  --avoid BITS   leave out these parts of scenes: Avoid in tests/adversary/trial.hpp\n"
         "  --first        end with the first one found\n"
         "  --out FOLDER   write each scene that was found as a .glb into it\n"
-        "  --genome TEXT  judge one scene, as the search prints it");
+        "  --genome TEXT  judge one scene, as the search prints it\n"
+        "  --shrink       make it small");
     return 2;
 }
 
-void print(const Verdict& v, const char* name) {
-    std::printf("%s: ratio %.4g: %.4g codes measured (%s, pixel %d,%d channel %d: drawn %.6g, true %.6g), bound %.4g = rounding %.3g + lobes %.3g + "
-                "specular %.3g + environment %.3g + left out %.3g; budget %.3g, within: %s\n",
-                name, v.ratio, v.measured, v.truth == Truth::reference ? "reference" : "whole sky", v.x, v.y, v.channel, v.drawn, v.true_value,
-                v.bound.codes, v.bound.rounding, v.bound.lobes, v.bound.specular, v.bound.environment, v.bound.left_out, v.bound.budget,
-                v.bound.within ? "true" : "false");
+struct Arguments {
+    SearchOptions search;
+    std::string genome, out;
+    bool one = false, shrink = false, sound = true;
+};
+
+Arguments read_arguments(int argc, char** argv) {
+    Arguments a;
+    a.search.avoid = avoided();
+    for (int i = 1; i < argc; ++i) {
+        const std::string flag = argv[i];
+        const auto value = [&]() -> const char* { return i + 1 < argc ? argv[++i] : ""; };
+        if (flag == "--seed")
+            a.search.seed = std::strtoull(value(), nullptr, 10);
+        else if (flag == "--seconds")
+            a.search.seconds = std::strtod(value(), nullptr);
+        else if (flag == "--scenes")
+            a.search.scenes = std::strtoull(value(), nullptr, 10);
+        else if (flag == "--avoid")
+            a.search.avoid = static_cast<AvoidSet>(std::strtoul(value(), nullptr, 0));
+        else if (flag == "--known")
+            a.search.avoid = 0;
+        else if (flag == "--first")
+            a.search.stop_at_first = true;
+        else if (flag == "--shrink")
+            a.shrink = true;
+        else if (flag == "--out")
+            a.out = value();
+        else if (flag == "--genome")
+            a.genome = value(), a.one = true;
+        else
+            a.sound = false;
+    }
+    return a;
 }
 
-/// Writes the scene into the folder, if one was given, and prints how to draw it.
-void write(const Genome& genome, AvoidSet avoid, const std::string& folder, const std::string& name) {
-    if (folder.empty()) return;
-    const Trial trial = make_trial(genome, avoid);
-    const auto flags = write_trial(trial, folder + "/" + name);
-    if (!flags) {
-        std::printf("  not written: %s\n", flags.error().message.c_str());
-        return;
+void say(const std::string& text) {
+    std::fputs(text.c_str(), stdout);
+    std::fputc('\n', stdout);
+    std::fflush(stdout);
+}
+
+int judge_one(const Arguments& arguments, const Genome& given) {
+    Judge judge;
+    const AvoidSet avoid = arguments.search.avoid;
+    Genome genome = given;
+    Verdict verdict = judge.judge(genome, avoid);
+    if (!verdict.refused.empty()) say("refused: " + verdict.refused);
+    if (arguments.shrink) {
+        genome = shrunk(judge, genome, avoid, verdict.broken() ? 1.0 : 0.9 * verdict.ratio);
+        verdict = judge.judge(genome, avoid);
+        say("--avoid " + std::to_string(avoid) + " --genome " + text_of(genome));
     }
-    std::printf("  halflit trade %s\n", flags->c_str());
-    std::printf("  halflit render %s --max-error %.9g --report -\n", flags->substr(0, flags->find(" # ")).c_str(), trial.settings.shading.max_error_codes);
+    say(text_of(verdict));
+    if (!arguments.out.empty()) say(written(make_trial(genome, avoid), arguments.out, "scene"));
+    return verdict.broken() ? 1 : 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    SearchOptions options;
-    options.avoid = avoided();
-    std::string genome_text, out;
-    bool one = false, shrink = false;
-    for (int i = 1; i < argc; ++i) {
-        const std::string flag = argv[i];
-        const auto value = [&]() -> const char* { return i + 1 < argc ? argv[++i] : ""; };
-        if (flag == "--seed")
-            options.seed = std::strtoull(value(), nullptr, 10);
-        else if (flag == "--seconds")
-            options.seconds = std::strtod(value(), nullptr);
-        else if (flag == "--scenes")
-            options.scenes = std::strtoull(value(), nullptr, 10);
-        else if (flag == "--avoid")
-            options.avoid = static_cast<AvoidSet>(std::strtoul(value(), nullptr, 0));
-        else if (flag == "--known")
-            options.avoid = 0;
-        else if (flag == "--first")
-            options.stop_at_first = true;
-        else if (flag == "--shrink")
-            shrink = true;
-        else if (flag == "--out")
-            out = value();
-        else if (flag == "--genome")
-            genome_text = value(), one = true;
-        else
-            return usage();
-    }
+    const Arguments arguments = read_arguments(argc, argv);
+    Genome genome;
+    if (!arguments.sound || (arguments.one && !read_genome(arguments.genome, genome))) return usage();
+    if (arguments.one) return judge_one(arguments, genome);
+
     Judge judge;
-    if (one) {
-        Genome genome;
-        if (!read_genome(genome_text, genome)) return usage();
-        const Verdict v = judge.judge(genome, options.avoid);
-        print(v, "scene");
-        if (!v.refused.empty()) std::printf("refused: %s\n", v.refused.c_str());
-        if (shrink) {
-            const Genome small = shrunk(judge, genome, options.avoid, v.broken() ? 1.0 : 0.9 * v.ratio);
-            print(judge.judge(small, options.avoid), text_of(small).c_str());
-        }
-        write(genome, options.avoid, out, "scene");
-        return v.broken() ? 1 : 0;
-    }
-    int unknown = 0;
-    const SearchResult result = search(options, [&](const Found& found) {
-        const std::string why = explanation(judge, found.genome, options.avoid);
-        unknown += why.empty() ? 1 : 0;
-        print(found.verdict, "broken promise");
-        std::printf("  scene %llu of seed %llu; %s\n", static_cast<unsigned long long>(found.scene), static_cast<unsigned long long>(options.seed),
-                    why.empty() ? "not a known fault" : why.c_str());
-        const Genome small = shrunk(judge, found.genome, options.avoid, std::max(1.0, 0.5 * found.verdict.ratio), 400);
-        print(judge.judge(small, options.avoid), "  made small");
-        std::printf("  --avoid %u --genome %s\n", options.avoid, text_of(small).c_str());
-        write(small, options.avoid, out, "seed" + std::to_string(options.seed) + "_scene" + std::to_string(found.scene));
-        std::fflush(stdout);
+    const AvoidSet avoid = arguments.search.avoid;
+    const std::string seed = std::to_string(arguments.search.seed);
+    std::map<std::string, std::pair<int, double>> kinds;  // how often, and the worst ratio
+    const SearchResult result = search(arguments.search, [&](const Found& found) {
+        std::string why = explanation(judge, found.genome, avoid);
+        if (why.empty()) why = "no known fault";
+        auto& [count, worst] = kinds[why];
+        worst = std::max(worst, found.verdict.ratio);
+        if (++count > kShrunk) return;
+        const std::string number = std::to_string(found.scene);
+        say("broken promise, scene " + number + " of seed " + seed + ": " + why + "\n  " + text_of(found.verdict));
+        const Genome small = shrunk(judge, found.genome, avoid, std::max(1.0, 0.5 * found.verdict.ratio), 400);
+        say("  made small: " + text_of(judge.judge(small, avoid)));
+        say("  --avoid " + std::to_string(avoid) + " --genome " + text_of(small));
+        if (!arguments.out.empty()) say(written(make_trial(small, avoid), arguments.out, "seed" + seed + "_scene" + number));
     });
-    std::printf("seed %llu: %llu scenes in %.1f s (%.0f a second), %llu compared, %llu within their budget, %llu refused, %zu broken promises\n",
-                static_cast<unsigned long long>(options.seed), static_cast<unsigned long long>(result.scenes), result.seconds,
-                static_cast<double>(result.scenes) / result.seconds, static_cast<unsigned long long>(result.drawn),
-                static_cast<unsigned long long>(result.within), static_cast<unsigned long long>(result.refused), result.broken.size());
-    for (int t = 0; t < kTerms; ++t) print(result.worst_of_term[t].verdict, kTermNames[t]);
+    say("seed " + seed + ": " + text_of(result));
+    for (const auto& [why, seen] : kinds)
+        say("broken " + std::to_string(seen.first) + " times, worst ratio " + std::to_string(seen.second) + ": " + why);
     return result.broken.empty() ? 0 : 1;
 }

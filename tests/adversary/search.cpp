@@ -2,6 +2,7 @@
 
 #include "tests/adversary/whole_sky.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 namespace halflit::adversary {
@@ -25,7 +26,8 @@ public:
 
 private:
     [[nodiscard]] bool over() const {
-        return result_.scenes >= options_.scenes || now() - begin_ >= options_.seconds || (options_.stop_at_first && !result_.broken.empty());
+        return result_.scenes >= options_.scenes || now() - begin_ >= options_.seconds ||
+               (options_.stop_at_first && !result_.broken.empty());
     }
 
     /// What a climb raises. Each part of the bound has climbs of its own, or all would end where bounds are tightest; the last is for all.
@@ -50,7 +52,8 @@ private:
     Found best_fresh(std::uint64_t restart) {
         Found best;
         for (int i = 0; i < options_.fresh_per_climb && !over(); ++i) {
-            const Genome genome = random_genome(options_.seed, restart * static_cast<std::uint64_t>(options_.fresh_per_climb) + static_cast<std::uint64_t>(i));
+            const Genome genome = random_genome(
+                options_.seed, restart * static_cast<std::uint64_t>(options_.fresh_per_climb) + static_cast<std::uint64_t>(i));
             Found found = tried(genome, make_trial(genome, options_.avoid));
             if (score(found.verdict) > score(best.verdict) || i == 0) best = std::move(found);
             if (best.verdict.broken()) break;
@@ -67,7 +70,10 @@ private:
         GeneSet read = first.read;
         const int patience = options_.climb_steps / (first.scene.environment != nullptr ? 4 : 1);  // such scenes take long
         int idle = best.verdict.ratio > 0 && !slow(first) ? patience : 0, steps = 0;
-        while (idle > 0 && !over() && !best.verdict.broken()) {
+        while (idle > 0 && !over()) {
+            // A broken promise may be broken worse, but not for long.
+            if (best.verdict.broken()) idle = std::min(idle, 15);
+            if (best.verdict.broken() && options_.stop_at_first) break;
             const Genome genome = mutated(best.genome, read, numbers_);
             const Trial trial = make_trial(genome, options_.avoid);
             --idle, ++steps;
@@ -95,7 +101,9 @@ private:
 
 }  // namespace
 
-SearchResult search(const SearchOptions& options, const std::function<void(const Found&)>& on_broken) { return Search(options, on_broken).run(); }
+SearchResult search(const SearchOptions& options, const std::function<void(const Found&)>& on_broken) {
+    return Search(options, on_broken).run();
+}
 
 Genome shrunk(Judge& judge, const Genome& genome, AvoidSet avoid, double keep, int tries) {
     Genome best = genome;

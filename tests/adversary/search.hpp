@@ -15,9 +15,9 @@ struct SearchOptions {
     AvoidSet avoid = 0;
     double seconds = std::numeric_limits<double>::infinity();  ///< wall clock
     std::uint64_t scenes = std::numeric_limits<std::uint64_t>::max();
-    int climb_steps = 100;      ///< mutations without a better one that end a climb
-    int fresh_per_climb = 12;   ///< random scenes of which the best begins a climb
-    bool stop_at_first = false; ///< end with the first broken promise
+    int climb_steps = 100;       ///< mutations without a better one that end a climb
+    int fresh_per_climb = 12;    ///< random scenes of which the best begins a climb
+    bool stop_at_first = false;  ///< end with the first broken promise
 };
 
 struct Found {
@@ -29,9 +29,9 @@ struct Found {
 struct SearchResult {
     std::uint64_t scenes = 0, drawn = 0, refused = 0, within = 0;  ///< drawn: with a bound below 255 codes and a surface in view
     double seconds = 0;
-    Found worst;                 ///< largest ratio of all
-    Found worst_of_term[kTerms]; ///< by the largest part of the bound
-    std::vector<Found> broken;   ///< the top of each climb that broke the promise
+    Found worst;                  ///< largest ratio of all
+    Found worst_of_term[kTerms];  ///< by the largest part of the bound
+    std::vector<Found> broken;    ///< the top of each climb that broke the promise
 };
 
 /// Searches until scenes or seconds end. `on_broken` is told at once of each top of a climb above 1.

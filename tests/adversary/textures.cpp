@@ -53,7 +53,9 @@ std::shared_ptr<const Picture> paint(const Recipe& r) {
                                                                  : noise.real(0, 1);
                 value[c] = r.low[c] + (r.high[c] - r.low[c]) * t;
             }
-            if (r.slot == Slot::normal && !r.odd) value[2] = 0.5 + 0.5 * std::sqrt(std::max(0.0, 1 - 4 * (value[0] - 0.5) * (value[0] - 0.5) - 4 * (value[1] - 0.5) * (value[1] - 0.5)));
+            if (r.slot == Slot::normal && !r.odd)
+                value[2] = 0.5 + 0.5 * std::sqrt(std::max(
+                                           0.0, 1 - 4 * (value[0] - 0.5) * (value[0] - 0.5) - 4 * (value[1] - 0.5) * (value[1] - 0.5)));
             for (std::size_t c = 0; c < 3; ++c) picture->rgba8[at + c] = static_cast<std::uint8_t>(value[c] * 255.0 + 0.5);
         }
     picture->texture = *Texture::from_rgba8(picture->rgba8, r.width, r.height, picture->space);

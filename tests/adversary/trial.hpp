@@ -14,12 +14,12 @@ namespace halflit::adversary {
 
 /// Parts of a scene that a known fault needs. A search leaves them out, so that it does not find that fault alone, again and again.
 enum Avoid : std::uint32_t {
-    kAvoidSoftSplit = 1u << 0,         ///< soft-split; off instead
-    kAvoidMetalTextures = 1u << 1,     ///< base-colour and metallic-roughness textures under highlights
-    kAvoidSuns = 1u << 2,              ///< suns taken out of an environment; they stay in it instead
-    kAvoidZeroNormals = 1u << 3,       ///< zero normals; +y instead
-    kAvoidOddCoordinates = 1u << 4,    ///< texture coordinates that are NaN; 0 instead
-    kAvoidShortNormals = 1u << 5,      ///< normal maps whose normals, between texels, may be shorter than a half
+    kAvoidSoftSplit = 1u << 0,       ///< soft-split; off instead
+    kAvoidMetalTextures = 1u << 1,   ///< base-colour and metallic-roughness textures under highlights
+    kAvoidSuns = 1u << 2,            ///< suns taken out of an environment; they stay in it instead
+    kAvoidZeroNormals = 1u << 3,     ///< zero normals; +y instead
+    kAvoidOddCoordinates = 1u << 4,  ///< texture coordinates that are NaN; 0 instead
+    kAvoidShortNormals = 1u << 5,    ///< normal maps whose normals, between texels, may be shorter than a half
 };
 using AvoidSet = std::uint32_t;
 

@@ -20,7 +20,7 @@ Vec3d sum_of(const std::vector<Patch>& patches) {
 }
 
 /// Directions that stand for the image: each pixel is cut into squares, and each square has the four points of Gauss's rule, of the fourth
-/// order. Squares are at most 1.4 degrees wide, and 0.3 where one pixel has more than a hundredth of all light; twice that if `coarse`.
+/// order. Squares are at most 2.8 degrees wide, and 0.5 where one pixel has more than a hundredth of all light; twice that if `coarse`.
 std::vector<Patch> patches_of(const EnvironmentImage& image, double turn_rad, bool coarse) {
     const double turn_sin = std::sin(turn_rad), turn_cos = std::cos(turn_rad);
     std::vector<Patch> out;
@@ -45,13 +45,15 @@ std::vector<Patch> patches_of(const EnvironmentImage& image, double turn_rad, bo
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x));
-            levels.push_back(sh::luminance({image.rgb[at], image.rgb[at + 1], image.rgb[at + 2]}) * std::sin(kPi * (y + 0.5) / image.height));
+            levels.push_back(sh::luminance({image.rgb[at], image.rgb[at + 1], image.rgb[at + 2]}) *
+                             std::sin(kPi * (y + 0.5) / image.height));
             total += levels.back();
         }
-    const int step = coarse ? 2 : 1, cuts = std::max(1, 256 / (image.width * step)), fine = std::max(1, 1200 / (image.width * step));
+    const int step = coarse ? 2 : 1, cuts = std::max(1, 128 / (image.width * step)), fine = std::max(1, 800 / (image.width * step));
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x)
-            if (const double level = levels[static_cast<std::size_t>(y * image.width + x)]; level > 0) cut(x, y, level > 0.01 * total ? fine : cuts);
+            if (const double level = levels[static_cast<std::size_t>(y * image.width + x)]; level > 0)
+                cut(x, y, level > 0.01 * total ? fine : cuts);
     return out;
 }
 
@@ -87,12 +89,14 @@ double largest(Vec3d v) { return std::max({v.x, v.y, v.z}); }
 }  // namespace
 
 bool whole_sky_applies(const Trial& trial) {
-    if (trial.scene.environment == nullptr || trial.settings.shading.specular != SpecularModel::none || trial.settings.samples != 1) return false;
+    if (trial.scene.environment == nullptr || trial.settings.shading.specular != SpecularModel::none || trial.settings.samples != 1)
+        return false;
     if (trial.settings.shadows != ShadowMode::off) return false;
     for (const Mesh& mesh : trial.scene.meshes)
         if (!mesh.colors.empty()) return false;
     return std::all_of(trial.scene.materials.begin(), trial.scene.materials.end(), [](const Material& m) {
-        return !m.base_color_texture.used() && !m.occlusion_texture.used() && !m.normal_texture.used() && !m.unlit && m.alpha_mode == AlphaMode::opaque;
+        return !m.base_color_texture.used() && !m.occlusion_texture.used() && !m.normal_texture.used() && !m.unlit &&
+               m.alpha_mode == AlphaMode::opaque;
     });
 }
 
