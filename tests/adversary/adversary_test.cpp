@@ -33,8 +33,8 @@ void check_search(SearchOptions options) {
     const SearchResult result = search(options, [&](const Found& found) {
         const Genome small = shrunk(judge, found.genome, options.avoid, 1.0, 400);
         const std::string name = "seed" + std::to_string(options.seed) + "_scene" + std::to_string(found.scene);
-        FAIL_CHECK("broken promise: " << text_of(judge.judge(small, options.avoid)) << "\n  halflit_adversary --avoid " << options.avoid << " --genome "
-                                      << text_of(small) << "\n"
+        FAIL_CHECK("broken promise: " << text_of(judge.judge(small, options.avoid)) << "\n  halflit_adversary --avoid " << options.avoid
+                                      << " --genome " << text_of(small) << "\n"
                                       << written(make_trial(small, options.avoid), out_folder(), name));
     });
     WARN("seed " << options.seed << ": " << text_of(result));
@@ -65,7 +65,9 @@ TEST_CASE("promise: scenes of cured faults keep it, and those of open faults are
         Genome genome;
         REQUIRE(read_genome(fault.genome, genome));
         const Verdict verdict = judge.judge(genome, 0);
-        INFO(fault.what << "\n" << text_of(verdict) << (fault.open && !verdict.broken() ? "\nIt is cured: set `open` to false in faults.cpp." : ""));
+        INFO(fault.what << "\n"
+                        << text_of(verdict)
+                        << (fault.open && !verdict.broken() ? "\nIt is cured: set `open` to false in faults.cpp." : ""));
         CHECK(verdict.refused.empty());
         CHECK(verdict.broken() == fault.open);
         open += fault.open ? 1 : 0;

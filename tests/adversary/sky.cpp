@@ -96,14 +96,15 @@ void add_sky(const Genome& genome, AvoidSet avoid, Trial& trial) {
         recipe.seed = genes.seed() >> 14;
         recipe.extract = genes.chance(0.7) && (avoid & kAvoidSuns) == 0;
         const bool alone = genes.chance(0.5);
-        if (!genes.chance(0.15)) make_plain(trial);
+        if (!genes.chance(0.04)) make_plain(trial);
         const Sky& made = prepared_sky(recipe);
         trial.sky = made.image;
         trial.sky_options = made.options;
         if (alone) trial.scene.lights.clear();
         set_environment(trial.scene, made.environment);
         trial.width = 24, trial.height = 18;  // sums over images take long
-        // One lobe, because the reference takes most of a second for each.
+        // One lobe for all, the default material's too, because the reference takes seconds for each.
+        trial.settings.shading.lobe = trial.scene.materials[0].lobe;
         for (Material& m : trial.scene.materials) m.lobe = trial.scene.materials[0].lobe;
     } else if (ambient) {
         trial.scene.ambient = {above * level, below * (0.5f * level)};
