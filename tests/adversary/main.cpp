@@ -18,13 +18,14 @@ constexpr int kShrunk = 3;  ///< scenes of one kind that are made small and writ
 int usage() {
     std::puts(
         "usage: halflit_adversary [--seed N] [--seconds S] [--scenes N] [--out FOLDER] [--known | --avoid BITS] [--first]\n"
-        "       halflit_adversary --genome TEXT [--avoid BITS] [--shrink] [--out FOLDER]\n"
+        "       halflit_adversary --genome TEXT [--avoid BITS] [--climb N] [--shrink] [--out FOLDER]\n"
         "Looks for scenes in which the measured error is above the bound that the report promises. Exit code 1 if it finds one.\n"
         "  --known        do not leave out what open known faults need\n"
         "  --avoid BITS   leave out these parts of scenes: Avoid in tests/adversary/trial.hpp\n"
         "  --first        end with the first one found\n"
         "  --out FOLDER   write each scene that was found as a .glb into it\n"
         "  --genome TEXT  judge one scene, as the search prints it\n"
+        "  --climb N      climb from it, N steps\n"
         "  --shrink       make it small");
     return 2;
 }
@@ -33,6 +34,7 @@ struct Arguments {
     SearchOptions search;
     std::string genome, out;
     bool one = false, shrink = false, sound = true;
+    int climb = 0;
 };
 
 Arguments read_arguments(int argc, char** argv) {
@@ -53,6 +55,8 @@ Arguments read_arguments(int argc, char** argv) {
             a.search.avoid = 0;
         else if (flag == "--first")
             a.search.stop_at_first = true;
+        else if (flag == "--climb")
+            a.climb = std::atoi(value());
         else if (flag == "--shrink")
             a.shrink = true;
         else if (flag == "--out")
@@ -74,14 +78,14 @@ void say(const std::string& text) {
 int judge_one(const Arguments& arguments, const Genome& given) {
     Judge judge;
     const AvoidSet avoid = arguments.search.avoid;
-    Genome genome = given;
+    Genome genome = arguments.climb > 0 ? climbed(given, avoid, arguments.search.seed, arguments.climb).genome : given;
     Verdict verdict = judge.judge(genome, avoid);
     if (!verdict.refused.empty()) say("refused: " + verdict.refused);
     if (arguments.shrink) {
         genome = shrunk(judge, genome, avoid, verdict.broken() ? 1.0 : 0.9 * verdict.ratio);
         verdict = judge.judge(genome, avoid);
-        say("--avoid " + std::to_string(avoid) + " --genome " + text_of(genome));
     }
+    if (arguments.shrink || arguments.climb > 0) say("--avoid " + std::to_string(avoid) + " --genome " + text_of(genome));
     say(text_of(verdict));
     if (!arguments.out.empty()) say(written(make_trial(genome, avoid), arguments.out, "scene"));
     return verdict.broken() ? 1 : 0;

@@ -105,28 +105,36 @@ SearchResult search(const SearchOptions& options, const std::function<void(const
     return Search(options, on_broken).run();
 }
 
+Found climbed(const Genome& genome, AvoidSet avoid, std::uint64_t seed, int steps) {
+    Judge judge;
+    Numbers numbers(seed);
+    Found best{genome, judge.judge(genome, avoid), 0};
+    GeneSet read = make_trial(genome, avoid).read;
+    for (int i = 1; i <= steps; ++i) {
+        const Genome next = mutated(best.genome, read, numbers);
+        const Trial trial = make_trial(next, avoid);
+        Verdict verdict = judge.judge(trial);
+        if (!(verdict.ratio > best.verdict.ratio)) continue;
+        best = {next, std::move(verdict), static_cast<std::uint64_t>(i)};
+        read = trial.read;
+    }
+    return best;
+}
+
 Genome shrunk(Judge& judge, const Genome& genome, AvoidSet avoid, double keep, int tries) {
     Genome best = genome;
     const GeneSet read = make_trial(best, avoid).read;
     for (std::size_t i = 0; i < kGenes; ++i)
         if (!read[i]) best[i] = 0;
-    if (!(judge.judge(best, avoid).ratio > keep)) best = genome;
-    // Sections first, then single genes, until nothing changes.
-    for (std::size_t step = kSectionGenes; step >= 1 && tries > 0; step = step == 1 ? 0 : step / 4 < 1 ? 1 : step / 4) {
-        for (bool changed = true; changed && tries > 0;) {
-            changed = false;
-            for (std::size_t at = 0; at < kGenes && tries > 0; at += step) {
-                Genome smaller = best;
-                for (std::size_t i = at; i < at + step && i < kGenes; ++i) smaller[i] = 0;
-                if (smaller == best) continue;
-                --tries;
-                if (!(judge.judge(smaller, avoid).ratio > keep)) continue;
-                best = smaller;
-                changed = true;
-            }
+    // Whole sections, parts of them, then single genes, which may go once others are gone.
+    for (const std::size_t step : {std::size_t{kSectionGenes}, std::size_t{4}, std::size_t{1}, std::size_t{1}})
+        for (std::size_t at = 0; at < kGenes && tries > 0; at += step) {
+            Genome smaller = best;
+            for (std::size_t i = at; i < at + step; ++i) smaller[i] = 0;
+            if (smaller == best) continue;
+            --tries;
+            if (judge.judge(smaller, avoid).ratio > keep) best = smaller;
         }
-        if (step == 1) break;
-    }
     return best;
 }
 

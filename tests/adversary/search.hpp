@@ -37,7 +37,10 @@ struct SearchResult {
 /// Searches until scenes or seconds end. `on_broken` is told at once of each top of a climb above 1.
 [[nodiscard]] SearchResult search(const SearchOptions& options, const std::function<void(const Found&)>& on_broken = {});
 
-/// Sets as many genes to 0 as leave the ratio above `keep`, at most `tries` judgements.
-[[nodiscard]] Genome shrunk(Judge& judge, const Genome& genome, AvoidSet avoid, double keep, int tries = 2000);
+/// One climb from a scene, of `steps` mutations at most, past a broken promise too.
+[[nodiscard]] Found climbed(const Genome& genome, AvoidSet avoid, std::uint64_t seed, int steps);
+
+/// Sets as many genes to 0 as leave the ratio above `keep`, with at most `tries` judgements.
+[[nodiscard]] Genome shrunk(Judge& judge, const Genome& genome, AvoidSet avoid, double keep, int tries = 400);
 
 }  // namespace halflit::adversary

@@ -87,7 +87,7 @@ void add_sky(const Genome& genome, AvoidSet avoid, Trial& trial) {
     if (sky) {
         SkyRecipe recipe{};
         recipe.kind = genes.pick(3);
-        recipe.width = 16 << genes.pick(5);
+        recipe.width = 8 << genes.pick(5);
         recipe.level = about_exp2(std::floor(genes.real(-5, 2)));
         recipe.suns = genes.pick(4);
         recipe.contrast = genes.octaves(1, 14);
