@@ -2,6 +2,7 @@
 #include "tests/cli/program.hpp"
 
 #include "tests/support/catch.hpp"
+#include "tests/support/skip.hpp"
 
 #include <fstream>
 #include <sstream>
@@ -42,7 +43,7 @@ TEST_CASE("limits: a scene that takes longer than --timeout ends with 5, a repor
 
 TEST_CASE("limits: a scene that needs more than --max-memory ends with 5, a report and no picture", "[cli]") {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    return;  // sanitizers take terabytes of addresses
+    HALFLIT_SKIP("sanitizers take terabytes of addresses");
 #endif
     const TemporaryFolder folder;
     const Outcome outcome = run({"sphere:1000000", "--max-memory", "64", "-o", folder.file("a.png"), "--report", folder.file("a.json")});

@@ -31,7 +31,7 @@ std::string encoded(const Image& image, OutputFormat format) {
     return {bytes->begin(), bytes->end()};
 }
 
-std::string little_endian(std::uint32_t value, int bytes) {
+std::string little_endian(std::uint64_t value, int bytes) {
     std::string text;
     for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> (8 * i) & 255);
     return text;
