@@ -90,6 +90,20 @@ Arriving arriving(const ShadingPlan& plan, double exposure, const SceneFacts& fa
     return a;
 }
 
+/// True if a shadow may cut the lobe's core off and leave its excess (ShadowMode::soft_split). The excess is nearly black where lobe and
+/// core are close, so an error of the lobe shows most there.
+bool may_split(const ShadingPlan& plan, const MaterialPlan& material) {
+    return plan.shadow_mode == ShadowMode::soft_split && material.shadow_fade_scale > 0.0f && (material.stages & kStageLights) != 0;
+}
+
+/// Bound on an error of the excess f - x where x = N.L > 0, for an error of N.L and roundings: f is n / (1 + w) times as steep as x at
+/// most, for n < 1 times the power of t at x = 0.
+double excess_error(const LobePlan& lobe, double cosine_error) {
+    const double w = lobe.wrap, n = lobe.power_minus_one + 1.0, start = w / (1.0 + w);
+    const double slope = n / (1.0 + w) * (n < 1.0 ? power_of(start, n - 1.0) : 1.0);
+    return std::max(1.0, slope) * cosine_error + 1.2e-7 * (n + 4.0);
+}
+
 double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, const Surface& s, const Arriving& light, double exposure) {
     const auto has = [&](Stage stage) { return (material.stages & stage) != 0; };
     const double n = material.lobe.power_minus_one + 1.0, scale = material.lobe.scale;
@@ -118,6 +132,8 @@ double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, con
     }
     if (has(kStageLights)) {
         codes += codes_of_edge(s.albedo * scale * light.sum, n, s.cosine_error / (1.0 + material.lobe.wrap));
+        if (may_split(plan, material))
+            codes += codes_of_absolute(s.albedo * scale * light.sum * excess_error(material.lobe, s.cosine_error));
         if (light.local > 0) codes += codes_of_edge(s.albedo * scale * light.sum, 1.0, 3e-7);  // the end of the range
         if (light.cone_error > 0) codes += codes_of_edge(s.albedo * scale * light.sum, 2.0, light.cone_error);
     }
@@ -142,11 +158,13 @@ double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, con
     return std::min(codes, 255.0);
 }
 
-double lobe_tier_codes(const LobePlan& lobe, PowTier tier) {
+/// `amplitude`: strength of lights that shadows may split; 0: none.
+double lobe_tier_codes(const LobePlan& lobe, PowTier tier, double amplitude) {
     if (lobe.path != LobePath::general || lobe.power_minus_one >= kSharpPowerMinusOne || tier == PowTier::exact) return 0.0;
     const PowErrors errors = pow_errors(tier);
     const double a = std::fabs(static_cast<double>(lobe.power_minus_one));
-    return codes_of_relative(0.5 * kLn2 * a * errors.log2 + errors.exp2 + 4e-6);
+    const double relative = 0.5 * kLn2 * a * errors.log2 + errors.exp2 + 4e-6;
+    return codes_of_relative(relative) + codes_of_absolute(amplitude * relative);
 }
 
 double specular_tier_codes(const Surface& s, const Arriving& light, PowTier tier) {
@@ -170,17 +188,20 @@ PowTier cheapest_tier(double budget, const Codes& codes) {
 }
 
 /// Chooses the cheapest method for t^n within `budget` codes. Returns the codes that it costs.
-double spend_on_lobe(MaterialPlan& material, const Surface& s, const Arriving& light, double budget, PowerFits& fits) {
+double spend_on_lobe(MaterialPlan& material, bool split, const Surface& s, const Arriving& light, double budget, PowerFits& fits) {
     LobePlan& lobe = material.lobe;
     if (lobe.path != LobePath::general || lobe.power_minus_one >= kSharpPowerMinusOne) return 0.0;
-    const LobeFit& fit = fits.lobe(static_cast<double>(lobe.power_minus_one) + 1.0, s.albedo * static_cast<double>(lobe.scale) * light.sum);
+    const double amplitude = s.albedo * static_cast<double>(lobe.scale) * light.sum;
+    const LobeFit& fit =
+        fits.lobe(static_cast<double>(lobe.power_minus_one) + 1.0, amplitude, split ? static_cast<double>(lobe.wrap) : 0.0);
     if (fit.codes <= budget) {
         lobe.path = LobePath::curve;
         std::copy_n(fit.c, kLobeCurveTerms, lobe.curve);
         return fit.codes;
     }
-    lobe.tier = cheapest_tier(budget, [&](PowTier tier) { return lobe_tier_codes(lobe, tier); });
-    return lobe_tier_codes(lobe, lobe.tier);
+    const auto codes = [&](PowTier tier) { return lobe_tier_codes(lobe, tier, split ? amplitude : 0.0); };
+    lobe.tier = cheapest_tier(budget, codes);
+    return codes(lobe.tier);
 }
 
 /// True if highlights are below the threshold at 45 degrees from their middle. If not, the test costs more than it saves.
@@ -275,7 +296,7 @@ void spend_error_budget(ShadingPlan& plan, double budget_codes, double exposure,
         bound.left_out = cutoff_codes;
         double left = budget_codes - fixed[i] - cutoff_codes;
         if (left > 0.0) {
-            bound.lobes = spend_on_lobe(material, s, light, kBudgetShares.lobe * left, fits);
+            bound.lobes = spend_on_lobe(material, may_split(plan, material), s, light, kBudgetShares.lobe * left, fits);
             left -= bound.lobes;
             if (s.specular && light.count > 0) spend_on_specular(plan, material, s, light, exposure, left, fits, bound);
         }

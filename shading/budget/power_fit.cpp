@@ -2,6 +2,7 @@
 
 #include "shading/model/code_bounds.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -40,21 +41,27 @@ std::array<double, N> solve(std::array<std::array<double, N + 1>, N> a) {
 
 struct Sample {
     double u;       ///< sqrt(t)
-    double value;   ///< t^n
+    double value;   ///< f = t^n
+    double core;    ///< max(0, x); 0 if light is never split
     double weight;  ///< codes for an error of 1
+
+    /// The least light that a split shadow leaves of f: the excess over the core.
+    [[nodiscard]] double excess() const { return std::max(0.0, value - core); }
 };
 
 /// Number of samples, u = (i / kSamples)^2. They are close together near 0, where the curve bends most and codes are nearest to each other.
 constexpr std::size_t kSamples = 256;
 
-std::vector<Sample> samples_of(double n, double amplitude) {
+std::vector<Sample> samples_of(double n, double amplitude, double split_wrap) {
+    constexpr double kNearCore = 1e-3;  // nearer to the core than this, an error of f may show as excess
     std::vector<Sample> samples(kSamples);
     for (std::size_t i = 0; i < kSamples; ++i) {
         Sample& s = samples[i];
         const double root = static_cast<double>(i + 1) / kSamples;
         s.u = root * root;
         s.value = power_of(s.u, 2.0 * n);
-        s.weight = amplitude * code_slope(amplitude * s.value);
+        s.core = split_wrap > 0.0 ? std::max(0.0, (1.0 + split_wrap) * s.u * s.u - split_wrap) : 0.0;
+        s.weight = amplitude * code_slope(amplitude * (s.value > s.core - kNearCore ? s.excess() : s.value));
     }
     return samples;
 }
@@ -109,9 +116,10 @@ struct Point {
     double x, y;
 };
 
-/// The least concave function from (0, 0) that does not decrease and is nowhere below the points, which are sorted by x.
-std::vector<Point> concave_majorant(const std::vector<Point>& points) {
-    std::vector<Point> hull{{0.0, 0.0}};
+/// The least concave function on x >= 0 that does not decrease and is nowhere below the points.
+std::vector<Point> concave_majorant(std::vector<Point> points) {
+    std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.x < b.x || (a.x == b.x && a.y > b.y); });
+    std::vector<Point> hull{{0.0, points.front().x == 0.0 ? points.front().y : 0.0}};
     for (const Point& p : points) {
         if (p.y <= hull.back().y) continue;
         while (hull.size() > 1) {
@@ -137,18 +145,19 @@ constexpr std::size_t kDegree = 3;
 
 }  // namespace
 
-LobeFit fit_lobe(double n, double amplitude) {
+LobeFit fit_lobe(double n, double amplitude, double split_wrap) {
     LobeFit fit{};
     fit.codes = 255.0;
     if (!(n >= 1.0 && n <= 64.0 && amplitude > 0.0 && amplitude < 1e6)) return fit;
-    const std::vector<Sample> samples = samples_of(n, amplitude);
+    const std::vector<Sample> samples = samples_of(n, amplitude, split_wrap);
     const std::array<double, kTerms> c = least_largest_error(samples);
     for (std::size_t k = 0; k < kTerms; ++k) fit.c[k] = static_cast<float>(c[k]);
 
-    // |error| as a function of t^n. Where it is concave, lights together are off by no more than one light with the sum of their
-    // amplitudes.
+    // |error| as a function of the light that is drawn: f, or the excess alone. Between two samples it is entered at the lesser value of
+    // the two: f rises with t, and the excess rises up to x = 0 and falls from there on, because f is convex.
     std::vector<Point> errors;
-    double before = 0.0, last = 0.0, value_before = samples.front().value;
+    double before = 0.0, last = 0.0;  // u and error of `lower`
+    Sample lower{};
     for (const Sample& s : samples) {
         // `bend` bounds the second derivative of the error between the sample before and this one.
         double size = 0.0, fit_bend = 0.0, fit_bends = 0.0, fit_twist = 0.0, power = 1.0;
@@ -166,14 +175,25 @@ LobeFit fit_lobe(double n, double amplitude) {
             bend = std::min(bend, std::fabs(true_bend - fit_bend) + step * (true_twist + fit_twist));
         }
         // Between two samples the error is at most that of the worse one, plus an eighth of the second derivative times the squared step.
-        const double error = std::fabs(fitted(fit.c, s.u) - s.value) + s.u * s.u * size * (2 * kTerms) * kRounding;
-        errors.push_back({value_before, std::max(error, last) + 0.125 * bend * step * step});
-        before = s.u, last = error, value_before = s.value;
+        const double here = std::fabs(fitted(fit.c, s.u) - s.value) + s.u * s.u * size * (2 * kTerms) * kRounding;
+        const double between = 0.125 * bend * step * step, error = std::max(here, last) + between;
+        errors.push_back({lower.value, error});
+        // Where f is below the core, only the part of the error that reaches past the core shows as excess. The gap is concave in t, and a
+        // place between the two samples divides u and t in shares that differ by at most a quarter of the step over the sum.
+        const double gap = s.core - s.value, gap_before = lower.core - lower.value;
+        if (s.core > 0.0 && std::min(gap, gap_before) >= 0.0)
+            errors.push_back(
+                {0.0, std::max({0.0, here - gap, last - gap_before}) + 0.25 * step / (s.u + before) * std::fabs(here - last) + between});
+        else if (s.core > 0.0)
+            errors.push_back({std::min(s.excess(), lower.excess()), error});
+        before = s.u, last = here, lower = s;
     }
-    const std::vector<Point> majorant = concave_majorant(errors);
-    const double below_the_first = codes_of_absolute(amplitude * errors.front().y);
-    const double codes = largest_on_curve([&](const CurvePoint& on) { return on.slope * amplitude * at(majorant, on.v / amplitude); });
-    fit.codes = std::min(255.0, codes + below_the_first);
+    const std::vector<Point> majorant = concave_majorant(std::move(errors));
+    // The part of the error that is there even where nothing is drawn counts as absolute.
+    const double always = majorant.front().y;
+    const double codes =
+        largest_on_curve([&](const CurvePoint& on) { return on.slope * amplitude * (at(majorant, on.v / amplitude) - always); });
+    fit.codes = std::min(255.0, codes + codes_of_absolute(amplitude * always));
     return fit;
 }
 
@@ -259,13 +279,13 @@ auto& find_or_make(Entries& entries, const Same& same, const Make& make) {
 
 }  // namespace
 
-const LobeFit& PowerFits::lobe(double n, double amplitude) {
+const LobeFit& PowerFits::lobe(double n, double amplitude, double split_wrap) {
     // The amplitude is rounded up to a quarter of a power of two. More light has a larger error, so the bound holds for less light too.
     const double held = amplitude > 1e-30 && amplitude < 1e6 ? exp2_of(std::ceil(4.0 * log2_of(amplitude)) / 4.0) : 0.0;
     return find_or_make(
-        lobes_, [&](const LobeEntry& e) { return e.n == n && e.amplitude == held; },
+        lobes_, [&](const LobeEntry& e) { return e.n == n && e.amplitude == held && e.split_wrap == split_wrap; },
         [&] {
-            return LobeEntry{n, held, fit_lobe(n, held)};
+            return LobeEntry{n, held, split_wrap, fit_lobe(n, held, split_wrap)};
         });
 }
 

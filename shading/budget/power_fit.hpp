@@ -15,7 +15,9 @@ struct LobeFit {
     /// Bound on the error of lights whose amplitudes sum up to `amplitude`, the kernel's own rounding included.
     double codes;
 };
-[[nodiscard]] LobeFit fit_lobe(double n, double amplitude);
+/// `split_wrap`: the wrap w of a lobe whose excess over the core max(0, x), x = N.L, may be drawn alone (ShadowMode::soft_split). The error
+/// of the fit is then compared with the excess, which is nearly black where f and the core are close. 0: f is always drawn whole.
+[[nodiscard]] LobeFit fit_lobe(double n, double amplitude, double split_wrap = 0.0);
 
 /// Fit of x^h, x in [least, 1], as p(x)^(2^squarings), p of degree three. h is half the exponent of the cosine.
 struct SpecularFit {
@@ -35,12 +37,12 @@ struct SpecularFit {
 class PowerFits {
 public:
     /// Fit for lobes of the power n under light of about this amplitude.
-    [[nodiscard]] const LobeFit& lobe(double n, double amplitude);
+    [[nodiscard]] const LobeFit& lobe(double n, double amplitude, double split_wrap);
     [[nodiscard]] const SpecularFit& specular(double half_exponent, double least);
 
 private:
     struct LobeEntry {
-        double n, amplitude;
+        double n, amplitude, split_wrap;
         LobeFit fit;
     };
     struct SpecularEntry {

@@ -18,11 +18,9 @@ namespace {
 constexpr int kWidth = 64, kHeight = 48;
 
 /// Checks that the report's bound, if within the budget, holds against the float64 reference. Returns the largest linear value.
-float check_bound(const Scene& scene, const Camera& camera, double budget) {
+float check_bound(const Scene& scene, const Camera& camera, double budget, Settings settings = {.shadows = ShadowMode::off}) {
     const auto draw = [&](Accuracy accuracy, double codes, std::vector<float>& linear) {
         linear.assign(std::size_t{4} * kWidth * kHeight, 0.0f);
-        Settings settings;
-        settings.shadows = ShadowMode::off;
         settings.shading.accuracy = accuracy;
         settings.shading.max_error_codes = codes;
         const auto report = render(scene, camera, settings, {kWidth, kHeight, nullptr, linear.data()});
@@ -32,7 +30,8 @@ float check_bound(const Scene& scene, const Camera& camera, double budget) {
     std::vector<float> truth, fast;
     draw(Accuracy::reference, 0, truth);
     const ErrorBound bound = draw(Accuracy::exact, budget, fast);
-    const auto code = [](float v) { return shading::reference::srgb_code(static_cast<double>(v)); };
+    const double exposure = static_cast<double>(settings.exposure);
+    const auto code = [&](float v) { return shading::reference::srgb_code(static_cast<double>(v) * exposure); };
     double worst = 0;
     float largest = 0;
     for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -102,4 +101,30 @@ TEST_CASE("error budget: lamps next to surfaces far from the origin keep to the 
         INFO("round " << round << ", origin " << origin << ", height " << height);
         check_bound(scene, camera, random.real(0.1, 2));
     }
+}
+
+TEST_CASE("error budget: wrapped light that a soft-split shadow leaves keeps to the bound", "[raster][budget]") {
+    // A slab hangs close above a floor that faces the light: of the lobe's value, about 1, the shadow leaves the excess over N.L, about 0.
+    int promised = 0;
+    for (const Lobe lobe : {Lobe::sloan(0.2f), Lobe::sloan(0.7f), Lobe::green(0.5f), Lobe::mcauley(0.1f, 1.7f), Lobe::mcauley(0.5f, 4.4f)})
+        for (const float tilt : {0.0f, 0.3f, 2.0f})
+            for (const double budget : {0.05, 0.5, 4.0, 16.0}) {
+                Scene scene;
+                scene.materials.resize(1);
+                scene.materials[0].lobe = lobe;
+                scene.meshes = {make_plane(8, 1), make_box({1, 0.05f, 1})};
+                for (Mesh& mesh : scene.meshes) mesh.material = 0;
+                scene.instances = {{0, {}}, {1, {}}};
+                scene.instances[1].world_from_object.c[3] = {0, 0.5f, 0, 1};
+                scene.lights.resize(1);
+                scene.lights[0].direction_ws = {tilt, -1, 0};
+                Settings settings{.shadows = ShadowMode::soft_split};
+                settings.shadow_size = 256;
+                settings.exposure = 2;
+                settings.shading.specular = SpecularModel::none;
+                INFO("w " << lobe.wrap << ", n " << lobe.power << ", tilt " << tilt << ", budget " << budget);
+                const Camera camera = halflit::test::camera_at({3, 2, 3}, {0, 0, 0});
+                promised += check_bound(scene, camera, budget, settings) > 0;
+            }
+    CHECK(promised == 60);
 }
