@@ -13,56 +13,91 @@
 namespace halflit::shading {
 namespace {
 
-/// Error of N.L for a normal from three interpolated floats.
-constexpr double kCosineError = 4e-7;
-/// Error of H = L + V, absolute.
-constexpr double kHalfVectorError = 2.5e-7;
+/// Errors of N.L and of N itself, for a normal from three interpolated floats.
+constexpr double kCosineError = 4e-7, kNormalError = 1.5e-7;
+/// Error of H = L + V, absolute; of the mirrored view direction, besides that of N.
+constexpr double kHalfVectorError = 2.5e-7, kMirrorError = 1e-7;
 /// Lower bound on the length of a mapped normal; used where the texture allows a smaller z. Shorter normals come from texels that point
 /// away from each other.
 constexpr double kShortestNormal = 0.1;
 /// Relative error of the products and sums that follow.
 constexpr double kProductError = 1e-5;
 
-/// Upper bounds on what a surface reflects, and the errors of its inputs.
+/// A factor of some light: its error, absolute and as a share of its least value.
+struct Factor {
+    double absolute = 0, relative = 0;
+};
+constexpr double kAnyShare = 1e6;  // a relative error that costs 255 codes
+
+Factor factor_of(double error, double least) { return {error, error < least ? std::min(error / (least - error), kAnyShare) : kAnyShare}; }
+
+/// Codes that the factor's error costs: the light is the factor times at most `strength`.
+double codes_of(const Factor& factor, double strength) {
+    return std::min(codes_of_absolute(factor.absolute * strength), codes_of_relative(factor.relative));
+}
+
+/// Upper bounds on what a surface reflects, and the errors of its inputs. Members for which there is no texture have no error.
 struct Surface {
-    double albedo, reflectance;      ///< diffuse with the lobe's scale; F0
+    double albedo, reflectance;      ///< largest colour; largest F0
+    double metallic;                 ///< largest
     double exponent, normalization;  ///< those of the sharpest highlight
-    double cosine_error;
-    double roughness_error;                                                    ///< relative, where a texture gives it
-    double base_color_error, metallic_error, occlusion_error, emissive_error;  ///< errors of a texture's value
+    double normal_error;
+    Factor base_color, roughness, matt, shiny, occlusion, emissive;  ///< matt: 1 - metallic; shiny: F0, by the metallic texture's error
     bool specular;
+
+    [[nodiscard]] double cosine_error() const { return normal_error + (kCosineError - kNormalError); }
 };
 
 Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const SceneFacts& facts) {
     const auto has = [&](Stage stage) { return (material.stages & stage) != 0; };
     Surface s{};
-    const double color = std::max({material.base_color[0], material.base_color[1], material.base_color[2]}) *
-                         (has(kStageVertexColor) ? facts.vertex_color : 1.0);
-    s.albedo = color;
-    s.specular = has(kStageSpecular) && has(kStageLights);
-    s.reflectance = material.metallic > 0.0f ? std::max(double{kDielectricReflectance}, color) : double{kDielectricReflectance};
+    const auto& [red, green, blue, alpha] = material.base_color;
+    s.albedo = std::max({red, green, blue}) * (has(kStageVertexColor) ? facts.vertex_color : 1.0);
+    s.specular = has(kStageSpecular) && (has(kStageLights) || has(kStageAmbient));
+    s.metallic = material.metallic;
     const auto filtered = [&](const TexturePlan& texture, std::initializer_list<int> channels) {
         double error = 0.0;
         for (const int c : channels) error = std::max(error, filter_error(texture, c, facts.largest_uv));
         return error;
     };
+    // A factor times a texture's channels.
+    const auto textured = [&](const TexturePlan& texture, std::initializer_list<int> channels, double factor) {
+        double least = 1.0;
+        for (const int c : channels) least = std::min(least, least_value(texture, c));
+        return factor_of(factor * filtered(texture, channels), factor * least);
+    };
+    double least_color = has(kStageVertexColor) ? 0.0 : std::min({red, green, blue}), least_metallic = s.metallic;
+    if (has(kStageBaseColorTexture)) {
+        s.base_color = textured(material.base_color_texture, {0, 1, 2}, s.albedo);
+        for (const int c : {0, 1, 2})
+            least_color = std::min(least_color, material.base_color[c] * least_value(material.base_color_texture, c));
+    }
     double roughness = material.roughness;
     if (has(kStageMetallicRoughnessTexture)) {
-        roughness *= least_value(material.metallic_roughness_texture, 1);
-        s.roughness_error = filtered(material.metallic_roughness_texture, {1}) * static_cast<double>(material.roughness) /
-                            std::max(roughness, double{kMinRoughness});
-        s.metallic_error = filtered(material.metallic_roughness_texture, {2});
+        const TexturePlan& texture = material.metallic_roughness_texture;
+        roughness *= least_value(texture, 1);
+        s.roughness = factor_of(filtered(texture, {1}) * material.roughness, std::max(roughness, double{kMinRoughness}));
+        least_metallic *= least_value(texture, 2);
+        const double error = filtered(texture, {2}) * s.metallic, dielectric = kDielectricReflectance;
+        const auto f0 = [&](double metallic) { return dielectric + metallic * (least_color - dielectric); };
+        s.matt = factor_of(error, 1.0 - s.metallic);
+        s.shiny = factor_of(error * std::max(s.albedo, dielectric), std::min(f0(least_metallic), f0(s.metallic)));
     }
-    if (has(kStageBaseColorTexture)) s.base_color_error = filtered(material.base_color_texture, {0, 1, 2});
-    if (has(kStageOcclusionTexture)) s.occlusion_error = filtered(material.occlusion_texture, {0});
-    if (has(kStageEmissiveTexture)) s.emissive_error = filtered(material.emissive_texture, {0, 1, 2});
+    s.reflectance = s.metallic > 0.0 ? std::max(double{kDielectricReflectance}, s.albedo) : double{kDielectricReflectance};
+    if (has(kStageOcclusionTexture)) {
+        const double strength = material.occlusion_strength;
+        s.occlusion = factor_of(strength * filtered(material.occlusion_texture, {0}),
+                                1.0 + strength * (least_value(material.occlusion_texture, 0) - 1.0));
+    }
+    if (has(kStageEmissiveTexture))
+        s.emissive = textured(material.emissive_texture, {0, 1, 2}, *std::max_element(material.emissive, material.emissive + 3));
     s.exponent = specular_exponent(roughness);
     s.normalization = plan.normalize_specular ? specular_normalization(0.5 * s.exponent, plan.specular == SpecularModel::phong) : 1.0;
-    s.cosine_error = kCosineError;
+    s.normal_error = kNormalError;
     if (has(kStageNormalMap)) {
         // The three components are in [-1, 1], each off by twice its channel's error. The vector is no shorter than its z.
         const double z = 2.0 * least_value(material.normal_texture, 2) - 1.0;
-        s.cosine_error += 2.0 * 1.7320508 * filtered(material.normal_texture, {0, 1, 2}) *
+        s.normal_error += 2.0 * 1.7320508 * filtered(material.normal_texture, {0, 1, 2}) *
                           std::max(1.0, std::fabs(double{material.normal_scale})) / std::max(z, kShortestNormal);
     }
     return s;
@@ -104,57 +139,80 @@ double excess_error(const LobePlan& lobe, double cosine_error) {
     return std::max(1.0, slope) * cosine_error + 1.2e-7 * (n + 4.0);
 }
 
+/// Ambient light that reaches a surface: an upper bound, and the error of its sum for a normal or a mirrored direction that is off.
+struct Ambience {
+    double most = 0, error = 0;
+};
+
+/// By the addition theorem a band adds at most its norm times sqrt((2 l + 1) / (4 pi)). Along any great circle the sum is a trigonometric
+/// polynomial of degree bands - 1, so its slope is at most that times its largest value (Bernstein).
+Ambience ambience_of(const EnvironmentPlan& environment, double exposure, double direction_error) {
+    Ambience light;
+    for (const float* channel : {environment.red, environment.green, environment.blue}) {
+        double most = 0.0;
+        for (int l = 0; l < environment.bands; ++l) {
+            double squares = 0.0;
+            for (int i = l * l; i < (l + 1) * (l + 1); ++i) squares += static_cast<double>(channel[i]) * channel[i];
+            most += std::sqrt(squares * (2 * l + 1) * 0.079577471545947668);  // 1 / (4 pi)
+        }
+        light.most = std::max(light.most, most * exposure);
+    }
+    light.error = (3e-7 + (environment.bands - 1) * direction_error) * light.most;
+    return light;
+}
+
 double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, const Surface& s, const Arriving& light, double exposure) {
     const auto has = [&](Stage stage) { return (material.stages & stage) != 0; };
     const double n = material.lobe.power_minus_one + 1.0, scale = material.lobe.scale;
     double codes = codes_of_relative(kProductError + 1.5e-7 * (has(kStageLights) ? n + light.count : 0.0));
-    double around = 0.0;  // ambient light
+    double matt = 0.0, shiny = 0.0;  // all light that the albedo reflects; that F0 reflects
+    if (has(kStageUnlit)) matt = exposure;
     if (has(kStageAmbient)) {
-        const Vec3f sky = plan.ambient.sky_linear, ground = plan.ambient.ground_linear;
-        around = std::max({sky.x, sky.y, sky.z, ground.x, ground.y, ground.z}) * exposure;
+        Ambience diffuse, mirrored;
+        const double mirror_error = 2.0 * s.normal_error + kMirrorError;
         if (has(kStageEnvironment)) {
-            const EnvironmentPlan& environment = plan.environments[static_cast<std::size_t>(material.environment)];
-            around = 0.0;
-            for (const float* channel : {environment.red, environment.green, environment.blue}) {
-                double most = 0.0;
-                for (int l = 0; l < environment.bands; ++l) {
-                    double squares = 0.0;
-                    for (int i = l * l; i < (l + 1) * (l + 1); ++i) squares += static_cast<double>(channel[i]) * channel[i];
-                    most += std::sqrt(squares * (2 * l + 1) * 0.079577471545947668);  // 1 / (4 pi)
-                }
-                around = std::max(around, most * exposure);
-            }
-            codes += codes_of_absolute(3e-7 * around) * (s.specular ? 2.0 : 1.0);
-            if (has(kStageNormalMap)) codes += codes_of_absolute(4.0 * s.cosine_error * around);
+            const auto ambience = [&](int index, double error) {
+                return ambience_of(plan.environments[static_cast<std::size_t>(index)], exposure, error);
+            };
+            diffuse = ambience(material.environment, s.normal_error);
+            if (s.specular) mirrored = ambience(material.specular_environment, mirror_error);
         } else {
-            codes += codes_of_absolute(s.cosine_error * around * std::max(s.albedo, 1.0));
+            const Vec3f sky = plan.ambient.sky_linear, ground = plan.ambient.ground_linear;
+            const double most = std::max({sky.x, sky.y, sky.z, ground.x, ground.y, ground.z}) * exposure;
+            diffuse = {most, s.normal_error * most};
+            if (s.specular) mirrored = {most, mirror_error * most};
         }
+        // The mirrored share is at most 1 or F0, and falls with the roughness and with N.V, no faster than 1 and 5.
+        const double share = std::max(1.0, s.reflectance);
+        codes += codes_of_absolute(s.albedo * diffuse.error);
+        codes += codes_of_absolute(share * mirrored.error + (s.roughness.absolute + 5.0 * s.cosine_error()) * mirrored.most);
+        codes += codes_of(s.occlusion, s.albedo * diffuse.most + share * mirrored.most);
+        matt += diffuse.most;
+        shiny += mirrored.most;
     }
     if (has(kStageLights)) {
-        codes += codes_of_edge(s.albedo * scale * light.sum, n, s.cosine_error / (1.0 + material.lobe.wrap));
-        if (may_split(plan, material))
-            codes += codes_of_absolute(s.albedo * scale * light.sum * excess_error(material.lobe, s.cosine_error));
-        if (light.local > 0) codes += codes_of_edge(s.albedo * scale * light.sum, 1.0, 3e-7);  // the end of the range
-        if (light.cone_error > 0) codes += codes_of_edge(s.albedo * scale * light.sum, 2.0, light.cone_error);
+        const double amplitude = s.albedo * scale * light.sum;
+        codes += codes_of_edge(amplitude, n, s.cosine_error() / (1.0 + material.lobe.wrap));
+        if (may_split(plan, material)) codes += codes_of_absolute(amplitude * excess_error(material.lobe, s.cosine_error()));
+        if (light.local > 0) codes += codes_of_edge(amplitude, 1.0, 3e-7);  // the end of the range
+        if (light.cone_error > 0) codes += codes_of_edge(amplitude, 2.0, light.cone_error);
+        matt += light.sum * scale;
     }
-    if (s.specular) {
-        const double turning = plan.specular == SpecularModel::phong ? 2.0 : 1.0;
-        double constant = 0.0, linear = 3e-7;
-        if (has(kStageMetallicRoughnessTexture)) constant = linear = 4.0 * s.roughness_error;  // roughness^4, in exponent and norm
+    if (s.specular && has(kStageLights)) {
+        const double turning = plan.specular == SpecularModel::phong ? 2.0 : 1.0, strength = s.normalization * light.sum;
+        const double constant = 4.0 * s.roughness.relative, linear = 3e-7 + constant;  // roughness^4, in exponent and norm
         codes += codes_of_specular(s.reflectance * s.normalization * light.largest, light.count, constant, linear,
-                                   turning * std::sqrt(2.0 * s.exponent) * s.cosine_error);
+                                   turning * std::sqrt(2.0 * s.exponent) * s.cosine_error());
         // Opposite a light at a grazing angle H = L + V is short, and its direction is off by kHalfVectorError / |H|. With N.V >= 0 the
-        // highlight is no brighter than |H| of its peak there, and d/dx cos^s x <= 0.61 sqrt(s), so |H| cancels.
-        if (plan.specular == SpecularModel::blinn)
-            codes += codes_of_absolute(s.reflectance * s.normalization * light.sum * 0.61 * std::sqrt(s.exponent) * kHalfVectorError);
+        // highlight is no brighter than |H| of its peak there, and d/dx cos^s x <= 0.61 sqrt(s), so |H| cancels. N.L, a factor of the
+        // highlight, is small there too, so its own error is absolute.
+        const double short_half = plan.specular == SpecularModel::blinn ? 0.61 * std::sqrt(s.exponent) * kHalfVectorError : 0.0;
+        codes += codes_of_absolute(s.reflectance * strength * (short_half + s.cosine_error()));
+        shiny += strength;
     }
-    const double lit = has(kStageUnlit) ? exposure : light.sum * std::max(1.0, scale) + around;
-    if (has(kStageBaseColorTexture)) codes += codes_of_absolute(s.base_color_error * s.albedo * lit);
-    if (has(kStageMetallicRoughnessTexture)) codes += codes_of_absolute(2.0 * s.metallic_error * s.albedo * lit);
-    if (has(kStageOcclusionTexture)) codes += codes_of_absolute(s.occlusion_error * around);
-    if (has(kStageEmissiveTexture))
-        codes +=
-            codes_of_absolute(s.emissive_error * exposure * std::max({material.emissive[0], material.emissive[1], material.emissive[2]}));
+    codes += codes_of(s.base_color, matt + s.metallic * std::max(0.0, shiny - matt));
+    codes += codes_of(s.matt, s.albedo * matt) + codes_of(s.shiny, shiny);
+    codes += codes_of(s.emissive, exposure);
     return std::min(codes, 255.0);
 }
 

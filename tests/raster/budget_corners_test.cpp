@@ -128,3 +128,42 @@ TEST_CASE("error budget: wrapped light that a soft-split shadow leaves keeps to 
             }
     CHECK(promised == 60);
 }
+
+TEST_CASE("error budget: highlights times a textured colour or metallic factor keep to the bound", "[raster][budget]") {
+    halflit::test::Random random(2);
+    const auto noise = [&](int size, double low, ColorSpace space) {
+        std::vector<std::uint8_t> rgba(static_cast<std::size_t>(4 * size * size));
+        for (std::uint8_t& c : rgba) c = static_cast<std::uint8_t>(random.real(low, 255.9));
+        return *Texture::from_rgba8(rgba, size, size, space);
+    };
+    int promised = 0;
+    for (const bool metallic_texture : {false, true})
+        for (const double low : {0.0, 128.0})
+            for (const float roughness : {0.1f, 0.2f, 0.5f})
+                for (const float repeats : {1.0f, 50.0f})
+                    for (const double budget : {0.1, 1.0, 20.0}) {
+                        Scene scene;
+                        scene.textures.push_back(noise(1000, low, ColorSpace::linear));
+                        scene.materials.resize(1);
+                        scene.materials[0].metallic = 1.0f;
+                        scene.materials[0].roughness = roughness;
+                        TextureUse& use =
+                            metallic_texture ? scene.materials[0].metallic_roughness_texture : scene.materials[0].base_color_texture;
+                        use.texture = 0;
+                        use.row_u = {repeats, 0, 0};
+                        use.row_v = {0, repeats, 0};
+                        scene.meshes = {make_plane(1, 1)};
+                        scene.meshes[0].material = 0;
+                        scene.instances = {{0, {}}};
+                        scene.lights.resize(1);
+                        scene.lights[0].direction_ws = {0, -1, 0};
+                        // The middle of the highlight is as bright as the texture.
+                        scene.lights[0].color_linear = Vec3f{4, 4, 4} * (roughness * roughness * roughness * roughness);
+                        const float part = 0.02f / repeats;
+                        const Camera camera = halflit::test::camera_at({0.3f, 3, 0.41f}, {0.3f, 0, 0.4f}, 0.2f * part, 0.01f);
+                        INFO((metallic_texture ? "metallic" : "colour")
+                             << ", from " << low << ", roughness " << roughness << ", repeats " << repeats << ", budget " << budget);
+                        promised += check_bound(scene, camera, budget) > 0;
+                    }
+    CHECK(promised > 60);
+}
