@@ -34,7 +34,7 @@ double filter_error(const TexturePlan& texture, int c, double largest_uv) {
     // each axis.
     const double level =
         texture.mip == MipFilter::linear && texture.level_count > 1 ? (texture.transform ? 1e-5 : 4e-6) * std::min(range, 9.0 * step) : 0.0;
-    return std::min(shift * step, range) + level + 10.0 * kRounding;
+    return std::min(shift * step, range) + level + 10.0 * kRounding + static_cast<double>(texture.range->storage[c]) * kUnit;
 }
 
 double least_value(const TexturePlan& texture, int c) { return texture.range->least[c] * kUnit; }

@@ -5,8 +5,9 @@
 
 namespace halflit::shading {
 
-/// Largest error of channel c, whose range is 0 to 1, against filtering in exact arithmetic from the same float32 coordinates. These are
-/// within +-largest_uv. Cases where the last bit decides which texel or level is the nearest are not counted.
+/// Largest error of channel c, whose range is 0 to 1, against filtering the texels that the texture was made from, not rounded to 16 bits,
+/// in exact arithmetic from the same float32 coordinates. These are within +-largest_uv. Cases where the last bit decides which texel or
+/// level is the nearest are not counted.
 [[nodiscard]] double filter_error(const TexturePlan& texture, int c, double largest_uv);
 
 /// The least value of channel c in the whole texture.

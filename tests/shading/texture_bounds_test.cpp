@@ -56,6 +56,56 @@ TEST_CASE("texture bounds: ranges and steps are those of all levels, across the 
     }
 }
 
+TEST_CASE("texture bounds: stored texels differ from unrounded ones by no more than their range says", "[shading][texture]") {
+    FloatMaker make(12);
+    for (const auto& [width, height] : {std::pair{1, 1}, {256, 1}, {64, 64}, {129, 37}, {512, 256}})
+        for (const ColorSpace space : {ColorSpace::srgb, ColorSpace::linear}) {
+            std::vector<std::uint8_t> rgba(static_cast<std::size_t>(4 * width * height));
+            for (std::uint8_t& code : rgba) code = static_cast<std::uint8_t>(make.below(make.below(4) == 0 ? 256 : 20));
+            const Texture texture = Texture::from_rgba8(rgba, width, height, space).value();
+            double worst[4] = {0, 0, 0, 0};
+            std::vector<double> exact, above;  // one level; box filters with weights that are lengths of overlap
+            for (std::size_t i = 0; i < rgba.size(); ++i) {
+                const double c = rgba[i] / 255.0;
+                exact.push_back(space == ColorSpace::linear || i % 4 == 3 ? c
+                                : c <= 0.04045                            ? c / 12.92
+                                                                          : std::pow((c + 0.055) / 1.055, 2.4));
+            }
+            for (std::size_t l = 0; l < texture.levels().size(); ++l) {
+                const TextureLevel level = texture.levels()[l];
+                if (l > 0) {
+                    const TextureLevel large = texture.levels()[l - 1];
+                    above.swap(exact);
+                    exact.assign(static_cast<std::size_t>(4 * level.width * level.height), 0.0);
+                    const double wide = static_cast<double>(large.width) / level.width,
+                                 tall = static_cast<double>(large.height) / level.height;
+                    const auto overlap = [](int texel, int at, double size) {
+                        return std::max(0.0, std::min(texel + 1.0, (at + 1) * size) - std::max(static_cast<double>(texel), at * size));
+                    };
+                    for (int y = 0; y < level.height; ++y)
+                        for (int x = 0; x < level.width; ++x)
+                            for (int j = static_cast<int>(y * tall); j < std::min(large.height, static_cast<int>((y + 1) * tall) + 1); ++j)
+                                for (int i = static_cast<int>(x * wide); i < std::min(large.width, static_cast<int>((x + 1) * wide) + 1);
+                                     ++i)
+                                    for (int c = 0; c < 4; ++c)
+                                        exact[static_cast<std::size_t>(4 * (y * level.width + x) + c)] +=
+                                            above[static_cast<std::size_t>(4 * (j * large.width + i) + c)] * overlap(i, x, wide) *
+                                            overlap(j, y, tall) / (wide * tall);
+                }
+                for (std::size_t i = 0; i < exact.size(); ++i) {
+                    const double stored = texture.data()[4 * static_cast<std::size_t>(level.offset) + i];
+                    worst[i % 4] = std::max(worst[i % 4], std::fabs(stored - 65535.0 * exact[i]));
+                }
+            }
+            for (std::size_t c = 0; c < 4; ++c) {
+                const auto said = static_cast<double>(texture.range().storage[c]);
+                INFO(width << " x " << height << ", channel " << c << ": off by " << worst[c] << ", said " << said);
+                CHECK(worst[c] <= said);
+                CHECK(said <= worst[c] + 0.1);
+            }
+        }
+}
+
 TEST_CASE("texture bounds: no filtered channel is off by more than its bound", "[shading][texture][sampling]") {
     FloatMaker make(99);
     double closest = 0;

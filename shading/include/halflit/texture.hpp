@@ -45,6 +45,7 @@ inline constexpr int kMaxTextureSide = 16384;
 struct TextureRange {
     std::uint16_t least[4], most[4];  ///< smallest and largest value of each channel
     std::uint16_t step[4];  ///< the largest difference between neighbours in a row or a column, those across opposite edges included
+    float storage[4];       ///< largest error of a texel by its rounding to 16 bits and that of the levels above it
 };
 
 /// Texel (x, y) of level l is at data()[4 * (offset + y * width + x)], row 0 on top (v = 0), channel order RGBA.
@@ -68,8 +69,8 @@ public:
     [[nodiscard]] const TextureRange& range() const { return range_; }
 
 private:
-    template <class ReadTexel>
-    static Result<Texture> make(int width, int height, ReadTexel read_texel);
+    template <class ReadTexel, class ReadExact>
+    static Result<Texture> make(int width, int height, ReadTexel read_texel, ReadExact read_exact);
 
     std::vector<TextureLevel> levels_;
     std::vector<std::uint16_t> data_;
