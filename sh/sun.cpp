@@ -190,6 +190,8 @@ void take(State& state, const Judge& judge, const std::vector<Pixel>& pixels, do
     projection.add_rows(state.view(), first, end, 1.0);
     std::vector<Sun> suns = state.suns;
     suns.push_back(sun);
+    for (const Pixel& p : pixels)
+        if (p.luminance > level) suns.back().pixels.push_back(static_cast<std::int32_t>(state.index(p.x, p.y)));
     const double bound = judge.bound(projection.spectrum(), suns);
     if (bound <= target) {
         state.projection = std::move(projection);

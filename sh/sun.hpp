@@ -6,15 +6,17 @@
 #include "sh/order.hpp"
 #include "sh/project.hpp"
 
+#include <cstdint>
 #include <vector>
 
 namespace halflit::sh {
 
 struct Sun {
-    Vec3d direction;         ///< unit vector towards it
-    Vec3d irradiance;        ///< on a surface that faces it; a light's colour is this divided by pi
-    double solid_angle = 0;  ///< sr, of the pixels that it was taken from
-    double spread_rad = 0;   ///< upper bound on the mean angle between its light and `direction`
+    Vec3d direction;                   ///< unit vector towards it
+    Vec3d irradiance;                  ///< on a surface that faces it; a light's colour is this divided by pi
+    double solid_angle = 0;            ///< sr, of the pixels that it was taken from
+    double spread_rad = 0;             ///< upper bound on the mean angle between its light and `direction`
+    std::vector<std::int32_t> pixels;  ///< that it was taken from, y times the width plus x; no pixel belongs to two suns
 };
 
 struct SunOptions {

@@ -2,11 +2,14 @@
 
 #include "sh/sun.hpp"
 #include "sh/trig.hpp"
+#include "sh/vec3d.hpp"
 #include "shading/model/scalar.hpp"
 #include "shading/out_of_memory.hpp"
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <map>
 #include <new>
 #include <string>
 
@@ -16,6 +19,40 @@ namespace {
 std::uint64_t next_id() {
     static std::atomic<std::uint64_t> last{0};
     return ++last;
+}
+
+/// `rest`: the image without its suns. The light's direction is taken as it is, rounding included.
+SunShape shape_of(const sh::EquirectView& image, const sh::EquirectView& rest, const sh::Sun& sun, const Light& light,
+                  const sh::Rotation& turn, bool keep) {
+    constexpr int kColumns = 1024;  // of the patches that pixels are cut into or merged to, 0.35 degrees
+    const int cuts = std::max(1, kColumns / image.width), step = std::max(1, image.width / kColumns);
+    const double width = static_cast<double>(image.width) * cuts, height = static_cast<double>(image.height) * cuts;
+    const Vec3d direction = to_double(light.direction_ws) * -1.0, towards = direction * (1.0 / std::sqrt(dot(direction, direction)));
+    Vec3d mean[3], squares{};
+    SunShape shape{};
+    std::map<std::pair<int, int>, SunPatch> patches;
+    for (const std::int32_t pixel : sun.pixels) {
+        const int x = pixel % image.width, y = pixel / image.width;
+        const Vec3d taken = image.at(x, y) - rest.at(x, y);
+        for (int j = y * cuts; j < (y + 1) * cuts; ++j)
+            for (int i = x * cuts; i < (x + 1) * cuts; ++i) {
+                const Vec3d at = turn * sh::equirect_direction((i + 0.5) / width, (j + 0.5) / height), apart = at - towards;
+                const Vec3d part = taken * (sh::pixel_solid_angle(image.width * cuts, image.height * cuts, j) / kPi);
+                shape.light = shape.light + part;
+                squares = squares + part * dot(apart, apart);
+                mean[0] = mean[0] + apart * part.x, mean[1] = mean[1] + apart * part.y, mean[2] = mean[2] + apart * part.z;
+                if (!keep) continue;
+                SunPatch& patch = patches[{j / step, i / step}];
+                patch.light = patch.light + part;
+                patch.direction = patch.direction + at * sh::luminance(part);
+            }
+    }
+    const auto share = [](double part, double of) { return of > 0.0 ? part / of : 0.0; };
+    const auto length = [](Vec3d v) { return std::sqrt(dot(v, v)); };
+    shape.mean_square = {share(squares.x, shape.light.x), share(squares.y, shape.light.y), share(squares.z, shape.light.z)};
+    shape.drift = {share(length(mean[0]), shape.light.x), share(length(mean[1]), shape.light.y), share(length(mean[2]), shape.light.z)};
+    for (auto& [place, patch] : patches) shape.patches.push_back({patch.direction * (1.0 / length(patch.direction)), patch.light});
+    return shape;
 }
 
 }  // namespace
@@ -48,7 +85,6 @@ Environment make_environment(const sh::EquirectView& image, const EnvironmentOpt
         return environment;
     }
     sh::SunExtraction extraction = sh::extract_suns(image, whole);
-    if (options.keep_light && !extraction.suns.empty()) environment.lit_rgb = std::move(extraction.residual_rgb);
     take(extraction.residual);
     for (const sh::Sun& sun : extraction.suns) {
         const Vec3d towards = turn * sun.direction, color = sun.irradiance * (1.0 / kPi);
@@ -57,7 +93,10 @@ Environment make_environment(const sh::EquirectView& image, const EnvironmentOpt
         light.direction_ws = {static_cast<float>(-towards.x), static_cast<float>(-towards.y), static_cast<float>(-towards.z)};
         light.color_linear = {static_cast<float>(color.x), static_cast<float>(color.y), static_cast<float>(color.z)};
         environment.suns.push_back(light);
+        const sh::EquirectView rest{image.width, image.height, extraction.residual_rgb};
+        environment.sun_shapes.push_back(shape_of(image, rest, sun, light, turn, options.keep_light));
     }
+    if (options.keep_light && !extraction.suns.empty()) environment.lit_rgb = std::move(extraction.residual_rgb);
     return environment;
 }
 

@@ -14,6 +14,20 @@
 
 namespace halflit {
 
+/// A piece of a sun: the direction to it, and its radiance times solid angle over pi.
+struct SunPatch {
+    Vec3d direction, light;
+};
+
+/// A sun's light, which a directional light replaces. Everything is over pi and channel by channel; d is the direction to a piece of the
+/// sun, D that of the light, and means are weighted by the pieces' light.
+struct SunShape {
+    Vec3d light;                    ///< in the image
+    Vec3d mean_square;              ///< of |d - D|
+    Vec3d drift;                    ///< |mean of d - D|
+    std::vector<SunPatch> patches;  ///< for the reference; empty unless the light was kept
+};
+
 /// An environment image in ten bands, and the data that bound the error of leaving bands out. Suns taken out of the image are separate
 /// lights: the caller adds them to the scene's lights.
 struct Environment {
@@ -22,8 +36,9 @@ struct Environment {
     std::uint64_t id = 0;
     sh::RadianceSh radiance;  ///< turned by rotate_rad
     sh::BandGrid grid;
-    bool calibrated = false;  ///< as in EnvironmentImage
-    std::vector<Light> suns;  ///< directional, colour premultiplied by 1/pi
+    bool calibrated = false;           ///< as in EnvironmentImage
+    std::vector<Light> suns;           ///< directional, colour premultiplied by 1/pi
+    std::vector<SunShape> sun_shapes;  ///< of each of them
     /// The original image with the suns, before any rotation, for the background of pictures; rotate_rad turns it. Empty unless kept.
     std::vector<float> rgb;
     int width = 0, height = 0;

@@ -13,7 +13,11 @@ public:
     EnvironmentPlanner(EnvironmentPlans& known, const EnvironmentOrder& order, std::vector<EnvironmentPlan>& plans)
         : known_(known), order_(order), plans_(plans) {}
 
-    int diffuse(const LobePlan& lobe) { return find({lobe.wrap, static_cast<double>(lobe.power_minus_one) + 1.0, lobe.scale}, order_); }
+    int diffuse(const LobePlan& lobe, bool split_shadows) {
+        EnvironmentOrder order = order_;
+        order.split_shadows = split_shadows && lobe.wrap > 0.0f;
+        return find({lobe.wrap, static_cast<double>(lobe.power_minus_one) + 1.0, lobe.scale}, order);
+    }
 
     /// Plans reflections. They are an approximation, so the tolerance is doubled. With an error budget their ten bands count as exact.
     int specular(float roughness) {
@@ -46,11 +50,12 @@ void plan_environments(const PlanInputs& inputs, PlanMemory& memory, ShadingPlan
     order.exposure = inputs.exposure;
     if (inputs.options.max_error_codes > 0.0) order.codes = inputs.options.max_error_codes * kBudgetShares.each_environment();
     memory.environments.use(inputs.environment);
+    const bool split_shadows = inputs.shadows.mode == ShadowMode::soft_split && !plan.shadow_maps.empty();
     EnvironmentPlanner planner(memory.environments, order, plan.environments);
     for (MaterialPlan& material : plan.materials) {
         if ((material.stages & kStageAmbient) == 0) continue;
         material.stages |= kStageEnvironment;
-        material.environment = planner.diffuse(material.lobe);
+        material.environment = planner.diffuse(material.lobe, split_shadows);
     }
     // Reflections come last: at roughness 1 their lobe is Lambert's, and a Lambert surface must not get the plan with the larger error.
     for (MaterialPlan& material : plan.materials)
@@ -120,8 +125,8 @@ ShadingPlan plan_shading(const PlanInputs& inputs, PlanMemory& memory) {
     for (std::size_t i = 0; i < inputs.available_slots.size(); ++i)
         plan.materials.push_back(plan_material(i < inputs.materials.size() ? inputs.materials[i] : no_material, inputs.textures,
                                                inputs.available_slots[i], kinds, options));
-    plan_environments(inputs, memory, plan);
     plan_shadows(inputs.shadows, plan);
+    plan_environments(inputs, memory, plan);
     HALFLIT_ASSERT((options.max_error_codes > 0.0) == (inputs.facts != nullptr));
     if (inputs.facts != nullptr) spend_error_budget(plan, options.max_error_codes, inputs.exposure, *inputs.facts, memory.fits);
     return plan;

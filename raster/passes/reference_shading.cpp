@@ -19,8 +19,17 @@ Result<void> ReferenceShading::build(const PreparedData& prepared, const shading
     if (scene.environment != nullptr && scene.environment->lit_rgb.empty())
         return fail(ErrorCode::usage, "accuracy reference: the environment was made without keep_light");
     scene_ = &prepared;
-    frame_ = {scene.textures, scene.lights,           scene.ambient,     options,
-              plan.eye_ws,    plan.view_direction_ws, plan.orthographic, plan.shadow_mode};
+    frame_ = {scene.textures,         scene.lights,      scene.ambient,    options, plan.eye_ws,
+              plan.view_direction_ws, plan.orthographic, plan.shadow_mode, {}};
+    suns_.assign(scene.lights.size(), nullptr);
+    if (scene.environment != nullptr)
+        for (std::size_t i = 0; i < scene.environment->suns.size(); ++i) {
+            // The last one that is equal: set_environment() adds suns at the end.
+            const auto found = std::find(scene.lights.rbegin(), scene.lights.rend(), scene.environment->suns[i]);
+            if (found != scene.lights.rend())
+                suns_[static_cast<std::size_t>(scene.lights.rend() - found - 1)] = &scene.environment->sun_shapes[i];
+        }
+    frame_.suns = suns_;
     if (environment_.replace(scene.environment)) known_.clear();
     diffuse_.assign(plan.materials.size(), nullptr);
     specular_.assign(plan.materials.size(), nullptr);

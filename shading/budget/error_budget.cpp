@@ -231,10 +231,14 @@ double specular_tier_codes(const Surface& s, const Arriving& light, PowTier tier
     return codes_of_specular(s.reflectance * s.normalization * light.largest, light.count, errors.exp2, errors.log2, 0.0);
 }
 
-double environment_codes(const ShadingPlan& plan, const MaterialPlan& material) {
+double environment_codes(const ShadingPlan& plan, const MaterialPlan& material, const Surface& s, double exposure) {
     double codes = 0.0;
-    for (const int index : {material.environment, material.specular_environment})
-        if (index >= 0) codes += plan.environments[static_cast<std::size_t>(index)].bound_codes;
+    for (const int index : {material.environment, material.specular_environment}) {
+        if (index < 0) continue;
+        const EnvironmentPlan& environment = plan.environments[static_cast<std::size_t>(index)];
+        // Suns may shine where there is no other light.
+        codes += environment.bound_codes + codes_of_absolute(s.albedo * environment.sun_bound * exposure);
+    }
     return codes;
 }
 
@@ -326,7 +330,7 @@ void spend_error_budget(ShadingPlan& plan, double budget_codes, double exposure,
     for (const MaterialPlan& material : plan.materials) {
         const Surface& s = surfaces.emplace_back(surface_of(plan, material, facts));
         rounding.push_back(rounding_codes(material, plan, s, light, exposure));
-        fixed.push_back(rounding.back() + environment_codes(plan, material));
+        fixed.push_back(rounding.back() + environment_codes(plan, material, s, exposure));
         if (!facts.drawn[rounding.size() - 1]) continue;
         poorest = std::min(poorest, budget_codes - fixed.back());
         most_reflected = std::max(most_reflected, s.albedo * material.lobe.scale + (s.specular ? s.reflectance * s.normalization : 0.0));

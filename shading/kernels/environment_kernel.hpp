@@ -64,5 +64,14 @@ HALFLIT_INLINE V3 environment_light(const shading::EnvironmentPlan& plan, V3 nor
     return environment_light(plan, normal.x, normal.y, normal.z);
 }
 
+/// Light through the lobe at a surface's normal, which may be zero.
+HALFLIT_INLINE V3 surrounding_light(const shading::EnvironmentPlan& plan, V3 normal) {
+    const V3 light = environment_light(plan, normal);
+    const M zero = dot(normal, normal) <= F(0.0f);
+    if (!any(zero)) return light;
+    const V3 flat = three(plan.at_zero_normal);
+    return {sel(zero, flat.x, light.x), sel(zero, flat.y, light.y), sel(zero, flat.z, light.z)};
+}
+
 }  // namespace HALFLIT_ISA_NAMESPACE
 }  // namespace halflit

@@ -61,7 +61,7 @@ HALFLIT_INLINE IncidentLight incident_light(const shading::ShadingPlan& frame, c
     }
     if (has(material, kStageAmbient)) {
         const bool environment = has(material, kStageEnvironment);
-        light.ambient = (environment ? environment_light(frame.environments[static_cast<std::size_t>(material.environment)], normal)
+        light.ambient = (environment ? surrounding_light(frame.environments[static_cast<std::size_t>(material.environment)], normal)
                                      : hemisphere(frame.ambient, normal.y)) *
                         surface.occlusion;
         if constexpr (kSpecular) {

@@ -9,9 +9,13 @@ namespace halflit::shading {
 /// sh/basis.hpp.
 struct EnvironmentPlan {
     int bands = 0;             ///< 1..10
-    double bound = 0.0;        ///< bound on the error of leaving out the other bands: any normal, worst channel, before exposure
+    double bound = 0.0;        ///< bound on the error of the bands left out and of the suns: any normal, worst channel, before exposure
     bool within = true;        ///< the bound is within the tolerance asked for
-    double bound_codes = 0.0;  ///< the same error in 8-bit sRGB codes; only where codes were asked for
+    double bound_codes = 0.0;  ///< the same error, without the suns', in 8-bit sRGB codes; only where codes were asked for
+    double sun_bound = 0.0;    ///< part of `bound`: error of replacing suns by directional lights
+    /// Light at a zero normal, whose N.L is 0 for every direction: f(0) / pi times the integral of the radiance. The series has no meaning
+    /// there.
+    float at_zero_normal[3]{};
     float red[sh::kMaxCoefficients]{}, green[sh::kMaxCoefficients]{}, blue[sh::kMaxCoefficients]{};
 
     /// The same sum in the form that the kernels compute. With N = (x, y, z), each of the real and imaginary parts of (x + iy)^m has as its
@@ -32,7 +36,9 @@ struct EnvironmentOrder {
     double tolerance = 1.0 / 510.0;  ///< relative to display white, in linear light: half an 8-bit code
     double exposure = 1.0;           ///< display white is 1 / exposure
     double codes = 0.0;              ///< if above 0, largest error in 8-bit sRGB codes, instead of the tolerance
-    bool ten_bands_are_all = false;  ///< the light is defined by ten bands, so that all ten have no error
+    /// The light is defined by ten bands, and by suns that have no size: all ten bands, and the suns, have no error.
+    bool ten_bands_are_all = false;
+    bool split_shadows = false;  ///< shadows may leave the excess of a lobe over its core
     bool operator==(const EnvironmentOrder&) const = default;
 };
 

@@ -1,6 +1,7 @@
 #include "shading/plan/environment_plans.hpp"
 
 #include "sh/trig.hpp"
+#include "sh/vec3d.hpp"
 #include "sh/zonal.hpp"
 #include "shading/model/code_bounds.hpp"
 
@@ -69,6 +70,38 @@ std::array<double, sh::kMaxBands> bounds_in_codes(const Environment& environment
     return codes;
 }
 
+/// Bound on the error of drawing suns as directional lights, worst channel, for the lobe f of x = N.L.
+///
+/// Let y be N.d for a piece of the sun, y0 = N.D, q the mean of |d - D|^2, m the length of the mean of d - D. f lies in [0, scale], and its
+/// slope in [0, S], n >= 1. f - S/2 x has slopes within S/2, and means of x are off by m, so f's mean is off by S/2 (sqrt(q) + m) at most.
+/// And f(y) - f(y0) - f'(y0) (y - y0) is within scale |y - y0|^n / (1 + w)^n for n <= 2, whose mean is at most the power n / 2 of q's
+/// (Jensen), and within n (n - 1) / 2 scale (y - y0)^2 / (1 + w)^2 from n = 2 on. So f's mean is also off by no more than that plus S m.
+/// For n < 1, |f(y) - f(y0)| <= scale |y - y0|^n / (1 + w)^n. A split shadow draws b f - (b - a) core, 0 <= a <= b <= 1, so the core's
+/// error, by its own slope, is added.
+double sun_bound(const Environment& environment, const sh::WrapLobe& lobe, bool split) {
+    const double n = lobe.power, width = 1.0 + lobe.wrap, slope = n / width * lobe.scale;
+    const auto half_slope = [](double s, double square, double drift) { return 0.5 * s * (__builtin_sqrt(square) + drift); };
+    const auto error = [&](double square, double drift) {
+        const double bend = square > 0.0 ? lobe.scale * power_of(square / (width * width), 0.5 * std::min(n, 2.0)) : 0.0;
+        double of_lobe =
+            n < 1.0 ? bend : std::min(half_slope(slope, square, drift), bend * std::max(1.0, 0.5 * n * (n - 1.0)) + slope * drift);
+        if (split) of_lobe += half_slope(n > width ? std::max(slope, lobe.scale) : lobe.scale, square, drift);
+        return std::min(of_lobe, lobe.scale);
+    };
+    Vec3d sum{};
+    for (std::size_t i = 0; i < environment.suns.size(); ++i) {
+        const SunShape& sun = environment.sun_shapes[i];
+        const Vec3d drawn = to_double(environment.suns[i].color_linear);
+        const auto channel = [&](double light, double square, double drift, double drawn_light) {
+            return light * error(square, drift) + lobe.scale * std::max(light - drawn_light, drawn_light - light);
+        };
+        sum = sum + Vec3d{channel(sun.light.x, sun.mean_square.x, sun.drift.x, drawn.x),
+                          channel(sun.light.y, sun.mean_square.y, sun.drift.y, drawn.y),
+                          channel(sun.light.z, sun.mean_square.z, sun.drift.z, drawn.z)};
+    }
+    return sh::largest(sum);
+}
+
 }  // namespace
 
 void make_newton_form(EnvironmentPlan& plan) {
@@ -109,7 +142,16 @@ EnvironmentPlan plan_environment(const Environment& environment, const sh::WrapL
         plan.within = choice.within;
     }
     plan.bound_codes = codes[static_cast<std::size_t>(plan.bands - 1)];
+    if (!order.ten_bands_are_all) plan.sun_bound = sun_bound(environment, lobe, order.split_shadows);
+    plan.bound += plan.sun_bound;
+    plan.within = plan.within && (order.codes > 0 ? codes_of_absolute(plan.sun_bound * order.exposure) <= order.codes
+                                                  : plan.bound * order.exposure <= order.tolerance);
     const sh::PreconvolvedSh product = sh::convolve(environment.radiance, sh::zonal_bands(lobe), plan.bands);
+    // Y_0 is 1 / (2 sqrt(pi)), so the integral of the radiance over pi is its first coefficient times 2 / sqrt(pi).
+    const double middle = lobe.wrap > 0.0 ? lobe.scale * power_of(lobe.wrap / (1.0 + lobe.wrap), lobe.power) : 0.0;
+    const Vec3d flat = environment.radiance.c[0] * (1.1283791670955126 * middle);
+    plan.at_zero_normal[0] = static_cast<float>(flat.x), plan.at_zero_normal[1] = static_cast<float>(flat.y);
+    plan.at_zero_normal[2] = static_cast<float>(flat.z);
     std::copy(product.r.begin(), product.r.end(), plan.red);
     std::copy(product.g.begin(), product.g.end(), plan.green);
     std::copy(product.b.begin(), product.b.end(), plan.blue);

@@ -81,6 +81,7 @@ std::array<double, 4> cubic(double t) {
 DirectIrradiance::DirectIrradiance(const Environment& environment, const Lobe& lobe) {
     const std::vector<Patch> pixels = patches(environment);
     const LobeTable table(lobe);
+    for (const Patch& pixel : pixels) at_zero_normal_ = at_zero_normal_ + pixel.light * lobe_value(lobe, 0.0);
     for (int face = 0; face < 6; ++face)
         for (int j = 0; j < kNodes; ++j)
             for (int i = 0; i < kNodes; ++i) {
@@ -98,7 +99,7 @@ Vec3d DirectIrradiance::at(Vec3d normal) const {
     int axis = 0;
     for (int k = 1; k < 3; ++k)
         if (std::fabs(d[k]) > std::fabs(d[axis])) axis = k;
-    if (!(std::fabs(d[axis]) > 0)) return {};  // no normal, no light
+    if (!(std::fabs(d[axis]) > 0)) return at_zero_normal_;
     const int face = 2 * axis + (d[axis] < 0 ? 1 : 0);
     const auto place = [&](double tangent) { return (std::atan(tangent / std::fabs(d[axis])) * (4.0 / kPi) + 1.0) * (0.5 * kCells); };
     const double u = place(d[(axis + 1) % 3]), v = place(d[(axis + 2) % 3]);
@@ -116,6 +117,7 @@ BandIrradiance::BandIrradiance(const Environment& environment, const sh::WrapLob
     : bands_(sh::convolve(environment.radiance, sh::zonal_bands(lobe), sh::kMaxBands)) {}
 
 Vec3d BandIrradiance::at(Vec3d normal) const {
+    if (!(dot(normal, normal) > 0)) return {};  // a cosine power of 0
     const Vec3d sum = sh::evaluate(bands_, normal);
     return {std::max(sum.x, 0.0), std::max(sum.y, 0.0), std::max(sum.z, 0.0)};
 }

@@ -19,6 +19,7 @@ public:
 
 private:
     static constexpr int kCells = 32, kNodes = kCells + 3;  ///< on a side of a face; one ring of nodes lies beyond each edge
+    Vec3d at_zero_normal_{};                                ///< N.L is 0 for all light
     std::vector<Vec3d> nodes_ = std::vector<Vec3d>(std::size_t{6} * kNodes * kNodes);
 };
 

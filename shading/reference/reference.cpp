@@ -49,14 +49,14 @@ Rgba texel(const Texture& texture, const TextureLevel& level, const Sampler& sam
     return {c[0] / 65535.0, c[1] / 65535.0, c[2] / 65535.0, c[3] / 65535.0};
 }
 
-/// The number; 0 for NaN and where doubles are farther apart than 1, so that no texel is meant.
-long long whole(double x) { return x > -0x1p53 && x < 0x1p53 ? static_cast<long long>(x) : 0; }
+/// Coordinates are clamped to +-2^20; NaN reads as 0.
+double held_coordinate(double x) { return std::isnan(x) ? 0.0 : std::clamp(x, -0x1p20, 0x1p20); }
 
 Rgba sample_level(const Texture& texture, const TextureLevel& level, const Sampler& sampler, TextureFilter filter, double u, double v) {
     const double x = u * level.width, y = v * level.height;
-    if (filter == TextureFilter::nearest) return texel(texture, level, sampler, whole(std::floor(x)), whole(std::floor(y)));
+    if (filter == TextureFilter::nearest) return texel(texture, level, sampler, std::llround(std::floor(x)), std::llround(std::floor(y)));
     const double x0 = std::floor(x - 0.5), y0 = std::floor(y - 0.5);
-    const long long i = whole(x0), j = whole(y0);
+    const long long i = std::llround(x0), j = std::llround(y0);
     const Rgba upper = mix(texel(texture, level, sampler, i, j), texel(texture, level, sampler, i + 1, j), x - 0.5 - x0);
     const Rgba lower = mix(texel(texture, level, sampler, i, j + 1), texel(texture, level, sampler, i + 1, j + 1), x - 0.5 - x0);
     return mix(upper, lower, y - 0.5 - y0);
@@ -137,17 +137,27 @@ Vec3d lit(const FrameInputs& frame, const Material& material, const Surface& sur
         const Arrival at = arrival(light, position);
         const double n_dot_l = dot(surface.normal, at.direction);
         const Hidden hidden = around.hidden.empty() ? Hidden{} : around.hidden[i];
-        Vec3d reflected = scale(surface.albedo, shadowed_lobe(lobe, n_dot_l, hidden, frame.shadow_mode));
+        const Vec3d color = to_double(light.color_linear);
+        const auto lobe_at = [&](Vec3d direction) {
+            return shadowed_lobe(lobe, dot(surface.normal, direction), hidden, frame.shadow_mode);
+        };
+        const SunShape* const sun = frame.suns.empty() ? nullptr : frame.suns[i];
+        Vec3d through_lobe{};
+        if (sun == nullptr)
+            through_lobe = scale(color, lobe_at(at.direction));
+        else
+            for (const SunPatch& patch : sun->patches) through_lobe = through_lobe + scale(patch.light, lobe_at(patch.direction));
+        Vec3d reflected = surface.albedo * through_lobe;
         if (specular && n_dot_l > 0) {
             const bool phong = frame.options.specular == SpecularModel::phong;
             const Vec3d reflection = scale(surface.normal, 2 * n_dot_l) - at.direction;
             const double cosine = phong ? dot(surface.to_eye, unit(reflection)) : dot(surface.normal, unit(at.direction + surface.to_eye));
             const double factor = !frame.options.normalize_specular ? 1.0 : phong ? (s + 8) / 8 : (s * s + 10 * s + 32) / (8 * (s + 4));
             if (cosine > 0)
-                reflected = reflected +
-                            scale(surface.f0, factor * std::pow(std::min(cosine, 1.0), phong ? s / 4 : s) * n_dot_l * (1.0 - hidden.hard));
+                reflected = reflected + color * scale(surface.f0, factor * std::pow(std::min(cosine, 1.0), phong ? s / 4 : s) * n_dot_l *
+                                                                      (1.0 - hidden.hard));
         }
-        sum = sum + scale(reflected * to_double(light.color_linear), at.attenuation);
+        sum = sum + scale(reflected, at.attenuation);
     }
     const bool environment = around.diffuse != nullptr && around.specular != nullptr;
     Vec3d ambient = surface.albedo * (environment ? around.diffuse->at(surface.normal) : hemisphere(frame.ambient, surface.normal.y));
@@ -171,6 +181,7 @@ double lobe_value(const Lobe& lobe, double x) {
 }
 
 Rgba sample(const Texture& texture, const Sampler& sampler, double u, double v, double lod) {
+    u = held_coordinate(u), v = held_coordinate(v);
     const auto levels = texture.levels();
     const bool magnified = !(lod > 0);  // NaN too
     const TextureFilter filter = magnified ? sampler.mag : sampler.min;

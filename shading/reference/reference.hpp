@@ -5,6 +5,7 @@
 #include "halflit/light.hpp"
 #include "halflit/material.hpp"
 #include "halflit/texture.hpp"
+#include "shading/environment.hpp"
 #include "shading/fragment_block.hpp"
 #include "shading/plan/plan.hpp"
 #include "shading/reference/shadow.hpp"
@@ -34,6 +35,9 @@ struct FrameInputs {
     Vec3f view_direction_ws{0, 0, -1};  ///< used when orthographic
     bool orthographic = false;
     ShadowMode shadow_mode = ShadowMode::off;
+    /// Where not null: the sun that a light stands for. The lobe is integrated over its pieces; highlights are those of the light. Empty:
+    /// no light is a sun.
+    std::span<const SunShape* const> suns;
 };
 
 /// Data of one fragment besides its block's rows.
