@@ -17,9 +17,6 @@ namespace {
 constexpr double kCosineError = 4e-7, kNormalError = 1.5e-7;
 /// Error of H = L + V, absolute; of the mirrored view direction, besides that of N.
 constexpr double kHalfVectorError = 2.5e-7, kMirrorError = 1e-7;
-/// Lower bound on the length of a mapped normal; used where the texture allows a smaller z. Shorter normals come from texels that point
-/// away from each other.
-constexpr double kShortestNormal = 0.1;
 /// Relative error of the products and sums that follow.
 constexpr double kProductError = 1e-5;
 
@@ -95,10 +92,12 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
     s.normalization = plan.normalize_specular ? specular_normalization(0.5 * s.exponent, plan.specular == SpecularModel::phong) : 1.0;
     s.normal_error = kNormalError;
     if (has(kStageNormalMap)) {
-        // The three components are in [-1, 1], each off by twice its channel's error. The vector is no shorter than its z.
+        // The three components are in [-1, 1], each off by twice its channel's error. The vector is no shorter than its z. Where z may be 0
+        // there is no bound: between texels that point away from each other a normal may be as short as one likes.
         const double z = 2.0 * least_value(material.normal_texture, 2) - 1.0;
-        s.normal_error += 2.0 * 1.7320508 * filtered(material.normal_texture, {0, 1, 2}) *
-                          std::max(1.0, std::fabs(double{material.normal_scale})) / std::max(z, kShortestNormal);
+        const double error =
+            2.0 * 1.7320508 * filtered(material.normal_texture, {0, 1, 2}) * std::max(1.0, std::fabs(double{material.normal_scale}));
+        s.normal_error += error < z ? error / (z - error) : 2.0;
     }
     return s;
 }
