@@ -37,7 +37,7 @@ struct FrameInputs {
     ShadowMode shadow_mode = ShadowMode::off;
     /// Where not null: the sun that a light stands for. The lobe is integrated over its pieces; highlights are those of the light. Empty:
     /// no light is a sun.
-    std::span<const SunShape* const> suns;
+    std::span<const SunShape* const> suns{};
 };
 
 /// Data of one fragment besides its block's rows.
