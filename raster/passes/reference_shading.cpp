@@ -19,8 +19,8 @@ Result<void> ReferenceShading::build(const PreparedData& prepared, const shading
     if (scene.environment != nullptr && scene.environment->lit_rgb.empty())
         return fail(ErrorCode::usage, "accuracy reference: the environment was made without keep_light");
     scene_ = &prepared;
-    frame_ = {scene.textures,         scene.lights,      scene.ambient,    options, plan.eye_ws,
-              plan.view_direction_ws, plan.orthographic, plan.shadow_mode};
+    frame_ = {scene.textures, scene.lights,           scene.ambient,     options,
+              plan.eye_ws,    plan.view_direction_ws, plan.orthographic, plan.shadow_mode};
     suns_.assign(scene.lights.size(), nullptr);
     if (scene.environment != nullptr)
         for (std::size_t i = 0; i < scene.environment->suns.size(); ++i) {
