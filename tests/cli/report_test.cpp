@@ -123,7 +123,11 @@ TEST_CASE("report: the orders and bounds of an environment are those of info", "
         REQUIRE(run(arguments).code == 0);
         return json_of(contents(folder.file("r.json")))["environment"];
     };
-    const auto valve = environment_of({"--lobe", "valve", "--specular", "none"});
+    const auto with_sun = environment_of({"--lobe", "valve", "--specular", "none"});
+    REQUIRE(with_sun.size() == 1);
+    CHECK(with_sun[0]["bound_linear"].get<double>() > 0.0);  // a directional light has no size
+
+    const auto valve = environment_of({"--lobe", "valve", "--specular", "none", "--env-sun", "off"});
     REQUIRE(valve.size() == 1);
     CHECK(valve[0]["light"] == "diffuse");
     CHECK(valve[0]["order"] == 3);  // its bands 3 and up are zero
