@@ -13,17 +13,14 @@
 namespace halflit {
 namespace {
 
-/// IEC 61966-2-1: 8-bit sRGB code to linear light in units of 1 / 65535.
-template <class Value>
-constexpr std::array<Value, 256> make_decode_table(double added) {
-    std::array<Value, 256> table{};
+/// IEC 61966-2-1: 8-bit sRGB code to linear light in 16 bits, rounded to nearest (no code lies near a tie: texture_test).
+constexpr std::array<std::uint16_t, 256> make_decode_table() {
+    std::array<std::uint16_t, 256> table{};
     for (int code = 0; code < 256; ++code)
-        table[static_cast<std::size_t>(code)] = static_cast<Value>(shading::linear_from_srgb(code / 255.0) * 65535.0 + added);
+        table[static_cast<std::size_t>(code)] = static_cast<std::uint16_t>(shading::linear_from_srgb(code / 255.0) * 65535.0 + 0.5);
     return table;
 }
-/// Rounded to nearest (no code lies near a tie: texture_test), and not rounded.
-constexpr std::array<std::uint16_t, 256> kLinear16FromSrgb8 = make_decode_table<std::uint16_t>(0.5);
-constexpr std::array<float, 256> kLinearFromSrgb8 = make_decode_table<float>(0.0);
+constexpr std::array<std::uint16_t, 256> kLinear16FromSrgb8 = make_decode_table();
 
 /// The box that one texel of the next smaller level covers along one axis. Its weights are exact fractions of `total`:
 /// an even size halves (1, 1); an odd size 2n+1 becomes n, and the box is 2 + 1/n texels long, so three texels share it.
@@ -53,7 +50,7 @@ void reduce(const TexelAt& texel_at, const TextureLevel& large, Value* to, const
             for (std::int64_t j = 0; j < rows.count; ++j) {
                 for (std::int64_t i = 0; i < columns.count; ++i) {
                     const std::uint64_t weight = rows.weight[j] * columns.weight[i];
-                    const Value* texel = texel_at(static_cast<std::size_t>((rows.first + j) * large.width + columns.first + i));
+                    const auto* texel = texel_at(static_cast<std::size_t>((rows.first + j) * large.width + columns.first + i));
                     for (int c = 0; c < 4; ++c) sum[c] += static_cast<Sum>(weight) * texel[c];
                 }
             }
@@ -106,7 +103,7 @@ TextureRange range_of(const std::uint16_t* data, const std::vector<TextureLevel>
             add_steps(first + y * row, first + (y + 1) * row - 4, 4);
         }
     }
-    TextureRange range{{65535, 65535, 65535, 65535}, {}, {}, {}};
+    TextureRange range{{65535, 65535, 65535, 65535}, {}, {}};
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
         range.least[lane % 4] = smaller(range.least[lane % 4], least[lane]);
         range.most[lane % 4] = larger(range.most[lane % 4], most[lane]);
@@ -115,35 +112,23 @@ TextureRange range_of(const std::uint16_t* data, const std::vector<TextureLevel>
     return range;
 }
 
-/// The largest difference of each channel between the texels as stored and as they are without any rounding. read_exact(i, channels) gives
-/// those of level 0, in units of 1 / 65535. Levels are kept as float here, which is off by at most 1/256 of that unit a level.
-template <class ReadExact>
-void measure_storage(const std::uint16_t* data, const std::vector<TextureLevel>& levels, const ReadExact& read_exact, float (&storage)[4]) {
+/// The largest difference between the smaller levels as stored and as they would be without rounding, made from the stored level 0; units
+/// of 1 / 65535. Levels are kept as float here, which is off by at most 1/256 of that unit a level.
+float chain_error(const std::uint16_t* data, std::span<const TextureLevel> levels) {
     std::vector<float> large, small;
-    float read[4];
-    const auto source = [&](std::size_t i) -> const float* {
-        read_exact(i, read);
-        return read;
-    };
-    const auto compare = [&](const TextureLevel& level, const auto& texel_at) {
-        const std::uint16_t* stored = data + std::size_t{4} * static_cast<std::size_t>(level.offset);
-        const std::size_t count = static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height);
-        for (std::size_t i = 0; i < count; ++i, stored += 4) {
-            const float* exact = texel_at(i);
-            for (std::size_t c = 0; c < 4; ++c) storage[c] = std::max(storage[c], std::fabs(exact[c] - static_cast<float>(stored[c])));
-        }
-    };
-    compare(levels[0], source);
+    float largest = 0.0f;
     for (std::size_t l = 1; l < levels.size(); ++l) {
-        small.resize(std::size_t{4} * static_cast<std::size_t>(levels[l].width) * static_cast<std::size_t>(levels[l].height));
+        const auto values = std::size_t{4} * static_cast<std::size_t>(levels[l].width) * static_cast<std::size_t>(levels[l].height);
+        small.resize(values);
         if (l == 1)
-            reduce(source, levels[0], small.data(), levels[1]);
+            reduce([=](std::size_t i) { return data + 4 * i; }, levels[0], small.data(), levels[1]);
         else
             reduce([&](std::size_t i) -> const float* { return &large[4 * i]; }, levels[l - 1], small.data(), levels[l]);
         large.swap(small);
-        compare(levels[l], [&](std::size_t i) -> const float* { return &large[4 * i]; });
+        const std::uint16_t* stored = data + std::size_t{4} * static_cast<std::size_t>(levels[l].offset);
+        for (std::size_t i = 0; i < values; ++i) largest = std::max(largest, std::fabs(large[i] - static_cast<float>(stored[i])));
     }
-    for (float& error : storage) error += static_cast<float>(levels.size()) / 256.0f;
+    return largest + static_cast<float>(levels.size()) / 256.0f;
 }
 
 std::vector<TextureLevel> level_layout(int width, int height) {
@@ -168,8 +153,8 @@ Result<void> check_size(int width, int height, std::size_t channel_values) {
 
 }  // namespace
 
-template <class ReadTexel, class ReadExact>
-Result<Texture> Texture::make(int width, int height, ReadTexel read_texel, ReadExact read_exact) {
+template <class ReadTexel>
+Result<Texture> Texture::make(int width, int height, ReadTexel read_texel) {
     try {
         Texture texture;
         texture.levels_ = level_layout(width, height);
@@ -184,7 +169,6 @@ Result<Texture> Texture::make(int width, int height, ReadTexel read_texel, ReadE
                    texture.data_.data() + std::size_t{4} * static_cast<std::size_t>(small.offset), small);
         }
         texture.range_ = range_of(texture.data_.data(), texture.levels_);
-        measure_storage(texture.data_.data(), texture.levels_, read_exact, texture.range_.storage);
         return texture;
     } catch (const std::bad_alloc&) {
         return fail_out_of_memory(
@@ -194,23 +178,28 @@ Result<Texture> Texture::make(int width, int height, ReadTexel read_texel, ReadE
 
 Result<Texture> Texture::from_rgba8(std::span<const std::uint8_t> rgba8, int width, int height, ColorSpace space) {
     if (auto size = check_size(width, height, rgba8.size()); !size) return tl::unexpected(size.error());
-    const auto read = [&](const auto& from_srgb, std::size_t i, auto* texel) {
+    return make(width, height, [&](std::size_t i, std::uint16_t* texel) {
         for (std::size_t c = 0; c < 4; ++c) {
             const std::uint8_t code = rgba8[4 * i + c];
             // 257 = 65535 / 255 exactly.
-            texel[c] =
-                space == ColorSpace::srgb && c < 3 ? from_srgb[code] : static_cast<std::remove_pointer_t<decltype(texel)>>(code * 257);
+            texel[c] = space == ColorSpace::srgb && c < 3 ? kLinear16FromSrgb8[code] : static_cast<std::uint16_t>(code * 257);
         }
-    };
-    return make(
-        width, height, [&](std::size_t i, std::uint16_t* texel) { read(kLinear16FromSrgb8, i, texel); },
-        [&](std::size_t i, float* texel) { read(kLinearFromSrgb8, i, texel); });
+    });
 }
 
 Result<Texture> Texture::from_rgba16(std::span<const std::uint16_t> rgba16, int width, int height) {
     if (auto size = check_size(width, height, rgba16.size()); !size) return tl::unexpected(size.error());
-    const auto read = [&](std::size_t i, auto* texel) { std::copy_n(&rgba16[4 * i], 4, texel); };
-    return make(width, height, read, read);
+    return make(width, height, [&](std::size_t i, std::uint16_t* texel) { std::copy_n(&rgba16[4 * i], 4, texel); });
+}
+
+float Texture::storage_error() const {
+    float known = storage_error_.value.load(std::memory_order_relaxed);
+    if (known < 0.0f) {
+        // Half a unit for level 0, which the averages of the smaller levels pass on.
+        known = 0.5f + chain_error(data_.data(), levels_);
+        storage_error_.value.store(known, std::memory_order_relaxed);  // another thread finds the same
+    }
+    return known;
 }
 
 }  // namespace halflit

@@ -25,7 +25,8 @@ double coordinate_error(std::int32_t size, bool transform, const float (&row)[3]
 }  // namespace
 
 double filter_error(const TexturePlan& texture, int c, double largest_uv) {
-    const double step = texture.range->step[c] * kUnit, range = (texture.range->most[c] - texture.range->least[c]) * kUnit;
+    const double step = texture.source->range().step[c] * kUnit,
+                 range = (texture.source->range().most[c] - texture.source->range().least[c]) * kUnit;
     // A filtered value changes by at most one step from a texel to the next, in each direction.
     const double shift = coordinate_error(texture.width[0], texture.transform, texture.row_u, largest_uv) +
                          coordinate_error(texture.height[0], texture.transform, texture.row_v, largest_uv);
@@ -34,9 +35,9 @@ double filter_error(const TexturePlan& texture, int c, double largest_uv) {
     // each axis.
     const double level =
         texture.mip == MipFilter::linear && texture.level_count > 1 ? (texture.transform ? 1e-5 : 4e-6) * std::min(range, 9.0 * step) : 0.0;
-    return std::min(shift * step, range) + level + 10.0 * kRounding + static_cast<double>(texture.range->storage[c]) * kUnit;
+    return std::min(shift * step, range) + level + 10.0 * kRounding + static_cast<double>(texture.source->storage_error()) * kUnit;
 }
 
-double least_value(const TexturePlan& texture, int c) { return texture.range->least[c] * kUnit; }
+double least_value(const TexturePlan& texture, int c) { return texture.source->range().least[c] * kUnit; }
 
 }  // namespace halflit::shading

@@ -10,7 +10,7 @@ TexturePlan plan_texture(const TextureUse& use, std::span<const Texture> texture
     const Texture& texture = textures[static_cast<std::size_t>(use.texture)];
     if (texture.levels().empty()) return plan;
     plan.data = texture.data().data();
-    plan.range = &texture.range();
+    plan.source = &texture;
     plan.level_count = static_cast<std::int32_t>(texture.levels().size());
     for (std::size_t l = 0; l < texture.levels().size(); ++l) {
         plan.width[l] = texture.levels()[l].width;

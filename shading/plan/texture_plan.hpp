@@ -13,7 +13,7 @@ namespace halflit::shading {
 /// A texture as a kernel sees it. Texel (x, y) of level l: data + 4 * (offset[l] + y * width[l] + x).
 struct TexturePlan {
     const std::uint16_t* data = nullptr;  ///< null: not used
-    const TextureRange* range = nullptr;  ///< used for bounds only
+    const Texture* source = nullptr;      ///< used for bounds only
     std::int32_t level_count = 0;
     std::int32_t width[kMaxTextureLevels], height[kMaxTextureLevels], offset[kMaxTextureLevels];
     float row_u[3], row_v[3];  ///< texture transform

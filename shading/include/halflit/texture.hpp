@@ -7,6 +7,7 @@
 #include "halflit/export.hpp"
 #include "halflit/math.hpp"
 
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -45,7 +46,6 @@ inline constexpr int kMaxTextureSide = 16384;
 struct TextureRange {
     std::uint16_t least[4], most[4];  ///< smallest and largest value of each channel
     std::uint16_t step[4];  ///< the largest difference between neighbours in a row or a column, those across opposite edges included
-    float storage[4];       ///< largest error of a texel by its rounding to 16 bits and that of the levels above it
 };
 
 /// Texel (x, y) of level l is at data()[4 * (offset + y * width + x)], row 0 on top (v = 0), channel order RGBA.
@@ -65,16 +65,31 @@ public:
     [[nodiscard]] std::span<const TextureLevel> levels() const { return levels_; }
     /// All levels: four numbers a texel, linear, 65535 is 1.
     [[nodiscard]] std::span<const std::uint16_t> data() const { return data_; }
+    /// The largest error of a texel by its rounding to 16 bits and by that of the levels above it, in units of 1 / 65535. Measured when it
+    /// is first asked for, which takes about as long as making the texture. Thread-safe. Throws std::bad_alloc.
+    [[nodiscard]] HALFLIT_API float storage_error() const;
     /// Least and most of each channel, computed when the texture was made.
     [[nodiscard]] const TextureRange& range() const { return range_; }
 
 private:
-    template <class ReadTexel, class ReadExact>
-    static Result<Texture> make(int width, int height, ReadTexel read_texel, ReadExact read_exact);
+    template <class ReadTexel>
+    static Result<Texture> make(int width, int height, ReadTexel read_texel);
+
+    /// A number that is copied with the texture; negative: not measured yet.
+    struct Measured {
+        std::atomic<float> value{-1.0f};
+        Measured() = default;
+        Measured(const Measured& other) : value(other.value.load(std::memory_order_relaxed)) {}
+        Measured& operator=(const Measured& other) {
+            value.store(other.value.load(std::memory_order_relaxed), std::memory_order_relaxed);
+            return *this;
+        }
+    };
 
     std::vector<TextureLevel> levels_;
     std::vector<std::uint16_t> data_;
     TextureRange range_{};
+    mutable Measured storage_error_;
 };
 
 /// A material's use of a texture: the texture, its sampler and the coordinates.
