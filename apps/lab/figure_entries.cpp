@@ -11,6 +11,7 @@ std::span<const FigureEntry> all_figures() {
         {"sh-error", "Error of Sloan's lobe in order-3 spherical harmonics", "[SNY11] fig. 5", &make_sh_error_figure},
         {"band-energy", "Energy of Sloan's lobe in each band", "[SNY11] fig. 6", &make_band_energy_figure},
         {"normalized", "Wrapped lobes, without and with normalisation", "[McA13], before and after", &make_normalized_figure},
+        {"area-light", "A sphere of light, and the wrapped lobes nearest to it", "[McA13], the widths and powers", &make_area_light_figure},
         {"half-lambert", "Lambert, half-Lambert and its square", "[Lis]; [Valve06]", &make_half_lambert_figure},
         {"shading-rates", "Light computed once per triangle, vertex and pixel", "[CMSC], shading strategies", &make_shading_rates_figure},
         {"highlights", "Phong's highlight and Blinn's", "[CMSC], Phong model and Blinn model", &make_highlights_figure},

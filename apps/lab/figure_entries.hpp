@@ -17,6 +17,9 @@ namespace halflit::cli {
 [[nodiscard]] Result<Figure> make_normalized_figure();
 [[nodiscard]] Result<Figure> make_half_lambert_figure();
 
+// figure_area_light.cpp: a sphere of light beside one wrapped light
+[[nodiscard]] Result<Figure> make_area_light_figure();
+
 // figure_shading.cpp: shading rates and light sources
 [[nodiscard]] Result<Figure> make_shading_rates_figure();
 [[nodiscard]] Result<Figure> make_light_sources_figure();

@@ -11,8 +11,9 @@ using namespace halflit::test;
 
 namespace {
 
-const std::vector<std::string> kNames = {"wrap-form",  "backlight",    "curves",        "green-sloan", "sh-error",      "band-energy",
-                                         "normalized", "half-lambert", "shading-rates", "highlights",  "light-sources", "terminator"};
+const std::vector<std::string> kNames = {"wrap-form",   "backlight",     "curves",     "green-sloan",  "sh-error",
+                                         "band-energy", "normalized",    "area-light", "half-lambert", "shading-rates",
+                                         "highlights",  "light-sources", "terminator"};
 const double kPi = std::acos(-1.0);
 
 /// Series by "plot / series"; each maps x to y.
