@@ -86,7 +86,7 @@ Plot wrap_over_radius() {
     const auto wrap_of = [](LobeFamily family) { return [family](double s) { return fit_sphere_light(family, s).lobe.wrap; }; };
     Plot plot{.title = "Wrap and power of the nearest lobes",
               .x = {.label = "angular radius s of the sphere, degrees", .min = 0, .max = 90, .step = 15},
-              .y = {.label = "w, n", .min = 0, .max = 2.05},
+              .y = {.label = "w, n", .min = 0, .max = 3.4},
               .series = {},
               .marks = {},
               .legend = LegendPlace::top_left};

@@ -13,6 +13,7 @@ std::span<const FigureEntry> all_figures() {
         {"normalized", "Wrapped lobes, without and with normalisation", "[McA13], before and after", &make_normalized_figure},
         {"area-light", "A sphere of light, and the wrapped lobes nearest to it", "[McA13], the widths and powers", &make_area_light_figure},
         {"half-lambert", "Lambert, half-Lambert and its square", "[Lis]; [Valve06]", &make_half_lambert_figure},
+        {"gamma", "Half-Lambert in sRGB codes and in linear light", "[Lis]; [Valve06]", &make_gamma_figure},
         {"shading-rates", "Light computed once per triangle, vertex and pixel", "[CMSC], shading strategies", &make_shading_rates_figure},
         {"highlights", "Phong's highlight and Blinn's", "[CMSC], Phong model and Blinn model", &make_highlights_figure},
         {"light-sources", "Directional, point and spot light", "[CMSC], light sources", &make_light_sources_figure},

@@ -20,6 +20,9 @@ namespace halflit::cli {
 // figure_area_light.cpp: a sphere of light beside one wrapped light
 [[nodiscard]] Result<Figure> make_area_light_figure();
 
+// figure_gamma.cpp: half-Lambert before and after linear light
+[[nodiscard]] Result<Figure> make_gamma_figure();
+
 // figure_shading.cpp: shading rates and light sources
 [[nodiscard]] Result<Figure> make_shading_rates_figure();
 [[nodiscard]] Result<Figure> make_light_sources_figure();

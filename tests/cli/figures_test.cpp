@@ -11,9 +11,9 @@ using namespace halflit::test;
 
 namespace {
 
-const std::vector<std::string> kNames = {"wrap-form",   "backlight",     "curves",     "green-sloan",  "sh-error",
-                                         "band-energy", "normalized",    "area-light", "half-lambert", "shading-rates",
-                                         "highlights",  "light-sources", "terminator"};
+const std::vector<std::string> kNames = {"wrap-form",     "backlight",  "curves",        "green-sloan",  "sh-error",
+                                         "band-energy",   "normalized", "area-light",    "half-lambert", "gamma",
+                                         "shading-rates", "highlights", "light-sources", "terminator"};
 const double kPi = std::acos(-1.0);
 
 /// Series by "plot / series"; each maps x to y.
@@ -143,6 +143,62 @@ TEST_CASE("figures: the curves are the formulas", "[cli][figures]") {
     check("Three models / Valve", [](double x) { return 0.25 * (x + 1) * (x + 1); });
     check("Three models / Green, w = 1", [](double x) { return (x + 1) / 2; });
     check("Sloan's lobe / a = 0.25", [](double x) { return sloan(x, 0.25); });
+}
+
+TEST_CASE("figures: a sphere of light is Lambert's cosine while it is whole, and half-Lambert at 90 degrees", "[cli][figures]") {
+    const Numbers numbers = numbers_of("area-light");
+    const std::string light = "Light of the sphere, and the nearest lobe (dashed) / s = ";
+    for (const int s : {0, 15, 30, 45, 60, 90}) {
+        const auto& curve = series_of(numbers, light + std::to_string(s) + "°");
+        REQUIRE(curve.size() == 181);
+        for (const auto& [degrees, value] : curve) {
+            INFO("s = " << s << ", at " << degrees << " degrees");
+            const double x = std::cos(degrees * kPi / 180);
+            if (degrees + s <= 90) CHECK(value == Approx(x).margin(1e-9));
+            if (degrees - s >= 90) CHECK(value == Approx(0).margin(1e-9));
+            if (s == 90) CHECK(value == Approx((1 + x) / 2).margin(1e-9));
+        }
+    }
+    const std::string fits = "Wrap and power of the nearest lobes / ";
+    const auto &w = series_of(numbers, fits + "w"), &n = series_of(numbers, fits + "n");
+    REQUIRE(w.size() == 90);
+    CHECK(w.at(90) == 1);
+    CHECK(n.at(90) == Approx(1).margin(1e-6));
+    for (const auto& [s, error] : series_of(numbers, "Largest difference from the sphere's light / w and n")) {
+        INFO("s = " << s);
+        CHECK(error < 0.028);
+    }
+}
+
+TEST_CASE("figures: half-Lambert in codes is darker than in linear light, and close to its square", "[cli][figures]") {
+    const TemporaryFolder folder;
+    REQUIRE(run({"figures", "gamma", "--format", "png", "-o", folder.path()}).code == 0);
+    const Numbers numbers = read_csv(folder.file("gamma.csv"));
+    const auto curve = [&](const std::string& name) {
+        for (const auto& [key, series] : numbers)
+            if (key.ends_with(" / " + name)) return series;
+        return std::map<double, double>{};
+    };
+    const auto codes = curve("half-Lambert, in codes"), linear = curve("half-Lambert, linear"), square = curve("its square, linear");
+    REQUIRE(codes.size() == 201);
+    for (const auto& [x, code] : codes) {
+        const double half = (1 + x) / 2;
+        INFO("x = " << x);
+        CHECK(code == Approx(srgb_code(0.5) * half).margin(1e-6));
+        CHECK(linear.at(x) == Approx(srgb_code(0.5 * half)).margin(1e-6));
+        CHECK(square.at(x) == Approx(srgb_code(0.5 * half * half)).margin(1e-6));
+        CHECK(linear.at(x) >= code - 1e-6);
+        CHECK(std::abs(square.at(x) - code) < 10);
+    }
+    // The sphere of the first row, 300 pixels wide in a view 2.16 high: its normal at (x, y) is (x, y, sqrt(1 - x^2 - y^2)).
+    const Picture sheet = read_picture(contents(folder.file("gamma.png")));
+    const double length = std::sqrt(0.9 * 0.9 + 0.45 * 0.45 + 0.35 * 0.35);
+    for (int i = 30; i < 270; i += 30) {
+        const double x = ((i + 0.5) / 150 - 1) * 1.08, z = std::sqrt(1 - x * x), y = -0.5 / 150 * 1.08;
+        const double half = (1 + (-0.9 * x + 0.45 * y + 0.35 * z) / length) / 2;
+        INFO("column " << i);
+        CHECK(std::abs(sheet.pixel(i, 150)[0] - srgb_code(0.5) * half) < 2.0);
+    }
 }
 
 TEST_CASE("figures: pictures show the lobes' values, alike in a sheet and on a page", "[cli][figures]") {
