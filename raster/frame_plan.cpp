@@ -35,13 +35,6 @@ shading::Viewer viewer_of(const Camera& camera) {
 /// Error of a fragment's interpolated position, as a share of the largest coordinate: some ten roundings of float32 on each axis.
 constexpr double kPositionError = 1e-6;
 
-double largest_coordinate(const Bounds& b) {
-    if (b.empty) return 0.0;
-    double largest = 0.0;
-    for (const float v : {b.min.x, b.min.y, b.min.z, b.max.x, b.max.y, b.max.z}) largest = larger(largest, magnitude(double{v}));
-    return largest;
-}
-
 /// Facts that an error budget needs of a scene: distances from lights to surfaces, largest vertex colour and texture coordinate.
 shading::SceneFacts scene_facts(const PreparedData& scene, std::span<const LightPlan> lights, FramePlanMemory& memory) {
     shading::SceneFacts facts;

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <map>
 #include <new>
 #include <string>
@@ -27,7 +26,7 @@ SunShape shape_of(const sh::EquirectView& image, const sh::EquirectView& rest, c
     constexpr int kColumns = 1024;  // of the patches that pixels are cut into or merged to, 0.35 degrees
     const int cuts = std::max(1, kColumns / image.width), step = std::max(1, image.width / kColumns);
     const double width = static_cast<double>(image.width) * cuts, height = static_cast<double>(image.height) * cuts;
-    const Vec3d direction = to_double(light.direction_ws) * -1.0, towards = direction * (1.0 / std::sqrt(dot(direction, direction)));
+    const Vec3d direction = to_double(light.direction_ws) * -1.0, towards = direction * (1.0 / length(direction));
     Vec3d mean[3], squares{};
     SunShape shape{};
     std::map<std::pair<int, int>, SunPatch> patches;
@@ -48,7 +47,6 @@ SunShape shape_of(const sh::EquirectView& image, const sh::EquirectView& rest, c
             }
     }
     const auto share = [](double part, double of) { return of > 0.0 ? part / of : 0.0; };
-    const auto length = [](Vec3d v) { return std::sqrt(dot(v, v)); };
     shape.mean_square = {share(squares.x, shape.light.x), share(squares.y, shape.light.y), share(squares.z, shape.light.z)};
     shape.drift = {share(length(mean[0]), shape.light.x), share(length(mean[1]), shape.light.y), share(length(mean[2]), shape.light.z)};
     for (auto& [place, patch] : patches) shape.patches.push_back({patch.direction * (1.0 / length(patch.direction)), patch.light});

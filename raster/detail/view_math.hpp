@@ -1,6 +1,7 @@
 // Numerics of cameras and framing: clamps for extreme or invalid input, and tangents of angles without the C library.
 #pragma once
 
+#include "halflit/mesh.hpp"
 #include "sh/trig.hpp"
 #include "shading/model/numbers.hpp"
 
@@ -22,5 +23,13 @@ HALFLIT_INLINE double half_angle_tangent(double fov_rad) {
 HALFLIT_INLINE double usable_aspect(float aspect) { return aspect > 0.0f && finite(aspect) ? clamped(aspect, 1e-6, 1e6) : 1.0; }
 
 HALFLIT_INLINE double usable_fov(float fov_rad) { return finite(fov_rad) ? clamped(fov_rad, kMinFov, kMaxFov) : 0.25 * kPi; }
+
+/// The largest magnitude of a coordinate; 0 for an empty box.
+inline double largest_coordinate(const Bounds& b) {
+    if (b.empty) return 0.0;
+    double largest = 0.0;
+    for (const float v : {b.min.x, b.min.y, b.min.z, b.max.x, b.max.y, b.max.z}) largest = larger(largest, magnitude(double{v}));
+    return largest;
+}
 
 }  // namespace halflit::raster

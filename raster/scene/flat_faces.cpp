@@ -34,11 +34,7 @@ struct Triangle {
 
 }  // namespace
 
-float face_slack(const Bounds& b) {
-    float largest = 0.0f;
-    for (const float v : {b.min.x, b.min.y, b.min.z, b.max.x, b.max.y, b.max.z}) largest = std::max(largest, v < 0 ? -v : v);
-    return 4e-6f * largest;
-}
+float face_slack(const Bounds& bounds) { return 4e-6f * static_cast<float>(largest_coordinate(bounds)); }
 
 FlatFaces find_flat_faces(const Mesh& mesh) {
     FlatFaces out;
@@ -46,7 +42,8 @@ FlatFaces find_flat_faces(const Mesh& mesh) {
         const Triangle triangle(mesh, i);
         if (triangle.is_finite && triangle.flat_axis() >= 0) triangle.add_to(out.flats);
     }
-    const float slack = out.flats.empty ? 0.0f : face_slack(out.flats);
+    if (out.flats.empty) return out;
+    const float slack = face_slack(out.flats);
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         const Triangle triangle(mesh, i);
         if (!triangle.is_finite) continue;

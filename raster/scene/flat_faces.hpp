@@ -9,7 +9,7 @@ namespace halflit::raster {
 struct FlatFaces {
     Bounds flats;     ///< of all flat triangles
     Bounds faces[6];  ///< of the flat triangles in the planes flats.min.x, flats.max.x, flats.min.y, ..; empty: there are none
-    Bounds rest;      ///< of all other triangles, flat ones in other planes among them
+    Bounds rest;      ///< of all other triangles, flat ones in other planes among them; not computed if `flats` is empty
 };
 
 /// Which end of the box a face is: 0 for min.x, 1 for max.x, 2 for min.y, ..
@@ -17,7 +17,8 @@ struct FlatFaces {
 
 [[nodiscard]] inline float component(const Vec3f& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
-/// Distance that counts as none beside coordinates of this size: above the rounding of positions, below any step of a model.
+/// Distance that counts as none beside coordinates of this size, 0 for an empty box: above the rounding of positions, below any step of a
+/// model.
 [[nodiscard]] float face_slack(const Bounds& bounds);
 
 /// Triangles with a vertex that is not finite are left out. Requires: indices in range.

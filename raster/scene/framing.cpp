@@ -3,6 +3,7 @@
 #include "halflit/scene.hpp"
 #include "raster/detail/view_math.hpp"
 #include "raster/scene/placed_box.hpp"
+#include "raster/scene/used_vertices.hpp"
 #include "sh/arc.hpp"
 #include "sh/mat4.hpp"
 #include "sh/vec3d.hpp"
@@ -109,16 +110,14 @@ private:
 };
 
 /// Vertices of a mesh's triangles.
-struct UsedVertices {
+struct FramedVertices {
     std::vector<std::uint32_t> vertices;
     Bounds bounds;
 };
 
-UsedVertices framed_vertices(const Mesh& mesh) {
-    std::vector<bool> used(mesh.positions.size());
-    for (const std::uint32_t index : mesh.indices)
-        if (index < used.size()) used[index] = true;
-    UsedVertices out;
+FramedVertices framed_vertices(const Mesh& mesh) {
+    const std::vector<bool> used = used_vertices(mesh);
+    FramedVertices out;
     for (std::uint32_t v = 0; v < used.size(); ++v) {
         if (!used[v]) continue;
         out.vertices.push_back(v);
@@ -128,7 +127,7 @@ UsedVertices framed_vertices(const Mesh& mesh) {
 }
 
 /// True if no vertex of the instance can change the fit, judged by its box. In scenes of many instances few are at the rim.
-bool is_seen_already(const ViewFit& fit, const UsedVertices& used, const Mat4& world_from_object, Vec3d center) {
+bool is_seen_already(const ViewFit& fit, const FramedVertices& used, const Mat4& world_from_object, Vec3d center) {
     if (used.bounds.empty) return true;
     const Vec3f &low = used.bounds.min, &high = used.bounds.max;
     const PlacedBox box({low.x, low.y, low.z}, {high.x, high.y, high.z}, world_from_object);
@@ -158,7 +157,7 @@ Camera frame_scene(const Scene& scene, const Bounds& bounds, float aspect, const
     if (bounds.empty || !(bounds.radius() > 1e-5 * length(box.center)) || !(bounds.radius() < kMaxCoordinate))
         return frame_bounds(bounds, aspect, view);
     ViewFit fit(box.center, aspect, view);
-    std::vector<std::optional<UsedVertices>> used(scene.meshes.size());
+    std::vector<std::optional<FramedVertices>> used(scene.meshes.size());
     for (const Instance& instance : scene.instances) {
         if (instance.mesh < 0 || static_cast<std::size_t>(instance.mesh) >= scene.meshes.size()) continue;
         const auto m = static_cast<std::size_t>(instance.mesh);

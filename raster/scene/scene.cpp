@@ -1,22 +1,11 @@
 #include "halflit/scene.hpp"
+#include "raster/scene/used_vertices.hpp"
 #include "sh/mat4.hpp"
 
 #include <algorithm>
 #include <iterator>
 
 namespace halflit {
-
-namespace {
-
-/// True for each vertex that a triangle of the mesh uses. Files often share one vertex array between many meshes.
-std::vector<bool> used_vertices(const Mesh& mesh) {
-    std::vector<bool> used(mesh.positions.size(), false);
-    for (const std::uint32_t index : mesh.indices)
-        if (index < used.size()) used[index] = true;
-    return used;
-}
-
-}  // namespace
 
 Bounds scene_bounds(const Scene& scene) {
     Bounds bounds;
@@ -25,7 +14,7 @@ Bounds scene_bounds(const Scene& scene) {
         if (instance.mesh < 0 || static_cast<std::size_t>(instance.mesh) >= scene.meshes.size()) continue;
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
         std::vector<bool>& mask = used[static_cast<std::size_t>(instance.mesh)];
-        if (mask.empty()) mask = used_vertices(mesh);
+        if (mask.empty()) mask = raster::used_vertices(mesh);
         for (std::size_t i = 0; i < mesh.positions.size(); ++i)
             if (mask[i]) bounds.add(transform_point(instance.world_from_object, mesh.positions[i]));
     }

@@ -42,26 +42,9 @@ Bounds placed(const Bounds& box, const Mat4& m) {
     return out;
 }
 
-/// What an instance adds, in world space. blended: it casts no shadow.
-struct Part {
-    FlatFaces faces;
-    bool blended = false;
-};
-
-Part part_of(const Instance& instance, const PreparedMesh& mesh, const Bounds& box, bool blended) {
-    Part part{{}, blended};
-    AxisMap map;
-    if (mesh.faces.flats.empty || !find_axes(instance.world_from_object, map)) {
-        part.faces.rest = box;
-        return part;
-    }
-    part.faces.flats = placed(mesh.faces.flats, instance.world_from_object);
-    part.faces.rest = placed(mesh.faces.rest, instance.world_from_object);
-    for (int k = 0; k < 3; ++k)
-        for (const bool high : {false, true})
-            part.faces.faces[face_of(map.axis[k], high != map.flipped[k])] =
-                placed(mesh.faces.faces[face_of(k, high)], instance.world_from_object);
-    return part;
+bool casts_no_shadow(const Scene& scene, const Instance& instance) {
+    const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
+    return material >= 0 && scene.materials[static_cast<std::size_t>(material)].alpha_mode == AlphaMode::blend;
 }
 
 }  // namespace
@@ -82,26 +65,34 @@ std::vector<Bounds> ShadowCasters::of_light(Vec3d place, bool directional) const
 }
 
 ShadowCasters collect_shadow_casters(const Scene& scene, std::span<const PreparedMesh> meshes, std::span<const Bounds> boxes) {
-    const auto each_part = [&](const auto& f) {
+    /// f(instance, its mesh, its box, where its axes lie); the last is null if it has no faces across the world's axes.
+    const auto each_instance = [&](const auto& f) {
         for (std::size_t i = 0; i < scene.instances.size(); ++i) {
             const Instance& instance = scene.instances[i];
-            const auto index = static_cast<std::size_t>(instance.mesh);
-            const Mesh& mesh = scene.meshes[index];
-            if (boxes[i].empty || mesh.indices.empty()) continue;
-            const bool blended =
-                mesh.material >= 0 && scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode == AlphaMode::blend;
-            f(part_of(instance, meshes[index], boxes[i], blended));
+            const PreparedMesh& mesh = meshes[static_cast<std::size_t>(instance.mesh)];
+            if (boxes[i].empty || mesh.cluster_count() == 0) continue;
+            AxisMap map;
+            f(instance, mesh.faces, boxes[i], !mesh.faces.flats.empty && find_axes(instance.world_from_object, map) ? &map : nullptr);
         }
     };
     ShadowCasters out;
-    each_part([&](const Part& part) { out.flats.include(part.faces.flats); });
-    out.slack = out.flats.empty ? 0.0f : face_slack(out.flats);
-    each_part([&](const Part& part) {
-        out.rest.include(part.faces.rest);
-        for (int axis = 0; axis < 3; ++axis)
-            for (const bool high : {false, true}) {
-                const Bounds& face = part.faces.faces[face_of(axis, high)];
-                if (face.empty || part.blended) continue;
+    each_instance([&](const Instance& instance, const FlatFaces& faces, const Bounds&, const AxisMap* map) {
+        if (map != nullptr) out.flats.include(placed(faces.flats, instance.world_from_object));
+    });
+    out.slack = face_slack(out.flats);
+    each_instance([&](const Instance& instance, const FlatFaces& faces, const Bounds& box, const AxisMap* map) {
+        if (map == nullptr) {
+            out.rest.include(box);
+            return;
+        }
+        out.rest.include(placed(faces.rest, instance.world_from_object));
+        if (casts_no_shadow(scene, instance)) return;
+        for (int k = 0; k < 3; ++k)
+            for (const bool high_in_object : {false, true}) {
+                const Bounds face = placed(faces.faces[face_of(k, high_in_object)], instance.world_from_object);
+                if (face.empty) continue;
+                const int axis = map->axis[k];
+                const bool high = high_in_object != map->flipped[k];
                 const float off = high ? component(out.flats.max, axis) - component(face.max, axis)
                                        : component(face.min, axis) - component(out.flats.min, axis);
                 (off <= out.slack ? out.faces[face_of(axis, high)] : out.rest).include(face);

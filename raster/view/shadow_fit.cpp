@@ -7,12 +7,6 @@
 namespace halflit::raster {
 namespace {
 
-/// Calls f for the eight corners.
-template <class F>
-void for_corners(const Bounds& b, const F& f) {
-    for (int k = 0; k < 8; ++k) f(Vec3d{k & 1 ? b.max.x : b.min.x, k & 2 ? b.max.y : b.min.y, k & 4 ? b.max.z : b.min.z});
-}
-
 struct Range {
     double low = 1e300, high = -1e300;
     void add(double x) {

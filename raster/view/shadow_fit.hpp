@@ -11,6 +11,12 @@ namespace halflit::raster {
 
 [[nodiscard]] inline Vec3d unit(Vec3d v) { return v * (1.0 / length(v)); }
 
+/// Calls f for the eight corners.
+template <class F>
+void for_corners(const Bounds& b, const F& f) {
+    for (int k = 0; k < 8; ++k) f(Vec3d{k & 1 ? b.max.x : b.min.x, k & 2 ? b.max.y : b.min.y, k & 4 ? b.max.z : b.min.z});
+}
+
 /// Axes of a camera that looks along -back.
 struct ViewAxes {
     Vec3d right, up, back;

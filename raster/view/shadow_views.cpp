@@ -62,13 +62,12 @@ double cone_tangent(const LightPlan& light) {
 /// half the field of view.
 bool can_see(const ViewAxes& axes, Vec3d eye, double half, const Bounds& bounds) {
     int behind = 0, beyond[4] = {};
-    for (int k = 0; k < 8; ++k) {
-        const Vec3d p{k & 1 ? bounds.max.x : bounds.min.x, k & 2 ? bounds.max.y : bounds.min.y, k & 4 ? bounds.max.z : bounds.min.z};
+    for_corners(bounds, [&](Vec3d p) {
         const Vec3d q = p - eye;
         const double x = dot(q, axes.right), y = dot(q, axes.up), width = -dot(q, axes.back) * half;
         behind += width < 0.0;
         beyond[0] += x > width, beyond[1] += -x > width, beyond[2] += y > width, beyond[3] += -y > width;
-    }
+    });
     return behind < 8 && beyond[0] < 8 && beyond[1] < 8 && beyond[2] < 8 && beyond[3] < 8;
 }
 

@@ -25,8 +25,8 @@ double coordinate_error(std::int32_t size, bool transform, const float (&row)[3]
 }  // namespace
 
 double filter_error(const TexturePlan& texture, int c, double largest_uv) {
-    const double step = texture.source->range().step[c] * kUnit,
-                 range = (texture.source->range().most[c] - texture.source->range().least[c]) * kUnit;
+    const TextureRange& texels = texture.source->range();
+    const double step = texels.step[c] * kUnit, range = (texels.most[c] - texels.least[c]) * kUnit;
     // A filtered value changes by at most one step from a texel to the next, in each direction.
     const double shift = coordinate_error(texture.width[0], texture.transform, texture.row_u, largest_uv) +
                          coordinate_error(texture.height[0], texture.transform, texture.row_v, largest_uv);

@@ -93,7 +93,7 @@ double sun_bound(const Environment& environment, const sh::WrapLobe& lobe, bool 
         const SunShape& sun = environment.sun_shapes[i];
         const Vec3d drawn = to_double(environment.suns[i].color_linear);
         const auto channel = [&](double light, double square, double drift, double drawn_light) {
-            return light * error(square, drift) + lobe.scale * std::max(light - drawn_light, drawn_light - light);
+            return light * error(square, drift) + lobe.scale * absolute(light - drawn_light);
         };
         sum = sum + Vec3d{channel(sun.light.x, sun.mean_square.x, sun.drift.x, drawn.x),
                           channel(sun.light.y, sun.mean_square.y, sun.drift.y, drawn.y),

@@ -7,6 +7,7 @@
 
 #include "tests/support/catch.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/white_lobe.hpp"
 
 #include <array>
 #include <fstream>
@@ -66,14 +67,7 @@ std::string code_of(const std::string& name) {
 
 /// Light that one white fragment reflects of a light of colour 1, by the kernel.
 std::vector<double> by_kernel(const Lobe& lobe, const std::vector<float>& cosines, std::vector<double>& exact_cosines) {
-    Material material;
-    material.metallic = 0;
-    material.lobe = lobe;
-    const Light light{.direction_ws = {-1, 0, 0}};
-    const std::vector<SlotMask> available{3u, 3u};
-    ShadingSettings options;
-    options.specular = SpecularModel::none;
-    const ShadingPlan plan = plan_shading({std::span(&material, 1), {}, available, plan_lights(std::span(&light, 1)), {}, options});
+    const ShadingPlan plan = test::plan_of_white(lobe);
     FragmentBlock block{};
     for (std::size_t i = 0; i < kBlockSize; ++i) {
         const float x = cosines[i % cosines.size()];

@@ -1,5 +1,7 @@
 #include "mesa_ids.hpp"
 
+#include "mesa_program.hpp"
+
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <GLES3/gl3.h>
@@ -26,13 +28,6 @@ flat in highp uint id;
 out highp uint result;
 void main() { result = id; }
 )";
-
-unsigned compile(GLenum type, const char* source) {
-    const unsigned shader = glCreateShader(type);
-    glShaderSource(shader, 1, &source, nullptr);
-    glCompileShader(shader);
-    return shader;
-}
 
 }  // namespace
 
@@ -61,14 +56,8 @@ std::unique_ptr<Mesa> Mesa::create(std::string& reason) {
     mesa->renderer_ = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
     if (mesa->renderer_.find("llvmpipe") == std::string::npos) return reason = "the renderer is " + mesa->renderer_, nullptr;
 
-    mesa->program_ = glCreateProgram();
-    glAttachShader(mesa->program_, compile(GL_VERTEX_SHADER, kVertexShader));
-    glAttachShader(mesa->program_, compile(GL_FRAGMENT_SHADER, kFragmentShader));
-    glBindAttribLocation(mesa->program_, 0, "position");
-    glLinkProgram(mesa->program_);
-    GLint linked = 0;
-    glGetProgramiv(mesa->program_, GL_LINK_STATUS, &linked);
-    if (!linked) return reason = "the shaders do not link", nullptr;
+    mesa->program_ = linked_program(kVertexShader, kFragmentShader, reason);
+    if (mesa->program_ == 0) return nullptr;
     return mesa;
 }
 

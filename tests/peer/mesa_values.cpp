@@ -1,5 +1,7 @@
 #include "mesa_values.hpp"
 
+#include "mesa_program.hpp"
+
 #include <GLES3/gl3.h>
 
 #include <bit>
@@ -27,36 +29,12 @@ void main() {
 }
 )";
 
-/// 0 with a reason when the source is not valid.
-GLuint compiled(GLenum type, const std::string& source, std::string& reason) {
-    const GLuint shader = glCreateShader(type);
-    const char* text = source.c_str();
-    glShaderSource(shader, 1, &text, nullptr);
-    glCompileShader(shader);
-    GLint good = 0;
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
-    if (good != 0) return shader;
-    char log[2000] = "";
-    glGetShaderInfoLog(shader, sizeof log, nullptr, log);
-    reason = log;
-    return 0;
-}
-
 }  // namespace
 
 std::vector<std::array<float, 4>> shader_values(const std::string& code, std::span<const std::array<float, 4>> arguments, int functions,
                                                 std::span<const float> sky, std::string& reason) {
-    const GLuint vertex = compiled(GL_VERTEX_SHADER, kVertexShader, reason);
-    const GLuint fragment = compiled(GL_FRAGMENT_SHADER, kBefore + code + kAfter, reason);
-    if (vertex == 0 || fragment == 0) return {};
-    const GLuint program = glCreateProgram();
-    glAttachShader(program, vertex);
-    glAttachShader(program, fragment);
-    glLinkProgram(program);
-    GLint linked = 0;
-    glGetProgramiv(program, GL_LINK_STATUS, &linked);
-    if (linked == 0) return reason = "the shaders do not link", std::vector<std::array<float, 4>>{};
-
+    const GLuint program = linked_program(kVertexShader, kBefore + code + kAfter, reason);
+    if (program == 0) return {};
     const auto width = static_cast<GLsizei>(arguments.size()), height = static_cast<GLsizei>(functions);
     GLuint texture = 0, target = 0, framebuffer = 0;
     glGenTextures(1, &texture);

@@ -5,6 +5,7 @@
 #include "shading/reference/reference.hpp"
 
 #include "tests/support/catch.hpp"
+#include "tests/support/white_lobe.hpp"
 
 using namespace halflit;
 using namespace halflit::shading;
@@ -19,14 +20,7 @@ struct Curve {
 };
 
 Curve curve_of(const Lobe& lobe) {
-    Material material;
-    material.metallic = 0;
-    material.lobe = lobe;
-    const Light light{.direction_ws = {-1, 0, 0}};
-    const std::vector<SlotMask> available{3u, 3u};
-    ShadingSettings options;
-    options.specular = SpecularModel::none;
-    const ShadingPlan plan = plan_shading({std::span(&material, 1), {}, available, plan_lights(std::span(&light, 1)), {}, options});
+    const ShadingPlan plan = test::plan_of_white(lobe);
     FragmentBlock block{};
     Curve curve{};
     for (int i = 0; i < kBlockSize; ++i) {
