@@ -5,11 +5,24 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <memory>
 
 namespace halflit::io::detail {
 
 namespace {
+
+// libspng reports an allocation that fails inside zlib as a damaged stream, so its allocations are watched here.
+// It hands no context to them: the mark belongs to the thread that decodes.
+thread_local bool allocation_failed = false;
+
+void* watched(void* memory) {
+    if (memory == nullptr) allocation_failed = true;
+    return memory;
+}
+void* watched_malloc(std::size_t size) { return watched(std::malloc(size)); }
+void* watched_calloc(std::size_t count, std::size_t size) { return watched(std::calloc(count, size)); }
+void* watched_realloc(void* memory, std::size_t size) { return watched(std::realloc(memory, size)); }
 
 struct ContextDeleter {
     void operator()(spng_ctx* context) const { spng_ctx_free(context); }
@@ -20,8 +33,8 @@ constexpr std::size_t kMaxChunkBytes = std::size_t{16} << 20;  // limit of the c
 constexpr std::uint64_t kMaxDeflateRatio = 1032;               // deflate cannot expand more: 258 bytes from 2 bits
 
 tl::unexpected<Error> png_error(int code) {
-    const bool memory = code == SPNG_EMEM || code == SPNG_EZLIB_INIT;
-    return fail(memory ? ErrorCode::limit : ErrorCode::bad_input, fmt::format("PNG: {}", spng_strerror(code)));
+    if (allocation_failed || code == SPNG_EMEM || code == SPNG_EZLIB_INIT) return fail(ErrorCode::limit, "PNG: out of memory");
+    return fail(ErrorCode::bad_input, fmt::format("PNG: {}", spng_strerror(code)));
 }
 
 struct Opened {
@@ -30,7 +43,9 @@ struct Opened {
 };
 
 Result<Opened> open_png(std::span<const std::byte> file, const ImageLimits& limits) {
-    Opened png{Context(spng_ctx_new(0)), {}};
+    allocation_failed = false;
+    spng_alloc allocator{.malloc_fn = watched_malloc, .realloc_fn = watched_realloc, .calloc_fn = watched_calloc, .free_fn = std::free};
+    Opened png{Context(spng_ctx_new2(&allocator, 0)), {}};
     if (png.context == nullptr) return fail(ErrorCode::limit, "PNG: out of memory");
     if (const int e = spng_set_png_buffer(png.context.get(), file.data(), file.size()); e != 0) return png_error(e);
     if (const int e = spng_set_chunk_limits(png.context.get(), kMaxChunkBytes, kMaxChunkBytes); e != 0) return png_error(e);
