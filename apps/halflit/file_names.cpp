@@ -9,6 +9,7 @@
 
 #include <cerrno>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 
@@ -52,8 +53,11 @@ bool is_folder(const std::string& path) {
 bool same_file(const std::string& a, const std::string& b) {
     struct stat first {
     }, second{};
-    return ::stat(a.c_str(), &first) == 0 && ::stat(b.c_str(), &second) == 0 && first.st_dev == second.st_dev &&
-           first.st_ino == second.st_ino;
+    const bool a_is_there = ::stat(a.c_str(), &first) == 0, b_is_there = ::stat(b.c_str(), &second) == 0;
+    if (a_is_there && b_is_there) return first.st_dev == second.st_dev && first.st_ino == second.st_ino;
+    if (a_is_there || b_is_there) return false;
+    std::error_code ignored;
+    return std::filesystem::weakly_canonical(a, ignored) == std::filesystem::weakly_canonical(b, ignored);
 }
 
 bool is_model_name(std::string_view path) { return ends_with_any_case(path, ".glb") || ends_with_any_case(path, ".gltf"); }

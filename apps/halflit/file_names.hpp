@@ -17,7 +17,7 @@ namespace halflit::cli {
 /// that a scene is read from, which is not known before the scene is loaded. "-" and the empty path are free.
 [[nodiscard]] bool is_free_or_begins_with(const std::string& path, char first);
 
-/// True if both are there and are the same file.
+/// True if both are the same file, or would be if they were there.
 [[nodiscard]] bool same_file(const std::string& a, const std::string& b);
 
 /// True if the name ends in `.glb` or `.gltf`, in any case.

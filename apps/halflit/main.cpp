@@ -1,6 +1,7 @@
 // halflit: the command line. Parses, dispatches, and turns errors into one line and an exit code.
 #include "apps/halflit/command_line.hpp"
 #include "apps/halflit/commands.hpp"
+#include "apps/halflit/file_names.hpp"
 #include "apps/halflit/help_text.hpp"
 #include "apps/halflit/interrupt.hpp"
 #include "apps/halflit/messages.hpp"
@@ -54,7 +55,8 @@ bool means_render(std::span<const Command> commands, const std::vector<std::stri
     const std::string& first = arguments[0];
     const auto is_first = [&](const Command& command) { return command.name == first; };
     if (std::any_of(commands.begin(), commands.end(), is_first)) return false;
-    if (!first.starts_with('-') || first == "-") return is_scene(first);
+    if (first == "--") return true;
+    if (!first.starts_with('-') || first == "-") return is_scene(first) || is_folder(first);  // a folder: for its message
     const std::string name = first.substr(0, first.find('='));
     for (const Flag* flag : flags_of(commands[0]))
         for (const std::string& spelling : words_of(flag->names, ','))

@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <filesystem>
 #include <memory>
 #include <new>
 #include <utility>
@@ -42,10 +41,8 @@ std::string default_output(const std::string& scene) {
 
 /// Refuses output paths that would overwrite the scene, the environment or each other.
 Result<void> check_paths(const RenderCommandOptions& options) {
-    std::error_code ignored;
-    const auto place = [&](const std::string& path) { return std::filesystem::weakly_canonical(path, ignored); };
     if (!options.report.empty() &&
-        (options.report == options.output || (options.report != "-" && place(options.report) == place(options.output))))
+        (options.report == options.output || (options.report != "-" && same_file(options.report, options.output))))
         return fail(ErrorCode::usage, "--report: expected another file than the picture's, found '" + options.report + "'");
     for (const std::string& path : {options.output, options.report}) {
         if (path == "-" || path.empty()) continue;
@@ -135,11 +132,16 @@ Result<std::string> render_and_write(RenderCommandOptions& options) {
 }
 
 Result<std::string> render_within_memory(RenderCommandOptions& options) {
+    constexpr const char* kOutOfMemory = "out of memory";  // in the libraries' messages too
+    Result<std::string> done = fail(ErrorCode::limit, kOutOfMemory);
     try {
-        return render_and_write(options);
+        done = render_and_write(options);
     } catch (const std::bad_alloc&) {
-        return fail(ErrorCode::limit, "out of memory");
+        // Keeps the error.
     }
+    if (!done && options.max_memory_bytes > 0 && done.error().message.find(kOutOfMemory) != std::string::npos)
+        return fail(done.error().code, fmt::format("{} (--max-memory {})", done.error().message, options.max_memory_bytes >> 20));
+    return done;
 }
 
 Result<int> render_scene(RenderCommandOptions options, const std::string& scene) {
@@ -163,9 +165,7 @@ Result<int> render_scene(RenderCommandOptions options, const std::string& scene)
 }
 
 /// Refuses pictures that would overwrite a file which one of the scenes refers to.
-Result<void> spare_inputs_of_all(const RenderCommandOptions& options, std::vector<std::string> pictures) {
-    std::erase_if(pictures, [](const std::string& picture) { return !is_file(picture); });
-    if (pictures.empty()) return {};
+Result<void> spare_inputs_of_all(const RenderCommandOptions& options, const std::vector<std::string>& pictures) {
     for (const std::string& scene : options.words) {
         if (!is_file(scene)) continue;
         for (const std::string& input : io::files_named_by(scene, options.load))

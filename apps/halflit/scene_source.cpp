@@ -2,25 +2,42 @@
 
 #include "apps/halflit/built_in_scenes.hpp"
 #include "apps/halflit/file_names.hpp"
+#include "apps/halflit/stopwatch.hpp"
 #include "apps/io/errno_text.hpp"
 
 #include <fmt/core.h>
 
+#include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
 
 namespace halflit::cli {
 namespace {
 
 constexpr const char* kStandardInput = "standard input";
 
-/// Reads standard input to its end. Fails above `max_bytes`, so that endless input is refused.
-Result<std::vector<std::byte>> read_standard_input(std::size_t max_bytes) {
+/// Waits until standard input has something to read or has ended. time_limit_s: from `waiting` on; 0: none.
+Result<void> wait_for_input(const Stopwatch& waiting, double time_limit_s) {
+    pollfd input{STDIN_FILENO, POLLIN, 0};
+    for (;;) {
+        const double left_ms = time_limit_s > 0.0 ? std::ceil(time_limit_s * 1000.0 - waiting.ms()) : -1.0;
+        if (time_limit_s > 0.0 && left_ms <= 0.0)
+            return fail(ErrorCode::limit, fmt::format("{}: took more than {} s (--timeout)", kStandardInput, time_limit_s));
+        if (::poll(&input, 1, static_cast<int>(std::min(left_ms, 1e9))) != 0) return {};  // an error is read's to tell
+    }
+}
+
+/// Reads standard input to its end. Fails above `max_bytes`, so that endless input is refused, and after the time limit; 0: none.
+Result<std::vector<std::byte>> read_standard_input(std::size_t max_bytes, double time_limit_s) {
     if (::isatty(STDIN_FILENO) == 1) return fail(ErrorCode::usage, "standard input: expected a model, found a terminal");
     constexpr std::size_t kChunk = std::size_t{1} << 20;
+    const Stopwatch reading;
     std::vector<std::byte> bytes;
     for (;;) {
+        if (const auto waited = wait_for_input(reading, time_limit_s); !waited) return tl::unexpected(waited.error());
         const std::size_t size = bytes.size();
         if (size > max_bytes)
             return fail(ErrorCode::limit, fmt::format("{}: more than {} bytes (--max-file-bytes)", kStandardInput, max_bytes));
@@ -35,7 +52,7 @@ Result<std::vector<std::byte>> read_standard_input(std::size_t max_bytes) {
 
 Result<LoadedScene> load_model(const RenderOptions& options) {
     if (options.scene != "-") return load_gltf(options.scene, options.load);
-    const auto bytes = read_standard_input(options.load.limits.max_file_bytes);
+    const auto bytes = read_standard_input(options.load.limits.max_file_bytes, options.load.limits.time_limit_s);
     if (!bytes) return tl::unexpected(bytes.error());
     return load_gltf_bytes(*bytes, kStandardInput, "", options.load);
 }

@@ -16,8 +16,6 @@
 
 #include <fmt/format.h>
 
-#include <unistd.h>
-
 #include <exception>
 #include <new>
 #include <set>
@@ -30,7 +28,7 @@ namespace {
 
 using namespace io::detail;
 
-/// The files that buffers and images name, drawn or not.
+/// The places where the files may lie that buffers and images name, drawn or not, there or not.
 std::vector<std::string> files_of(const Document& document) {
     std::set<std::string_view> uris;
     for (const file::Buffer& buffer : document.file.buffers)
@@ -41,8 +39,7 @@ std::vector<std::string> files_of(const Document& document) {
     for (const std::string_view uri : uris) {
         const Result<std::string> name = decode_file_uri(uri);
         if (!name) continue;
-        for (std::string& path : document.folder.places(*name))
-            if (::access(path.c_str(), F_OK) == 0) files.push_back(std::move(path));
+        for (std::string& path : document.folder.places(*name)) files.push_back(std::move(path));
     }
     return files;
 }

@@ -8,8 +8,8 @@
 
 namespace halflit::io {
 
-/// Paths of the files that the model at `path` refers to, drawn or not, and that are there. Reads the model alone; empty if it cannot be
-/// read. Throws std::bad_alloc.
+/// Paths at which the files may lie that the model at `path` refers to, drawn or not, there or not. Reads the model alone; empty if it
+/// cannot be read. Throws std::bad_alloc.
 [[nodiscard]] std::vector<std::string> files_named_by(const std::string& path, const LoadOptions& options);
 
 }  // namespace halflit::io

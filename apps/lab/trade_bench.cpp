@@ -59,7 +59,7 @@ Result<void> TradeBench::choose(const TradeChoice& choice) {
 Result<Image> TradeBench::draw(const TradeChoice& choice) {
     if (const auto chosen = choose(choice); !chosen) return tl::unexpected(chosen.error());
     Image image = make_image(job_, true);
-    auto drawn = renderer_.render(*job_.prepared, job_.camera, settings_, target_of(job_, image), job_.execution);
+    auto drawn = renderer_.render(*job_.prepared, job_.camera, settings_, target_of(job_, image), job_.timed_execution());
     if (!drawn) return tl::unexpected(drawn.error());
     drawn_ = std::move(*drawn);
     return image;
@@ -70,7 +70,7 @@ Result<TradeBench::Times> TradeBench::time_of(Renderer& renderer, const TradeCho
     renderer.forget_frames();  // draws complete frames, as when the scene moves
     const Stopwatch watch;
     const CpuStopwatch cpu_watch;
-    const auto rendered = renderer.render(*job_.prepared, job_.camera, settings_, target_of(job_, timed_), job_.execution);
+    const auto rendered = renderer.render(*job_.prepared, job_.camera, settings_, target_of(job_, timed_), job_.timed_execution());
     const Times times{watch.ms(), cpu_watch.ms()};
     if (!rendered) return tl::unexpected(rendered.error());
     return times;

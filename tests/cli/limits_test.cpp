@@ -41,6 +41,15 @@ TEST_CASE("limits: a scene that takes longer than --timeout ends with 5, a repor
     CHECK(run({"sphere:100", "--size", "16x16", "--timeout", "600", "-o", folder.file("b.png")}).code == 0);
 }
 
+TEST_CASE("limits: --timeout ends the wait for standard input", "[cli]") {
+    const TemporaryFolder folder;
+    const Outcome outcome = run({"render", "-", "--timeout", "0.2", "-o", folder.file("a.png"), "--report", folder.file("a.json")},
+                                {.input = "{", .hold_input_open = true});
+    CHECK(outcome.code == 5);
+    CHECK(outcome.err.find("--timeout") != std::string::npos);
+    CHECK(folder.names() == std::vector<std::string>{"a.json"});
+}
+
 TEST_CASE("limits: a scene that needs more than --max-memory ends with 5, a report and no picture", "[cli]") {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     HALFLIT_SKIP("sanitizers take terabytes of addresses");
@@ -49,6 +58,7 @@ TEST_CASE("limits: a scene that needs more than --max-memory ends with 5, a repo
     const Outcome outcome = run({"sphere:1000000", "--max-memory", "64", "-o", folder.file("a.png"), "--report", folder.file("a.json")});
     CHECK(outcome.code == 5);
     CHECK(outcome.err.find("memory") != std::string::npos);
+    CHECK(outcome.err.find("--max-memory") != std::string::npos);
     CHECK(folder.names() == std::vector<std::string>{"a.json"});
     CHECK(run({"sphere:1000000", "--size", "64x64", "--max-memory", "1000", "-o", folder.file("b.png")}).code == 0);
     CHECK(run({"demo", "--max-memory", "31"}).code == 2);

@@ -178,4 +178,8 @@ TEST_CASE("output: a file that the scene was read from is not overwritten", "[cl
         CHECK(outcome.err.find("crate.png: ") != std::string::npos);
         CHECK(kept());
     }
+    // A texture that is missing does not become the picture of a neighbour.
+    std::filesystem::remove(folder.file("crate.png"));
+    CHECK(run({"crate.glb", "box.gltf", "-o", "./"}, {.folder = folder.path()}).code == 4);
+    CHECK(folder.names() == std::vector<std::string>{"box.gltf", "crate.glb", "new.png", "plain.gltf"});
 }

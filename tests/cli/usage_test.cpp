@@ -98,6 +98,15 @@ TEST_CASE("usage: a missing scene ends with 4 and the system's reason", "[cli]")
     check_error(run({"info", "missing.glb"}), 4, "No such file or directory");
 }
 
+TEST_CASE("usage: a folder is an error of its own, and -- ends the flags", "[cli]") {
+    const TemporaryFolder folder;
+    const Outcome outcome = run({folder.path()});
+    CHECK(outcome.code == 4);
+    CHECK(outcome.err.find("directory") != std::string::npos);
+    CHECK(run({"-o", folder.file("a.png"), "--size", "8x8", "--", "demo"}).code == 0);
+    CHECK(run({"--", "demo", folder.file("b.png")}).code == 0);
+}
+
 TEST_CASE("usage: a file that is not there is an error with the name of a file that is spelled alike", "[cli]") {
     const TemporaryFolder folder;
     write_contents(folder.file("duck.glb"), "");

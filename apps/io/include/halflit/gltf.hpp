@@ -60,7 +60,7 @@ struct SceneInfo {
     std::uint64_t triangles_stored = 0;         ///< triangles of the meshes that are drawn, each once
     std::uint64_t triangles_drawn = 0;          ///< triangles over all instances
     std::uint64_t vertices = 0;                 ///< vertices after splitting for flat normals and tangents
-    std::vector<std::string> files;             ///< paths of the files that the model refers to, drawn or not, and that are there
+    std::vector<std::string> files;             ///< where files may lie that the model refers to, drawn or not, there or not
     /// Names, as the file lists them.
     std::vector<std::string> extensions_used;
     /// Those without which the file must not be drawn.
