@@ -3,6 +3,7 @@
 #include "raster/detail/guarded.hpp"
 #include "raster/detail/view_math.hpp"
 #include "raster/scene/surface_distance.hpp"
+#include "shading/light_cell.hpp"
 
 #include <algorithm>
 
@@ -127,6 +128,18 @@ std::vector<MaterialPlan> plan_casters(const PreparedData& scene, const ShadingS
     return casters;
 }
 
+bool uses_cells(const shading::ShadingPlan& plan) {
+    return std::any_of(plan.materials.begin(), plan.materials.end(), [](const MaterialPlan& m) { return m.cells.relative > 0.0f; });
+}
+
+/// The least region that holds this one and has no cell in part, except at the picture's border.
+Region whole_cells(const Region& region, int width, int height) {
+    constexpr int kSide = shading::kCellSide;
+    const auto up = [](int v) { return (v + kSide - 1) / kSide * kSide; };
+    const int x = region.x / kSide * kSide, y = region.y / kSide * kSide;
+    return {x, y, std::min(up(region.x + region.width), width) - x, std::min(up(region.y + region.height), height) - y};
+}
+
 Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, const Settings& settings, int width, int height,
                             int tile_size, FramePlanMemory& memory) {
     if (auto ok = check_settings(settings, width, height); !ok) return tl::unexpected<Error>(ok.error());
@@ -166,6 +179,9 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, 
                      prepared.object_radii(), static_cast<double>(settings.shadow_fade)},
          .facts = budget ? &facts : nullptr},
         memory.shading);
+    plan.written = plan.picture.region;
+    plan.cells = uses_cells(plan.shading);
+    if (plan.cells) plan.picture = make_view(camera, width, height, whole_cells(plan.written, width, height), tile_size, settings.samples);
     if (!plan.shadow_views.empty()) plan.casters = plan_casters(prepared, options);
     plan.light_culler = LightCuller(plan.shading.lights);
     if (settings.background_environment) {

@@ -23,6 +23,8 @@ namespace halflit::raster {
 
 struct FramePlan {
     View picture;
+    bool cells = false;                    ///< the light of some material is fitted in cells
+    Region written;                        ///< the pixels asked for; where light is fitted in cells, the picture's region completes cells
     ShadingSettings options;               ///< options in effect: accuracy reference overrides some of those that were asked for
     shading::ShadingPlan shading;          ///< input of the kernels: materials, lights, environments, shadow maps, error bound
     std::vector<ShadowView> shadow_views;  ///< views that the shadow maps are drawn from

@@ -97,8 +97,8 @@ struct Renderer::Impl {
             Pool<TileScratch>::Loan loan(scratch);
             const TileCounts counts = PictureTile(pass, tile, *loan).draw();
             if (execution.on_tile) {
-                const TileRect rect = plan.picture.tile_rect(tile);
-                execution.on_tile({rect.x, rect.y, rect.width, rect.height});
+                const TileRect rect = intersection(plan.picture.tile_rect(tile), plan.written);
+                if (rect.width > 0 && rect.height > 0) execution.on_tile({rect.x, rect.y, rect.width, rect.height});
             }
             const std::lock_guard lock(counting);
             sum += counts;
@@ -140,7 +140,7 @@ struct Renderer::Impl {
         const TilePass normals_pass{geometry, normals, normal_materials, raster, shade, executor.stop()};
         const PicturePass pass{{geometry, records, plan.shading.materials, raster, shade, executor.stop(), plan.shading.shadow_offset},
                                plan,
-                               Output(target, plan.picture.region),
+                               Output(target, plan.written),
                                by_reference ? &reference : nullptr,
                                target.normal != nullptr ? &normals_pass : nullptr};
         const TileCounts tiles = draw_tiles(pass, execution);
@@ -153,7 +153,7 @@ struct Renderer::Impl {
         report.warnings.insert(report.warnings.end(), plan.warnings.begin(), plan.warnings.end());
         add_counts(geometry, tiles, report);
         // An empty region is common; an empty whole picture is rarely intended.
-        const Region& drawn = plan.picture.region;
+        const Region& drawn = plan.written;
         const bool whole_picture = drawn.width == target.width && drawn.height == target.height;
         if (report.triangles_submitted == 0 || (whole_picture && report.triangles_drawn == 0))
             report.warnings.emplace_back("nothing to draw");

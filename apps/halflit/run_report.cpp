@@ -81,6 +81,7 @@ Json error_bound_json(const ErrorBound& error) {
               {"lobes", error.lobes},
               {"specular", error.specular},
               {"environment", error.environment},
+              {"cells", error.cells},
               {"left_out", error.left_out}}}};
 }
 

@@ -15,7 +15,7 @@ void PictureTile::blend_layers() {
             if (++blended % kLayersBetweenChecks == 0) pass_.view.stop.check();
             const CoverBox box = collect_covered(pass_.view, rect_, c, record, scratch_, [&](FragmentList& list) {
                 shade(list);
-                write_samples(list, true);
+                write_samples(list, scratch_.block, true);
             });
             clear_coverage(scratch_, box);
         }

@@ -5,8 +5,10 @@
 
 #include "shading/fragment_block.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace halflit::raster {
@@ -41,6 +43,8 @@ public:
             epoch_ = 1;
         }
         used_ = 0;
+        for (auto& list : closed_) free_.push_back(std::move(list));
+        closed_.clear();
     }
     FragmentList& of(int material) {
         Slot& s = slot_[static_cast<std::size_t>(material)];
@@ -55,12 +59,29 @@ public:
     [[nodiscard]] std::size_t size() const { return used_; }
     FragmentList& operator[](std::size_t i) { return *lists_[i]; }
 
+    /// Keeps an open list as it is, and opens an empty one in its place.
+    FragmentList& close(FragmentList& list) {
+        auto& open = lists_[slot_[static_cast<std::size_t>(list.material)].list];
+        closed_.push_back(std::move(open));
+        if (free_.empty()) free_.push_back(std::make_unique<FragmentList>());
+        open = std::move(free_.back());
+        free_.pop_back();
+        open->material = list.material;
+        open->count = 0;
+        return *open;
+    }
+    /// Closed lists, those of a material together, each material's in the order of closing.
+    std::span<std::unique_ptr<FragmentList>> closed() {
+        std::stable_sort(closed_.begin(), closed_.end(), [](const auto& a, const auto& b) { return a->material < b->material; });
+        return closed_;
+    }
+
 private:
     struct Slot {
         std::uint32_t epoch = 0, list = 0;
     };
     std::vector<Slot> slot_;
-    std::vector<std::unique_ptr<FragmentList>> lists_;
+    std::vector<std::unique_ptr<FragmentList>> lists_, closed_, free_;
     std::size_t used_ = 0;
     std::uint32_t epoch_ = 0;
 };

@@ -26,25 +26,39 @@ public:
           tile_(tile),
           rect_(plan_.picture.tile_rect(tile)),
           samples_(plan_.picture.samples.count),
-          scratch_(scratch) {}
+          scratch_(scratch),
+          written_(intersection(rect_, plan_.written)) {}
 
     TileCounts draw();
 
 private:
     // shade.cpp
     void shade_visible();
-    void shade(FragmentList& list);  ///< writes the colour rows of the scratch's block
+    void collect(int x, int y);  ///< sorts the fragments of a pixel into lists
+    [[nodiscard]] int material_of(std::uint32_t id);
+    void flush_full();               ///< the list sorted into last
+    void flush(FragmentList& list);  ///< shades and writes a list, and empties it
+    void shade(FragmentList& list);  ///< interpolates into the scratch's block, and writes its colour rows
+    void shade(const FragmentList& list, const shading::LightList& lights, shading::FragmentBlock& block);  ///< of interpolated rows
+    // cells.cpp
+    [[nodiscard]] bool has_cells(int material) const;
+    void close_cell();  ///< keeps the lists of a cell of the picture, of materials with light in cells
+    void shade_cells();
+    void shade_cells(std::span<std::unique_ptr<FragmentList>> lists);  ///< of one material, at most kCellLanes
     // planes.cpp
     void write_planes(bool empty);           ///< depth and numbers of what each pixel's first sample shows; empty: no triangles
     void write_normals(FragmentList& list);  ///< overwrites the scratch's block
     // blend.cpp
     void blend_layers();
     // resolve.cpp
-    void clear();                          ///< fills a tile that has triangles with the background
-    void fill_background();                ///< writes a tile that has no triangles
-    void fill_samples();                   ///< sets every sample to the environment behind its pixel
-    void write(const FragmentList& list);  ///< writes the scratch's block to the caller's memory or to samples
-    void write_samples(const FragmentList& list, bool blend);
+    void clear();                                                               ///< fills a tile that has triangles with the background
+    void fill_background();                                                     ///< writes a tile that has no triangles
+    void fill_samples();                                                        ///< sets every sample to the environment behind its pixel
+    void write(const FragmentList& list, const shading::FragmentBlock& block);  ///< to the caller's memory or to samples
+    void write_samples(const FragmentList& list, const shading::FragmentBlock& block, bool blend);
+    [[nodiscard]] bool is_written(int x_px, int y_px) const {
+        return x_px >= written_.x && x_px < written_.x + written_.width && y_px >= written_.y && y_px < written_.y + written_.height;
+    }
     void resolve();
     [[nodiscard]] float* sample_color(int s) { return scratch_.color.data() + static_cast<std::size_t>(s) * 4 * kTilePixels; }
 
@@ -54,7 +68,10 @@ private:
     TileRect rect_;
     int samples_;
     TileScratch& scratch_;
+    TileRect written_;  ///< the part of the rect that is the caller's; the rest completes cells
     TileCounts counts_;
+    std::uint32_t last_id_ = kNoTriangle;  ///< of the fragment sorted last
+    FragmentList* last_list_ = nullptr;
     bool direct_ = true;  ///< one opaque sample per pixel: shaded colours go straight to the caller's memory
 };
 

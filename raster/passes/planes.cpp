@@ -8,9 +8,9 @@ namespace halflit::raster {
 void PictureTile::write_planes(bool empty) {
     const Output& output = pass_.output;
     const ViewGeometry& geometry = pass_.view.geometry;
-    for (int y = 0; y < rect_.height; ++y)
-        for (int x = 0; x < rect_.width; ++x) {
-            const int at = y * kTileStride + x, x_px = rect_.x + x, y_px = rect_.y + y;
+    for (int y_px = written_.y; y_px < written_.y + written_.height; ++y_px)
+        for (int x_px = written_.x; x_px < written_.x + written_.width; ++x_px) {
+            const int at = (y_px - rect_.y) * kTileStride + (x_px - rect_.x);
             const std::uint32_t id = empty ? kNoTriangle : scratch_.buffers.triangle[0][at];
             const bool seen = id != kNoTriangle;
             if (output.depth)
@@ -28,7 +28,7 @@ void PictureTile::write_normals(FragmentList& list) {
     const auto& lane = scratch_.block.lane;
     const bool facing = pass_.normals->materials[static_cast<std::size_t>(list.material)].double_sided;
     for (int l = 0; l < list.count; ++l) {
-        if ((list.samples[l] & 1u) == 0) continue;
+        if ((list.samples[l] & 1u) == 0 || !is_written(list.x_px[l], list.y_px[l])) continue;
         const Vec3f n = normalize_or({lane[shading::kNormalX][l], lane[shading::kNormalY][l], lane[shading::kNormalZ][l]}, {0, 0, 0});
         const float side = facing ? lane[shading::kFacing][l] : 1.0f;
         float* p = pass_.output.normal.at(list.x_px[l], list.y_px[l]);

@@ -33,29 +33,30 @@ void PictureTile::clear() {
     if (plan_.background) fill_samples();
 }
 
-void PictureTile::write(const FragmentList& list) {
+void PictureTile::write(const FragmentList& list, const shading::FragmentBlock& block) {
     if (!direct_) {
-        write_samples(list, false);
+        write_samples(list, block, false);
         return;
     }
-    const shading::FragmentBlock& block = scratch_.block;
     const Output& output = pass_.output;
     const float exposure = plan_.exposure;
     if (output.codes) {
         alignas(64) std::uint32_t code[shading::kBlockSize];
         pass_.view.shade.encode_srgb8(block.red, block.green, block.blue, block.alpha, exposure, code, list.count);
         output.finish_codes(code, list.count);
-        for (int l = 0; l < list.count; ++l) std::memcpy(output.codes.at(list.x_px[l], list.y_px[l]), &code[l], 4);
+        for (int l = 0; l < list.count; ++l)
+            if (is_written(list.x_px[l], list.y_px[l])) std::memcpy(output.codes.at(list.x_px[l], list.y_px[l]), &code[l], 4);
     }
     if (output.linear)
-        for (int l = 0; l < list.count; ++l)
+        for (int l = 0; l < list.count; ++l) {
+            if (!is_written(list.x_px[l], list.y_px[l])) continue;
             output.write_linear(list.x_px[l], list.y_px[l], number_or_zero(block.red[l] * exposure),
                                 number_or_zero(block.green[l] * exposure), number_or_zero(block.blue[l] * exposure),
                                 number_or_zero(block.alpha[l]));
+        }
 }
 
-void PictureTile::write_samples(const FragmentList& list, bool blend) {
-    const shading::FragmentBlock& block = scratch_.block;
+void PictureTile::write_samples(const FragmentList& list, const shading::FragmentBlock& block, bool blend) {
     const float exposure = plan_.exposure;
     for (int l = 0; l < list.count; ++l) {
         const float a = number_or_zero(block.alpha[l]);
@@ -104,13 +105,13 @@ void PictureTile::fill_background() {
         std::uint32_t code[kTileStride];
         pass_.view.shade.encode_srgb8(red, green, blue, alpha, 1.0f, code, 1);
         output.finish_codes(code, 1);
-        for (int x = 1; x < rect_.width; ++x) code[x] = code[0];
-        for (int y = 0; y < rect_.height; ++y)
-            std::memcpy(output.codes.at(rect_.x, rect_.y + y), code, 4 * static_cast<std::size_t>(rect_.width));
+        for (int x = 1; x < written_.width; ++x) code[x] = code[0];
+        for (int y = 0; y < written_.height; ++y)
+            std::memcpy(output.codes.at(written_.x, written_.y + y), code, 4 * static_cast<std::size_t>(written_.width));
     }
     if (output.linear)
-        for (int y = 0; y < rect_.height; ++y)
-            for (int x = 0; x < rect_.width; ++x) output.write_linear(rect_.x + x, rect_.y + y, b.x, b.y, b.z, b.w);
+        for (int y = 0; y < written_.height; ++y)
+            for (int x = 0; x < written_.width; ++x) output.write_linear(written_.x + x, written_.y + y, b.x, b.y, b.z, b.w);
 }
 
 void PictureTile::resolve() {
@@ -118,11 +119,12 @@ void PictureTile::resolve() {
     const float weight = 1.0f / static_cast<float>(samples_);
     alignas(64) float row[4][kTileStride] = {};
     alignas(64) std::uint32_t code[kTileStride];
-    for (int y = 0; y < rect_.height; ++y) {
-        for (int x = 0; x < rect_.width; ++x) {
+    const int x0 = written_.x - rect_.x, y0 = written_.y - rect_.y;
+    for (int y = y0; y < y0 + written_.height; ++y) {
+        for (int x = 0; x < written_.width; ++x) {
             float sum[4] = {0, 0, 0, 0};
             for (int s = 0; s < samples_; ++s)
-                for (int i = 0; i < 4; ++i) sum[i] += sample_color(s)[4 * (y * kTileStride + x) + i];
+                for (int i = 0; i < 4; ++i) sum[i] += sample_color(s)[4 * (y * kTileStride + x0 + x) + i];
             const Vec4f pixel = resolved(sum, weight);
             row[0][x] = pixel.x;
             row[1][x] = pixel.y;
@@ -130,12 +132,13 @@ void PictureTile::resolve() {
             row[3][x] = pixel.w;
         }
         if (output.codes) {
-            pass_.view.shade.encode_srgb8(row[0], row[1], row[2], row[3], 1.0f, code, rect_.width);
-            output.finish_codes(code, rect_.width);
-            std::memcpy(output.codes.at(rect_.x, rect_.y + y), code, 4 * static_cast<std::size_t>(rect_.width));
+            pass_.view.shade.encode_srgb8(row[0], row[1], row[2], row[3], 1.0f, code, written_.width);
+            output.finish_codes(code, written_.width);
+            std::memcpy(output.codes.at(written_.x, rect_.y + y), code, 4 * static_cast<std::size_t>(written_.width));
         }
         if (output.linear)
-            for (int x = 0; x < rect_.width; ++x) output.write_linear(rect_.x + x, rect_.y + y, row[0][x], row[1][x], row[2][x], row[3][x]);
+            for (int x = 0; x < written_.width; ++x)
+                output.write_linear(written_.x + x, rect_.y + y, row[0][x], row[1][x], row[2][x], row[3][x]);
     }
 }
 

@@ -27,60 +27,83 @@ TileCounts PictureTile::draw() {
 void PictureTile::shade_visible() {
     FragmentQueue& queue = scratch_.queue;
     queue.begin(pass_.view.materials.size());
-    const auto flush = [&](FragmentList& list) {
-        if (pass_.normals != nullptr) write_normals(list);
-        shade(list);
-        write(list);
-        list.count = 0;
-    };
-    const ViewGeometry& geometry = pass_.view.geometry;
-    const TileBuffers& buffers = scratch_.buffers;
-    std::uint32_t last_id = kNoTriangle;
-    FragmentList* list = nullptr;
-    const auto push = [&](std::uint32_t id, int x, int y, int at, unsigned samples) {
-        if (id != last_id) {
-            last_id = id;
-            list = &queue.of(geometry.draw_of(geometry.record(id)).material);
-        }
-        list->push(id, rect_.x + x, rect_.y + y, at, samples);
-        if (list->full()) flush(*list);
-    };
-    for (int y = 0; y < rect_.height; ++y) {
-        for (int x = 0; x < rect_.width; ++x) {
-            const int at = y * kTileStride + x;
-            if (samples_ == 1) {
-                const std::uint32_t id = buffers.triangle[0][at];
-                if (id == kNoTriangle) continue;
-                ++counts_.pixels_visible;
-                push(id, x, y, at, 1u);
-                continue;
+    last_id_ = kNoTriangle;
+    std::fill(std::begin(scratch_.materials), std::end(scratch_.materials), TileScratch::MaterialOf{});
+    if (plan_.cells) {
+        constexpr int kSide = shading::kCellSide;  // tiles begin at cells
+        for (int y0 = 0; y0 < rect_.height; y0 += kSide)
+            for (int x0 = 0; x0 < rect_.width; x0 += kSide) {
+                const int y1 = std::min(y0 + kSide, rect_.height), x1 = std::min(x0 + kSide, rect_.width);
+                for (int y = y0; y < y1; ++y)
+                    for (int x = x0; x < x1; ++x) collect(x, y);
+                close_cell();
             }
-            const unsigned all = (1u << samples_) - 1u;
-            const std::uint32_t first = buffers.triangle[0][at];
-            std::uint32_t mixed = 0;
-            for (int s = 1; s < samples_; ++s) mixed |= buffers.triangle[s][at] ^ first;
-            if (mixed == 0) {
-                if (first == kNoTriangle) continue;
-                ++counts_.pixels_visible;
-                push(first, x, y, at, all);
-                continue;
-            }
-            unsigned left = all;
-            bool visible = false;
-            while (left != 0) {
-                const std::uint32_t id = buffers.triangle[__builtin_ctz(left)][at];
-                unsigned samples = 0;
-                for (int s = 0; s < samples_; ++s) samples |= buffers.triangle[s][at] == id ? 1u << s : 0u;
-                left &= ~samples;
-                if (id == kNoTriangle) continue;
-                visible = true;
-                push(id, x, y, at, samples);
-            }
-            counts_.pixels_visible += visible ? 1 : 0;
-        }
+        shade_cells();
+    } else {
+        for (int y = 0; y < rect_.height; ++y)
+            for (int x = 0; x < rect_.width; ++x) collect(x, y);
     }
     for (std::size_t i = 0; i < queue.size(); ++i)
         if (queue[i].count > 0) flush(queue[i]);
+}
+
+void PictureTile::collect(int x, int y) {
+    const int at = y * kTileStride + x;
+    const auto& triangle = scratch_.buffers.triangle;
+    const auto push = [&](std::uint32_t id, unsigned samples) {
+        if (id != last_id_) {
+            last_id_ = id;
+            last_list_ = &scratch_.queue.of(material_of(id));
+        }
+        last_list_->push(id, rect_.x + x, rect_.y + y, at, samples);
+        if (last_list_->full()) flush_full();
+    };
+    const std::uint32_t first = triangle[0][at];
+    std::uint32_t mixed = 0;
+    for (int s = 1; s < samples_; ++s) mixed |= triangle[s][at] ^ first;
+    const unsigned all = (1u << samples_) - 1u;
+    if (mixed == 0) {
+        if (first == kNoTriangle) return;
+        ++counts_.pixels_visible;
+        push(first, all);
+        return;
+    }
+    bool visible = false;
+    for (unsigned left = all; left != 0;) {
+        const std::uint32_t id = triangle[__builtin_ctz(left)][at];
+        unsigned samples = 0;
+        for (int s = 0; s < samples_; ++s) samples |= triangle[s][at] == id ? 1u << s : 0u;
+        left &= ~samples;
+        if (id == kNoTriangle) continue;
+        visible = true;
+        push(id, samples);
+    }
+    counts_.pixels_visible += visible ? 1 : 0;
+}
+
+int PictureTile::material_of(std::uint32_t id) {
+    // Neighbouring rows show the same triangles again.
+    auto& [known, material] = scratch_.materials[id % std::size(scratch_.materials)];
+    if (known != id) {
+        const ViewGeometry& geometry = pass_.view.geometry;
+        known = id;
+        material = geometry.draw_of(geometry.record(id)).material;
+    }
+    return material;
+}
+
+void PictureTile::flush_full() {
+    if (has_cells(last_list_->material))
+        last_list_ = &scratch_.queue.close(*last_list_);
+    else
+        flush(*last_list_);
+}
+
+void PictureTile::flush(FragmentList& list) {
+    if (pass_.normals != nullptr) write_normals(list);
+    shade(list);
+    write(list, scratch_.block);
+    list.count = 0;
 }
 
 void PictureTile::shade(FragmentList& list) {
@@ -93,8 +116,14 @@ void PictureTile::shade(FragmentList& list) {
         if (plan_.options.rate == ShadingRate::flat) light_triangles(pass_.view, shading, list, block, counts_.work);
     } else if ((material.stages & kStageLights) != 0) {
         lights = plan_.light_culler.select(shading.lights, block, list.count, scratch_.lights);
-        count_lights(counts_.work, material, lights, list.count);
     }
+    shade(list, lights, block);
+}
+
+void PictureTile::shade(const FragmentList& list, const shading::LightList& lights, shading::FragmentBlock& block) {
+    const shading::ShadingPlan& shading = plan_.shading;
+    const shading::MaterialPlan& material = shading.materials[static_cast<std::size_t>(list.material)];
+    count_lights(counts_.work, material, lights, list.count);
     count_shading(counts_.work, material, list.count);
     if (pass_.reference != nullptr)
         pass_.reference->shade(pass_.view.shade, shading, list.material, block, list.count);

@@ -34,6 +34,15 @@ struct TileCounts {
     }
 };
 
+/// Cells that are shaded together.
+struct CellScratch {
+    shading::CellBatch batch;
+    shading::FragmentBlock blocks[shading::kCellLanes];
+    shading::LightCell cell;
+    std::vector<std::uint16_t> exact;           ///< for each light, the cells whose pixels it is left to
+    std::vector<shading::LightPlan> of_pixels;  ///< lights left to one cell's pixels
+};
+
 /// The working memory of one task.
 struct TileScratch {
     TileBuffers buffers{};
@@ -41,6 +50,12 @@ struct TileScratch {
     FragmentList list;  ///< fragments of the current triangle, for alpha test and blending
     shading::FragmentBlock block;
     LightSelection lights;
+    struct MaterialOf {
+        std::uint32_t id = kNoTriangle;
+        int material = 0;
+    };
+    MaterialOf materials[64];            ///< of triangles seen last
+    std::unique_ptr<CellScratch> cells;  ///< where light in cells is used
     /// Linear light times alpha, and alpha, of every sample; used only where samples or layers are combined.
     RawBuffer<float> color;
     std::vector<std::uint32_t> tile_list;  ///< ViewGeometry::tile_list's

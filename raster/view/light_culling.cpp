@@ -103,7 +103,7 @@ shading::LightList LightCuller::select(std::span<const LightPlan> lights, const 
     HALFLIT_ASSERT(lights.size() == light_count_);
     const shading::LightList all{lights.data(), static_cast<int>(lights.size())};
     if (ranged_.empty() && !any_spot_) return all;
-    double low[3], high[3];
+    PositionBox box{};
     for (int axis = 0; axis < 3; ++axis) {
         const float* p = block.lane[shading::kPosX + axis];
         float least = p[0], most = p[0];
@@ -112,9 +112,17 @@ shading::LightList LightCuller::select(std::span<const LightPlan> lights, const 
             most = p[l] > most ? p[l] : most;
         }
         if (!(most - least < 3e38f)) return all;  // not finite
-        low[axis] = least;
-        high[axis] = most;
+        box.low[axis] = least;
+        box.high[axis] = most;
     }
+    return select(lights, box, scratch);
+}
+
+shading::LightList LightCuller::select(std::span<const LightPlan> lights, const PositionBox& box, LightSelection& scratch) const {
+    HALFLIT_ASSERT(lights.size() == light_count_);
+    const shading::LightList all{lights.data(), static_cast<int>(lights.size())};
+    if (ranged_.empty() && !any_spot_) return all;
+    const auto& [low, high] = box;
     std::vector<std::uint32_t>& kept = scratch.index;
     kept.clear();
     for (const std::uint32_t i : always_)

@@ -17,6 +17,11 @@ struct LightSelection {
     std::vector<shading::LightPlan> lights;
 };
 
+/// A box in world space.
+struct PositionBox {
+    double low[3], high[3];
+};
+
 class LightCuller {
 public:
     LightCuller() = default;
@@ -26,6 +31,10 @@ public:
     /// Lights that the first `count` fragments of the block need, by their world positions. lights: those of the constructor. `scratch`
     /// holds the result if it is not the whole list.
     [[nodiscard]] shading::LightList select(std::span<const shading::LightPlan> lights, const shading::FragmentBlock& block, int count,
+                                            LightSelection& scratch) const;
+
+    /// The same for all points of a finite box.
+    [[nodiscard]] shading::LightList select(std::span<const shading::LightPlan> lights, const PositionBox& box,
                                             LightSelection& scratch) const;
 
 private:

@@ -23,6 +23,19 @@ struct View {
     friend bool operator==(const View&, const View&) = default;
 };
 
+/// The common part of a rectangle and a region; its sizes are 0 if there is none.
+[[nodiscard]] inline TileRect intersection(const TileRect& rect, const Region& region) {
+    const auto side = [](int a, int a_size, int b, int b_size, int& size) {
+        const int first = a > b ? a : b, a_end = a + a_size, b_end = b + b_size, end = a_end < b_end ? a_end : b_end;
+        size = end > first ? end - first : 0;
+        return first;
+    };
+    TileRect both{};
+    both.x = side(rect.x, rect.width, region.x, region.width, both.width);
+    both.y = side(rect.y, rect.height, region.y, region.height, both.height);
+    return both;
+}
+
 /// View of a camera through a window of width x height pixels, of which only `region` is drawn. samples: 1, 4 or 8.
 [[nodiscard]] View make_view(const Camera& camera, int width, int height, const Region& region, int tile_size, int samples);
 

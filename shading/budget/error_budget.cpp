@@ -20,6 +20,9 @@ constexpr double kHalfVectorError = 2.5e-7, kMirrorError = 1e-7;
 /// Relative error of the products and sums that follow.
 constexpr double kProductError = 1e-5;
 
+/// Fewest lights without shadow maps for which light in cells pays.
+constexpr int kLeastCellLights = 4;
+
 /// A factor of some light: its error, absolute and as a share of its least value.
 struct Factor {
     double absolute = 0, relative = 0;
@@ -35,9 +38,11 @@ double codes_of(const Factor& factor, double strength) {
 
 /// Upper bounds on what a surface reflects, and the errors of its inputs. Members for which there is no texture have no error.
 struct Surface {
-    double albedo, reflectance;      ///< largest colour; largest F0
-    double metallic;                 ///< largest
-    double exponent, normalization;  ///< those of the sharpest highlight
+    double albedo, reflectance;       ///< largest colour; largest F0
+    double metallic;                  ///< largest
+    double exponent, normalization;   ///< those of the sharpest highlight
+    double least_albedo = 0;          ///< smallest colour that matt light is multiplied by; 0: not known
+    double reflectance_at_least = 0;  ///< F0 of that colour
     double normal_error;
     Factor base_color, roughness, matt, shiny, occlusion, emissive;  ///< matt: 1 - metallic; shiny: F0, by the metallic texture's error
     bool specular;
@@ -79,6 +84,11 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
         const auto f0 = [&](double metallic) { return dielectric + metallic * (least_color - dielectric); };
         s.matt = factor_of(error, 1.0 - s.metallic);
         s.shiny = factor_of(error * std::max(s.albedo, dielectric), std::min(f0(least_metallic), f0(s.metallic)));
+    }
+    if (s.metallic == 0.0 || !has(kStageMetallicRoughnessTexture)) {
+        const double dielectric = kDielectricReflectance;
+        s.least_albedo = least_color * (1.0 - s.metallic) * (1.0 - dielectric);
+        s.reflectance_at_least = dielectric + s.metallic * (least_color - dielectric);
     }
     s.reflectance = s.metallic > 0.0 ? std::max(double{kDielectricReflectance}, s.albedo) : double{kDielectricReflectance};
     if (has(kStageOcclusionTexture)) {
@@ -265,6 +275,35 @@ double spend_on_lobe(MaterialPlan& material, bool split, const Surface& s, const
     return codes(lobe.tier);
 }
 
+/// Lets the light of a material be fitted over cells, within `budget` codes. Returns the codes that it costs.
+double spend_on_cells(const ShadingPlan& plan, MaterialPlan& material, const Surface& s, double exposure, double budget) {
+    const auto has = [&](Stage stage) { return (material.stages & stage) != 0; };
+    const auto casts_none = [](const LightPlan& light) { return light.shadow_map < 0; };
+    const double n = static_cast<double>(material.lobe.power_minus_one) + 1.0;
+    if (!has(kStageLights) || has(kStageNormalMap) || material.alpha_mode == AlphaMode::blend || !(n >= 1.0 && n <= 3.0)) return 0.0;
+    if (material.lobe.path == LobePath::step || s.albedo <= 0.0) return 0.0;
+    if (std::count_if(plan.lights.begin(), plan.lights.end(), casts_none) < kLeastCellLights) return 0.0;
+    CellTolerance& cells = material.cells;
+    const double r = kBudgetShares.cells_relative * budget / kSlopeAtWhite, scale = material.lobe.scale;
+    double absolute_codes = (1.0 - kBudgetShares.cells_relative) * budget;
+    if (s.specular) {
+        const double albedo = s.least_albedo;
+        const double ratio = albedo > 0.0 ? s.reflectance_at_least / (albedo * scale) : kAnyShare;
+        if (ratio < 100.0) {
+            cells.specular_ratio = static_cast<float>(1.001 * ratio);
+            cells.absolute_specular = 3e38f;
+        } else {
+            absolute_codes *= 0.5;
+            cells.absolute_specular = static_cast<float>(0.999 * absolute_codes / (kSlopeAtBlack * exposure * s.reflectance));
+        }
+        cells.half_exponent = static_cast<float>(0.5 * specular_exponent(material.roughness));
+        cells.peak = static_cast<float>(1.001 * s.normalization);
+    }
+    cells.relative = static_cast<float>(0.999 * r / (1.0 + r));  // the drawn light may be the smaller one
+    cells.absolute = static_cast<float>(0.999 * absolute_codes / (kSlopeAtBlack * exposure * s.albedo * scale));
+    return budget;
+}
+
 /// True if highlights are below the threshold at 45 degrees from their middle. If not, the test costs more than it saves.
 bool specular_ends(const ShadingPlan& plan, const Surface& s, double largest, double threshold) {
     const double z = 0.25 * s.exponent * (plan.specular == SpecularModel::phong ? 0.25 : 1.0), z2 = z * z, z4 = z2 * z2;
@@ -359,9 +398,11 @@ void spend_error_budget(ShadingPlan& plan, double budget_codes, double exposure,
         if (left > 0.0) {
             bound.lobes = spend_on_lobe(material, may_split(plan, material), s, light, kBudgetShares.lobe * left, fits);
             left -= bound.lobes;
+            bound.cells = spend_on_cells(plan, material, s, exposure, kBudgetShares.cells * left);
+            left -= bound.cells;
             if (s.specular && light.count > 0) spend_on_specular(plan, material, s, light, exposure, left, fits, bound);
         }
-        bound.codes = bound.rounding + bound.lobes + bound.specular + bound.environment + bound.left_out;
+        bound.codes = bound.rounding + bound.lobes + bound.specular + bound.environment + bound.cells + bound.left_out;
         if (bound.codes > worst.codes) worst = bound;
     }
     worst.codes = std::min(worst.codes, 255.0);

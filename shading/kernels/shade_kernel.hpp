@@ -1,6 +1,7 @@
 // The shading kernel: one source, compiled once for each instruction set.
 #pragma once
 
+#include "shading/kernels/cell_kernel.hpp"
 #include "shading/kernels/color_kernel.hpp"
 #include "shading/kernels/environment_kernel.hpp"
 #include "shading/kernels/light_kernel.hpp"
@@ -55,7 +56,13 @@ HALFLIT_INLINE IncidentLight incident_light(const shading::ShadingPlan& frame, c
     if (has(material, kStageLights)) {
         const ShadowReceiver receiver{
             frame, looked_up(frame, block, lane), facing.surface, {material.shadow_fade_scale, material.shadow_turn_scale}};
-        const LightSums sums = sum_lights<kSpecular>(lights.lights, lights.count, material.lobe, receiver, position, normal, to_eye, shape);
+        LightSums sums = sum_lights<kSpecular>(lights.lights, lights.count, material.lobe, receiver, position, normal, to_eye, shape);
+        if (lights.cell != nullptr) {
+            const CellPlace place = cell_place(*lights.cell, position, normal);
+            sums.diffuse = sums.diffuse + cell_sum(lights.cell->term, place);
+            if constexpr (kSpecular)
+                if (lights.cell->shines) sums.specular = sums.specular + cell_sum(lights.cell->highlight, place);
+        }
         light.diffuse = sums.diffuse * F(material.lobe.scale);
         if constexpr (kSpecular) light.specular = sums.specular * shape.normalization;
     }
@@ -202,6 +209,6 @@ static void encode(const float* red, const float* green, const float* blue, cons
 namespace shading {
 #define HALFLIT_SHADE_KERNELS HALFLIT_CONCAT(shade_kernels_, HALFLIT_ISA)
 extern const ShadeKernels HALFLIT_SHADE_KERNELS;
-const ShadeKernels HALFLIT_SHADE_KERNELS = {shade, light, hidden, shade_alpha, encode};
+const ShadeKernels HALFLIT_SHADE_KERNELS = {shade, light, hidden, measure_cell, fit_cells, shade_alpha, encode};
 }  // namespace shading
 }  // namespace halflit

@@ -3,6 +3,7 @@
 
 #include "halflit/isa.hpp"
 #include "shading/fragment_block.hpp"
+#include "shading/light_cell.hpp"
 #include "shading/plan/plan.hpp"
 
 #include <cstdint>
@@ -13,6 +14,7 @@ namespace halflit::shading {
 struct LightList {
     const LightPlan* lights = nullptr;
     int count = 0;
+    const LightCell* cell = nullptr;  ///< further light, fitted for the cell that the block is; may be null
 };
 [[nodiscard]] inline LightList all_lights(const ShadingPlan& frame) { return {frame.lights.data(), static_cast<int>(frame.lights.size())}; }
 
@@ -30,6 +32,14 @@ struct ShadeKernels {
     /// Shares of the core and of the excess (shadow_mode.hpp) that a light's shadow map hides, in [0, 1], for lanes [0, count).
     void (*hidden)(const ShadingPlan& frame, const MaterialPlan& material, const LightPlan& light, const FragmentBlock& block, int count,
                    float* core, float* excess);
+
+    /// Writes centre and radii of the block's first `count` fragments as cell `cell` of the batch. Needs what `shade` needs.
+    void (*measure_cell)(const MaterialPlan& material, const FragmentBlock& block, int count, CellBatch& batch, int cell);
+
+    /// Fits the lights to each cell of the batch. `exact` holds a zero for each light on entry; bit l is set if cell l leaves the light to
+    /// its pixels. Lights that are neither fitted nor left to the pixels are dark in the cell. Entries of the batch from count up to
+    /// kCellLanes must have the radius kNoCell.
+    void (*fit_cells)(const ShadingPlan& frame, const MaterialPlan& material, LightList lights, CellBatch& batch, std::uint16_t* exact);
 
     /// Computes only the alpha channel that MASK compares and BLEND uses: base colour alpha * texture alpha * vertex alpha.
     void (*alpha)(const MaterialPlan& material, FragmentBlock& block, int count);

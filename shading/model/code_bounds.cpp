@@ -3,19 +3,12 @@
 #include <cmath>
 
 namespace halflit::shading {
-namespace {
-
-/// S at white: 255 * 1.055 / 2.4.
-constexpr double kSensitivity = 112.1;
-
-}  // namespace
-
 double codes_of_absolute(double delta) {
     if (!(delta < 1.0)) return 255.0;
     return delta <= kLinearEnd ? kSlopeAtBlack * delta : 255.0 * (1.055 * power_of(delta, 1.0 / 2.4) - 0.055) + 0.01;
 }
 
-double codes_of_relative(double r) { return r > 0.0 ? std::min(255.0, kSensitivity * (r < 1e-4 ? r : kLn2 * log2_of(1.0 + r))) : 0.0; }
+double codes_of_relative(double r) { return r > 0.0 ? std::min(255.0, kSlopeAtWhite * (r < 1e-4 ? r : kLn2 * log2_of(1.0 + r))) : 0.0; }
 
 const std::array<CurvePoint, 61>& curve_points() {
     static const std::array<CurvePoint, 61> points = [] {

@@ -14,6 +14,8 @@
 namespace halflit::shading {
 
 /// kSlopeAtBlack: d code / d v for v up to kLinearEnd, the end of the curve's straight part.
+/// kSlopeAtWhite: S there, 255 * 1.055 / 2.4.
+inline constexpr double kSlopeAtWhite = 112.1;
 inline constexpr double kSlopeAtBlack = 255.0 * 12.92, kLinearEnd = kSrgbLinearEnd;
 
 /// d code / d v for v > 0; the curve is continued beyond white.

@@ -19,6 +19,15 @@ struct SpecularCurve {
     float least = 1;  ///< least cos^2 with a highlight; below it there is none
 };
 
+/// What the light of a cell may be off by (light_cell.hpp), as light through the lobe, before its scale.
+struct CellTolerance {
+    float relative = 0, absolute = 0;  ///< share of the light, and light; 0: this material's light is never fitted
+    /// Error that a highlight left out counts for, as a share of it, or 0 where the albedo may be black; then highlights left out may be
+    /// absolute_specular together.
+    float specular_ratio = 0, absolute_specular = 0;
+    float half_exponent = 0, peak = 0;  ///< of the widest highlight; normalisation of the sharpest
+};
+
 struct MaterialPlan {
     std::uint32_t stages = 0;  ///< bits of Stage; a block runs only these
     SlotMask slots = 0;        ///< vertex slots that raster interpolates
@@ -34,6 +43,7 @@ struct MaterialPlan {
     /// A light's highlight, before the reflectance, is left out where it is surely below this. 0: only where it is exactly 0.
     float specular_threshold = 0;
     SpecularCurve specular_curve;
+    CellTolerance cells;
     /// 1 / d0, d0 in world units: a blocker at the distance d0 or more hides all wrapped light. 0: no fading; shadows cut wrapped light
     /// off.
     float shadow_fade_scale = 0;

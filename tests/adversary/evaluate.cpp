@@ -84,7 +84,7 @@ void compare(const Trial& trial, const Drawn& picture, const std::vector<float>&
 }  // namespace
 
 Term Verdict::term() const {
-    const double parts[kTerms] = {bound.rounding, bound.lobes, bound.specular, bound.environment, bound.left_out};
+    const double parts[kTerms] = {bound.rounding, bound.lobes, bound.specular, bound.environment, bound.cells, bound.left_out};
     return static_cast<Term>(std::max_element(parts, parts + kTerms) - parts);
 }
 

@@ -16,9 +16,9 @@ enum class Truth : std::uint8_t {
 };
 
 /// Part of the bound that is largest.
-enum class Term : std::uint8_t { rounding, lobes, specular, environment, left_out };
-inline constexpr int kTerms = 5;
-inline constexpr const char* kTermNames[kTerms] = {"rounding", "lobes", "specular", "environment", "left out"};
+enum class Term : std::uint8_t { rounding, lobes, specular, environment, cells, left_out };
+inline constexpr int kTerms = 6;
+inline constexpr const char* kTermNames[kTerms] = {"rounding", "lobes", "specular", "environment", "cells", "left out"};
 
 struct Verdict {
     double ratio = 0;     ///< measured / bound.codes; 0 if nothing was drawn

@@ -11,10 +11,10 @@ std::string text_of(const Verdict& v) {
     std::snprintf(
         text, sizeof text,
         "ratio %.4g: %.4g codes off the %s at pixel %d,%d channel %d (drawn %.6g, true %.6g); bound %.4g = rounding %.3g + lobes %.3g + "
-        "specular %.3g + environment %.3g + left out %.3g; budget %.3g, %s",
+        "specular %.3g + environment %.3g + cells %.3g + left out %.3g; budget %.3g, %s",
         v.ratio, v.measured, v.truth == Truth::reference ? "reference" : "whole sky", v.x, v.y, v.channel, v.drawn, v.true_value,
-        v.bound.codes, v.bound.rounding, v.bound.lobes, v.bound.specular, v.bound.environment, v.bound.left_out, v.bound.budget,
-        v.bound.within ? "within" : "not within");
+        v.bound.codes, v.bound.rounding, v.bound.lobes, v.bound.specular, v.bound.environment, v.bound.cells, v.bound.left_out,
+        v.bound.budget, v.bound.within ? "within" : "not within");
     return text;
 }
 

@@ -26,6 +26,7 @@ struct ErrorBound {
     double lobes = 0;        ///< shorter polynomials for t^n, or curves
     double specular = 0;     ///< shorter polynomials for cos^s, or curves
     double environment = 0;  ///< bands left out
+    double cells = 0;        ///< light fitted over cells of 8 x 8 pixels
     double left_out = 0;     ///< lights beyond their cutoff radius, and highlights too weak to see
 };
 
