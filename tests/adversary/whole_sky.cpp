@@ -109,8 +109,7 @@ double add_whole_sky(const Trial& trial, const std::vector<std::uint32_t>& insta
     for (std::size_t k = 0; k < instance.size(); ++k) {
         if (instance[k] == 0) continue;
         const Vec3d n{normal[3 * k], normal[3 * k + 1], normal[3 * k + 2]};
-        if (n == Vec3d{}) continue;  // no normal, no light
-        const Vec3d light = lobe.light(patches, n) * exposure;
+        const Vec3d light = lobe.light(patches, n) * exposure;  // a zero normal has N.L = 0 for every direction
         most = std::max(most, largest(light));
         if (k % 8 == 0) {
             const Vec3d off = lobe.light(coarse, n) * exposure - light;
