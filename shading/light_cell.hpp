@@ -17,11 +17,11 @@ inline constexpr int kTermN = 1, kTermP = 4, kTermNN = 7, kTermNP = 13, kTermPP 
 /// Up to kCellLanes cells of one material, each a lane.
 struct alignas(64) CellBatch {
     int count = 0;
-    float normal[3][kCellLanes], position[3][kCellLanes];         ///< N0, P0; finite
+    float normal[3][kCellLanes], position[3][kCellLanes];          ///< N0, P0; finite
     float normal_radius[kCellLanes], position_radius[kCellLanes];  ///< the largest |N - N0|, |P - P0| = r; kNoCell: nothing is fitted
-    float term[kCellTerms][3][kCellLanes];      ///< red, green, blue of the light through the lobe, before its scale
-    float highlight[kCellTerms][3][kCellLanes];  ///< of the highlights, before normalisation and reflectance
-    std::uint32_t shining = 0;                   ///< bit l: cell l has highlights
+    float term[kCellTerms][3][kCellLanes];                         ///< red, green, blue of the light through the lobe, before its scale
+    float highlight[kCellTerms][3][kCellLanes];                    ///< of the highlights, before normalisation and reflectance
+    std::uint32_t shining = 0;                                     ///< bit l: cell l has highlights
 };
 inline constexpr float kNoCell = 3e38f;
 

@@ -34,7 +34,14 @@ public:
 private:
     // shade.cpp
     void shade_visible();
-    void collect(int x, int y);  ///< sorts the fragments of a pixel into lists
+    void collect(int y, int x0, int x1);  ///< sorts the fragments of a row of pixels into lists
+    void collect_samples(int x, int y);
+    void push(std::uint32_t id, int x, int y, unsigned samples) {
+        if (id != last_id_) take_triangle(id);
+        last_list_->push(id, rect_.x + x, rect_.y + y, y * kTileStride + x, samples);
+        if (last_list_->full()) flush_full();
+    }
+    void take_triangle(std::uint32_t id);
     [[nodiscard]] int material_of(std::uint32_t id);
     void flush_full();               ///< the list sorted into last
     void flush(FragmentList& list);  ///< shades and writes a list, and empties it

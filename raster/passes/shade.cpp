@@ -34,30 +34,34 @@ void PictureTile::shade_visible() {
         for (int y0 = 0; y0 < rect_.height; y0 += kSide)
             for (int x0 = 0; x0 < rect_.width; x0 += kSide) {
                 const int y1 = std::min(y0 + kSide, rect_.height), x1 = std::min(x0 + kSide, rect_.width);
-                for (int y = y0; y < y1; ++y)
-                    for (int x = x0; x < x1; ++x) collect(x, y);
+                for (int y = y0; y < y1; ++y) collect(y, x0, x1);
                 close_cell();
             }
         shade_cells();
     } else {
-        for (int y = 0; y < rect_.height; ++y)
-            for (int x = 0; x < rect_.width; ++x) collect(x, y);
+        for (int y = 0; y < rect_.height; ++y) collect(y, 0, rect_.width);
     }
     for (std::size_t i = 0; i < queue.size(); ++i)
         if (queue[i].count > 0) flush(queue[i]);
 }
 
-void PictureTile::collect(int x, int y) {
+void PictureTile::collect(int y, int x0, int x1) {
+    if (samples_ > 1) {
+        for (int x = x0; x < x1; ++x) collect_samples(x, y);
+        return;
+    }
+    const std::uint32_t* const ids = scratch_.buffers.triangle[0] + y * kTileStride;
+    for (int x = x0; x < x1; ++x) {
+        const std::uint32_t id = ids[x];
+        if (id == kNoTriangle) continue;
+        ++counts_.pixels_visible;
+        push(id, x, y, 1u);
+    }
+}
+
+void PictureTile::collect_samples(int x, int y) {
     const int at = y * kTileStride + x;
     const auto& triangle = scratch_.buffers.triangle;
-    const auto push = [&](std::uint32_t id, unsigned samples) {
-        if (id != last_id_) {
-            last_id_ = id;
-            last_list_ = &scratch_.queue.of(material_of(id));
-        }
-        last_list_->push(id, rect_.x + x, rect_.y + y, at, samples);
-        if (last_list_->full()) flush_full();
-    };
     const std::uint32_t first = triangle[0][at];
     std::uint32_t mixed = 0;
     for (int s = 1; s < samples_; ++s) mixed |= triangle[s][at] ^ first;
@@ -65,7 +69,7 @@ void PictureTile::collect(int x, int y) {
     if (mixed == 0) {
         if (first == kNoTriangle) return;
         ++counts_.pixels_visible;
-        push(first, all);
+        push(first, x, y, all);
         return;
     }
     bool visible = false;
@@ -76,9 +80,14 @@ void PictureTile::collect(int x, int y) {
         left &= ~samples;
         if (id == kNoTriangle) continue;
         visible = true;
-        push(id, samples);
+        push(id, x, y, samples);
     }
     counts_.pixels_visible += visible ? 1 : 0;
+}
+
+void PictureTile::take_triangle(std::uint32_t id) {
+    last_id_ = id;
+    last_list_ = &scratch_.queue.of(material_of(id));
 }
 
 int PictureTile::material_of(std::uint32_t id) {

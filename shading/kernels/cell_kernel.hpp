@@ -77,10 +77,10 @@ static void measure_cell(const shading::MaterialPlan& material, const shading::F
 
 /// A lobe over the cosines of a cell: values and derivatives at the centre, and the largest absolute values in the cell.
 struct LobeSpan {
-    F value, slope, bend;            ///< f, f', f'' at the centre
-    F most, most1, most2, most3;     ///< of f, |f'|, |f''|, |f'''|
-    F least;                         ///< of f
-    M whole;                         ///< no cosine of the cell is in the dark, where the lobe has another formula
+    F value, slope, bend;         ///< f, f', f'' at the centre
+    F most, most1, most2, most3;  ///< of f, |f'|, |f''|, |f'''|
+    F least;                      ///< of f
+    M whole;                      ///< no cosine of the cell is in the dark, where the lobe has another formula
 };
 
 /// x: cosine at the centre; move: the largest difference from it. Powers from 1 to 3.
@@ -138,8 +138,8 @@ HALFLIT_INLINE CellArrival cell_arrival(const shading::LightPlan& light, V3 posi
     const F distance = squared * inv_distance, near = vmax(distance - radius, none), far = distance + radius;
     const F share = radius * inv_distance, near_squared = near * near, far_squared = far * far;
     const F inv_range(light.inv_range_squared);
-    M usable = (share < F(0.25f)) & (near_squared * F(0.9999f) >= F(light.min_distance_squared)) &
-               (far_squared * inv_range <= F(0.9999f)) & (far_squared < F(1e36f));
+    M usable = (share < F(0.25f)) & (near_squared * F(0.9999f) >= F(light.min_distance_squared)) & (far_squared * inv_range <= F(0.9999f)) &
+               (far_squared < F(1e36f));
     M outside = near_squared * inv_range > F(1.0001f);
     if (light.cutoff_squared > 0.0f) outside = outside | (near_squared > F(light.cutoff_squared * 1.0001f));
     const V3 direction = offset * inv_distance;
@@ -187,9 +187,9 @@ HALFLIT_INLINE CellEye cell_eye(const shading::ShadingPlan& frame, V3 position, 
 
 /// A light's highlight (N.H)^s N.L over a cell: bounds without the light's colour, with the normalisation.
 struct HighlightSpan {
-    V3 half;          ///< H = L + V at the centre, not normalised
+    V3 half;           ///< H = L + V at the centre, not normalised
     F squared, power;  ///< |H|^2; (N.H)^s at the centre
-    F most, off;      ///< bound on its sum at a pixel; bound on the remainder of its expansion, kNoCell: there is none
+    F most, off;       ///< bound on its sum at a pixel; bound on the remainder of its expansion, kNoCell: there is none
 };
 HALFLIT_INLINE HighlightSpan highlight_span(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, const CellArrival& at,
                                             const CellEye& eye, V3 normal, F nu, const Bounds& attenuation, const Bounds& cosine,
@@ -219,7 +219,8 @@ HALFLIT_INLINE HighlightSpan highlight_span(const shading::ShadingPlan& frame, c
     if (!any(smooth)) return s;
     const F inv_shortest = vdiv(one, vmax(shortest, F(0.1f)));
     const F l2 = at.turn * at.turn, v2 = eye.turn * eye.turn;
-    const F g1 = turn * inv_shortest, g2 = F(1.5f) * (l2 + v2) * inv_shortest, g3 = F(3.75f) * (l2 * at.turn + v2 * eye.turn) * inv_shortest;
+    const F g1 = turn * inv_shortest, g2 = F(1.5f) * (l2 + v2) * inv_shortest,
+            g3 = F(3.75f) * (l2 * at.turn + v2 * eye.turn) * inv_shortest;
     const F h1 = g1, h2 = F(1.5f) * (g1 * g1) + g2, h3 = (F(3.75f) * (g1 * g1) + F(4.5f) * g2) * g1 + g3;
     const F c1 = nu * (far + nu) + far * h1, c2 = F(2.0f) * (nu * h1) + h2, c3 = F(3.0f) * (nu * h2) + h3;
     const F exponent(2.0f * tolerance.half_exponent), inv = vdiv(one, vmax(cosine_least, F(0.05f)));
@@ -358,8 +359,8 @@ HALFLIT_INLINE void fit_lanes(const shading::ShadingPlan& frame, const shading::
     const F nu = load(batch.normal_radius + lane), radius = load(batch.position_radius + lane);
     const shading::CellTolerance& tolerance = material.cells;
     const F relative(tolerance.relative), absolute(tolerance.absolute), exponent(2.0f * tolerance.half_exponent);
-    const bool no_edge = material.lobe.wrap == 1.0f &&
-                         (material.lobe.path == shading::LobePath::linear || material.lobe.path == shading::LobePath::square);
+    const bool no_edge =
+        material.lobe.wrap == 1.0f && (material.lobe.path == shading::LobePath::linear || material.lobe.path == shading::LobePath::square);
     const M cell_usable = nu < F(0.25f);
     CellEye eye{};
     if constexpr (kSpecular) eye = cell_eye(frame, position, radius);

@@ -62,6 +62,9 @@ Rgba sample_level(const Texture& texture, const TextureLevel& level, const Sampl
     return mix(upper, lower, y - 0.5 - y0);
 }
 
+/// True if the coordinates are used as they are: a transform would carry a NaN from one coordinate to the other.
+bool is_identity(const TextureUse& use) { return use.row_u == Vec3f{1, 0, 0} && use.row_v == Vec3f{0, 1, 0}; }
+
 /// A material's texture at a lane; `fallback` where it is not used.
 Rgba material_texture(const FrameInputs& frame, const TextureUse& use, SlotMask available, const FragmentBlock& block, int lane,
                       const Rgba& fallback) {
@@ -71,6 +74,7 @@ Rgba material_texture(const FrameInputs& frame, const TextureUse& use, SlotMask 
     double u = block.lane[use.uv_set == 1 ? kU1 : kU0][lane], v = block.lane[use.uv_set == 1 ? kV1 : kV0][lane];
     double lod = level_of_detail(texture, use, block, lane);
     if (use.uv_set == 1 && (available & 16u) == 0) u = v = 0, lod = -100;
+    if (is_identity(use)) return sample(texture, use.sampler, u, v, lod);
     const double tu = double{use.row_u.x} * u + double{use.row_u.y} * v + double{use.row_u.z};
     const double tv = double{use.row_v.x} * u + double{use.row_v.y} * v + double{use.row_v.z};
     return sample(texture, use.sampler, tu, tv, lod);
@@ -198,11 +202,18 @@ Rgba sample(const Texture& texture, const Sampler& sampler, double u, double v, 
 double level_of_detail(const Texture& texture, const TextureUse& use, const FragmentBlock& block, int lane) {
     const int first = use.uv_set == 1 ? kDu1Dx : kDu0Dx;
     const auto length = [&](int at) {
-        const double du = block.lane[at][lane], dv = block.lane[at + 1][lane];
-        return std::hypot((double{use.row_u.x} * du + double{use.row_u.y} * dv) * texture.width(),
-                          (double{use.row_v.x} * du + double{use.row_v.y} * dv) * texture.height());
+        double du = block.lane[at][lane], dv = block.lane[at + 1][lane];
+        if (!is_identity(use)) {
+            const double du_in = du;
+            du = double{use.row_u.x} * du_in + double{use.row_u.y} * dv;
+            dv = double{use.row_v.x} * du_in + double{use.row_v.y} * dv;
+        }
+        const double x = du * texture.width(), y = dv * texture.height();
+        return std::sqrt(x * x + y * y);  // NaN if one is, where hypot may be infinite
     };
-    return std::log2(std::max(length(first), length(first + 2)));
+    // A footprint that is NaN: the step down decides, so that of a NaN there is no footprint at all.
+    const double right = length(first), down = length(first + 2);
+    return std::log2(right > down ? right : down);
 }
 
 Rgba shade(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,

@@ -1,5 +1,5 @@
-// Light in cells: the fitted light of a cell is within its tolerance of the light that the pixels compute by themselves, at every pixel, and
-// every instruction set fits the same bits.
+// Light in cells: the fitted light of a cell is within its tolerance of the light that the pixels compute by themselves, at every pixel,
+// and every instruction set fits the same bits.
 #include "shading/kernels/shade_kernels.hpp"
 #include "shading/planner.hpp"
 #include "tests/support/isas.hpp"
@@ -66,8 +66,12 @@ CellCase some_case(Random& random, const Lobe& lobe, bool highlights) {
     ShadingSettings options;
     options.specular = highlights ? SpecularModel::blinn : SpecularModel::none;
     CellCase c;
-    PlanInputs inputs{.materials = std::span(&material, 1), .textures = {}, .available_slots = slots, .lights = plan_lights(lights),
-                      .ambient = {}, .options = options};
+    PlanInputs inputs{.materials = std::span(&material, 1),
+                      .textures = {},
+                      .available_slots = slots,
+                      .lights = plan_lights(lights),
+                      .ambient = {},
+                      .options = options};
     inputs.viewer.eye_ws = normalize_or(normal + some_direction(random) * 1.2f, normal) * random.real32(2, 20);
     inputs.viewer.orthographic = random.chance(0.2);
     inputs.viewer.view_direction_ws = normalize_or(inputs.viewer.eye_ws * -1.0f, {0, 0, -1});
@@ -155,13 +159,14 @@ Tally compare(std::uint64_t first_seed, int cases, bool highlights, float tolera
         double brightest = 0;
         for (const LightPlan& light : c.plan.lights) brightest += light.brightness;
         for (int l = 0; l < c.count; ++l)
-            for (const auto& [a, b] : {std::pair{drawn.red[l], truth.red[l]}, {drawn.green[l], truth.green[l]}, {drawn.blue[l], truth.blue[l]}}) {
+            for (const auto& [a, b] :
+                 {std::pair{drawn.red[l], truth.red[l]}, {drawn.green[l], truth.green[l]}, {drawn.blue[l], truth.blue[l]}}) {
                 const double allowed = highlights ? 0.04 * tolerance : tolerance * double{b} + 1e-3 * tolerance;
                 const double error = std::fabs(double{a} - double{b}), rounding = own_rounding * double{b} + 1e-9 * brightest;
                 const double ratio = (error - rounding) / allowed;
                 if (ratio > tally.worst) tally.worst = ratio;
-                INFO("seed " << first_seed + static_cast<std::uint64_t>(k) << ", lane " << l << ", drawn " << a << ", true " << b << ", power "
-                             << power << ", wrap " << lobe.wrap << ", lights " << f.exact.size() << ", left " << left.size());
+                INFO("seed " << first_seed + static_cast<std::uint64_t>(k) << ", lane " << l << ", drawn " << a << ", true " << b
+                             << ", power " << power << ", wrap " << lobe.wrap << ", lights " << f.exact.size() << ", left " << left.size());
                 if (!(ratio <= 1.0)) FAIL_CHECK("error above the tolerance: " << error << " > " << allowed);
             }
     }
@@ -180,8 +185,8 @@ Tally compare_both(std::uint64_t first_seed, int cases, float tolerance) {
         material.metallic = metallic;
         const double albedo = 0.96 * (1.0 - metallic) * color, f0 = 0.04 + metallic * (color - 0.04);
         const float rough = std::max(0.07f, material.roughness), alpha = rough * rough, half_exponent = 1.0f / (alpha * alpha) - 1.0f;
-        material.cells = {tolerance,     1e-3f * tolerance, static_cast<float>(1.001 * f0 / albedo), 3e38f,
-                          half_exponent, 1.001f * ((half_exponent + 3.0f) * 0.25f + 0.5f / (half_exponent + 2.0f))};
+        material.cells = {tolerance, 1e-3f * tolerance, static_cast<float>(1.001 * f0 / albedo),
+                          3e38f,     half_exponent,     1.001f * ((half_exponent + 3.0f) * 0.25f + 0.5f / (half_exponent + 2.0f))};
         const Fit f = fit(c, Isa::scalar);
         const LightCell cell = first_cell(f.batch);
         std::vector<LightPlan> left;
@@ -242,7 +247,8 @@ TEST_CASE("cells: every instruction set fits the same bits", "[cells]") {
     const auto isas = halflit::test::available_isas();
     for (std::uint64_t seed = 30001; seed <= 30400; ++seed) {
         Random random(seed);
-        CellCase c = some_case(random, Lobe{random.real32(0, 1), random.chance(0.5) ? 1.5f : random.real32(1, 3), false}, random.chance(0.5));
+        CellCase c =
+            some_case(random, Lobe{random.real32(0, 1), random.chance(0.5) ? 1.5f : random.real32(1, 3), false}, random.chance(0.5));
         c.plan.materials[0].cells = {0.01f, 1e-4f, random.chance(0.5) ? 0.05f : 0.0f, 0.01f, 5.0f, 2.1f};
         const Fit want = fit(c, Isa::scalar);
         for (const Isa isa : isas) {
