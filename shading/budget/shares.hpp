@@ -20,9 +20,10 @@ struct BudgetShares {
     /// where a highlight's needs half a code for the same gain, so the larger part stays for the highlights.
     double lobe = 0.4;
 
-    /// Share of the rest for light in cells, where they are used; it replaces most of the work that the parts below make cheaper. Most of
-    /// it is relative to the light of the cell. The absolute part serves cells that are nearly dark.
-    double cells = 0.7, cells_relative = 0.85;
+    /// Share of the rest that is kept for light in cells, where they are used; they get what the highlights leave, too. Cells replace most
+    /// of the work that the parts below make cheaper. Most of it is relative to the light of the cell; the absolute part serves cells that
+    /// are nearly dark.
+    double cells = 0.7, cells_of_rest = 0.99, cells_relative = 0.85;
 
     /// Shares of the rest, for highlights with a curve: half for what is cut off below it, nearly half for the curve itself. For highlights
     /// with powers: half for a shorter power, and nearly all that is left then for weak highlights left out. The missing hundredths cover

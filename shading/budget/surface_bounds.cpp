@@ -1,0 +1,201 @@
+#include "shading/budget/surface_bounds.hpp"
+
+#include "sh/power.hpp"
+#include "shading/budget/texture_bounds.hpp"
+#include "shading/model/code_bounds.hpp"
+#include "shading/model/scalar.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+namespace halflit::shading {
+namespace {
+
+/// Errors of N.L and of N itself, for a normal from three interpolated floats.
+constexpr double kCosineError = 4e-7, kNormalError = 1.5e-7;
+/// Error of H = L + V, absolute; of the mirrored view direction, besides that of N.
+constexpr double kHalfVectorError = 2.5e-7, kMirrorError = 1e-7;
+/// Relative error of the products and sums that follow.
+constexpr double kProductError = 1e-5;
+
+constexpr double kAnyShare = 1e6;  // a relative error that costs 255 codes
+
+Factor factor_of(double error, double least) { return {error, error < least ? std::min(error / (least - error), kAnyShare) : kAnyShare}; }
+
+/// Codes that the factor's error costs: the light is the factor times at most `strength`.
+double codes_of(const Factor& factor, double strength) {
+    return std::min(codes_of_absolute(factor.absolute * strength), codes_of_relative(factor.relative));
+}
+
+/// Bound on an error of the excess f - x where x = N.L > 0, for an error of N.L and roundings: f is n / (1 + w) times as steep as x at
+/// most, for n < 1 times the power of t at x = 0.
+double excess_error(const LobePlan& lobe, double cosine_error) {
+    const double w = lobe.wrap, n = lobe.power_minus_one + 1.0, start = w / (1.0 + w);
+    const double slope = n / (1.0 + w) * (n < 1.0 ? power_of(start, n - 1.0) : 1.0);
+    return std::max(1.0, slope) * cosine_error + 1.2e-7 * (n + 4.0);
+}
+
+/// Ambient light that reaches a surface: an upper bound, and the error of its sum for a normal or a mirrored direction that is off.
+struct Ambience {
+    double most = 0, error = 0;
+};
+
+/// By the addition theorem a band adds at most its norm times sqrt((2 l + 1) / (4 pi)). Along any great circle the sum is a trigonometric
+/// polynomial of degree bands - 1, so its slope is at most that times its largest value (Bernstein).
+Ambience ambience_of(const EnvironmentPlan& environment, double exposure, double direction_error) {
+    Ambience light;
+    for (const float* channel : {environment.red, environment.green, environment.blue}) {
+        double most = 0.0;
+        for (int l = 0; l < environment.bands; ++l) {
+            double squares = 0.0;
+            for (int i = l * l; i < (l + 1) * (l + 1); ++i) squares += static_cast<double>(channel[i]) * channel[i];
+            most += std::sqrt(squares * (2 * l + 1) * 0.079577471545947668);  // 1 / (4 pi)
+        }
+        light.most = std::max(light.most, most * exposure);
+    }
+    light.error = (3e-7 + (environment.bands - 1) * direction_error) * light.most;
+    return light;
+}
+
+}  // namespace
+
+double Surface::cosine_error() const { return normal_error + (kCosineError - kNormalError); }
+
+Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const SceneFacts& facts) {
+    const auto has = [&](Stage stage) { return (material.stages & stage) != 0; };
+    Surface s{};
+    const auto& [red, green, blue, alpha] = material.base_color;
+    s.albedo = std::max({red, green, blue}) * (has(kStageVertexColor) ? facts.vertex_color : 1.0);
+    s.specular = has(kStageSpecular) && (has(kStageLights) || has(kStageAmbient));
+    s.metallic = material.metallic;
+    const auto filtered = [&](const TexturePlan& texture, std::initializer_list<int> channels) {
+        double error = 0.0;
+        for (const int c : channels) error = std::max(error, filter_error(texture, c, facts.largest_uv));
+        return error;
+    };
+    // A factor times a texture's channels.
+    const auto textured = [&](const TexturePlan& texture, std::initializer_list<int> channels, double factor) {
+        double least = 1.0;
+        for (const int c : channels) least = std::min(least, least_value(texture, c));
+        return factor_of(factor * filtered(texture, channels), factor * least);
+    };
+    double least_color = has(kStageVertexColor) ? 0.0 : std::min({red, green, blue}), least_metallic = s.metallic;
+    if (has(kStageBaseColorTexture)) {
+        s.base_color = textured(material.base_color_texture, {0, 1, 2}, s.albedo);
+        for (const int c : {0, 1, 2})
+            least_color = std::min(least_color, material.base_color[c] * least_value(material.base_color_texture, c));
+    }
+    double roughness = material.roughness;
+    if (has(kStageMetallicRoughnessTexture)) {
+        const TexturePlan& texture = material.metallic_roughness_texture;
+        roughness *= least_value(texture, 1);
+        s.roughness = factor_of(filtered(texture, {1}) * material.roughness, std::max(roughness, double{kMinRoughness}));
+        least_metallic *= least_value(texture, 2);
+        const double error = filtered(texture, {2}) * s.metallic, dielectric = kDielectricReflectance;
+        const auto f0 = [&](double metallic) { return dielectric + metallic * (least_color - dielectric); };
+        s.matt = factor_of(error, 1.0 - s.metallic);
+        s.shiny = factor_of(error * std::max(s.albedo, dielectric), std::min(f0(least_metallic), f0(s.metallic)));
+    }
+    if (s.metallic == 0.0 || !has(kStageMetallicRoughnessTexture)) {
+        const double dielectric = kDielectricReflectance;
+        s.least_albedo = least_color * (1.0 - s.metallic) * (1.0 - dielectric);
+        s.reflectance_at_least = dielectric + s.metallic * (least_color - dielectric);
+    }
+    s.reflectance = s.metallic > 0.0 ? std::max(double{kDielectricReflectance}, s.albedo) : double{kDielectricReflectance};
+    if (has(kStageOcclusionTexture)) {
+        const double strength = material.occlusion_strength;
+        s.occlusion = factor_of(strength * filtered(material.occlusion_texture, {0}),
+                                1.0 + strength * (least_value(material.occlusion_texture, 0) - 1.0));
+    }
+    if (has(kStageEmissiveTexture))
+        s.emissive = textured(material.emissive_texture, {0, 1, 2}, *std::max_element(material.emissive, material.emissive + 3));
+    s.exponent = specular_exponent(roughness);
+    s.normalization = plan.normalize_specular ? specular_normalization(0.5 * s.exponent, plan.specular == SpecularModel::phong) : 1.0;
+    s.normal_error = kNormalError;
+    if (has(kStageNormalMap)) {
+        // The three components are in [-1, 1], each off by twice its channel's error. The vector is no shorter than its z. Where z may be 0
+        // there is no bound: between texels that point away from each other a normal may be as short as one likes.
+        const double z = 2.0 * least_value(material.normal_texture, 2) - 1.0;
+        const double error =
+            2.0 * 1.7320508 * filtered(material.normal_texture, {0, 1, 2}) * std::max(1.0, std::fabs(double{material.normal_scale}));
+        s.normal_error += error < z ? error / (z - error) : 2.0;
+    }
+    return s;
+}
+
+Arriving arriving(const ShadingPlan& plan, double exposure, const SceneFacts& facts) {
+    Arriving a;
+    for (std::size_t i = 0; i < plan.lights.size(); ++i) {
+        const LightPlan& light = plan.lights[i];
+        const double most = light.brightness * facts.light_attenuation[i] * exposure;
+        a.sum += most;
+        a.largest = std::max(a.largest, most);
+        ++a.count;
+        a.local += light.type != LightType::directional ? 1 : 0;
+        if (light.type != LightType::spot) continue;
+        a.cone_error = std::max(a.cone_error, 2e-7 * light.cone_scale);
+    }
+    return a;
+}
+
+bool may_split(const ShadingPlan& plan, const MaterialPlan& material) {
+    return plan.shadow_mode == ShadowMode::soft_split && material.shadow_fade_scale > 0.0f && (material.stages & kStageLights) != 0;
+}
+
+double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, const Surface& s, const Arriving& light, double exposure) {
+    const auto has = [&](Stage stage) { return (material.stages & stage) != 0; };
+    const double n = material.lobe.power_minus_one + 1.0, scale = material.lobe.scale;
+    double codes = codes_of_relative(kProductError + 1.5e-7 * (has(kStageLights) ? n + light.count : 0.0));
+    double matt = 0.0, shiny = 0.0;  // all light that the albedo reflects; that F0 reflects
+    if (has(kStageUnlit)) matt = exposure;
+    if (has(kStageAmbient)) {
+        Ambience diffuse, mirrored;
+        const double mirror_error = 2.0 * s.normal_error + kMirrorError;
+        if (has(kStageEnvironment)) {
+            const auto ambience = [&](int index, double error) {
+                return ambience_of(plan.environments[static_cast<std::size_t>(index)], exposure, error);
+            };
+            diffuse = ambience(material.environment, s.normal_error);
+            if (s.specular) mirrored = ambience(material.specular_environment, mirror_error);
+        } else {
+            const Vec3f sky = plan.ambient.sky_linear, ground = plan.ambient.ground_linear;
+            const double most = std::max({sky.x, sky.y, sky.z, ground.x, ground.y, ground.z}) * exposure;
+            diffuse = {most, s.normal_error * most};
+            if (s.specular) mirrored = {most, mirror_error * most};
+        }
+        // The mirrored share is at most 1 or F0, and falls with the roughness and with N.V, no faster than 1 and 5.
+        const double share = std::max(1.0, s.reflectance);
+        codes += codes_of_absolute(s.albedo * diffuse.error);
+        codes += codes_of_absolute(share * mirrored.error + (s.roughness.absolute + 5.0 * s.cosine_error()) * mirrored.most);
+        codes += codes_of(s.occlusion, s.albedo * diffuse.most + share * mirrored.most);
+        matt += diffuse.most;
+        shiny += mirrored.most;
+    }
+    if (has(kStageLights)) {
+        const double amplitude = s.albedo * scale * light.sum;
+        codes += codes_of_edge(amplitude, n, s.cosine_error() / (1.0 + material.lobe.wrap));
+        if (may_split(plan, material)) codes += codes_of_absolute(amplitude * excess_error(material.lobe, s.cosine_error()));
+        if (light.local > 0) codes += codes_of_edge(amplitude, 1.0, 3e-7);  // the end of the range
+        if (light.cone_error > 0) codes += codes_of_edge(amplitude, 2.0, light.cone_error);
+        matt += light.sum * scale;
+    }
+    if (s.specular && has(kStageLights)) {
+        const double turning = plan.specular == SpecularModel::phong ? 2.0 : 1.0, strength = s.normalization * light.sum;
+        const double constant = 4.0 * s.roughness.relative, linear = 3e-7 + constant;  // roughness^4, in exponent and norm
+        codes += codes_of_specular(s.reflectance * s.normalization * light.largest, light.count, constant, linear,
+                                   turning * std::sqrt(2.0 * s.exponent) * s.cosine_error());
+        // Opposite a light at a grazing angle H = L + V is short, and its direction is off by kHalfVectorError / |H|. With N.V >= 0 the
+        // highlight is no brighter than |H| of its peak there, and d/dx cos^s x <= 0.61 sqrt(s), so |H| cancels. N.L, a factor of the
+        // highlight, is small there too, so its own error is absolute.
+        const double short_half = plan.specular == SpecularModel::blinn ? 0.61 * std::sqrt(s.exponent) * kHalfVectorError : 0.0;
+        codes += codes_of_absolute(s.reflectance * strength * (short_half + s.cosine_error()));
+        shiny += strength;
+    }
+    codes += codes_of(s.base_color, matt + s.metallic * std::max(0.0, shiny - matt));
+    codes += codes_of(s.matt, s.albedo * matt) + codes_of(s.shiny, shiny);
+    codes += codes_of(s.emissive, exposure);
+    return std::min(codes, 255.0);
+}
+
+}  // namespace halflit::shading

@@ -1,0 +1,46 @@
+// What a surface reflects and what light reaches it, as bounds, and the error of float32 and of textures that follows from them.
+#pragma once
+
+#include "shading/budget/error_budget.hpp"
+
+namespace halflit::shading {
+
+/// A factor of some light: its error, absolute and as a share of its least value.
+struct Factor {
+    double absolute = 0, relative = 0;
+};
+
+/// Upper bounds on what a surface reflects, and the errors of its inputs. Members for which there is no texture have no error.
+struct Surface {
+    double albedo, reflectance;       ///< largest colour; largest F0
+    double metallic;                  ///< largest
+    double exponent, normalization;   ///< those of the sharpest highlight
+    double least_albedo = 0;          ///< smallest colour that matt light is multiplied by; 0: not known
+    double reflectance_at_least = 0;  ///< F0 of that colour
+    double normal_error;
+    Factor base_color, roughness, matt, shiny, occlusion, emissive;  ///< matt: 1 - metallic; shiny: F0, by the metallic texture's error
+    bool specular;
+
+    [[nodiscard]] double cosine_error() const;  ///< of N.L
+};
+
+[[nodiscard]] Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const SceneFacts& facts);
+
+/// Upper bounds on the light that reaches a surface, in units of display white.
+struct Arriving {
+    double sum = 0, largest = 0;  ///< sum and largest of the lights' colours times attenuation
+    double cone_error = 0;        ///< largest error of a spot's cosine, as a share of its cone's width
+    int count = 0, local = 0;
+};
+
+[[nodiscard]] Arriving arriving(const ShadingPlan& plan, double exposure, const SceneFacts& facts);
+
+/// True if a shadow may cut the lobe's core off and leave its excess (ShadowMode::soft_split). The excess is nearly black where lobe and
+/// core are close, so an error of the lobe shows most there.
+[[nodiscard]] bool may_split(const ShadingPlan& plan, const MaterialPlan& material);
+
+/// Codes that cannot be chosen: roundings, and the errors of textures.
+[[nodiscard]] double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, const Surface& s, const Arriving& light,
+                                    double exposure);
+
+}  // namespace halflit::shading
