@@ -96,7 +96,8 @@ bool draw(Renderer& renderer, const Subject& subject, double codes, Accuracy acc
     static std::vector<std::uint8_t> pixels(std::size_t{4} * kWidth * kHeight);
     Execution execution{.threads = 1};
     execution.isa = isa;
-    const auto report = renderer.render(subject.scene, subject.camera, settings, {kWidth, kHeight, pixels.data(), drawn.linear.data()}, execution);
+    const auto report =
+        renderer.render(subject.scene, subject.camera, settings, {kWidth, kHeight, pixels.data(), drawn.linear.data()}, execution);
     if (!report) {
         std::fprintf(stderr, "%s: %s\n", subject.name, report.error().message.c_str());
         return false;
@@ -132,8 +133,9 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "usage: halflit_cells_bench [FRAMES [ISA]]\n");
         return 2;
     }
-    const Subject subjects[] = {spheres("64 spheres, 64 lamps, Lambert", Lobe::lambert()), spheres("64 spheres, 64 lamps, sloan 0.3", Lobe::sloan(0.3f)),
-                                floor("floor, 256 lamps, Lambert", Lobe::lambert()), floor("floor, 256 lamps, sloan 0.3", Lobe::sloan(0.3f))};
+    const Subject subjects[] = {
+        spheres("64 spheres, 64 lamps, Lambert", Lobe::lambert()), spheres("64 spheres, 64 lamps, sloan 0.3", Lobe::sloan(0.3f)),
+        floor("floor, 256 lamps, Lambert", Lobe::lambert()), floor("floor, 256 lamps, sloan 0.3", Lobe::sloan(0.3f))};
     std::printf("%-34s %7s %9s %7s %9s %9s %11s\n", "scene", "codes", "ms", "ratio", "bound", "measured", "lights/px");
     for (const Subject& subject : subjects) {
         Renderer renderer;

@@ -36,8 +36,9 @@ Result<VisibilityView> draw_view(const Scene& scene, const Camera& camera, const
         TileCounts ignored;
         draw_visibility(pass, tile, *loan, ignored);
         const TileRect rect = plan->picture.tile_rect(tile);
-        for (int y = 0; y < rect.height; ++y) {
-            for (int x = 0; x < rect.width; ++x) {
+        const TileRect asked = intersection(rect, plan->written);
+        for (int y = asked.y - rect.y; y < asked.y - rect.y + asked.height; ++y) {
+            for (int x = asked.x - rect.x; x < asked.x - rect.x + asked.width; ++x) {
                 const std::uint32_t id = loan->buffers.triangle[0][y * kTileStride + x];
                 if (id == kNoTriangle) continue;
                 const std::size_t at =

@@ -9,6 +9,9 @@ namespace {
 
 using shading::CellBatch, shading::kCellLanes;
 
+static_assert(kCellLanes <= 16, "a light's cells are bits of 16");
+static_assert(16 % shading::kCellSide == 0, "tiles begin at cells");
+
 /// The box of a batch's positions, slightly larger.
 PositionBox box_of(const CellBatch& batch) {
     PositionBox box{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}};

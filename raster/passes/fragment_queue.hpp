@@ -43,6 +43,7 @@ public:
             epoch_ = 1;
         }
         used_ = 0;
+        free_.reserve(free_.size() + closed_.size());  // may throw, while no list is moved
         for (auto& list : closed_) free_.push_back(std::move(list));
         closed_.clear();
     }
@@ -61,9 +62,11 @@ public:
 
     /// Keeps an open list as it is, and opens an empty one in its place.
     FragmentList& close(FragmentList& list) {
-        auto& open = lists_[slot_[static_cast<std::size_t>(list.material)].list];
-        closed_.push_back(std::move(open));
         if (free_.empty()) free_.push_back(std::make_unique<FragmentList>());
+        closed_.emplace_back();
+        // Nothing throws from here on.
+        auto& open = lists_[slot_[static_cast<std::size_t>(list.material)].list];
+        closed_.back() = std::move(open);
         open = std::move(free_.back());
         free_.pop_back();
         open->material = list.material;

@@ -54,7 +54,7 @@ void PictureTile::collect(int y, int x0, int x1) {
     for (int x = x0; x < x1; ++x) {
         const std::uint32_t id = ids[x];
         if (id == kNoTriangle) continue;
-        ++counts_.pixels_visible;
+        counts_.pixels_visible += is_written(rect_.x + x, rect_.y + y) ? 1 : 0;
         push(id, x, y, 1u);
     }
 }
@@ -68,7 +68,7 @@ void PictureTile::collect_samples(int x, int y) {
     const unsigned all = (1u << samples_) - 1u;
     if (mixed == 0) {
         if (first == kNoTriangle) return;
-        ++counts_.pixels_visible;
+        counts_.pixels_visible += is_written(rect_.x + x, rect_.y + y) ? 1 : 0;
         push(first, x, y, all);
         return;
     }
@@ -82,7 +82,7 @@ void PictureTile::collect_samples(int x, int y) {
         visible = true;
         push(id, x, y, samples);
     }
-    counts_.pixels_visible += visible ? 1 : 0;
+    counts_.pixels_visible += visible && is_written(rect_.x + x, rect_.y + y) ? 1 : 0;
 }
 
 void PictureTile::take_triangle(std::uint32_t id) {
@@ -142,8 +142,10 @@ void PictureTile::shade(const FragmentList& list, const shading::LightList& ligh
     for (int l = 0; l < list.count; ++l) {
         const float sum = (block.red[l] + block.green[l]) + (block.blue[l] + block.alpha[l]);
         // A sum of infinities may be NaN although no term is: the terms are tested only if the sum is NaN.
-        if (sum != sum && (block.red[l] != block.red[l] || block.green[l] != block.green[l] || block.blue[l] != block.blue[l] ||
-                           block.alpha[l] != block.alpha[l]))
+        if (sum != sum &&
+            (block.red[l] != block.red[l] || block.green[l] != block.green[l] || block.blue[l] != block.blue[l] ||
+             block.alpha[l] != block.alpha[l]) &&
+            is_written(list.x_px[l], list.y_px[l]))
             ++counts_.nan_pixels;
     }
 }

@@ -79,6 +79,7 @@ bool may_use_cells(const ShadingPlan& plan, const MaterialPlan& material, const 
 double spend_on_cells(MaterialPlan& material, const Surface& s, double exposure, double budget) {
     CellTolerance& cells = material.cells;
     const double r = kBudgetShares.cells_relative * budget / kSlopeAtWhite, scale = material.lobe.scale;
+    const auto at_most_1e30 = [](double x) { return static_cast<float>(std::min(1e30, x)); };
     double absolute_codes = (1.0 - kBudgetShares.cells_relative) * budget;
     if (s.specular) {
         constexpr double kMostRatio = 100.0;
@@ -88,13 +89,13 @@ double spend_on_cells(MaterialPlan& material, const Surface& s, double exposure,
             cells.absolute_specular = 3e38f;
         } else {
             absolute_codes *= 0.5;
-            cells.absolute_specular = static_cast<float>(0.999 * absolute_codes / (kSlopeAtBlack * exposure * s.reflectance));
+            cells.absolute_specular = at_most_1e30(0.999 * absolute_codes / (kSlopeAtBlack * exposure * s.reflectance));
         }
         cells.half_exponent = static_cast<float>(0.5 * specular_exponent(material.roughness));
         cells.peak = static_cast<float>(1.001 * s.normalization);
     }
     cells.relative = static_cast<float>(0.999 * r / (1.0 + r));  // the drawn light may be the smaller one
-    cells.absolute = static_cast<float>(0.999 * absolute_codes / (kSlopeAtBlack * exposure * s.albedo * scale));
+    cells.absolute = at_most_1e30(0.999 * absolute_codes / (kSlopeAtBlack * exposure * s.albedo * scale));
     return budget;
 }
 

@@ -76,7 +76,8 @@ HALFLIT_INLINE CellArrival cell_arrival(const shading::LightPlan& light, V3 posi
     M usable = (share < F(0.25f)) & (near_squared * F(0.9999f) >= F(light.min_distance_squared)) & (far_squared * inv_range <= F(0.9999f)) &
                (far_squared < F(1e36f));
     M outside = near_squared * inv_range > F(1.0001f);
-    if (light.cutoff_squared > 0.0f) outside = outside | (near_squared > F(light.cutoff_squared * 1.0001f));
+    // Closer than the margin of LightCuller: a light that is culled there is dark here, whichever cells are together.
+    if (light.cutoff_squared > 0.0f) outside = outside | (near_squared > F(light.cutoff_squared * 1.00003f));
     const V3 direction = offset * inv_distance;
     const F grown = vdiv(one, one - vmin(share, F(0.25f))), turn = share * grown;
     if (light.type == LightType::spot) {
@@ -137,16 +138,18 @@ HALFLIT_INLINE HighlightSpan highlight_span(const shading::ShadingPlan& frame, c
     s.squared = vmax(dot(s.half, s.half), F(1e-12f));
     const F length = vsqrt(s.squared), inv_half = vdiv(one, length), turn = at.turn + eye.turn;
     const V3 apart = normal - s.half * inv_half;
-    const F chord = vsqrt(dot(apart, apart)), reach = nu + F(2.0f) * turn * inv_half + F(1e-5f);
+    const F chord = vsqrt(dot(apart, apart)), reach = nu + (F(2.0f) * turn + F(1e-6f)) * inv_half + F(1e-5f);
     const F near = vmax(chord - reach, none), far = chord + reach;
     const F cosine_most = vmax(one - F(0.5f) * near * near, none), cosine_least = one - F(0.5f) * far * far;
     const F squared_most = cosine_most * cosine_most;
     const auto power_of = [&](F c, F versine) __attribute__((always_inline)) {
         return power_of_cosine(shading::PowTier::exact, c * c, versine * (one + c), F(tolerance.half_exponent));
     };
-    const F power_most = power_of(cosine_most, F(0.5f) * near * near) * F(1.00001f);
+    const M no_direction = s.squared < F(1e-4f);  // light against the view: H may turn anywhere
+    const F power_most = sel(no_direction, one, power_of(cosine_most, F(0.5f) * near * near) * F(1.00001f));
     s.most = s.most * power_most;
-    if (material.specular_curve.squarings >= 0) s.most = sel(squared_most < F(material.specular_curve.least), none, s.most);
+    if (material.specular_curve.squarings >= 0)
+        s.most = sel((!no_direction) & (squared_most < F(material.specular_curve.least)), none, s.most);
     if (has(material, kStageMetallicRoughnessTexture)) return s;
     // The expansion: H has a bounded direction, N.H is not near 0, N.L not at its edge.
     const F shortest = length - turn;
@@ -159,9 +162,10 @@ HALFLIT_INLINE HighlightSpan highlight_span(const shading::ShadingPlan& frame, c
     const F h1 = g1, h2 = F(1.5f) * (g1 * g1) + g2, h3 = (F(3.75f) * (g1 * g1) + F(4.5f) * g2) * g1 + g3;
     const F c1 = nu * (far + nu) + far * h1, c2 = F(2.0f) * (nu * h1) + h2, c3 = F(3.0f) * (nu * h2) + h3;
     const F exponent(2.0f * tolerance.half_exponent), inv = vdiv(one, vmax(cosine_least, F(0.05f)));
-    const F sc = exponent * inv, sc1 = sc * c1;
-    const Bounds power{power_most, power_most * sc1, power_most * (sc1 * sc1 + sc * c2),
-                       power_most * (sc1 * (sc1 * sc1) + F(3.0f) * (sc1 * (sc * c2)) + sc * c3)};
+    // C^(s-k) is at most C^s over the least C^k. Below s = 2 the factors s - 1 and s - 2 change sign.
+    const F k1 = exponent * inv, k2 = k1 * (vabs(exponent - one) * inv), k3 = k2 * (vabs(exponent - F(2.0f)) * inv), c1c1 = c1 * c1;
+    const Bounds power{power_most, power_most * (k1 * c1), power_most * (k2 * c1c1 + k1 * c2),
+                       power_most * (k3 * (c1c1 * c1) + F(3.0f) * (k2 * (c1 * c2)) + k1 * c3)};
     // The logarithm of a highlight is as wrong as its angle, times sqrt(2 s) and more.
     const F rounding = F(4e-6f) + F(2e-6f) * vsqrt(exponent);
     s.off = sel(smooth, F(tolerance.peak) * remainder(product(product(attenuation, cosine), power), rounding), F(shading::kNoCell));

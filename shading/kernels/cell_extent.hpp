@@ -69,7 +69,7 @@ static void measure_cell(const shading::MaterialPlan& material, const shading::F
     }
     constexpr float kMargin = 1.00001f;
     batch.normal_radius[cell] = !usable ? shading::kNoCell : flat ? 0.0f : kMargin * vsqrt(n[0]) + 1e-6f;
-    batch.position_radius[cell] = usable ? kMargin * vsqrt(p[0]) : shading::kNoCell;
+    batch.position_radius[cell] = usable ? kMargin * vsqrt(p[0]) + 2e-19f : shading::kNoCell;  // squares below that are 0
 }
 
 }  // namespace HALFLIT_ISA_NAMESPACE

@@ -81,10 +81,12 @@ HALFLIT_INLINE void fit_lanes(const shading::ShadingPlan& frame, const shading::
         if (any(fitted)) {
             CellArrival kept = at;
             kept.share = sel(fitted, at.share, none);
+            kept.base = sel(fitted, at.base, none);  // may be infinite elsewhere
+            kept.window = sel(fitted, at.window, none);
             const V3 to_light{sel(fitted, at.direction.x, none), sel(fitted, at.direction.y, none), sel(fitted, at.direction.z, none)};
             add_light<kFlat>(term,
-                             expand_lobe<kFlat>(kept, to_light, normal, x, sel(fitted, f.value, none), sel(fitted, f.slope, none),
-                                                sel(fitted, f.bend, none)),
+                             expand_lobe<kFlat>(kept, to_light, normal, sel(fitted, x, none), sel(fitted, f.value, none),
+                                                sel(fitted, f.slope, none), sel(fitted, f.bend, none)),
                              light.color);
         }
         if constexpr (kSpecular) {
@@ -94,6 +96,8 @@ HALFLIT_INLINE void fit_lanes(const shading::ShadingPlan& frame, const shading::
             shining |= mask_bits(shines);
             CellArrival kept = at;
             kept.share = sel(shines, at.share, none);
+            kept.base = sel(shines, at.base, none);
+            kept.window = sel(shines, at.window, none);
             CellEye kept_eye = eye;
             kept_eye.share = sel(shines, eye.share, none);
             HighlightSpan kept_span = span;
@@ -103,7 +107,9 @@ HALFLIT_INLINE void fit_lanes(const shading::ShadingPlan& frame, const shading::
             kept_span.squared = sel(shines, span.squared, one);
             const V3 to_light{sel(shines, at.direction.x, normal.x), sel(shines, at.direction.y, normal.y),
                               sel(shines, at.direction.z, normal.z)};
-            add_light<kFlat>(highlight, expand_highlight<kFlat>(kept, kept_eye, kept_span, to_light, normal, x, exponent), light.color);
+            add_light<kFlat>(highlight,
+                             expand_highlight<kFlat>(kept, kept_eye, kept_span, to_light, normal, sel(shines, x, none), exponent),
+                             light.color);
         }
     }
     batch.shining |= shining << lane;

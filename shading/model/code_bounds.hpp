@@ -14,7 +14,7 @@
 namespace halflit::shading {
 
 /// kSlopeAtBlack: d code / d v for v up to kLinearEnd, the end of the curve's straight part.
-/// kSlopeAtWhite: S there, 255 * 1.055 / 2.4.
+/// kSlopeAtWhite: d code / d ln v at white, 255 * 1.055 / 2.4, rounded up.
 inline constexpr double kSlopeAtWhite = 112.1;
 inline constexpr double kSlopeAtBlack = 255.0 * 12.92, kLinearEnd = kSrgbLinearEnd;
 
