@@ -53,11 +53,25 @@ Light some_light(Random& random, Vec3f normal) {
     return light;
 }
 
+/// Normals and positions anywhere within two radii, so that bounds hold for any surface.
+void fill_block(Random& random, Vec3f normal, Vec3f center, CellCase& c) {
+    const auto radius = [&] { return random.chance(0.15) ? 0.0f : static_cast<float>(std::pow(10.0, random.real(-3, -0.8))); };
+    const float turn = radius(), size = radius();
+    c.count = 1 + random.index(kBlockSize);
+    for (int l = 0; l < kBlockSize; ++l) {
+        const bool copy = l >= c.count;
+        const Vec3f n = normalize_or(normal + some_vector(random) * turn, normal), p = center + some_vector(random) * size;
+        const float values[] = {p.x, p.y, p.z, n.x, n.y, n.z};
+        for (int i = 0; i < 6; ++i) c.block.lane[kPosX + i][l] = copy ? c.block.lane[kPosX + i][c.count - 1] : values[i];
+    }
+}
+
 CellCase some_case(Random& random, const Lobe& lobe, bool highlights) {
     Material material;
     material.lobe = lobe;
     material.metallic = 0.0f;
-    material.roughness = random.chance(0.1) ? 1.0f : random.real32(random.chance(0.3) ? 0.05 : 0.3, 1);
+    const int kind = random.index(10);
+    material.roughness = kind == 0 ? 1.0f : kind < 3 ? random.real32(0.93, 1) : random.real32(kind < 6 ? 0.05 : 0.3, 1);
     material.base_color = highlights ? Vec4f{0, 0, 0, 1} : Vec4f{1, 1, 1, 1};
     const Vec3f normal = some_direction(random);
     std::vector<Light> lights;
@@ -76,16 +90,7 @@ CellCase some_case(Random& random, const Lobe& lobe, bool highlights) {
     inputs.viewer.orthographic = random.chance(0.2);
     inputs.viewer.view_direction_ws = normalize_or(inputs.viewer.eye_ws * -1.0f, {0, 0, -1});
     c.plan = plan_shading(inputs);
-    // Normals and positions anywhere within two radii, so that bounds hold for any surface.
-    const auto radius = [&] { return random.chance(0.15) ? 0.0f : static_cast<float>(std::pow(10.0, random.real(-3, -0.8))); };
-    const float turn = radius(), size = radius();
-    c.count = 1 + random.index(kBlockSize);
-    for (int l = 0; l < kBlockSize; ++l) {
-        const bool copy = l >= c.count;
-        const Vec3f n = normalize_or(normal + some_vector(random) * turn, normal), p = some_vector(random) * size;
-        const float values[] = {p.x, p.y, p.z, n.x, n.y, n.z};
-        for (int i = 0; i < 6; ++i) c.block.lane[kPosX + i][l] = copy ? c.block.lane[kPosX + i][c.count - 1] : values[i];
-    }
+    fill_block(random, normal, {0, 0, 0}, c);
     return c;
 }
 
@@ -94,12 +99,18 @@ struct Fit {
     std::vector<std::uint16_t> exact;
 };
 
-Fit fit(const CellCase& c, Isa isa) {
-    Fit f{};
+/// A batch without cells.
+CellBatch no_cells() {
+    CellBatch batch{};
     for (int i = 0; i < kCellLanes; ++i) {
-        f.batch.normal[2][i] = 1.0f;
-        f.batch.normal_radius[i] = f.batch.position_radius[i] = kNoCell;
+        batch.normal[2][i] = 1.0f;
+        batch.normal_radius[i] = batch.position_radius[i] = kNoCell;
     }
+    return batch;
+}
+
+Fit fit(const CellCase& c, Isa isa) {
+    Fit f{no_cells(), {}};
     f.batch.count = 1;
     f.exact.assign(c.plan.lights.size(), 0);
     shade_kernels(isa).measure_cell(c.plan.materials[0], c.block, c.count, f.batch, 0);
@@ -263,6 +274,46 @@ TEST_CASE("cells: every instruction set fits the same bits", "[cells]") {
             for (int t = 0; t < kCellTerms; ++t)
                 for (int k = 0; k < 3; ++k) same &= a.term[t][k] == b.term[t][k] && a.highlight[t][k] == b.highlight[t][k];
             CHECK(same);
+        }
+    }
+}
+
+TEST_CASE("cells: a cell among others is fitted as it is alone, bit for bit", "[cells]") {
+    for (std::uint64_t seed = 40001; seed <= 40060; ++seed) {
+        Random random(seed);
+        CellCase c =
+            some_case(random, Lobe{random.real32(0, 1), random.chance(0.5) ? 1.0f : random.real32(1, 3), false}, random.chance(0.7));
+        c.plan.materials[0].cells = {0.01f, 1e-4f, random.chance(0.5) ? 0.05f : 0.0f, 0.01f, 5.0f, 2.1f};
+        // Near and far cells, flat and curved ones, with any normals; one without a cell, one far beyond the squares of float32.
+        std::vector<CellCase> cells(kCellLanes, c);
+        for (int i = 0; i < kCellLanes; ++i)
+            fill_block(random, some_direction(random), some_vector(random) * (i == 5 ? 2e19f : static_cast<float>(i)),
+                       cells[static_cast<std::size_t>(i)]);
+        for (const Isa isa : halflit::test::available_isas()) {
+            const ShadeKernels& kernels = shade_kernels(isa);
+            CellBatch batch = no_cells();
+            batch.count = kCellLanes - 1;
+            for (int i = 0; i < batch.count; ++i)
+                kernels.measure_cell(c.plan.materials[0], cells[static_cast<std::size_t>(i)].block,
+                                     cells[static_cast<std::size_t>(i)].count, batch, i);
+            std::vector<std::uint16_t> exact(c.plan.lights.size(), 0);
+            kernels.fit_cells(c.plan, c.plan.materials[0], all_lights(c.plan), batch, exact.data());
+            for (int i = 0; i < batch.count; ++i) {
+                const Fit alone = fit(cells[static_cast<std::size_t>(i)], isa);
+                INFO("seed " << seed << ", cell " << i << ", " << isa_name(isa));
+                bool same = (batch.shining >> i & 1) == (alone.batch.shining & 1);
+                for (std::size_t k = 0; k < exact.size(); ++k) same &= (exact[k] >> i & 1) == (alone.exact[k] & 1);
+                for (int t = 0; t < kCellTerms; ++t) {
+                    // Pixels of a flat cell do not read the terms with n.
+                    const bool with_n = (t >= kTermN && t < kTermP) || (t >= kTermNN && t < kTermPP);
+                    if (with_n && batch.normal_radius[i] == 0.0f) continue;
+                    for (int k = 0; k < 3; ++k) {
+                        same &= batch.term[t][k][i] == alone.batch.term[t][k][0];
+                        if ((batch.shining >> i & 1) != 0) same &= batch.highlight[t][k][i] == alone.batch.highlight[t][k][0];
+                    }
+                }
+                CHECK(same);
+            }
         }
     }
 }
