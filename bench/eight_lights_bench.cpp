@@ -97,10 +97,9 @@ int main(int argc, char** argv) {
         return 1;
     }
     std::vector<Way> ways;
-    const auto add = [&](std::string name, Accuracy accuracy, double codes) {
+    const auto add = [&](std::string name, double codes) {
         Settings settings;
         settings.shadows = ShadowMode::off;
-        settings.shading.accuracy = accuracy;
         settings.shading.max_error_codes = codes;
         const auto plan = raster::plan_frame(prepared->data(), scene.cameras.front(), settings, 1920, 1080);
         if (!plan) {
@@ -109,10 +108,8 @@ int main(int argc, char** argv) {
         }
         ways.push_back({std::move(name), plan->shading});
     };
-    add("exact", Accuracy::exact, 0);
-    add("display", Accuracy::display, 0);
-    add("fast", Accuracy::fast, 0);
-    for (const double codes : {0.1, 0.25, 0.5, 1.0, 2.0, 4.0}) add(std::to_string(codes).substr(0, 4) + " codes", Accuracy::exact, codes);
+    add("exact", 0);
+    for (const double codes : {0.1, 0.25, 0.5, 1.0, 2.0, 4.0}) add(std::to_string(codes).substr(0, 4) + " codes", codes);
 
     for (const Isa isa : built_isas()) {
         if (!isa_available(isa)) continue;

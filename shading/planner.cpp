@@ -86,7 +86,7 @@ void plan_shadows(const ShadowInputs& shadows, ShadingPlan& plan) {
 }  // namespace
 
 Result<void> check_options(const ShadingSettings& options) {
-    if (options.rate > ShadingRate::pixel || options.specular > SpecularModel::blinn || options.accuracy > Accuracy::fast ||
+    if (options.rate > ShadingRate::pixel || options.specular > SpecularModel::blinn || options.accuracy > Accuracy::exact ||
         options.texture_detail > TextureDetail::nearest)
         return fail(ErrorCode::usage, "shading settings: found a value that no name stands for");
     if (options.lobe)

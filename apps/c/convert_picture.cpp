@@ -33,7 +33,7 @@ static_assert(HALFLIT_COLOR_LINEAR == static_cast<int>(ColorSpace::linear) && HA
 static_assert(HALFLIT_WRAP_CLAMP == static_cast<int>(TextureWrap::clamp) &&
               HALFLIT_FILTER_LINEAR == static_cast<int>(TextureFilter::linear));
 static_assert(HALFLIT_MIP_LINEAR == static_cast<int>(MipFilter::linear) && HALFLIT_LIGHT_SPOT == static_cast<int>(LightType::spot));
-static_assert(HALFLIT_ACCURACY_FAST == static_cast<int>(Accuracy::fast) && HALFLIT_RATE_PIXEL == static_cast<int>(ShadingRate::pixel));
+static_assert(HALFLIT_ACCURACY_EXACT == static_cast<int>(Accuracy::exact) && HALFLIT_RATE_PIXEL == static_cast<int>(ShadingRate::pixel));
 static_assert(HALFLIT_DETAIL_NEAREST == static_cast<int>(TextureDetail::nearest));
 static_assert(HALFLIT_SPECULAR_BLINN == static_cast<int>(SpecularModel::blinn));
 static_assert(HALFLIT_SHADOWS_SOFT_SPLIT == static_cast<int>(ShadowMode::soft_split));
@@ -118,7 +118,7 @@ Result<Settings> settings(const halflit_settings* given) {
     shading.environment_tolerance = read->environment_tolerance;
     shading.max_error_codes = read->max_error_codes;
     Choices choices("halflit_settings");
-    choices.read(read->accuracy, Accuracy::fast, "accuracy", shading.accuracy);
+    choices.read(read->accuracy, Accuracy::exact, "accuracy", shading.accuracy);
     choices.read(read->shading_rate, ShadingRate::pixel, "shading_rate", shading.rate);
     choices.read(read->texture_detail, TextureDetail::nearest, "texture_detail", shading.texture_detail);
     choices.read(read->specular, SpecularModel::blinn, "specular", shading.specular);

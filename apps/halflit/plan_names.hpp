@@ -26,7 +26,7 @@ inline constexpr std::string_view kStageNames[kStageCount] = {"base colour textu
 /// Indexed by LightType.
 inline constexpr std::string_view kLightTypeNames[] = {"directional", "point", "spot"};
 
-inline constexpr std::string_view kAccuracyNames[] = {"reference", "exact", "display", "fast"};
+inline constexpr std::string_view kAccuracyNames[] = {"reference", "exact"};
 constexpr std::string_view accuracy_name(Accuracy accuracy) { return kAccuracyNames[static_cast<std::size_t>(accuracy)]; }
 
 /// Indexed by SpecularModel.

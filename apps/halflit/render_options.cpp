@@ -258,9 +258,7 @@ FlagGroup surface_flags(RenderOptions& o) {
 FlagGroup accuracy_flags(ShadingSettings& s) {
     return {"Accuracy",
             {{"--accuracy", form_of(kAccuracyNames),
-              fmt::format(
-                  "reference: float64, slow; exact: float32; display: at most one 8-bit code from exact; fast: larger errors (default {})",
-                  name_of(s.accuracy, kAccuracyNames)),
+              fmt::format("reference: float64, slow; exact: float32 (default {})", name_of(s.accuracy, kAccuracyNames)),
               named(s.accuracy, kAccuracyNames)},
              {"--max-error", "CODES",
               "Instead of --accuracy: the cheapest computation with a proven error below this many 8-bit codes, such as 0.5",

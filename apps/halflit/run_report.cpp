@@ -8,6 +8,10 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
 namespace halflit::cli {
 namespace {
 
@@ -73,16 +77,14 @@ void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered,
 }
 
 Json error_bound_json(const ErrorBound& error) {
-    return {{"budget_codes", error.budget},
-            {"bound_codes", error.codes},
-            {"within", error.within},
-            {"parts",
-             {{"rounding", error.rounding},
-              {"lobes", error.lobes},
-              {"specular", error.specular},
-              {"environment", error.environment},
-              {"cells", error.cells},
-              {"left_out", error.left_out}}}};
+    const std::pair<const char*, double> parts[] = {{"rounding", error.rounding}, {"lobes", error.lobes},
+                                                    {"specular", error.specular}, {"environment", error.environment},
+                                                    {"cells", error.cells},       {"left_out", error.left_out}};
+    Json json{{"budget_codes", error.budget}, {"bound_codes", error.codes}, {"within", error.within}};
+    auto largest = std::max_element(std::begin(parts), std::end(parts), [](const auto& a, const auto& b) { return a.second < b.second; });
+    json["largest_part"] = largest->first;
+    for (const auto& [name, codes] : parts) json["parts"][name] = codes;
+    return json;
 }
 
 Json stages_ms(const RenderReport& rendered) {

@@ -13,7 +13,6 @@
 namespace halflit::cli {
 namespace {
 
-constexpr std::array kTiers{Accuracy::exact, Accuracy::display, Accuracy::fast};
 constexpr std::array kRates{ShadingRate::pixel, ShadingRate::gouraud, ShadingRate::flat};
 constexpr std::array kTextures{TextureDetail::full, TextureDetail::bilinear, TextureDetail::nearest};
 constexpr std::array kBudgets{0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0};
@@ -68,7 +67,6 @@ void add_alone(Collector& list, const TradeSpace& space, const TradeChoice& exac
             list.add(choice);
         }
     };
-    vary(&TradeChoice::accuracy, kTiers);
     vary(&TradeChoice::order, orders(space));
     vary(&TradeChoice::rate, kRates);
     vary(&TradeChoice::texture, textures(space));
@@ -85,19 +83,17 @@ void add_alone(Collector& list, const TradeSpace& space, const TradeChoice& exac
 
 void add_product(Collector& list, const TradeSpace& space, const TradeChoice& exact, const std::vector<Shadows>& kinds) {
     for (const Shadows& kind : kinds)
-        for (const Accuracy tier : kTiers)
-            for (const int order : orders(space))
-                for (const ShadingRate rate : kRates)
-                    for (const TextureDetail texture : textures(space)) {
-                        TradeChoice choice = exact;
-                        choice.accuracy = tier;
-                        choice.order = order;
-                        choice.rate = rate;
-                        choice.texture = texture;
-                        choice.shadows = kind.mode;
-                        choice.shadow_size = kind.size;
-                        list.add(choice);
-                    }
+        for (const int order : orders(space))
+            for (const ShadingRate rate : kRates)
+                for (const TextureDetail texture : textures(space)) {
+                    TradeChoice choice = exact;
+                    choice.order = order;
+                    choice.rate = rate;
+                    choice.texture = texture;
+                    choice.shadows = kind.mode;
+                    choice.shadow_size = kind.size;
+                    list.add(choice);
+                }
 }
 
 /// Calls add(name, flag) for each setting that differs from exact.

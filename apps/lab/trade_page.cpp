@@ -56,15 +56,13 @@ struct Kind {
     bool (*has)(const TradeRow&);
 };
 constexpr Kind kKinds[] = {{"exact", "#56b4e9", [](const TradeRow& r) { return !r.bound && r.choice.accuracy == Accuracy::exact; }},
-                           {"display", "#009e73", [](const TradeRow& r) { return !r.bound && r.choice.accuracy == Accuracy::display; }},
-                           {"fast", "#e69f00", [](const TradeRow& r) { return !r.bound && r.choice.accuracy == Accuracy::fast; }},
                            {"budget", "#cc79a7", [](const TradeRow& r) { return r.bound.has_value(); }}};
 
 /// Plot of error against time for one lobe, without the reference, which takes far longer.
 Plot plot_of(const std::vector<TradeRow>& rows, std::optional<std::size_t> lobe, const std::string& title) {
     Plot plot;
     plot.title = title;
-    plot.legend = LegendPlace::bottom_left;  // no row is both fast and exact, so this corner is empty
+    plot.legend = LegendPlace::bottom_left;  // no row takes little time and is exact, so this corner is empty
     plot.width = kPlotWidth;
     plot.height = kPlotHeight;
     plot.x.label = "time, exact = 1";

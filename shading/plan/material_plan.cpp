@@ -5,19 +5,6 @@
 namespace halflit::shading {
 namespace {
 
-PowTier tier_of(Accuracy accuracy) {
-    switch (accuracy) {
-        case Accuracy::reference:
-        case Accuracy::exact:
-            break;
-        case Accuracy::display:
-            return PowTier::display;
-        case Accuracy::fast:
-            return PowTier::fast;
-    }
-    return PowTier::exact;
-}
-
 SlotMask slots_of(const MaterialPlan& plan, bool lit) {
     SlotMask slots = lit ? kBaseSlots : 0u;
     if ((plan.stages & kStageNormalMap) != 0) slots |= kTangentSlot;
@@ -47,7 +34,6 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
     plan.occlusion_strength = clamp_or_low(material.occlusion_strength, 0.0f, 1.0f);
     plan.alpha_mode = material.alpha_mode;
     plan.alpha_cutoff = material.alpha_cutoff;
-    plan.specular_tier = tier_of(options.accuracy);
     plan.lobe = plan_lobe(lobe_of(material, options), plan.specular_tier);
 
     const bool lit = !material.unlit && (kinds.lights || kinds.ambient);

@@ -76,7 +76,6 @@ TEST_CASE("trade: page, table and report are complete, and list the same rows", 
 
     // Each setting alone, and every budget.
     const std::set<std::string> wanted{"reference",         "exact",
-                                       "display",           "fast",
                                        "gouraud",           "flat",
                                        "bilinear",          "nearest",
                                        "no shadows",        "hard shadows",
@@ -151,8 +150,6 @@ TEST_CASE("trade: times are relative to exact, errors to the reference, and a ma
     CHECK(exact["error"]["max"].get<double>() > 0);
     CHECK(exact["error"]["max"].get<double>() < 0.01);
     CHECK(exact["error"]["psnr"].get<double>() > 100);
-    CHECK(row_named(rows, "display")["error"]["max"].get<double>() < 0.1);
-    CHECK(row_named(rows, "fast")["error"]["max"].get<double>() < 1);
     CHECK(row_named(rows, "exact, flat")["error"]["share_off_by_one"].get<double>() > 0.3);
     for (const Json& row : rows)
         if (!row["bound"].is_null()) CHECK(row["bound"]["kept"] == true);
@@ -181,7 +178,6 @@ TEST_CASE("trade: no row beats a row of the Pareto front in time and error, and 
     for (const Json& row : rows) lobes.insert(row["lobe"].get<std::string>());
     CHECK(lobes == std::set<std::string>{"own", "lambert", "sloan:0.3"});
     CHECK(row_named(rows, "exact, lobe lambert")["lobes_computed_as"] == Json{"t"});
-    CHECK(row_named(rows, "lobe sloan:0.3, fast")["lobes_computed_as"] == Json{"t^n (fast)"});
     CHECK(row_named(rows, "exact, lobe sloan:0.3")["lobes_computed_as"] == Json{"t^n (exact)"});
     // The error of a lobe is relative to its own reference, not to the scene's own lobe.
     CHECK(row_named(rows, "exact, lobe lambert")["error"]["max"].get<double>() < 0.5);
@@ -194,13 +190,13 @@ TEST_CASE("trade: the combinations are the product of what the scene has", "[cli
         if (std::find(flags.begin(), flags.end(), "--shadow-size") == flags.end()) flags.insert(flags.end(), {"--shadow-size", "2048"});
         return trade(folder, flags).size();
     };
-    // Sum of: reference; tiers x rates; four other kinds of shadow; seven budgets.
+    // Sum of: reference; rates; four other kinds of shadow; seven budgets.
     const std::size_t kinds_alone = 4, budgets = 7;  // hard, off, 1024, 512
-    CHECK(rows_with({}) == 1 + 3 * 3 + kinds_alone + budgets);
-    CHECK(rows_with({"--quick"}) == 1 + 1 + 2 + 2 + kinds_alone + budgets);
-    CHECK(rows_with({"--all"}) == 1 + 3 * 3 * 7 + budgets);  // two modes of three sizes, and off
-    CHECK(rows_with({"--shadows", "off"}) == 1 + 3 * 3 + budgets);
-    CHECK(rows_with({"--shadow-size", "1024", "--quick"}) == 1 + 1 + 2 + 2 + (kinds_alone - 1) + budgets);
+    CHECK(rows_with({}) == 1 + 3 + kinds_alone + budgets);
+    CHECK(rows_with({"--quick"}) == 1 + 1 + 2 + kinds_alone + budgets);
+    CHECK(rows_with({"--all"}) == 1 + 3 * 7 + budgets);  // two modes of three sizes, and off
+    CHECK(rows_with({"--shadows", "off"}) == 1 + 3 + budgets);
+    CHECK(rows_with({"--shadow-size", "1024", "--quick"}) == 1 + 1 + 2 + (kinds_alone - 1) + budgets);
 }
 
 TEST_CASE("trade: the summary offers settings that were faster in every pair of frames, each once", "[cli][trade]") {
@@ -244,7 +240,7 @@ TEST_CASE("trade: progress is one line, and only if asked for or on a terminal",
 
 TEST_CASE("trade: flags that it varies itself and invalid values are refused before anything is drawn", "[cli][trade]") {
     const TemporaryFolder folder;
-    const std::vector<std::vector<std::string>> refused = {{"--accuracy", "fast"},
+    const std::vector<std::vector<std::string>> refused = {{"--accuracy", "reference"},
                                                            {"--max-error", "1"},
                                                            {"--texture-filter", "nearest"},
                                                            {"--shading", "flat"},

@@ -43,8 +43,6 @@ std::vector<Variant> variants() {
     add("hard-shadows-wrapped").shadows = ShadowMode::hard;
     all.back().settings.shading.lobe = Lobe::sloan(0.3f);
     add("matte").shading.specular = SpecularModel::none;
-    add("fast").shading.accuracy = Accuracy::fast;
-    all.back().settings.shading.lobe = Lobe::sloan(0.3f);
     add("within-two-codes").shading.max_error_codes = 2.0;
     all.back().settings.shading.lobe = Lobe::sloan(0.3f);
     add("environment");

@@ -416,10 +416,10 @@ TEST_CASE("planes: they are the same for every way of shading", "[raster][planes
             settings.shading.rate = ShadingRate::pixel;
             settings.shading.accuracy = Accuracy::reference;
             check("reference", s.scene);
-            settings.shading.accuracy = Accuracy::fast;
+            settings.shading.accuracy = Accuracy::exact;
             settings.shading.specular = SpecularModel::none;
             settings.shadows = ShadowMode::off;
-            check("fast and matte", s.scene);
+            check("matte", s.scene);
             Scene other = s.scene;
             for (Material& m : other.materials) m.unlit = true;
             check("unlit", other);

@@ -200,9 +200,7 @@ void change_frame(Random& random, Frame& frame) {
         [&] { options.max_error_codes = coin ? 0.0 : 2.0; },
         [&] { options.lobe.reset(); },
         [&] { options.lobe = coin ? Lobe::valve() : Lobe::green(0.3f); },
-        [&] { options.accuracy = coin       ? Accuracy::exact
-                                 : die == 0 ? Accuracy::display
-                                            : Accuracy::fast; },
+        [&] { options.accuracy = coin || die != 0 ? Accuracy::exact : Accuracy::reference; },
         [&] { options.rate = coin       ? ShadingRate::pixel
                              : die == 0 ? ShadingRate::flat
                                         : ShadingRate::gouraud; },

@@ -7,10 +7,10 @@
 
 #include "halflit/export.hpp"
 
-/// Forces inlining, also at -O0, so that a function shared by code built for different instruction sets leaves no symbol behind that the
-/// linker could merge.
+/// Forces inlining, also at -O0: no symbol of code for several instruction sets is left that the linker could merge.
+#ifndef HALFLIT_INLINE
 #define HALFLIT_INLINE inline __attribute__((always_inline))
-
+#endif
 // clang-format off
 namespace halflit {
 

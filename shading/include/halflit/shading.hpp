@@ -11,9 +11,7 @@ namespace halflit {
 /// Arithmetic of shading: its error, and so its time.
 enum class Accuracy : std::uint8_t {
     reference,  ///< float64 and the C library, environments by direct integration: slow; errors are measured against it
-    exact,      ///< float32, elementary functions within about 2 ulp
-    display,    ///< relative error of t^n: 2.6e-6 n + 3e-6; at most one 8-bit code from exact, and that rarely
-    fast        ///< relative error of t^n: 1.3e-4 n + 1e-4
+    exact       ///< float32, elementary functions within about 2 ulp
 };
 
 /// Bound on the error of a frame in 8-bit sRGB codes: 255 times the encoded value, before it is rounded to a whole code, of a pixel that

@@ -295,7 +295,7 @@ HALFLIT_C_API int32_t halflit_scene_set_sky(halflit_scene* scene, const halflit_
 // ---- settings of a picture ---------------------------------------------------------------------------------------------
 
 /// Arithmetic of shading: float64 and slow; float32; about one 8-bit code from exact; less.
-enum { HALFLIT_ACCURACY_REFERENCE = 0, HALFLIT_ACCURACY_EXACT = 1, HALFLIT_ACCURACY_DISPLAY = 2, HALFLIT_ACCURACY_FAST = 3 };
+enum { HALFLIT_ACCURACY_REFERENCE = 0, HALFLIT_ACCURACY_EXACT = 1 };
 /// How often light is evaluated: once a triangle, a vertex or a pixel.
 enum { HALFLIT_RATE_FLAT = 0, HALFLIT_RATE_GOURAUD = 1, HALFLIT_RATE_PIXEL = 2 };
 /// Upper limits of the texture filters: the sampler's own; one mip level; one texel of it.
