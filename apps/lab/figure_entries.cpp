@@ -18,6 +18,8 @@ std::span<const FigureEntry> all_figures() {
         {"highlights", "Phong's highlight and Blinn's", "[CMSC], Phong model and Blinn model", &make_highlights_figure},
         {"light-sources", "Directional, point and spot light", "[CMSC], light sources", &make_light_sources_figure},
         {"terminator", "Shadow maps and wrapped light at the terminator", "[SNY11] sec. 3", &make_terminator_figure},
+        {"terminator-edge", "Where the edge of the terminator goes unnoticed", "[SNY11], [Valve06], their lobes",
+         &make_terminator_edge_figure},
     };
     return kFigures;
 }

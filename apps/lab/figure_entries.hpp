@@ -27,10 +27,13 @@ namespace halflit::cli {
 [[nodiscard]] Result<Figure> make_shading_rates_figure();
 [[nodiscard]] Result<Figure> make_light_sources_figure();
 
-// figure_highlights.cpp: Phong against Blinn
+// figure_highlights.cpp: Phong against Blinn, with and without N.L
 [[nodiscard]] Result<Figure> make_highlights_figure();
 
 // figure_terminator.cpp: shadows and wrapped light
 [[nodiscard]] Result<Figure> make_terminator_figure();
+
+// figure_terminator_edge.cpp: many lights and an environment over the terminator
+[[nodiscard]] Result<Figure> make_terminator_edge_figure();
 
 }  // namespace halflit::cli

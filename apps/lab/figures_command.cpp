@@ -25,7 +25,7 @@ struct FiguresOptions {
 
 Result<void> write_list() {
     std::string text;
-    for (const FigureEntry& entry : all_figures()) text += fmt::format("{:<14} {}; {}\n", entry.name, entry.title, entry.source);
+    for (const FigureEntry& entry : all_figures()) text += fmt::format("{:<15} {}; {}\n", entry.name, entry.title, entry.source);
     return write_text("-", text);
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 const std::vector<std::string> kNames = {"wrap-form",     "backlight",  "curves",        "green-sloan",  "sh-error",
                                          "band-energy",   "normalized", "area-light",    "half-lambert", "gamma",
-                                         "shading-rates", "highlights", "light-sources", "terminator"};
+                                         "shading-rates", "highlights", "light-sources", "terminator",   "terminator-edge"};
 const double kPi = std::acos(-1.0);
 
 /// Series by "plot / series"; each maps x to y.
@@ -77,6 +77,17 @@ double srgb_code(double linear) {
 }
 
 double sloan(double x, double a) { return x > -a ? std::pow((x + a) / (1 + a), 1 + a) : 0.0; }
+
+/// Light that the highlights' material reflects towards the angles of L and V, written out from the vectors.
+double highlight_radiance(bool phong, bool times_cosine, double light, double view, double turn) {
+    const double l[3] = {std::sin(light), 0, std::cos(light)};
+    const double v[3] = {std::sin(view) * std::cos(turn), std::sin(view) * std::sin(turn), std::cos(view)};
+    const double h[3] = {l[0] + v[0], l[1] + v[1], l[2] + v[2]};
+    const double n_h = h[2] / std::sqrt(h[0] * h[0] + h[1] * h[1] + h[2] * h[2]), r_v = l[2] * v[2] - l[0] * v[0] - l[1] * v[1];
+    const double peak = 0.6 * (phong ? 48.0 / 8 : (1600.0 + 400 + 32) / (8 * 44));
+    const double highlight = peak * (phong ? std::pow(std::max(0.0, r_v), 10) : std::pow(n_h, 40));
+    return 0.3 * l[2] + highlight * (times_cosine ? l[2] : 1);
+}
 
 }  // namespace
 
@@ -198,6 +209,113 @@ TEST_CASE("figures: half-Lambert in codes is darker than in linear light, and cl
         const double half = (1 + (-0.9 * x + 0.45 * y + 0.35 * z) / length) / 2;
         INFO("column " << i);
         CHECK(std::abs(sheet.pixel(i, 150)[0] - srgb_code(0.5) * half) < 2.0);
+    }
+}
+
+TEST_CASE("figures: highlights with N.L reflect at most kd + ks, those without exceed 1 at grazing light", "[cli][figures]") {
+    const Numbers numbers = numbers_of("highlights");
+    const std::string plot = "Energy, k_d = 0.3, k_s = 0.6 / ", mirror = "Energy, k_d = 0, k_s = 1 / ";
+    // Light from straight above: Phong's factor is exact, Blinn's is (s^2 + 10 s + 32) / (8 (s + 4)) of (s + 2)(s + 4) / (8 (2^(-s/2) +
+    // s)).
+    const double blinn_part = 2032.0 / (8 * 44) / (42.0 * 44 / (8 * (std::pow(2.0, -20) + 40)));
+    for (const char* form : {"Phong", "Phong × N.L"}) {
+        CHECK(series_of(numbers, plot + form).at(0) == Approx(0.9).epsilon(1e-6));
+        CHECK(series_of(numbers, mirror + form).at(0) == Approx(1).epsilon(1e-6));
+    }
+    for (const char* form : {"Blinn", "Blinn × N.L"}) {
+        CHECK(series_of(numbers, plot + form).at(0) == Approx(0.3 + 0.6 * blinn_part).epsilon(1e-6));
+        CHECK(series_of(numbers, mirror + form).at(0) == Approx(blinn_part).epsilon(1e-6));
+    }
+    for (const bool phong : {true, false}) {
+        const std::string name = phong ? "Phong" : "Blinn";
+        const auto &with = series_of(numbers, plot + name + " × N.L"), &without = series_of(numbers, plot + name);
+        REQUIRE(with.size() == 90);
+        for (const auto& [degrees, share] : with) {
+            INFO(name << " at " << degrees);
+            CHECK(share <= 0.9 + 1e-6);
+            CHECK(without.at(degrees) == Approx(0.3 + (share - 0.3) / std::cos(degrees * kPi / 180)).epsilon(1e-8));
+        }
+        CHECK(without.at(89) > 1);  // the highlight's energy stays, that received is 1/57
+        // Midpoints of equal angles.
+        for (const int degrees : {30, 60, 85}) {
+            constexpr int kViews = 400, kTurns = 400;
+            const double light = degrees * kPi / 180;
+            double sum = 0;
+            for (int i = 0; i < kViews; ++i)
+                for (int k = 0; k < kTurns; ++k) {
+                    const double view = (i + 0.5) / kViews * kPi / 2, turn = (k + 0.5) / kTurns * 2 * kPi;
+                    sum += highlight_radiance(phong, true, light, view, turn) * std::cos(view) * std::sin(view);
+                }
+            const double energy = sum * (kPi / 2 / kViews) * (2 * kPi / kTurns);
+            INFO(name << " at " << degrees);
+            CHECK(with.at(degrees) == Approx(energy / (kPi * std::cos(light))).epsilon(1e-4));
+        }
+        for (const int degrees : {0, 45, 75})
+            for (const bool times_cosine : {false, true}) {
+                const auto& curve = series_of(
+                    numbers, "Reflected, light at " + std::to_string(degrees) + "° (grey) / " + name + (times_cosine ? " × N.L" : ""));
+                REQUIRE(curve.size() > 300);
+                for (const auto& [x, y] : curve) {
+                    if (y < 1e-6) continue;  // along the surface: the angle is lost in the rounding
+                    INFO(name << " at " << degrees << ", point " << x << ' ' << y);
+                    // The light comes from the left, so the eye on the right is opposite to it.
+                    CHECK(std::hypot(x, y) == Approx(highlight_radiance(phong, times_cosine, degrees * kPi / 180, std::atan2(x, y), kPi)));
+                }
+            }
+    }
+}
+
+TEST_CASE("figures: the contrast of the terminator's edge is the closed form, and the renderer's pictures have it", "[cli][figures]") {
+    const TemporaryFolder folder;
+    REQUIRE(run({"figures", "terminator-edge", "--format", "png", "-o", folder.path()}).code == 0);
+    const Numbers numbers = read_csv(folder.file("terminator-edge.csv"));
+    // A Lambert edge h = 0.05 radii wide; the other lights' heights above the terminator's middle have the mean 1/2.
+    const auto light = [](double n, double e) { return 0.5 * (1 - e) * (n - 1) / n + e; };
+    const auto contrast = [&](double n, double e) { return 100 * 0.025 * (1 - e) / n / (light(n, e) + 0.01); };
+    const std::string plot = "Contrast of the edge / ";
+    const auto& lambert = series_of(numbers, plot + "Lambert");
+    REQUIRE(lambert.size() == 16);
+    for (const auto& [n, percent] : lambert) {
+        INFO(n << " lights");
+        CHECK(percent == Approx(contrast(n, 0)).epsilon(1e-6));
+        CHECK(series_of(numbers, plot + "Lambert, e = 20 %").at(n) == Approx(contrast(n, 0.2)).epsilon(1e-6));
+        CHECK((percent < 1) == (n >= 6));  // 5 / (n - 1 + n / 50) < 2 for n > 5.9
+    }
+    for (const std::string name : {"Lambert", "Sloan, a = 0.5"}) {
+        const auto& drawn = series_of(numbers, plot + name + ", drawn");
+        REQUIRE(drawn.size() == 5);
+        for (const auto& [n, percent] : drawn) {
+            INFO(name << ", " << n << " lights");
+            CHECK(percent == Approx(series_of(numbers, plot + name).at(n)).epsilon(0.03));
+        }
+    }
+    // One light and Sloan's lobe, a = 1/2, whose bands begin with 6/5.
+    double largest = 0;
+    for (int i = -1000; i <= 1000; ++i) {
+        const double p = -0.5 + 0.05 * i / 1000, bend = 0.5 * (sloan(p - 0.05, 0.5) + sloan(p + 0.05, 0.5)) - sloan(p, 0.5);
+        largest = std::max(largest, 0.8 * std::abs(bend) / (0.8 * sloan(p, 0.5) + 0.2 * 1.2 + 0.01));
+    }
+    CHECK(series_of(numbers, plot + "Sloan, a = 0.5, e = 20 %").at(1) == Approx(100 * largest).epsilon(1e-3));
+    // Beside black the second difference is the code of the light one step inside.
+    CHECK(series_of(numbers, "Largest second difference of codes / Lambert").at(1) == Approx(srgb_code(0.05)).epsilon(1e-6));
+    for (const int n : {2, 4, 8, 16}) {
+        const std::string lights = std::to_string(n) + " lights";
+        const auto& jump = series_of(numbers, "Jump of the slope at Lambert's edge / " + lights);
+        REQUIRE(jump.size() == 51);
+        for (const auto& [share, codes] : jump) {
+            const double e = share / 100, at_edge = light(n, e), small = 1e-5;
+            const double slope = (srgb_code(at_edge + small) - srgb_code(at_edge - small)) / (2 * small);
+            INFO(lights << ", e = " << share);
+            CHECK(codes == Approx(slope * (1 - e) / n / 5).epsilon(1e-5));
+            CHECK(series_of(numbers, "Contrast of Lambert's edge / " + lights).at(share) == Approx(contrast(n, e)).epsilon(1e-6));
+        }
+    }
+    // The first picture of the fourth row's last column: one light of 1/2 and an environment of 1/2, 300 pixels for 2.16 radii.
+    const Picture sheet = read_picture(contents(folder.file("terminator-edge.png")));
+    for (int i = 30; i < 270; i += 20) {
+        const double p = ((i + 0.5) / 150 - 1) * 1.08;
+        INFO("column " << i);
+        CHECK(std::abs(sheet.pixel(4 * 308 + i, 3 * 308 + 150)[0] - srgb_code(0.5 * std::max(p, 0.0) + 0.5)) < 2.0);
     }
 }
 
