@@ -101,6 +101,7 @@ halflit_material to_c(const Material& from) {
     put(from.base_color, material.base_color);
     material.metallic = from.metallic;
     material.roughness = from.roughness;
+    material.dielectric_reflectance = from.dielectric_reflectance;
     put(from.emissive, material.emissive);
     material.normal_scale = from.normal_scale;
     material.occlusion_strength = from.occlusion_strength;
@@ -129,6 +130,7 @@ Result<Material> material(const halflit_material* given) {
     material.base_color = vec4(read->base_color);
     material.metallic = read->metallic;
     material.roughness = read->roughness;
+    material.dielectric_reflectance = read->dielectric_reflectance;
     material.emissive = vec3(read->emissive);
     material.normal_scale = read->normal_scale;
     material.occlusion_strength = read->occlusion_strength;

@@ -209,6 +209,7 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
     job.source = std::move(*source);
     job.warnings = job.source.warnings;
     turn_upright(job.scene(), options.up);
+    replace_materials(job.scene(), options.classic);
 
     const Stopwatch preparing;
     auto prepared = PreparedScene::make(job.scene(), job.timed_execution());

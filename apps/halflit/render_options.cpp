@@ -250,6 +250,16 @@ FlagGroup surface_flags(RenderOptions& o) {
              {"--specular-normalize", form_of(kOffOn),
               fmt::format("Make sharper highlights brighter (default {})", name_of(s.normalize_specular, kOffOn)),
               named(s.normalize_specular, kOffOn)},
+             {"--kd", "X", "Diffuse factor of all materials, 0 to 1, times their base colour", number(o.classic.diffuse, 0.0f, 1.0f)},
+             {"--ks", "X",
+              "Specular factor of all materials, 0 to 1: the light mirrored straight on (default 0.04). What is mirrored is not diffuse: "
+              "--kd counts 1 - X times",
+              number(o.classic.specular, 0.0f, 1.0f)},
+             {"--shininess", "S",
+              fmt::format("Exponent of Blinn's highlight for all materials, 0 to {}, instead of their roughness; Phong's is S / 4. Each of "
+                          "--kd, --ks and --shininess makes all materials non-metallic",
+                          kMaxShininess),
+              number(o.classic.exponent, 0.0f, kMaxShininess)},
              {"--shading", form_of(kRateNames),
               fmt::format("Compute light once per triangle (flat), vertex (gouraud) or pixel (default {})", name_of(s.rate, kRateNames)),
               named(s.rate, kRateNames)}}};

@@ -1,6 +1,7 @@
 // Flags that decide the picture. render, bench, info and trade share them, so that bench measures and info describes what render draws.
 #pragma once
 
+#include "apps/halflit/classic_material.hpp"
 #include "apps/halflit/flags.hpp"
 #include "apps/halflit/scene_view.hpp"
 #include "apps/halflit/values.hpp"
@@ -39,6 +40,7 @@ struct RenderOptions {
 
     std::optional<std::string> lobe_name;
     io::LobeParameters lobe;
+    ClassicMaterial classic;
     std::optional<Vec3f> ambient_linear;
     std::vector<GivenLight> lights;  ///< in the file's world
     bool scene_lights = true;

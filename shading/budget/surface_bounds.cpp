@@ -69,6 +69,7 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
     s.albedo = std::max({red, green, blue}) * (has(kStageVertexColor) ? facts.vertex_color : 1.0);
     s.specular = has(kStageSpecular) && (has(kStageLights) || has(kStageAmbient));
     s.metallic = material.metallic;
+    const double dielectric = material.dielectric;
     const auto filtered = [&](const TexturePlan& texture, std::initializer_list<int> channels) {
         double error = 0.0;
         for (const int c : channels) error = std::max(error, filter_error(texture, c, facts.largest_uv));
@@ -92,17 +93,17 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
         roughness *= least_value(texture, 1);
         s.roughness = factor_of(filtered(texture, {1}) * material.roughness, std::max(roughness, double{kMinRoughness}));
         least_metallic *= least_value(texture, 2);
-        const double error = filtered(texture, {2}) * s.metallic, dielectric = kDielectricReflectance;
+        const double error = filtered(texture, {2}) * s.metallic;
         const auto f0 = [&](double metallic) { return dielectric + metallic * (least_color - dielectric); };
         s.matt = factor_of(error, 1.0 - s.metallic);
         s.shiny = factor_of(error * std::max(s.albedo, dielectric), std::min(f0(least_metallic), f0(s.metallic)));
     }
     if (s.metallic == 0.0 || !has(kStageMetallicRoughnessTexture)) {
-        const double dielectric = kDielectricReflectance;
         s.least_albedo = least_color * (1.0 - s.metallic) * (1.0 - dielectric);
         s.reflectance_at_least = dielectric + s.metallic * (least_color - dielectric);
     }
-    s.reflectance = s.metallic > 0.0 ? std::max(double{kDielectricReflectance}, s.albedo) : double{kDielectricReflectance};
+    constexpr double kLeastReflectance = 1e-6;  // costs are divided by it
+    s.reflectance = std::max({kLeastReflectance, dielectric, s.metallic > 0.0 ? s.albedo : 0.0});
     if (has(kStageOcclusionTexture)) {
         const double strength = material.occlusion_strength;
         s.occlusion = factor_of(strength * filtered(material.occlusion_texture, {0}),

@@ -93,9 +93,9 @@ template <bool kSpecular>
 HALFLIT_INLINE V3 reflected(const shading::MaterialPlan& material, const IncidentLight& light, V3 base) {
     V3 albedo = base, f0{F(0.0f), F(0.0f), F(0.0f)};
     if constexpr (kSpecular) {
-        const F dielectric(shading::kDielectricReflectance);
+        const F dielectric(material.dielectric);
         f0 = lerp(V3{dielectric, dielectric, dielectric}, base, light.metallic);
-        albedo = base * ((F(1.0f) - light.metallic) * F(1.0f - shading::kDielectricReflectance));
+        albedo = base * ((F(1.0f) - light.metallic) * F(material.refracted));
     }
     V3 color{F(0.0f), F(0.0f), F(0.0f)};
     if (has(material, kStageLights)) {

@@ -3,8 +3,6 @@
 
 namespace halflit::shading {
 
-/// Reflectance of a dielectric seen straight on: index of refraction 1.5, as glTF fixes it.
-inline constexpr float kDielectricReflectance = 0.04f;
 /// Least roughness; smaller ones count as this. Its exponent is 8.3e4, the sharpest highlight that float32 normals still resolve.
 inline constexpr float kMinRoughness = 0.07f;
 /// Least distance to a lamp; smaller ones count as this, whatever the lamp's radius.

@@ -15,10 +15,15 @@ HALFLIT_INLINE constexpr double mad(double a, double b, double c) { return a * b
 #include "shading/model/constants.hpp"
 #include "shading/model/formulas.hpp"
 
+#include <cmath>
+
 namespace halflit::shading {
 
 /// Exponent s of (N.H)^s for a roughness: 2 / roughness^4 - 2. A roughness below kMinRoughness counts as kMinRoughness.
 [[nodiscard]] constexpr double specular_exponent(double roughness) { return 2.0 * half_specular_exponent(vmax(roughness, 0.07)); }
 static_assert(0.07f == kMinRoughness);
+
+/// Roughness with the exponent s >= 0, the inverse of specular_exponent for s up to 8.3e4.
+[[nodiscard]] inline double roughness_of_exponent(double s) { return std::sqrt(std::sqrt(2.0 / (s + 2.0))); }
 
 }  // namespace halflit::shading

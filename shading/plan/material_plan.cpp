@@ -29,6 +29,8 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
     plan.base_color[2] = material.base_color.z, plan.base_color[3] = material.base_color.w;
     plan.metallic = clamp_or_low(material.metallic, 0.0f, 1.0f);
     plan.roughness = clamp_or_low(material.roughness, 0.0f, 1.0f);
+    plan.dielectric = clamp_or_low(material.dielectric_reflectance, 0.0f, 1.0f);
+    plan.refracted = 1.0f - plan.dielectric;
     plan.emissive[0] = material.emissive.x, plan.emissive[1] = material.emissive.y, plan.emissive[2] = material.emissive.z;
     plan.normal_scale = material.normal_scale;
     plan.occlusion_strength = clamp_or_low(material.occlusion_strength, 0.0f, 1.0f);

@@ -33,6 +33,7 @@ struct MaterialPlan {
     SlotMask slots = 0;        ///< vertex slots that raster interpolates
     float base_color[4] = {1, 1, 1, 1};
     float metallic = 0, roughness = 1;
+    float dielectric = 0.04f, refracted = 0.96f;  ///< F0 where not metallic; 1 - F0, which the matt part gets
     float emissive[3] = {0, 0, 0};
     float normal_scale = 1, occlusion_strength = 1;
     AlphaMode alpha_mode = AlphaMode::opaque;

@@ -10,9 +10,9 @@
 namespace halflit::shading::reference {
 namespace {
 
-/// The model's constants as decimals, not rounded to float.
-constexpr double kHeldRoughness = 0.07, kDielectric = 0.04;
-static_assert(static_cast<float>(kHeldRoughness) == kMinRoughness && static_cast<float>(kDielectric) == kDielectricReflectance);
+/// The model's constant as a decimal, not rounded to float.
+constexpr double kHeldRoughness = 0.07;
+static_assert(static_cast<float>(kHeldRoughness) == kMinRoughness);
 
 Vec3d scale(Vec3d v, double s) { return {v.x * s, v.y * s, v.z * s}; }
 Vec3d unit(Vec3d v) {
@@ -239,9 +239,9 @@ Rgba shade(const FrameInputs& frame, const Material& material, SlotMask availabl
     surface.to_eye = frame.orthographic ? scale(to_double(frame.view_direction_ws), -1) : unit(to_double(frame.eye_ws) - position);
     surface.albedo = surface.base;
     if (frame.options.specular != SpecularModel::none) {
-        const double metallic = material.metallic * mr.b;
-        surface.albedo = scale(surface.base, (1 - metallic) * (1 - kDielectric));
-        surface.f0 = scale(surface.base, metallic) + scale({1, 1, 1}, kDielectric * (1 - metallic));
+        const double metallic = material.metallic * mr.b, dielectric = material.dielectric_reflectance;
+        surface.albedo = scale(surface.base, (1 - metallic) * (1 - dielectric));
+        surface.f0 = scale(surface.base, metallic) + scale({1, 1, 1}, dielectric * (1 - metallic));
     }
     const Vec3d color = lit(frame, material, surface, position, around) + to_double(material.emissive) * Vec3d{glow.r, glow.g, glow.b};
     return {color.x, color.y, color.z, alpha};

@@ -420,6 +420,11 @@ static void test_changes(void) {
 
     material.size = sizeof material;
     CHECK_OK(halflit_scene_get_material(cube.scene, cube.material, &material));
+    CHECK(material.dielectric_reflectance == 0.04f);
+    material.dielectric_reflectance = 0.5f;
+    CHECK_OK(halflit_scene_set_material(cube.scene, cube.material, &material));
+    CHECK_OK(halflit_scene_get_material(cube.scene, cube.material, &material));
+    CHECK(material.dielectric_reflectance == 0.5f);
     CHECK(material.base_color[1] == 0.4f && material.lobe.power == 1.5f && material.name[0] == '\0');
     CHECK_OK(halflit_scene_add_texture(cube.scene, texels, 2, 2, 12, HALFLIT_COLOR_SRGB, &texture));
     material.base_color_texture.texture = texture;

@@ -3,6 +3,7 @@
 #include "tests/support/catch.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 using namespace halflit::test;
 
@@ -97,6 +98,43 @@ TEST_CASE("pixels: a step of exposure doubles the light", "[cli]") {
     CHECK(middle("0.25,0.25,0.25", "1") == middle("0.5,0.5,0.5", "0"));
     CHECK(middle("0.25,0.25,0.25", "2") == middle("1,1,1", "0"));
     CHECK(middle("0.5,0.5,0.5", "-1") == middle("0.25,0.25,0.25", "0"));
+}
+
+TEST_CASE("pixels: kd, ks and shininess are the numbers of the classic formula, in every scene with materials", "[cli]") {
+    // The middle of the ball faces light and eye: N.L = N.H = R.V = 1. The material is clay, 0.8 0.75 0.7 linear.
+    const auto middle = [](std::vector<std::string> flags) {
+        flags.insert(flags.begin(), {"sphere:5000", "--size", "101x101", "--azimuth", "0", "--elevation", "0", "--no-scene-lights",
+                                     "--light", "directional:dir=0,0,-1", "--ambient", "0,0,0", "--exposure", "0"});
+        return read_picture(png(flags)).pixel(50, 50);
+    };
+    const auto code = [](double linear) { return static_cast<int>(std::lround(255 * (1.055 * std::pow(linear, 1 / 2.4) - 0.055))); };
+    const auto expected = [&](double kd, double ks, double norm) {
+        std::vector<int> pixel;
+        for (const double c : {0.8, 0.75, 0.7}) pixel.push_back(code(kd * c * (1 - ks) + ks * norm));
+        pixel.push_back(255);
+        return pixel;
+    };
+    const auto near = [](const std::vector<int>& a, const std::vector<int>& b) {  // the middle of a pixel is beside the highlight's
+        for (std::size_t i = 0; i < 4; ++i)
+            if (std::abs(a[i] - b[i]) > 1) return false;
+        return true;
+    };
+    const double blinn10 = (100.0 + 100 + 32) / (8 * 14), phong10 = 18.0 / 8;
+    CHECK(near(middle({"--kd", "0.5", "--ks", "0"}), expected(0.5, 0, 0)));
+    CHECK(near(middle({"--kd", "0.25", "--ks", "0.1", "--shininess", "10"}), expected(0.25, 0.1, blinn10)));
+    CHECK(near(middle({"--kd", "0", "--ks", "0.2", "--shininess", "10"}), expected(0, 0.2, blinn10)));
+    CHECK(near(middle({"--kd", "0.25", "--ks", "0.1", "--shininess", "10", "--specular", "phong"}), expected(0.25, 0.1, phong10)));
+    CHECK(near(middle({"--kd", "0.25", "--ks", "0.1", "--shininess", "10", "--accuracy", "reference"}), expected(0.25, 0.1, blinn10)));
+    // Clay is not metallic and has the reflectance 0.04 already.
+    CHECK(png({"sphere:500", "--size", "40x40", "--ks", "0.04", "--kd", "1"}) == png({"sphere:500", "--size", "40x40"}));
+    CHECK(png({"demo", "--size", "40x30", "--ks", "0.5"}) != png({"demo", "--size", "40x30"}));
+    for (const auto& [flag, value] : std::vector<std::pair<std::string, std::string>>{
+             {"--kd", "1.1"}, {"--ks", "-0.1"}, {"--ks", "2"}, {"--shininess", "90000"}, {"--shininess", "nan"}}) {
+        const Outcome refused = run({"render", "sphere:12", flag, value, "-o", "-"});
+        INFO(flag << ' ' << value << ": " << refused.err);
+        CHECK(refused.code == 2);
+        CHECK(refused.err.find(flag) != std::string::npos);
+    }
 }
 
 TEST_CASE("pixels: a lobe of wrap w lights the surface up to N.L = -w, and no further", "[cli]") {

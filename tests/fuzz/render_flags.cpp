@@ -109,6 +109,7 @@ Material read_material(Input& input, std::size_t textures) {
     for (TextureUse* use : {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
                             &material.occlusion_texture, &material.emissive_texture})
         *use = read_texture_use(input, textures);
+    if (input.one_in(4)) material.dielectric_reflectance = input.real();
     return material;
 }
 

@@ -91,6 +91,7 @@ inline Trial random_trial(std::uint32_t seed) {
         material.base_color = {c.x, c.y, c.z, 1};
         material.metallic = make.below(4) == 0 ? make.in(0, 1) : 0.0f;
         material.roughness = make.in(0.15f, 1);
+        if (make.below(3) == 0) material.dielectric_reflectance = make.in(0, 1);
         material.lobe = some_lobe(make);
         material.has_own_lobe = true;
         if (bumpy && i == 1) material.normal_texture.texture = 0;

@@ -194,7 +194,10 @@ Tally compare_both(std::uint64_t first_seed, int cases, float tolerance) {
         const float color = random.real32(0.05, 1), metallic = random.chance(0.5) ? 0.0f : random.real32(0, 0.99);
         for (int i = 0; i < 3; ++i) material.base_color[i] = color;
         material.metallic = metallic;
-        const double albedo = 0.96 * (1.0 - metallic) * color, f0 = 0.04 + metallic * (color - 0.04);
+        material.dielectric = random.chance(0.5) ? 0.04f : random.real32(0, 0.9);
+        material.refracted = 1.0f - material.dielectric;
+        const double plain = material.dielectric, albedo = (1.0 - plain) * (1.0 - metallic) * color;
+        const double f0 = plain + metallic * (color - plain);
         const float rough = std::max(0.07f, material.roughness), alpha = rough * rough, half_exponent = 1.0f / (alpha * alpha) - 1.0f;
         material.cells = {tolerance, 1e-3f * tolerance, static_cast<float>(1.001 * f0 / albedo),
                           3e38f,     half_exponent,     1.001f * ((half_exponent + 3.0f) * 0.25f + 0.5f / (half_exponent + 2.0f))};

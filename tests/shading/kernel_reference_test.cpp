@@ -1,6 +1,7 @@
 // Tests of the kernel against the float64 reference.
 #include "random_case.hpp"
 #include "shading/kernels/shade_kernels.hpp"
+#include "shading/model/scalar.hpp"
 #include "shading/planner.hpp"
 
 #include "tests/support/catch.hpp"
@@ -105,6 +106,36 @@ TEST_CASE("kernels: Phong with a quarter of Blinn's exponent has nearly the same
     CHECK(blocks[1].red[0] == Approx(peak).epsilon(1e-5));
     for (int lane = 0; lane < kBlockSize; ++lane)  // cos^4 d and cos 2d are the same to second order in d: 2 d^4 s / 3 apart
         CHECK(std::fabs(blocks[0].red[lane] / blocks[0].red[0] - blocks[1].red[lane] / blocks[1].red[0]) <= 0.01);
+}
+
+TEST_CASE("kernels: a highlight's peak is ks times the norm of its exponent, and 1 - ks is left to the diffuse part",
+          "[shading][reference]") {
+    const Light light{.direction_ws = {0, 0, -1}};
+    const std::vector<SlotMask> available{3u, 3u};
+    ShadingSettings options;
+    options.specular = GENERATE(SpecularModel::blinn, SpecularModel::phong);
+    const double s = GENERATE(0.0, 2.0, 40.0, 1000.0, 80000.0);
+    Material material;
+    material.metallic = 0.0f, material.base_color = {0.25f, 0.5f, 0, 1};
+    material.roughness = static_cast<float>(roughness_of_exponent(s));
+    const double norm = options.specular == SpecularModel::phong ? (s + 8) / 8 : (s * s + 10 * s + 32) / (8 * (s + 4));
+    for (const float ks : {0.0f, 0.04f, 0.3f, 1.0f}) {
+        material.dielectric_reflectance = ks;
+        ShadingPlan plan = plan_shading({std::span(&material, 1), {}, available, plan_lights(std::span(&light, 1)), {}, options});
+        plan.orthographic = true;
+        reference::FrameInputs frame{{}, std::span(&light, 1), {}, options, {}, {0, 0, -1}, true};
+        FragmentBlock block{};
+        for (int lane = 0; lane < kBlockSize; ++lane) block.lane[kNormalZ][lane] = 1.0f;
+        shade_kernels(Isa::scalar).shade(plan, plan.materials[0], all_lights(plan), block, kBlockSize);
+        const double peak = static_cast<double>(ks) * norm, matt = 1 - static_cast<double>(ks);
+        INFO("ks " << ks << ", s " << s);
+        CHECK(block.red[0] == Approx(0.25 * matt + peak).epsilon(2e-6));
+        CHECK(block.green[0] == Approx(0.5 * matt + peak).epsilon(2e-6));
+        CHECK(block.blue[0] == Approx(peak).epsilon(2e-6));
+        const auto truth = reference::shade(frame, material, 3u, block, 0);
+        CHECK(truth.r == Approx(0.25 * matt + peak).epsilon(1e-6));
+        CHECK(truth.b == Approx(peak).epsilon(1e-6));
+    }
 }
 
 TEST_CASE("kernels: no highlight where the light is behind the surface, however far the lobe wraps", "[shading]") {

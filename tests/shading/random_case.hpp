@@ -90,6 +90,7 @@ inline Material make_material(FloatMaker& make) {
                             &material.occlusion_texture, &material.emissive_texture})
         if (make.below(2) == 0) *use = make_use(make);
     if (make.below(3) == 0) material.occlusion_texture = material.metallic_roughness_texture;
+    if (make.below(2) == 0) material.dielectric_reflectance = make.ordinary(0, 1);
     return material;
 }
 

@@ -22,6 +22,7 @@ struct Material {
     std::string name;                          ///< for messages; may be empty
     Vec4f base_color{1, 1, 1, 1};              ///< linear; w is alpha
     float metallic = 1.0f, roughness = 1.0f;   ///< in [0, 1], times the texture's
+    float dielectric_reflectance = 0.04f;      ///< F0 where not metallic: share of light mirrored straight on, in [0, 1]; glTF's is 0.04
     Vec3f emissive{0, 0, 0};                   ///< linear, KHR_materials_emissive_strength multiplied in
     float normal_scale = 1.0f;                 ///< factor on x and y of the normal texture
     float occlusion_strength = 1.0f;           ///< in [0, 1]: 0 ignores the occlusion texture; ambient light alone is occluded

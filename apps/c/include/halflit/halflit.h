@@ -165,6 +165,8 @@ typedef struct halflit_material {
     halflit_texture_use normal_texture;              ///< linear, in tangent space
     halflit_texture_use occlusion_texture;           ///< linear: red
     halflit_texture_use emissive_texture;            ///< sRGB
+    float dielectric_reflectance;                    ///< where not metallic: light mirrored straight on, 0 to 1; default 0.04
+    int32_t reserved;
 } halflit_material;
 HALFLIT_C_API int32_t halflit_material_init(halflit_material* material, size_t size);
 
