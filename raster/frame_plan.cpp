@@ -140,6 +140,15 @@ Region whole_cells(const Region& region, int width, int height) {
     return {x, y, std::min(up(region.x + region.width), width) - x, std::min(up(region.y + region.height), height) - y};
 }
 
+/// What the picture sees, if shadows are looked up there alone. Light at corners or centres of triangles reads them anywhere, and so do
+/// look-ups that are moved onto the smooth surface, by up to a triangle's size.
+std::optional<SeenVolume> looked_up_where_seen(const PreparedData& scene, const Camera& camera, const ShadingSettings& options,
+                                               const Settings& settings, const View& picture) {
+    const float aspect = picture.viewport.half_width / picture.viewport.half_height;
+    if (settings.shadows == ShadowMode::off || options.rate != ShadingRate::pixel || settings.shadow_terminator_offset) return {};
+    return seen_volume(picture, depth_map(camera, aspect), scene.bounds());
+}
+
 Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, const Settings& settings, int width, int height,
                             int tile_size, FramePlanMemory& memory) {
     if (auto ok = check_settings(settings, width, height); !ok) return tl::unexpected<Error>(ok.error());
@@ -151,7 +160,8 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, 
     FramePlan plan;
     plan.options = options;
     plan.picture = make_view(camera, width, height, settings.region, tile_size, settings.samples);
-    auto shadows = plan_shadow_views(lights, prepared.bounds(), prepared.shadow_casters(), settings);
+    const std::optional<SeenVolume> seen = looked_up_where_seen(prepared, camera, options, settings, plan.picture);
+    auto shadows = plan_shadow_views(lights, prepared.bounds(), prepared.shadow_casters(), seen ? &*seen : nullptr, settings);
     if (!shadows) return tl::unexpected<Error>(shadows.error());
     bool finite_views = all_finite(plan.picture.clip_from_world);
     for (const ShadowView& face : shadows->views) finite_views &= !face.sees_casters || all_finite(face.view.clip_from_world);

@@ -7,19 +7,8 @@
 namespace halflit::raster {
 namespace {
 
-struct Range {
-    double low = 1e300, high = -1e300;
-    void add(double x) {
-        low = std::min(low, x);
-        high = std::max(high, x);
-    }
-    [[nodiscard]] double middle() const { return 0.5 * (low + high); }
-    [[nodiscard]] double half() const { return 0.5 * (high - low); }
-};
-
 /// What a lamp sees of the boxes, as tangents.
-struct Tangents {
-    Range x, y;
+struct Tangents : Extent {
     bool in_front = true;
 };
 
@@ -65,6 +54,7 @@ FittedView fit_directional(Vec3d to_light, std::span<const Bounds> boxes, const 
     view.eye = (axes.right * x.middle() + axes.up * y.middle()) + axes.back * (z.middle() + depth);
     view.near_z = 0.0;
     view.far_z = 2.0 * depth;
+    view.content = {{-x.half(), x.half()}, {-y.half(), y.half()}};
     return view;
 }
 
@@ -90,6 +80,7 @@ std::optional<FittedView> fit_lamp(Vec3d position, std::span<const Bounds> boxes
     for_corners(scene, [&](Vec3d p) { depth.add(-dot(p - position, view.axes.back)); });
     view.near_z = 0.99 * depth.low;
     view.far_z = depth.high;
+    view.content = seen;
     return view;
 }
 

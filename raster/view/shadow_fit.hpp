@@ -4,6 +4,7 @@
 #include "halflit/mesh.hpp"
 #include "sh/vec3d.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <span>
 
@@ -24,6 +25,22 @@ struct ViewAxes {
 /// right and up are chosen; `back` is a unit vector.
 [[nodiscard]] ViewAxes axes_for(Vec3d back);
 
+struct Range {
+    double low = 1e300, high = -1e300;
+    void add(double x) {
+        low = std::min(low, x);
+        high = std::max(high, x);
+    }
+    [[nodiscard]] double middle() const { return 0.5 * (low + high); }
+    [[nodiscard]] double half() const { return 0.5 * (high - low); }
+};
+[[nodiscard]] inline Range common(const Range& a, const Range& b) { return {std::max(a.low, b.low), std::min(a.high, b.high)}; }
+
+/// Part of a view's plane, from the view's middle. Directional: world units; otherwise tangents.
+struct Extent {
+    Range x, y;
+};
+
 /// A square view. Directional: half is half its side, and the middle of its near side is the eye.
 struct FittedView {
     ViewAxes axes;
@@ -31,7 +48,13 @@ struct FittedView {
     double half = 0;    ///< directional: world units; otherwise the tangent of half the angle
     double near_z = 0;  ///< distance of the nearest thing that may cast a shadow; 0 or less: some of them lie behind the eye
     double far_z = 0;   ///< distance of the farthest thing
+    Extent content;     ///< where the boxes are
 };
+
+/// A view from a lamp that is not fitted to anything. half: the tangent of half its angle.
+[[nodiscard]] inline FittedView fixed_view(Vec3d position, Vec3d back, double half) {
+    return {axes_for(back), position, half, 0.0, 0.0, {{-half, half}, {-half, half}}};
+}
 
 /// The view along parallel light that shows all of `boxes`; its depth is that of `scene`. boxes: at least one.
 [[nodiscard]] FittedView fit_directional(Vec3d to_light, std::span<const Bounds> boxes, const Bounds& scene);

@@ -100,9 +100,7 @@ Choice choose(const LightPlan& light, const Bounds& bounds, const ShadowCasters&
     if (fitted) {
         choice.view = *fitted;
     } else {
-        choice.view.axes = axes_for(unit(to_double(light.to_light)));
-        choice.view.eye = place;
-        choice.view.half = cone;
+        choice.view = fixed_view(place, unit(to_double(light.to_light)), cone);
     }
     return choice;
 }
@@ -123,7 +121,8 @@ std::size_t texel_count(std::span<const Choice> choices, int side) {
 /// Plans the maps one after the other.
 class Planner {
 public:
-    Planner(double radius, int side, ShadowViews& out) : radius_(radius), side_(side), out_(out) {}
+    Planner(const Bounds& bounds, const SeenVolume* seen, int side, ShadowViews& out)
+        : bounds_(bounds), seen_(seen), side_(side), out_(out) {}
 
     void add(const LightPlan& light, const Choice& choice) {
         ShadowMapPlan map;
@@ -140,21 +139,24 @@ public:
     }
 
 private:
-    void add_fitted(const LightPlan& light, const FittedView& view, ShadowMapPlan& map, double usable) {
+    void add_fitted(const LightPlan& light, FittedView view, ShadowMapPlan& map, double usable) {
+        const bool orthographic = map.kind == ShadowMapPlan::Kind::orthographic;
+        if (!orthographic) view.near_z = std::max(view.near_z, least_distance(light));
+        const MapUse use = seen_ != nullptr ? cut_view(view, orthographic, map.size, *seen_, bounds_) : MapUse::whole;
         const double half = view.half * usable;
         Camera camera = camera_at(view.axes, view.eye);
-        camera.orthographic = map.kind == ShadowMapPlan::Kind::orthographic;
+        camera.orthographic = orthographic;
         if (camera.orthographic) {
             camera.half_width = camera.half_height = static_cast<float>(half);
             camera.near_z = 0.0f;
             camera.far_z = static_cast<float>(view.far_z);
         } else {
             camera.fov_y_rad = static_cast<float>(2.0 * arc_tangent(half));
-            camera.near_z = static_cast<float>(std::max(view.near_z, least_distance(light)));
+            camera.near_z = static_cast<float>(view.near_z);
         }
         set_texel_size(map, half, !camera.orthographic);
         set_rows(map, view.axes, view.eye, half);
-        add_view(map, camera, true);
+        add_view(map, camera, use != MapUse::none);
     }
 
     void add_cube(const LightPlan& light, std::span<const Bounds> boxes, ShadowMapPlan& map, double usable) {
@@ -170,8 +172,9 @@ private:
             Camera camera = camera_at(axes, eye);
             camera.fov_y_rad = static_cast<float>(2.0 * arc_tangent(usable));
             camera.near_z = static_cast<float>(least_distance(light));
+            const bool shades = seen_ == nullptr || can_see(axes, eye, usable, *seen_);
             add_view(map, camera,
-                     std::any_of(boxes.begin(), boxes.end(), [&](const Bounds& box) { return can_see(axes, eye, usable, box); }));
+                     shades && std::any_of(boxes.begin(), boxes.end(), [&](const Bounds& box) { return can_see(axes, eye, usable, box); }));
         }
     }
 
@@ -182,7 +185,7 @@ private:
 
     /// Distance of the near plane. Geometry closer than the source's radius counts as the lamp itself.
     [[nodiscard]] double least_distance(const LightPlan& light) const {
-        return std::max({1e-4 * radius_, __builtin_sqrt(static_cast<double>(light.min_distance_squared)), 1e-30});
+        return std::max({1e-4 * double{bounds_.radius()}, __builtin_sqrt(static_cast<double>(light.min_distance_squared)), 1e-30});
     }
 
     void add_view(const ShadowMapPlan& map, const Camera& camera, bool sees_casters) {
@@ -196,7 +199,8 @@ private:
         out_.texel_count += static_cast<std::size_t>(map.size) * static_cast<std::size_t>(map.size);
     }
 
-    double radius_;
+    const Bounds& bounds_;
+    const SeenVolume* seen_;
     int side_;
     ShadowViews& out_;
 };
@@ -204,7 +208,7 @@ private:
 }  // namespace
 
 Result<ShadowViews> plan_shadow_views(std::span<const LightPlan> lights, const Bounds& bounds, const ShadowCasters& casters,
-                                      const Settings& settings) {
+                                      const SeenVolume* seen, const Settings& settings) {
     ShadowViews out;
     int side = settings.shadow_size;
     if (settings.shadows == ShadowMode::off || lights.empty() || bounds.empty || !(bounds.radius() > 0.0f)) return out;
@@ -218,7 +222,7 @@ Result<ShadowViews> plan_shadow_views(std::span<const LightPlan> lights, const B
     if (side < settings.shadow_size)
         out.warning = "shadow maps of " + std::to_string(side) + " texels a side instead of " + std::to_string(settings.shadow_size) +
                       ", to stay within " + std::to_string(settings.shadow_memory_limit) + " bytes";
-    Planner planner(bounds.radius(), side, out);
+    Planner planner(bounds, seen, side, out);
     for (std::size_t i = 0; i < lights.size(); ++i) {
         out.map_of_light.push_back(-1);
         if (!choices[i].boxes.empty()) planner.add(lights[i], choices[i]);

@@ -4,6 +4,7 @@
 #include "halflit/mesh.hpp"
 #include "halflit/settings.hpp"
 #include "raster/scene/shadow_casters.hpp"
+#include "raster/view/shadow_cut.hpp"
 #include "raster/view/view.hpp"
 #include "shading/plan/light_plan.hpp"
 #include "shading/plan/shadow_map_plan.hpp"
@@ -21,7 +22,7 @@ struct ShadowView {
     bool perspective = false;
     float near_z = 0, far_z = 0;  ///< planes of its camera
     std::size_t first_texel = 0;  ///< index of its first texel in those of all maps
-    bool sees_casters = true;     ///< false: nothing that casts a shadow is in view, and nothing is drawn
+    bool sees_casters = true;     ///< false: nothing that casts a shadow is in view, or nothing that one falls on, and nothing is drawn
     friend bool operator==(const ShadowView&, const ShadowView&) = default;
 };
 
@@ -36,8 +37,9 @@ struct ShadowViews {
 
 /// Plans a map for every light that reaches the scene's bounds and that something casts a shadow of, fitted to the casters: directional
 /// maps, and those of lamps that see all of them within 127 degrees. Spots see no more than their cone. Other points, and spots beyond 75
-/// degrees, get six faces of half the size. All are halved in size until they fit Settings::shadow_memory_limit.
+/// degrees, get six faces of half the size. All are halved in size until they fit Settings::shadow_memory_limit. seen: what the picture
+/// sees; maps are cut to it, and what it cannot show the shadow of is not drawn. Null: light is looked up elsewhere too.
 [[nodiscard]] Result<ShadowViews> plan_shadow_views(std::span<const shading::LightPlan> lights, const Bounds& bounds,
-                                                    const ShadowCasters& casters, const Settings& settings);
+                                                    const ShadowCasters& casters, const SeenVolume* seen, const Settings& settings);
 
 }  // namespace halflit::raster

@@ -1,0 +1,241 @@
+#include "raster/view/shadow_cut.hpp"
+
+#include "raster/detail/view_math.hpp"
+#include "shading/plan/shadow_map_plan.hpp"
+
+#include <algorithm>
+
+namespace halflit::raster {
+namespace {
+
+/// Points with dot(normal, p) + offset >= 0.
+struct HalfSpace {
+    Vec3d normal;
+    double offset;
+    [[nodiscard]] double at(Vec3d p) const { return dot(normal, p) + offset; }
+};
+
+/// Convex body with six sides. Corner k lies on the high side of axis a where bit a of k is set.
+struct Hexahedron {
+    Vec3d corner[8];
+    HalfSpace side[6];  ///< 2 a: the low side of axis a; 2 a + 1: the high one
+};
+
+/// Clips a convex polygon [Sutherland & Hodgman 1974]. Cut points lie on its edges, so no rounding moves them farther than that.
+void clip(Polygon& polygon, const HalfSpace& keep, Polygon& scratch) {
+    scratch.clear();
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Vec3d a = polygon[i], b = polygon[i + 1 < polygon.size() ? i + 1 : 0];
+        const double at_a = keep.at(a), at_b = keep.at(b);
+        if (at_a >= 0.0) scratch.push_back(a);
+        if ((at_a >= 0.0) != (at_b >= 0.0)) scratch.push_back(a + (b - a) * (at_a / (at_a - at_b)));
+    }
+    polygon.swap(scratch);
+}
+
+/// The sides of each body in the other one: the surface of their common part.
+std::vector<Polygon> common_surface(const Hexahedron& a, const Hexahedron& b) {
+    std::vector<Polygon> surface;
+    Polygon scratch;
+    for (const auto& [own, other] : {std::pair{&a, &b}, std::pair{&b, &a}})
+        for (int axis = 0; axis < 3; ++axis)
+            for (int high = 0; high < 2; ++high) {
+                const int first = high << axis, u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3;
+                Polygon side;
+                for (const int k : {first, first + u, first + u + v, first + v}) side.push_back(own->corner[k]);
+                for (const HalfSpace& keep : other->side) clip(side, keep, scratch);
+                surface.push_back(std::move(side));
+            }
+    return surface;
+}
+
+/// Hexahedron of the points whose coordinates along three rows are in the ranges; the rows have the inverse `dual`.
+struct Row {
+    Vec3d direction, dual;
+    double low, high;
+};
+Hexahedron parallelepiped(const Row (&rows)[3]) {
+    Hexahedron out;
+    for (int k = 0; k < 8; ++k) {
+        out.corner[k] = {};
+        for (int a = 0; a < 3; ++a) out.corner[k] = out.corner[k] + rows[a].dual * (k >> a & 1 ? rows[a].high : rows[a].low);
+    }
+    for (int a = 0; a < 3; ++a) {
+        out.side[2 * a] = {rows[a].direction, -rows[a].low};
+        out.side[2 * a + 1] = {rows[a].direction * -1.0, rows[a].high};
+    }
+    return out;
+}
+
+/// The bounds, larger by more than the roundings of float32 positions.
+Hexahedron enlarged(const Bounds& b) {
+    constexpr double kShare = 1e-5;
+    const double margin = larger(kShare * largest_coordinate(b), 1e-30);
+    const Vec3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+    return parallelepiped({{x, x, b.min.x - margin, b.max.x + margin},
+                           {y, y, b.min.y - margin, b.max.y + margin},
+                           {z, z, b.min.z - margin, b.max.z + margin}});
+}
+
+/// Clip coordinate x, y, z or w of a view.
+HalfSpace clip_row(const Mat4& m, int i) {
+    const auto at = [i](const Vec4f& c) -> double { return i == 0 ? c.x : i == 1 ? c.y : i == 2 ? c.z : c.w; };
+    return {{at(m.c[0]), at(m.c[1]), at(m.c[2])}, at(m.c[3])};
+}
+
+/// A share of the distance by which the view begins before the near plane and ends behind the far plane.
+constexpr double kDepthMargin = 1e-3;
+
+/// Distance along the view's axis of the nearest and the farthest thing; low > high: nothing is in view.
+Range depths_in_view(const HalfSpace& w, const DepthMap& depth, const Hexahedron& box) {
+    Range range;
+    for (const Vec3d& p : box.corner) range.add(w.at(p));
+    const double near_z = depth.distance(1.0), far_z = depth.distance(0.0);  // infinite without a far plane
+    range.low = std::max(range.low, near_z * (1.0 - kDepthMargin));
+    range.high = std::min(range.high, far_z * (1.0 + kDepthMargin));
+    return range;
+}
+
+constexpr int kRungs = 24;
+
+/// A texel has to be wider than this share of the largest coordinate. Float32 positions of receivers and of casters, looked up and drawn
+/// with six roundings each, are then at most a fifth of a texel off.
+constexpr double kFinestTexel = 4e-6;
+
+/// Square part of a view's plane: its middle and half its width.
+struct Window {
+    double x, y, half;
+};
+
+/// The window of rung k that shows `needed`; nothing if that is too wide.
+std::optional<Window> window(const FittedView& view, int k, int size, const Extent& needed) {
+    const double width = 2.0 * view.half / static_cast<double>(1 << k);
+    const double step = width * (size / 8) / (size - 2 * shading::kShadowBorder);
+    const auto low_end = [&](const Range& r) { return __builtin_floor((r.low + view.half) / step) * step - view.half; };
+    const double x = low_end(needed.x), y = low_end(needed.y);
+    // Whether the range fits does not depend on its place among the steps: a camera that moves does not change the width for that.
+    if (!(needed.x.high - needed.x.low <= width - step) || !(needed.y.high - needed.y.low <= width - step)) return std::nullopt;
+    return Window{x + 0.5 * width, y + 0.5 * width, 0.5 * width};
+}
+
+double texel_of(const Window& w, int size) { return 2.0 * w.half / (size - 2 * shading::kShadowBorder); }
+
+/// What is seen, in the plane of a view (perspective: as tangents). min_depth: perspective: nothing nearer can lie in a shadow.
+Extent in_plane(const FittedView& view, bool orthographic, const SeenVolume& seen, double min_depth, Range& depth) {
+    Extent out;
+    const HalfSpace in_front{view.axes.back * -1.0, dot(view.axes.back, view.eye) - min_depth};
+    Polygon scratch;
+    for (Polygon side : seen.sides) {
+        if (!orthographic) clip(side, in_front, scratch);
+        for (const Vec3d p : side) {
+            const Vec3d q = p - view.eye;
+            const double z = -dot(q, view.axes.back), inv = orthographic ? 1.0 : 1.0 / std::max(z, 0.5 * min_depth);
+            depth.add(z);
+            out.x.add(dot(q, view.axes.right) * inv);
+            out.y.add(dot(q, view.axes.up) * inv);
+        }
+    }
+    return out;
+}
+
+/// Moves a directional view to its window, and ends of its depth to those of the scene there. Nothing if texels are too small for float32.
+std::optional<FittedView> at_window(const FittedView& view, const Window& w, int size, const Hexahedron& scene) {
+    const double half = w.half * size / (size - 2 * shading::kShadowBorder);
+    FittedView out = view;
+    out.eye = view.eye + (view.axes.right * w.x + view.axes.up * w.y);
+    out.half = w.half;
+    const auto row = [&](Vec3d axis, double low, double high) { return Row{axis, axis, dot(axis, out.eye) + low, dot(axis, out.eye) + high}; };
+    const Hexahedron prism = parallelepiped(
+        {row(view.axes.right, -half, half), row(view.axes.up, -half, half), row(view.axes.back, -1.01 * view.far_z, 0.01 * view.far_z)});
+    Range z;
+    double largest = 0.0;
+    for (const Polygon& side : common_surface(prism, scene))
+        for (const Vec3d p : side) {
+            z.add(dot(p - out.eye, view.axes.back));
+            largest = std::max(largest, length(p));
+        }
+    if (!(z.low <= z.high) || texel_of(w, size) < kFinestTexel * largest) return std::nullopt;
+    const double depth = std::max(1.01 * z.half(), 1e-3 * w.half);
+    out.eye = out.eye + view.axes.back * (z.middle() + depth);
+    out.far_z = 2.0 * depth;
+    return out;
+}
+
+}  // namespace
+
+std::optional<SeenVolume> seen_volume(const View& picture, const DepthMap& depth, const Bounds& scene) {
+    const Mat4& m = picture.clip_from_world;
+    const HalfSpace x = clip_row(m, 0), y = clip_row(m, 1), z = clip_row(m, depth.orthographic ? 2 : 3);
+    const double volume = dot(x.normal, cross(y.normal, z.normal));
+    if (!(absolute(volume) > 1e-6 * length(x.normal) * length(y.normal) * length(z.normal)) || !(absolute(volume) < 1e300))
+        return std::nullopt;
+    const Vec3d dual[3] = {cross(y.normal, z.normal) * (1.0 / volume), cross(z.normal, x.normal) * (1.0 / volume),
+                           cross(x.normal, y.normal) * (1.0 / volume)};
+    const Hexahedron box = enlarged(scene);
+    // A pixel at the rim may be shaded at its centre, half a pixel outside of what is seen.
+    const double wide = 1.001 + 1.0 / picture.viewport.half_width, high = 1.001 + 1.0 / picture.viewport.half_height;
+    Hexahedron view;
+    if (depth.orthographic) {
+        const double margin = kDepthMargin;
+        view = parallelepiped({{x.normal, dual[0], -wide - x.offset, wide - x.offset},
+                               {y.normal, dual[1], -high - y.offset, high - y.offset},
+                               {z.normal, dual[2], -margin - z.offset, 1.0 + margin - z.offset}});
+        return SeenVolume{common_surface(view, box)};
+    }
+    const Range range = depths_in_view(z, depth, box);
+    if (!(range.low < range.high)) return SeenVolume{};
+    for (int k = 0; k < 8; ++k) {
+        const double t = k & 4 ? range.high : range.low;
+        view.corner[k] = (dual[0] * ((k & 1 ? wide : -wide) * t - x.offset) + dual[1] * ((k & 2 ? high : -high) * t - y.offset)) +
+                         dual[2] * (t - z.offset);
+    }
+    for (int side = 0; side < 2; ++side) {
+        const double sign = side == 0 ? 1.0 : -1.0;
+        view.side[side] = {x.normal * sign + z.normal * wide, x.offset * sign + z.offset * wide};
+        view.side[2 + side] = {y.normal * sign + z.normal * high, y.offset * sign + z.offset * high};
+    }
+    view.side[4] = {z.normal, z.offset - range.low};
+    view.side[5] = {z.normal * -1.0, range.high - z.offset};
+    return SeenVolume{common_surface(view, box)};
+}
+
+bool can_see(const ViewAxes& axes, Vec3d eye, double half, const SeenVolume& seen) {
+    bool front = false, left = false, right = false, below = false, above = false;
+    for (const Polygon& side : seen.sides)
+        for (const Vec3d p : side) {
+            const Vec3d q = p - eye;
+            const double x = dot(q, axes.right), y = dot(q, axes.up), width = -dot(q, axes.back) * half;
+            front |= width >= 0.0;
+            left |= -x <= width, right |= x <= width, below |= -y <= width, above |= y <= width;
+        }
+    return front && left && right && below && above;
+}
+
+MapUse cut_view(FittedView& view, bool orthographic, int size, const SeenVolume& seen, const Bounds& scene) {
+    Range depth;
+    const double min_depth = 0.99 * view.near_z;
+    const Extent all = in_plane(view, orthographic, seen, min_depth, depth);
+    const Extent needed{common(all.x, view.content.x), common(all.y, view.content.y)};
+    if (!(needed.x.low <= needed.x.high) || !(needed.y.low <= needed.y.high)) return MapUse::none;
+    int k = 0;
+    while (k < kRungs && window(view, k + 1, size, needed)) ++k;
+    const Hexahedron box = enlarged(scene);
+    for (; k > 0; --k) {
+        const Window w = *window(view, k, size, needed);
+        if (orthographic) {
+            const auto moved = at_window(view, w, size, box);
+            if (!moved) continue;
+            view = *moved;
+            return MapUse::cut;
+        }
+        if (texel_of(w, size) * depth.low < kFinestTexel * largest_coordinate(scene)) continue;
+        // A view that is not around its axis: tangents are measured from the window's middle.
+        view.axes.right = view.axes.right + view.axes.back * w.x;
+        view.axes.up = view.axes.up + view.axes.back * w.y;
+        view.half = w.half;
+        return MapUse::cut;
+    }
+    return MapUse::whole;
+}
+
+}  // namespace halflit::raster

@@ -1,0 +1,35 @@
+// The part of a shadow map's view that the picture needs: where something that casts a shadow lies between the light and what is seen.
+#pragma once
+
+#include "halflit/mesh.hpp"
+#include "raster/view/projection.hpp"
+#include "raster/view/shadow_fit.hpp"
+#include "raster/view/view.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace halflit::raster {
+
+using Polygon = std::vector<Vec3d>;
+
+/// Surface of the convex body that holds all that a picture may show: polygons, some of which may be empty. The body is the common part of
+/// the camera's view and the scene's bounds, both a little enlarged.
+struct SeenVolume {
+    std::vector<Polygon> sides;
+};
+
+/// What the whole window of `picture` sees, whatever its region. Nothing if the camera's matrix has no inverse.
+[[nodiscard]] std::optional<SeenVolume> seen_volume(const View& picture, const DepthMap& depth, const Bounds& scene);
+
+/// True if a camera with a square field of view may see some of it; see can_see() of boxes. half: tangent of half the field of view.
+[[nodiscard]] bool can_see(const ViewAxes& axes, Vec3d eye, double half, const SeenVolume& seen);
+
+enum class MapUse { whole, cut, none };  ///< none: nothing that is seen can lie in a shadow
+
+/// Cuts a view to what the picture needs of it, if texels become at least half as wide. size: texels on a side of the map. Windows come
+/// from a ladder that depends on the view and the size alone: widths are the view's, halved k times, and corners are multiples of an
+/// eighth of the map. So texels of one width are the same texels for every camera, and a camera that moves a little gets the same map.
+[[nodiscard]] MapUse cut_view(FittedView& view, bool orthographic, int size, const SeenVolume& seen, const Bounds& scene);
+
+}  // namespace halflit::raster
