@@ -96,11 +96,13 @@ Range depths_in_view(const HalfSpace& w, const DepthMap& depth, const Hexahedron
     return range;
 }
 
-constexpr int kRungs = 24;
+/// Share of a view that a window of rung k is: 1, 1/2, 1/3, 1/4, 1/6, 1/8, ..
+constexpr int kRungs = 48;
+double share(int k) { return k == 0 ? 1.0 : (k & 1 ? 0.5 : 1.0 / 3.0) / static_cast<double>(1 << (k - 1) / 2); }
 
 /// A texel has to be wider than this share of the largest coordinate. Float32 positions of receivers and of casters, looked up and drawn
 /// with six roundings each, are then at most a fifth of a texel off.
-constexpr double kFinestTexel = 4e-6;
+constexpr double kFinestTexel = 1e-6;
 
 /// Square part of a view's plane: its middle and half its width.
 struct Window {
@@ -109,7 +111,7 @@ struct Window {
 
 /// The window of rung k that shows `needed`; nothing if that is too wide.
 std::optional<Window> window(const FittedView& view, int k, int size, const Extent& needed) {
-    const double width = 2.0 * view.half / static_cast<double>(1 << k);
+    const double width = 2.0 * view.half * share(k);
     const double step = width * (size / 8) / (size - 2 * shading::kShadowBorder);
     const auto low_end = [&](const Range& r) { return __builtin_floor((r.low + view.half) / step) * step - view.half; };
     const double x = low_end(needed.x), y = low_end(needed.y);
@@ -144,7 +146,9 @@ std::optional<FittedView> at_window(const FittedView& view, const Window& w, int
     FittedView out = view;
     out.eye = view.eye + (view.axes.right * w.x + view.axes.up * w.y);
     out.half = w.half;
-    const auto row = [&](Vec3d axis, double low, double high) { return Row{axis, axis, dot(axis, out.eye) + low, dot(axis, out.eye) + high}; };
+    const auto row = [&](Vec3d axis, double low, double high) {
+        return Row{axis, axis, dot(axis, out.eye) + low, dot(axis, out.eye) + high};
+    };
     const Hexahedron prism = parallelepiped(
         {row(view.axes.right, -half, half), row(view.axes.up, -half, half), row(view.axes.back, -1.01 * view.far_z, 0.01 * view.far_z)});
     Range z;
@@ -209,6 +213,18 @@ bool can_see(const ViewAxes& axes, Vec3d eye, double half, const SeenVolume& see
             left |= -x <= width, right |= x <= width, below |= -y <= width, above |= y <= width;
         }
     return front && left && right && below && above;
+}
+
+double nearest_if_all_seen(const FittedView& view, const SeenVolume& seen) {
+    double nearest = 1e300;
+    for (const Polygon& side : seen.sides)
+        for (const Vec3d p : side) {
+            const Vec3d q = p - view.eye;
+            const double z = -dot(q, view.axes.back), width = z * view.half;
+            if (!(absolute(dot(q, view.axes.right)) <= width && absolute(dot(q, view.axes.up)) <= width)) return 0.0;
+            nearest = std::min(nearest, z);
+        }
+    return nearest;
 }
 
 MapUse cut_view(FittedView& view, bool orthographic, int size, const SeenVolume& seen, const Bounds& scene) {

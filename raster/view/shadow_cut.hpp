@@ -25,10 +25,13 @@ struct SeenVolume {
 /// True if a camera with a square field of view may see some of it; see can_see() of boxes. half: tangent of half the field of view.
 [[nodiscard]] bool can_see(const ViewAxes& axes, Vec3d eye, double half, const SeenVolume& seen);
 
+/// Depth of its nearest point in a lamp's view; 0 if the view does not see all of it.
+[[nodiscard]] double nearest_if_all_seen(const FittedView& view, const SeenVolume& seen);
+
 enum class MapUse { whole, cut, none };  ///< none: nothing that is seen can lie in a shadow
 
 /// Cuts a view to what the picture needs of it, if texels become at least half as wide. size: texels on a side of the map. Windows come
-/// from a ladder that depends on the view and the size alone: widths are the view's, halved k times, and corners are multiples of an
+/// from a ladder that depends on the view and the size alone: widths are the view's over 2, 3, 4, 6, 8 .., and corners are multiples of an
 /// eighth of the map. So texels of one width are the same texels for every camera, and a camera that moves a little gets the same map.
 [[nodiscard]] MapUse cut_view(FittedView& view, bool orthographic, int size, const SeenVolume& seen, const Bounds& scene);
 

@@ -71,6 +71,11 @@ bool can_see(const ViewAxes& axes, Vec3d eye, double half, const Bounds& bounds)
     return behind < 8 && beyond[0] < 8 && beyond[1] < 8 && beyond[2] < 8 && beyond[3] < 8;
 }
 
+/// Distance of a lamp's near plane. Geometry closer than the source's radius counts as the lamp itself.
+double least_distance(const LightPlan& light, const Bounds& bounds) {
+    return std::max({1e-4 * double{bounds.radius()}, __builtin_sqrt(static_cast<double>(light.min_distance_squared)), 1e-30});
+}
+
 /// The map that a light gets.
 struct Choice {
     ShadowMapPlan::Kind kind = ShadowMapPlan::Kind::cube;
@@ -81,7 +86,26 @@ struct Choice {
 /// Wider views than this have larger texels than the faces of a cube. It is the tangent of half the angle.
 constexpr double kWidestView = 2.0;
 
-Choice choose(const LightPlan& light, const Bounds& bounds, const ShadowCasters& casters) {
+/// The view along a world axis from a lamp that would get a cube, if all that is seen lies in it and it is then cut. Of several axes it is
+/// the one along which what is seen lies farthest ahead.
+std::optional<FittedView> instead_of_cube(Vec3d place, double near_z, const SeenVolume& seen, const Bounds& bounds, int side) {
+    std::optional<FittedView> best;
+    double farthest = 0.0;
+    for (const Vec3d back : {Vec3d{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}) {
+        FittedView view = fixed_view(place, back, kWidestView);
+        view.near_z = near_z;
+        const double nearest = nearest_if_all_seen(view, seen);
+        if (!(nearest > farthest)) continue;
+        farthest = nearest;
+        best = view;
+    }
+    if (!best) return best;
+    FittedView after = *best;
+    if (cut_view(after, false, side, seen, bounds) != MapUse::cut) best.reset();
+    return best;
+}
+
+Choice choose(const LightPlan& light, const Bounds& bounds, const ShadowCasters& casters, const SeenVolume* seen, int side) {
     Choice choice;
     if (!reaches(light, bounds)) return choice;
     const bool directional = light.type == LightType::directional;
@@ -94,14 +118,13 @@ Choice choose(const LightPlan& light, const Bounds& bounds, const ShadowCasters&
         return choice;
     }
     const double cone = light.type == LightType::spot ? cone_tangent(light) : 0.0;
-    const auto fitted = fit_lamp(place, choice.boxes, bounds, cone > 0.0 ? std::min(cone, kWidestView) : kWidestView);
-    if (!fitted && cone == 0.0) return choice;
+    std::optional<FittedView> view = fit_lamp(place, choice.boxes, bounds, cone > 0.0 ? std::min(cone, kWidestView) : kWidestView);
+    if (!view && cone > 0.0) view = fixed_view(place, unit(to_double(light.to_light)), cone);
+    if (!view && seen != nullptr) view = instead_of_cube(place, least_distance(light, bounds), *seen, bounds, side);
+    if (!view) return choice;
     choice.kind = ShadowMapPlan::Kind::perspective;
-    if (fitted) {
-        choice.view = *fitted;
-    } else {
-        choice.view = fixed_view(place, unit(to_double(light.to_light)), cone);
-    }
+    choice.view = *view;
+    choice.view.near_z = std::max(view->near_z, least_distance(light, bounds));
     return choice;
 }
 
@@ -134,14 +157,13 @@ public:
         if (map.kind == ShadowMapPlan::Kind::cube)
             add_cube(light, choice.boxes, map, usable);
         else
-            add_fitted(light, choice.view, map, usable);
+            add_fitted(choice.view, map, usable);
         out_.maps.push_back(map);
     }
 
 private:
-    void add_fitted(const LightPlan& light, FittedView view, ShadowMapPlan& map, double usable) {
+    void add_fitted(FittedView view, ShadowMapPlan& map, double usable) {
         const bool orthographic = map.kind == ShadowMapPlan::Kind::orthographic;
-        if (!orthographic) view.near_z = std::max(view.near_z, least_distance(light));
         const MapUse use = seen_ != nullptr ? cut_view(view, orthographic, map.size, *seen_, bounds_) : MapUse::whole;
         const double half = view.half * usable;
         Camera camera = camera_at(view.axes, view.eye);
@@ -171,7 +193,7 @@ private:
             const ViewAxes axes{e[(a + 1) % 3], e[(a + 2) % 3] * -sign, e[a] * -sign};
             Camera camera = camera_at(axes, eye);
             camera.fov_y_rad = static_cast<float>(2.0 * arc_tangent(usable));
-            camera.near_z = static_cast<float>(least_distance(light));
+            camera.near_z = static_cast<float>(least_distance(light, bounds_));
             const bool shades = seen_ == nullptr || can_see(axes, eye, usable, *seen_);
             add_view(map, camera,
                      shades && std::any_of(boxes.begin(), boxes.end(), [&](const Bounds& box) { return can_see(axes, eye, usable, box); }));
@@ -181,11 +203,6 @@ private:
     static void set_texel_size(ShadowMapPlan& map, double half, bool perspective) {
         map.texel_size = static_cast<float>(2.0 * half / map.size);
         map.offset = shading::shadow_offset(perspective ? map.texel_size : 0.0f);
-    }
-
-    /// Distance of the near plane. Geometry closer than the source's radius counts as the lamp itself.
-    [[nodiscard]] double least_distance(const LightPlan& light) const {
-        return std::max({1e-4 * double{bounds_.radius()}, __builtin_sqrt(static_cast<double>(light.min_distance_squared)), 1e-30});
     }
 
     void add_view(const ShadowMapPlan& map, const Camera& camera, bool sees_casters) {
@@ -213,7 +230,7 @@ Result<ShadowViews> plan_shadow_views(std::span<const LightPlan> lights, const B
     int side = settings.shadow_size;
     if (settings.shadows == ShadowMode::off || lights.empty() || bounds.empty || !(bounds.radius() > 0.0f)) return out;
     std::vector<Choice> choices;
-    for (const LightPlan& light : lights) choices.push_back(choose(light, bounds, casters));
+    for (const LightPlan& light : lights) choices.push_back(choose(light, bounds, casters, seen, side));
     const std::size_t most = settings.shadow_memory_limit / sizeof(float);
     while (side > 64 && texel_count(choices, side) > most) side /= 2;
     if (texel_count(choices, side) > most)

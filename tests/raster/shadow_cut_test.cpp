@@ -1,0 +1,244 @@
+// Shadow maps that are cut to what the picture sees: against rays, and what the cut must not change.
+#include "raster/frame_plan.hpp"
+#include "tests/raster/box_shadow.hpp"
+#include "tests/support/isas.hpp"
+#include "tests/support/random.hpp"
+
+using namespace halflit;
+using namespace halflit::raster;
+using namespace halflit::test;
+
+namespace {
+
+const Vec3d kToLight = Vec3d{0.5, 0.7, 0.3} * (1 / std::sqrt(0.83));
+constexpr double kLampDistance = 700.0;
+
+/// A city of `count` x `count` houses of 10 m on 4 km x 4 km, and a box of one metre at a crossing.
+struct City : ShadowSetup {
+    Vec3d foot;
+    std::vector<Box> boxes;  ///< the box, and the houses near it
+
+    City(int count, LightType type, Vec3d near_to) : ShadowSetup(Lobe::sloan(0), ShadowMode::hard) {
+        const double step = 4000.0 / count, half = 0.2 * step < 4.0 ? 0.2 * step : 4.0;
+        const auto crossing = [&](double v) { return std::floor(v / step + 0.5) * step; };  // count is even
+        foot = {crossing(near_to.x), 0, crossing(near_to.z)};
+        add(make_plane(2010, 1));
+        add_metre_box(*this, foot);
+        boxes.push_back(metre_box(foot));
+        Mesh house = make_box(to_float({half, 5, half}));
+        house.material = 0;
+        scene.meshes.push_back(std::move(house));
+        for (int i = 0; i < count; ++i)
+            for (int j = 0; j < count; ++j) {
+                const Vec3d at{(i - 0.5 * (count - 1)) * step, 5, (j - 0.5 * (count - 1)) * step};
+                scene.instances.push_back({static_cast<int>(scene.meshes.size()) - 1, translation(to_float(at))});
+                if (length(at - foot) < 3 * step) boxes.push_back({at - Vec3d{half, 5, half}, at + Vec3d{half, 5, half}});
+            }
+        Light& light = scene.lights[0];
+        light.type = type;
+        light.direction_ws = to_float(kToLight * -1.0);
+        light.position_ws = to_float(foot + kToLight * kLampDistance);
+        light.outer_cone_rad = 1.2f;
+        const double strength = type == LightType::directional ? 1.0 : kLampDistance * kLampDistance;
+        light.color_linear = Vec3f{1, 1, 1} * static_cast<float>(strength);
+        camera = camera_above(foot);
+    }
+    [[nodiscard]] ShadowArea area() {
+        return shadow_area(*this, foot, boxes, kToLight, scene.lights[0].type == LightType::directional ? 0.0 : kLampDistance);
+    }
+};
+
+FramePlan plan_of(const ShadowSetup& setup, int width = kSide, int height = kSide) {
+    const auto prepared = PreparedData::make(setup.scene, {});
+    REQUIRE(prepared);
+    auto plan = plan_frame(*prepared, setup.camera, setup.settings, width, height);
+    REQUIRE(plan);
+    return std::move(*plan);
+}
+
+void check_city(int count) {
+    for (const LightType type : {LightType::directional, LightType::point, LightType::spot})
+        for (const Vec3d near_to : {Vec3d{0, 0, 0}, Vec3d{1100, 0, -700}, Vec3d{-1900, 0, -1900}}) {
+            INFO("city of " << count << ", light " << static_cast<int>(type) << ", at " << near_to.x << ", " << near_to.z);
+            City city(count, type, near_to);
+            const FramePlan plan = plan_of(city);
+            const shading::ShadowMapPlan& map = plan.shading.shadow_maps[0];
+            INFO("texels of " << map.texel_size * (type == LightType::directional ? 1.0 : kLampDistance) << " m");
+            check_area(city.area());
+        }
+}
+
+}  // namespace
+
+TEST_CASE("shadow cut: in a close-up of a city the shadow of a box has the area that rays give it", "[raster][shadow]") { check_city(40); }
+
+TEST_CASE("shadow cut: the same among 200 x 200 houses", "[raster][shadow][deep]") { check_city(200); }
+
+TEST_CASE("shadow cut: a region, threads, tiles and instruction sets do not change a picture of a cut map", "[raster][shadow]") {
+    constexpr int kWidth = 200, kHeight = 150;
+    for (const LightType type : {LightType::directional, LightType::point}) {
+        City city(20, type, {1100, 0, -700});
+        city.camera = camera_at(to_float(city.foot + Vec3d{3, 6, 4}), to_float(city.foot + Vec3d{-0.5, 0, 0}));
+        const std::vector<float> whole = city.draw(kWidth, kHeight);
+        City uncut = city;
+        uncut.settings.shadow_terminator_offset = true;
+        CHECK(plan_of(city, kWidth, kHeight).shading.shadow_maps[0].texel_size <
+              0.02f * plan_of(uncut, kWidth, kHeight).shading.shadow_maps[0].texel_size);
+        int turn = 0;
+        for (const Isa isa : available_isas())
+            for (const Region region : {Region{}, Region{0, 0, 30, 40}, Region{101, 67, 1, 1}, Region{50, 20, 150, 90}}) {
+                INFO(isa_name(isa) << ", region " << region.x << ", " << region.y);
+                City part = city;
+                part.settings.region = region;
+                part.settings.execution.isa = isa;
+                part.settings.execution.tile_size = 16 << turn % 3;
+                part.settings.execution.threads = 1 + turn++ % 4;
+                const std::vector<float> drawn = part.draw(kWidth, kHeight);
+                const int right = region.width != 0 ? region.x + region.width : kWidth;
+                const int bottom = region.width != 0 ? region.y + region.height : kHeight;
+                int wrong = 0;
+                for (int y = region.y; y < bottom; ++y)
+                    for (int x = region.x; x < right; ++x) {
+                        const auto at = static_cast<std::size_t>(4 * (y * kWidth + x));
+                        wrong += std::memcmp(&drawn[at], &whole[at], 4 * sizeof(float)) != 0;
+                    }
+                CHECK(wrong == 0);
+            }
+    }
+}
+
+TEST_CASE("shadow cut: where a camera that moves a little sees the same place, only pixels at a shadow's edge change", "[raster][shadow]") {
+    for (const LightType type : {LightType::directional, LightType::point}) {
+        City city(20, type, {1100, 0, -700});
+        const Camera still = city.camera;
+        const auto dark = [&] {
+            const std::vector<float> with = city.draw(kSide, kSide);
+            std::vector<bool> out;
+            // A light of colour d^2 at the distance d gives the floor the cosine 0.77.
+            for (int i = 0; i < kSide * kSide; ++i) out.push_back(with[static_cast<std::size_t>(4 * i)] < 0.4f);
+            return out;
+        };
+        const std::vector<bool> before = dark();
+        std::vector<Mat4> views;
+        int compared = 0;
+        for (int step = 1; step <= 60; ++step) {  // whole pixels along +z, which is to the right
+            city.camera = still;
+            city.camera.world_from_camera.c[3].z += static_cast<float>(step * 2.0 * kHalfView / kSide);
+            const auto plan = plan_of(city);
+            if (views.empty() || !(views.back() == plan.shadow_views[0].view.clip_from_world))
+                views.push_back(plan.shadow_views[0].view.clip_from_world);
+            if (step % 6 != 0) continue;
+            const std::vector<bool> after = dark();
+            int away_from_edges = 0;
+            for (int j = 1; j < kSide - 1; ++j)
+                for (int i = step + 1; i < kSide - 1; ++i) {
+                    const auto at = static_cast<std::size_t>(j * kSide + i);
+                    ++compared;
+                    if (after[at - static_cast<std::size_t>(step)] == before[at]) continue;
+                    bool edge = false;
+                    for (const std::size_t next : {at - 1, at + 1, at - kSide, at + kSide}) edge |= before[next] != before[at];
+                    away_from_edges += !edge;
+                }
+            INFO("light " << static_cast<int>(type) << ", moved by " << step << " pixels");
+            CHECK(away_from_edges == 0);
+        }
+        CHECK(compared > 1000000);
+        // The camera moved by a seventh of what it sees: maps are kept over most of its steps.
+        INFO("light " << static_cast<int>(type) << ": " << views.size() << " maps");
+        CHECK(views.size() <= 4);
+    }
+}
+
+TEST_CASE("shadow cut: a camera that sees the whole scene leaves the map as it is fitted to the scene", "[raster][shadow]") {
+    ShadowSetup setup(Lobe::sloan(0), ShadowMode::hard);
+    setup.add(make_plane(3, 1));
+    add_metre_box(setup, {});
+    setup.scene.lights[0].direction_ws = to_float(kToLight * -1.0);
+    std::vector<Mat4> maps;
+    for (const float azimuth : {0.0f, 35.0f, 200.0f}) {
+        setup.camera = frame_scene(setup.scene, 1.0f, {.azimuth_deg = azimuth, .elevation_deg = 20});
+        maps.push_back(plan_of(setup).shadow_views[0].view.clip_from_world);
+    }
+    CHECK(maps[0] == maps[1]);
+    CHECK(maps[0] == maps[2]);
+}
+
+TEST_CASE("shadow cut: faces of a cube that nothing seen looks up are not drawn, and change no pixel", "[raster][shadow]") {
+    Random random(3);
+    int left_out = 0;
+    for (int i = 0; i < 150; ++i) {
+        ShadowSetup setup(Lobe::sloan(0.5f), ShadowMode::hard);
+        setup.settings.shadow_size = 256;
+        setup.add(make_plane(20, 1), translation({0, -2, 0}));
+        for (int k = 0; k < 60; ++k)
+            setup.add(make_box({0.3f, 0.3f, 0.3f}),
+                      translation(to_float({random.real(-9, 9), random.real(-1.7, 9), random.real(-9, 9)})));
+        Light& light = setup.scene.lights[0];
+        light.type = LightType::point;
+        light.color_linear = {20, 20, 20};
+        setup.camera = camera_at({random.real32(-9, 9), random.real32(0, 9), random.real32(-9, 9)},
+                                 {random.real32(-3, 3), random.real32(-2, 3), random.real32(-3, 3)}, random.real32(0.3, 1.6));
+        const FramePlan plan = plan_of(setup, 64, 64);
+        if (plan.shadow_views.size() != 6) continue;  // it sees so little that one view is enough
+        const std::vector<float> with = setup.draw(64, 64);
+        setup.settings.shadow_terminator_offset = true;  // draws all faces; flat surfaces' look-ups are not moved
+        for (const ShadowView& face : plan_of(setup, 64, 64).shadow_views) CHECK(face.sees_casters);
+        CHECK(differing(with, setup.draw(64, 64)) == 0);
+        for (const ShadowView& face : plan.shadow_views) left_out += !face.sees_casters;
+    }
+    INFO(left_out << " faces");
+    CHECK(left_out >= 10);
+}
+
+TEST_CASE("shadow cut: what a picture sees lies in the volume, and all of the volume nearly in view", "[raster][shadow]") {
+    Random random(11);
+    int seen_points = 0;
+    for (int i = 0; i < 300; ++i) {
+        Bounds scene;
+        const double size = std::exp(random.real(-3, 6));
+        for (int k = 0; k < 2; ++k)
+            scene.add(to_float({size * random.real(-1, 1), random.chance(0.2) ? 0.0 : size * random.real(-1, 1), size * random.real(-1, 1)}));
+        const auto place = [&](double reach) { return to_float(Vec3d{random.real(-1, 1), random.real(-1, 1), random.real(-1, 1)} * reach); };
+        Camera camera = camera_at(place(2 * size), place(size), random.real32(0.01, 2.5), static_cast<float>(size * random.real(1e-3, 0.5)));
+        camera.orthographic = random.chance(0.3);
+        camera.half_height = static_cast<float>(size * random.real(0.01, 2));
+        if (camera.orthographic || random.chance(0.3)) camera.far_z = camera.near_z + static_cast<float>(size * random.real(0.1, 3));
+        const View view = make_view(camera, 200, 100, {}, 64, 1);
+        const auto seen = seen_volume(view, depth_map(camera, 2.0f), scene);
+        REQUIRE(seen);
+        INFO("volume " << i);
+        const Mat4& m = view.clip_from_world;
+        const auto clip = [&](Vec3d p, int row) {
+            const auto at = [row](const Vec4f& c) -> double { return row == 0 ? c.x : row == 1 ? c.y : row == 2 ? c.z : c.w; };
+            return at(m.c[0]) * p.x + at(m.c[1]) * p.y + at(m.c[2]) * p.z + at(m.c[3]);
+        };
+        // All corners of the volume are within the margins.
+        for (const Polygon& side : seen->sides)
+            for (const Vec3d p : side) {
+                const double w = clip(p, 3), rounding = 1e-5 * w;
+                CHECK(w > 0);
+                CHECK(std::abs(clip(p, 0)) <= 1.012 * w + rounding);
+                CHECK(std::abs(clip(p, 1)) <= 1.022 * w + rounding);
+                CHECK(clip(p, 2) <= 1.0011 * w + rounding);
+                CHECK(clip(p, 2) >= -0.0011 * w - rounding);
+                const double margin = 1.1e-5 * size;
+                CHECK((p.x >= scene.min.x - margin && p.x <= scene.max.x + margin));
+                CHECK((p.y >= scene.min.y - margin && p.y <= scene.max.y + margin));
+                CHECK((p.z >= scene.min.z - margin && p.z <= scene.max.z + margin));
+            }
+        // No point that is in view lies beyond all corners in any direction.
+        for (int k = 0; k < 300; ++k) {
+            const auto between = [&](float a, float b) { return a + (static_cast<double>(b) - a) * random.real(0, 1); };
+            const Vec3d p{between(scene.min.x, scene.max.x), between(scene.min.y, scene.max.y), between(scene.min.z, scene.max.z)};
+            const double w = clip(p, 3);
+            if (!(w > 0) || std::abs(clip(p, 0)) > w || std::abs(clip(p, 1)) > w || clip(p, 2) < 0 || clip(p, 2) > w) continue;
+            ++seen_points;
+            const Vec3d along{random.real(-1, 1), random.real(-1, 1), random.real(-1, 1)};
+            double farthest = -1e300;
+            for (const Polygon& side : seen->sides)
+                for (const Vec3d corner : side) farthest = std::max(farthest, dot(along, corner));
+            CHECK(dot(along, p) <= farthest);
+        }
+    }
+    CHECK(seen_points > 5000);
+}
