@@ -18,8 +18,8 @@ struct Box {
 /// True if the segment meets the box.
 inline bool meets(Vec3d from, Vec3d to, const Box& box) {
     double enter = 0.0, leave = 1.0;
-    for (const auto& [a, b, l, h] : {std::array{from.x, to.x, box.low.x, box.high.x}, {from.y, to.y, box.low.y, box.high.y},
-                                     {from.z, to.z, box.low.z, box.high.z}}) {
+    for (const auto& [a, b, l, h] :
+         {std::array{from.x, to.x, box.low.x, box.high.x}, {from.y, to.y, box.low.y, box.high.y}, {from.z, to.z, box.low.z, box.high.z}}) {
         const double d = b - a;
         if (d == 0.0) {
             if (a < l || a > h) return false;

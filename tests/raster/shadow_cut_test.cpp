@@ -171,8 +171,7 @@ TEST_CASE("shadow cut: faces of a cube that nothing seen looks up are not drawn,
         setup.settings.shadow_size = 256;
         setup.add(make_plane(20, 1), translation({0, -2, 0}));
         for (int k = 0; k < 60; ++k)
-            setup.add(make_box({0.3f, 0.3f, 0.3f}),
-                      translation(to_float({random.real(-9, 9), random.real(-1.7, 9), random.real(-9, 9)})));
+            setup.add(make_box({0.3f, 0.3f, 0.3f}), translation(to_float({random.real(-9, 9), random.real(-1.7, 9), random.real(-9, 9)})));
         Light& light = setup.scene.lights[0];
         light.type = LightType::point;
         light.color_linear = {20, 20, 20};
@@ -197,9 +196,13 @@ TEST_CASE("shadow cut: what a picture sees lies in the volume, and all of the vo
         Bounds scene;
         const double size = std::exp(random.real(-3, 6));
         for (int k = 0; k < 2; ++k)
-            scene.add(to_float({size * random.real(-1, 1), random.chance(0.2) ? 0.0 : size * random.real(-1, 1), size * random.real(-1, 1)}));
-        const auto place = [&](double reach) { return to_float(Vec3d{random.real(-1, 1), random.real(-1, 1), random.real(-1, 1)} * reach); };
-        Camera camera = camera_at(place(2 * size), place(size), random.real32(0.01, 2.5), static_cast<float>(size * random.real(1e-3, 0.5)));
+            scene.add(
+                to_float({size * random.real(-1, 1), random.chance(0.2) ? 0.0 : size * random.real(-1, 1), size * random.real(-1, 1)}));
+        const auto place = [&](double reach) {
+            return to_float(Vec3d{random.real(-1, 1), random.real(-1, 1), random.real(-1, 1)} * reach);
+        };
+        Camera camera =
+            camera_at(place(2 * size), place(size), random.real32(0.01, 2.5), static_cast<float>(size * random.real(1e-3, 0.5)));
         camera.orthographic = random.chance(0.3);
         camera.half_height = static_cast<float>(size * random.real(0.01, 2));
         if (camera.orthographic || random.chance(0.3)) camera.far_z = camera.near_z + static_cast<float>(size * random.real(0.1, 3));
