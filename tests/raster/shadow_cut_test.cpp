@@ -74,6 +74,96 @@ TEST_CASE("shadow cut: in a close-up of a city the shadow of a box has the area 
 
 TEST_CASE("shadow cut: the same among 200 x 200 houses", "[raster][shadow][deep]") { check_city(200); }
 
+namespace {
+
+/// Boxes on a wide floor, a light and a close-up, all random. Returns the number of floor pixels checked against rays; pixels near a
+/// shadow's edge are left out.
+int check_close_up(Random& random, int& cut) {
+    constexpr int kWidth = 60, kHeight = 40;
+    ShadowSetup setup(Lobe::sloan(0), ShadowMode::hard);
+    setup.settings.shadow_size = 1024;
+    setup.add(make_plane(150, 1));
+    std::vector<Box> boxes;
+    const auto add = [&](Vec3d foot) {
+        const Vec3d half{random.real(0.3, 2), random.real(0.3, 2), random.real(0.3, 2)}, middle = foot + Vec3d{0, half.y, 0};
+        boxes.push_back({middle - half, middle + half});
+        setup.add(make_box(to_float(half)), translation(to_float(middle)));
+    };
+    const Vec3d target{random.real(-100, 100), 0, random.real(-100, 100)};
+    for (int i = 0; i < 40; ++i) add({random.real(-140, 140), 0, random.real(-140, 140)});
+    for (int i = 0; i < 5; ++i) add(target + Vec3d{random.real(-5, 5), 0, random.real(-5, 5)});
+    const auto on_hemisphere = [&](double least_height) {
+        const double y = random.real(least_height, 1), across = std::sqrt(1 - y * y), turn = random.real(0, 6.283185307);
+        return Vec3d{across * std::cos(turn), y, across * std::sin(turn)};
+    };
+    Light& light = setup.scene.lights[0];
+    light.type = static_cast<LightType>(random.index(3));
+    const bool directional = light.type == LightType::directional;
+    const Vec3d to_light = on_hemisphere(0.4), lamp = target + to_light * random.real(8, 200);
+    light.direction_ws = to_float(to_light * -1.0);
+    light.position_ws = to_float(lamp);
+    light.outer_cone_rad = 1.4f, light.inner_cone_rad = 1.3f;
+    if (!directional) light.color_linear = Vec3f{1, 1, 1} * static_cast<float>(dot(lamp - target, lamp - target));
+    const Vec3d eye = target + on_hemisphere(0.3) * random.real(4, 15);
+    const float fov = random.real32(0.2, 1.0);
+    setup.camera = camera_at(to_float(eye), to_float(target), fov);
+    const FramePlan plan = plan_of(setup, kWidth, kHeight);
+    const shading::ShadowMapPlan& map = plan.shading.shadow_maps[0];
+    const double texel = double{map.texel_size} * (directional ? 1.0 : length(lamp - target) + 10);
+    cut += texel < (directional ? 0.1 : 0.0005 * length(lamp - target));
+    const std::vector<float> with = setup.draw(kWidth, kHeight);
+    setup.settings.shadows = ShadowMode::off;
+    const std::vector<float> lit = setup.draw(kWidth, kHeight);
+
+    const Mat4& m = setup.camera.world_from_camera;
+    const auto axis = [&](int c) { return Vec3d{m.c[c].x, m.c[c].y, m.c[c].z}; };
+    const double tangent = std::tan(0.5 * double{fov}), around = 6.0 * texel / 0.3;
+    constexpr int kGrid = 9;     // rays around a pixel
+    if (around > 2.0) return 0;  // boxes might stand between the rays
+    int checked = 0, wrong = 0;
+    for (int j = 0; j < kHeight; ++j)
+        for (int i = 0; i < kWidth; ++i) {
+            const double x = ((i + 0.5) / kWidth * 2 - 1) * tangent * kWidth / kHeight, y = (1 - (j + 0.5) / kHeight * 2) * tangent;
+            const Vec3d ray = axis(0) * x + axis(1) * y - axis(2);
+            if (!(ray.y < -1e-3)) continue;
+            const Vec3d p = eye + ray * (-eye.y / ray.y);
+            const auto at = static_cast<std::size_t>(4 * (j * kWidth + i));
+            if (std::max(std::abs(p.x), std::abs(p.z)) > 149 || meets_any(eye, p, boxes) || !(lit[at] > 0)) continue;
+            const auto hidden = [&](int k) {
+                const Vec3d q = p + Vec3d{(k % kGrid - kGrid / 2) * around, 0, (k / kGrid - kGrid / 2) * around} * (2.0 / (kGrid - 1));
+                return meets_any(q, directional ? q + to_light * 400.0 : lamp, boxes);
+            };
+            const bool dark = hidden(0);
+            bool edge = false;
+            for (int k = 1; k < kGrid * kGrid && !edge; ++k) edge = hidden(k) != dark;
+            if (edge) continue;
+            ++checked;
+            wrong += with[at] != (dark ? 0.0f : lit[at]);
+        }
+    INFO("light " << static_cast<int>(light.type) << ", " << checked << " pixels, texels of " << texel);
+    CHECK(wrong == 0);
+    return checked;
+}
+
+void check_close_ups(int count) {
+    Random random(19);
+    int checked = 0, cut = 0;
+    for (int i = 0; i < count; ++i) {
+        INFO("close-up " << i);
+        checked += check_close_up(random, cut);
+    }
+    CHECK(checked > 500 * count);
+    CHECK(cut > count / 2);
+}
+
+}  // namespace
+
+TEST_CASE("shadow cut: in random close-ups rays agree with all pixels that are not near a shadow's edge", "[raster][shadow]") {
+    check_close_ups(60);
+}
+
+TEST_CASE("shadow cut: rays agree in 3,000 random close-ups", "[raster][shadow][deep]") { check_close_ups(3000); }
+
 TEST_CASE("shadow cut: a region, threads, tiles and instruction sets do not change a picture of a cut map", "[raster][shadow]") {
     constexpr int kWidth = 200, kHeight = 150;
     for (const LightType type : {LightType::directional, LightType::point}) {
