@@ -76,6 +76,10 @@ TEST_CASE("shadow cut: the same among 200 x 200 houses", "[raster][shadow][deep]
 
 namespace {
 
+bool overlap(const Box& a, const Box& b) {
+    return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y && a.low.z < b.high.z && b.low.z < a.high.z;
+}
+
 /// Boxes on a wide floor, a light and a close-up, all random. Returns the number of floor pixels checked against rays; pixels near a
 /// shadow's edge are left out.
 int check_close_up(Random& random, int& cut) {
@@ -120,6 +124,9 @@ int check_close_up(Random& random, int& cut) {
     const double tangent = std::tan(0.5 * double{fov}), around = 6.0 * texel / 0.3;
     constexpr int kGrid = 9;     // rays around a pixel
     if (around > 2.0) return 0;  // boxes might stand between the rays
+    // Corners snap to 1/256 of a pixel: beside a box's outline a pixel may show the box.
+    std::vector<Box> outlines = boxes;
+    for (Box& box : outlines) box.low = box.low - Vec3d{0.02, 0.02, 0.02}, box.high = box.high + Vec3d{0.02, 0.02, 0.02};
     int checked = 0, wrong = 0;
     for (int j = 0; j < kHeight; ++j)
         for (int i = 0; i < kWidth; ++i) {
@@ -128,7 +135,7 @@ int check_close_up(Random& random, int& cut) {
             if (!(ray.y < -1e-3)) continue;
             const Vec3d p = eye + ray * (-eye.y / ray.y);
             const auto at = static_cast<std::size_t>(4 * (j * kWidth + i));
-            if (std::max(std::abs(p.x), std::abs(p.z)) > 149 || meets_any(eye, p, boxes) || !(lit[at] > 0)) continue;
+            if (std::max(std::abs(p.x), std::abs(p.z)) > 149 || meets_any(eye, p, outlines) || !(lit[at] > 0)) continue;
             const auto hidden = [&](int k) {
                 const Vec3d q = p + Vec3d{(k % kGrid - kGrid / 2) * around, 0, (k / kGrid - kGrid / 2) * around} * (2.0 / (kGrid - 1));
                 return meets_any(q, directional ? q + to_light * 400.0 : lamp, boxes);
@@ -136,6 +143,9 @@ int check_close_up(Random& random, int& cut) {
             const bool dark = hidden(0);
             bool edge = false;
             for (int k = 1; k < kGrid * kGrid && !edge; ++k) edge = hidden(k) != dark;
+            // Beside a box the filter reads texels of its walls and its top, where the shadow may end.
+            const Vec3d square{around, 0.1, around};
+            for (const Box& box : boxes) edge |= overlap(box, {p - square, p + square});
             if (edge) continue;
             ++checked;
             wrong += with[at] != (dark ? 0.0f : lit[at]);
@@ -146,9 +156,9 @@ int check_close_up(Random& random, int& cut) {
 }
 
 void check_close_ups(int count) {
-    Random random(19);
     int checked = 0, cut = 0;
     for (int i = 0; i < count; ++i) {
+        Random random(static_cast<std::uint64_t>(i));
         INFO("close-up " << i);
         checked += check_close_up(random, cut);
     }
