@@ -91,6 +91,7 @@ void check_lit_planes(int directions) {
         for (int i = 0; i < directions; ++i) {
             INFO("map of " << size << ", plane " << i);
             REQUIRE(darkened_pixels(random, LightType::directional, false, size) == 0);
+            REQUIRE(darkened_pixels(random, LightType::directional, true, size) == 0);
             REQUIRE(darkened_pixels(random, LightType::point, false, size) == 0);
             REQUIRE(darkened_pixels(random, LightType::point, true, size) == 0);
             REQUIRE(darkened_pixels(random, LightType::spot, true, size) == 0);
