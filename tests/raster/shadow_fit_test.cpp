@@ -66,7 +66,8 @@ int darkened_pixels(Random& random, LightType type, bool cube, int size) {
     setup.add(make_plane(static_cast<float>(kHalf), random.index(3) + 1), facing(center, normal));
     // A lamp sees boxes on all sides, or only beside and behind the square.
     for (int k = 0; k < 8; ++k) {
-        const Vec3d at{k & 1 ? 5.0 : -5.0, k & 2 ? 5.0 : -5.0, k & 4 ? 5.0 : -5.0};
+        Vec3d at{k & 1 ? 5.0 : -5.0, k & 2 ? 5.0 : -5.0, k & 4 ? 5.0 : -5.0};
+        if (type == LightType::directional && dot(at, to_square) < 0) at = at * -1.0;  // not between the light and the square
         setup.add(make_box({0.05f, 0.06f, 0.05f}), translation(to_float(cube ? origin + at : center + to_square * 3.0 + at * 0.2)));
     }
     Light& light = setup.scene.lights[0];
