@@ -25,8 +25,8 @@ public:
 
     Result<std::string> file() {
         root_["asset"] = {{"version", "2.0"}, {"generator", "halflit_adversary"}};
-        root_["extensionsUsed"] = {"KHR_lights_punctual", "KHR_texture_transform", "KHR_materials_unlit",
-                                   "KHR_materials_emissive_strength"};
+        root_["extensionsUsed"] = {"KHR_lights_punctual", "KHR_texture_transform", "KHR_materials_unlit", "KHR_materials_emissive_strength",
+                                   "KHR_materials_ior"};
         for (const auto& picture : trial_.pictures) {
             const auto png = encode_image({picture->width, picture->height, picture->rgba8, {}}, OutputFormat::png);
             if (!png) return tl::unexpected<Error>(png.error());
@@ -124,6 +124,10 @@ private:
         if (glow > 0) {
             out["emissiveFactor"] = {m.emissive.x / glow, m.emissive.y / glow, m.emissive.z / glow};
             out["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", glow}};
+        }
+        if (m.dielectric_reflectance != 0.04f) {
+            const double root = std::sqrt(double{m.dielectric_reflectance});
+            out["extensions"]["KHR_materials_ior"] = {{"ior", root < 1 ? (1 + root) / (1 - root) : 0.0}};
         }
         out["doubleSided"] = m.double_sided;
         if (m.alpha_mode == AlphaMode::mask) out["alphaMode"] = "MASK", out["alphaCutoff"] = m.alpha_cutoff;

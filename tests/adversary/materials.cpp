@@ -39,6 +39,9 @@ Material some_material(Genes& genes) {
     genes.skip(m.metallic > 0 ? 0 : 1);
     m.roughness = genes.real32(1, 0);
     if (genes.chance(0.3)) m.roughness *= 0.125f;
+    const bool other = genes.chance(0.2);
+    const float reflectance = genes.real32(0, 1);
+    if (other) m.dielectric_reflectance = reflectance;
     const bool glows = genes.chance(0.15);
     const Vec3f glow = some_color(genes);
     const float glow_level = genes.octaves32(0x1p-10, 12);

@@ -86,6 +86,8 @@ for uri in ["absent.png", "../../../etc/passwd", "/etc/passwd", "http://x/y.png"
 E = M + ".extensions.KHR_materials_emissive_strength"
 values("KHR_materials_emissive_strength", E + ".emissiveStrength", [0, 1, 1e6], [-1, "1", None])
 values("KHR_materials_emissive_strength", E, [{}], [5, []])
+values("KHR_materials_ior", M + ".extensions.KHR_materials_ior.ior", [0, 1, 1.5, 2.4], [-1, "1", None],
+       with_also=lambda s: s.json["extensionsUsed"].append("KHR_materials_ior"))
 values("KHR_materials_unlit", M + ".extensions.KHR_materials_unlit", [{}], [5, "yes"],
        with_also=lambda s: s.json["extensionsUsed"].append("KHR_materials_unlit"))
 T = PBR + ".baseColorTexture.extensions.KHR_texture_transform"
@@ -97,7 +99,7 @@ values("KHR_texture_transform", T, [{}], [5, []])
 
 # ---- extensions that are not drawn are said, once --------------------------------------------------------------------------------------
 SIMPLE = "KHR_materials_"
-for name in [SIMPLE + n for n in ("clearcoat", "transmission", "volume", "sheen", "anisotropy", "iridescence", "specular", "ior",
+for name in [SIMPLE + n for n in ("clearcoat", "transmission", "volume", "sheen", "anisotropy", "iridescence", "specular",
                                   "variants", "dispersion",
                                   "pbrSpecularGlossiness", "diffuse_transmission")] + [
         "KHR_draco_mesh_compression", "EXT_meshopt_compression", "EXT_mesh_gpu_instancing", "KHR_texture_basisu", "EXT_texture_webp",

@@ -1,5 +1,7 @@
 #include "tests/io/png_maker.hpp"
 
+#include <fmt/core.h>
+
 #include "tests/support/catch.hpp"
 
 #include <cmath>
@@ -21,7 +23,7 @@ Bytes with_material(const std::string& material, const std::vector<Bytes>& pictu
     file.rest = ",\"materials\":[{" + material + "}]" + rest;
     std::string images;
     for (const Bytes& p : pictures)
-        images += (images.empty() ? "" : ",") + std::string("{\"uri\":\"data:image/png;base64,") + base64(p) + "\"}";
+        images += fmt::format(R"({}{{"uri":"data:image/png;base64,{}"}})", images.empty() ? "" : ",", base64(p));
     if (!pictures.empty())
         file.rest += ",\"images\":[" + images + "],\"textures\":[" + (textures.empty() ? R"({"source":0})" : textures) + "]";
     return file.file();
@@ -56,6 +58,17 @@ TEST_CASE("materials: factors, alpha mode and sides are read", "[io]") {
     CHECK(m.double_sided);
     CHECK(m.unlit);
     CHECK(material_of(with_material(R"("alphaMode":"BLEND")")).alpha_mode == AlphaMode::blend);
+}
+
+TEST_CASE("materials: an index of refraction gives the reflectance of Fresnel's formulas straight on", "[io]") {
+    const auto reflectance = [](const char* ior) {
+        return material_of(with_material(fmt::format(R"("extensions":{{"KHR_materials_ior":{{"ior":{}}}}})", ior))).dielectric_reflectance;
+    };
+    CHECK(material_of(with_material("")).dielectric_reflectance == 0.04f);
+    CHECK(reflectance("1.5") == 0.04f);
+    CHECK(reflectance("1") == 0.0f);
+    CHECK(reflectance("3") == 0.25f);
+    CHECK(reflectance("0") == 1.0f);  // the extension's own meaning of 0
 }
 
 TEST_CASE("materials: one texture for each picture and colour space", "[io]") {

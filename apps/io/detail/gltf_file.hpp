@@ -144,6 +144,7 @@ struct Material {
     std::vector<double> base_color_factor, emissive_factor;  ///< 4 and 3, or empty
     double metallic_factor = 1, roughness_factor = 1, alpha_cutoff = 0.5;
     double emissive_strength = 1;  ///< KHR_materials_emissive_strength
+    double ior = 1.5;              ///< KHR_materials_ior; 0: everything is mirrored
     bool double_sided = false;
     bool unlit = false;  ///< KHR_materials_unlit
     TexturePlace base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;

@@ -88,6 +88,8 @@ public:
         material.base_color = {base(0), base(1), base(2), base(3)};
         material.metallic = clamp01(source.metallic_factor);
         material.roughness = clamp01(source.roughness_factor);
+        const double root = (source.ior - 1.0) / (source.ior + 1.0);  // Fresnel, straight on; -1 for the index 0, as the extension asks
+        material.dielectric_reflectance = clamp01(root * root);
         const double glow = std::clamp(source.emissive_strength, 0.0, 1e18);
         const auto emissive = [&](std::size_t c) {
             return static_cast<float>(std::clamp(number_at(source.emissive_factor, c, 0.0), 0.0, 1.0) * glow);

@@ -173,6 +173,7 @@ constexpr SchemaRow kRows[] = {
     {"materials/#/extensions/KHR_materials_unlit", object, [](F f, V) { f.file.materials.back().unlit = true; }},
     at_least(0, {"materials/#/extensions/KHR_materials_emissive_strength/emissiveStrength", number,
      put<&File::materials, &file::Material::emissive_strength>}),
+    at_least(0, {"materials/#/extensions/KHR_materials_ior/ior", number, put<&File::materials, &file::Material::ior>}),
     {"materials/#/extras", open},
     {.path = "materials/#/extras/halflit",
      .rule = object,

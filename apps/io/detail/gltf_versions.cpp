@@ -17,8 +17,9 @@ namespace halflit::io::detail {
 namespace {
 
 /// Extensions that a file may require. Their values are read; for quantised data, the reading of accessors covers it.
-constexpr std::string_view kSupportedExtensions[] = {"KHR_lights_punctual", "KHR_materials_unlit", "KHR_texture_transform",
-                                                     "KHR_materials_emissive_strength", "KHR_mesh_quantization"};
+constexpr std::string_view kSupportedExtensions[] = {"KHR_lights_punctual",   "KHR_materials_unlit",
+                                                     "KHR_texture_transform", "KHR_materials_emissive_strength",
+                                                     "KHR_materials_ior",     "KHR_mesh_quantization"};
 
 /// "2.0" as {2, 0}.
 std::optional<std::pair<int, int>> parse_version(std::string_view text) {
@@ -54,7 +55,6 @@ constexpr LeftOut kLeftOut[] = {
     {"KHR_materials_clearcoat", "the coat is left out"},
     {"KHR_materials_diffuse_transmission", "light does not pass through"},
     {"KHR_materials_dispersion", "light is not split"},
-    {"KHR_materials_ior", "reflection is that of an index of 1.5"},
     {"KHR_materials_iridescence", "the thin film is left out"},
     {"KHR_materials_pbrSpecularGlossiness", "materials are drawn by metal and roughness"},
     {"KHR_materials_sheen", "the sheen is left out"},
