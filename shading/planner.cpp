@@ -1,6 +1,8 @@
 #include "shading/planner.hpp"
 
+#include "sh/power.hpp"
 #include "shading/model/numbers.hpp"
+#include "shading/model/scalar.hpp"
 
 #include <algorithm>
 
@@ -83,6 +85,19 @@ void plan_shadows(const ShadowInputs& shadows, ShadingPlan& plan) {
     }
 }
 
+/// Lets the highlights of materials without a texture of roughness be curves, where that is as good as exact.
+void plan_highlights(ShadingPlan& plan, PowerFits& fits) {
+    for (MaterialPlan& material : plan.materials) {
+        constexpr std::uint32_t kNeeded = kStageLights | kStageSpecular;
+        if ((material.stages & kNeeded) != kNeeded || (material.stages & kStageMetallicRoughnessTexture) != 0) continue;
+        const double exponent = specular_exponent(static_cast<double>(material.roughness));
+        const double half_exponent = exponent * (plan.specular == SpecularModel::phong ? 0.125 : 0.5);
+        if (!(half_exponent > 1.0)) continue;
+        const SpecularFit& fit = fits.specular(half_exponent, power_of(kExactCut, 1.0 / half_exponent), SpecularCurve::kMostTerms);
+        if (fit.codes(kExactPeak, 1) <= kExactCodes) material.specular_curve = fit.curve;
+    }
+}
+
 }  // namespace
 
 Result<void> check_options(const ShadingSettings& options) {
@@ -128,7 +143,10 @@ ShadingPlan plan_shading(const PlanInputs& inputs, PlanMemory& memory) {
     plan_shadows(inputs.shadows, plan);
     plan_environments(inputs, memory, plan);
     HALFLIT_ASSERT((options.max_error_codes > 0.0) == (inputs.facts != nullptr));
-    if (inputs.facts != nullptr) spend_error_budget(plan, options.max_error_codes, inputs.exposure, *inputs.facts, memory.fits);
+    if (inputs.facts != nullptr)
+        spend_error_budget(plan, options.max_error_codes, inputs.exposure, *inputs.facts, memory.fits);
+    else if (options.accuracy == Accuracy::exact)
+        plan_highlights(plan, memory.fits);
     return plan;
 }
 

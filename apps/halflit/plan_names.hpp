@@ -33,7 +33,7 @@ constexpr std::string_view accuracy_name(Accuracy accuracy) { return kAccuracyNa
 inline constexpr std::string_view kSpecularNames[] = {"none", "phong", "blinn"};
 
 constexpr std::string_view tier_name(shading::PowTier tier) {
-    constexpr std::string_view kNames[] = {"exact", "display", "fast"};
+    constexpr std::string_view kNames[] = {"exact", "degrees 5, 4", "degrees 3, 3"};
     return kNames[static_cast<std::size_t>(tier)];
 }
 

@@ -231,38 +231,39 @@ FlagGroup shadow_flags(RenderOptions& o) {
 
 FlagGroup surface_flags(RenderOptions& o) {
     ShadingSettings& s = o.settings.shading;
-    return {"Surface",
-            {{"--lobe", joined(lobe_name_list(), "|"), "Diffuse lobe, reflected light over the angle to the light (default lambert)",
-              [&o](const std::string& text) -> Result<void> {
-                  o.lobe_name = text;
-                  return {};
-              }},
-             {"--wrap", "W", fmt::format("Wrap, 0 to {}: light reaches surfaces whose cosine to the light is above -W", kMaxLobeWrap),
-              number(o.lobe.wrap, 0.0f, kMaxLobeWrap)},
-             {"--power", "N", fmt::format("Exponent of the lobe, 0 to {}", kMaxLobePower), number(o.lobe.power, 0.0f, kMaxLobePower)},
-             {"--normalize", "", "Scale the lobe so that its mean over all light directions is Lambert's",
-              [&o](const std::string&) -> Result<void> {
-                  o.lobe.normalize = true;
-                  return {};
-              }},
-             {"--specular", form_of(kSpecularNames),
-              fmt::format("Model of the highlights (default {})", name_of(s.specular, kSpecularNames)), named(s.specular, kSpecularNames)},
-             {"--specular-normalize", form_of(kOffOn),
-              fmt::format("Make sharper highlights brighter (default {})", name_of(s.normalize_specular, kOffOn)),
-              named(s.normalize_specular, kOffOn)},
-             {"--kd", "X", "Diffuse factor of all materials, 0 to 1, times their base colour", number(o.classic.diffuse, 0.0f, 1.0f)},
-             {"--ks", "X",
-              "Specular factor of all materials, 0 to 1: the light mirrored straight on (default 0.04). What is mirrored is not diffuse: "
-              "--kd counts 1 - X times",
-              number(o.classic.specular, 0.0f, 1.0f)},
-             {"--shininess", "S",
-              fmt::format("Exponent of Blinn's highlight for all materials, 0 to {}, instead of their roughness; Phong's is S / 4. Each of "
-                          "--kd, --ks and --shininess makes all materials non-metallic",
-                          kMaxShininess),
-              number(o.classic.exponent, 0.0f, kMaxShininess)},
-             {"--shading", form_of(kRateNames),
-              fmt::format("Compute light once per triangle (flat), vertex (gouraud) or pixel (default {})", name_of(s.rate, kRateNames)),
-              named(s.rate, kRateNames)}}};
+    return {
+        "Surface",
+        {{"--lobe", joined(lobe_name_list(), "|"), "Diffuse lobe, reflected light over the angle to the light (default lambert)",
+          [&o](const std::string& text) -> Result<void> {
+              o.lobe_name = text;
+              return {};
+          }},
+         {"--wrap", "W", fmt::format("Wrap, 0 to {}: light reaches surfaces whose cosine to the light is above -W", kMaxLobeWrap),
+          number(o.lobe.wrap, 0.0f, kMaxLobeWrap)},
+         {"--power", "N", fmt::format("Exponent of the lobe, 0 to {}", kMaxLobePower), number(o.lobe.power, 0.0f, kMaxLobePower)},
+         {"--normalize", "", "Scale the lobe so that its mean over all light directions is Lambert's",
+          [&o](const std::string&) -> Result<void> {
+              o.lobe.normalize = true;
+              return {};
+          }},
+         {"--specular", form_of(kSpecularNames), fmt::format("Model of the highlights (default {})", name_of(s.specular, kSpecularNames)),
+          named(s.specular, kSpecularNames)},
+         {"--specular-normalize", form_of(kOffOn),
+          fmt::format("Make sharper highlights brighter (default {})", name_of(s.normalize_specular, kOffOn)),
+          named(s.normalize_specular, kOffOn)},
+         {"--kd", "X", "Diffuse factor of all lit materials, 0 to 1, times their base colour", number(o.classic.diffuse, 0.0f, 1.0f)},
+         {"--ks", "X",
+          "Specular factor of all lit materials, 0 to 1: the light mirrored straight on (default 0.04). What is mirrored is not diffuse: "
+          "--kd counts 1 - X times",
+          number(o.classic.specular, 0.0f, 1.0f)},
+         {"--shininess", "S",
+          fmt::format("Exponent of Blinn's highlight for all lit materials, 0 to {}, instead of their roughness; Phong's is S / 4. Each of "
+                      "--kd, --ks and --shininess makes all materials non-metallic",
+                      kMaxShininess),
+          number(o.classic.exponent, 0.0f, kMaxShininess)},
+         {"--shading", form_of(kRateNames),
+          fmt::format("Compute light once per triangle (flat), vertex (gouraud) or pixel (default {})", name_of(s.rate, kRateNames)),
+          named(s.rate, kRateNames)}}};
 }
 
 FlagGroup accuracy_flags(ShadingSettings& s) {

@@ -46,16 +46,16 @@ struct TradeSpace {
 
 enum class TradeExtent : std::uint8_t {
     quick,  ///< one setting at a time, the others as in exact; and the error budgets
-    usual,  ///< also all combinations of tier, order, rate and texture filter
+    usual,  ///< also all combinations of order, rate and texture filter
     all     ///< also those combinations with every kind of shadow
 };
 
 /// Each choice once, exact first: for the scene's own lobe, then for each of the others. Features that the scene lacks are not varied.
 [[nodiscard]] std::vector<TradeChoice> trade_choices(const TradeSpace& space, TradeExtent extent);
 
-/// Name for reports: "fast, order 3, gouraud".
+/// Name for reports: "exact, order 3, gouraud".
 [[nodiscard]] std::string trade_name(const TradeChoice& choice, const TradeSpace& space);
-/// Flags to add to a `halflit render` command: "--accuracy fast --sh-order 3 --shading gouraud". Empty for exact.
+/// Flags to add to a `halflit render` command: "--sh-order 3 --shading gouraud". Empty for exact.
 [[nodiscard]] std::string trade_flags(const TradeChoice& choice, const TradeSpace& space);
 
 /// Puts everything but the lobe into the frame's settings.

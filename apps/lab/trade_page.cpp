@@ -192,7 +192,7 @@ Result<std::string> trade_page(const std::vector<TradeRow>& rows, TradeBench& be
     const TradeRow& exact = exact_row(rows, bench.space());
     std::string html = fmt::format(kHead, xml_escaped(job.source.name));
     html += fmt::format(
-        "<p>{}x{} pixels, {} samples per pixel; geometry covers {} pixels. The tier exact takes {:.2f} ms. Times are medians of {} frames, "
+        "<p>{}x{} pixels, {} samples per pixel; geometry covers {} pixels. Exact takes {:.2f} ms. Times are medians of {} frames, "
         "each drawn in turn with a frame of exact, and divided by its time; exact against itself gave {:.2f} to {:.2f}. An error is the "
         "difference from the float64 reference in a pixel's worst channel, in 8-bit sRGB codes before rounding. A bound is what a budget "
         "proves beforehand. Numbered rows are the Pareto front: settings that no other setting beats in both time and error.</p>\n",

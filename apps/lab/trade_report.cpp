@@ -16,8 +16,8 @@ constexpr std::array kAllowances{0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0};  ///< erro
 
 std::string lobe_name(const TradeRow& row, const TradeSpace& space) { return row.choice.lobe ? space.lobes[*row.choice.lobe].name : "own"; }
 
-/// The tier's name, or "budget": a budget chooses polynomials for each material, so its row has no tier.
-std::string tier_of(const TradeRow& row) { return row.bound ? "budget" : std::string(accuracy_name(row.choice.accuracy)); }
+/// The accuracy's name, or "budget".
+std::string accuracy_of(const TradeRow& row) { return row.bound ? "budget" : std::string(accuracy_name(row.choice.accuracy)); }
 
 std::string quoted(const std::string& text) { return text.find(',') == std::string::npos ? text : "\"" + text + "\""; }
 
@@ -26,7 +26,7 @@ Json row_json(const TradeRow& row, const TradeSpace& space) {
     Json json{{"name", row.name},
               {"flags", row.flags},
               {"lobe", lobe_name(row, space)},
-              {"accuracy", tier_of(row)},
+              {"accuracy", accuracy_of(row)},
               {"max_error", choice.max_error_codes > 0 ? Json(choice.max_error_codes) : Json(nullptr)},
               {"order", choice.order > 0 ? Json(choice.order) : Json("auto")},
               {"orders_used", row.orders},
@@ -65,7 +65,7 @@ std::string trade_csv(const std::vector<TradeRow>& rows, const TradeSpace& space
         "share_off_by_one,bound,within,kept,front\n";
     for (const TradeRow& row : rows) {
         const TradeChoice& c = row.choice;
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{},", quoted(row.name), row.flags, lobe_name(row, space), tier_of(row),
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{},", quoted(row.name), row.flags, lobe_name(row, space), accuracy_of(row),
                             c.max_error_codes > 0 ? fmt::format("{:g}", c.max_error_codes) : "",
                             c.order > 0 ? fmt::format("{}", c.order) : "auto", rate_name(c.rate), texture_detail_name(c.texture),
                             shadow_mode_name(c.shadows), c.shadow_size);

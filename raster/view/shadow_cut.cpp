@@ -140,7 +140,7 @@ Extent in_plane(const FittedView& view, bool orthographic, const SeenVolume& see
     return out;
 }
 
-/// Moves a directional view to its window, and ends of its depth to those of the scene there. Nothing if texels are too small for float32.
+/// Moves a directional view to its window. Its depth becomes that of the scene in the window. Nothing if the window is empty.
 std::optional<FittedView> at_window(const FittedView& view, const Window& w, int size, const Hexahedron& scene) {
     const double half = w.half * size / (size - 2 * shading::kShadowBorder);
     FittedView out = view;
@@ -152,13 +152,9 @@ std::optional<FittedView> at_window(const FittedView& view, const Window& w, int
     const Hexahedron prism = parallelepiped(
         {row(view.axes.right, -half, half), row(view.axes.up, -half, half), row(view.axes.back, -1.01 * view.far_z, 0.01 * view.far_z)});
     Range z;
-    double largest = 0.0;
     for (const Polygon& side : common_surface(prism, scene))
-        for (const Vec3d p : side) {
-            z.add(dot(p - out.eye, view.axes.back));
-            largest = std::max(largest, length(p));
-        }
-    if (!(z.low <= z.high) || texel_of(w, size) < kFinestTexel * largest) return std::nullopt;
+        for (const Vec3d p : side) z.add(dot(p - out.eye, view.axes.back));
+    if (!(z.low <= z.high)) return std::nullopt;
     const double depth = std::max(1.01 * z.half(), 1e-3 * w.half);
     out.eye = out.eye + view.axes.back * (z.middle() + depth);
     out.far_z = 2.0 * depth;
@@ -176,7 +172,7 @@ std::optional<SeenVolume> seen_volume(const View& picture, const DepthMap& depth
     const Vec3d dual[3] = {cross(y.normal, z.normal) * (1.0 / volume), cross(z.normal, x.normal) * (1.0 / volume),
                            cross(x.normal, y.normal) * (1.0 / volume)};
     const Hexahedron box = enlarged(scene);
-    // A pixel at the rim may be shaded at its centre, half a pixel outside of what is seen.
+    // A pixel at the rim may be shaded at its centre, half a pixel outside of what is seen; a whole one is added.
     const double wide = 1.001 + 1.0 / picture.viewport.half_width, high = 1.001 + 1.0 / picture.viewport.half_height;
     Hexahedron view;
     if (depth.orthographic) {
@@ -241,13 +237,15 @@ MapUse cut_view(FittedView& view, bool orthographic, int size, const SeenVolume&
     const Hexahedron box = enlarged(scene);
     for (; k > 0; --k) {
         const Window w = *window(view, k, size, needed);
+        // Triangles that cross the window may be as large as the scene, and so are the roundings of their corners.
+        if (texel_of(w, size) * (orthographic ? 1.0 : depth.low) < kFinestTexel * largest_coordinate(scene)) continue;
+        if (!orthographic && w.half < kNarrowestView) continue;
         if (orthographic) {
             const auto moved = at_window(view, w, size, box);
             if (!moved) continue;
             view = *moved;
             return MapUse::cut;
         }
-        if (texel_of(w, size) * depth.low < kFinestTexel * largest_coordinate(scene)) continue;
         // A view that is not around its axis: tangents are measured from the window's middle.
         view.axes.right = view.axes.right + view.axes.back * w.x;
         view.axes.up = view.axes.up + view.axes.back * w.y;

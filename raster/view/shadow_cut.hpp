@@ -30,7 +30,7 @@ struct SeenVolume {
 
 enum class MapUse { whole, cut, none };  ///< none: nothing that is seen can lie in a shadow
 
-/// Cuts a view to what the picture needs of it, if texels become at least half as wide. size: texels on a side of the map. Windows come
+/// Cuts a view to what the picture needs of it, if texels become at most half as wide. size: texels on a side of the map. Windows come
 /// from a ladder that depends on the view and the size alone: widths are the view's over 2, 3, 4, 6, 8 .., and corners are multiples of an
 /// eighth of the map. So texels of one width are the same texels for every camera, and a camera that moves a little gets the same map.
 [[nodiscard]] MapUse cut_view(FittedView& view, bool orthographic, int size, const SeenVolume& seen, const Bounds& scene);

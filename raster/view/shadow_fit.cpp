@@ -73,8 +73,7 @@ std::optional<FittedView> fit_lamp(Vec3d position, std::span<const Bounds> boxes
     view.axes = axes_for(unit(ahead) * -1.0);
     seen = tangents_of(boxes, view.axes, position);
     if (!seen.in_front) return std::nullopt;
-    // A millionth of a turn is as narrow as float32 directions are fine.
-    view.half = std::max({seen.x.high, -seen.x.low, seen.y.high, -seen.y.low, 1e-6});
+    view.half = std::max({seen.x.high, -seen.x.low, seen.y.high, -seen.y.low, kNarrowestView});
     if (!(view.half <= widest)) return std::nullopt;
     Range depth;
     for_corners(scene, [&](Vec3d p) { depth.add(-dot(p - position, view.axes.back)); });

@@ -41,6 +41,9 @@ struct Extent {
     Range x, y;
 };
 
+/// Least tangent of half a lamp's view: cameras are no narrower (kMinFov).
+inline constexpr double kNarrowestView = 1e-5;
+
 /// A square view. Directional: half is half its side, and the middle of its near side is the eye.
 struct FittedView {
     ViewAxes axes;

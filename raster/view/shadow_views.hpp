@@ -37,8 +37,9 @@ struct ShadowViews {
 
 /// Plans a map for every light that reaches the scene's bounds and that something casts a shadow of, fitted to the casters: directional
 /// maps, and those of lamps that see all of them within 127 degrees. Spots see no more than their cone. Other points, and spots beyond 75
-/// degrees, get six faces of half the size. All are halved in size until they fit Settings::shadow_memory_limit. seen: what the picture
-/// sees; maps are cut to it, and what it cannot show the shadow of is not drawn. Null: light is looked up elsewhere too.
+/// degrees, get six faces of half the size, unless one cut view shows all that the picture needs. All are halved in size until they fit
+/// Settings::shadow_memory_limit. seen: what the picture sees; maps are cut to it, and what it cannot show the shadow of is not drawn.
+/// Null: light is looked up elsewhere too.
 [[nodiscard]] Result<ShadowViews> plan_shadow_views(std::span<const shading::LightPlan> lights, const Bounds& bounds,
                                                     const ShadowCasters& casters, const SeenVolume* seen, const Settings& settings);
 

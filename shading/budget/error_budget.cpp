@@ -85,7 +85,7 @@ double spend_on_cells(MaterialPlan& material, const Surface& s, double exposure,
         constexpr double kMostRatio = 100.0;
         const double least = s.least_albedo * scale, ratio = least > 0.0 ? s.reflectance_at_least / least : kMostRatio;
         if (ratio < kMostRatio) {
-            cells.specular_ratio = static_cast<float>(1.001 * ratio);
+            cells.specular_ratio = static_cast<float>(std::max(1e-6, 1.001 * ratio));  // 0 has another meaning
             cells.absolute_specular = 3e38f;
         } else {
             absolute_codes *= 0.5;
@@ -113,9 +113,10 @@ void spend_on_specular(const ShadingPlan& plan, MaterialPlan& material, const Su
     if ((material.stages & kStageMetallicRoughnessTexture) == 0) {
         const double half_exponent = s.exponent * (plan.specular == SpecularModel::phong ? 0.125 : 0.5);
         const double share = threshold_of(kBudgetShares.specular_cut * budget) / (light.largest / exposure * s.normalization);
-        const SpecularFit& fit = fits.specular(half_exponent, share < 1.0 ? power_of(share, 1.0 / half_exponent) : 1.0);
-        const double codes = fit.codes(s.reflectance * s.normalization * light.largest, light.count);
-        if (codes <= kBudgetShares.specular_curve * budget) {
+        for (const int terms : {SpecularCurve::kFewTerms, SpecularCurve::kMostTerms}) {
+            const SpecularFit& fit = fits.specular(half_exponent, share < 1.0 ? power_of(share, 1.0 / half_exponent) : 1.0, terms);
+            const double codes = fit.codes(s.reflectance * s.normalization * light.largest, light.count);
+            if (codes > kBudgetShares.specular_curve * budget) continue;
             material.specular_curve = fit.curve;
             bound.specular = codes;
             bound.left_out += kBudgetShares.specular_cut * budget;

@@ -141,7 +141,10 @@ double at(const std::vector<Point>& hull, double x) {
 
 // ---- highlights ----------------------------------------------------------------------------------------------------
 
-constexpr std::size_t kDegree = 3;
+/// cos((2 i + 1) pi / (2 N)), rising.
+constexpr double kChebyshev4[] = {-0.92387953251128674, -0.38268343236508977, 0.38268343236508977, 0.92387953251128674};
+constexpr double kChebyshev8[] = {-0.98078528040323044, -0.83146961230254524, -0.55557023301960222, -0.19509032201612827,
+                                  0.19509032201612827,  0.55557023301960222,  0.83146961230254524,  0.98078528040323044};
 
 }  // namespace
 
@@ -197,51 +200,55 @@ LobeFit fit_lobe(double n, double amplitude, double split_wrap) {
     return fit;
 }
 
-SpecularFit fit_specular(double half_exponent, double least) {
+SpecularFit fit_specular(double half_exponent, double least, int terms) {
     SpecularFit fit{};
+    const std::size_t nodes = static_cast<std::size_t>(terms);
     double power = half_exponent, times = 1.0;
     for (fit.curve.squarings = 0; power >= 2.0; ++fit.curve.squarings, power *= 0.5) times *= 2.0;
     // Interpolation at Chebyshev's nodes: Newton's divided differences, expanded into powers of x.
-    constexpr double kChebyshev[kDegree + 1] = {-0.92387953251128674, -0.38268343236508977, 0.38268343236508977, 0.92387953251128674};
+    const double* const chebyshev = terms == SpecularCurve::kFewTerms ? kChebyshev4 : kChebyshev8;
     const double middle = 0.5 * (1.0 + least), half = 0.5 * (1.0 - least);
-    double x[kDegree + 1], difference[kDegree + 1], c[kDegree + 1] = {};
-    for (std::size_t i = 0; i <= kDegree; ++i) {
-        x[i] = middle + half * kChebyshev[i];
+    double x[SpecularCurve::kMostTerms], difference[SpecularCurve::kMostTerms], c[SpecularCurve::kMostTerms] = {};
+    for (std::size_t i = 0; i < nodes; ++i) {
+        x[i] = middle + half * chebyshev[i];
         difference[i] = power_of(x[i], power);
     }
-    for (std::size_t k = 1; k <= kDegree; ++k)
-        for (std::size_t i = kDegree; i >= k; --i) difference[i] = (difference[i] - difference[i - 1]) / (x[i] - x[i - k]);
-    for (std::size_t k = kDegree + 1; k-- > 0;) {
-        for (std::size_t i = kDegree; i > 0; --i) c[i] = c[i - 1] - x[k] * c[i];
+    for (std::size_t k = 1; k < nodes; ++k)
+        for (std::size_t i = nodes - 1; i >= k; --i) difference[i] = (difference[i] - difference[i - 1]) / (x[i] - x[i - k]);
+    for (std::size_t k = nodes; k-- > 0;) {
+        for (std::size_t i = nodes - 1; i > 0; --i) c[i] = c[i - 1] - x[k] * c[i];
         c[0] = difference[k] - x[k] * c[0];
     }
     double size = 0.0;
-    for (std::size_t i = 0; i <= kDegree; ++i) {
+    for (std::size_t i = 0; i < nodes; ++i) {
         fit.curve.c[i] = static_cast<float>(c[i]);
         size += std::fabs(c[i]);
     }
+    fit.curve.terms = terms;
     fit.curve.least = static_cast<float>(least);
     fit.rounding = times * 2.0 * kRounding + half_exponent * 20.0 * kRounding;
     fit.least_root = power_of(least, power);
     fit.root_error = 1e30;
     if (!(least > 1e-6 && least < 1.0)) return fit;
-    // The error is sampled, at points that are closer together where x^power bends most. Between two samples the second derivative bounds
-    // it.
-    constexpr int kSteps = 64;
+    // No derivative of x^power but those of a polynomial has a zero, so by Rolle's theorem the error has one extreme between two nodes, and
+    // none outside. The golden section finds it.
     const auto error_at = [&](double at) {
-        const double p = ((fit.curve.c[3] * at + fit.curve.c[2]) * at + fit.curve.c[1]) * at + fit.curve.c[0];
+        double p = c[nodes - 1];
+        for (std::size_t i = nodes - 1; i-- > 0;) p = p * at + c[i];
         return std::fabs(p - power_of(at, power));
     };
-    double before = least, error_before = error_at(least), largest = 0.0;
-    for (int i = 1; i <= kSteps; ++i) {
-        const double at = i == kSteps ? 1.0 : power_of(least, 1.0 - static_cast<double>(i) / kSteps), step = at - before,
-                     error = error_at(at);
-        const double bend =
-            std::fabs(power * (power - 1.0)) * power_of(before, std::min(0.0, power - 2.0)) + std::fabs(2.0 * c[2]) + std::fabs(6.0 * c[3]);
-        largest = std::max(largest, std::max(error, error_before) + 0.125 * bend * step * step);
-        before = at, error_before = error;
+    double largest = std::max(error_at(least), error_at(1.0));
+    for (std::size_t i = 0; i + 1 < nodes; ++i) {
+        constexpr double kGolden = 0.6180339887498949;
+        double low = x[i], high = x[i + 1];
+        for (int k = 0; k < 24; ++k) {
+            const double inner = high - kGolden * (high - low), outer = low + kGolden * (high - low);
+            error_at(inner) < error_at(outer) ? low = inner : high = outer;
+        }
+        largest = std::max(largest, error_at(0.5 * (low + high)));
     }
-    fit.root_error = largest + 8.0 * kRounding * size;
+    // Rounding: of the coefficients, and two for each term.
+    fit.root_error = 1.001 * largest + (2.0 * terms + 1.0) * kRounding * size;
     return fit;
 }
 
@@ -289,11 +296,11 @@ const LobeFit& PowerFits::lobe(double n, double amplitude, double split_wrap) {
         });
 }
 
-const SpecularFit& PowerFits::specular(double half_exponent, double least) {
+const SpecularFit& PowerFits::specular(double half_exponent, double least, int terms) {
     return find_or_make(
-        speculars_, [&](const SpecularEntry& e) { return e.half_exponent == half_exponent && e.least == least; },
+        speculars_, [&](const SpecularEntry& e) { return e.half_exponent == half_exponent && e.least == least && e.terms == terms; },
         [&] {
-            return SpecularEntry{half_exponent, least, fit_specular(half_exponent, least)};
+            return SpecularEntry{half_exponent, least, terms, fit_specular(half_exponent, least, terms)};
         });
 }
 

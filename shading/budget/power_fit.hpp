@@ -19,7 +19,7 @@ struct LobeFit {
 /// of the fit is then compared with the excess, which is nearly black where f and the core are close. 0: f is always drawn whole.
 [[nodiscard]] LobeFit fit_lobe(double n, double amplitude, double split_wrap = 0.0);
 
-/// Fit of x^h, x in [least, 1], as p(x)^(2^squarings), p of degree three. h is half the exponent of the cosine.
+/// Fit of x^h, x in [least, 1], as p(x)^(2^squarings), p of SpecularCurve::terms terms. h is half the exponent of the cosine.
 struct SpecularFit {
     SpecularCurve curve;
     double rounding;    ///< relative error of the kernel's rounding, x's own included
@@ -31,14 +31,18 @@ struct SpecularFit {
     /// peak.
     [[nodiscard]] double codes(double peak, int count) const;
 };
-[[nodiscard]] SpecularFit fit_specular(double half_exponent, double least);
+[[nodiscard]] SpecularFit fit_specular(double half_exponent, double least, int terms = SpecularCurve::kFewTerms);
 
-/// Fits kept from frame to frame: a lobe's takes some 50 us, a highlight's 10.
+/// Exact without a budget: highlights are 0 below kExactCut of their peak. Curves serve whose bound for the peak kExactPeak, in units of
+/// white, is at most kExactCodes; others are computed by log2 and exp2.
+inline constexpr double kExactCut = 1e-7, kExactPeak = 30.0, kExactCodes = 0.05;
+
+/// Fits kept from frame to frame: a lobe's takes some 50 us, a highlight's 10 to 30.
 class PowerFits {
 public:
     /// Fit for lobes of the power n under light of about this amplitude.
     [[nodiscard]] const LobeFit& lobe(double n, double amplitude, double split_wrap);
-    [[nodiscard]] const SpecularFit& specular(double half_exponent, double least);
+    [[nodiscard]] const SpecularFit& specular(double half_exponent, double least, int terms);
 
 private:
     struct LobeEntry {
@@ -47,6 +51,7 @@ private:
     };
     struct SpecularEntry {
         double half_exponent, least;
+        int terms;
         SpecularFit fit;
     };
     std::deque<LobeEntry> lobes_;

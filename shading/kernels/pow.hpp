@@ -32,6 +32,16 @@ HALFLIT_INLINE F horner(const float (&c)[N], F x) {
     return sum;
 }
 
+/// The same with the first N of more coefficients.
+template <int N, int M>
+HALFLIT_INLINE F horner_first(const float (&c)[M], F x) {
+    static_assert(N <= M);
+    F sum(c[N - 1]);
+#pragma GCC unroll 16
+    for (int i = N - 2; i >= 0; --i) sum = mad(sum, x, F(c[i]));
+    return sum;
+}
+
 /// t = 2^exponent (1 + u) with 1 + u in [sqrt(1/2), sqrt(2)), exactly. t >= 0, not NaN; 0 gives exponent -127 and u = 0.
 struct Log2Argument {
     F exponent, u;
@@ -90,8 +100,8 @@ HALFLIT_INLINE F sharp_power_of_unit(F t, F one_minus_t, F power) {
     return sel(t > F(0.0f), exp2_floored(kExp2Degree6, power * mad(u, horner(kLog2Degree8, u), exponent)), F(0.0f));
 }
 
-/// t^n as t * 2^((n-1) log2 t), by shorter polynomials and without the splitting. 1 gives exactly 1, 0 gives 0. Errors: Accuracy in
-/// shading/plan/accuracy.hpp.
+/// t^n as t * 2^((n-1) log2 t), by shorter polynomials and without the splitting. 1 gives exactly 1, 0 gives 0. Errors: pow_errors in
+/// shading/plan/pow_tier.hpp.
 template <int L, int E>
 HALFLIT_INLINE F short_power_of_unit(const float (&log2_polynomial)[L], const float (&exp2_polynomial)[E], F t, float power_minus_one) {
     const Log2 log = log2_parts(log2_polynomial, t);

@@ -93,8 +93,8 @@ template <bool kSpecular>
 HALFLIT_INLINE V3 reflected(const shading::MaterialPlan& material, const IncidentLight& light, V3 base) {
     V3 albedo = base, f0{F(0.0f), F(0.0f), F(0.0f)};
     if constexpr (kSpecular) {
-        const F dielectric(material.dielectric);
-        f0 = lerp(V3{dielectric, dielectric, dielectric}, base, light.metallic);
+        const F dielectric = F(material.dielectric) * (F(1.0f) - light.metallic);  // no difference that could cancel
+        f0 = base * light.metallic + V3{dielectric, dielectric, dielectric};
         albedo = base * ((F(1.0f) - light.metallic) * F(material.refracted));
     }
     V3 color{F(0.0f), F(0.0f), F(0.0f)};

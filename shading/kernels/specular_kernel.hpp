@@ -67,7 +67,9 @@ HALFLIT_INLINE F curve_specular_value(const SpecularShape& shape, V3 normal, V3 
     const F cosine_squared = at.cosine * at.cosine;
     const M shines = (vmin(n_dot_l, at.cosine) > F(0.0f)) & (cosine_squared > F(curve.least) * at.squared);
     if (!any(shines)) return F(0.0f);
-    F power = horner(curve.c, vmax(vdiv(cosine_squared, at.squared), F(curve.least)));
+    using shading::SpecularCurve;
+    const F x = vmax(vdiv(cosine_squared, at.squared), F(curve.least));
+    F power = curve.terms == SpecularCurve::kFewTerms ? horner_first<SpecularCurve::kFewTerms>(curve.c, x) : horner(curve.c, x);
     for (int i = 0; i < curve.squarings; ++i) power = power * power;
     return sel(shines, n_dot_l * power, F(0.0f));
 }

@@ -12,10 +12,12 @@
 
 namespace halflit::shading {
 
-/// Curve for (cos^2)^(s/2): p(cos^2) squared `squarings` times, p(x) = ((c[3] x + c[2]) x + c[1]) x + c[0] (power_fit.hpp).
+/// Curve for (cos^2)^(s/2): p(cos^2) squared `squarings` times, p(x) = c[0] + c[1] x + .. (power_fit.hpp).
 struct SpecularCurve {
-    std::int32_t squarings = -1;  ///< -1: no curve; the power is computed by log2 and exp2
-    float c[4] = {};
+    static constexpr int kMostTerms = 8, kFewTerms = 4;
+    std::int32_t squarings = -1;     ///< -1: no curve; the power is computed by log2 and exp2
+    std::int32_t terms = kFewTerms;  ///< kFewTerms, or kMostTerms
+    float c[kMostTerms] = {};
     float least = 1;  ///< least cos^2 with a highlight; below it there is none
 };
 

@@ -239,7 +239,7 @@ Rgba shade(const FrameInputs& frame, const Material& material, SlotMask availabl
     surface.to_eye = frame.orthographic ? scale(to_double(frame.view_direction_ws), -1) : unit(to_double(frame.eye_ws) - position);
     surface.albedo = surface.base;
     if (frame.options.specular != SpecularModel::none) {
-        const double metallic = material.metallic * mr.b, dielectric = material.dielectric_reflectance;
+        const double metallic = material.metallic * mr.b, dielectric = std::clamp(double{material.dielectric_reflectance}, 0.0, 1.0);
         surface.albedo = scale(surface.base, (1 - metallic) * (1 - dielectric));
         surface.f0 = scale(surface.base, metallic) + scale({1, 1, 1}, dielectric * (1 - metallic));
     }

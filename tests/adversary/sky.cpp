@@ -1,7 +1,9 @@
 // Ambient light and environments of the trials.
 #include "sh/equirect.hpp"
+#include "shading/reference/irradiance.hpp"
 #include "tests/adversary/trial.hpp"
 
+#include <algorithm>
 #include <list>
 
 namespace halflit::adversary {
@@ -104,7 +106,10 @@ void add_sky(const Genome& genome, AvoidSet avoid, Trial& trial) {
         set_environment(trial.scene, made.environment);
         trial.width = 24, trial.height = 18;  // sums over images take long
         // One lobe for all, the default material's too, because the reference takes seconds for each.
-        trial.settings.shading.lobe = trial.scene.materials[0].lobe;
+        // No sharper than what the truth resolves.
+        Lobe& lobe = trial.scene.materials[0].lobe;
+        lobe.power = std::min(lobe.power, shading::reference::kSharpestIntegrated);
+        trial.settings.shading.lobe = lobe;
         for (Material& m : trial.scene.materials) m.lobe = trial.scene.materials[0].lobe;
     } else if (ambient) {
         trial.scene.ambient = {above * level, below * (0.5f * level)};

@@ -279,7 +279,7 @@ TEST_CASE("figures: the contrast of the terminator's edge is the closed form, an
         INFO(n << " lights");
         CHECK(percent == Approx(contrast(n, 0)).epsilon(1e-6));
         CHECK(series_of(numbers, plot + "Lambert, e = 20 %").at(n) == Approx(contrast(n, 0.2)).epsilon(1e-6));
-        CHECK((percent < 1) == (n >= 6));  // 5 / (n - 1 + n / 50) < 2 for n > 5.9
+        CHECK((percent < 1) == (n >= 6));  // 5 / (n - 1 + n / 50) < 1 for n > 5.9
     }
     for (const std::string name : {"Lambert", "Sloan, a = 0.5"}) {
         const auto& drawn = series_of(numbers, plot + name + ", drawn");

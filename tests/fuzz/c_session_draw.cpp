@@ -45,7 +45,7 @@ Sized<halflit_settings> Session::settings() {
     settings.set(&halflit_settings::shadow_size, 64);
     settings.set(&halflit_settings::shadows, choice(3));
     // Direct integration over an environment (reference) takes seconds for each lobe.
-    settings.set(&halflit_settings::accuracy, environments_left_ > 0 ? choice(3) : 1 + choice(2));
+    settings.set(&halflit_settings::accuracy, environments_left_ > 0 ? choice(2) : 1);
     settings.set(&halflit_settings::shading_rate, in_.one_in(3) ? choice(3) : 2);
     settings.set(&halflit_settings::texture_detail, in_.one_in(3) ? choice(3) : 0);
     settings.set(&halflit_settings::background_environment, in_.one_in(6));

@@ -128,18 +128,20 @@ TEST_CASE("curves: a highlight whose range is empty or reaches 0 has no bound", 
 
 TEST_CASE("curves: highlights are off by no more than their fits state", "[shading][pow][curve]") {
     for (const double half_exponent : {0.7, 1.0, 3.3, 8.0, 16.0, 24.5, 65.3, 131.0, 700.0, 5000.0})
-        for (const double cut : {0.3, 1e-2, 1e-4, 1e-6}) {
-            const double least = std::pow(cut, 1.0 / half_exponent);
-            const SpecularFit fit = fit_specular(half_exponent, least);
+        for (const auto& cut_and_terms : {std::pair{0.3, 4}, {1e-2, 4}, {1e-4, 4}, {1e-6, 4}, {1e-2, 8}, {1e-7, 8}, {1e-9, 8}}) {
+            const double cut = cut_and_terms.first, least = std::pow(cut, 1.0 / half_exponent);
+            const int terms = cut_and_terms.second;
+            const SpecularFit fit = fit_specular(half_exponent, least, terms);
             double worst = -255.0;
             for (int i = 0; i <= 2000; ++i) {
                 const auto x = static_cast<float>(least + (1.0 - least) * i / 2000.0);
-                float power = ((fit.curve.c[3] * x + fit.curve.c[2]) * x + fit.curve.c[1]) * x + fit.curve.c[0];
+                float power = fit.curve.c[terms - 1];
+                for (int k = terms - 2; k >= 0; --k) power = power * x + fit.curve.c[k];
                 for (int k = 0; k < fit.curve.squarings; ++k) power *= power;
                 const double want = std::pow(static_cast<double>(x), half_exponent);
                 const double error = std::fabs(static_cast<double>(power) / want - 1.0), said = fit.relative_error(want);
                 INFO("half exponent " << half_exponent << ", cut " << cut << ", x " << x << ": off by " << error << ", said " << said);
-                if (!(error <= said)) CHECK(error <= said);
+                if (said < 1e30 && !(error <= said)) CHECK(error <= said);  // 1e30: nothing is known
                 // Three lights in a pixel, in codes.
                 for (const double peak : {0.05, 0.4, 3.0}) {
                     const double got = peak * (static_cast<double>(power) + 2.0 * 0.1), true_sum = peak * (want + 2.0 * 0.1);

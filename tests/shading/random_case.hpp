@@ -181,7 +181,9 @@ inline void shorten(FloatMaker& make, Case& c) {
         }
         const float share = make.ordinary(0, 1);
         if (make.below(2) == 0)
-            material.specular_curve = fit_specular(static_cast<double>(make.ordinary(1, 200)), static_cast<double>(share)).curve;
+            material.specular_curve = fit_specular(static_cast<double>(make.ordinary(1, 200)), static_cast<double>(share),
+                                                   make.below(2) == 0 ? SpecularCurve::kFewTerms : SpecularCurve::kMostTerms)
+                                          .curve;
         else if (make.below(2) == 0)
             material.specular_threshold = share;
     }

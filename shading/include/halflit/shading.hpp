@@ -15,7 +15,8 @@ enum class Accuracy : std::uint8_t {
 };
 
 /// Bound on the error of a frame in 8-bit sRGB codes: 255 times the encoded value, before it is rounded to a whole code, of a pixel that
-/// one surface fills. `codes` is the sum of the parts below it, for the material where that sum is largest.
+/// one surface fills. `codes` is the sum of the parts below it, or 255 if that is less, for the material where that sum is
+/// largest.
 struct ErrorBound {
     double budget = 0;       ///< codes asked for; 0: no budget, and nothing below is known
     double codes = 0;        ///< the bound

@@ -296,7 +296,7 @@ HALFLIT_C_API int32_t halflit_scene_set_sky(halflit_scene* scene, const halflit_
 
 // ---- settings of a picture ---------------------------------------------------------------------------------------------
 
-/// Arithmetic of shading: float64 and slow; float32; about one 8-bit code from exact; less.
+/// Arithmetic of shading: float64 and slow; float32.
 enum { HALFLIT_ACCURACY_REFERENCE = 0, HALFLIT_ACCURACY_EXACT = 1 };
 /// How often light is evaluated: once a triangle, a vertex or a pixel.
 enum { HALFLIT_RATE_FLAT = 0, HALFLIT_RATE_GOURAUD = 1, HALFLIT_RATE_PIXEL = 2 };
