@@ -45,7 +45,7 @@ if(HALFLIT_SHARED)
     set(c_requires "")
 else()
     # Static libraries need their own dependencies at every link, not only with --static.
-    set(io_libraries "-lhalflit_io -lfmt -ljpeg -lspng")
+    set(io_libraries "-lhalflit_io -lfmt -ljpeg -lspng -ldeflate")
     set(c_requires halflit-io)
     if(HALFLIT_ONETBB)
         set(raster_libraries "-lhalflit_raster -lhalflit_shading -lhalflit_sh -ltbb -lstdc++ -lm")

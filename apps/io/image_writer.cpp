@@ -4,12 +4,15 @@
 #include "apps/io/text.hpp"
 #include "shading/out_of_memory.hpp"
 
+#include <libdeflate.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <memory>
 #include <new>
 
 #pragma GCC diagnostic push
@@ -59,6 +62,24 @@ private:
     static thread_local EncoderMemory* current_;
 };
 thread_local EncoderMemory* EncoderMemory::current_ = nullptr;
+
+/// zlib stream of stb's filtered rows, in memory that stb frees; stb's own compressor takes five times as long. `size` is below 2^31, as
+/// kMaxImagePixels have 4 bytes each and there is a byte for each row. The compressor's own memory is 0.2 MB.
+static unsigned char* compress_rows(unsigned char* rows, int size, int* compressed_size, int) {
+    constexpr int kLevel = 1;  // 4: 4 to 11 % smaller, in up to 1.4 times the time
+    struct Free {
+        void operator()(libdeflate_compressor* compressor) const { libdeflate_free_compressor(compressor); }
+    };
+    const std::unique_ptr<libdeflate_compressor, Free> compressor(libdeflate_alloc_compressor(kLevel));
+    if (!compressor) throw std::bad_alloc();
+    const auto bytes = static_cast<std::size_t>(size);
+    const std::size_t bound = libdeflate_zlib_compress_bound(compressor.get(), bytes);
+    auto* const out = static_cast<unsigned char*>(EncoderMemory::take(bound));
+    *compressed_size = static_cast<int>(libdeflate_zlib_compress(compressor.get(), rows, bytes, out, bound));
+    return out;
+}
+#define STBIW_ZLIB_COMPRESS compress_rows
+#define STBIW_CRC32(bytes, size) libdeflate_crc32(0, bytes, static_cast<std::size_t>(size))
 #define STBIW_MALLOC(size) EncoderMemory::take(size)
 #define STBIW_REALLOC(memory, size) EncoderMemory::resize(memory, size)
 #define STBIW_FREE(memory) EncoderMemory::give(memory)
@@ -74,6 +95,10 @@ namespace {
 
 constexpr int kJpegQuality = 95;
 constexpr float kLargestRgbe = 1.69e38f;  // 255/256 * 2^127
+
+/// PNG's number of the filter Sub: a byte less the same byte of the pixel to the left. Up gives files of the same size in the same time.
+/// Paeth saves 3 % of a file at best and takes 10 ms longer for 2 million pixels; the best filter of each row takes 40 ms longer.
+constexpr int kFilterSub = 1;
 
 /// Target of the encoder's C callback. An exception may not pass through C code, so it is kept here.
 struct Sink {
@@ -100,6 +125,30 @@ std::vector<std::uint8_t> rgb8_over_black(const Image& image) {
     return rgb;
 }
 
+bool is_opaque(const Image& image) {
+    std::uint8_t all = 255;
+    for (std::size_t i = 3; i < image.rgba8.size(); i += 4) all &= image.rgba8[i];
+    return all == 255;
+}
+
+std::vector<std::uint8_t> rgb8_of(const Image& image) {
+    const std::size_t pixels = image.rgba8.size() / 4;
+    std::vector<std::uint8_t> rgb(3 * pixels);
+    const std::uint8_t* from = image.rgba8.data();
+    for (std::uint8_t* to = rgb.data(); to != rgb.data() + rgb.size(); to += 3, from += 4)
+        to[0] = from[0], to[1] = from[1], to[2] = from[2];
+    return rgb;
+}
+
+/// An opaque picture is stored without alpha: three quarters of the time, and a file of 7/8 of the size.
+int encode_png(const Image& image, Sink& sink) {
+    // stb has the filter in a variable; it is set once, so that several threads may encode.
+    [[maybe_unused]] static const int set = stbi_write_force_png_filter = kFilterSub;
+    const int w = image.width, h = image.height;
+    if (is_opaque(image)) return stbi_write_png_to_func(&Sink::append, &sink, w, h, 3, rgb8_of(image).data(), 3 * w);
+    return stbi_write_png_to_func(&Sink::append, &sink, w, h, 4, image.rgba8.data(), 4 * w);
+}
+
 std::vector<float> rgb_linear_over_black(const Image& image) {
     std::vector<float> rgb;
     rgb.reserve(image.rgba_linear.size() / 4 * 3);
@@ -118,7 +167,7 @@ std::vector<std::uint8_t> encode(const Image& image, OutputFormat format) {
     int done = 0;
     switch (format) {
         case OutputFormat::png:
-            done = stbi_write_png_to_func(&Sink::append, &sink, w, h, 4, image.rgba8.data(), 4 * w);
+            done = encode_png(image, sink);
             break;
         case OutputFormat::bmp:
             done = stbi_write_bmp_to_func(&Sink::append, &sink, w, h, 4, image.rgba8.data());

@@ -1,4 +1,5 @@
 // Pictures and environments as files. The bytes of a picture depend on its pixels and the format alone: no date, name or version is stored.
+// Those of a PNG also depend on the version of libdeflate, which compresses it; its pixels do not.
 #pragma once
 
 #include "halflit/environment.hpp"
@@ -27,7 +28,8 @@ inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 28;
 [[nodiscard]] constexpr bool is_linear(OutputFormat format) { return format == OutputFormat::hdr; }
 
 /// Makes the whole file in memory. PNG, BMP and TGA keep alpha; JPG (quality 95) and HDR have none and show the picture over black.
-/// HDR holds what RGBE can: [0, 1.7e38], with NaN as 0. The picture may have up to kMaxImagePixels.
+/// A PNG of a picture that is opaque everywhere is RGB. HDR holds what RGBE can: [0, 1.7e38], with NaN as 0. The picture may have up to
+/// kMaxImagePixels.
 [[nodiscard]] HALFLIT_API Result<std::vector<std::uint8_t>> encode_image(const Image& image, OutputFormat format);
 
 /// Encodes by the path's extension and writes the file, which is either old or new, never half written; "-" is standard output.
