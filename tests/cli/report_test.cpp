@@ -79,7 +79,7 @@ TEST_CASE("report: a report that cannot be written ends the run with 4", "[cli]"
 }
 
 TEST_CASE("bench: the least time is not above the median, and the pixels are those of render", "[cli]") {
-    const Outcome bench = run({"bench", "sphere:500", "--frames", "4", "--json", "--size", "60x40"});
+    const Outcome bench = run({"bench", "sphere:500", "--frames", "4", "--json", "--size", "60x40", "--encode"});
     REQUIRE(bench.code == 0);
     const auto report = json_of(bench.out);
     CHECK(report["frames"] == 4);
@@ -92,6 +92,12 @@ TEST_CASE("bench: the least time is not above the median, and the pixels are tho
     CHECK(report["load_ms"].get<double>() >= 0.0);
     CHECK(report["encode_ms"].get<double>() > 0.0);
     CHECK(report["pixel_hash"] == hash_text(read_picture(run({"render", "sphere:500", "--size", "60x40", "-o", "-"}).out)));
+}
+
+TEST_CASE("bench: nothing is encoded unless asked for", "[cli]") {
+    CHECK_FALSE(json_of(run({"bench", "sphere:500", "--frames", "1", "--json", "--size", "60x40"}).out).contains("encode_ms"));
+    CHECK(run({"bench", "sphere:500", "--frames", "1", "--size", "60x40"}).out.find("PNG") == std::string::npos);
+    CHECK(run({"bench", "sphere:500", "--frames", "1", "--size", "60x40", "--encode"}).out.find("ms (PNG)") != std::string::npos);
 }
 
 TEST_CASE("info: it counts the built-in sphere and plans its one material", "[cli]") {

@@ -201,7 +201,7 @@ TEST_CASE("schema: reports of render have the keys that their schema describes",
 
 TEST_CASE("schema: bench, info, diff, golden and trade have the keys that their schemas describe", "[cli][schema]") {
     const TemporaryFolder folder;
-    check_report("bench", output_of({"bench", "sphere:500", "--size", "16x9", "--frames", "2", "--json", "--env", "sky"}));
+    check_report("bench", output_of({"bench", "sphere:500", "--size", "16x9", "--frames", "2", "--json", "--encode", "--env", "sky"}));
     check_report("info", output_of({"info", "demo", "--json"}));
     check_report("info", output_of({"info", "demo", "--json", "--env", "sky", "--max-error", "1", "--light", "spot:range=3", "--lobe",
                                     "mcauley", "--wrap", "0.3", "--power", "2.5"}));

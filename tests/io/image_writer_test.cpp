@@ -64,8 +64,9 @@ std::vector<Chunk> chunks_of(const std::vector<std::uint8_t>& file) {
         const auto checked = bytes.begin() + static_cast<std::ptrdiff_t>(at) + 4;
         const Bytes covered(checked, checked + 4 + static_cast<std::ptrdiff_t>(size));
         CHECK(number_at(at + 8 + size) == crc32_of(covered));
-        chunks.push_back({std::string(file.begin() + static_cast<std::ptrdiff_t>(at) + 4, file.begin() + static_cast<std::ptrdiff_t>(at) + 8),
-                          Bytes(covered.begin() + 4, covered.end())});
+        chunks.push_back(
+            {std::string(file.begin() + static_cast<std::ptrdiff_t>(at) + 4, file.begin() + static_cast<std::ptrdiff_t>(at) + 8),
+             Bytes(covered.begin() + 4, covered.end())});
         at += 12 + size;
     }
     return chunks;
