@@ -161,7 +161,7 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, 
     plan.options = options;
     plan.picture = make_view(camera, width, height, settings.region, tile_size, settings.samples);
     const std::optional<SeenVolume> seen = looked_up_where_seen(prepared, camera, options, settings, plan.picture);
-    auto shadows = plan_shadow_views(lights, prepared.bounds(), prepared.shadow_casters(), seen ? &*seen : nullptr, settings);
+    auto shadows = plan_shadow_views(lights, prepared, seen ? &*seen : nullptr, settings);
     if (!shadows) return tl::unexpected<Error>(shadows.error());
     bool finite_views = all_finite(plan.picture.clip_from_world);
     for (const ShadowView& face : shadows->views) finite_views &= !face.sees_casters || all_finite(face.view.clip_from_world);

@@ -136,7 +136,7 @@ Json planned_lights_json(const shading::ShadingPlan& plan) {
     return lights;
 }
 
-/// The frame's shadow maps: one per light that casts shadows, with the number of faces that see the scene.
+/// The frame's shadow maps: one per light that casts shadows, or its cascades, with the number of faces that see the scene.
 Json shadows_json(const raster::FramePlan& frame, const Settings& settings) {
     constexpr std::string_view kKinds[] = {"orthographic", "perspective", "cube"};
     Json maps = Json::array();

@@ -4,34 +4,16 @@
 #include "shading/plan/shadow_map_plan.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace halflit::raster {
 namespace {
-
-/// Points with dot(normal, p) + offset >= 0.
-struct HalfSpace {
-    Vec3d normal;
-    double offset;
-    [[nodiscard]] double at(Vec3d p) const { return dot(normal, p) + offset; }
-};
 
 /// Convex body with six sides. Corner k lies on the high side of axis a where bit a of k is set.
 struct Hexahedron {
     Vec3d corner[8];
     HalfSpace side[6];  ///< 2 a: the low side of axis a; 2 a + 1: the high one
 };
-
-/// Clips a convex polygon [Sutherland & Hodgman 1974]. Cut points lie on its edges, so no rounding moves them farther than that.
-void clip(Polygon& polygon, const HalfSpace& keep, Polygon& scratch) {
-    scratch.clear();
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const Vec3d a = polygon[i], b = polygon[i + 1 < polygon.size() ? i + 1 : 0];
-        const double at_a = keep.at(a), at_b = keep.at(b);
-        if (at_a >= 0.0) scratch.push_back(a);
-        if ((at_a >= 0.0) != (at_b >= 0.0)) scratch.push_back(a + (b - a) * (at_a / (at_a - at_b)));
-    }
-    polygon.swap(scratch);
-}
 
 /// The sides of each body in the other one: the surface of their common part.
 std::vector<Polygon> common_surface(const Hexahedron& a, const Hexahedron& b) {
@@ -140,6 +122,24 @@ Extent in_plane(const FittedView& view, bool orthographic, const SeenVolume& see
     return out;
 }
 
+/// The part of a view's plane that a map has to show; nothing if no shadow falls on what is seen. depth: of what is seen.
+std::optional<Extent> needed_of(const FittedView& view, bool orthographic, int size, const SeenVolume& seen, Range& depth) {
+    const Extent all = in_plane(view, orthographic, seen, 0.99 * view.near_z, depth);
+    // The filter carries a shadow a little beyond its outline.
+    const double rim = shading::kShadowBorder * texel_of({0, 0, view.half}, size);
+    const auto with_rim = [&](const Range& r) { return Range{r.low - rim, r.high + rim}; };
+    const Extent needed{common(all.x, with_rim(view.content.x)), common(all.y, with_rim(view.content.y))};
+    if (!(needed.x.low <= needed.x.high) || !(needed.y.low <= needed.y.high)) return std::nullopt;
+    return needed;
+}
+
+/// Rung of the narrowest window that shows `needed`.
+int narrowest(const FittedView& view, int size, const Extent& needed) {
+    int k = 0;
+    while (k < kRungs && window(view, k + 1, size, needed)) ++k;
+    return k;
+}
+
 /// Moves a directional view to its window. Its depth becomes that of the scene in the window. Nothing if the window is empty.
 std::optional<FittedView> at_window(const FittedView& view, const Window& w, int size, const Hexahedron& scene) {
     const double half = w.half * size / (size - 2 * shading::kShadowBorder);
@@ -180,7 +180,9 @@ std::optional<SeenVolume> seen_volume(const View& picture, const DepthMap& depth
         view = parallelepiped({{x.normal, dual[0], -wide - x.offset, wide - x.offset},
                                {y.normal, dual[1], -high - y.offset, high - y.offset},
                                {z.normal, dual[2], -margin - z.offset, 1.0 + margin - z.offset}});
-        return SeenVolume{common_surface(view, box)};
+        SeenVolume seen;
+        seen.sides = common_surface(view, box);
+        return seen;
     }
     const Range range = depths_in_view(z, depth, box);
     if (!(range.low < range.high)) return SeenVolume{};
@@ -196,7 +198,19 @@ std::optional<SeenVolume> seen_volume(const View& picture, const DepthMap& depth
     }
     view.side[4] = {z.normal, z.offset - range.low};
     view.side[5] = {z.normal * -1.0, range.high - z.offset};
-    return SeenVolume{common_surface(view, box)};
+    SeenVolume seen{common_surface(view, box), true, z, range, {}, {}};
+    std::copy(std::begin(view.side), std::end(view.side), std::begin(seen.view));
+    std::copy(view.corner, view.corner + 4, std::begin(seen.near_corner));
+    return seen;
+}
+
+SeenVolume up_to(const SeenVolume& seen, double depth) {
+    SeenVolume out = seen;
+    const HalfSpace keep{seen.axis.normal * -1.0, depth - seen.axis.offset};
+    Polygon scratch;
+    for (Polygon& side : out.sides) clip(side, keep, scratch);
+    out.depth.high = std::min(out.depth.high, depth);
+    return out;
 }
 
 bool can_see(const ViewAxes& axes, Vec3d eye, double half, const SeenVolume& seen) {
@@ -223,20 +237,20 @@ double nearest_if_all_seen(const FittedView& view, const SeenVolume& seen) {
     return nearest;
 }
 
+std::optional<int> ladder_rung(const FittedView& view, int size, const SeenVolume& seen) {
+    Range depth;
+    const auto needed = needed_of(view, true, size, seen, depth);
+    if (!needed) return std::nullopt;
+    return narrowest(view, size, *needed);
+}
+
 MapUse cut_view(FittedView& view, bool orthographic, int size, const SeenVolume& seen, const Bounds& scene) {
     Range depth;
-    const double min_depth = 0.99 * view.near_z;
-    const Extent all = in_plane(view, orthographic, seen, min_depth, depth);
-    // The filter carries a shadow a little beyond its outline.
-    const double rim = shading::kShadowBorder * texel_of({0, 0, view.half}, size);
-    const auto with_rim = [&](const Range& r) { return Range{r.low - rim, r.high + rim}; };
-    const Extent needed{common(all.x, with_rim(view.content.x)), common(all.y, with_rim(view.content.y))};
-    if (!(needed.x.low <= needed.x.high) || !(needed.y.low <= needed.y.high)) return MapUse::none;
-    int k = 0;
-    while (k < kRungs && window(view, k + 1, size, needed)) ++k;
+    const auto needed = needed_of(view, orthographic, size, seen, depth);
+    if (!needed) return MapUse::none;
     const Hexahedron box = enlarged(scene);
-    for (; k > 0; --k) {
-        const Window w = *window(view, k, size, needed);
+    for (int k = narrowest(view, size, *needed); k > 0; --k) {
+        const Window w = *window(view, k, size, *needed);
         // Triangles that cross the window may be as large as the scene, and so are the roundings of their corners.
         if (texel_of(w, size) * (orthographic ? 1.0 : depth.low) < kFinestTexel * largest_coordinate(scene)) continue;
         if (!orthographic && w.half < kNarrowestView) continue;

@@ -1,10 +1,12 @@
 #include "raster/view/shadow_views.hpp"
 
 #include "raster/detail/view_math.hpp"
+#include "raster/view/shadow_cascades.hpp"
 #include "raster/view/shadow_fit.hpp"
 #include "sh/arc.hpp"
 
 #include <algorithm>
+#include <optional>
 
 namespace halflit::raster {
 namespace {
@@ -79,8 +81,9 @@ double least_distance(const LightPlan& light, const Bounds& bounds) {
 /// The map that a light gets.
 struct Choice {
     ShadowMapPlan::Kind kind = ShadowMapPlan::Kind::cube;
-    FittedView view;            ///< not of cubes
-    std::vector<Bounds> boxes;  ///< what it has to show; empty: there is no map
+    FittedView view;             ///< not of cubes
+    std::vector<Bounds> boxes;   ///< what it has to show; empty: there is no map
+    std::vector<double> depths;  ///< reach of the finer cascades
 };
 
 /// Wider views than this have larger texels than the faces of a cube. It is the tangent of half the angle.
@@ -136,7 +139,7 @@ std::size_t texel_count(std::span<const Choice> choices, int side) {
     for (const Choice& choice : choices) {
         if (choice.boxes.empty()) continue;
         const auto size = static_cast<std::size_t>(size_of(choice, side));
-        count += size * size * (choice.kind == ShadowMapPlan::Kind::cube ? 6 : 1);
+        count += size * size * (choice.kind == ShadowMapPlan::Kind::cube ? 6 : 1 + choice.depths.size());
     }
     return count;
 }
@@ -152,22 +155,39 @@ public:
         map.kind = choice.kind;
         map.size = size_of(choice, side_);
         out_.map_of_light.back() = static_cast<std::int32_t>(out_.maps.size());
-        out_.first_texel.push_back(out_.texel_count);
         const double usable = static_cast<double>(map.size) / (map.size - 2 * shading::kShadowBorder);
-        if (map.kind == ShadowMapPlan::Kind::cube)
+        if (map.kind == ShadowMapPlan::Kind::cube) {
+            begin_map();
             add_cube(light, choice.boxes, map, usable);
-        else
-            add_fitted(choice.view, map, usable);
-        out_.maps.push_back(map);
+            out_.maps.push_back(map);
+        } else {
+            add_fitted(choice, map, usable);
+        }
     }
 
 private:
-    void add_fitted(FittedView view, ShadowMapPlan& map, double usable) {
+    void begin_map() { out_.first_texel.push_back(out_.texel_count); }
+
+    void add_fitted(const Choice& choice, ShadowMapPlan& map, double usable) {
         const bool orthographic = map.kind == ShadowMapPlan::Kind::orthographic;
+        FittedView view = choice.view;
         const MapUse use = seen_ != nullptr ? cut_view(view, orthographic, map.size, *seen_, bounds_) : MapUse::whole;
+        if (!choice.depths.empty() && use != MapUse::none) {
+            const std::vector<FittedView> finer = cascade_views(choice.view, view, map.size, *seen_, choice.depths, bounds_);
+            for (std::size_t i = 0; i < finer.size(); ++i) {
+                map.coarser = static_cast<std::int32_t>(finer.size() - i);
+                add_flat(finer[i], true, map, usable);
+            }
+            map.coarser = 0;
+        }
+        add_flat(view, use != MapUse::none, map, usable);
+    }
+
+    void add_flat(const FittedView& view, bool sees_casters, ShadowMapPlan map, double usable) {
+        begin_map();
         const double half = view.half * usable;
         Camera camera = camera_at(view.axes, view.eye);
-        camera.orthographic = orthographic;
+        camera.orthographic = map.kind == ShadowMapPlan::Kind::orthographic;
         if (camera.orthographic) {
             camera.half_width = camera.half_height = static_cast<float>(half);
             camera.near_z = 0.0f;
@@ -178,7 +198,8 @@ private:
         }
         set_texel_size(map, half, !camera.orthographic);
         set_rows(map, view.axes, view.eye, half);
-        add_view(map, camera, use != MapUse::none);
+        add_view(map, camera, sees_casters);
+        out_.maps.push_back(map);
     }
 
     void add_cube(const LightPlan& light, std::span<const Bounds> boxes, ShadowMapPlan& map, double usable) {
@@ -224,13 +245,22 @@ private:
 
 }  // namespace
 
-Result<ShadowViews> plan_shadow_views(std::span<const LightPlan> lights, const Bounds& bounds, const ShadowCasters& casters,
-                                      const SeenVolume* seen, const Settings& settings) {
+Result<ShadowViews> plan_shadow_views(std::span<const LightPlan> lights, const PreparedData& scene, const SeenVolume* seen,
+                                      const Settings& settings) {
     ShadowViews out;
+    const Bounds& bounds = scene.bounds();
     int side = settings.shadow_size;
     if (settings.shadows == ShadowMode::off || lights.empty() || bounds.empty || !(bounds.radius() > 0.0f)) return out;
     std::vector<Choice> choices;
-    for (const LightPlan& light : lights) choices.push_back(choose(light, bounds, casters, seen, side));
+    for (const LightPlan& light : lights) choices.push_back(choose(light, bounds, scene.shadow_casters(), seen, side));
+    std::optional<double> nearest;
+    const auto nearest_seen = [&] {
+        if (!nearest) nearest = nearest_depth(scene, *seen);
+        return *nearest;
+    };
+    for (Choice& choice : choices)
+        if (seen != nullptr && !choice.boxes.empty() && choice.kind == ShadowMapPlan::Kind::orthographic)
+            choice.depths = cascade_depths(choice.view, side, *seen, nearest_seen);
     const std::size_t most = settings.shadow_memory_limit / sizeof(float);
     while (side > 64 && texel_count(choices, side) > most) side /= 2;
     if (texel_count(choices, side) > most)

@@ -3,7 +3,7 @@
 
 #include "halflit/mesh.hpp"
 #include "halflit/settings.hpp"
-#include "raster/scene/shadow_casters.hpp"
+#include "raster/scene/prepared_data.hpp"
 #include "raster/view/shadow_cut.hpp"
 #include "raster/view/view.hpp"
 #include "shading/plan/light_plan.hpp"
@@ -29,7 +29,7 @@ struct ShadowView {
 struct ShadowViews {
     std::vector<shading::ShadowMapPlan> maps;  ///< without the pointers to their texels
     std::vector<std::size_t> first_texel;      ///< per map: index of its first texel
-    std::vector<std::int32_t> map_of_light;    ///< per light: its map, or -1
+    std::vector<std::int32_t> map_of_light;    ///< per light: its map, the finest of its cascades, or -1
     std::vector<ShadowView> views;             ///< in the order of the maps; a cube has six
     std::size_t texel_count = 0;
     std::string warning;  ///< says that maps were made smaller; empty: they were not
@@ -38,9 +38,10 @@ struct ShadowViews {
 /// Plans a map for every light that reaches the scene's bounds and that something casts a shadow of, fitted to the casters: directional
 /// maps, and those of lamps that see all of them within 127 degrees. Spots see no more than their cone. Other points, and spots beyond 75
 /// degrees, get six faces of half the size, unless one cut view shows all that the picture needs. All are halved in size until they fit
-/// Settings::shadow_memory_limit. seen: what the picture sees; maps are cut to it, and what it cannot show the shadow of is not drawn.
-/// Null: light is looked up elsewhere too.
-[[nodiscard]] Result<ShadowViews> plan_shadow_views(std::span<const shading::LightPlan> lights, const Bounds& bounds,
-                                                    const ShadowCasters& casters, const SeenVolume* seen, const Settings& settings);
+/// Settings::shadow_memory_limit. seen: what the picture sees; maps are cut to it, and what it cannot show the shadow of is not drawn;
+/// directional lights get finer maps of what is near the camera where they gain enough (shadow_cascades.hpp). Null: light is looked up
+/// elsewhere too.
+[[nodiscard]] Result<ShadowViews> plan_shadow_views(std::span<const shading::LightPlan> lights, const PreparedData& scene,
+                                                    const SeenVolume* seen, const Settings& settings);
 
 }  // namespace halflit::raster

@@ -77,6 +77,25 @@ HALFLIT_INLINE V3 off_surface(const shading::ShadowMapPlan& map, V3 p, V3 normal
     return p + normal * ((texel * F(map.offset)) * sine);
 }
 
+/// The place in a directional light's map.
+HALFLIT_INLINE MapPoint orthographic_point(const shading::ShadowMapPlan& map, V3 p, V3 normal) {
+    const F along_axis = (F(map.rows[2][0]) * normal.x + F(map.rows[2][1]) * normal.y) + F(map.rows[2][2]) * normal.z;
+    return flat_point(map, off_surface(map, p, normal, F(map.texel_size), along_axis));
+}
+
+/// A fragment's place in the first of a light's cascades that holds all that the filter reads. at: the place in the first map.
+HALFLIT_INLINE MapPoint in_cascades(const shading::ShadowMapPlan& map, V3 p, V3 normal, MapPoint at, F& texel) {
+    for (int k = 1; k <= map.coarser && !all(at.inside); ++k) {
+        const shading::ShadowMapPlan& next = (&map)[k];
+        const MapPoint there = orthographic_point(next, p, normal);
+        // Four maps of at most 2^24 texels.
+        texel = sel(at.inside, texel, F(next.texel_size));
+        at = {sel(at.inside, at.u, there.u), sel(at.inside, at.v, there.v), sel(at.inside, at.distance, there.distance),
+              sel(at.inside, at.base, I(k * map.size * map.size)), at.inside | there.inside};
+    }
+    return at;
+}
+
 /// The place where a fragment is looked up. texel: set to a texel's width at the fragment.
 HALFLIT_INLINE MapPoint map_point(const shading::ShadowMapPlan& map, V3 p, V3 normal, F& texel) {
     texel = F(map.texel_size);
@@ -106,7 +125,8 @@ HALFLIT_INLINE F faded(F v) {
 HALFLIT_INLINE HiddenShares hidden_share(const shading::ShadowMapPlan& map, V3 position, V3 normal, V3 to_light, ShadowFade fade,
                                          bool soft) {
     F texel;
-    const MapPoint at = map_point(map, position, normal, texel);
+    MapPoint at = map_point(map, position, normal, texel);
+    if (map.coarser > 0) at = in_cascades(map, position, normal, at, texel);
     const F receiver = at.distance - mad(texel, F(shading::kShadowDepthBias), at.distance * F(shading::kShadowRelativeBias));
 
     const F limit(static_cast<float>(map.size) - 2.0f);

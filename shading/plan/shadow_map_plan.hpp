@@ -29,6 +29,9 @@ constexpr float shadow_offset(float texel_at_1) {
 /// Shift of a receiver towards the light, against rounding errors: in texels, and as a share of the distance.
 inline constexpr float kShadowDepthBias = 0.5f, kShadowRelativeBias = 4e-6f;
 
+/// Maps of a directional light: cascades, from the finest to the one that shows all.
+inline constexpr int kMostCascades = 4;
+
 /// Distances from a light to the nearest surface. Texel (i, j) is at j * size + i; its centre is at (i + 0.5, j + 0.5).
 struct ShadowMapPlan {
     enum class Kind : std::uint8_t { orthographic, perspective, cube };
@@ -42,6 +45,9 @@ struct ShadowMapPlan {
     float origin[3] = {};               ///< cube: the light
     float texel_size = 0;               ///< world units; perspective and cube: at distance 1
     float offset = kLeastShadowOffset;  ///< distance of receivers from their surface, texels: shadow_offset()
+    /// Number of coarser maps of the same light that follow in the list, of the same size and kind, orthographic; their texels follow this
+    /// map's. A receiver is looked up in the first one that holds all that the filter reads.
+    std::int32_t coarser = 0;
 };
 
 inline constexpr float kNoBlocker = 3e38f;

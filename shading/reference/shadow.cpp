@@ -69,6 +69,19 @@ MapPoint map_point(const ShadowMapPlan& map, Vec3d surface, Vec3d normal) {
     return at;
 }
 
+/// The point in the first of a light's cascades that holds all that the filter reads, with `map` set to that map; its margin is the least
+/// of those looked at.
+MapPoint cascade_point(const ShadowMapPlan*& map, Vec3d surface, Vec3d normal) {
+    const ShadowMapPlan* last = map + map->coarser;
+    MapPoint at = map_point(*map, surface, normal);
+    while (!at.inside && map < last) {
+        const double margin = at.margin;
+        at = map_point(*++map, surface, normal);
+        at.margin = std::min(at.margin, margin);
+    }
+    return at;
+}
+
 /// Weight of the texel whose centre is at `centre` in a box three texels wide around `at`, one side.
 double box_weight(double centre, double at) { return std::clamp(2.0 - std::fabs(centre - at), 0.0, 1.0) / 3.0; }
 
@@ -81,11 +94,13 @@ double fade(double u) {
 
 }  // namespace
 
-Hidden hidden_share(const ShadowMapPlan& map, Vec3d position, Vec3d surface_normal, Vec3d to_light, const MaterialPlan& material,
+Hidden hidden_share(const ShadowMapPlan& first, Vec3d position, Vec3d surface_normal, Vec3d to_light, const MaterialPlan& material,
                     ShadowMode mode) {
     if (mode == ShadowMode::off) return {};
     const double cosine = dot(surface_normal, to_light);
-    const MapPoint at = map_point(map, position, surface_normal);
+    const ShadowMapPlan* chosen = &first;
+    const MapPoint at = cascade_point(chosen, position, surface_normal);
+    const ShadowMapPlan& map = *chosen;
     Hidden hidden{0, 0, at.margin};
     if (!at.inside) return hidden;
     const double receiver = at.distance - double{kShadowDepthBias} * at.texel - double{kShadowRelativeBias} * at.distance;

@@ -16,8 +16,8 @@ struct Hidden {
     double margin = 0;
 };
 
-/// Hidden shares of a light at a surface point, from `map`. `surface_normal` and `to_light` are unit vectors. `material` gives the distance
-/// over which wrapped light fades in shadows.
+/// Hidden shares of a light at a surface point, from `map` or the coarser ones that follow it. `surface_normal` and `to_light` are unit
+/// vectors. `material` gives the distance over which wrapped light fades in shadows.
 [[nodiscard]] Hidden hidden_share(const ShadowMapPlan& map, Vec3d position, Vec3d surface_normal, Vec3d to_light,
                                   const MaterialPlan& material, ShadowMode mode);
 

@@ -1,6 +1,5 @@
 // Shadow maps that are cut to what the picture sees: against rays, and what the cut must not change.
-#include "raster/frame_plan.hpp"
-#include "tests/raster/box_shadow.hpp"
+#include "tests/raster/shadow_city.hpp"
 #include "tests/support/isas.hpp"
 #include "tests/support/random.hpp"
 
@@ -9,52 +8,6 @@ using namespace halflit::raster;
 using namespace halflit::test;
 
 namespace {
-
-const Vec3d kToLight = Vec3d{0.5, 0.7, 0.3} * (1 / std::sqrt(0.83));
-constexpr double kLampDistance = 700.0;
-
-/// A city of `count` x `count` houses of 10 m on 4 km x 4 km, and a box of one metre at a crossing.
-struct City : ShadowSetup {
-    Vec3d foot;
-    std::vector<Box> boxes;  ///< the box, and the houses near it
-
-    City(int count, LightType type, Vec3d near_to) : ShadowSetup(Lobe::sloan(0), ShadowMode::hard) {
-        const double step = 4000.0 / count, half = 0.2 * step < 4.0 ? 0.2 * step : 4.0;
-        const auto crossing = [&](double v) { return std::floor(v / step + 0.5) * step; };  // count is even
-        foot = {crossing(near_to.x), 0, crossing(near_to.z)};
-        add(make_plane(2010, 1));
-        add_metre_box(*this, foot);
-        boxes.push_back(metre_box(foot));
-        Mesh house = make_box(to_float({half, 5, half}));
-        house.material = 0;
-        scene.meshes.push_back(std::move(house));
-        for (int i = 0; i < count; ++i)
-            for (int j = 0; j < count; ++j) {
-                const Vec3d at{(i - 0.5 * (count - 1)) * step, 5, (j - 0.5 * (count - 1)) * step};
-                scene.instances.push_back({static_cast<int>(scene.meshes.size()) - 1, translation(to_float(at))});
-                if (length(at - foot) < 3 * step) boxes.push_back({at - Vec3d{half, 5, half}, at + Vec3d{half, 5, half}});
-            }
-        Light& light = scene.lights[0];
-        light.type = type;
-        light.direction_ws = to_float(kToLight * -1.0);
-        light.position_ws = to_float(foot + kToLight * kLampDistance);
-        light.outer_cone_rad = 1.2f;
-        const double strength = type == LightType::directional ? 1.0 : kLampDistance * kLampDistance;
-        light.color_linear = Vec3f{1, 1, 1} * static_cast<float>(strength);
-        camera = camera_above(foot);
-    }
-    [[nodiscard]] ShadowArea area() {
-        return shadow_area(*this, foot, boxes, kToLight, scene.lights[0].type == LightType::directional ? 0.0 : kLampDistance);
-    }
-};
-
-FramePlan plan_of(const ShadowSetup& setup, int width = kSide, int height = kSide) {
-    const auto prepared = PreparedData::make(setup.scene, {});
-    REQUIRE(prepared);
-    auto plan = plan_frame(*prepared, setup.camera, setup.settings, width, height);
-    REQUIRE(plan);
-    return std::move(*plan);
-}
 
 void check_city(int count) {
     for (const LightType type : {LightType::directional, LightType::point, LightType::spot})
@@ -75,16 +28,6 @@ TEST_CASE("shadow cut: in a close-up of a city the shadow of a box has the area 
 TEST_CASE("shadow cut: the same among 200 x 200 houses", "[raster][shadow][deep]") { check_city(200); }
 
 namespace {
-
-/// Boxes that are larger on all sides, or smaller; those that vanish are left out.
-std::vector<Box> enlarged(const std::vector<Box>& boxes, double by) {
-    std::vector<Box> out;
-    for (const Box& box : boxes) {
-        const Box moved{box.low - Vec3d{by, by, by}, box.high + Vec3d{by, by, by}};
-        if (moved.low.x < moved.high.x && moved.low.y < moved.high.y && moved.low.z < moved.high.z) out.push_back(moved);
-    }
-    return out;
-}
 
 /// Boxes on a wide floor, a light and a close-up, all random. Returns the number of floor pixels checked against rays; pixels near a
 /// shadow's edge are left out.
