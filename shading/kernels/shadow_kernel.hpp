@@ -90,8 +90,9 @@ HALFLIT_INLINE MapPoint in_cascades(const shading::ShadowMapPlan& map, V3 p, V3 
         const MapPoint there = orthographic_point(next, p, normal);
         // Four maps of at most 2^24 texels.
         texel = sel(at.inside, texel, F(next.texel_size));
+        const M inside = at.inside | there.inside;
         at = {sel(at.inside, at.u, there.u), sel(at.inside, at.v, there.v), sel(at.inside, at.distance, there.distance),
-              sel(at.inside, at.base, I(k * map.size * map.size)), at.inside | there.inside};
+              sel(at.inside, at.base, I(k * map.size * map.size)), inside};
     }
     return at;
 }
