@@ -68,10 +68,11 @@ void add_clusters(const PreparedMesh& mesh, const Mat4& place, NearestBox& neare
     }
 }
 
-constexpr double kFirstReach = 2.0;  ///< the first map reaches from the nearest thing to so many times its depth, or farther
-constexpr double kDepthStep = 1.25;  ///< reaches grow in such steps, as far as a window of their width shows
-constexpr int kLeastGain = 4;        ///< rungs: four times finer
-constexpr int kWidestStep = 6;       ///< rungs from one map to the next, as far as four maps allow: eight times
+constexpr double kFirstReach = 2.0;    ///< the first map reaches from the nearest thing to so many times its depth, or farther
+constexpr double kDepthStep = 1.25;    ///< reaches grow in such steps, as far as a window of their width shows
+constexpr double kLeastOfPixel = 0.5;  ///< of a pixel at the nearest thing; finer maps show nothing more
+constexpr int kLeastGain = 6;          ///< rungs: eight times finer
+constexpr int kWidestStep = 6;         ///< rungs from one map to the next, as far as four maps allow: eight times
 
 }  // namespace
 
@@ -104,9 +105,15 @@ std::vector<double> cascade_depths(const FittedView& view, int size, const SeenV
         return *whole;
     };
     double reach = std::max(kFirstReach * seen.depth.low, 1e-9 * far_z);
-    if (first_rung(reach) < *whole + kLeastGain) return {};
-    reach = std::max(reach, kFirstReach * nearest());
-    const int gain = first_rung(reach) - *whole;
+    const auto gain_from = [&](double depth) {
+        int k = first_rung(reach);
+        while (k > *whole && ladder_texel(view, k, size) < kLeastOfPixel * seen.pixel * depth) --k;
+        return k - *whole;
+    };
+    if (gain_from(seen.depth.low) < kLeastGain) return {};
+    const double nearest_z = nearest();
+    reach = std::max(reach, kFirstReach * nearest_z);
+    const int gain = gain_from(nearest_z);
     if (gain < kLeastGain) return {};
     std::vector<double> depths;
     const int count = std::min((gain + kWidestStep - 1) / kWidestStep, shading::kMostCascades - 1);

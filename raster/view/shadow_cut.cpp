@@ -198,7 +198,8 @@ std::optional<SeenVolume> seen_volume(const View& picture, const DepthMap& depth
     }
     view.side[4] = {z.normal, z.offset - range.low};
     view.side[5] = {z.normal * -1.0, range.high - z.offset};
-    SeenVolume seen{common_surface(view, box), true, z, range, {}, {}};
+    const double pixel = 1.0 / std::max(picture.viewport.half_width * length(x.normal), picture.viewport.half_height * length(y.normal));
+    SeenVolume seen{common_surface(view, box), true, z, range, pixel, {}, {}};
     std::copy(std::begin(view.side), std::end(view.side), std::begin(seen.view));
     std::copy(view.corner, view.corner + 4, std::begin(seen.near_corner));
     return seen;
@@ -243,6 +244,8 @@ std::optional<int> ladder_rung(const FittedView& view, int size, const SeenVolum
     if (!needed) return std::nullopt;
     return narrowest(view, size, *needed);
 }
+
+double ladder_texel(const FittedView& view, int rung, int size) { return texel_of({0, 0, view.half * share(rung)}, size); }
 
 MapUse cut_view(FittedView& view, bool orthographic, int size, const SeenVolume& seen, const Bounds& scene) {
     Range depth;

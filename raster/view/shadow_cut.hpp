@@ -20,6 +20,7 @@ struct SeenVolume {
     bool perspective = false;
     HalfSpace axis;             ///< its value at a point is the depth, the distance along the camera's axis
     Range depth;                ///< depths in view; the near plane's is the least
+    double pixel = 0;           ///< height or width of a pixel at depth 1, whichever is less; world units
     HalfSpace view[6];          ///< the camera's view
     Vec3d near_corner[4] = {};  ///< corners of the view at the least depth
 };
@@ -46,5 +47,8 @@ enum class MapUse { whole, cut, none };  ///< none: nothing that is seen can lie
 /// Rung of the narrowest window on the ladder that shows what a directional view has to show: 0 is the whole view, and two rungs halve the
 /// width. Nothing: nothing that is seen can lie in a shadow.
 [[nodiscard]] std::optional<int> ladder_rung(const FittedView& view, int size, const SeenVolume& seen);
+
+/// Width of a texel of that window.
+[[nodiscard]] double ladder_texel(const FittedView& view, int rung, int size);
 
 }  // namespace halflit::raster
