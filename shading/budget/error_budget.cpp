@@ -13,7 +13,7 @@ namespace halflit::shading {
 namespace {
 
 /// Fewest lights without shadow maps for which light in cells pays.
-constexpr int kLeastCellLights = 4;
+constexpr int kLeastCellLights = 8;
 
 /// `amplitude`: strength of lights that shadows may split; 0: none.
 double lobe_tier_codes(const LobePlan& lobe, PowTier tier, double amplitude) {
