@@ -12,7 +12,8 @@ inline namespace HALFLIT_ISA_NAMESPACE {
 static void measure_cell(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int count, shading::CellBatch& batch,
                          int cell) {
     const auto inputs = [&](int lane, F(&out)[6]) __attribute__((always_inline)) {
-        const V3 normal = normals(material, block, lane).shading, position = row3(block, shading::kPosX, lane);
+        TexelTaps taps;
+        const V3 normal = normals(material, block, lane, taps).shading, position = row3(block, shading::kPosX, lane);
         out[0] = normal.x, out[1] = normal.y, out[2] = normal.z;
         out[3] = position.x, out[4] = position.y, out[5] = position.z;
     };

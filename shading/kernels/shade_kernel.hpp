@@ -37,12 +37,12 @@ struct IncidentLight {
 
 template <bool kSpecular>
 HALFLIT_INLINE IncidentLight incident_light(const shading::ShadingPlan& frame, const shading::MaterialPlan& material,
-                                            shading::LightList lights, const shading::FragmentBlock& block, int lane) {
+                                            shading::LightList lights, const shading::FragmentBlock& block, int lane, TexelTaps& taps) {
     const V3 zero{F(0.0f), F(0.0f), F(0.0f)};
     const V3 position = row3(block, shading::kPosX, lane);
-    const Normals facing = normals(material, block, lane);
+    const Normals facing = normals(material, block, lane, taps);
     const V3 normal = facing.shading;
-    const Reflectance surface = reflectance(material, block, lane);
+    const Reflectance surface = reflectance(material, block, lane, taps);
     IncidentLight light{zero, zero, zero, zero, surface.metallic, F(1.0f), F(0.0f)};
     V3 to_eye = zero;
     SpecularShape shape{frame.specular, material.specular_tier, material.specular_threshold, material.specular_curve, F(0.0f), F(1.0f)};
@@ -114,10 +114,10 @@ HALFLIT_INLINE V3 reflected(const shading::MaterialPlan& material, const Inciden
     return color;
 }
 
-HALFLIT_INLINE V3 emitted(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane) {
+HALFLIT_INLINE V3 emitted(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane, TexelTaps& taps) {
     V3 emissive = broadcast(material.emissive);
     if (has(material, kStageEmissiveTexture)) {
-        const Sample texture = sample_texture(material.emissive_texture, block, lane);
+        const Sample texture = sample_texture(material.emissive_texture, block, lane, taps);
         emissive = emissive * V3{texture.r, texture.g, texture.b};
     }
     return emissive;
@@ -127,16 +127,17 @@ template <bool kSpecular>
 HALFLIT_INLINE void shade_block(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, shading::LightList lights,
                                 shading::FragmentBlock& block, int count) {
     for (int lane = 0; lane < count; lane += kWidth) {
-        const Sample base = base_color(material, block, lane);
+        TexelTaps taps;
+        const Sample base = base_color(material, block, lane, taps);
         V3 color{base.r, base.g, base.b};
         if (!has(material, kStageUnlit)) {
             if (has(material, kStagePrelit))
                 color = color * row3(block, shading::kPosX, lane) + row3(block, shading::kNormalX, lane);
             else if ((material.stages & (kStageLights | kStageAmbient)) != 0)
-                color = reflected<kSpecular>(material, incident_light<kSpecular>(frame, material, lights, block, lane), color);
+                color = reflected<kSpecular>(material, incident_light<kSpecular>(frame, material, lights, block, lane, taps), color);
             else
                 color = {F(0.0f), F(0.0f), F(0.0f)};
-            color = color + emitted(material, block, lane);
+            color = color + emitted(material, block, lane, taps);
         }
         store(block.red + lane, color.x);
         store(block.green + lane, color.y);
@@ -152,7 +153,8 @@ template <bool kSpecular>
 HALFLIT_INLINE void light_block(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, shading::LightList lights,
                                 shading::FragmentBlock& block, int count) {
     for (int lane = 0; lane < count; lane += kWidth) {
-        const IncidentLight light = incident_light<kSpecular>(frame, material, lights, block, lane);
+        TexelTaps taps;
+        const IncidentLight light = incident_light<kSpecular>(frame, material, lights, block, lane, taps);
         const F none(0.0f), full(1.0f);
         const V3 offset = reflected<kSpecular>(material, light, {none, none, none});
         const V3 factor = reflected<kSpecular>(material, light, {full, full, full}) - offset;
@@ -186,7 +188,8 @@ static void hidden(const shading::ShadingPlan& frame, const shading::MaterialPla
     const ShadowFade fade{material.shadow_fade_scale, material.shadow_turn_scale};
     const bool soft = frame.shadow_mode == ShadowMode::soft_split && fade.scale > 0.0f;
     for (int lane = 0; lane < count; lane += kWidth) {
-        const V3 position = row3(block, shading::kPosX, lane), surface = normals(material, block, lane).surface;
+        TexelTaps taps;
+        const V3 position = row3(block, shading::kPosX, lane), surface = normals(material, block, lane, taps).surface;
         const HiddenShares share = hidden_share(frame.shadow_maps[light.shadow_map], looked_up(frame, block, lane), surface,
                                                 arrival(light, position).direction, fade, soft);
         store(core + lane, share.hard);
@@ -195,8 +198,10 @@ static void hidden(const shading::ShadingPlan& frame, const shading::MaterialPla
 }
 
 static void shade_alpha(const shading::MaterialPlan& material, shading::FragmentBlock& block, int count) {
-    for (int lane = 0; lane < count; lane += kWidth)
-        store(block.alpha + lane, clamp(base_color(material, block, lane).a, F(0.0f), F(1.0f)));
+    for (int lane = 0; lane < count; lane += kWidth) {
+        TexelTaps taps;
+        store(block.alpha + lane, clamp(base_color(material, block, lane, taps).a, F(0.0f), F(1.0f)));
+    }
 }
 
 static void encode(const float* red, const float* green, const float* blue, const float* alpha, float exposure, std::uint32_t* rgba8,

@@ -94,6 +94,7 @@ HALFLIT_INLINE F gather(const float* base, I index) { return base[index]; }
 HALFLIT_INLINE I gather(const std::int32_t* base, I index) { return base[index]; }
 HALFLIT_INLINE M less(I a, I b) { return a < b; }
 HALFLIT_INLINE M equal(I a, I b) { return a == b; }
+HALFLIT_INLINE std::int32_t first_lane(I i) { return i; }
 
 #else
 
@@ -198,6 +199,16 @@ HALFLIT_INLINE I gather(const std::int32_t* base, I index) {
 HALFLIT_INLINE M less(I a, I b) { return M(vcltq_s32(a, b)); }
 HALFLIT_INLINE M equal(I a, I b) { return M(vceqq_s32(a, b)); }
 
+#endif
+
+#if defined(__AVX512F__)
+HALFLIT_INLINE std::int32_t first_lane(I i) { return _mm_cvtsi128_si32(_mm512_castsi512_si128(i)); }
+#elif defined(__AVX2__)
+HALFLIT_INLINE std::int32_t first_lane(I i) { return _mm_cvtsi128_si32(_mm256_castsi256_si128(i)); }
+#elif defined(__x86_64__)
+HALFLIT_INLINE std::int32_t first_lane(I i) { return _mm_cvtsi128_si32(i); }
+#elif defined(__aarch64__)
+HALFLIT_INLINE std::int32_t first_lane(I i) { return vgetq_lane_s32(i, 0); }
 #endif
 
 inline constexpr std::int32_t kIotaLanes[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};

@@ -52,5 +52,42 @@ HALFLIT_INLINE void store4(float* p, F a, F b, F c, F d) {
 #endif
 }
 
+/// The reverse: lane l of a, b, c, d comes from records[l].
+HALFLIT_INLINE void lanes_of_records(const Q* records, F& a, F& b, F& c, F& d) {
+#if !defined(HALFLIT_ARCH)
+    a = records[0].v[0], b = records[0].v[1], c = records[0].v[2], d = records[0].v[3];
+#elif defined(__AVX2__)
+#if defined(__AVX512F__)
+    const auto row = [records](int l) __attribute__((always_inline)) {
+        const __m256 low = _mm256_insertf128_ps(_mm256_castps128_ps256(records[l]), records[l + 4], 1);
+        const __m256 high = _mm256_insertf128_ps(_mm256_castps128_ps256(records[l + 8]), records[l + 12], 1);
+        return _mm512_castpd_ps(_mm512_insertf64x4(_mm512_castps_pd(_mm512_castps256_ps512(low)), _mm256_castps_pd(high), 1));
+    };
+    const __m512 r0 = row(0), r1 = row(1), r2 = row(2), r3 = row(3);
+    const __m512 low01 = _mm512_unpacklo_ps(r0, r1), high01 = _mm512_unpackhi_ps(r0, r1);
+    const __m512 low23 = _mm512_unpacklo_ps(r2, r3), high23 = _mm512_unpackhi_ps(r2, r3);
+    a = _mm512_shuffle_ps(low01, low23, 0x44);
+    b = _mm512_shuffle_ps(low01, low23, 0xee);
+    c = _mm512_shuffle_ps(high01, high23, 0x44);
+    d = _mm512_shuffle_ps(high01, high23, 0xee);
+#else
+    const auto row = [records](int l) __attribute__((always_inline)) {
+        return _mm256_insertf128_ps(_mm256_castps128_ps256(records[l]), records[l + 4], 1);
+    };
+    const __m256 r0 = row(0), r1 = row(1), r2 = row(2), r3 = row(3);
+    const __m256 low01 = _mm256_unpacklo_ps(r0, r1), high01 = _mm256_unpackhi_ps(r0, r1);
+    const __m256 low23 = _mm256_unpacklo_ps(r2, r3), high23 = _mm256_unpackhi_ps(r2, r3);
+    a = _mm256_shuffle_ps(low01, low23, 0x44);
+    b = _mm256_shuffle_ps(low01, low23, 0xee);
+    c = _mm256_shuffle_ps(high01, high23, 0x44);
+    d = _mm256_shuffle_ps(high01, high23, 0xee);
+#endif
+#else
+    Q r0 = records[0], r1 = records[1], r2 = records[2], r3 = records[3];
+    q_transpose(r0, r1, r2, r3);
+    a = r0, b = r1, c = r2, d = r3;
+#endif
+}
+
 }  // namespace HALFLIT_ISA_NAMESPACE
 }  // namespace halflit

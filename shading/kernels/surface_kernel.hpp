@@ -10,10 +10,10 @@ inline namespace HALFLIT_ISA_NAMESPACE {
 HALFLIT_INLINE bool has(const shading::MaterialPlan& material, Stage stage) { return (material.stages & stage) != 0; }
 
 /// Base colour factor * texture * vertex colour, with alpha; `a` is what MASK compares and BLEND uses.
-HALFLIT_INLINE Sample base_color(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane) {
+HALFLIT_INLINE Sample base_color(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane, TexelTaps& taps) {
     Sample color{F(material.base_color[0]), F(material.base_color[1]), F(material.base_color[2]), F(material.base_color[3])};
     if (has(material, kStageBaseColorTexture)) {
-        const Sample texture = sample_texture(material.base_color_texture, block, lane);
+        const Sample texture = sample_texture(material.base_color_texture, block, lane, taps);
         color = {color.r * texture.r, color.g * texture.g, color.b * texture.b, color.a * texture.a};
     }
     if (has(material, kStageVertexColor)) {
@@ -27,11 +27,11 @@ HALFLIT_INLINE Sample base_color(const shading::MaterialPlan& material, const sh
 struct Normals {
     V3 surface, shading;
 };
-HALFLIT_INLINE Normals normals(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane) {
+HALFLIT_INLINE Normals normals(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane, TexelTaps& taps) {
     V3 surface = normalize_any(row3(block, shading::kNormalX, lane));
     V3 normal = surface;
     if (has(material, kStageNormalMap)) {
-        const Sample texture = sample_texture(material.normal_texture, block, lane);
+        const Sample texture = sample_texture(material.normal_texture, block, lane, taps);
         const V3 tangent = normalize_any(row3(block, shading::kTangentX, lane));
         const V3 bitangent = cross(normal, tangent) * row(block, shading::kTangentW, lane);
         const F x = mad(F(2.0f), texture.r, F(-1.0f)) * F(material.normal_scale);
@@ -51,17 +51,18 @@ HALFLIT_INLINE Normals normals(const shading::MaterialPlan& material, const shad
 struct Reflectance {
     F metallic, roughness, occlusion;
 };
-HALFLIT_INLINE Reflectance reflectance(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane) {
+HALFLIT_INLINE Reflectance reflectance(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane,
+                                       TexelTaps& taps) {
     Reflectance result{F(material.metallic), F(material.roughness), F(1.0f)};
     F occlusion_texture(1.0f);
     if (has(material, kStageMetallicRoughnessTexture)) {
-        const Sample texture = sample_texture(material.metallic_roughness_texture, block, lane);
+        const Sample texture = sample_texture(material.metallic_roughness_texture, block, lane, taps);
         result.roughness = result.roughness * texture.g;
         result.metallic = result.metallic * texture.b;
         occlusion_texture = texture.r;
     }
     if (has(material, kStageOcclusionTexture)) {
-        if (!material.occlusion_is_metallic_roughness) occlusion_texture = sample_texture(material.occlusion_texture, block, lane).r;
+        if (!material.occlusion_is_metallic_roughness) occlusion_texture = sample_texture(material.occlusion_texture, block, lane, taps).r;
         result.occlusion = mad(F(material.occlusion_strength), occlusion_texture - F(1.0f), F(1.0f));
     }
     return result;

@@ -2,6 +2,8 @@
 
 #include "shading/model/numbers.hpp"
 
+#include <algorithm>
+
 namespace halflit::shading {
 namespace {
 
@@ -18,6 +20,18 @@ SlotMask slots_of(const MaterialPlan& plan, bool lit) {
     add(kStageOcclusionTexture, plan.occlusion_texture);
     add(kStageEmissiveTexture, plan.emissive_texture);
     return slots;
+}
+
+/// Numbers the textures' taps: textures with the same taps get the same number.
+void number_taps(MaterialPlan& plan) {
+    TexturePlan* const textures[] = {&plan.base_color_texture, &plan.metallic_roughness_texture, &plan.normal_texture,
+                                     &plan.occlusion_texture, &plan.emissive_texture};
+    std::int32_t number = 0;
+    for (TexturePlan* const& texture : textures) {
+        const auto* const same = std::find_if(
+            textures, &texture, [&](const TexturePlan* earlier) { return earlier->data != nullptr && same_taps(*earlier, *texture); });
+        texture->taps = same == &texture ? ++number : (*same)->taps;
+    }
 }
 
 }  // namespace
@@ -67,6 +81,7 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
     plan.occlusion_is_metallic_roughness = (plan.stages & kStageOcclusionTexture) != 0 &&
                                            (plan.stages & kStageMetallicRoughnessTexture) != 0 &&
                                            same_fetch(plan.occlusion_texture, plan.metallic_roughness_texture);
+    number_taps(plan);
     plan.slots = slots_of(plan, lit);
     return plan;
 }

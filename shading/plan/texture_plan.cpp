@@ -39,9 +39,12 @@ TexturePlan plan_texture(const TextureUse& use, std::span<const Texture> texture
     return plan;
 }
 
-bool same_fetch(const TexturePlan& a, const TexturePlan& b) {
-    return a.data == b.data && a.uv_set == b.uv_set && a.wrap_u == b.wrap_u && a.wrap_v == b.wrap_v && a.mag == b.mag && a.min == b.min &&
-           a.mip == b.mip && std::equal(a.row_u, a.row_u + 3, b.row_u) && std::equal(a.row_v, a.row_v + 3, b.row_v);
+bool same_taps(const TexturePlan& a, const TexturePlan& b) {
+    return a.level_count == b.level_count && a.width[0] == b.width[0] && a.height[0] == b.height[0] && a.uv_set == b.uv_set &&
+           a.wrap_u == b.wrap_u && a.wrap_v == b.wrap_v && a.mag == b.mag && a.min == b.min && a.mip == b.mip &&
+           std::equal(a.row_u, a.row_u + 3, b.row_u) && std::equal(a.row_v, a.row_v + 3, b.row_v);
 }
+
+bool same_fetch(const TexturePlan& a, const TexturePlan& b) { return a.data == b.data && same_taps(a, b); }
 
 }  // namespace halflit::shading

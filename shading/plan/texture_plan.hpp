@@ -18,6 +18,7 @@ struct TexturePlan {
     std::int32_t width[kMaxTextureLevels], height[kMaxTextureLevels], offset[kMaxTextureLevels];
     float row_u[3], row_v[3];  ///< texture transform
     std::int32_t uv_set = 0;
+    std::int32_t taps = 0;   ///< equal for textures of a material that are read at the same places; > 0
     bool transform = false;  ///< row_u, row_v are not the identity
     bool needs_lod = false;  ///< the kDu.. rows decide which level or which filter
     TextureWrap wrap_u, wrap_v;
@@ -27,6 +28,9 @@ struct TexturePlan {
 
 /// Plans one use of a texture; `data` is null where the material has none. `available`: attribute slots that the material's meshes have.
 [[nodiscard]] TexturePlan plan_texture(const TextureUse& use, std::span<const Texture> textures, SlotMask available, TextureDetail detail);
+
+/// True if both read texels at the same places with the same weights: sizes, coordinates and filters are equal.
+[[nodiscard]] bool same_taps(const TexturePlan& a, const TexturePlan& b);
 
 /// True if both read the same texels in the same way, so that one fetch serves both.
 [[nodiscard]] bool same_fetch(const TexturePlan& a, const TexturePlan& b);

@@ -1,0 +1,194 @@
+// Taps of a texture look-up: the texels that each lane reads, and their weights. Lanes are computed side by side.
+//
+// A texel's centre is at (i + 0.5) / size. Textures of a material that are read in the same way share their taps (TexturePlan::taps).
+#pragma once
+
+#include "shading/fragment_block.hpp"
+#include "shading/kernels/pow.hpp"
+#include "shading/plan/plan.hpp"
+
+namespace halflit {
+inline namespace HALFLIT_ISA_NAMESPACE {
+
+/// Coordinates are clamped to +-this. It is an even integer, so that repeat and mirror read it as 0. NaN becomes the lower limit, which
+/// every wrap mode reads as 0.
+inline constexpr float kCoordinateLimit = 1048576.0f;  // 2^20
+
+/// Bilinear taps of one level: texel indices of the four corners, and the weights of the right and the lower ones.
+struct LevelTaps {
+    alignas(64) std::int32_t index[4][kWidth];  // upper left, upper right, lower left, lower right
+    alignas(64) float right[kWidth], down[kWidth];
+};
+
+/// Taps of kWidth lanes.
+struct TexelTaps {
+    std::int32_t key = 0;  ///< TexturePlan::taps of the textures that they are for; 0: not made yet
+    bool linear;           ///< false: only the upper left corner of the one level is read
+    bool two_levels;
+    bool neighbours;  ///< in all lanes the right corners follow the left ones in memory; only the left ones are stored
+    LevelTaps near, far;
+    alignas(64) float blend[kWidth];  ///< weight of the far level
+};
+
+/// Filter of the lanes within a level; with `mixed` a mask decides.
+enum class TapMode { linear, nearest, mixed };
+
+/// Brings a coordinate into [0, 1], repeat: into [0, 1).
+HALFLIT_INLINE F wrap_unit(F u, TextureWrap mode) {
+    const F held = clamp(u, F(-kCoordinateLimit), F(kCoordinateLimit));
+    switch (mode) {
+        case TextureWrap::repeat:
+            // Just below a whole number the difference rounds to 1. It is kept below 1, so that the last texel is read.
+            return vmin(held - vfloor(held), F(0.99999994f));
+        case TextureWrap::mirror: {
+            const F period = held - F(2.0f) * vfloor(held * F(0.5f));
+            return vmin(period, F(2.0f) - period);
+        }
+        case TextureWrap::clamp:
+            break;
+    }
+    return clamp(held, F(0.0f), F(1.0f));
+}
+
+/// Brings a texel index from [-1, size] into [0, size). Repeat wraps around; mirror and clamp repeat the texel at the edge.
+HALFLIT_INLINE I wrap_index(I i, I size, TextureWrap mode) {
+    const I last = size - I(1);
+    const M below = less(i, I(0)), above = less(last, i);
+    if (mode == TextureWrap::repeat) return sel(below, i + size, sel(above, i - size, i));
+    return sel(below, I(0), sel(above, last, i));
+}
+
+struct AxisTaps {
+    I first, second;
+    F weight;  ///< weight of `second`
+};
+HALFLIT_INLINE AxisTaps axis_taps(F unit, I size, TextureWrap mode, TapMode taps, M nearest) {
+    const F x = unit * to_float(size);
+    if (taps == TapMode::nearest) {
+        const I i = wrap_index(round_to_int(vfloor(x)), size, mode);
+        return {i, i, F(0.0f)};
+    }
+    const F centred = x - F(0.5f);
+    F low = vfloor(centred);
+    F weight = centred - low;
+    if (taps == TapMode::mixed) {
+        low = sel(nearest, vfloor(x), low);
+        weight = sel(nearest, F(0.0f), weight);
+    }
+    const I first = round_to_int(low);
+    return {wrap_index(first, size, mode), wrap_index(first + I(1), size, mode), weight};
+}
+
+/// Sizes and offsets of the levels that lanes read.
+struct LevelShape {
+    I width, height, offset;
+};
+HALFLIT_INLINE LevelShape one_level(const shading::TexturePlan& texture, std::int32_t level) {
+    return {I(texture.width[level]), I(texture.height[level]), I(texture.offset[level])};
+}
+/// Mostly all lanes read one level, or two neighbouring ones: then nothing is gathered.
+HALFLIT_INLINE LevelShape level_shape(const shading::TexturePlan& texture, I level) {
+    const std::int32_t first = first_lane(level);
+    if (all(equal(level, I(first)))) return one_level(texture, first);
+    const std::int32_t low = any(less(level, I(first))) ? first - 1 : first;
+    const M upper = equal(level, I(low + 1));
+    if (!all(equal(level, I(low)) | upper)) return {gather(texture.width, level), gather(texture.height, level), gather(texture.offset, level)};
+    const LevelShape a = one_level(texture, low), b = one_level(texture, low + 1);
+    return {sel(upper, b.width, a.width), sel(upper, b.height, a.height), sel(upper, b.offset, a.offset)};
+}
+
+struct LevelIndices {
+    AxisTaps x;
+    I upper, lower;  ///< of the rows' first texels
+    M neighbours;
+};
+HALFLIT_INLINE LevelIndices level_indices(const shading::TexturePlan& texture, F unit_u, F unit_v, const LevelShape& level, TapMode taps,
+                                          M nearest, LevelTaps& out) {
+    const AxisTaps x = axis_taps(unit_u, level.width, texture.wrap_u, taps, nearest);
+    const AxisTaps y = axis_taps(unit_v, level.height, texture.wrap_v, taps, nearest);
+    store(out.right, x.weight);
+    store(out.down, y.weight);
+    return {x, level.offset + y.first * level.width, level.offset + y.second * level.width, equal(x.second, x.first + I(1))};
+}
+HALFLIT_INLINE void store_left(const LevelIndices& at, LevelTaps& out) {
+    store(out.index[0], at.upper + at.x.first);
+    store(out.index[2], at.lower + at.x.first);
+}
+HALFLIT_INLINE void store_right(const LevelIndices& at, LevelTaps& out) {
+    store(out.index[1], at.upper + at.x.second);
+    store(out.index[3], at.lower + at.x.second);
+}
+
+/// log2 of the larger of the two lengths, in texels of level 0, that a step of one pixel right or down covers. 0 or less: magnified.
+HALFLIT_INLINE F level_of_detail(const shading::TexturePlan& texture, const shading::FragmentBlock& block, int lane) {
+    const int first = texture.uv_set == 1 ? shading::kDu1Dx : shading::kDu0Dx;
+    F du_dx = load(&block.lane[first][lane]), dv_dx = load(&block.lane[first + 1][lane]);
+    F du_dy = load(&block.lane[first + 2][lane]), dv_dy = load(&block.lane[first + 3][lane]);
+    if (texture.transform) {
+        const F uu(texture.row_u[0]), uv(texture.row_u[1]), vu(texture.row_v[0]), vv(texture.row_v[1]);
+        const F du_dx_in = du_dx, du_dy_in = du_dy;
+        du_dx = mad(uu, du_dx_in, uv * dv_dx);
+        dv_dx = mad(vu, du_dx_in, vv * dv_dx);
+        du_dy = mad(uu, du_dy_in, uv * dv_dy);
+        dv_dy = mad(vu, du_dy_in, vv * dv_dy);
+    }
+    const F width(static_cast<float>(texture.width[0])), height(static_cast<float>(texture.height[0]));
+    const F ux = du_dx * width, vx = dv_dx * height, uy = du_dy * width, vy = dv_dy * height;
+    const F right = mad(ux, ux, vx * vx), down = mad(uy, uy, vy * vy);
+    // Clamped below infinity; NaN counts as no footprint.
+    const F squared = clamp(vmax(right, down), F(0.0f), F(1e30f));
+    const Log2 log = log2_parts(kLog2Degree5, squared);
+    return F(0.5f) * (log.exponent + log.fraction);
+}
+
+/// The levels that lanes read, and the weight of the second.
+struct LevelPair {
+    I near, far;
+    F blend;
+};
+HALFLIT_INLINE LevelPair level_pair(const shading::TexturePlan& texture, F lod) {
+    const std::int32_t last = texture.level_count - 1;
+    const F held = clamp(lod, F(0.0f), F(static_cast<float>(last)));
+    const bool nearest = texture.mip == MipFilter::nearest;
+    const F low = nearest ? round_near(held) : vfloor(held);
+    const I level = round_to_int(low);
+    return {level, level + sel(less(level, I(last)), I(1), I(0)), nearest ? F(0.0f) : held - low};
+}
+
+/// Not inlined: a material has up to five textures.
+[[gnu::noinline]] static void make_taps(const shading::TexturePlan& texture, const shading::FragmentBlock& block, int lane,
+                                        TexelTaps& out) {
+    F u = load(&block.lane[texture.uv_set == 1 ? shading::kU1 : shading::kU0][lane]);
+    F v = load(&block.lane[texture.uv_set == 1 ? shading::kV1 : shading::kV0][lane]);
+    if (texture.transform) {
+        const F u_in = u;
+        u = mad(F(texture.row_u[0]), u_in, F(texture.row_u[1]) * v) + F(texture.row_u[2]);
+        v = mad(F(texture.row_v[0]), u_in, F(texture.row_v[1]) * v) + F(texture.row_v[2]);
+    }
+    const F unit_u = wrap_unit(u, texture.wrap_u), unit_v = wrap_unit(v, texture.wrap_v);
+    const F lod = texture.needs_lod ? level_of_detail(texture, block, lane) : F(0.0f);
+    const bool one_filter = texture.mag == texture.min;
+    out.key = texture.taps;
+    out.linear = !(one_filter && texture.mag == TextureFilter::nearest);
+    const TapMode mode = !one_filter ? TapMode::mixed : out.linear ? TapMode::linear : TapMode::nearest;
+    const M magnified = lod <= F(0.0f);
+    const M nearest = texture.mag == TextureFilter::nearest ? magnified : !magnified;
+    // If all lanes are magnified they read level 0 alone, which gives the same bits as a blend of 0.
+    const bool levels = texture.mip != MipFilter::none && texture.level_count > 1 && !all(magnified);
+    const LevelPair pair = levels ? level_pair(texture, lod) : LevelPair{I(0), I(0), F(0.0f)};
+    const LevelIndices near = level_indices(texture, unit_u, unit_v, level_shape(texture, pair.near), mode, nearest, out.near);
+    out.two_levels = !all(pair.blend == F(0.0f));
+    out.neighbours = out.linear && all(near.neighbours);
+    store_left(near, out.near);
+    if (out.two_levels) {
+        const LevelIndices far = level_indices(texture, unit_u, unit_v, level_shape(texture, pair.far), mode, nearest, out.far);
+        out.neighbours = out.neighbours && all(far.neighbours);
+        store(out.blend, pair.blend);
+        store_left(far, out.far);
+        if (!out.neighbours) store_right(far, out.far);
+    }
+    if (!out.neighbours) store_right(near, out.near);
+}
+
+}  // namespace HALFLIT_ISA_NAMESPACE
+}  // namespace halflit
