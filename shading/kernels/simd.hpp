@@ -225,11 +225,19 @@ HALFLIT_INLINE bool all(M m) { return mask_bits(m) == (kWidth == 32 ? ~0u : (1u 
 /// No conversion instruction is used: those differ between CPUs outside their range and for NaN.
 HALFLIT_INLINE F round_near(F x) { return (x + F(12582912.0f)) - F(12582912.0f); }
 HALFLIT_INLINE I round_to_int(F x) { return bits(x + F(12582912.0f)) - I(0x4b400000); }
-/// Largest integer <= x, for |x| <= 2^22.
+/// Largest integer <= x, for |x| <= 2^22; +0 for -0, by the added 0.
+#if defined(__AVX512F__) && defined(HALFLIT_ARCH)
+HALFLIT_INLINE F vfloor(F x) { return F(_mm512_roundscale_ps(x, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC)) + F(0.0f); }
+#elif defined(__AVX2__) && defined(HALFLIT_ARCH)
+HALFLIT_INLINE F vfloor(F x) { return F(_mm256_floor_ps(x)) + F(0.0f); }
+#elif defined(__SSE4_1__) && defined(HALFLIT_ARCH)
+HALFLIT_INLINE F vfloor(F x) { return F(_mm_floor_ps(x)) + F(0.0f); }
+#else
 HALFLIT_INLINE F vfloor(F x) {
     const F r = round_near(x);
     return r - sel(r > x, F(1.0f), F(0.0f));
 }
+#endif
 /// max(lo, min(x, hi)); NaN gives lo.
 HALFLIT_INLINE F clamp(F x, F lo, F hi) { return vmin(vmax(x, lo), hi); }
 

@@ -25,7 +25,7 @@ struct TexelTaps {
     std::int32_t key = 0;  ///< TexturePlan::taps of the textures that they are for; 0: not made yet
     bool linear;           ///< false: only the upper left corner of the one level is read
     bool two_levels;
-    bool neighbours;  ///< in all lanes the right corners follow the left ones in memory; only the left ones are stored
+    bool neighbours;  ///< in all lanes the right corners follow the left ones in memory
     LevelTaps near, far;
     alignas(64) float blend[kWidth];  ///< weight of the far level
 };
@@ -58,25 +58,22 @@ HALFLIT_INLINE I wrap_index(I i, I size, TextureWrap mode) {
     return sel(below, I(0), sel(above, last, i));
 }
 
+/// Taps along one axis, before wrapping: `first` is in [-1, size]. The second is the next texel, or with the nearest filter the same.
 struct AxisTaps {
-    I first, second;
-    F weight;  ///< weight of `second`
+    I first;
+    F weight;  ///< weight of the second
 };
-HALFLIT_INLINE AxisTaps axis_taps(F unit, I size, TextureWrap mode, TapMode taps, M nearest) {
+HALFLIT_INLINE AxisTaps axis_taps(F unit, I size, TapMode mode, M nearest) {
     const F x = unit * to_float(size);
-    if (taps == TapMode::nearest) {
-        const I i = wrap_index(round_to_int(vfloor(x)), size, mode);
-        return {i, i, F(0.0f)};
-    }
+    if (mode == TapMode::nearest) return {round_to_int(vfloor(x)), F(0.0f)};
     const F centred = x - F(0.5f);
     F low = vfloor(centred);
     F weight = centred - low;
-    if (taps == TapMode::mixed) {
+    if (mode == TapMode::mixed) {
         low = sel(nearest, vfloor(x), low);
         weight = sel(nearest, F(0.0f), weight);
     }
-    const I first = round_to_int(low);
-    return {wrap_index(first, size, mode), wrap_index(first + I(1), size, mode), weight};
+    return {round_to_int(low), weight};
 }
 
 /// Sizes and offsets of the levels that lanes read.
@@ -92,31 +89,37 @@ HALFLIT_INLINE LevelShape level_shape(const shading::TexturePlan& texture, I lev
     if (all(equal(level, I(first)))) return one_level(texture, first);
     const std::int32_t low = any(less(level, I(first))) ? first - 1 : first;
     const M upper = equal(level, I(low + 1));
-    if (!all(equal(level, I(low)) | upper)) return {gather(texture.width, level), gather(texture.height, level), gather(texture.offset, level)};
+    if (!all(equal(level, I(low)) | upper))
+        return {gather(texture.width, level), gather(texture.height, level), gather(texture.offset, level)};
     const LevelShape a = one_level(texture, low), b = one_level(texture, low + 1);
     return {sel(upper, b.width, a.width), sel(upper, b.height, a.height), sel(upper, b.offset, a.offset)};
 }
 
-struct LevelIndices {
-    AxisTaps x;
-    I upper, lower;  ///< of the rows' first texels
-    M neighbours;
-};
-HALFLIT_INLINE LevelIndices level_indices(const shading::TexturePlan& texture, F unit_u, F unit_v, const LevelShape& level, TapMode taps,
-                                          M nearest, LevelTaps& out) {
-    const AxisTaps x = axis_taps(unit_u, level.width, texture.wrap_u, taps, nearest);
-    const AxisTaps y = axis_taps(unit_v, level.height, texture.wrap_v, taps, nearest);
+/// Stores the taps of one level. True if in all lanes the right corners follow the left ones in memory.
+HALFLIT_INLINE bool level_taps(const shading::TexturePlan& texture, F unit_u, F unit_v, const LevelShape& level, TapMode mode, M nearest,
+                               LevelTaps& out) {
+    const AxisTaps x = axis_taps(unit_u, level.width, mode, nearest), y = axis_taps(unit_v, level.height, mode, nearest);
     store(out.right, x.weight);
     store(out.down, y.weight);
-    return {x, level.offset + y.first * level.width, level.offset + y.second * level.width, equal(x.second, x.first + I(1))};
-}
-HALFLIT_INLINE void store_left(const LevelIndices& at, LevelTaps& out) {
-    store(out.index[0], at.upper + at.x.first);
-    store(out.index[2], at.lower + at.x.first);
-}
-HALFLIT_INLINE void store_right(const LevelIndices& at, LevelTaps& out) {
-    store(out.index[1], at.upper + at.x.second);
-    store(out.index[3], at.lower + at.x.second);
+    const I step(mode == TapMode::nearest ? 0 : 1), none(-1);
+    I left = x.first, right = left + step, upper = y.first, lower = upper + step;
+    const M inside = (less(none, left) & less(right, level.width)) & (less(none, upper) & less(lower, level.height));
+    if (all(inside)) {
+        const I at = level.offset + upper * level.width + left;
+        store(out.index[0], at);
+        store(out.index[1], at + step);
+        store(out.index[2], at + level.width);
+        store(out.index[3], at + level.width + step);
+        return true;
+    }
+    left = wrap_index(left, level.width, texture.wrap_u), right = wrap_index(right, level.width, texture.wrap_u);
+    const I above = level.offset + wrap_index(upper, level.height, texture.wrap_v) * level.width;
+    const I below = level.offset + wrap_index(lower, level.height, texture.wrap_v) * level.width;
+    store(out.index[0], above + left);
+    store(out.index[1], above + right);
+    store(out.index[2], below + left);
+    store(out.index[3], below + right);
+    return false;
 }
 
 /// log2 of the larger of the two lengths, in texels of level 0, that a step of one pixel right or down covers. 0 or less: magnified.
@@ -176,18 +179,11 @@ HALFLIT_INLINE LevelPair level_pair(const shading::TexturePlan& texture, F lod) 
     // If all lanes are magnified they read level 0 alone, which gives the same bits as a blend of 0.
     const bool levels = texture.mip != MipFilter::none && texture.level_count > 1 && !all(magnified);
     const LevelPair pair = levels ? level_pair(texture, lod) : LevelPair{I(0), I(0), F(0.0f)};
-    const LevelIndices near = level_indices(texture, unit_u, unit_v, level_shape(texture, pair.near), mode, nearest, out.near);
     out.two_levels = !all(pair.blend == F(0.0f));
-    out.neighbours = out.linear && all(near.neighbours);
-    store_left(near, out.near);
-    if (out.two_levels) {
-        const LevelIndices far = level_indices(texture, unit_u, unit_v, level_shape(texture, pair.far), mode, nearest, out.far);
-        out.neighbours = out.neighbours && all(far.neighbours);
-        store(out.blend, pair.blend);
-        store_left(far, out.far);
-        if (!out.neighbours) store_right(far, out.far);
-    }
-    if (!out.neighbours) store_right(near, out.near);
+    out.neighbours = level_taps(texture, unit_u, unit_v, level_shape(texture, pair.near), mode, nearest, out.near) && out.linear;
+    if (!out.two_levels) return;
+    store(out.blend, pair.blend);
+    out.neighbours = level_taps(texture, unit_u, unit_v, level_shape(texture, pair.far), mode, nearest, out.far) && out.neighbours;
 }
 
 }  // namespace HALFLIT_ISA_NAMESPACE
