@@ -69,7 +69,8 @@ HALFLIT_INLINE F curve_specular_value(const SpecularShape& shape, V3 normal, V3 
     if (!any(shines)) return F(0.0f);
     using shading::SpecularCurve;
     const F x = vmax(vdiv(cosine_squared, at.squared), F(curve.least));
-    F power = curve.terms == SpecularCurve::kFewTerms ? horner_first<SpecularCurve::kFewTerms>(curve.c, x) : horner(curve.c, x);
+    F power = curve.terms == SpecularCurve::kFewTerms ? polynomial_by_pairs<SpecularCurve::kFewTerms>(curve.c, x)
+                                                      : polynomial_by_pairs<SpecularCurve::kMostTerms>(curve.c, x);
     for (int i = 0; i < curve.squarings; ++i) power = power * power;
     return sel(shines, n_dot_l * power, F(0.0f));
 }
