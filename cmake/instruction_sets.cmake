@@ -1,6 +1,7 @@
 # Chooses which instruction sets of shading/kernels/isa_list.def are built, and compiles kernels once for each.
 #   HALFLIT_ISAS                            identifiers of the sets that are built
 #   halflit_kernel_objects(layer out header)  objects of one kernel header, one for each of HALFLIT_ISAS
+include(CheckCXXCompilerFlag)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     set(processor x86_64)
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
@@ -32,6 +33,13 @@ endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # GCC 12's AVX-512 header uses an undefined register on purpose; when its functions are inlined, GCC warns about it.
     list(APPEND HALFLIT_FLAGS_avx512 -Wno-uninitialized -Wno-maybe-uninitialized)
+    # Structs of lanes are copied in whole registers. By default GCC copies them in halves, and the load of the whole waits until both
+    # halves are in the cache.
+    check_cxx_compiler_flag(-mmove-max=512 HALFLIT_HAS_MOVE_MAX)
+    if(HALFLIT_HAS_MOVE_MAX)
+        list(APPEND HALFLIT_FLAGS_avx2 -mmove-max=256 -mstore-max=256)
+        list(APPEND HALFLIT_FLAGS_avx512 -mmove-max=512 -mstore-max=512)
+    endif()
 endif()
 
 # Macro that the registries are made of: X(set, ...) for each set that is built.

@@ -3,7 +3,7 @@
 
 #include "bench/kernels/bare_kernels.hpp"
 #include "shading/kernels/environment_kernel.hpp"
-#include "shading/kernels/light_kernel.hpp"
+#include "shading/kernels/highlight_sums.hpp"
 
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {

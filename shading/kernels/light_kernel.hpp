@@ -1,9 +1,8 @@
-// Direct light: for each light its direction and attenuation at a fragment, and the sums of lobes and highlights over all of them.
+// Direct light: for each light its direction and attenuation at a fragment, its shadow, and the sum of lobes over all lights.
 #pragma once
 
 #include "shading/kernels/lobe_kernel.hpp"
 #include "shading/kernels/shadow_kernel.hpp"
-#include "shading/kernels/specular_kernel.hpp"
 #include "shading/kernels/vector.hpp"
 #include "shading/model/formulas.hpp"
 #include "shading/plan/plan.hpp"
@@ -22,14 +21,16 @@ struct LocalLight {
     V3 direction;
     F attenuation;
 };
-HALFLIT_INLINE LocalLight local_light(const shading::LightPlan& light, V3 position) {
+/// Written part by part: a struct that two paths return is copied through memory by GCC 12.
+HALFLIT_INLINE void local_light(const shading::LightPlan& light, V3 position, V3& direction, F& attenuation) {
     const V3 offset = broadcast(light.position) - position;
     const F distance_squared = dot(offset, offset);
     // Below 1e-18 the direction has no meaning and fades to zero; an infinite distance gives attenuation 0.
     const F in_range = distance_squared * F(light.inv_range_squared);
     const F window = range_window(in_range);
-    const V3 direction = offset * vdiv(F(1.0f), vsqrt(vmax(distance_squared, F(1e-36f))));
-    F attenuation = vdiv(window, vmax(distance_squared, F(light.min_distance_squared)));
+    const F inv_distance = vdiv(F(1.0f), vsqrt(vmax(distance_squared, F(1e-36f))));
+    direction.x = offset.x * inv_distance, direction.y = offset.y * inv_distance, direction.z = offset.z * inv_distance;
+    attenuation = vdiv(window, vmax(distance_squared, F(light.min_distance_squared)));
     if (light.cutoff_squared > 0.0f) attenuation = sel(distance_squared < F(light.cutoff_squared), attenuation, F(0.0f));
     if (light.type == LightType::spot) {
         // 1 - cos of the angle to the axis, as |L - A|^2 / 2, A being minus the axis. It is accurate for narrow cones, where a difference
@@ -44,13 +45,12 @@ HALFLIT_INLINE LocalLight local_light(const shading::LightPlan& light, V3 positi
             attenuation = attenuation * sel(cosine > F(0.0f), power, F(0.0f));
         }
     }
-    return {direction, attenuation};
 }
 
 /// Direction and attenuation of any light. A directional light's attenuation is 1, and the product with it is exact.
 HALFLIT_INLINE LocalLight arrival(const shading::LightPlan& light, V3 position) {
     LocalLight at{broadcast(light.to_light), F(1.0f)};
-    if (light.type != LightType::directional) at = local_light(light, position);
+    if (light.type != LightType::directional) local_light(light, position, at.direction, at.attenuation);
     return at;
 }
 
@@ -66,43 +66,40 @@ struct ShadowReceiver {
 /// excess over it fades with the blocker's distance. The hidden part is subtracted from f, so that unhidden light keeps its bits, and light
 /// that is hidden altogether is exactly 0.
 template <bool kSpecular>
-HALFLIT_INLINE void cast_shadow(const ShadowReceiver& receiver, const shading::LightPlan& light, const LocalLight& at, F n_dot_l,
+HALFLIT_INLINE void cast_shadow(const ShadowReceiver& receiver, const shading::LightPlan& light, V3 direction, F attenuation, F n_dot_l,
                                 F& diffuse, F& specular) {
-    M lit = (diffuse * at.attenuation) > F(0.0f);
-    if constexpr (kSpecular) lit = lit | ((specular * at.attenuation) > F(0.0f));
+    M lit = (diffuse * attenuation) > F(0.0f);
+    if constexpr (kSpecular) lit = lit | ((specular * attenuation) > F(0.0f));
     if (!any(lit)) return;  // nothing to hide
     const bool split = receiver.frame.shadow_mode == ShadowMode::soft_split;
     const bool soft = split && receiver.fade.scale > 0.0f;
     const HiddenShares hidden = hidden_share(receiver.frame.shadow_maps[light.shadow_map], receiver.position, receiver.surface_normal,
-                                             at.direction, receiver.fade, soft);
+                                             direction, receiver.fade, soft);
     const F core = split ? vmin(diffuse, vmax(n_dot_l, F(0.0f))) : diffuse;
     const F excess = diffuse - core;
     diffuse = (diffuse - hidden.hard * core) - hidden.soft * excess;
     if constexpr (kSpecular) specular = specular * (F(1.0f) - hidden.hard);
 }
 
-/// One loop over the lights for one choice of lobe and highlight. Without highlights and shadows a light is so little work that the loop
-/// must contain nothing else: in a loop with every path, GCC keeps the sums in memory, and each light waits for the store of the one
-/// before. With highlights or shadows it makes no difference.
-template <bool kSpecular, bool kShadows, class LobeValue, class SpecularValue>
-HALFLIT_INLINE LightSums sum_lights_by(const LobeValue& lobe_value_at, const SpecularValue& specular_value_at,
-                                       const shading::LightPlan* lights, int count, const ShadowReceiver& receiver, V3 position,
-                                       V3 normal) {
+/// One loop over the lights without highlights, for one choice of lobe. A light is so little work then that the loop must contain nothing
+/// else: in a loop with every path, GCC keeps the sums in memory, and each light waits for the store of the one before. With shadows it
+/// makes no difference.
+template <bool kShadows, class LobeValue>
+HALFLIT_INLINE LightSums sum_lobes(const LobeValue& lobe_value_at, const shading::LightPlan* lights, int count,
+                                   const ShadowReceiver& receiver, V3 position, V3 normal) {
     LightSums sums;
     for (int i = 0; i < count; ++i) {
         const shading::LightPlan& light = lights[i];
         const bool local = light.type != LightType::directional;
         LocalLight at{broadcast(light.to_light), F(1.0f)};  // not arrival(): with it GCC 12 makes point lights 16 % slower on AVX-512
-        if (local) at = local_light(light, position);
+        if (local) local_light(light, position, at.direction, at.attenuation);
         const F n_dot_l = dot(normal, at.direction);
-        F diffuse = lobe_value_at(n_dot_l), specular(0.0f);
-        if constexpr (kSpecular) specular = specular_value_at(at.direction, n_dot_l, at.attenuation * F(light.brightness));
+        F diffuse = lobe_value_at(n_dot_l);
         if constexpr (kShadows) {
-            if (light.shadow_map >= 0) cast_shadow<kSpecular>(receiver, light, at, n_dot_l, diffuse, specular);
+            F none(0.0f);
+            if (light.shadow_map >= 0) cast_shadow<false>(receiver, light, at.direction, at.attenuation, n_dot_l, diffuse, none);
         }
-        const V3 color = broadcast(light.color);
-        sums.diffuse = sums.diffuse + color * (local ? diffuse * at.attenuation : diffuse);
-        if constexpr (kSpecular) sums.specular = sums.specular + color * (local ? specular * at.attenuation : specular);
+        sums.diffuse = sums.diffuse + broadcast(light.color) * (local ? diffuse * at.attenuation : diffuse);
     }
     return sums;
 }
@@ -129,44 +126,30 @@ HALFLIT_INLINE LightSums sum_lights_by_power(const shading::LobePlan& lobe, cons
     return sums;
 }
 
-template <bool kSpecular>
-HALFLIT_INLINE LightSums sum_lights(const shading::LightPlan* lights, int count, const shading::LobePlan& lobe,
-                                    const ShadowReceiver& receiver, V3 position, V3 normal, V3 to_eye, const SpecularShape& shape) {
+/// Sums of lobes alone.
+HALFLIT_INLINE LightSums sum_lobes(const shading::LightPlan* lights, int count, const shading::LobePlan& lobe,
+                                   const ShadowReceiver& receiver, V3 position, V3 normal) {
     using shading::LobePath, shading::PowTier;
-    const auto sum = [&]<bool kShadows>(const auto& value, const auto& highlight) __attribute__((always_inline)) {
-        return sum_lights_by<kSpecular, kShadows>(value, highlight, lights, count, receiver, position, normal);
+    const auto sum = [&]<bool kShadows>(const auto& value) __attribute__((always_inline)) {
+        return sum_lobes<kShadows>(value, lights, count, receiver, position, normal);
     };
-    const auto any_lobe = [&](F x) __attribute__((always_inline)) { return lobe_value(lobe, x); };
-    const auto simple = [&](F x) __attribute__((always_inline)) { return simple_lobe_value(lobe, x); };
-    const auto sharp = [&](F x) __attribute__((always_inline)) { return sharp_lobe_value(lobe, x); };
-    const auto curve = [&](F x) __attribute__((always_inline)) { return curve_lobe_value(lobe, x); };
-    const auto curve_specular = [&](V3 to_light, F n_dot_l, F) __attribute__((always_inline)) {
-        return curve_specular_value(shape, normal, to_eye, to_light, n_dot_l);
-    };
-    const auto any_specular = [&](V3 to_light, F n_dot_l, F brightness) __attribute__((always_inline)) {
-        if (shape.curve.squarings >= 0) return curve_specular_value(shape, normal, to_eye, to_light, n_dot_l);
-        return specular_value(shape, normal, to_eye, to_light, n_dot_l, brightness);
-    };
-    const bool shadows = !receiver.frame.shadow_maps.empty();
-    if constexpr (kSpecular) {
-        if (!shadows && shape.curve.squarings >= 0) {
-            if (lobe.path == LobePath::curve) return sum.template operator()<false>(curve, curve_specular);
-            return sum.template operator()<false>(any_lobe, curve_specular);
-        }
-    } else if (!shadows) {
-        if (lobe.path == LobePath::curve) return sum.template operator()<false>(curve, any_specular);
-        if (lobe.path != LobePath::general) return sum.template operator()<false>(simple, any_specular);
-        if (lobe.power_minus_one >= shading::kSharpPowerMinusOne) return sum.template operator()<false>(sharp, any_specular);
-        switch (lobe.tier) {
-            case PowTier::exact:
-                return sum_lights_by_power<PowTier::exact>(lobe, lights, count, position, normal);
-            case PowTier::display:
-                return sum_lights_by_power<PowTier::display>(lobe, lights, count, position, normal);
-            case PowTier::fast:
-                return sum_lights_by_power<PowTier::fast>(lobe, lights, count, position, normal);
-        }
+    if (!receiver.frame.shadow_maps.empty())
+        return sum.template operator()<true>([&](F x) __attribute__((always_inline)) { return lobe_value(lobe, x); });
+    if (lobe.path == LobePath::curve)
+        return sum.template operator()<false>([&](F x) __attribute__((always_inline)) { return curve_lobe_value(lobe, x); });
+    if (lobe.path != LobePath::general)
+        return sum.template operator()<false>([&](F x) __attribute__((always_inline)) { return simple_lobe_value(lobe, x); });
+    if (lobe.power_minus_one >= shading::kSharpPowerMinusOne)
+        return sum.template operator()<false>([&](F x) __attribute__((always_inline)) { return sharp_lobe_value(lobe, x); });
+    switch (lobe.tier) {
+        case PowTier::display:
+            return sum_lights_by_power<PowTier::display>(lobe, lights, count, position, normal);
+        case PowTier::fast:
+            return sum_lights_by_power<PowTier::fast>(lobe, lights, count, position, normal);
+        case PowTier::exact:
+            break;
     }
-    return sum.template operator()<true>(any_lobe, any_specular);
+    return sum_lights_by_power<PowTier::exact>(lobe, lights, count, position, normal);
 }
 
 }  // namespace HALFLIT_ISA_NAMESPACE

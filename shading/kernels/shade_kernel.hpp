@@ -4,7 +4,7 @@
 #include "shading/kernels/cell_kernel.hpp"
 #include "shading/kernels/color_kernel.hpp"
 #include "shading/kernels/environment_kernel.hpp"
-#include "shading/kernels/light_kernel.hpp"
+#include "shading/kernels/highlight_sums.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 #include "shading/kernels/surface_kernel.hpp"
 #include "shading/model/constants.hpp"
