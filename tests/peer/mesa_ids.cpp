@@ -2,11 +2,7 @@
 
 #include "mesa_program.hpp"
 
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
 #include <GLES3/gl3.h>
-
-#include <cstdlib>
 
 namespace halflit::peer {
 
@@ -32,39 +28,12 @@ void main() { result = id; }
 }  // namespace
 
 std::unique_ptr<Mesa> Mesa::create(std::string& reason) {
-    setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
-    setenv("GALLIUM_DRIVER", "llvmpipe", 1);
     std::unique_ptr<Mesa> mesa(new Mesa);
-
-    const auto get_display = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
-    if (get_display == nullptr) return reason = "EGL has no platform displays", nullptr;
-    mesa->display_ = get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-    if (mesa->display_ == EGL_NO_DISPLAY || !eglInitialize(mesa->display_, nullptr, nullptr)) {
-        mesa->display_ = nullptr;
-        return reason = "EGL has no surfaceless display", nullptr;
-    }
-    constexpr EGLint kConfig[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_ES3_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_NONE};
-    constexpr EGLint kContext[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};
-    EGLConfig config = nullptr;
-    EGLint count = 0;
-    if (!eglBindAPI(EGL_OPENGL_ES_API) || !eglChooseConfig(mesa->display_, kConfig, &config, 1, &count) || count == 0)
-        return reason = "EGL offers no OpenGL ES 3", nullptr;
-    mesa->context_ = eglCreateContext(mesa->display_, config, EGL_NO_CONTEXT, kContext);
-    if (mesa->context_ == EGL_NO_CONTEXT || !eglMakeCurrent(mesa->display_, EGL_NO_SURFACE, EGL_NO_SURFACE, mesa->context_))
-        return reason = "no OpenGL ES 3 context", nullptr;
-
-    mesa->renderer_ = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-    if (mesa->renderer_.find("llvmpipe") == std::string::npos) return reason = "the renderer is " + mesa->renderer_, nullptr;
-
+    mesa->context_ = MesaContext::create(reason);
+    if (mesa->context_ == nullptr) return nullptr;
     mesa->program_ = linked_program(kVertexShader, kFragmentShader, reason);
     if (mesa->program_ == 0) return nullptr;
     return mesa;
-}
-
-Mesa::~Mesa() {
-    if (display_ == nullptr) return;
-    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    eglTerminate(display_);
 }
 
 std::vector<std::uint32_t> Mesa::ids(int width, int height, std::span<const Vec4f> clip_positions) {

@@ -1,7 +1,8 @@
-// The peer: Mesa's llvmpipe, off screen through EGL without a window system.
+// The peer: visible triangles by Mesa's llvmpipe.
 #pragma once
 
 #include "halflit/math.hpp"
+#include "tests/peer/mesa_context.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -15,9 +16,8 @@ class Mesa {
 public:
     /// Null with a reason when this machine has no software OpenGL ES 3 by llvmpipe.
     static std::unique_ptr<Mesa> create(std::string& reason);
-    ~Mesa();
 
-    [[nodiscard]] const std::string& renderer() const { return renderer_; }
+    [[nodiscard]] const std::string& renderer() const { return context_->renderer(); }
 
     /// Draws the triangles in order without a depth test, given in clip coordinates. Row 0 is the top row; 0 where nothing is drawn,
     /// else 1 + the triangle's number.
@@ -25,9 +25,7 @@ public:
 
 private:
     Mesa() = default;
-    void* display_ = nullptr;
-    void* context_ = nullptr;
-    std::string renderer_;
+    std::unique_ptr<MesaContext> context_;
     unsigned program_ = 0;
 };
 
