@@ -1,0 +1,157 @@
+#include "bench/peer/gl_scene.hpp"
+
+#include "bench/peer/gl_shaders.hpp"
+#include "raster/view/projection.hpp"
+#include "shading/reference/reference.hpp"
+#include "tests/peer/mesa_program.hpp"
+
+#include <GLES3/gl3.h>
+
+#include <cmath>
+
+namespace halflit::peer {
+namespace {
+
+constexpr GLenum kRgba16 = 0x805B;  // GL_RGBA16_EXT of EXT_texture_norm16
+
+/// Vertices as position, normal and, for textured scenes, tangent and coordinates, side by side.
+void upload_vertices(const Mesh& mesh, bool textured) {
+    const std::size_t floats = textured ? 12 : 6;
+    std::vector<float> vertices;
+    vertices.reserve(mesh.positions.size() * floats);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const Vec3f p = mesh.positions[i], n = mesh.normals[i];
+        vertices.insert(vertices.end(), {p.x, p.y, p.z, n.x, n.y, n.z});
+        if (!textured) continue;
+        const Vec4f t = mesh.tangents[i];
+        vertices.insert(vertices.end(), {t.x, t.y, t.z, t.w, mesh.uv0[i].x, mesh.uv0[i].y});
+    }
+    GLuint buffers[2];
+    glGenBuffers(2, buffers);
+    glBindBuffer(GL_ARRAY_BUFFER, buffers[0]);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(float)), vertices.data(), GL_STATIC_DRAW);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers[1]);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.indices.size() * sizeof(std::uint32_t)), mesh.indices.data(),
+                 GL_STATIC_DRAW);
+    const auto attribute = [&](GLuint location, GLint size, std::size_t first) {
+        glEnableVertexAttribArray(location);
+        glVertexAttribPointer(location, size, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(floats * sizeof(float)),
+                              reinterpret_cast<const void*>(first * sizeof(float)));
+    };
+    attribute(0, 3, 0);
+    attribute(1, 3, 3);
+    if (!textured) return;
+    attribute(2, 4, 6);
+    attribute(3, 2, 10);
+}
+
+std::uint8_t to_8_bits(std::uint16_t value, bool srgb) {
+    const double linear = value / 65535.0;
+    return static_cast<std::uint8_t>(std::lround(srgb ? shading::reference::srgb_code(linear) : 255 * linear));
+}
+
+/// Uploads halflit's own mip levels, so that filtering begins with the same texels.
+void upload_texture(const Texture& texture, TextureStorage storage, bool srgb) {
+    GLuint name = 0;
+    glGenTextures(1, &name);
+    glBindTexture(GL_TEXTURE_2D, name);
+    GLint number = 0;
+    for (const TextureLevel& level : texture.levels()) {
+        const std::size_t count = static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height) * 4;
+        const auto texels = texture.data().subspan(static_cast<std::size_t>(level.offset) * 4, count);
+        if (storage == TextureStorage::rgba16) {
+            glTexImage2D(GL_TEXTURE_2D, number++, kRgba16, level.width, level.height, 0, GL_RGBA, GL_UNSIGNED_SHORT, texels.data());
+            continue;
+        }
+        std::vector<std::uint8_t> bytes(count);
+        for (std::size_t i = 0; i < count; ++i) bytes[i] = to_8_bits(texels[i], srgb && i % 4 != 3);
+        glTexImage2D(GL_TEXTURE_2D, number++, srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, level.width, level.height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                     bytes.data());
+    }
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+}
+
+/// The camera's matrix for OpenGL. y is turned over, so that the lowest row of the target is the picture's top. z / w runs from -1 at the
+/// near plane to 1.
+Mat4 gl_clip_from_world(const Camera& camera, float aspect) {
+    Mat4 m = raster::clip_from_world(camera, aspect);
+    for (Vec4f& column : m.c) column.y = -column.y, column.z = column.w - 2 * column.z;
+    return m;
+}
+
+void set_camera(unsigned program, const Mat4& clip_from_world) {
+    glUseProgram(program);
+    glUniformMatrix4fv(glGetUniformLocation(program, "clip_from_world"), 1, GL_FALSE, &clip_from_world.c[0].x);
+}
+
+void set_lamps(unsigned program, const Scene& scene) {
+    std::vector<Vec3f> positions, colors;
+    for (const Light& light : scene.lights) {
+        if (light.type != LightType::point) continue;
+        positions.push_back(light.position_ws);
+        colors.push_back(light.color_linear);
+    }
+    const auto count = static_cast<GLsizei>(positions.size());
+    glUniform3fv(glGetUniformLocation(program, "lamp_position"), count, &positions[0].x);
+    glUniform3fv(glGetUniformLocation(program, "lamp_color"), count, &colors[0].x);
+}
+
+}  // namespace
+
+bool GlScene::make(const BenchScene& bench, float aspect, TextureStorage storage, GlScene& out, std::string& reason) {
+    const Scene& scene = bench.scene;
+    const Vec4f eye = bench.camera.world_from_camera.c[3];
+    const ShaderSources sources = shader_sources(scene, {eye.x, eye.y, eye.z});
+    out.program_ = linked_program(sources.vertex, sources.fragment, reason);
+    out.depth_program_ = linked_program(sources.vertex, sources.depth_fragment, reason);
+    if (out.program_ == 0 || out.depth_program_ == 0) return false;
+
+    glGenVertexArrays(1, &out.vertex_array_);
+    glBindVertexArray(out.vertex_array_);
+    const bool textured = !scene.textures.empty();
+    upload_vertices(scene.meshes[0], textured);
+    out.index_count_ = static_cast<int>(scene.meshes[0].indices.size());
+    for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+        glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + i));
+        upload_texture(scene.textures[i], storage, i == 0);
+    }
+    const Mat4 clip_from_world = gl_clip_from_world(bench.camera, aspect);
+    set_camera(out.depth_program_, clip_from_world);
+    set_camera(out.program_, clip_from_world);
+    set_lamps(out.program_, scene);
+    if (textured) {
+        glUniform1i(glGetUniformLocation(out.program_, "base_color_texture"), 0);
+        glUniform1i(glGetUniformLocation(out.program_, "normal_texture"), 1);
+    }
+    const GLenum error = glGetError();
+    if (error != GL_NO_ERROR) reason = "OpenGL error " + std::to_string(error);
+    return error == GL_NO_ERROR;
+}
+
+void GlScene::draw(bool depth_first) const {
+    glClearColor(0, 0, 0, 1);
+    glClearDepthf(1);
+    glEnable(GL_DEPTH_TEST);
+    glEnable(GL_CULL_FACE);
+    glFrontFace(GL_CW);  // y is turned over
+    glDisable(GL_DITHER);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LESS);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glBindVertexArray(vertex_array_);
+    const auto draw_all = [&](unsigned program) {
+        glUseProgram(program);
+        glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
+    };
+    if (depth_first) {
+        glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+        draw_all(depth_program_);
+        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+        glDepthMask(GL_FALSE);
+        glDepthFunc(GL_EQUAL);
+    }
+    draw_all(program_);
+}
+
+}  // namespace halflit::peer

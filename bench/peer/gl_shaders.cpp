@@ -1,0 +1,158 @@
+#include "bench/peer/gl_shaders.hpp"
+
+#include "bench/peer/scenes.hpp"
+#include "shading/environment.hpp"
+#include "shading/model/scalar.hpp"
+#include "shading/plan/environment_plans.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace halflit::peer {
+namespace {
+
+constexpr const char* kHead = R"(#version 300 es
+precision highp float;
+precision highp int;
+precision highp sampler2D;
+)";
+
+constexpr const char* kVertex = R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+uniform mat4 clip_from_world;
+invariant gl_Position;
+out vec3 v_position;
+out vec3 v_normal;
+#ifdef TEXTURED
+layout(location = 2) in vec4 tangent;
+layout(location = 3) in vec2 uv;
+out vec4 v_tangent;
+out vec2 v_uv;
+#endif
+void main() {
+    gl_Position = clip_from_world * vec4(position, 1.0);
+    v_position = position;
+    v_normal = normal;
+#ifdef TEXTURED
+    v_tangent = tangent;
+    v_uv = uv;
+#endif
+}
+)";
+
+constexpr const char* kFragment = R"(
+in vec3 v_position;
+in vec3 v_normal;
+#ifdef TEXTURED
+in vec4 v_tangent;
+in vec2 v_uv;
+uniform sampler2D base_color_texture;
+uniform sampler2D normal_texture;
+#endif
+uniform vec3 lamp_position[LAMPS];
+uniform vec3 lamp_color[LAMPS];
+out vec4 color;
+
+// Three bands of spherical harmonics as a polynomial in the direction's components.
+#define SERIES(name, n) \
+    max(((n[0] * (name.z - 0.5) + n[1]) * name.z + n[2]) + (n[3] * name.z + n[5]) * name.x + (n[4] * name.z + n[6]) * name.y + \
+        n[7] * (name.x * name.x - name.y * name.y) + n[8] * (2.0 * name.x * name.y), vec3(0.0))
+
+void add_light(vec3 direction, float attenuation, vec3 light, vec3 normal, vec3 to_eye, inout vec3 diffuse, inout vec3 highlight) {
+    float n_dot_l = dot(normal, direction);
+    float t = clamp((n_dot_l + WRAP) * (1.0 / (1.0 + WRAP)), 0.0, 1.0);
+    diffuse += light * (t * sqrt(t) * attenuation);
+    vec3 between = direction + to_eye;
+    float cosine = max(dot(normal, between), 0.0) * inversesqrt(dot(between, between));
+    highlight += light * (max(n_dot_l, 0.0) * pow(cosine, EXPONENT) * attenuation);
+}
+
+void main() {
+    vec3 normal = normalize(v_normal);
+    vec3 base = BASE;
+#ifdef TEXTURED
+    base *= texture(base_color_texture, v_uv).rgb;
+    vec3 tangent = normalize(v_tangent.xyz);
+    vec3 mapped = 2.0 * texture(normal_texture, v_uv).rgb - 1.0;
+    normal = normalize(tangent * mapped.x + cross(normal, tangent) * v_tangent.w * mapped.y + normal * mapped.z);
+#endif
+    vec3 to_eye = normalize(EYE - v_position);
+    vec3 diffuse = vec3(0.0), highlight = vec3(0.0);
+    for (int i = 0; i < LAMPS; ++i) {
+        vec3 offset = lamp_position[i] - v_position;
+        float squared = dot(offset, offset);
+        add_light(offset * inversesqrt(squared), 1.0 / max(squared, LEAST_SQUARED), lamp_color[i], normal, to_eye, diffuse, highlight);
+    }
+    SUNS
+    vec3 f0 = mix(vec3(DIELECTRIC), base, METALLIC), albedo = base * ((1.0 - METALLIC) * (1.0 - DIELECTRIC));
+    float n_dot_v = dot(normal, to_eye);
+    float away = 1.0 - clamp(n_dot_v, 0.0, 1.0), away2 = away * away;
+    vec3 reflection = 2.0 * n_dot_v * normal - to_eye;
+    vec3 share = f0 + (max(vec3(1.0 - ROUGHNESS), f0) - f0) * (away2 * away2 * away);
+    vec3 around = albedo * SERIES(normal, kDiffuse) + share * SERIES(reflection, kMirrored);
+    color = vec4(albedo * diffuse + f0 * highlight * NORMALIZATION + around, 1.0);
+}
+)";
+
+std::string number(double value) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.9e", value);
+    return text;
+}
+std::string vec3(Vec3f v) { return "vec3(" + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + ")"; }
+
+void define(std::string& text, const char* name, const std::string& value) {
+    text += "#define ";
+    text += name;
+    text += " " + value + "\n";
+}
+
+std::string series(const char* name, const shading::EnvironmentPlan& plan) {
+    std::string text = std::string("const vec3 ") + name + "[9] = vec3[9](";
+    for (std::size_t i = 0; i < 9; ++i)
+        text += (i > 0 ? ", " : "") + vec3({plan.newton[3 * i], plan.newton[3 * i + 1], plan.newton[3 * i + 2]});
+    return text + ");\n";
+}
+
+shading::EnvironmentPlan plan(const Environment& environment, const sh::WrapLobe& lobe) {
+    shading::EnvironmentOrder order;
+    order.fixed = kEnvironmentBands;
+    return shading::plan_environment(environment, lobe, order);
+}
+
+}  // namespace
+
+ShaderSources shader_sources(const Scene& scene, Vec3f eye) {
+    static_assert(kEnvironmentBands == 3);
+    const Material& material = scene.materials[0];
+    const bool textured = material.base_color_texture.used();
+    const float roughness = std::max(material.roughness, shading::kMinRoughness);
+    const double half_exponent = half_specular_exponent(double{roughness});
+    const auto lamps = std::count_if(scene.lights.begin(), scene.lights.end(), [](const Light& l) { return l.type == LightType::point; });
+
+    std::string head = kHead;
+    if (textured) define(head, "TEXTURED", "1");
+    define(head, "LAMPS", std::to_string(lamps));
+    define(head, "WRAP", number(material.lobe.wrap));
+    define(head, "EXPONENT", number(2 * half_exponent));
+    define(head, "NORMALIZATION", number(specular_normalization(half_exponent, false)));
+    define(head, "BASE", vec3({material.base_color.x, material.base_color.y, material.base_color.z}));
+    define(head, "DIELECTRIC", number(material.dielectric_reflectance));
+    define(head, "METALLIC", number(material.metallic));
+    define(head, "ROUGHNESS", number(roughness));
+    define(head, "LEAST_SQUARED", number(double{shading::kMinSourceRadius} * double{shading::kMinSourceRadius}));
+    define(head, "EYE", vec3(eye));
+    std::string suns;
+    for (const Light& light : scene.lights)
+        if (light.type == LightType::directional)
+            suns += "add_light(" + vec3(light.direction_ws * -1.0f) + ", 1.0, " + vec3(light.color_linear) +
+                    ", normal, to_eye, diffuse, highlight); ";
+    define(head, "SUNS", suns);
+    const sh::WrapLobe lobe{material.lobe.wrap, material.lobe.power, material.lobe.scale()};
+    const std::string light = series("kDiffuse", plan(*scene.environment, lobe)) +
+                              series("kMirrored", plan(*scene.environment, shading::specular_environment_lobe(roughness)));
+    return {head + kVertex, head + light + kFragment, head + "void main() {}\n"};
+}
+
+}  // namespace halflit::peer

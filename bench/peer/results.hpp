@@ -1,0 +1,38 @@
+// Results of the peer bench as a table for readers and as CSV.
+#pragma once
+
+#include "bench/peer/measure.hpp"
+
+#include <string>
+#include <vector>
+
+namespace halflit::peer {
+
+struct TurnsRow {
+    Subject subject;
+    Turns turns;
+};
+struct FirstRow {
+    Subject subject;
+    FirstFrame cold, warm;  ///< llvmpipe without and with its shaders in the cache on disk
+    FirstFrame halflit;
+};
+
+/// Largest share of pixels that may differ by more than 2 codes. With several samples, a triangle that covers some of a pixel but not its
+/// centre is textured differently: llvmpipe extrapolates the coordinates to the centre, halflit keeps them inside the triangle.
+inline constexpr double kMostAbove2 = 0.001, kMostAbove2OfSamples = 0.1;
+/// True if that is kept, or if the filter is one that does not give the same picture.
+[[nodiscard]] bool pictures_agree(const TurnsRow& row);
+
+void print_turns_head(const std::vector<Isa>& isas);
+void print_turns(const TurnsRow& row, const std::vector<Isa>& isas);
+/// Geometric means of the ratios over all scenes, for each number of threads and samples.
+void print_means(const std::vector<TurnsRow>& rows, const std::vector<Isa>& isas);
+void print_first_head();
+void print_first(const FirstRow& row);
+
+/// Writes peer_MACHINE.csv and peer_first_MACHINE.csv, with the columns of bench/README.md. False if a file cannot be written.
+[[nodiscard]] bool write_csv(const std::string& folder, const std::vector<TurnsRow>& turns, const std::vector<FirstRow>& first,
+                             const std::vector<Isa>& isas);
+
+}  // namespace halflit::peer
