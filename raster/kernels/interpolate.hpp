@@ -14,10 +14,6 @@
 namespace halflit::raster {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
-HALFLIT_INLINE const TriangleRecord& record_of(const TriangleTable& table, std::uint32_t id) {
-    return table.chunks[id >> table.local_bits].records[id & ((1u << table.local_bits) - 1u)];
-}
-
 /// Vertex positions and 1/w of kWidth triangles.
 struct TriangleLanes {
     I x[3], y[3];

@@ -11,6 +11,13 @@ HALFLIT_INLINE const ScreenVertex& vertex_of(const TriangleSource& source, std::
     return (v & kClipVertex) ? source.clip_vertices[v & ~kClipVertex] : source.vertices[v];
 }
 
+HALFLIT_INLINE const TriangleSource& source_of(const TriangleTable& table, std::uint32_t id) {
+    return table.chunks[id >> table.local_bits];
+}
+HALFLIT_INLINE const TriangleRecord& record_of(const TriangleTable& table, std::uint32_t id) {
+    return source_of(table, id).records[id & ((1u << table.local_bits) - 1u)];
+}
+
 }  // namespace HALFLIT_ISA_NAMESPACE
 }  // namespace halflit::raster
 

@@ -148,8 +148,8 @@ struct InterpolateArgs {
 struct RasterKernels {
     void (*transform)(const TransformArgs&);
     void (*vertex_records)(const VertexRecordArgs&);
-    /// Draws `count` triangles (indices of records) into depth and triangle. The nearest wins; of equal depths the first.
-    void (*rasterize)(const TileRect&, const SamplePattern&, TileBuffers&, const TriangleSource&, const std::uint32_t* list, int count);
+    /// Draws triangles into depth and triangle. The nearest wins; of equal depths the first.
+    void (*rasterize)(const TileRect&, const SamplePattern&, TileBuffers&, const TriangleTable&, const std::uint32_t* ids, int count);
     /// Tests one triangle. Marks in `coverage` the samples that it covers and that are nearer than the tile's depth.
     CoverBox (*cover)(const TileRect&, const SamplePattern&, TileBuffers&, const TriangleSource&, std::uint32_t record);
     /// Draws one triangle into depth and triangle, but only the samples set in `coverage`: those that passed the alpha test.

@@ -46,6 +46,7 @@ struct CellScratch {
 /// The working memory of one task.
 struct TileScratch {
     TileBuffers buffers{};
+    std::uint32_t opaque[1024];  ///< triangles for the next call of the kernel
     FragmentQueue queue;
     FragmentList list;  ///< fragments of the current triangle, for alpha test and blending
     shading::FragmentBlock block;

@@ -8,7 +8,35 @@
 namespace halflit::raster {
 namespace {
 
-constexpr std::size_t kTrianglesARun = 4096;
+/// Opaque triangles of a tile on their way to the kernel, which sees them as one list although they come from many chunks: most chunks have
+/// less than a hundred in a tile, and prefetching and side by side set-up need longer lists.
+class OpaqueTriangles {
+public:
+    OpaqueTriangles(const TilePass& pass, const TileRect& rect, TileScratch& scratch) : pass_(pass), rect_(rect), scratch_(scratch) {}
+
+    void add(std::uint32_t id_base, std::span<const std::uint32_t> records) {
+        while (!records.empty()) {
+            if (count_ == std::size(scratch_.opaque)) draw();
+            const std::size_t n = std::min(records.size(), std::size(scratch_.opaque) - count_);
+            for (std::size_t i = 0; i < n; ++i) scratch_.opaque[count_ + i] = id_base + records[i];
+            count_ += n;
+            records = records.subspan(n);
+        }
+    }
+    void draw() {
+        if (count_ == 0) return;
+        pass_.stop.check();
+        pass_.raster.rasterize(rect_, pass_.geometry.view().samples, scratch_.buffers, pass_.geometry.table(), scratch_.opaque,
+                               static_cast<int>(count_));
+        count_ = 0;
+    }
+
+private:
+    const TilePass& pass_;
+    const TileRect& rect_;
+    TileScratch& scratch_;
+    std::size_t count_ = 0;
+};
 
 /// Draws one triangle of a masked material: the samples that pass its alpha test.
 void draw_masked(const TilePass& pass, const TileRect& rect, std::size_t chunk, std::uint32_t record, TileScratch& scratch,
@@ -73,29 +101,29 @@ void draw_visibility(const TilePass& pass, int tile, TileScratch& scratch, TileC
     }
     const bool all_opaque = !geometry.has(AlphaMode::mask) && !geometry.has(AlphaMode::blend);
     const auto chunks = geometry.chunks();
+    OpaqueTriangles opaque(pass, rect, scratch);
     for (std::size_t c = 0; c < chunks.size(); ++c) {
         const std::span<const std::uint32_t> list = geometry.tile_list(c, tile, scratch.tile_list);
-        if (list.empty()) continue;
         const TriangleSource& source = geometry.source(c);
         if (all_opaque) {
-            for (std::size_t i = 0; i < list.size(); i += kTrianglesARun) {
-                if (i > 0) pass.stop.check();
-                const std::size_t count = std::min(list.size() - i, kTrianglesARun);
-                pass.raster.rasterize(rect, samples, buffers, source, list.data() + i, static_cast<int>(count));
-            }
+            opaque.add(source.id_base, list);
             continue;
         }
-        // Runs of opaque triangles go to the kernel as one list; masked ones are tested one by one.
+        // Masked triangles are tested one by one, after the opaque ones before them.
         const auto mode = [&](std::size_t i) { return geometry.draw_of(source.records[list[i]]).alpha_mode; };
-        for (std::size_t i = 0; i < list.size();) {
-            pass.stop.check();
+        for (std::size_t i = 0; i < list.size(); ++i) {
             std::size_t run = i;
-            while (run < list.size() && run - i < kTrianglesARun && mode(run) == AlphaMode::opaque) ++run;
-            if (run > i) pass.raster.rasterize(rect, samples, buffers, source, list.data() + i, static_cast<int>(run - i));
-            if (run < list.size() && mode(run) == AlphaMode::mask) draw_masked(pass, rect, c, list[run], scratch, counts);
-            i = run < list.size() && mode(run) == AlphaMode::opaque ? run : run + 1;
+            while (run < list.size() && mode(run) == AlphaMode::opaque) ++run;
+            opaque.add(source.id_base, list.subspan(i, run - i));
+            if (run < list.size() && mode(run) == AlphaMode::mask) {
+                opaque.draw();
+                pass.stop.check();
+                draw_masked(pass, rect, c, list[run], scratch, counts);
+            }
+            i = run;
         }
     }
+    opaque.draw();
 }
 
 }  // namespace halflit::raster

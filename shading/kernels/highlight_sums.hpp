@@ -15,9 +15,9 @@ inline namespace HALFLIT_ISA_NAMESPACE {
 struct LightBatch {
     static constexpr int kSize = 8;
     using Rows = float[kSize][kWidth];
-    alignas(64) Rows x, y, z;           ///< direction to the light
+    alignas(64) Rows x, y, z;  ///< direction to the light
     alignas(64) Rows attenuation;
-    alignas(64) Rows n_dot_l, lobe;     ///< N.L, and f(N.L)
+    alignas(64) Rows n_dot_l, lobe;                         ///< N.L, and f(N.L)
     alignas(64) Rows cosine_squared, sine_squared, height;  ///< SpecularArgument
     bool shines[kSize];
 };

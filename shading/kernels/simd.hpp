@@ -51,6 +51,8 @@ HALFLIT_INLINE float from_bits(std::int32_t i) {
 HALFLIT_INLINE float vmin(float a, float b) { return a < b ? a : b; }
 /// a > b ? a : b, so b when either is NaN or both are zeros.
 HALFLIT_INLINE float vmax(float a, float b) { return a > b ? a : b; }
+HALFLIT_INLINE std::int32_t vmin(std::int32_t a, std::int32_t b) { return a < b ? a : b; }
+HALFLIT_INLINE std::int32_t vmax(std::int32_t a, std::int32_t b) { return a > b ? a : b; }
 HALFLIT_INLINE float vdiv(float a, float b) { return a / b; }
 HALFLIT_INLINE float vsqrt(float a) { return __builtin_sqrtf(a); }
 HALFLIT_INLINE float vabs(float a) { return from_bits(bits(a) & 0x7fffffff); }
@@ -135,6 +137,8 @@ HALFLIT_INLINE F vmin(F a, F b) { return _mm512_min_ps(a, b); }
 HALFLIT_INLINE F vmax(F a, F b) { return _mm512_max_ps(a, b); }
 HALFLIT_INLINE std::uint32_t mask_bits(M m) { return static_cast<std::uint32_t>(static_cast<__mmask16>(m.data)); }
 HALFLIT_INLINE std::uint32_t sign_bits(I i) { return _mm512_cmplt_epi32_mask(i, _mm512_setzero_si512()); }
+HALFLIT_INLINE I vmin(I a, I b) { return _mm512_min_epi32(a, b); }
+HALFLIT_INLINE I vmax(I a, I b) { return _mm512_max_epi32(a, b); }
 HALFLIT_INLINE F gather(const float* base, I index) { return _mm512_i32gather_ps(index, base, 4); }
 HALFLIT_INLINE I gather(const std::int32_t* base, I index) { return _mm512_i32gather_epi32(index, base, 4); }
 HALFLIT_INLINE M less(I a, I b) { return M(_mm512_cmplt_epi32_mask(a, b)); }
@@ -146,6 +150,8 @@ HALFLIT_INLINE F vmin(F a, F b) { return _mm256_min_ps(a, b); }
 HALFLIT_INLINE F vmax(F a, F b) { return _mm256_max_ps(a, b); }
 HALFLIT_INLINE std::uint32_t mask_bits(M m) { return static_cast<std::uint32_t>(_mm256_movemask_ps(m)); }
 HALFLIT_INLINE std::uint32_t sign_bits(I i) { return static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(i))); }
+HALFLIT_INLINE I vmin(I a, I b) { return _mm256_min_epi32(a, b); }
+HALFLIT_INLINE I vmax(I a, I b) { return _mm256_max_epi32(a, b); }
 HALFLIT_INLINE F gather(const float* base, I index) { return _mm256_i32gather_ps(base, index, 4); }
 HALFLIT_INLINE I gather(const std::int32_t* base, I index) { return _mm256_i32gather_epi32(base, index, 4); }
 HALFLIT_INLINE M less(I a, I b) { return M(_mm256_castsi256_ps(_mm256_cmpgt_epi32(b, a))); }
@@ -169,6 +175,8 @@ HALFLIT_INLINE I gather(const std::int32_t* base, I index) {
 }
 HALFLIT_INLINE M less(I a, I b) { return M(_mm_castsi128_ps(_mm_cmplt_epi32(a, b))); }
 HALFLIT_INLINE M equal(I a, I b) { return M(_mm_castsi128_ps(_mm_cmpeq_epi32(a, b))); }
+HALFLIT_INLINE I vmin(I a, I b) { return sel(less(a, b), a, b); }
+HALFLIT_INLINE I vmax(I a, I b) { return sel(less(b, a), a, b); }
 #endif
 
 #elif defined(__aarch64__)
@@ -196,6 +204,8 @@ HALFLIT_INLINE I gather(const std::int32_t* base, I index) {
     const int32x4_t v = {base[at[0]], base[at[1]], base[at[2]], base[at[3]]};
     return v;
 }
+HALFLIT_INLINE I vmin(I a, I b) { return vminq_s32(a, b); }
+HALFLIT_INLINE I vmax(I a, I b) { return vmaxq_s32(a, b); }
 HALFLIT_INLINE M less(I a, I b) { return M(vcltq_s32(a, b)); }
 HALFLIT_INLINE M equal(I a, I b) { return M(vceqq_s32(a, b)); }
 
@@ -238,6 +248,8 @@ HALFLIT_INLINE F vfloor(F x) {
     return r - sel(r > x, F(1.0f), F(0.0f));
 }
 #endif
+/// Hint: the memory at p is read soon.
+HALFLIT_INLINE void prefetch(const void* p) { __builtin_prefetch(p); }
 /// max(lo, min(x, hi)); NaN gives lo.
 HALFLIT_INLINE F clamp(F x, F lo, F hi) { return vmin(vmax(x, lo), hi); }
 

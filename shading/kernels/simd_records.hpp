@@ -89,5 +89,12 @@ HALFLIT_INLINE void lanes_of_records(const Q* records, F& a, F& b, F& c, F& d) {
 #endif
 }
 
+/// The same from any places: lane l of a, b, c, d is p[l][0 .. 3].
+HALFLIT_INLINE void load4(const float* const* p, F& a, F& b, F& c, F& d) {
+    Q records[kWidth];
+    for (int l = 0; l < kWidth; ++l) records[l] = q_load(p[l]);
+    lanes_of_records(records, a, b, c, d);
+}
+
 }  // namespace HALFLIT_ISA_NAMESPACE
 }  // namespace halflit

@@ -18,7 +18,7 @@ using halflit::test::Random;
 
 namespace {
 
-constexpr std::uint32_t kIdBase = 0x01234500u;
+constexpr std::uint32_t kIdBase = 3 * TriangleList::kChunk;
 
 /// Coverage of every sample of a window, by the reference.
 class Expected {
@@ -73,7 +73,7 @@ Tally compare_rasterize(std::uint64_t seed, int tile, int samples, int count) {
             list.add(t, {0.25f, 0.5f, 0.75f});
             for (const Isa isa : isas) {
                 clear_tile(*buffers, pattern, place.window.height);
-                raster_kernels(isa).rasterize(place.window, pattern, *buffers, list.source(), list.list(), 1);
+                raster_kernels(isa).rasterize(place.window, pattern, *buffers, list.table(), list.ids(), 1);
                 for (int s = 0; s < samples; ++s) tally.differing_pixels += expected->differing(s, buffers->triangle[s], kIdBase);
             }
             ++tally.triangles;
@@ -140,7 +140,7 @@ TEST_CASE("coverage: each kind of difficult triangle equals the reference, in ev
             expected->compute(t, place.window, pattern);
             for (const Isa isa : available_isas()) {
                 clear_tile(*buffers, pattern, place.window.height);
-                raster_kernels(isa).rasterize(place.window, pattern, *buffers, list.source(), list.list(), 1);
+                raster_kernels(isa).rasterize(place.window, pattern, *buffers, list.table(), list.ids(), 1);
                 for (int s = 0; s < pattern.count; ++s) wrong += expected->differing(s, buffers->triangle[s], kIdBase);
             }
             ++drawn;
@@ -242,7 +242,7 @@ TEST_CASE("coverage: triangles that share edges cover every sample once", "[rast
                     list.clear();
                     list.add(t, {0.25f, 0.5f, 0.75f});
                     clear_tile(*buffers, pattern, place.window.height);
-                    kernels.rasterize(place.window, pattern, *buffers, list.source(), list.list(), 1);
+                    kernels.rasterize(place.window, pattern, *buffers, list.table(), list.ids(), 1);
                     for (int s = 0; s < pattern.count; ++s)
                         for (int y = 0; y < place.window.height; ++y)
                             for (int x = 0; x < place.window.width; ++x)
@@ -285,7 +285,7 @@ TEST_CASE("coverage: a fan around a pixel centre covers that pixel once", "[rast
             clear_tile(*buffers, pattern, window.height);
             const auto isas = available_isas();
             raster_kernels(isas[static_cast<std::size_t>(round) % isas.size()])
-                .rasterize(window, pattern, *buffers, list.source(), list.list(), 1);
+                .rasterize(window, pattern, *buffers, list.table(), list.ids(), 1);
             times += buffers->triangle[0][8 * kTileStride + 7] == kIdBase;
         }
         CHECK(times == 1);
@@ -324,7 +324,7 @@ TEST_CASE("visibility: each sample shows the nearest of many triangles, and of e
             for (int i = 0; i < list.count(); ++i) {
                 expected->compute(triangles[static_cast<std::size_t>(i)], place.window, pattern);
                 clear_tile(*one, pattern, place.window.height);
-                kernels.rasterize(place.window, pattern, *one, list.source(), list.list() + i, 1);
+                kernels.rasterize(place.window, pattern, *one, list.table(), list.ids() + i, 1);
                 for (int s = 0; s < pattern.count; ++s)
                     for (int y = 0; y < place.window.height; ++y)
                         for (int x = 0; x < place.window.width; ++x) {
@@ -338,7 +338,7 @@ TEST_CASE("visibility: each sample shows the nearest of many triangles, and of e
                         }
             }
             clear_tile(*all, pattern, place.window.height);
-            kernels.rasterize(place.window, pattern, *all, list.source(), list.list(), list.count());
+            kernels.rasterize(place.window, pattern, *all, list.table(), list.ids(), list.count());
             for (int s = 0; s < pattern.count; ++s)
                 for (int y = 0; y < place.window.height; ++y)
                     for (int x = 0; x < place.window.width; ++x) {

@@ -414,7 +414,7 @@ DepthErrors measure_depth(std::uint64_t seed, double size_px, double least_aspec
         std::vector<float> first;
         for (const Isa isa : available_isas()) {
             clear_tile(*buffers, pattern, 64);
-            raster_kernels(isa).rasterize(tile, pattern, *buffers, f.list.source(), f.list.list() + t, 1);
+            raster_kernels(isa).rasterize(tile, pattern, *buffers, f.list.table(), f.list.ids() + t, 1);
             std::vector<float> depth;
             for (int y = 0; y < 64; ++y)
                 depth.insert(depth.end(), buffers->depth[0] + y * kTileStride, buffers->depth[0] + y * kTileStride + 64);
@@ -423,7 +423,7 @@ DepthErrors measure_depth(std::uint64_t seed, double size_px, double least_aspec
         }
         const int inner_x = f.x[at] / 16 * 16, inner_y = f.y[at] / 16 * 16;
         clear_tile(*small, pattern, 16);
-        raster_kernels(Isa::scalar).rasterize({inner_x, inner_y, 16, 16}, pattern, *small, f.list.source(), f.list.list() + t, 1);
+        raster_kernels(Isa::scalar).rasterize({inner_x, inner_y, 16, 16}, pattern, *small, f.list.table(), f.list.ids() + t, 1);
         for (int y = 0; y < 16; ++y)
             for (int x = 0; x < 16; ++x)
                 e.differing_bits += small->depth[0][y * kTileStride + x] !=

@@ -32,14 +32,18 @@ inline std::int64_t doubled_area(const reference::FixedTriangle& t) {
     return (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[2].x - c[0].x) * (c[1].y - c[0].y);
 }
 
-/// Triangles as the kernels take them: positive area, one record each, ids from `id_base` on.
+/// Triangles as the kernels take them: positive area, one record each, ids from `id_base` on, which is 0 to 3 times kChunk.
 class TriangleList {
 public:
+    static constexpr int kLocalBits = 20;
+    static constexpr std::uint32_t kChunk = 1u << kLocalBits;
+
     explicit TriangleList(std::uint32_t id_base = 0) : id_base_(id_base) {}
 
     void clear() {
         records_.clear();
         vertices_.clear();
+        ids_.clear();
     }
     /// The triangle must have area; z and inv_w belong to its corners in their order.
     void add(const reference::FixedTriangle& t, const float (&z)[3], const float (&inv_w)[3] = {1, 1, 1}) {
@@ -49,20 +53,24 @@ public:
         TriangleRecord r{{first, first + 1, first + 2}, 0};
         if (doubled_area(t) < 0) std::swap(r.vertex[1], r.vertex[2]);
         records_.push_back(r);
-        list_.resize(records_.size());
-        for (std::size_t i = 0; i < list_.size(); ++i) list_[i] = static_cast<std::uint32_t>(i);
+        ids_.push_back(id_base_ + static_cast<std::uint32_t>(ids_.size()));
+        sources_[chunk()] = {records_.data(), vertices_.data(), nullptr, id_base_};
     }
-    [[nodiscard]] TriangleSource source() const { return {records_.data(), vertices_.data(), nullptr, id_base_}; }
-    [[nodiscard]] const std::uint32_t* list() const { return list_.data(); }
+    [[nodiscard]] const TriangleSource& source() const { return sources_[chunk()]; }
+    [[nodiscard]] TriangleTable table() const { return {sources_, kLocalBits}; }
+    [[nodiscard]] const std::uint32_t* ids() const { return ids_.data(); }
     [[nodiscard]] int count() const { return static_cast<int>(records_.size()); }
     [[nodiscard]] const TriangleRecord& record(int i) const { return records_[static_cast<std::size_t>(i)]; }
     [[nodiscard]] const ScreenVertex& vertex(std::uint32_t v) const { return vertices_[v]; }
 
 private:
+    [[nodiscard]] std::size_t chunk() const { return id_base_ >> kLocalBits; }
+
     std::uint32_t id_base_;
     std::vector<TriangleRecord> records_;
     std::vector<ScreenVertex> vertices_;
-    std::vector<std::uint32_t> list_;
+    std::vector<std::uint32_t> ids_;
+    TriangleSource sources_[4]{};
 };
 
 /// Clears the first `rows` rows.

@@ -3,6 +3,8 @@
 
 #include "elementary.hpp"
 #include "shading/kernels/color_kernel.hpp"
+#include "shading/kernels/simd_double.hpp"
+#include "shading/kernels/simd_records.hpp"
 #include "shading/kernels/vector.hpp"
 
 namespace halflit {
@@ -50,6 +52,17 @@ HALFLIT_INLINE F cosine_power_to(F sine_squared, float half_exponent, shading::P
     return power_of_cosine(tier, F(1.0f) - held, held, F(half_exponent));
 }
 
+/// Functions of x written as records of four and read in place.
+HALFLIT_INLINE F records_there_and_back(F x) {
+    alignas(64) float records[4 * kWidth];
+    store4(records, x, x * F(2.0f), x + F(1.0f), x * x);
+    const float* at[kWidth];
+    for (int l = 0; l < kWidth; ++l) at[l] = records + 4 * l;
+    F a, b, c, d;
+    load4(at, a, b, c, d);
+    return (a + b * F(3.0f)) + (c * F(5.0f) - d);
+}
+
 HALFLIT_UNARY(run_sqrt, vsqrt(x))
 HALFLIT_UNARY(run_reciprocal, vdiv(F(1.0f), x))
 HALFLIT_UNARY(run_reciprocal_sqrt, vdiv(F(1.0f), vsqrt(x)))
@@ -62,6 +75,9 @@ HALFLIT_UNARY(run_round, round_near(clamp(x, F(-4e6f), F(4e6f))))
 HALFLIT_UNARY(run_floor, vfloor(clamp(x, F(-4e6f), F(4e6f))))
 HALFLIT_UNARY(run_round_to_int, to_float(round_to_int(clamp(x, F(-4e6f), F(4e6f)))))
 HALFLIT_UNARY(run_shift, from_bits(shl<3>(shr<5>(bits(x)))))
+HALFLIT_UNARY(run_double, to_single(to_double(x) * d_set(0.7) - d_set(1.0) / to_double(x)))
+HALFLIT_UNARY(run_int_to_double, to_single(to_double(bits(x)) + d_set(0.3)))
+HALFLIT_UNARY(run_records, records_there_and_back(x))
 HALFLIT_UNARY(run_nan, sel(is_nan(x), F(1.0f), F(0.0f)))
 HALFLIT_UNARY(run_exp2, exp2_floored(kExp2Degree6, clamp(x, F(-2e3f), F(126.0f))))
 HALFLIT_UNARY(run_exp2_degree4, exp2_floored(kExp2Degree4, clamp(x, F(-2e3f), F(126.0f))))
@@ -91,6 +107,8 @@ HALFLIT_UNARY(run_fast_cosine_power_20, cosine_power_to(x, 20.0f, shading::PowTi
 HALFLIT_UNARY(run_fast_cosine_power_30000, cosine_power_to(x, 30000.0f, shading::PowTier::fast))
 HALFLIT_TERNARY(run_min, vmin(a, b))
 HALFLIT_TERNARY(run_max, vmax(a, b))
+HALFLIT_TERNARY(run_min_of_integers, from_bits(vmin(bits(a), bits(b))))
+HALFLIT_TERNARY(run_max_of_integers, from_bits(vmax(bits(a), bits(b))))
 HALFLIT_TERNARY(run_divide, vdiv(a, b))
 HALFLIT_TERNARY(run_mad, mad(a, b, c))
 HALFLIT_TERNARY(run_clamp, clamp(a, b, c))
@@ -129,6 +147,9 @@ static const testing::NamedUnary kUnary[] = {
     {"round even", run_round_even},
     {"int to float", run_int_to_float},
     {"shift", run_shift},
+    {"double", run_double},
+    {"int to double", run_int_to_double},
+    {"records of four", run_records},
     {"is nan", run_nan},
     {"log2 of degree 5", run_log2_degree5},
     {"log2 of degree 7", run_log2_degree7},
@@ -160,6 +181,8 @@ static const testing::NamedUnary kUnary[] = {
 static const testing::NamedTernary kTernary[] = {
     {"min", run_min},
     {"max", run_max},
+    {"min of integers", run_min_of_integers},
+    {"max of integers", run_max_of_integers},
     {"divide", run_divide},
     {"mad", run_mad},
     {"clamp", run_clamp},
