@@ -145,6 +145,16 @@ struct InterpolateArgs {
     const std::int32_t *x_px, *y_px;
 };
 
+/// Fragments of at most kPixelsARow pixels of a row, in the order of pixels; those of a pixel in the order of the first sample of each.
+/// Arrays hold some more than are counted, as whole vectors are stored and copied.
+inline constexpr int kPixelsARow = 16;
+struct PixelFragments {
+    int count = 0, pixels = 0;  ///< fragments, and pixels that have some
+    alignas(64) std::uint32_t id[(kMaxSamples + 2) * kPixelsARow];
+    alignas(64) std::int32_t x_px[(kMaxSamples + 2) * kPixelsARow];
+    alignas(64) std::int32_t samples[(kMaxSamples + 2) * kPixelsARow];  ///< bit s: sample s shows the fragment
+};
+
 struct RasterKernels {
     void (*transform)(const TransformArgs&);
     void (*vertex_records)(const VertexRecordArgs&);
@@ -154,6 +164,8 @@ struct RasterKernels {
     CoverBox (*cover)(const TileRect&, const SamplePattern&, TileBuffers&, const TriangleSource&, std::uint32_t record);
     /// Draws one triangle into depth and triangle, but only the samples set in `coverage`: those that passed the alpha test.
     void (*draw_covered)(const TileRect&, const SamplePattern&, TileBuffers&, const TriangleSource&, std::uint32_t record);
+    /// The fragments of `count` pixels, at most kPixelsARow. at: index of the first one in the buffers; x_px: its place in the picture.
+    void (*collect)(const TileBuffers&, int samples, int at, int x_px, int count, PixelFragments&);
     void (*interpolate)(const InterpolateArgs&, shading::FragmentBlock&);
 };
 

@@ -42,7 +42,11 @@ public:
         chunk_.listed = true;
         chunk_.not_finite = 0;
         chunk_.numbers.clear();
-        for (const TriangleRun& run : chunk_.runs) add_triangles(run);
+        chunk_.material = chunk_.runs.empty() ? -1 : in_.draws[chunk_.runs[0].draw].material;
+        for (const TriangleRun& run : chunk_.runs) {
+            if (in_.draws[run.draw].material != chunk_.material) chunk_.material = -1;
+            add_triangles(run);
+        }
         if (chunk_.listed) sort_by_tile();
         count_memory();
     }

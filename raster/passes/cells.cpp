@@ -50,7 +50,6 @@ void PictureTile::close_cell() {
     FragmentQueue& queue = scratch_.queue;
     for (std::size_t i = 0; i < queue.size(); ++i)
         if (queue[i].count > 0 && has_cells(queue[i].material)) queue.close(queue[i]);
-    last_id_ = kNoTriangle;
 }
 
 void PictureTile::shade_cells() {

@@ -128,6 +128,8 @@ void ViewGeometry::cull_clusters(Executor& executor) {
     std::memset(groups_seen_.reserve(groups + 1), 0, groups + 1);
     std::memset(groups_drawn_.reserve(groups + 1), 0, groups + 1);
     const std::int64_t chunks = std::clamp<std::int64_t>(kMostTileLists / std::max(view_.tile_count(), 1), 4, kMostChunks);
+    one_material_ = draws_.empty() ? -1 : draws_[0].material;
+    for (const Draw& draw : draws_) one_material_ = draw.material == one_material_ ? one_material_ : -1;
     const std::int64_t size = std::max(kLeastClusters, (cluster_count_ + chunks - 1) / chunks);
     chunk_count_ = static_cast<std::size_t>((cluster_count_ + size - 1) / size);
     while (chunks_.size() < chunk_count_) chunks_.push_back(std::make_unique<Chunk>());

@@ -3,10 +3,12 @@
 // change a value.
 #pragma once
 
+#include "raster/kernels/raster_kernels.hpp"
 #include "shading/fragment_block.hpp"
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <span>
 #include <vector>
@@ -15,20 +17,31 @@ namespace halflit::raster {
 
 /// Fragments of one material, at most a block.
 struct FragmentList {
+    /// Room behind a full list, as whole rows of fragments are copied.
+    static constexpr int kRoom = shading::kBlockSize + kPixelsARow;
+
     int material = 0;
     int count = 0;
-    alignas(64) std::uint32_t id[shading::kBlockSize];  ///< triangle id
-    alignas(64) std::int32_t x_px[shading::kBlockSize], y_px[shading::kBlockSize];
-    std::uint16_t at[shading::kBlockSize];      ///< y * kTileStride + x in the tile
-    std::uint8_t samples[shading::kBlockSize];  ///< bit s: sample s shows this fragment
+    alignas(64) std::uint32_t id[kRoom];  ///< triangle id
+    alignas(64) std::int32_t x_px[kRoom], y_px[kRoom];
+    alignas(64) std::int32_t samples[kRoom];  ///< bit s: sample s shows this fragment
 
-    void push(std::uint32_t triangle, int x, int y, int index, unsigned sample_bits) {
+    void push(std::uint32_t triangle, int x, int y, unsigned sample_bits) {
         id[count] = triangle;
         x_px[count] = x;
         y_px[count] = y;
-        at[count] = static_cast<std::uint16_t>(index);
-        samples[count] = static_cast<std::uint8_t>(sample_bits);
+        samples[count] = static_cast<std::int32_t>(sample_bits);
         ++count;
+    }
+    /// Appends fragments [first, first + n) of row y; n: at most as many as fit.
+    void append(const PixelFragments& row, int first, int n, int y) {
+        for (int i = 0; i < n; i += kPixelsARow) {
+            std::memcpy(id + count + i, row.id + first + i, sizeof(std::uint32_t) * kPixelsARow);
+            std::memcpy(x_px + count + i, row.x_px + first + i, sizeof(std::int32_t) * kPixelsARow);
+            std::memcpy(samples + count + i, row.samples + first + i, sizeof(std::int32_t) * kPixelsARow);
+            std::fill_n(y_px + count + i, kPixelsARow, y);
+        }
+        count += n;
     }
     [[nodiscard]] bool full() const { return count == shading::kBlockSize; }
 };

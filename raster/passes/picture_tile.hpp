@@ -35,17 +35,11 @@ private:
     // shade.cpp
     void shade_visible();
     void collect(int y, int x0, int x1);  ///< sorts the fragments of a row of pixels into lists
-    void collect_samples(int x, int y);
-    void push(std::uint32_t id, int x, int y, unsigned samples) {
-        if (id != last_id_) take_triangle(id);
-        last_list_->push(id, rect_.x + x, rect_.y + y, y * kTileStride + x, samples);
-        if (last_list_->full()) flush_full();
-    }
-    void take_triangle(std::uint32_t id);
+    void sort(const PixelFragments& row, int y_px);
     [[nodiscard]] int material_of(std::uint32_t id);
-    void flush_full();               ///< the list sorted into last
-    void flush(FragmentList& list);  ///< shades and writes a list, and empties it
-    void shade(FragmentList& list);  ///< interpolates into the scratch's block, and writes its colour rows
+    void flush_full(FragmentList*& list);  ///< leaves an empty one in its place
+    void flush(FragmentList& list);        ///< shades and writes a list, and empties it
+    void shade(FragmentList& list);        ///< interpolates into the scratch's block, and writes its colour rows
     void shade(const FragmentList& list, const shading::LightList& lights, shading::FragmentBlock& block);  ///< of interpolated rows
     // cells.cpp
     [[nodiscard]] bool has_cells(int material) const;
@@ -77,8 +71,6 @@ private:
     TileScratch& scratch_;
     TileRect written_;  ///< the part of the rect that is the caller's; the rest completes cells
     TileCounts counts_;
-    std::uint32_t last_id_ = kNoTriangle;  ///< of the fragment sorted last
-    FragmentList* last_list_ = nullptr;
     bool direct_ = true;  ///< one opaque sample per pixel: shaded colours go straight to the caller's memory
 };
 

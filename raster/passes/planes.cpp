@@ -28,7 +28,7 @@ void PictureTile::write_normals(FragmentList& list) {
     const auto& lane = scratch_.block.lane;
     const bool facing = pass_.normals->materials[static_cast<std::size_t>(list.material)].double_sided;
     for (int l = 0; l < list.count; ++l) {
-        if ((list.samples[l] & 1u) == 0 || !is_written(list.x_px[l], list.y_px[l])) continue;
+        if ((list.samples[l] & 1) == 0 || !is_written(list.x_px[l], list.y_px[l])) continue;
         const Vec3f n = normalize_or({lane[shading::kNormalX][l], lane[shading::kNormalY][l], lane[shading::kNormalZ][l]}, {0, 0, 0});
         const float side = facing ? lane[shading::kFacing][l] : 1.0f;
         float* p = pass_.output.normal.at(list.x_px[l], list.y_px[l]);

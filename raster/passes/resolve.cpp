@@ -62,8 +62,9 @@ void PictureTile::write_samples(const FragmentList& list, const shading::Fragmen
         const float a = number_or_zero(block.alpha[l]);
         const float source[4] = {number_or_zero(block.red[l] * exposure) * a, number_or_zero(block.green[l] * exposure) * a,
                                  number_or_zero(block.blue[l] * exposure) * a, a};
-        for (unsigned samples = list.samples[l]; samples != 0; samples &= samples - 1) {
-            float* p = sample_color(__builtin_ctz(samples)) + 4 * list.at[l];
+        const int at = (list.y_px[l] - rect_.y) * kTileStride + (list.x_px[l] - rect_.x);
+        for (auto samples = static_cast<unsigned>(list.samples[l]); samples != 0; samples &= samples - 1) {
+            float* p = sample_color(__builtin_ctz(samples)) + 4 * at;
             const float keep = blend ? 1.0f - a : 0.0f;
             for (int i = 0; i < 4; ++i) p[i] = blend ? source[i] + p[i] * keep : source[i];
         }

@@ -27,7 +27,6 @@ TileCounts PictureTile::draw() {
 void PictureTile::shade_visible() {
     FragmentQueue& queue = scratch_.queue;
     queue.begin(pass_.view.materials.size());
-    last_id_ = kNoTriangle;
     std::fill(std::begin(scratch_.materials), std::end(scratch_.materials), TileScratch::MaterialOf{});
     if (plan_.cells) {
         constexpr int kSide = shading::kCellSide;  // tiles begin at cells
@@ -46,66 +45,56 @@ void PictureTile::shade_visible() {
 }
 
 void PictureTile::collect(int y, int x0, int x1) {
-    if (samples_ > 1) {
-        for (int x = x0; x < x1; ++x) collect_samples(x, y);
-        return;
-    }
-    const std::uint32_t* const ids = scratch_.buffers.triangle[0] + y * kTileStride;
-    for (int x = x0; x < x1; ++x) {
-        const std::uint32_t id = ids[x];
-        if (id == kNoTriangle) continue;
-        counts_.pixels_visible += is_written(rect_.x + x, rect_.y + y) ? 1 : 0;
-        push(id, x, y, 1u);
+    PixelFragments& row = scratch_.fragments;
+    const bool all_written = written_.width == rect_.width && written_.height == rect_.height;
+    for (int x = x0; x < x1; x += kPixelsARow) {
+        const int at = y * kTileStride + x;
+        pass_.view.raster.collect(scratch_.buffers, samples_, at, rect_.x + x, std::min(kPixelsARow, x1 - x), row);
+        if (row.count == 0) continue;
+        if (all_written)
+            counts_.pixels_visible += static_cast<std::uint64_t>(row.pixels);
+        else
+            for (int i = 0; i < row.count; ++i)
+                counts_.pixels_visible += (i == 0 || row.x_px[i] != row.x_px[i - 1]) && is_written(row.x_px[i], rect_.y + y) ? 1 : 0;
+        sort(row, rect_.y + y);
     }
 }
 
-void PictureTile::collect_samples(int x, int y) {
-    const int at = y * kTileStride + x;
-    const auto& triangle = scratch_.buffers.triangle;
-    const std::uint32_t first = triangle[0][at];
-    std::uint32_t mixed = 0;
-    for (int s = 1; s < samples_; ++s) mixed |= triangle[s][at] ^ first;
-    const unsigned all = (1u << samples_) - 1u;
-    if (mixed == 0) {
-        if (first == kNoTriangle) return;
-        counts_.pixels_visible += is_written(rect_.x + x, rect_.y + y) ? 1 : 0;
-        push(first, x, y, all);
-        return;
+void PictureTile::sort(const PixelFragments& row, int y_px) {
+    for (int i = 0; i < row.count;) {
+        // Neighbours mostly have the same material.
+        const int material = material_of(row.id[i]);
+        int end = i + 1;
+        if (pass_.view.geometry.one_material() >= 0)
+            end = row.count;
+        else
+            while (end < row.count && (row.id[end] == row.id[end - 1] || material_of(row.id[end]) == material)) ++end;
+        for (FragmentList* list = &scratch_.queue.of(material); i < end;) {
+            const int n = std::min(end - i, shading::kBlockSize - list->count);
+            list->append(row, i, n, y_px);
+            i += n;
+            if (list->full()) flush_full(list);
+        }
     }
-    bool visible = false;
-    for (unsigned left = all; left != 0;) {
-        const std::uint32_t id = triangle[__builtin_ctz(left)][at];
-        unsigned samples = 0;
-        for (int s = 0; s < samples_; ++s) samples |= triangle[s][at] == id ? 1u << s : 0u;
-        left &= ~samples;
-        if (id == kNoTriangle) continue;
-        visible = true;
-        push(id, x, y, samples);
-    }
-    counts_.pixels_visible += visible && is_written(rect_.x + x, rect_.y + y) ? 1 : 0;
-}
-
-void PictureTile::take_triangle(std::uint32_t id) {
-    last_id_ = id;
-    last_list_ = &scratch_.queue.of(material_of(id));
 }
 
 int PictureTile::material_of(std::uint32_t id) {
+    const ViewGeometry& geometry = pass_.view.geometry;
+    if (const int one = geometry.one_material(geometry.chunk_of(id)); one >= 0) return one;
     // Neighbouring rows show the same triangles again.
     auto& [known, material] = scratch_.materials[id % std::size(scratch_.materials)];
     if (known != id) {
-        const ViewGeometry& geometry = pass_.view.geometry;
         known = id;
         material = geometry.draw_of(geometry.record(id)).material;
     }
     return material;
 }
 
-void PictureTile::flush_full() {
-    if (has_cells(last_list_->material))
-        last_list_ = &scratch_.queue.close(*last_list_);
+void PictureTile::flush_full(FragmentList*& list) {
+    if (has_cells(list->material))
+        list = &scratch_.queue.close(*list);
     else
-        flush(*last_list_);
+        flush(*list);
 }
 
 void PictureTile::flush(FragmentList& list) {

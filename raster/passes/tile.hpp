@@ -47,6 +47,7 @@ struct CellScratch {
 struct TileScratch {
     TileBuffers buffers{};
     std::uint32_t opaque[1024];  ///< triangles for the next call of the kernel
+    PixelFragments fragments;
     FragmentQueue queue;
     FragmentList list;  ///< fragments of the current triangle, for alpha test and blending
     shading::FragmentBlock block;
@@ -83,7 +84,7 @@ CoverBox collect_covered(const TilePass& pass, const TileRect& rect, std::size_t
         for (int x = box.x0; x <= box.x1; ++x) {
             const int at = y * kTileStride + x;
             if (scratch.buffers.coverage[at] == 0) continue;
-            list.push(source.id_base + record, rect.x + x, rect.y + y, at, scratch.buffers.coverage[at]);
+            list.push(source.id_base + record, rect.x + x, rect.y + y, scratch.buffers.coverage[at]);
             if (!list.full()) continue;
             flush(list);
             list.count = 0;

@@ -59,6 +59,7 @@ struct Chunk {
     std::vector<std::uint64_t> pairs;       ///< tile << 32 | record, in submission order; scratch
     std::vector<std::uint32_t> tile_begin;  ///< per tile: first entry of tile_list; one more at the end
     std::vector<std::uint32_t> tile_list;
+    int material = -1;             ///< of all its triangles; -1: they have several
     bool listed = true;            ///< false: too many entries, so there are no lists
     std::uint64_t not_finite = 0;  ///< triangles dropped for a NaN or infinite vertex
     MemoryShare memory;
@@ -100,6 +101,9 @@ public:
     [[nodiscard]] const TriangleRecord& record(std::uint32_t id) const {
         return sources_[chunk_of(id)].records[id & ((1u << local_bits_) - 1u)];
     }
+    /// Material of all triangles of the view, or of a chunk; -1: they have several.
+    [[nodiscard]] int one_material() const { return one_material_; }
+    [[nodiscard]] int one_material(std::size_t chunk) const { return chunks_[chunk]->material; }
     [[nodiscard]] const Draw& draw_of(const TriangleRecord& record) const { return draws_[record.draw_and_back >> 1]; }
     /// Number of a triangle in submission order, over all instances of the scene; of its mesh. Only if `numbered`.
     [[nodiscard]] std::int64_t submission_of(std::uint32_t id) const {
@@ -133,6 +137,7 @@ private:
 
     std::vector<Draw> draws_;
     bool has_mode_[3] = {};
+    int one_material_ = -1;
     std::int64_t vertex_count_ = 0, group_count_ = 0, cluster_count_ = 0, triangle_count_ = 0;
     RawBuffer<std::uint8_t> seen_;  ///< per instance; scratch
     RawBuffer<std::uint8_t> groups_seen_, groups_drawn_;

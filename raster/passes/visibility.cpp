@@ -51,7 +51,7 @@ void draw_masked(const TilePass& pass, const TileRect& rect, std::size_t chunk, 
             if (scratch.block.alpha[l] >= material.alpha_cutoff)
                 any = true;
             else
-                scratch.buffers.coverage[list.at[l]] = 0;
+                scratch.buffers.coverage[(list.y_px[l] - rect.y) * kTileStride + (list.x_px[l] - rect.x)] = 0;
         }
     });
     if (any) pass.raster.draw_covered(rect, pass.geometry.view().samples, scratch.buffers, pass.geometry.source(chunk), record);
