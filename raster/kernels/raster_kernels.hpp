@@ -61,6 +61,37 @@ struct TransformArgs {
     std::uint8_t* outcodes;
 };
 
+inline constexpr int kMaxSamples = 8;
+
+/// Sample positions relative to the pixel centre, in 1/256 pixel.
+struct SamplePattern {
+    int count = 1;
+    std::int16_t x[kMaxSamples] = {}, y[kMaxSamples] = {};
+    friend bool operator==(const SamplePattern&, const SamplePattern&) = default;
+};
+
+/// A draw and a view, as triangles are culled and binned.
+struct BinArgs {
+    const ScreenVertex* screen;    ///< of the draw's vertex 0
+    const std::uint8_t* outcodes;  ///< likewise
+    bool mirrored, cull_back;
+    int region_x, region_y, region_width, region_height;
+    int sample_min_x, sample_max_x, sample_min_y, sample_max_y;
+    int tile_shift;  ///< a tile has 2^tile_shift pixels on a side, 16 to 64
+    SamplePattern samples;
+};
+
+/// What is to be done with some triangles, as bits: bit i is triangle i.
+inline constexpr int kBinnedAtOnce = 64;
+struct BinnedTriangles {
+    std::uint64_t keep;                                                       ///< small triangles that the view may show
+    std::uint64_t other;                                                      ///< triangles that are large, clipped or not finite
+    std::uint64_t back;                                                       ///< of those to keep: the back is seen
+    std::uint64_t swap;                                                       ///< of those to keep: their area is negative
+    alignas(64) std::int32_t tile_x0[kBinnedAtOnce], tile_y0[kBinnedAtOnce];  ///< tiles that they touch: the first column and row
+    alignas(64) std::int32_t tile_x1[kBinnedAtOnce], tile_y1[kBinnedAtOnce];  ///< the last
+};
+
 /// Vertex records for shading: per vertex the slots named by `slots`, four floats each, in slot order.
 struct VertexRecordArgs {
     const float *positions, *normals, *tangents, *uv0, *uv1, *colors;  ///< packed; null: a default value is written
@@ -81,18 +112,10 @@ struct TriangleRecord {
 inline constexpr std::uint32_t kClipVertex = 0x80000000u;
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 
-inline constexpr int kMaxSamples = 8;
 inline constexpr int kMaxTileSize = 64;
 inline constexpr int kTilePadding = 16;  ///< columns right of the tile that a vector may write to
 inline constexpr int kTileStride = kMaxTileSize + kTilePadding;
 inline constexpr int kTilePixels = kTileStride * kMaxTileSize;
-
-/// Sample positions relative to the pixel centre, in 1/256 pixel.
-struct SamplePattern {
-    int count = 1;
-    std::int16_t x[kMaxSamples] = {}, y[kMaxSamples] = {};
-    friend bool operator==(const SamplePattern&, const SamplePattern&) = default;
-};
 
 /// Depth and visible triangle of every sample of a tile; pixel (x, y) of the tile is at y * kTileStride + x.
 struct TileBuffers {
@@ -158,6 +181,9 @@ struct PixelFragments {
 struct RasterKernels {
     void (*transform)(const TransformArgs&);
     void (*vertex_records)(const VertexRecordArgs&);
+    /// Culls `count` triangles, at most kBinnedAtOnce; index: three vertices each. Drops those that face away, are outside, have no area,
+    /// or touch at most 2 x 2 pixels and cover none of their samples.
+    void (*bin_triangles)(const BinArgs&, const std::uint32_t* index, int count, BinnedTriangles&);
     /// Draws triangles into depth and triangle. The nearest wins; of equal depths the first.
     void (*rasterize)(const TileRect&, const SamplePattern&, TileBuffers&, const TriangleTable&, const std::uint32_t* ids, int count);
     /// Tests one triangle. Marks in `coverage` the samples that it covers and that are nearer than the tile's depth.

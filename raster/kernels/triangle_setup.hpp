@@ -17,14 +17,7 @@ struct TriangleCorners {
     std::uint32_t small;
 };
 
-HALFLIT_INLINE TriangleCorners load_corners(const TriangleTable& triangles, const std::uint32_t* ids, int count) {
-    const float* corner[3][kWidth];
-    for (int l = 0; l < kWidth; ++l) {
-        const std::uint32_t id = ids[l < count ? l : count - 1];
-        const TriangleSource& source = source_of(triangles, id);
-        const TriangleRecord& record = record_of(triangles, id);
-        for (int k = 0; k < 3; ++k) corner[k][l] = reinterpret_cast<const float*>(&vertex_of(source, record.vertex[k]));
-    }
+HALFLIT_INLINE TriangleCorners corners_at(const float* const (&corner)[3][kWidth]) {
     TriangleCorners t;
     for (int k = 0; k < 3; ++k) {
         F x, y, inv_w;
@@ -45,6 +38,17 @@ HALFLIT_INLINE TriangleCorners load_corners(const TriangleTable& triangles, cons
     return t;
 }
 
+HALFLIT_INLINE TriangleCorners load_corners(const TriangleTable& triangles, const std::uint32_t* ids, int count) {
+    const float* corner[3][kWidth];
+    for (int l = 0; l < kWidth; ++l) {
+        const std::uint32_t id = ids[l < count ? l : count - 1];
+        const TriangleSource& source = source_of(triangles, id);
+        const TriangleRecord& record = record_of(triangles, id);
+        for (int k = 0; k < 3; ++k) corner[k][l] = reinterpret_cast<const float*>(&vertex_of(source, record.vertex[k]));
+    }
+    return corners_at(corner);
+}
+
 /// What the samples of kWidth triangles have in common: edge functions a x + b y, and the slopes of depth.
 struct SetupLanes {
     I a[3], b[3], not_top_left[3];
@@ -53,16 +57,19 @@ struct SetupLanes {
     D z0, slope_x, slope_y;
 };
 
+/// Edge k, from corner k to the next one: change per pixel, and 1 for edges that are not top or left.
+HALFLIT_INLINE void make_edge(const TriangleCorners& t, int k, I& a, I& b, I& not_top_left) {
+    const int n = (k + 1) % 3;
+    a = t.y[k] - t.y[n];
+    b = t.x[n] - t.x[k];
+    // is_top_left(): a > 0, or a = 0 and b > 0.
+    const M top_left = less(I(0), a) | (equal(a, I(0)) & less(I(0), b));
+    not_top_left = sel(top_left, I(0), I(1));
+}
+
 HALFLIT_INLINE SetupLanes set_up(const TriangleCorners& t) {
     SetupLanes s;
-    for (int k = 0; k < 3; ++k) {
-        const int n = (k + 1) % 3;
-        s.a[k] = t.y[k] - t.y[n];
-        s.b[k] = t.x[n] - t.x[k];
-        // is_top_left(): a > 0, or a = 0 and b > 0.
-        const M top_left = less(I(0), s.a[k]) | (equal(s.a[k], I(0)) & less(I(0), s.b[k]));
-        s.not_top_left[k] = sel(top_left, I(0), I(1));
-    }
+    for (int k = 0; k < 3; ++k) make_edge(t, k, s.a[k], s.b[k], s.not_top_left[k]);
     s.anchor_x = shr<8>(t.x[0]);
     s.anchor_y = shr<8>(t.y[0]);
     s.lo = vmin(vmin(t.z[0], t.z[1]), t.z[2]);

@@ -21,6 +21,7 @@ struct BinInput {
     const std::uint8_t* outcodes;
     std::uint8_t* groups_drawn;
     bool numbered;  ///< keep each record's submission number
+    const RasterKernels& kernels;
     StopSignal& stop;
 };
 
@@ -62,23 +63,50 @@ private:
 
     void add_triangles(const TriangleRun& run) {
         const Draw& draw = in_.draws[run.draw];
-        const std::uint32_t* index = in_.scene.source_mesh(draw.mesh).indices.data() + std::size_t{3} * run.first;
-        const auto base = static_cast<std::uint32_t>(draw.vertex_base);
-        for (std::uint32_t t = run.first; t < run.end; ++t, index += 3) {
-            if (++since_check_ == kTrianglesBetweenChecks) count_memory();
-            const std::uint32_t v[3] = {base + index[0], base + index[1], base + index[2]};
-            const unsigned c0 = in_.outcodes[v[0]], c1 = in_.outcodes[v[1]], c2 = in_.outcodes[v[2]];
-            if ((c0 & c1 & c2 & kRejectWhenAll) != 0) continue;
-            const unsigned any = c0 | c1 | c2;
-            const Source source{draw, run.draw, index, t};
-            if ((any & (kNear | kGuard | kNotFinite)) == 0) {
-                add(v, in_.screen[v[0]], in_.screen[v[1]], in_.screen[v[2]], source);
-            } else if (any & kNotFinite) {
-                ++chunk_.not_finite;
-            } else {
-                add_clipped(v, any, source);
+        BinArgs args{};
+        grid_.describe(args);
+        args.screen = in_.screen + draw.vertex_base;
+        args.outcodes = in_.outcodes + draw.vertex_base;
+        args.mirrored = draw.mirrored;
+        args.cull_back = draw.cull_back;
+        const std::uint32_t* const indices = in_.scene.source_mesh(draw.mesh).indices.data();
+        BinnedTriangles binned;
+        for (std::uint32_t first = run.first; first < run.end; first += kBinnedAtOnce) {
+            const int count = static_cast<int>(std::min<std::uint32_t>(run.end - first, kBinnedAtOnce));
+            if ((since_check_ += count) >= kTrianglesBetweenChecks) count_memory();
+            in_.kernels.bin_triangles(args, indices + std::size_t{3} * first, count, binned);
+            for (std::uint64_t left = binned.keep | binned.other; left != 0; left &= left - 1) {
+                const int i = std::countr_zero(left);
+                const std::uint32_t triangle = first + static_cast<std::uint32_t>(i);
+                const Source source{draw, run.draw, indices + std::size_t{3} * triangle, triangle};
+                if ((binned.other >> i & 1) != 0)
+                    add_other(source);
+                else
+                    add_binned(source, binned, i);
             }
         }
+    }
+
+    /// A triangle that the kernel left alone.
+    void add_other(const Source& source) {
+        const auto base = static_cast<std::uint32_t>(source.draw.vertex_base);
+        const std::uint32_t v[3] = {base + source.vertex[0], base + source.vertex[1], base + source.vertex[2]};
+        const unsigned any = in_.outcodes[v[0]] | in_.outcodes[v[1]] | in_.outcodes[v[2]];
+        if ((any & (kNear | kGuard | kNotFinite)) == 0) {
+            add(v, in_.screen[v[0]], in_.screen[v[1]], in_.screen[v[2]], source);
+        } else if (any & kNotFinite) {
+            ++chunk_.not_finite;
+        } else {
+            add_clipped(v, any, source);
+        }
+    }
+
+    void add_binned(const Source& source, const BinnedTriangles& binned, int i) {
+        const auto base = static_cast<std::uint32_t>(source.draw.vertex_base);
+        const bool swap = (binned.swap >> i & 1) != 0, back = (binned.back >> i & 1) != 0;
+        const std::uint32_t v[3] = {base + source.vertex[0], base + source.vertex[swap ? 2 : 1], base + source.vertex[swap ? 1 : 2]};
+        const TileGrid::Tiles tiles{binned.tile_x0[i], binned.tile_x1[i], binned.tile_y0[i], binned.tile_y1[i]};
+        add_record(v, in_.screen[v[0]], in_.screen[v[1]], in_.screen[v[2]], back, tiles, source);
     }
 
     void add_clipped(const std::uint32_t (&v)[3], unsigned codes, const Source& source) {
@@ -136,15 +164,29 @@ private:
         if (p.x0 == p.x1 && p.y0 == p.y1 && in_.view.samples.count == 1 && !covers(a, swap ? c : b, swap ? b : c, p.x0 * 256, p.y0 * 256))
             return;
 
+        const std::uint32_t ordered[3] = {v[0], v[swap ? 2 : 1], v[swap ? 1 : 2]};
+        add_record(ordered, a, swap ? c : b, swap ? b : c, back, grid_.tiles(p), source);
+    }
+
+    /// v, a, b, c: in the order of positive area.
+    void add_record(const std::uint32_t (&v)[3], const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, bool back,
+                    const TileGrid::Tiles& tiles, const Source& source) {
         const auto record = static_cast<std::uint32_t>(chunk_.records.size());
-        chunk_.records.push_back({{v[0], swap ? v[2] : v[1], swap ? v[1] : v[2]}, source.draw_index * 2 + (back ? 1u : 0u)});
+        chunk_.records.push_back({{v[0], v[1], v[2]}, source.draw_index * 2 + (back ? 1u : 0u)});
         if (in_.numbered) chunk_.numbers.push_back(source.draw.triangle_base + source.triangle);
-        for (int k = 0; k < 3; ++k)
-            std::atomic_ref(in_.groups_drawn[source.draw.group_base + source.vertex[k] / kVertexGroup]).store(1, std::memory_order_relaxed);
+        for (int k = 0; k < 3; ++k) {
+            // Stored only once: other tasks read the same lines.
+            const std::atomic_ref drawn(in_.groups_drawn[source.draw.group_base + source.vertex[k] / kVertexGroup]);
+            if (drawn.load(std::memory_order_relaxed) == 0) drawn.store(1, std::memory_order_relaxed);
+        }
 
         if (!chunk_.listed) return;
-        grid_.for_each(a, swap ? c : b, swap ? b : c, grid_.tiles(p),
-                       [&](int tile) { chunk_.pairs.push_back(static_cast<std::uint64_t>(tile) << 32 | record); });
+        const auto list = [&](int tile) { chunk_.pairs.push_back(static_cast<std::uint64_t>(tile) << 32 | record); };
+        if (tiles.x0 == tiles.x1 && tiles.y0 == tiles.y1) {
+            list(grid_.number(tiles.x0, tiles.y0));
+            return;
+        }
+        grid_.for_each(a, b, c, tiles, list);
         if (chunk_.pairs.size() > kFreePairs + kPairsPerTriangle * chunk_.records.size()) {
             chunk_.listed = false;
             chunk_.drop_lists();
@@ -189,8 +231,9 @@ private:
 
 }  // namespace
 
-void ViewGeometry::bin(Executor& executor) {
-    const BinInput input{*scene_, view_, draws_, screen_.data(), outcodes_.data(), groups_drawn_.data(), numbered_, executor.stop()};
+void ViewGeometry::bin(const RasterKernels& kernels, Executor& executor) {
+    const BinInput input{*scene_,   view_,   draws_,         screen_.data(), outcodes_.data(), groups_drawn_.data(),
+                         numbered_, kernels, executor.stop()};
     executor.run(static_cast<int>(chunk_count_), [&](int i) {
         const auto index = static_cast<std::size_t>(i);
         ChunkBuilder(input, *chunks_[index]).build();

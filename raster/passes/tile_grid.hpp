@@ -34,6 +34,21 @@ public:
                 std::max((least_y - sample_max_y_ + 255) >> 8, r.y), std::min((most_y - sample_min_y_) >> 8, r.y + r.height - 1)};
     }
 
+    /// The view's part of a kernel's arguments.
+    void describe(BinArgs& args) const {
+        const Region& r = view_.region;
+        args.region_x = r.x;
+        args.region_y = r.y;
+        args.region_width = r.width;
+        args.region_height = r.height;
+        args.sample_min_x = sample_min_x_;
+        args.sample_max_x = sample_max_x_;
+        args.sample_min_y = sample_min_y_;
+        args.sample_max_y = sample_max_y_;
+        args.tile_shift = shift_;
+        args.samples = view_.samples;
+    }
+
     /// Columns and rows of tiles, first and last.
     struct Tiles {
         int x0, x1, y0, y1;
@@ -60,13 +75,15 @@ public:
         return outside;
     }
 
+    [[nodiscard]] int number(int tx, int ty) const { return ty * view_.tiles_x + tx; }
+
     /// Calls visit(tile number) for each tile that a triangle touches, row by row. a, b, c: in the order of positive area.
     template <class Visit>
     void for_each(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, const Tiles& t, const Visit& visit) const {
         const bool one_line = t.x0 == t.x1 || t.y0 == t.y1;
         for (int ty = t.y0; ty <= t.y1; ++ty)
             for (int tx = t.x0; tx <= t.x1; ++tx)
-                if (one_line || !outside(a, b, c, tx, ty)) visit(ty * view_.tiles_x + tx);
+                if (one_line || !outside(a, b, c, tx, ty)) visit(number(tx, ty));
     }
 
     /// True if for_each() would visit the tile.

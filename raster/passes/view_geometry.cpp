@@ -28,7 +28,7 @@ Result<void> ViewGeometry::make(const PreparedData& scene, const View& view, con
     times_ms_.cull = watch.lap();
     transform(kernels, executor);
     times_ms_.transform = watch.lap();
-    bin(executor);
+    bin(kernels, executor);
     times_ms_.bin = watch.lap();
     revision_ = revision;
     return {};

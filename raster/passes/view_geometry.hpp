@@ -126,7 +126,7 @@ private:
     void list_draws(Executor& executor);
     void cull_clusters(Executor& executor);
     void transform(const RasterKernels& kernels, Executor& executor);
-    void bin(Executor& executor);
+    void bin(const RasterKernels& kernels, Executor& executor);
 
     const PreparedData* scene_ = nullptr;
     SceneRevision revision_;

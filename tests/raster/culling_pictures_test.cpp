@@ -148,7 +148,7 @@ TEST_CASE("culling: random scenes of all sizes and from all sides have the same 
         check_culling(scene, camera, any_settings(random, window.width, window.height), window.width, window.height, tally);
     }
     INFO("drawn " << tally.drawn << ", visible " << tally.visible);
-    CHECK(tally.drawn > 200'000);
+    CHECK(tally.drawn > 80'000);
     CHECK(tally.visible > 200'000);
 }
 
@@ -177,7 +177,7 @@ TEST_CASE("culling: grids whose triangles are about as large as a step of the wi
         check_culling(scene, camera, any_settings(random, 120, 80), 120, 80, tally);
     }
     INFO("drawn " << tally.drawn << ", visible " << tally.visible);
-    CHECK(tally.drawn > 1'000'000);
+    CHECK(tally.drawn > 150'000);
     CHECK(tally.visible > 50'000);
 }
 
