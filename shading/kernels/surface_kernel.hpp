@@ -27,16 +27,16 @@ HALFLIT_INLINE Sample base_color(const shading::MaterialPlan& material, const sh
 struct Normals {
     V3 surface, shading;
 };
-HALFLIT_INLINE Normals normals(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane, TexelTaps& taps) {
+/// `texel`: the normal map's red, green and blue; unused without one.
+HALFLIT_INLINE Normals normals(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane, V3 texel) {
     V3 surface = normalize_any(row3(block, shading::kNormalX, lane));
     V3 normal = surface;
     if (has(material, kStageNormalMap)) {
-        const Sample texture = sample_texture(material.normal_texture, block, lane, taps);
         const V3 tangent = normalize_any(row3(block, shading::kTangentX, lane));
         const V3 bitangent = cross(normal, tangent) * row(block, shading::kTangentW, lane);
-        const F x = mad(F(2.0f), texture.r, F(-1.0f)) * F(material.normal_scale);
-        const F y = mad(F(2.0f), texture.g, F(-1.0f)) * F(material.normal_scale);
-        const F z = mad(F(2.0f), texture.b, F(-1.0f));
+        const F x = mad(F(2.0f), texel.x, F(-1.0f)) * F(material.normal_scale);
+        const F y = mad(F(2.0f), texel.y, F(-1.0f)) * F(material.normal_scale);
+        const F z = mad(F(2.0f), texel.z, F(-1.0f));
         normal = normalize((tangent * x + bitangent * y) + normal * z);
     }
     if (material.double_sided) {
@@ -45,6 +45,14 @@ HALFLIT_INLINE Normals normals(const shading::MaterialPlan& material, const shad
         normal = normal * facing;
     }
     return {surface, normal};
+}
+HALFLIT_INLINE Normals normals(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane, TexelTaps& taps) {
+    V3 texel{F(0.0f), F(0.0f), F(0.0f)};
+    if (has(material, kStageNormalMap)) {
+        const Sample texture = sample_texture(material.normal_texture, block, lane, taps);
+        texel = {texture.r, texture.g, texture.b};
+    }
+    return normals(material, block, lane, texel);
 }
 
 /// Metallic-roughness parameters and the occlusion of ambient light.
@@ -66,6 +74,15 @@ HALFLIT_INLINE Reflectance reflectance(const shading::MaterialPlan& material, co
         result.occlusion = mad(F(material.occlusion_strength), occlusion_texture - F(1.0f), F(1.0f));
     }
     return result;
+}
+
+HALFLIT_INLINE V3 emitted(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane, TexelTaps& taps) {
+    V3 emissive = broadcast(material.emissive);
+    if (has(material, kStageEmissiveTexture)) {
+        const Sample texture = sample_texture(material.emissive_texture, block, lane, taps);
+        emissive = emissive * V3{texture.r, texture.g, texture.b};
+    }
+    return emissive;
 }
 
 /// Unit vector from the surface to the viewer.

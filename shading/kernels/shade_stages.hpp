@@ -1,0 +1,185 @@
+// The stages of shading a block, in order: surfaces, directions, lights, surroundings, reflection. Each is a loop over the whole block, with
+// rows in memory between the stages: in one loop over all stages a vector of lanes would be a single chain of a thousand operations,
+// longer than the processor looks ahead, and roots and divisions would be waited for.
+#pragma once
+
+#include "shading/kernels/cell_kernel.hpp"
+#include "shading/kernels/environment_kernel.hpp"
+#include "shading/kernels/highlight_sums.hpp"
+#include "shading/kernels/shade_kernels.hpp"
+#include "shading/kernels/surface_kernel.hpp"
+#include "shading/model/constants.hpp"
+#include "shading/model/formulas.hpp"
+
+namespace halflit {
+inline namespace HALFLIT_ISA_NAMESPACE {
+
+/// What the stages hand on, by lane. Rows that the material does not need are not set.
+struct alignas(64) ShadeRows {
+    using Row = float[shading::kBlockSize];
+    using Row3 = Row[3];
+    Row3 base, emitted;
+    Row alpha;
+    Row3 texel;                            ///< of the normal map
+    Row metallic, roughness, occlusion;
+    Row3 normal, surface, to_eye;          ///< unit: with the normal map, without it; towards the viewer
+    Row half_exponent, normalization;      ///< of highlights
+    Row3 diffuse, specular;                ///< light through the lobe, its scale included; highlights, before the reflectance
+    Row3 ambient, mirrored;                ///< light of the surroundings towards the normal and the reflected view, times occlusion
+    Row grazing;                           ///< (1 - N.V)^5
+};
+HALFLIT_INLINE V3 load3(const ShadeRows::Row3& rows, int lane) { return {load(rows[0] + lane), load(rows[1] + lane), load(rows[2] + lane)}; }
+HALFLIT_INLINE void store3(ShadeRows::Row3& rows, int lane, V3 v) {
+    store(rows[0] + lane, v.x);
+    store(rows[1] + lane, v.y);
+    store(rows[2] + lane, v.z);
+}
+
+HALFLIT_INLINE V3 lerp(V3 a, V3 b, F weight) { return a + (b - a) * weight; }
+
+/// Sky and ground light that reaches a surface; `up` is the y component of the surface's direction.
+HALFLIT_INLINE V3 hemisphere(const Ambient& ambient, F up) {
+    const V3 ground = broadcast(ambient.ground_linear);
+    return lerp(ground, broadcast(ambient.sky_linear), F(0.5f) * (F(1.0f) + up));
+}
+
+/// Point at which a fragment's shadows are looked up.
+HALFLIT_INLINE V3 looked_up(const shading::ShadingPlan& frame, const shading::FragmentBlock& block, int lane) {
+    const V3 position = row3(block, shading::kPosX, lane);
+    return frame.shadow_offset ? position + row3(block, shading::kShadowX, lane) : position;
+}
+
+/// Base colour, emission and alpha; `needs_color` is false where only light is asked for.
+static void fetch_surfaces(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int count, bool needs_color,
+                           ShadeRows& rows) {
+    const bool lit = (material.stages & (kStageLights | kStageAmbient)) != 0 && !has(material, kStagePrelit);
+    for (int lane = 0; lane < count; lane += kWidth) {
+        TexelTaps taps;
+        if (needs_color) {
+            const Sample base = base_color(material, block, lane, taps);
+            store(rows.base[0] + lane, base.r);
+            store(rows.base[1] + lane, base.g);
+            store(rows.base[2] + lane, base.b);
+            store(rows.alpha + lane, base.a);
+        }
+        if (lit || !needs_color) {
+            if (has(material, kStageNormalMap)) {
+                const Sample texel = sample_texture(material.normal_texture, block, lane, taps);
+                store3(rows.texel, lane, {texel.r, texel.g, texel.b});
+            }
+            const Reflectance surface = reflectance(material, block, lane, taps);
+            store(rows.metallic + lane, surface.metallic);
+            store(rows.roughness + lane, vmax(surface.roughness, F(shading::kMinRoughness)));
+            store(rows.occlusion + lane, surface.occlusion);
+        }
+        if (needs_color) store3(rows.emitted, lane, emitted(material, block, lane, taps));
+    }
+}
+
+template <bool kSpecular>
+static void find_directions(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, const shading::FragmentBlock& block,
+                            int count, ShadeRows& rows) {
+    for (int lane = 0; lane < count; lane += kWidth) {
+        const Normals facing = normals(material, block, lane, load3(rows.texel, lane));
+        store3(rows.normal, lane, facing.shading);
+        store3(rows.surface, lane, facing.surface);
+        if constexpr (!kSpecular) continue;
+        store3(rows.to_eye, lane, view_vector(frame, row3(block, shading::kPosX, lane)));
+        const F half_exponent = half_specular_exponent(load(rows.roughness + lane));
+        store(rows.half_exponent + lane, half_exponent);
+        F normalization(1.0f);
+        if (frame.normalize_specular) normalization = specular_normalization(half_exponent, frame.specular == SpecularModel::phong);
+        store(rows.normalization + lane, normalization);
+    }
+}
+
+template <bool kSpecular>
+static void add_lights(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, shading::LightList lights,
+                       const shading::FragmentBlock& block, int count, ShadeRows& rows) {
+    SpecularShape shape{frame.specular, material.specular_tier, material.specular_threshold, material.specular_curve, F(0.0f), F(1.0f)};
+    V3 to_eye{F(0.0f), F(0.0f), F(0.0f)};
+    for (int lane = 0; lane < count; lane += kWidth) {
+        const V3 position = row3(block, shading::kPosX, lane), normal = load3(rows.normal, lane);
+        if constexpr (kSpecular) {
+            to_eye = load3(rows.to_eye, lane);
+            shape.half_exponent = load(rows.half_exponent + lane);
+            shape.normalization = load(rows.normalization + lane);
+        }
+        const ShadowReceiver receiver{
+            frame, looked_up(frame, block, lane), load3(rows.surface, lane), {material.shadow_fade_scale, material.shadow_turn_scale}};
+        LightSums sums = sum_lights<kSpecular>(lights.lights, lights.count, material.lobe, receiver, position, normal, to_eye, shape);
+        if (lights.cell != nullptr) {
+            const CellPlace place = cell_place(*lights.cell, position, normal);
+            sums.diffuse = sums.diffuse + cell_sum(lights.cell->term, place);
+            if constexpr (kSpecular)
+                if (lights.cell->shines) sums.specular = sums.specular + cell_sum(lights.cell->highlight, place);
+        }
+        store3(rows.diffuse, lane, sums.diffuse * F(material.lobe.scale));
+        if constexpr (kSpecular) store3(rows.specular, lane, sums.specular * shape.normalization);
+    }
+}
+
+template <bool kSpecular>
+static void add_surroundings(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, int count, ShadeRows& rows) {
+    const bool environment = has(material, kStageEnvironment);
+    for (int lane = 0; lane < count; lane += kWidth) {
+        const V3 normal = load3(rows.normal, lane);
+        const F occlusion = load(rows.occlusion + lane);
+        store3(rows.ambient, lane,
+               (environment ? surrounding_light(frame.environments[static_cast<std::size_t>(material.environment)], normal)
+                            : hemisphere(frame.ambient, normal.y)) *
+                   occlusion);
+        if constexpr (!kSpecular) continue;
+        const V3 to_eye = load3(rows.to_eye, lane);
+        const F n_dot_v = dot(normal, to_eye);
+        const F twice = n_dot_v + n_dot_v;
+        const F away = F(1.0f) - clamp(n_dot_v, F(0.0f), F(1.0f));
+        const F away2 = away * away;
+        store(rows.grazing + lane, (away2 * away2) * away);
+        const V3 reflection{mad(twice, normal.x, F(0.0f) - to_eye.x), mad(twice, normal.y, F(0.0f) - to_eye.y),
+                            mad(twice, normal.z, F(0.0f) - to_eye.z)};
+        store3(rows.mirrored, lane,
+               (environment ? environment_light(frame.environments[static_cast<std::size_t>(material.specular_environment)], reflection)
+                            : hemisphere(frame.ambient, reflection.y)) *
+                   occlusion);
+    }
+}
+
+/// All stages before reflection, for a material that is lit.
+template <bool kSpecular>
+HALFLIT_INLINE void add_light(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, shading::LightList lights,
+                              const shading::FragmentBlock& block, int count, ShadeRows& rows) {
+    find_directions<kSpecular>(frame, material, block, count, rows);
+    if (has(material, kStageLights)) add_lights<kSpecular>(frame, material, lights, block, count, rows);
+    if (has(material, kStageAmbient)) add_surroundings<kSpecular>(frame, material, count, rows);
+}
+
+/// Light that a surface of this base colour reflects to the eye.
+template <bool kSpecular>
+HALFLIT_INLINE V3 reflected(const shading::MaterialPlan& material, const ShadeRows& rows, int lane, V3 base) {
+    V3 albedo = base, f0{F(0.0f), F(0.0f), F(0.0f)};
+    if constexpr (kSpecular) {
+        const F metallic = load(rows.metallic + lane);
+        const F dielectric = F(material.dielectric) * (F(1.0f) - metallic);  // no difference that could cancel
+        f0 = base * metallic + V3{dielectric, dielectric, dielectric};
+        albedo = base * ((F(1.0f) - metallic) * F(material.refracted));
+    }
+    V3 color{F(0.0f), F(0.0f), F(0.0f)};
+    if (has(material, kStageLights)) {
+        color = albedo * load3(rows.diffuse, lane);
+        if constexpr (kSpecular) color = color + f0 * load3(rows.specular, lane);
+    }
+    if (has(material, kStageAmbient)) {
+        color = color + albedo * load3(rows.ambient, lane);
+        if constexpr (kSpecular) {
+            const F roughness = load(rows.roughness + lane), grazing = load(rows.grazing + lane);
+            const V3 share{environment_reflectance(f0.x, roughness, grazing), environment_reflectance(f0.y, roughness, grazing),
+                           environment_reflectance(f0.z, roughness, grazing)};
+            color = color + share * load3(rows.mirrored, lane);
+        }
+    }
+    return color;
+}
+
+}  // namespace HALFLIT_ISA_NAMESPACE
+}  // namespace halflit
