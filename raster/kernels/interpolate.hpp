@@ -140,27 +140,22 @@ HALFLIT_INLINE void offset_many(const InterpolateArgs& args, const VertexRecords
 /// Interpolates kWidth lanes of different triangles.
 HALFLIT_INLINE void interpolate_many(const InterpolateArgs& args, shading::FragmentBlock& block, int at) {
     constexpr int kLanes = kWidth < 4 ? 4 : kWidth;
-    alignas(64) std::int32_t x[3][kLanes], y[3][kLanes];
-    alignas(64) float inv_w[3][kLanes];
+    const float* corner[3][kWidth];
     VertexRecords records[kWidth];
     for (int l = 0; l < kWidth; ++l) {
         const std::uint32_t id = args.ids[at + l];
         const TriangleRecord& record = record_of(args.triangles, id);
-        const TriangleSource& source = args.triangles.chunks[id >> args.triangles.local_bits];
-        for (int k = 0; k < 3; ++k) {
-            const ScreenVertex& v = vertex_of(source, record.vertex[k]);
-            x[k][l] = v.x;
-            y[k][l] = v.y;
-            inv_w[k][l] = v.inv_w;
-        }
+        const TriangleSource& source = source_of(args.triangles, id);
+        for (int k = 0; k < 3; ++k) corner[k][l] = reinterpret_cast<const float*>(&vertex_of(source, record.vertex[k]));
         records[l] = vertex_records_of(args, id, record);
         if (args.facing) block.lane[shading::kFacing][at + l] = (record.draw_and_back & 1u) ? -1.0f : 1.0f;
     }
     TriangleLanes t;
     for (int k = 0; k < 3; ++k) {
-        t.x[k] = load(x[k]);
-        t.y[k] = load(y[k]);
-        t.inv_w[k] = load(inv_w[k]);
+        F x, y, z;
+        load4(corner[k], x, y, z, t.inv_w[k]);
+        t.x[k] = bits(x);
+        t.y[k] = bits(y);
     }
     const Barycentrics b = barycentrics(t, load(args.x_px + at), load(args.y_px + at), args.gradients);
     alignas(64) float b1[kLanes], b2[kLanes], db1_dx[kLanes], db1_dy[kLanes], db2_dx[kLanes], db2_dy[kLanes];
