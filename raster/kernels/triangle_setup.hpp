@@ -32,8 +32,14 @@ HALFLIT_INLINE TriangleCorners corners_at(const float* const (&corner)[3][kWidth
     const M small = less(t.most_x - t.least_x, I(kSmallTriangle)) & less(t.most_y - t.least_y, I(kSmallTriangle));
     t.small = mask_bits(small);
     if (!all(small)) {
-        for (I* v : {&t.x[0], &t.x[1], &t.x[2], &t.y[0], &t.y[1], &t.y[2], &t.least_x, &t.most_x, &t.least_y, &t.most_y})
-            *v = sel(small, *v, I(0));
+        for (int k = 0; k < 3; ++k) {
+            t.x[k] = sel(small, t.x[k], I(0));
+            t.y[k] = sel(small, t.y[k], I(0));
+        }
+        t.least_x = sel(small, t.least_x, I(0));
+        t.most_x = sel(small, t.most_x, I(0));
+        t.least_y = sel(small, t.least_y, I(0));
+        t.most_y = sel(small, t.most_y, I(0));
     }
     return t;
 }
