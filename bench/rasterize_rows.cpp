@@ -43,7 +43,7 @@ KernelRow rasterize_row(const std::string& size, int count, double area_px, int 
                 const auto data = std::make_shared<Triangles>(count, area_px, samples);
                 return [data, &kernels = raster_kernels(isa)] {
                     clear_tile(data->buffers, data->samples, kTile);
-                    kernels.rasterize({0, 0, kTile, kTile}, data->samples, data->buffers, data->list.source(), data->list.list(),
+                    kernels.rasterize({0, 0, kTile, kTile}, data->samples, data->buffers, data->list.table(), data->list.ids(),
                                       data->list.count());
                 };
             }};
@@ -55,7 +55,6 @@ struct Fragments {
     std::vector<float> attributes;
     alignas(64) std::uint32_t ids[shading::kBlockSize];
     alignas(64) std::int32_t x[shading::kBlockSize], y[shading::kBlockSize];
-    TriangleSource source;
     DrawRecords draw;
     const float* no_clip_records = nullptr;
     InterpolateArgs args{};
@@ -69,9 +68,8 @@ struct Fragments {
             ids[t] = mixed ? static_cast<std::uint32_t>(t) : 0;
             x[t] = t % 8, y[t] = t / 8;
         }
-        source = list.source();
         draw = {attributes.data()};
-        args.triangles = {&source, 24};
+        args.triangles = list.table();
         args.draws = &draw;
         args.clip_records = &no_clip_records;
         args.slots = slots;

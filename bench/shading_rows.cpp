@@ -120,8 +120,13 @@ shading::ShadingPlan plan(const Material& material, const std::vector<Light>& li
     ShadingSettings options;
     options.specular = specular ? SpecularModel::blinn : SpecularModel::none;
     options.environment_bands = order;
-    shading::ShadingPlan frame = plan_shading(
-        {{&material, 1}, textures, slots, plan_lights(lights), {}, options, order > 0 ? shading::borrowed(some_environment()) : nullptr});
+    shading::ShadingPlan frame = shading::plan_shading({{&material, 1},
+                                                        textures,
+                                                        slots,
+                                                        shading::plan_lights(lights),
+                                                        {},
+                                                        options,
+                                                        order > 0 ? shading::borrowed(some_environment()) : nullptr});
     frame.eye_ws = {0.2f, 0.3f, 6.0f};
     return frame;
 }
