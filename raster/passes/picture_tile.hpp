@@ -41,6 +41,7 @@ private:
     void flush(FragmentList& list);        ///< shades and writes a list, and empties it
     void shade(FragmentList& list);        ///< interpolates into the scratch's block, and writes its colour rows
     void shade(const FragmentList& list, const shading::LightList& lights, shading::FragmentBlock& block);  ///< of interpolated rows
+    void count_nan_pixels(const FragmentList& list, const shading::FragmentBlock& block);
     // cells.cpp
     [[nodiscard]] bool has_cells(int material) const;
     void close_cell();  ///< keeps the lists of a cell of the picture, of materials with light in cells

@@ -1,6 +1,7 @@
 // Output of shaded fragments: exposure, samples, the background, the mean of a pixel's samples, sRGB codes, the caller's pixels.
 #include "raster/passes/picture_tile.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 namespace halflit::raster {
@@ -44,8 +45,14 @@ void PictureTile::write(const FragmentList& list, const shading::FragmentBlock& 
         alignas(64) std::uint32_t code[shading::kBlockSize];
         pass_.view.shade.encode_srgb8(block.red, block.green, block.blue, block.alpha, exposure, code, list.count);
         output.finish_codes(code, list.count);
-        for (int l = 0; l < list.count; ++l)
-            if (is_written(list.x_px[l], list.y_px[l])) std::memcpy(output.codes.at(list.x_px[l], list.y_px[l]), &code[l], 4);
+        // Neighbours in a row are copied together.
+        for (int l = 0, end = 0; l < list.count; l = end) {
+            const int x = list.x_px[l], y = list.y_px[l];
+            for (end = l + 1; end < list.count && list.y_px[end] == y && list.x_px[end] == x + (end - l);) ++end;
+            const int from = std::max(x, written_.x), to = std::min(x + (end - l), written_.x + written_.width);
+            if (from < to && y >= written_.y && y < written_.y + written_.height)
+                std::memcpy(output.codes.at(from, y), &code[l + (from - x)], 4 * static_cast<std::size_t>(to - from));
+        }
     }
     if (output.linear)
         for (int l = 0; l < list.count; ++l) {

@@ -128,15 +128,20 @@ void PictureTile::shade(const FragmentList& list, const shading::LightList& ligh
     else
         pass_.view.shade.shade(shading, material, lights, block, list.count);
     counts_.fragments_shaded += static_cast<std::uint64_t>(list.count);
-    for (int l = 0; l < list.count; ++l) {
-        const float sum = (block.red[l] + block.green[l]) + (block.blue[l] + block.alpha[l]);
-        // A sum of infinities may be NaN although no term is: the terms are tested only if the sum is NaN.
-        if (sum != sum &&
-            (block.red[l] != block.red[l] || block.green[l] != block.green[l] || block.blue[l] != block.blue[l] ||
+    count_nan_pixels(list, block);
+}
+
+void PictureTile::count_nan_pixels(const FragmentList& list, const shading::FragmentBlock& block) {
+    int nan = 0;  // without a branch, so that lanes are tested side by side
+    for (int l = 0; l < list.count; ++l)
+        nan |= static_cast<int>(block.red[l] != block.red[l]) | static_cast<int>(block.green[l] != block.green[l]) |
+               static_cast<int>(block.blue[l] != block.blue[l]) | static_cast<int>(block.alpha[l] != block.alpha[l]);
+    if (nan == 0) return;
+    for (int l = 0; l < list.count; ++l)
+        if ((block.red[l] != block.red[l] || block.green[l] != block.green[l] || block.blue[l] != block.blue[l] ||
              block.alpha[l] != block.alpha[l]) &&
             is_written(list.x_px[l], list.y_px[l]))
             ++counts_.nan_pixels;
-    }
 }
 
 }  // namespace halflit::raster

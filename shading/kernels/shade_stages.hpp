@@ -1,5 +1,5 @@
-// The stages of shading a block, in order: surfaces, directions, lights, surroundings, reflection. Each is a loop over the whole block, with
-// rows in memory between the stages: in one loop over all stages a vector of lanes would be a single chain of a thousand operations,
+// The stages of shading a block, in order: surfaces, directions, lights, surroundings, reflection. Each is a loop over the whole block,
+// with rows in memory between the stages: in one loop over all stages a vector of lanes would be a single chain of a thousand operations,
 // longer than the processor looks ahead, and roots and divisions would be waited for.
 #pragma once
 
@@ -20,15 +20,17 @@ struct alignas(64) ShadeRows {
     using Row3 = Row[3];
     Row3 base, emitted;
     Row alpha;
-    Row3 texel;                            ///< of the normal map
+    Row3 texel;  ///< of the normal map
     Row metallic, roughness, occlusion;
-    Row3 normal, surface, to_eye;          ///< unit: with the normal map, without it; towards the viewer
-    Row half_exponent, normalization;      ///< of highlights
-    Row3 diffuse, specular;                ///< light through the lobe, its scale included; highlights, before the reflectance
-    Row3 ambient, mirrored;                ///< light of the surroundings towards the normal and the reflected view, times occlusion
-    Row grazing;                           ///< (1 - N.V)^5
+    Row3 normal, surface, to_eye;      ///< unit: with the normal map, without it; towards the viewer
+    Row half_exponent, normalization;  ///< of highlights
+    Row3 diffuse, specular;            ///< light through the lobe, its scale included; highlights, before the reflectance
+    Row3 ambient, mirrored;            ///< light of the surroundings towards the normal and the reflected view, times occlusion
+    Row grazing;                       ///< (1 - N.V)^5
 };
-HALFLIT_INLINE V3 load3(const ShadeRows::Row3& rows, int lane) { return {load(rows[0] + lane), load(rows[1] + lane), load(rows[2] + lane)}; }
+HALFLIT_INLINE V3 load3(const ShadeRows::Row3& rows, int lane) {
+    return {load(rows[0] + lane), load(rows[1] + lane), load(rows[2] + lane)};
+}
 HALFLIT_INLINE void store3(ShadeRows::Row3& rows, int lane, V3 v) {
     store(rows[0] + lane, v.x);
     store(rows[1] + lane, v.y);
