@@ -5,6 +5,7 @@
 // that no texel hides gets exactly 0, and one that all texels hide exactly 1.
 #pragma once
 
+#include "shading/kernels/simd_records.hpp"
 #include "shading/kernels/vector.hpp"
 #include "shading/plan/plan.hpp"
 
@@ -144,19 +145,28 @@ HALFLIT_INLINE HiddenShares hidden_share(const shading::ShadowMapPlan& map, V3 p
         const F own = vmin(vmax(F(0.0f) - cosine, F(0.0f)) * F(fade.turn), F(shading::kOwnThickness));
         left = vdiv(F(1.0f), F(1.0f) - own);
     }
+    // A row of four texels is one load for each lane.
+    alignas(64) std::int32_t first[kWidth];
+    store(first, round_even((v0 - F(1.0f)) * F(static_cast<float>(map.size))) + column + at.base);
+    const float* texels[kWidth];
+    for (int l = 0; l < kWidth; ++l) texels[l] = map.distance + first[l];
+    const F ninth(1.0f / 9.0f), none(0.0f), one(1.0f);
     F hard_row[4], soft_row[4];
     for (int j = 0; j < 4; ++j) {
-        const I row = round_even((v0 + F(static_cast<float>(j - 1))) * F(static_cast<float>(map.size))) + column + at.base;
-        F hard[4], gone[4];
+        F behind[4], hard[4], gone[4];
+        load4(texels, behind[0], behind[1], behind[2], behind[3]);
+        for (int l = 0; l < kWidth; ++l) texels[l] += map.size;
         for (int i = 0; i < 4; ++i) {
-            const F behind = receiver - gather(map.distance + i, row);
-            hard[i] = sel(behind > F(0.0f), F(1.0f), F(0.0f));
-            if (soft) gone[i] = faded((F(1.0f) - behind * F(fade.scale)) * left);
+            behind[i] = receiver - behind[i];
+            hard[i] = sel(behind[i] > none, one, none);
         }
         hard_row[j] = (hard[1] + hard[2]) + mad(fu, hard[3] - hard[0], hard[0]);
-        if (soft) soft_row[j] = (gone[1] + gone[2]) + mad(fu, gone[3] - gone[0], gone[0]);
+        soft_row[j] = none;
+        // In front of all four, nothing is gone.
+        if (!soft || !any(vmax(vmax(behind[0], behind[1]), vmax(behind[2], behind[3])) > none)) continue;
+        for (int i = 0; i < 4; ++i) gone[i] = faded((one - behind[i] * F(fade.scale)) * left);
+        soft_row[j] = (gone[1] + gone[2]) + mad(fu, gone[3] - gone[0], gone[0]);
     }
-    const F ninth(1.0f / 9.0f), none(0.0f);
     HiddenShares hidden;
     hidden.hard = sel(at.inside, ((hard_row[1] + hard_row[2]) + mad(fv, hard_row[3] - hard_row[0], hard_row[0])) * ninth, none);
     hidden.soft = hidden.hard;
