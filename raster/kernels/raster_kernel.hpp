@@ -23,6 +23,7 @@ HALFLIT_INLINE const TriangleRecord& record_of(const TriangleTable& table, std::
 
 #include "raster/kernels/bin_triangles.hpp"
 #include "raster/kernels/collect.hpp"
+#include "raster/kernels/distances.hpp"
 #include "raster/kernels/interpolate.hpp"
 #include "raster/kernels/rasterize.hpp"
 #include "raster/kernels/transform.hpp"
@@ -30,6 +31,6 @@ HALFLIT_INLINE const TriangleRecord& record_of(const TriangleTable& table, std::
 namespace halflit::raster {
 #define HALFLIT_RASTER_KERNELS HALFLIT_CONCAT(raster_kernels_, HALFLIT_ISA)
 extern const RasterKernels HALFLIT_RASTER_KERNELS;
-const RasterKernels HALFLIT_RASTER_KERNELS = {transform, vertex_records, bin_triangles, rasterize,
-                                              cover,     draw_covered,   collect,       interpolate};
+const RasterKernels HALFLIT_RASTER_KERNELS = {transform, vertex_records, bin_triangles, rasterize,   rasterize_depth,
+                                              cover,     draw_covered,   collect,       interpolate, distances};
 }  // namespace halflit::raster

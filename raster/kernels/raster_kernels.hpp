@@ -178,6 +178,12 @@ struct PixelFragments {
     alignas(64) std::int32_t samples[(kMaxSamples + 2) * kPixelsARow];  ///< bit s: sample s shows the fragment
 };
 
+/// How the depth of a shadow map's view tells the distance: near / depth, or far - depth * (far - near).
+struct DepthRange {
+    float near_z, far_z;
+    bool perspective;
+};
+
 struct RasterKernels {
     void (*transform)(const TransformArgs&);
     void (*vertex_records)(const VertexRecordArgs&);
@@ -186,6 +192,8 @@ struct RasterKernels {
     void (*bin_triangles)(const BinArgs&, const std::uint32_t* index, int count, BinnedTriangles&);
     /// Draws triangles into depth and triangle. The nearest wins; of equal depths the first.
     void (*rasterize)(const TileRect&, const SamplePattern&, TileBuffers&, const TriangleTable&, const std::uint32_t* ids, int count);
+    /// The same without ids: TileBuffers::triangle is left as it is.
+    void (*rasterize_depth)(const TileRect&, const SamplePattern&, TileBuffers&, const TriangleTable&, const std::uint32_t* ids, int count);
     /// Tests one triangle. Marks in `coverage` the samples that it covers and that are nearer than the tile's depth.
     CoverBox (*cover)(const TileRect&, const SamplePattern&, TileBuffers&, const TriangleSource&, std::uint32_t record);
     /// Draws one triangle into depth and triangle, but only the samples set in `coverage`: those that passed the alpha test.
@@ -193,6 +201,8 @@ struct RasterKernels {
     /// The fragments of `count` pixels, at most kPixelsARow. at: index of the first one in the buffers; x_px: its place in the picture.
     void (*collect)(const TileBuffers&, int samples, int at, int x_px, int count, PixelFragments&);
     void (*interpolate)(const InterpolateArgs&, shading::FragmentBlock&);
+    /// Distances along a shadow map's axis for a row of depths.
+    void (*distances)(const DepthRange&, const float* depth, int count, float* distance);
 };
 
 [[nodiscard]] const RasterKernels& raster_kernels(Isa isa);

@@ -106,7 +106,17 @@ HALFLIT_INLINE CoverBox draw_triangle(const TileRect& tile, const SamplePattern&
     return all;
 }
 
-/// Draws a sample of small triangles. lanes: those to draw; ids: of the lanes.
+/// The sink of one triangle.
+template <bool kIds>
+HALFLIT_INLINE auto visible_sink(float* depth, std::uint32_t* triangle, std::uint32_t id) {
+    if constexpr (kIds)
+        return WriteVisible{depth, triangle, id};
+    else
+        return WriteDepth{depth};
+}
+
+/// Draws a sample of small triangles. lanes: those to draw; ids: of the lanes; kIds: whether the ids of visible triangles are written.
+template <bool kIds>
 HALFLIT_INLINE void draw_lanes(const TileRect& tile, const TriangleCorners& corners, const SetupLanes& setup, std::uint32_t lanes,
                                const std::uint32_t* ids, int sample_x, int sample_y, float* depth, std::uint32_t* triangle) {
     const SampleLanes sample = set_up_sample(tile, corners, setup, sample_x, sample_y);
@@ -122,7 +132,7 @@ HALFLIT_INLINE void draw_lanes(const TileRect& tile, const TriangleCorners& corn
             const float old = depth[at], z = hits.z[k];
             const bool pass = z > old;
             depth[at] = pass ? z : old;
-            triangle[at] = pass ? ids[k >> 2] : triangle[at];
+            if constexpr (kIds) triangle[at] = pass ? ids[k >> 2] : triangle[at];
         }
     };
     std::uint32_t larger = some & ~tiny;
@@ -135,7 +145,7 @@ HALFLIT_INLINE void draw_lanes(const TileRect& tile, const TriangleCorners& corn
             const std::uint64_t before = hits.mask & ((std::uint64_t{1} << (4 * l)) - 1u);
             draw_hits(before);
             hits.mask ^= before;
-            walk_lane(tile, stored, l, WriteVisible{depth, triangle, ids[l]});
+            walk_lane(tile, stored, l, visible_sink<kIds>(depth, triangle, ids[l]));
         }
     }
     draw_hits(hits.mask);
@@ -144,8 +154,9 @@ HALFLIT_INLINE void draw_lanes(const TileRect& tile, const TriangleCorners& corn
 /// Triangles ahead whose records and vertices are prefetched: records first, as they tell the vertices.
 inline constexpr int kRecordsAhead = 32, kVerticesAhead = 16;
 
-inline void rasterize(const TileRect& tile, const SamplePattern& pattern, TileBuffers& buffers, const TriangleTable& triangles,
-                      const std::uint32_t* ids, int count) {
+template <bool kIds>
+HALFLIT_INLINE void draw_triangles(const TileRect& tile, const SamplePattern& pattern, TileBuffers& buffers, const TriangleTable& triangles,
+                                   const std::uint32_t* ids, int count) {
     const auto prefetch_records = [&](int from, int to) __attribute__((always_inline)) {
         for (int i = from; i < to && i < count; ++i) prefetch(&record_of(triangles, ids[i]));
     };
@@ -168,18 +179,29 @@ inline void rasterize(const TileRect& tile, const SamplePattern& pattern, TileBu
             const std::uint32_t run = large != 0 ? ((large & (0u - large)) - 1u) & left : left;
             if (run != 0)
                 for (int s = 0; s < pattern.count; ++s)
-                    draw_lanes(tile, corners, setup, run, ids + first, pattern.x[s], pattern.y[s], buffers.depth[s], buffers.triangle[s]);
+                    draw_lanes<kIds>(tile, corners, setup, run, ids + first, pattern.x[s], pattern.y[s], buffers.depth[s],
+                                     buffers.triangle[s]);
             left &= ~run;
             if (large == 0) break;
             const std::uint32_t id = ids[first + __builtin_ctz(large)];
             draw_triangle(
                 tile, pattern, source_of(triangles, id), record_of(triangles, id), [&](int s) __attribute__((always_inline)) {
-                    return WriteVisible{buffers.depth[s], buffers.triangle[s], id};
+                    return visible_sink<kIds>(buffers.depth[s], buffers.triangle[s], id);
                 });
             left &= left - 1;
             large &= large - 1;
         }
     }
+}
+
+inline void rasterize(const TileRect& tile, const SamplePattern& pattern, TileBuffers& buffers, const TriangleTable& triangles,
+                      const std::uint32_t* ids, int count) {
+    draw_triangles<true>(tile, pattern, buffers, triangles, ids, count);
+}
+
+inline void rasterize_depth(const TileRect& tile, const SamplePattern& pattern, TileBuffers& buffers, const TriangleTable& triangles,
+                            const std::uint32_t* ids, int count) {
+    draw_triangles<false>(tile, pattern, buffers, triangles, ids, count);
 }
 
 inline void draw_covered(const TileRect& tile, const SamplePattern& pattern, TileBuffers& buffers, const TriangleSource& source,

@@ -105,6 +105,16 @@ struct WriteVisible {
     }
 };
 
+/// Draws into depth alone.
+struct WriteDepth {
+    float* depth;
+
+    HALFLIT_INLINE void pixels(int at, I outside, F z) const {
+        const F old = load(depth + at);
+        store(depth + at, sel(less(I(-1), outside) & (z > old), z, old));
+    }
+};
+
 /// Draws into depth and triangle where the coverage plane has this sample's bit.
 struct WriteCovered {
     WriteVisible visible;

@@ -17,21 +17,20 @@ Result<void> ShadowMaps::draw_face(const PreparedData& scene, const FramePlan& p
     // Alpha tests read vertex records.
     const bool masks = geometry_.has(AlphaMode::mask);
     if (masks) records_.make(geometry_, plan.casters, raster, executor);
-    const TilePass pass{geometry_, records_, plan.casters, raster, shade, executor.stop()};
+    const TilePass pass{geometry_, records_, plan.casters, raster, shade, executor.stop(), false, true};
+    const DepthRange range{face.near_z, face.far_z, face.perspective};
     executor.run(face.view.tile_count(), [&](int tile) {
+        const TileRect rect = face.view.tile_rect(tile);
+        float* out = distance + static_cast<std::size_t>(rect.y) * size + static_cast<std::size_t>(rect.x);
+        if (geometry_.tile_is_empty(tile)) {
+            for (int y = 0; y < rect.height; ++y, out += size) std::fill_n(out, rect.width, shading::kNoBlocker);
+            return;
+        }
         Pool<TileScratch>::Loan scratch(scratch_);
         TileCounts ignored;
         draw_visibility(pass, tile, *scratch, ignored);
-        const TileRect rect = face.view.tile_rect(tile);
-        for (int y = 0; y < rect.height; ++y) {
-            const float* depth = scratch->buffers.depth[0] + y * kTileStride;
-            float* out = distance + static_cast<std::size_t>(rect.y + y) * size + static_cast<std::size_t>(rect.x);
-            for (int x = 0; x < rect.width; ++x) {
-                const float z = depth[x];
-                const float d = face.perspective ? face.near_z / z : face.far_z - z * (face.far_z - face.near_z);
-                out[x] = z > 0.0f && d < shading::kNoBlocker ? d : shading::kNoBlocker;
-            }
-        }
+        for (int y = 0; y < rect.height; ++y, out += size)
+            raster.distances(range, scratch->buffers.depth[0] + y * kTileStride, rect.width, out);
     });
     return {};
 }

@@ -18,6 +18,7 @@ struct TilePass {
     const shading::ShadeKernels& shade;
     StopSignal& stop;            ///< checked while a tile is drawn
     bool shadow_offset = false;  ///< fill the kShadowX.. rows of fragments
+    bool depth_only = false;     ///< visibility leaves out the triangles' ids
 };
 
 /// Counts of a tile; summed over the view.

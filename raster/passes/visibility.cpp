@@ -26,8 +26,8 @@ public:
     void draw() {
         if (count_ == 0) return;
         pass_.stop.check();
-        pass_.raster.rasterize(rect_, pass_.geometry.view().samples, scratch_.buffers, pass_.geometry.table(), scratch_.opaque,
-                               static_cast<int>(count_));
+        (pass_.depth_only ? pass_.raster.rasterize_depth : pass_.raster.rasterize)(
+            rect_, pass_.geometry.view().samples, scratch_.buffers, pass_.geometry.table(), scratch_.opaque, static_cast<int>(count_));
         count_ = 0;
     }
 
@@ -97,7 +97,7 @@ void draw_visibility(const TilePass& pass, int tile, TileScratch& scratch, TileC
     const std::size_t used = static_cast<std::size_t>(rect.height) * kTileStride;
     for (int s = 0; s < samples.count; ++s) {
         std::memset(buffers.depth[s], 0, used * sizeof(float));
-        std::memset(buffers.triangle[s], 0xff, used * sizeof(std::uint32_t));
+        if (!pass.depth_only) std::memset(buffers.triangle[s], 0xff, used * sizeof(std::uint32_t));
     }
     const bool all_opaque = !geometry.has(AlphaMode::mask) && !geometry.has(AlphaMode::blend);
     const auto chunks = geometry.chunks();

@@ -1,5 +1,6 @@
 // Lists of triangles, which the kernels set up side by side, on every instruction set against scalar: each bit of depth and each number.
 #include "raster/kernels/raster_kernels.hpp"
+#include "shading/plan/shadow_map_plan.hpp"
 #include "tests/raster/kernel_fixture.hpp"
 #include "tests/raster/random_triangles.hpp"
 #include "tests/support/isas.hpp"
@@ -7,6 +8,8 @@
 #include "tests/support/catch.hpp"
 
 #include <algorithm>
+#include <cstring>
+#include <limits>
 
 using namespace halflit;
 using namespace halflit::raster;
@@ -55,6 +58,15 @@ std::int64_t differing(const TileBuffers& a, const TileBuffers& b, const SampleP
     return wrong;
 }
 
+std::int64_t count_numbered(const TileBuffers& buffers, const SamplePattern& pattern, const TileRect& tile) {
+    std::int64_t count = 0;
+    for (int s = 0; s < pattern.count; ++s)
+        for (int y = 0; y < tile.height; ++y)
+            count += std::count_if(buffers.triangle[s] + y * kTileStride, buffers.triangle[s] + y * kTileStride + tile.width,
+                                   [](std::uint32_t id) { return id != kNoTriangle; });
+    return count;
+}
+
 /// Mostly triangles of a pixel or a few, some as wide as a vector, and some of every difficult kind.
 FixedTriangle any_size(Random& random, TriangleSampler& sampler, const TileRect& tile) {
     if (random.chance(0.15)) return sampler.any();
@@ -70,7 +82,7 @@ FixedTriangle any_size(Random& random, TriangleSampler& sampler, const TileRect&
 TEST_CASE("triangle set-up: lists of every size of triangle have scalar's depths and numbers, bit for bit", "[raster][coverage]") {
     Random random(2024);
     const auto want = std::make_unique<TileBuffers>(), got = std::make_unique<TileBuffers>();
-    std::int64_t wrong = 0, covered = 0;
+    std::int64_t wrong = 0, covered = 0, numbered = 0;  // numbered: samples whose number depth alone should not write
     for (int round = 0; round < 600; ++round) {
         const Place place(random, 16 << (round % 3));
         const SamplePattern pattern = standard_samples(round % 5 == 0 ? 8 : round % 5 < 3 ? 4 : 1);
@@ -94,11 +106,39 @@ TEST_CASE("triangle set-up: lists of every size of triangle have scalar's depths
             clear_tile(*got, pattern, place.window.height);
             raster_kernels(isa).rasterize(place.window, pattern, *got, table, chunks.ids.data(), static_cast<int>(count));
             wrong += differing(*want, *got, pattern, place.window);
+            clear_tile(*got, pattern, place.window.height);
+            raster_kernels(isa).rasterize_depth(place.window, pattern, *got, table, chunks.ids.data(), static_cast<int>(count));
+            numbered += count_numbered(*got, pattern, place.window);
+            for (int s = 0; s < pattern.count; ++s) std::memcpy(got->triangle[s], want->triangle[s], sizeof got->triangle[s]);
+            wrong += differing(*want, *got, pattern, place.window);
         }
         for (int y = 0; y < place.window.height; ++y)
             covered += std::count_if(want->triangle[0] + y * kTileStride, want->triangle[0] + y * kTileStride + place.window.width,
                                      [](std::uint32_t id) { return id != kNoTriangle; });
     }
     CHECK(wrong == 0);
+    CHECK(numbered == 0);
     CHECK(covered > 100'000);
+}
+
+TEST_CASE("shadow map distances: every set has scalar's, bit for bit, and no blocker where nothing was drawn", "[raster][kernels]") {
+    constexpr float kInf = std::numeric_limits<float>::infinity(), kNan = std::numeric_limits<float>::quiet_NaN();
+    std::vector<float> depths{0.0f, -0.0f, 1.0f, -1.0f, 1e-45f, 1e-38f, 3e38f, kInf, -kInf, kNan};
+    Random random(77);
+    while (depths.size() < 67) depths.push_back(random.real32(0, 1));
+    for (const DepthRange range : {DepthRange{0.01f, 100.0f, true}, DepthRange{1e-30f, 1e30f, true}, DepthRange{-5.0f, 20.0f, false}}) {
+        std::vector<float> want(depths.size());
+        raster_kernels(Isa::scalar).distances(range, depths.data(), static_cast<int>(depths.size()), want.data());
+        CHECK(want[0] == shading::kNoBlocker);
+        CHECK(want[1] == shading::kNoBlocker);
+        CHECK(want[2] == (range.perspective ? range.near_z : -5.0f));
+        CHECK(want[9] == shading::kNoBlocker);
+        for (const Isa isa : available_isas())
+            for (const std::size_t count : {std::size_t{1}, std::size_t{16}, depths.size()}) {
+                std::vector<float> got(depths.size() + 1, 7.0f);
+                raster_kernels(isa).distances(range, depths.data(), static_cast<int>(count), got.data());
+                CHECK(std::memcmp(got.data(), want.data(), count * sizeof(float)) == 0);
+                CHECK(got[count] == 7.0f);
+            }
+    }
 }
