@@ -51,10 +51,12 @@ Result<std::vector<std::byte>> read_standard_input(std::size_t max_bytes, double
 }
 
 Result<LoadedScene> load_model(const RenderOptions& options) {
-    if (options.scene != "-") return load_gltf(options.scene, options.load);
+    LoadOptions load = options.load;
+    load.threads = options.execution.threads;
+    if (options.scene != "-") return load_gltf(options.scene, load);
     const auto bytes = read_standard_input(options.load.limits.max_file_bytes, options.load.limits.time_limit_s);
     if (!bytes) return tl::unexpected(bytes.error());
-    return load_gltf_bytes(*bytes, kStandardInput, "", options.load);
+    return load_gltf_bytes(*bytes, kStandardInput, "", load);
 }
 
 }  // namespace

@@ -56,6 +56,7 @@ LoadedScene build(std::span<const std::byte> bytes, const std::string& base_dir,
     loaded.nodes = make_nodes(*document, tree);
     ImageStore images(*document, loaded.scene.textures);
     loaded.scene.materials = make_materials(*document, images, find_used_materials(*document, tree));
+    images.decode();
     place_meshes(*document, accessors, tree, loaded);
     recentre(*document, tree, loaded);
     place_cameras(*document, tree, loaded);

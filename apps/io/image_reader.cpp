@@ -58,4 +58,20 @@ Result<DecodedImage> decode_image(std::span<const std::byte> file, const ImageLi
     return *format == ImageFormat::png ? detail::decode_png(file, limits, keep_16_bits) : detail::decode_jpeg(file, limits);
 }
 
+Result<void> decode_rows(std::span<const std::byte> file, const ImageLimits& limits, bool keep_16_bits, RowSink& sink) {
+    const auto format = format_of(file);
+    if (!format) return tl::unexpected(format.error());
+    if (*format == ImageFormat::png) {
+        const auto added = detail::decode_png_rows(file, limits, keep_16_bits, sink);
+        if (!added) return tl::unexpected(added.error());
+        if (*added) return {};
+    }
+    const auto image = decode_image(file, limits, keep_16_bits);
+    if (!image) return tl::unexpected(image.error());
+    const std::size_t row = std::size_t{4} * static_cast<std::size_t>(image->width);
+    for (std::size_t at = 0; at < image->rgba8.size(); at += row) sink.add_row(&image->rgba8[at]);
+    for (std::size_t at = 0; at < image->rgba16.size(); at += row) sink.add_row(&image->rgba16[at]);
+    return {};
+}
+
 }  // namespace halflit::io

@@ -37,4 +37,15 @@ Result<ImageHeader> read_image_header(std::span<const std::byte> file, const Ima
 /// 16-bit channels are rounded to 8 unless `keep_16_bits`.
 Result<DecodedImage> decode_image(std::span<const std::byte> file, const ImageLimits& limits = {}, bool keep_16_bits = false);
 
+/// Takes a picture row by row, top to bottom; four channels a pixel, alpha not premultiplied. Exactly one of the functions is called.
+class RowSink {
+public:
+    virtual ~RowSink() = default;
+    virtual void add_row(const std::uint8_t* rgba8) = 0;
+    virtual void add_row(const std::uint16_t* rgba16) = 0;
+};
+
+/// decode_image without memory for the picture where the format allows. After an error, rows may have been added.
+Result<void> decode_rows(std::span<const std::byte> file, const ImageLimits& limits, bool keep_16_bits, RowSink& sink);
+
 }  // namespace halflit::io

@@ -25,6 +25,23 @@ std::vector<fs::path> all_models(const fs::path& folder) {
 
 }  // namespace
 
+TEST_CASE("models: textures do not depend on the number of threads that decode them", "[io][assets]") {
+    const auto assets = asset_dir();
+    if (!assets) HALFLIT_SKIP("no sample models (HALFLIT_ASSETS)");
+    LoadOptions one, four;
+    one.threads = 1;
+    four.threads = 4;
+    for (const fs::path& path : all_models(*assets / "models" / "FlightHelmet")) {
+        const auto a = load_gltf(path, one), b = load_gltf(path, four);
+        REQUIRE(a);
+        REQUIRE(b);
+        REQUIRE(a->scene.textures.size() == b->scene.textures.size());
+        CHECK(a->scene.textures.size() > 8);
+        for (std::size_t i = 0; i < a->scene.textures.size(); ++i)
+            CHECK(std::ranges::equal(a->scene.textures[i].data(), b->scene.textures[i].data()));
+    }
+}
+
 TEST_CASE("models: each sample loads, or is refused where it has to be", "[io][assets]") {
     const auto assets = asset_dir();
     if (!assets) HALFLIT_SKIP("no sample models (HALFLIT_ASSETS)");

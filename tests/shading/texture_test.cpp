@@ -112,6 +112,48 @@ TEST_CASE("texture: an odd size shrinks by boxes of equal width", "[shading][tex
     CHECK(texel_value(texture, 1, 1, 0, 0) == (10000 + 2 * 40000 + 2 * 60000) / 5);
 }
 
+TEST_CASE("texture: each texel of a level is the rounded mean of the area it covers", "[shading][texture]") {
+    std::uint32_t state = 1;
+    for (const auto& [width, height] : {std::pair{16, 8}, {6, 5}, {7, 6}, {1, 8}, {12, 1}, {9, 9}, {10, 20}}) {
+        std::vector<std::uint16_t> texels(std::size_t{4} * static_cast<std::size_t>(width * height));
+        for (std::uint16_t& v : texels) v = static_cast<std::uint16_t>((state = state * 1664525u + 1013904223u) >> 16);
+        const Texture texture = Texture::from_rgba16(texels, width, height).value();
+        std::int64_t wrong = 0;
+        for (int l = 1; l < static_cast<int>(texture.levels().size()); ++l) {
+            const TextureLevel &large = texture.levels()[static_cast<std::size_t>(l - 1)],
+                               &small = texture.levels()[static_cast<std::size_t>(l)];
+            // Texel i of m covers [i n, (i + 1) n) of n texels of length m.
+            const auto overlap = [](int i, int n, int m, int k) {
+                return std::uint64_t(std::max(0, std::min((i + 1) * n, (k + 1) * m) - std::max(i * n, k * m)));
+            };
+            for (int y = 0; y < small.height; ++y)
+                for (int x = 0; x < small.width; ++x)
+                    for (int c = 0; c < 4; ++c) {
+                        std::uint64_t sum = 0;
+                        for (int j = 0; j < large.height; ++j)
+                            for (int i = 0; i < large.width; ++i)
+                                sum += overlap(y, large.height, small.height, j) * overlap(x, large.width, small.width, i) *
+                                       static_cast<std::uint64_t>(texel_value(texture, static_cast<std::size_t>(l - 1), i, j, c));
+                        const auto total = static_cast<std::uint64_t>(large.width * large.height);
+                        wrong += static_cast<std::uint64_t>(texel_value(texture, static_cast<std::size_t>(l), x, y, c)) !=
+                                 (2 * sum + total) / (2 * total);
+                    }
+        }
+        INFO(width << " x " << height);
+        CHECK(wrong == 0);
+    }
+}
+
+TEST_CASE("texture: copies share their texels", "[shading][texture]") {
+    Texture first = Texture::from_rgba8(constant_picture(4, 4, 9), 4, 4, ColorSpace::linear).value();
+    const Texture copy = first;
+    CHECK(copy.data().data() == first.data().data());
+    const Texture moved = std::move(first);
+    CHECK(first.data().empty());  // NOLINT(bugprone-use-after-move): a texture without levels
+    CHECK(moved.range().most[0] == 9 * 257);
+    CHECK(copy.range().least[0] == 9 * 257);
+}
+
 TEST_CASE("texture: a checkerboard is averaged in linear light", "[shading][texture]") {
     std::vector<std::uint8_t> checker;
     for (int y = 0; y < 4; ++y)

@@ -6,6 +6,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
+#include <system_error>
+#include <thread>
+
 namespace halflit::io::detail {
 
 namespace {
@@ -26,6 +31,16 @@ Texture checkerboard(ColorSpace space) {
     return take(Texture::from_rgba8(rgba, 8, 8, space), "magenta checkerboard");
 }
 
+/// Makes a texture from rows as they are decoded.
+struct TextureRows : RowSink {
+    TextureBuilder builder;
+    ColorSpace space;
+
+    TextureRows(TextureBuilder made, ColorSpace of) : builder(std::move(made)), space(of) {}
+    void add_row(const std::uint8_t* rgba8) override { builder.add_row(rgba8, space); }
+    void add_row(const std::uint16_t* rgba16) override { builder.add_row(rgba16); }
+};
+
 std::string identity(const file::Image& entry) {
     return entry.buffer_view >= 0 ? fmt::format("bufferView {}", entry.buffer_view) : std::string(entry.uri.value_or(""));
 }
@@ -35,7 +50,7 @@ std::string identity(const file::Image& entry) {
 ImageStore::ImageStore(Document& document, std::vector<Texture>& textures)
     : document_(document), textures_(textures), texture_memory_("the textures", document.options.limits.max_texture_bytes) {}
 
-Texture ImageStore::make(int image, ColorSpace space) {
+ImageStore::Job ImageStore::prepare(int image, ColorSpace space) {
     document_.check_time();
     const file::Image& entry = document_.file.images[static_cast<std::size_t>(image)];
     const LoadLimits& limits = document_.options.limits;
@@ -66,26 +81,85 @@ Texture ImageStore::make(int image, ColorSpace space) {
     if (texture_bytes(header) > texture_memory_.left())
         refuse(where, fmt::format("the textures would take more than {} MB, which is the limit", limits.max_texture_bytes >> 20),
                ErrorCode::limit);
-    const bool keep_16_bits = header.bits == 16 && space == ColorSpace::linear;
-    const DecodedImage picture = take(decode_image(bytes, image_limits, keep_16_bits), where);
     texture_memory_.take(texture_bytes(header));
-    return take(keep_16_bits ? Texture::from_rgba16(picture.rgba16, picture.width, picture.height)
-                             : Texture::from_rgba8(picture.rgba8, picture.width, picture.height, space),
-                where);
+    return {0,      space,        std::move(where), std::move(owned),
+            bytes,  header.width, header.height,    header.bits == 16 && space == ColorSpace::linear,
+            nullptr};
 }
 
 int ImageStore::texture_for(int image, ColorSpace space) {
     const auto [found, is_new] =
         made_.try_emplace({identity(document_.file.images[static_cast<std::size_t>(image)]), space}, static_cast<int>(textures_.size()));
     if (!is_new) return found->second;
+    textures_.emplace_back();
     try {
-        textures_.push_back(make(image, space));
+        jobs_.push_back(prepare(image, space));
+        jobs_.back().texture = found->second;
     } catch (const LoadFailure& failure) {
-        if (!document_.options.lenient || failure.error.code != ErrorCode::bad_input) throw;
-        document_.warn(failure.error.message + "; drawn as a magenta checkerboard");
-        textures_.push_back(checkerboard(space));
+        replace(found->second, space, failure);
     }
     return found->second;
+}
+
+void ImageStore::replace(int texture, ColorSpace space, const LoadFailure& failure) {
+    if (!document_.options.lenient || failure.error.code != ErrorCode::bad_input) throw failure;
+    document_.warn(failure.error.message + "; drawn as a magenta checkerboard");
+    textures_[static_cast<std::size_t>(texture)] = checkerboard(space);
+}
+
+Texture ImageStore::make(const Job& job) const {
+    document_.check_time();
+    const LoadLimits& limits = document_.options.limits;
+    TextureRows rows(take(TextureBuilder::make(job.width, job.height), job.where), job.space);
+    take(decode_rows(job.bytes, {limits.max_texture_side, limits.max_texture_pixels, limits.max_jpeg_scans}, job.keep_16_bits, rows),
+         job.where);
+    return std::move(rows.builder).finish();
+}
+
+void ImageStore::run(Job& job) {
+    try {
+        textures_[static_cast<std::size_t>(job.texture)] = make(job);
+    } catch (...) {
+        job.failure = std::current_exception();
+    }
+    job.owned = {};
+}
+
+std::size_t ImageStore::thread_count() const {
+    // A thread costs about as much as decoding some thousand pixels.
+    constexpr std::size_t kPixelsAThread = 1 << 17;
+    std::size_t pixels = 0;
+    for (const Job& job : jobs_) pixels += static_cast<std::size_t>(job.width) * static_cast<std::size_t>(job.height);
+    const int wanted = document_.options.threads;
+    const std::size_t most = wanted > 0 ? static_cast<std::size_t>(wanted) : std::max(1u, std::thread::hardware_concurrency());
+    return std::min({most, jobs_.size(), 1 + pixels / kPixelsAThread});
+}
+
+void ImageStore::decode() {
+    std::atomic<std::size_t> next{0};
+    const auto work = [&] {
+        for (std::size_t i = next++; i < jobs_.size(); i = next++) run(jobs_[i]);
+    };
+    {
+        std::vector<std::jthread> threads;
+        const std::size_t count = thread_count();
+        try {
+            threads.reserve(count);
+            while (threads.size() + 1 < count) threads.emplace_back(work);
+        } catch (const std::system_error&) {  // no more threads: those that run do the work
+        }
+        work();
+    }
+    // In order, so that what is reported does not depend on the threads.
+    for (const Job& job : jobs_) {
+        if (job.failure == nullptr) continue;
+        try {
+            std::rethrow_exception(job.failure);
+        } catch (const LoadFailure& failure) {
+            replace(job.texture, job.space, failure);
+        }
+    }
+    jobs_.clear();
 }
 
 }  // namespace halflit::io::detail

@@ -4,7 +4,10 @@
 #include "apps/io/detail/gltf_document.hpp"
 #include "halflit/texture.hpp"
 
+#include <cstddef>
+#include <exception>
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,16 +18,37 @@ class ImageStore {
 public:
     ImageStore(Document& document, std::vector<Texture>& textures);
 
-    /// Index into the scene's textures for an entry of "images". Throws LoadFailure, or, when lenient, warns and gives a magenta
-    /// checkerboard.
+    /// Index into the scene's textures for an entry of "images", which decode() makes. Throws LoadFailure, or, when lenient, warns and
+    /// chooses a magenta checkerboard.
     int texture_for(int image, ColorSpace space);
 
+    /// Decodes all pictures, several at a time where they are large. Fails as texture_for, for the first picture that fails.
+    void decode();
+
 private:
-    [[nodiscard]] Texture make(int image, ColorSpace space);
+    /// A picture to be decoded.
+    struct Job {
+        int texture;  ///< index into textures_
+        ColorSpace space;
+        std::string where;
+        std::vector<std::byte> owned;  ///< a file's content; empty if `bytes` lie in a buffer
+        std::span<const std::byte> bytes;
+        int width, height;
+        bool keep_16_bits;
+        std::exception_ptr failure;
+    };
+
+    [[nodiscard]] Job prepare(int image, ColorSpace space);
+    [[nodiscard]] Texture make(const Job& job) const;
+    void run(Job& job);
+    [[nodiscard]] std::size_t thread_count() const;
+    /// For a failure that lenient loading draws as a checkerboard; else throws it again.
+    void replace(int texture, ColorSpace space, const LoadFailure& failure);
 
     Document& document_;
     std::vector<Texture>& textures_;
     Budget texture_memory_;
+    std::vector<Job> jobs_;
     std::map<std::pair<std::string, ColorSpace>, int> made_;  // indexed by the picture's source
 };
 

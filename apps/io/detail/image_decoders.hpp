@@ -7,6 +7,8 @@ namespace halflit::io::detail {
 
 Result<ImageHeader> read_png_header(std::span<const std::byte> file, const ImageLimits& limits);
 Result<DecodedImage> decode_png(std::span<const std::byte> file, const ImageLimits& limits, bool keep_16_bits);
+/// As decode_rows; false: the file is interlaced, whose rows do not come in order, and nothing was added.
+Result<bool> decode_png_rows(std::span<const std::byte> file, const ImageLimits& limits, bool keep_16_bits, RowSink& sink);
 Result<ImageHeader> read_jpeg_header(std::span<const std::byte> file, const ImageLimits& limits);
 Result<DecodedImage> decode_jpeg(std::span<const std::byte> file, const ImageLimits& limits);
 Result<DecodedImage> decode_bmp(std::span<const std::byte> file, const ImageLimits& limits);

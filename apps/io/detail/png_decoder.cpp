@@ -55,6 +55,10 @@ Result<Opened> open_png(std::span<const std::byte> file, const ImageLimits& limi
     return png;
 }
 
+void round_to_8_bits(std::span<const std::uint16_t> from, std::span<std::uint8_t> to) {
+    for (std::size_t i = 0; i < to.size(); ++i) to[i] = static_cast<std::uint8_t>((from[i] * 255u + 32767u) / 65535u);
+}
+
 unsigned channels_of(const spng_ihdr& header) {
     switch (header.color_type) {
         case SPNG_COLOR_TYPE_TRUECOLOR:
@@ -68,6 +72,16 @@ unsigned channels_of(const spng_ihdr& header) {
     }
 }
 
+/// Refuses a file too short for its own picture, before memory for the picture is taken.
+Result<Opened> open_for_pixels(std::span<const std::byte> file, const ImageLimits& limits) {
+    auto png = open_png(file, limits);
+    if (!png) return png;
+    const spng_ihdr& header = png->header;
+    if (std::uint64_t{header.width} * header.height * channels_of(header) * header.bit_depth / 8 / kMaxDeflateRatio > file.size())
+        return fail(ErrorCode::bad_input, fmt::format("PNG: {} bytes cannot hold {}x{} pixels", file.size(), header.width, header.height));
+    return png;
+}
+
 }  // namespace
 
 Result<ImageHeader> read_png_header(std::span<const std::byte> file, const ImageLimits& limits) {
@@ -77,15 +91,39 @@ Result<ImageHeader> read_png_header(std::span<const std::byte> file, const Image
                        png->header.bit_depth == 16 ? 16 : 8};
 }
 
+Result<bool> decode_png_rows(std::span<const std::byte> file, const ImageLimits& limits, bool keep_16_bits, RowSink& sink) {
+    auto png = open_for_pixels(file, limits);
+    if (!png) return tl::unexpected(png.error());
+    const spng_ihdr& header = png->header;
+    if (header.interlace_method != SPNG_INTERLACE_NONE) return false;
+    const bool deep = header.bit_depth == 16;
+    const std::size_t values = std::size_t{4} * header.width;
+    std::vector<std::uint16_t> row16(deep ? values : 0);
+    std::vector<std::uint8_t> row8(deep && keep_16_bits ? 0 : values);
+    spng_ctx* const context = png->context.get();
+    if (const int e =
+            spng_decode_image(context, nullptr, 0, deep ? SPNG_FMT_RGBA16 : SPNG_FMT_RGBA8, SPNG_DECODE_TRNS | SPNG_DECODE_PROGRESSIVE);
+        e != 0)
+        return png_error(e);
+    for (std::uint32_t y = 0; y < header.height; ++y) {
+        const int e = deep ? spng_decode_row(context, row16.data(), 2 * values) : spng_decode_row(context, row8.data(), values);
+        if (e != (y + 1 == header.height ? SPNG_EOI : 0)) return png_error(e);
+        if (deep && keep_16_bits) {
+            sink.add_row(row16.data());
+            continue;
+        }
+        if (deep) round_to_8_bits(row16, row8);
+        sink.add_row(row8.data());
+    }
+    if (const int e = spng_decode_chunks(context); e != 0) return png_error(e);  // checks the last checksum, and that IEND is there
+    return true;
+}
+
 Result<DecodedImage> decode_png(std::span<const std::byte> file, const ImageLimits& limits, bool keep_16_bits) {
-    auto png = open_png(file, limits);
+    auto png = open_for_pixels(file, limits);
     if (!png) return tl::unexpected(png.error());
     const spng_ihdr& header = png->header;
     const std::uint64_t pixels = std::uint64_t{header.width} * header.height;
-    // A file too short for its own picture is refused before memory for the picture is taken.
-    if (pixels * channels_of(header) * header.bit_depth / 8 / kMaxDeflateRatio > file.size())
-        return fail(ErrorCode::bad_input, fmt::format("PNG: {} bytes cannot hold {}x{} pixels", file.size(), header.width, header.height));
-
     DecodedImage image{static_cast<int>(header.width), static_cast<int>(header.height), {}, {}};
     const bool deep = header.bit_depth == 16;
     void* out = nullptr;
@@ -103,8 +141,7 @@ Result<DecodedImage> decode_png(std::span<const std::byte> file, const ImageLimi
         return png_error(e);  // checks the last checksum, and that IEND is there
     if (!deep || keep_16_bits) return image;
     image.rgba8.resize(pixels * 4);
-    for (std::size_t i = 0; i < image.rgba8.size(); ++i)
-        image.rgba8[i] = static_cast<std::uint8_t>((image.rgba16[i] * 255u + 32767u) / 65535u);  // rounds to nearest
+    round_to_8_bits(image.rgba16, image.rgba8);
     image.rgba16 = {};
     return image;
 }

@@ -7,8 +7,8 @@
 #include "halflit/export.hpp"
 #include "halflit/math.hpp"
 
-#include <atomic>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -48,7 +48,8 @@ struct TextureRange {
     std::uint16_t step[4];  ///< the largest difference between neighbours in a row or a column, those across opposite edges included
 };
 
-/// Texel (x, y) of level l is at data()[4 * (offset + y * width + x)], row 0 on top (v = 0), channel order RGBA.
+/// Texel (x, y) of level l is at data()[4 * (offset + y * width + x)], row 0 on top (v = 0), channel order RGBA. Copies share their texels,
+/// which do not change.
 class Texture {
 public:
     /// `rgba8`: width * height * 4 bytes, row 0 on top. Alpha is always linear. Sides up to kMaxTextureSide.
@@ -64,32 +65,45 @@ public:
     /// Full size first; each next level has half the sides, rounded down, to 1 x 1.
     [[nodiscard]] std::span<const TextureLevel> levels() const { return levels_; }
     /// All levels: four numbers a texel, linear, 65535 is 1.
-    [[nodiscard]] std::span<const std::uint16_t> data() const { return data_; }
+    [[nodiscard]] std::span<const std::uint16_t> data() const { return levels_.empty() ? std::span<const std::uint16_t>() : data_; }
     /// The largest error of a texel by its rounding to 16 bits and by that of the levels above it, in units of 1 / 65535. Measured when it
     /// is first asked for, which takes about as long as making the texture. Thread-safe. Throws std::bad_alloc.
     [[nodiscard]] HALFLIT_API float storage_error() const;
-    /// Least and most of each channel, computed when the texture was made.
-    [[nodiscard]] const TextureRange& range() const { return range_; }
+    /// Range of each channel. Measured when it is first asked for. Thread-safe. The texture must have levels.
+    [[nodiscard]] HALFLIT_API const TextureRange& range() const;
 
 private:
-    template <class ReadTexel>
-    static Result<Texture> make(int width, int height, ReadTexel read_texel);
-
-    /// A number that is copied with the texture; negative: not measured yet.
-    struct Measured {
-        std::atomic<float> value{-1.0f};
-        Measured() = default;
-        Measured(const Measured& other) : value(other.value.load(std::memory_order_relaxed)) {}
-        Measured& operator=(const Measured& other) {
-            value.store(other.value.load(std::memory_order_relaxed), std::memory_order_relaxed);
-            return *this;
-        }
-    };
+    friend class TextureBuilder;
+    struct Texels;
 
     std::vector<TextureLevel> levels_;
-    std::vector<std::uint16_t> data_;
-    TextureRange range_{};
-    mutable Measured storage_error_;
+    std::span<const std::uint16_t> data_;
+    std::shared_ptr<Texels> texels_;
+};
+
+/// Makes a texture from its rows, top to bottom, without a copy of the picture: for decoders. Smaller levels are made as rows come.
+class TextureBuilder {
+public:
+    /// Sides up to kMaxTextureSide.
+    [[nodiscard]] HALFLIT_API static Result<TextureBuilder> make(int width, int height);
+    HALFLIT_API TextureBuilder(TextureBuilder&&) noexcept;
+    HALFLIT_API TextureBuilder& operator=(TextureBuilder&&) noexcept;
+    HALFLIT_API ~TextureBuilder();
+
+    /// Adds the next row from `width` texels of four bytes. Alpha is always linear.
+    HALFLIT_API void add_row(const std::uint8_t* rgba8, ColorSpace space);
+    /// The same from four 16-bit channels a texel, taken as they are (linear).
+    HALFLIT_API void add_row(const std::uint16_t* rgba16);
+    /// The texture; all rows must have been added.
+    [[nodiscard]] HALFLIT_API Texture finish() &&;
+
+private:
+    TextureBuilder();
+    std::uint16_t* next_row();
+    void reduce(std::size_t level);
+
+    Texture texture_;
+    std::vector<int> rows_;  ///< of each level that are done
 };
 
 /// A material's use of a texture: the texture, its sampler and the coordinates.

@@ -1,0 +1,171 @@
+// Making of textures: texels as they come, and the mip levels.
+#include "sh/config.hpp"
+#include "shading/model/srgb.hpp"
+#include "shading/out_of_memory.hpp"
+#include "shading/texture_texels.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
+namespace halflit {
+namespace {
+
+/// IEC 61966-2-1: 8-bit sRGB code to linear light in 16 bits, rounded to nearest (no code lies near a tie: texture_test).
+constexpr std::array<std::uint16_t, 256> make_decode_table() {
+    std::array<std::uint16_t, 256> table{};
+    for (int code = 0; code < 256; ++code)
+        table[static_cast<std::size_t>(code)] = static_cast<std::uint16_t>(shading::linear_from_srgb(code / 255.0) * 65535.0 + 0.5);
+    return table;
+}
+constexpr std::array<std::uint16_t, 256> kLinear16FromSrgb8 = make_decode_table();
+
+/// A row of a level where both sides of the larger level are even: the mean of 2 x 2 texels. Written for the compiler to work on whole texels.
+void halve_row(const std::uint16_t* upper, const std::uint16_t* lower, std::uint16_t* to, int width) {
+    for (int x = 0; x < width; ++x, upper += 8, lower += 8, to += 4)
+        for (int c = 0; c < 4; ++c) {
+            const std::uint32_t sum = std::uint32_t{upper[c]} + upper[c + 4] + lower[c] + lower[c + 4];
+            to[c] = static_cast<std::uint16_t>((sum + 2) >> 2);
+        }
+}
+
+std::vector<TextureLevel> level_layout(int width, int height) {
+    std::vector<TextureLevel> levels{{width, height, 0}};
+    while (levels.back().width > 1 || levels.back().height > 1) {
+        const TextureLevel& last = levels.back();
+        levels.push_back({std::max(1, last.width / 2), std::max(1, last.height / 2), last.offset + last.width * last.height});
+    }
+    return levels;
+}
+
+Result<void> check_sides(int width, int height) {
+    if (width < 1 || height < 1 || width > kMaxTextureSide || height > kMaxTextureSide)
+        return fail(ErrorCode::limit, "texture: " + std::to_string(width) + " x " + std::to_string(height) + " texels, expected 1 to " +
+                                          std::to_string(kMaxTextureSide) + " a side");
+    return {};
+}
+
+Result<void> check_size(int width, int height, std::size_t channel_values) {
+    if (auto sides = check_sides(width, height); !sides) return sides;
+    const std::size_t expected = std::size_t{4} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    if (channel_values != expected)
+        return fail(ErrorCode::bad_input, "texture: " + std::to_string(channel_values) + " channel values, expected " +
+                                              std::to_string(expected) + " for " + std::to_string(width) + " x " + std::to_string(height));
+    return {};
+}
+
+/// Large textures are placed so that the system can back them by huge pages, where it does so on request: a page fault for each 4 kB takes
+/// a tenth of the time to load a picture.
+constexpr std::size_t kHugePage = std::size_t{2} << 20;
+
+TexelMemory allocate_texels(std::size_t count) {
+    const std::size_t bytes = count * sizeof(std::uint16_t);
+    const std::align_val_t alignment{bytes >= 2 * kHugePage ? kHugePage : 64};
+    TexelMemory memory(static_cast<std::uint16_t*>(::operator new(bytes, alignment)), FreeTexels{alignment});
+#ifdef __linux__
+    if (bytes >= 2 * kHugePage) madvise(memory.get(), bytes / kHugePage * kHugePage, MADV_HUGEPAGE);
+#endif
+    return memory;
+}
+
+}  // namespace
+
+TextureBuilder::TextureBuilder() = default;
+TextureBuilder::TextureBuilder(TextureBuilder&&) noexcept = default;
+TextureBuilder& TextureBuilder::operator=(TextureBuilder&&) noexcept = default;
+TextureBuilder::~TextureBuilder() = default;
+
+Result<TextureBuilder> TextureBuilder::make(int width, int height) {
+    if (auto sides = check_sides(width, height); !sides) return tl::unexpected(sides.error());
+    try {
+        TextureBuilder builder;
+        Texture& texture = builder.texture_;
+        texture.levels_ = level_layout(width, height);
+        const TextureLevel& last = texture.levels_.back();
+        const auto values = std::size_t{4} * static_cast<std::size_t>(last.offset + last.width * last.height);
+        texture.texels_ = std::make_shared<Texture::Texels>();
+        texture.texels_->memory = allocate_texels(values);
+        texture.data_ = {texture.texels_->memory.get(), values};
+        builder.rows_.assign(texture.levels_.size(), 0);
+        return builder;
+    } catch (const std::bad_alloc&) {
+        return fail_out_of_memory(
+            [&] { return "texture: out of memory for " + std::to_string(width) + " x " + std::to_string(height) + " texels"; });
+    }
+}
+
+std::uint16_t* TextureBuilder::next_row() {
+    HALFLIT_ASSERT(rows_[0] < texture_.height());
+    return texture_.texels_->memory.get() +
+           std::size_t{4} * static_cast<std::size_t>(rows_[0]) * static_cast<std::size_t>(texture_.width());
+}
+
+void TextureBuilder::add_row(const std::uint8_t* rgba8, ColorSpace space) {
+    std::uint16_t* to = next_row();
+    const auto values = std::size_t{4} * static_cast<std::size_t>(texture_.width());
+    // 257 = 65535 / 255 exactly.
+    if (space == ColorSpace::linear)
+        for (std::size_t i = 0; i < values; ++i) to[i] = static_cast<std::uint16_t>(rgba8[i] * 257);
+    else
+        for (std::size_t i = 0; i < values; i += 4) {
+            for (std::size_t c = 0; c < 3; ++c) to[i + c] = kLinear16FromSrgb8[rgba8[i + c]];
+            to[i + 3] = static_cast<std::uint16_t>(rgba8[i + 3] * 257);
+        }
+    reduce(0);
+}
+
+void TextureBuilder::add_row(const std::uint16_t* rgba16) {
+    std::copy_n(rgba16, std::size_t{4} * static_cast<std::size_t>(texture_.width()), next_row());
+    reduce(0);
+}
+
+/// Counts a row of a level as done, and makes the rows of smaller levels that need no other.
+void TextureBuilder::reduce(std::size_t level) {
+    ++rows_[level];
+    if (level + 1 == rows_.size()) return;
+    const TextureLevel &large = texture_.levels_[level], &small = texture_.levels_[level + 1];
+    const auto texels_of = [&](const TextureLevel& of, int y) {
+        return texture_.texels_->memory.get() +
+               std::size_t{4} * (static_cast<std::size_t>(of.offset) + static_cast<std::size_t>(y) * static_cast<std::size_t>(of.width));
+    };
+    while (rows_[level + 1] < small.height) {
+        const int y = rows_[level + 1];
+        const Box rows = box_of(y, large.height);
+        if (rows.first + rows.count > rows_[level]) return;
+        std::uint16_t* to = texels_of(small, y);
+        if (large.width % 2 == 0 && large.height % 2 == 0)
+            halve_row(texels_of(large, 2 * y), texels_of(large, 2 * y + 1), to, small.width);
+        else
+            reduce_row([from = texels_of(large, 0)](std::size_t i) { return from + 4 * i; }, large, to, small, y);
+        reduce(level + 1);
+    }
+}
+
+Texture TextureBuilder::finish() && {
+    HALFLIT_ASSERT(rows_[0] == texture_.height() && rows_.back() == 1);
+    return std::move(texture_);
+}
+
+Result<Texture> Texture::from_rgba8(std::span<const std::uint8_t> rgba8, int width, int height, ColorSpace space) {
+    if (auto size = check_size(width, height, rgba8.size()); !size) return tl::unexpected(size.error());
+    auto builder = TextureBuilder::make(width, height);
+    if (!builder) return tl::unexpected(builder.error());
+    const auto row = std::size_t{4} * static_cast<std::size_t>(width);
+    for (std::size_t at = 0; at < rgba8.size(); at += row) builder->add_row(&rgba8[at], space);
+    return std::move(*builder).finish();
+}
+
+Result<Texture> Texture::from_rgba16(std::span<const std::uint16_t> rgba16, int width, int height) {
+    if (auto size = check_size(width, height, rgba16.size()); !size) return tl::unexpected(size.error());
+    auto builder = TextureBuilder::make(width, height);
+    if (!builder) return tl::unexpected(builder.error());
+    const auto row = std::size_t{4} * static_cast<std::size_t>(width);
+    for (std::size_t at = 0; at < rgba16.size(); at += row) builder->add_row(&rgba16[at]);
+    return std::move(*builder).finish();
+}
+
+}  // namespace halflit

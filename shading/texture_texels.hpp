@@ -1,0 +1,69 @@
+// Texels of a texture, which its copies share, and the boxes that make a mip level from the one above it.
+#pragma once
+
+#include "halflit/texture.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <type_traits>
+
+namespace halflit {
+
+/// The box that one texel of the next smaller level covers along one axis. Its weights are exact fractions of `total`:
+/// an even size halves (1, 1); an odd size 2n+1 becomes n, and the box is 2 + 1/n texels long, so three texels share it.
+struct Box {
+    std::int64_t first, count;
+    std::uint64_t weight[3], total;
+};
+
+constexpr Box box_of(int i, int size) {
+    if (size == 1) return {0, 1, {1, 0, 0}, 1};
+    const std::int64_t first = 2 * std::int64_t{i};
+    if (size % 2 == 0) return {first, 2, {1, 1, 0}, 2};
+    const auto n = static_cast<std::uint64_t>(size / 2), at = static_cast<std::uint64_t>(i);
+    return {first, 3, {n - at, n, at + 1}, 2 * n + 1};
+}
+
+/// Computes row y of a level from the one above it, whose texel i is at texel_at(i), rounded to integers or to float. The sums of integers
+/// (at most 2^16 * 2^28) are exact, so their order does not matter.
+template <class Value, class TexelAt>
+void reduce_row(const TexelAt& texel_at, const TextureLevel& large, Value* to, const TextureLevel& small, int y) {
+    using Sum = std::conditional_t<std::is_floating_point_v<Value>, double, std::uint64_t>;
+    const Box rows = box_of(y, large.height);
+    for (int x = 0; x < small.width; ++x) {
+        const Box columns = box_of(x, large.width);
+        Sum sum[4] = {0, 0, 0, 0};
+        for (std::int64_t j = 0; j < rows.count; ++j) {
+            for (std::int64_t i = 0; i < columns.count; ++i) {
+                const std::uint64_t weight = rows.weight[j] * columns.weight[i];
+                const auto* texel = texel_at(static_cast<std::size_t>((rows.first + j) * large.width + columns.first + i));
+                for (int c = 0; c < 4; ++c) sum[c] += static_cast<Sum>(weight) * texel[c];
+            }
+        }
+        const std::uint64_t total = rows.total * columns.total;
+        for (int c = 0; c < 4; ++c) {
+            if constexpr (std::is_floating_point_v<Value>)
+                *to++ = static_cast<Value>(sum[c] / static_cast<double>(total));
+            else
+                *to++ = static_cast<std::uint16_t>((sum[c] + total / 2) / total);
+        }
+    }
+}
+
+struct FreeTexels {
+    std::align_val_t alignment;
+    void operator()(std::uint16_t* texels) const { ::operator delete(texels, alignment); }
+};
+using TexelMemory = std::unique_ptr<std::uint16_t[], FreeTexels>;
+
+struct Texture::Texels {
+    TexelMemory memory;
+    std::once_flag range_measured;
+    TextureRange range{};
+    std::atomic<float> storage_error{-1.0f};  ///< negative: not measured yet
+};
+
+}  // namespace halflit
