@@ -24,7 +24,8 @@ constexpr std::array<std::uint16_t, 256> make_decode_table() {
 }
 constexpr std::array<std::uint16_t, 256> kLinear16FromSrgb8 = make_decode_table();
 
-/// A row of a level where both sides of the larger level are even: the mean of 2 x 2 texels. Written for the compiler to work on whole texels.
+/// A row of a level where both sides of the larger level are even: the mean of 2 x 2 texels. Written for the compiler to work on whole
+/// texels.
 void halve_row(const std::uint16_t* upper, const std::uint16_t* lower, std::uint16_t* to, int width) {
     for (int x = 0; x < width; ++x, upper += 8, lower += 8, to += 4)
         for (int c = 0; c < 4; ++c) {

@@ -86,8 +86,11 @@ class TextureBuilder {
 public:
     /// Sides up to kMaxTextureSide.
     [[nodiscard]] HALFLIT_API static Result<TextureBuilder> make(int width, int height);
+    /// @{
+    /// What is moved from may only be destroyed.
     HALFLIT_API TextureBuilder(TextureBuilder&&) noexcept;
     HALFLIT_API TextureBuilder& operator=(TextureBuilder&&) noexcept;
+    /// @}
     HALFLIT_API ~TextureBuilder();
 
     /// Adds the next row from `width` texels of four bytes. Alpha is always linear.
