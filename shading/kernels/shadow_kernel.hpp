@@ -162,8 +162,8 @@ HALFLIT_INLINE HiddenShares hidden_share(const shading::ShadowMapPlan& map, V3 p
         }
         hard_row[j] = (hard[1] + hard[2]) + mad(fu, hard[3] - hard[0], hard[0]);
         soft_row[j] = none;
-        // In front of all four, nothing is gone.
-        if (!soft || !any(vmax(vmax(behind[0], behind[1]), vmax(behind[2], behind[3])) > none)) continue;
+        // In front of all four, nothing is gone. A texel that is NaN is not in front.
+        if (!soft || all(((behind[0] <= none) & (behind[1] <= none)) & ((behind[2] <= none) & (behind[3] <= none)))) continue;
         for (int i = 0; i < 4; ++i) gone[i] = faded((one - behind[i] * F(fade.scale)) * left);
         soft_row[j] = (gone[1] + gone[2]) + mad(fu, gone[3] - gone[0], gone[0]);
     }
