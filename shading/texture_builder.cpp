@@ -146,7 +146,7 @@ void TextureBuilder::reduce(std::size_t level) {
     }
 }
 
-Texture TextureBuilder::finish() && {
+Texture TextureBuilder::finish() {
     HALFLIT_ASSERT(rows_[0] == texture_.height() && rows_.back() == 1);
     return std::move(texture_);
 }
@@ -157,7 +157,7 @@ Result<Texture> Texture::from_rgba8(std::span<const std::uint8_t> rgba8, int wid
     if (!builder) return tl::unexpected(builder.error());
     const auto row = std::size_t{4} * static_cast<std::size_t>(width);
     for (std::size_t at = 0; at < rgba8.size(); at += row) builder->add_row(&rgba8[at], space);
-    return std::move(*builder).finish();
+    return builder->finish();
 }
 
 Result<Texture> Texture::from_rgba16(std::span<const std::uint16_t> rgba16, int width, int height) {
@@ -166,7 +166,7 @@ Result<Texture> Texture::from_rgba16(std::span<const std::uint16_t> rgba16, int 
     if (!builder) return tl::unexpected(builder.error());
     const auto row = std::size_t{4} * static_cast<std::size_t>(width);
     for (std::size_t at = 0; at < rgba16.size(); at += row) builder->add_row(&rgba16[at]);
-    return std::move(*builder).finish();
+    return builder->finish();
 }
 
 }  // namespace halflit

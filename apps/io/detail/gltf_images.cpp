@@ -113,7 +113,7 @@ Texture ImageStore::make(const Job& job) const {
     TextureRows rows(take(TextureBuilder::make(job.width, job.height), job.where), job.space);
     take(decode_rows(job.bytes, {limits.max_texture_side, limits.max_texture_pixels, limits.max_jpeg_scans}, job.keep_16_bits, rows),
          job.where);
-    return std::move(rows.builder).finish();
+    return rows.builder.finish();
 }
 
 void ImageStore::run(Job& job) {

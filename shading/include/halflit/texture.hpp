@@ -97,8 +97,8 @@ public:
     HALFLIT_API void add_row(const std::uint8_t* rgba8, ColorSpace space);
     /// The same from four 16-bit channels a texel, taken as they are (linear).
     HALFLIT_API void add_row(const std::uint16_t* rgba16);
-    /// The texture; all rows must have been added.
-    [[nodiscard]] HALFLIT_API Texture finish() &&;
+    /// The texture; all rows must have been added. Only once.
+    [[nodiscard]] HALFLIT_API Texture finish();
 
 private:
     TextureBuilder();
