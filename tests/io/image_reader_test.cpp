@@ -139,6 +139,59 @@ TEST_CASE("png: every colour type, bit depth and interlacing gives the stored sa
     }
 }
 
+TEST_CASE("png: rows of every filter below rows of every filter give the stored samples", "[io]") {
+    // Each filter follows each, on even and odd rows.
+    std::vector<int> filters;
+    for (int a = 0; a < 5; ++a)
+        for (int b = 0; b < 5; ++b) filters.insert(filters.end(), {a, b});
+    filters.push_back(0);
+    const auto filter = GENERATE(0, 1, 2, 3, 4, 5);
+    if (filter < 5) filters = {filter};
+    for (const int type : {0, 2, 3, 4, 6}) {
+        for (const int bits : {8, 16}) {
+            if (type == 3 && bits == 16) continue;
+            for (const std::uint32_t width : {1u, 2u, 19u}) {
+                for (const std::uint32_t height : {1u, 2u, 7u, 103u}) {
+                    PngSpec spec{width, height, bits, type, false, {}, {}, filters, {}};
+                    if (type == 3)
+                        for (int i = 0; i < 256; ++i) spec.palette.insert(spec.palette.end(), 3, static_cast<std::byte>(255 - i));
+                    // The high byte is the sample of 8 bits: rounding keeps it.
+                    const auto sample = [&](std::uint32_t x, std::uint32_t y, int c) {
+                        return (noise(x, y, c) & 255) * (bits == 16 ? 257 : 1);
+                    };
+                    const auto sample8 = [&](std::uint32_t x, std::uint32_t y, int c) { return noise(x, y, c) & 255; };
+                    const DecodedImage image = decode_ok(make_png(spec, sample));
+                    INFO("filter " << filter << " type " << type << " bits " << bits << " width " << width << " height " << height);
+                    REQUIRE(image.rgba8.size() == std::size_t{4} * width * height);
+                    bool same = true;
+                    for (std::uint32_t i = 0; i < 4 * width * height; ++i) {
+                        const std::uint32_t x = i / 4 % width, y = i / 4 / width, c = i % 4;
+                        const bool has_alpha = type == 4 || type == 6, is_grey = type == 0 || type == 4;
+                        std::uint32_t want = sample8(x, y, static_cast<int>(is_grey ? c / 3 : c));
+                        if (type == 3) want = 255 - sample8(x, y, 0);
+                        if (c == 3 && !has_alpha) want = 255;
+                        same = same && image.rgba8[i] == want;
+                    }
+                    CHECK(same);
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("png: chunks after the pixels, a transparent colour and indices past the palette are read", "[io]") {
+    const auto sample = [](std::uint32_t x, std::uint32_t, int) { return 3 * x; };
+    Bytes text;
+    append_chunk(text, "tEXt", to_bytes(std::string_view("k\0v", 3)));
+    CHECK(decode_ok(make_png({4, 3, 8, 0, false, {}, {}, {4}, text}, sample)).rgba8[12] == 9);
+    const Bytes second = {std::byte{0}, std::byte{3}};
+    const DecodedImage clear = decode_ok(make_png({4, 3, 8, 0, false, {}, second, {4}, {}}, sample));
+    for (std::size_t x = 0; x < 4; ++x) CHECK(clear.rgba8[4 * x + 3] == (x == 1 ? 0 : 255));
+    const Bytes palette(9, std::byte{7});
+    CHECK(decode_ok(make_png({2, 1, 8, 3, false, palette, {}, {}, {}}, sample)).rgba8 ==
+          std::vector<std::uint8_t>{7, 7, 7, 255, 0, 0, 0, 255});
+}
+
 TEST_CASE("png: 16 bits are kept when asked for", "[io]") {
     const auto sample = [](std::uint32_t x, std::uint32_t y, int c) { return noise(x, y, c) & 0xFFFFu; };
     const Bytes file = make_png({3, 2, 16, 6, false, {}, {}}, sample);
@@ -172,6 +225,18 @@ TEST_CASE("png: cut, damaged and oversized files are refused", "[io]") {
         out.insert(out.end(), file.begin() + 33, file.end());
         return out;
     };
+    const auto filtered = [](int filter) {
+        Bytes raw(2 * 9, std::byte{1});
+        raw[9] = static_cast<std::byte>(filter);
+        Bytes file = make_png({2, 2, 8, 6, false, {}, {}, {}, {}}, [](std::uint32_t, std::uint32_t, int) { return 1u; });
+        file.resize(33);
+        append_chunk(file, "IDAT", zlib_stored(raw));
+        append_chunk(file, "IEND", {});
+        return file;
+    };
+    CHECK(decodes(filtered(4)));
+    CHECK(!decodes(filtered(5)));
+    CHECK(!decodes(filtered(255)));
     CHECK(decode_image(header_only(30000, 30000)).error().code == ErrorCode::limit);
     CHECK(decode_image(header_only(16385, 1)).error().code == ErrorCode::limit);
     CHECK(decode_image(header_only(16384, 16384)).error().code == ErrorCode::limit);

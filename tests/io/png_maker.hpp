@@ -5,6 +5,7 @@
 #include "tests/io/gltf_builder.hpp"
 
 #include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <string>
 #include <vector>
@@ -55,7 +56,25 @@ struct PngSpec {
     int bits = 8, color_type = 6;  ///< 0 grey, 2 RGB, 3 palette, 4 grey and alpha, 6 RGBA
     bool interlaced = false;
     Bytes palette, transparency;  ///< PLTE and tRNS
+    std::vector<int> filters{};   ///< of row y: filters[y % size]; nothing: none. Only of files that are not interlaced
+    Bytes last_chunks{};          ///< between the pixels and IEND
 };
+
+/// Filters rows of `size` bytes and `step` bytes a pixel, each of which has the number of its filter in front.
+inline Bytes filter_rows(const Bytes& plain, std::size_t size, std::size_t step) {
+    Bytes out = plain;
+    for (std::size_t at = 0; at < plain.size(); ++at) {
+        const std::size_t y = at / (size + 1), i = at % (size + 1);
+        if (i == 0) continue;
+        const auto value = [&](bool is_there, std::size_t back) { return is_there ? static_cast<int>(plain[at - back]) : 0; };
+        const int left = value(i > step, step), up = value(y > 0, size + 1), corner = value(y > 0 && i > step, size + 1 + step);
+        const int to_left = std::abs(up - corner), to_up = std::abs(left - corner), to_corner = std::abs(left + up - 2 * corner);
+        const int paeth = to_left <= to_up && to_left <= to_corner ? left : to_up <= to_corner ? up : corner;
+        const int predicted[] = {0, left, up, (left + up) / 2, paeth};
+        out[at] = static_cast<std::byte>((static_cast<int>(plain[at]) - predicted[static_cast<std::size_t>(plain[at - i]) % 5]) & 255);
+    }
+    return out;
+}
 
 /// `sample(x, y, channel)` gives the stored value, of spec.bits bits.
 inline Bytes make_png(const PngSpec& spec, const std::function<std::uint32_t(std::uint32_t, std::uint32_t, int)>& sample) {
@@ -70,7 +89,7 @@ inline Bytes make_png(const PngSpec& spec, const std::function<std::uint32_t(std
     for (const Pass& pass : passes) {
         if (pass.x0 >= spec.width) continue;
         for (std::uint32_t y = pass.y0; y < spec.height; y += pass.dy) {
-            raw.push_back(std::byte{0});  // no filter
+            raw.push_back(static_cast<std::byte>(spec.filters.empty() ? 0 : spec.filters[y % spec.filters.size()]));
             std::uint32_t bits = 0;
             int have = 0;
             for (std::uint32_t x = pass.x0; x < spec.width; x += pass.dx)
@@ -81,6 +100,8 @@ inline Bytes make_png(const PngSpec& spec, const std::function<std::uint32_t(std
             if (have > 0) raw.push_back(static_cast<std::byte>(bits << (8 - have) & 255u));
         }
     }
+    if (!spec.filters.empty())
+        raw = filter_rows(raw, raw.size() / spec.height - 1, static_cast<std::size_t>((channels * spec.bits + 7) / 8));
     Bytes file = to_bytes("\x89PNG\r\n\x1A\n"), header;
     append_big(header, spec.width);
     append_big(header, spec.height);
@@ -89,6 +110,7 @@ inline Bytes make_png(const PngSpec& spec, const std::function<std::uint32_t(std
     if (!spec.palette.empty()) append_chunk(file, "PLTE", spec.palette);
     if (!spec.transparency.empty()) append_chunk(file, "tRNS", spec.transparency);
     append_chunk(file, "IDAT", zlib_stored(raw));
+    file.insert(file.end(), spec.last_chunks.begin(), spec.last_chunks.end());
     append_chunk(file, "IEND", {});
     return file;
 }

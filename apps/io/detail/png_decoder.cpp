@@ -1,5 +1,6 @@
-// PNG by libspng. Gamma and colour profile chunks are ignored, as glTF demands.
+// PNG by libspng, and the pixels of plain files by png_plain. Gamma and colour profile chunks are ignored, as glTF demands.
 #include "apps/io/detail/image_decoders.hpp"
+#include "apps/io/detail/png_plain.hpp"
 
 #include <spng.h>
 
@@ -7,6 +8,7 @@
 
 #include <cstdlib>
 #include <memory>
+#include <optional>
 
 namespace halflit::io::detail {
 
@@ -82,25 +84,34 @@ Result<Opened> open_for_pixels(std::span<const std::byte> file, const ImageLimit
     return png;
 }
 
-}  // namespace
-
-Result<ImageHeader> read_png_header(std::span<const std::byte> file, const ImageLimits& limits) {
-    const auto png = open_png(file, limits);
-    if (!png) return tl::unexpected(png.error());
-    return ImageHeader{ImageFormat::png, static_cast<int>(png->header.width), static_cast<int>(png->header.height),
-                       png->header.bit_depth == 16 ? 16 : 8};
+/// Nothing where one colour is transparent, which png_plain does not know.
+std::optional<PlainPng> plain_png(spng_ctx* context, const spng_ihdr& header) {
+    PlainPng plain{header.width, header.height, header.color_type, {}};
+    spng_trns transparency{};
+    const bool has_transparency = spng_get_trns(context, &transparency) == 0;
+    if (header.color_type != SPNG_COLOR_TYPE_INDEXED) return has_transparency ? std::nullopt : std::optional(plain);
+    spng_plte palette{};
+    if (spng_get_plte(context, &palette) != 0) return std::nullopt;
+    plain.palette.fill({0, 0, 0, 255});  // libspng's colour past the palette's end
+    for (std::size_t i = 0; i < palette.n_entries; ++i)
+        plain.palette[i] = {palette.entries[i].red, palette.entries[i].green, palette.entries[i].blue, 255};
+    if (has_transparency)
+        for (std::size_t i = 0; i < transparency.n_type3_entries; ++i) plain.palette[i][3] = transparency.type3_alpha[i];
+    return plain;
 }
 
-Result<bool> decode_png_rows(std::span<const std::byte> file, const ImageLimits& limits, bool keep_16_bits, RowSink& sink) {
-    auto png = open_for_pixels(file, limits);
-    if (!png) return tl::unexpected(png.error());
-    const spng_ihdr& header = png->header;
-    if (header.interlace_method != SPNG_INTERLACE_NONE) return false;
+/// Adds the rows of a file that is not interlaced.
+Result<void> add_rows(const Opened& png, std::span<const std::byte> file, bool keep_16_bits, RowSink& sink) {
+    const spng_ihdr& header = png.header;
+    spng_ctx* const context = png.context.get();
+    if (header.bit_depth == 8) {
+        if (const int e = spng_decode_chunks(context); e != 0) return png_error(e);  // those ahead of the pixels
+        if (const auto plain = plain_png(context, header); plain && decode_plain_png(file, *plain, sink)) return {};
+    }
     const bool deep = header.bit_depth == 16;
     const std::size_t values = std::size_t{4} * header.width;
     std::vector<std::uint16_t> row16(deep ? values : 0);
     std::vector<std::uint8_t> row8(deep && keep_16_bits ? 0 : values);
-    spng_ctx* const context = png->context.get();
     if (const int e =
             spng_decode_image(context, nullptr, 0, deep ? SPNG_FMT_RGBA16 : SPNG_FMT_RGBA8, SPNG_DECODE_TRNS | SPNG_DECODE_PROGRESSIVE);
         e != 0)
@@ -116,13 +127,12 @@ Result<bool> decode_png_rows(std::span<const std::byte> file, const ImageLimits&
         sink.add_row(row8.data());
     }
     if (const int e = spng_decode_chunks(context); e != 0) return png_error(e);  // checks the last checksum, and that IEND is there
-    return true;
+    return {};
 }
 
-Result<DecodedImage> decode_png(std::span<const std::byte> file, const ImageLimits& limits, bool keep_16_bits) {
-    auto png = open_for_pixels(file, limits);
-    if (!png) return tl::unexpected(png.error());
-    const spng_ihdr& header = png->header;
+/// A whole picture at once, for interlaced files, whose rows do not come in order.
+Result<DecodedImage> decode_at_once(const Opened& png, bool keep_16_bits) {
+    const spng_ihdr& header = png.header;
     const std::uint64_t pixels = std::uint64_t{header.width} * header.height;
     DecodedImage image{static_cast<int>(header.width), static_cast<int>(header.height), {}, {}};
     const bool deep = header.bit_depth == 16;
@@ -135,15 +145,53 @@ Result<DecodedImage> decode_png(std::span<const std::byte> file, const ImageLimi
         out = image.rgba8.data();
     }
     const std::size_t bytes = pixels * 4 * (deep ? 2 : 1);
-    if (const int e = spng_decode_image(png->context.get(), out, bytes, deep ? SPNG_FMT_RGBA16 : SPNG_FMT_RGBA8, SPNG_DECODE_TRNS); e != 0)
+    if (const int e = spng_decode_image(png.context.get(), out, bytes, deep ? SPNG_FMT_RGBA16 : SPNG_FMT_RGBA8, SPNG_DECODE_TRNS); e != 0)
         return png_error(e);
-    if (const int e = spng_decode_chunks(png->context.get()); e != 0)
-        return png_error(e);  // checks the last checksum, and that IEND is there
+    if (const int e = spng_decode_chunks(png.context.get()); e != 0) return png_error(e);  // as above
     if (!deep || keep_16_bits) return image;
     image.rgba8.resize(pixels * 4);
     round_to_8_bits(image.rgba16, image.rgba8);
     image.rgba16 = {};
     return image;
+}
+
+struct WholePicture : RowSink {
+    DecodedImage image;
+
+    void add_row(const std::uint8_t* rgba8) override { image.rgba8.insert(image.rgba8.end(), rgba8, rgba8 + row()); }
+    void add_row(const std::uint16_t* rgba16) override { image.rgba16.insert(image.rgba16.end(), rgba16, rgba16 + row()); }
+    [[nodiscard]] std::size_t row() const { return std::size_t{4} * static_cast<std::size_t>(image.width); }
+};
+
+}  // namespace
+
+Result<ImageHeader> read_png_header(std::span<const std::byte> file, const ImageLimits& limits) {
+    const auto png = open_png(file, limits);
+    if (!png) return tl::unexpected(png.error());
+    return ImageHeader{ImageFormat::png, static_cast<int>(png->header.width), static_cast<int>(png->header.height),
+                       png->header.bit_depth == 16 ? 16 : 8};
+}
+
+Result<bool> decode_png_rows(std::span<const std::byte> file, const ImageLimits& limits, bool keep_16_bits, RowSink& sink) {
+    const auto png = open_for_pixels(file, limits);
+    if (!png) return tl::unexpected(png.error());
+    if (png->header.interlace_method != SPNG_INTERLACE_NONE) return false;
+    return add_rows(*png, file, keep_16_bits, sink).map([] { return true; });
+}
+
+Result<DecodedImage> decode_png(std::span<const std::byte> file, const ImageLimits& limits, bool keep_16_bits) {
+    const auto png = open_for_pixels(file, limits);
+    if (!png) return tl::unexpected(png.error());
+    const spng_ihdr& header = png->header;
+    if (header.interlace_method != SPNG_INTERLACE_NONE) return decode_at_once(*png, keep_16_bits);
+    WholePicture picture;
+    picture.image.width = static_cast<int>(header.width), picture.image.height = static_cast<int>(header.height);
+    const std::size_t values = picture.row() * header.height;
+    if (header.bit_depth == 16 && keep_16_bits)
+        picture.image.rgba16.reserve(values);
+    else
+        picture.image.rgba8.reserve(values);
+    return add_rows(*png, file, keep_16_bits, picture).map([&] { return std::move(picture.image); });
 }
 
 }  // namespace halflit::io::detail
