@@ -12,9 +12,9 @@ namespace halflit::io::detail {
 
 namespace {
 
-constexpr std::size_t kSignature = 8, kChunkFrame = 12;         // bytes; the frame is a chunk's length, type and checksum
-constexpr std::size_t kMostInflated = std::size_t{64} << 20;    // larger pictures are decompressed bit by bit, in less memory
-constexpr std::size_t kReadPastRow = 6;                         // see FilteredRow
+constexpr std::size_t kSignature = 8, kChunkFrame = 12;       // bytes; the frame is a chunk's length, type and checksum
+constexpr std::size_t kMostInflated = std::size_t{64} << 20;  // larger pictures are decompressed bit by bit, in less memory
+constexpr std::size_t kReadPastRow = 6;                       // see FilteredRow
 constexpr std::uint32_t kIdat = 0x49444154, kIend = 0x49454E44;
 
 std::uint32_t big_endian(const std::byte* at) {
