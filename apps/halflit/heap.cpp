@@ -17,9 +17,9 @@ namespace halflit::cli {
 
 namespace {
 
-constexpr int kReserved = 128 << 20;         // bytes of addresses; what is not touched takes no memory
-constexpr int kLargestInHeap = 32 << 20;     // the most that glibc allows; larger blocks are mapped one by one
-constexpr int kNeverReturned = 1 << 30;      // free memory at the heap's end that is kept
+constexpr int kReserved = 128 << 20;          // bytes of addresses; what is not touched takes no memory
+constexpr int kLargestInHeap = 32 << 20;      // the most that glibc allows; larger blocks are mapped one by one
+constexpr int kNeverReturned = 1 << 30;       // free memory at the heap's end that is kept
 constexpr std::size_t kFirstBlock = 1 << 20;  // more than is left of the small heap of the program's start
 constexpr std::uintptr_t kHugePage = 2 << 20;
 
@@ -47,9 +47,7 @@ bool set_up_heap() {
 
 }  // namespace
 
-void prepare_heap() {
-    [[maybe_unused]] static const bool done = set_up_heap();
-}
+void prepare_heap() { [[maybe_unused]] static const bool done = set_up_heap(); }
 
 #else
 
