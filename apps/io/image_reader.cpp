@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <string>
 
 namespace halflit::io {
@@ -45,6 +46,12 @@ Result<void> check_image_size(std::uint64_t width, std::uint64_t height, const I
 }
 
 }  // namespace detail
+
+void RowSink::add_indexed_row(std::span<const std::uint8_t> indices, const Palette& palette) {
+    std::vector<std::uint8_t> rgba(4 * indices.size());
+    for (std::size_t x = 0; x < indices.size(); ++x) std::memcpy(&rgba[4 * x], palette[indices[x]].data(), 4);
+    add_row(rgba.data());
+}
 
 Result<ImageHeader> read_image_header(std::span<const std::byte> file, const ImageLimits& limits) {
     const auto format = format_of(file);

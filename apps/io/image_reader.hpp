@@ -3,6 +3,7 @@
 
 #include "halflit/error.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -37,12 +38,16 @@ Result<ImageHeader> read_image_header(std::span<const std::byte> file, const Ima
 /// 16-bit channels are rounded to 8 unless `keep_16_bits`.
 Result<DecodedImage> decode_image(std::span<const std::byte> file, const ImageLimits& limits = {}, bool keep_16_bits = false);
 
-/// Takes a picture row by row, top to bottom; four channels a pixel, alpha not premultiplied. Exactly one of the functions is called.
+using Palette = std::array<std::array<std::uint8_t, 4>, 256>;  ///< RGBA
+
+/// Takes a picture row by row, top to bottom; four channels a pixel, alpha not premultiplied. All rows of a picture come by one function.
 class RowSink {
 public:
     virtual ~RowSink() = default;
     virtual void add_row(const std::uint8_t* rgba8) = 0;
     virtual void add_row(const std::uint16_t* rgba16) = 0;
+    /// Pixels of a palette, which is the same for all rows. If not overridden, adds their colours.
+    virtual void add_indexed_row(std::span<const std::uint8_t> indices, const Palette& palette);
 };
 
 /// decode_image without memory for the picture where the format allows. After an error, rows may have been added.

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstring>
 #include <system_error>
 #include <thread>
 
@@ -35,10 +36,21 @@ Texture checkerboard(ColorSpace space) {
 struct TextureRows : RowSink {
     TextureBuilder builder;
     ColorSpace space;
+    Texture palette;                 ///< 256 x 1 texels, once it is known
+    std::vector<std::uint16_t> row;  ///< of colours of the palette
 
     TextureRows(TextureBuilder made, ColorSpace of) : builder(std::move(made)), space(of) {}
     void add_row(const std::uint8_t* rgba8) override { builder.add_row(rgba8, space); }
     void add_row(const std::uint16_t* rgba16) override { builder.add_row(rgba16); }
+    void add_indexed_row(std::span<const std::uint8_t> indices, const Palette& colors) override {
+        if (palette.width() == 0) {
+            palette = take(Texture::from_rgba8({colors[0].data(), sizeof(Palette)}, static_cast<int>(colors.size()), 1, space), "palette");
+            row.resize(4 * indices.size());
+        }
+        const std::uint16_t* const texels = palette.data().data();
+        for (std::size_t x = 0; x < indices.size(); ++x) std::memcpy(&row[4 * x], texels + std::size_t{4} * indices[x], 8);
+        builder.add_row(row.data());
+    }
 };
 
 std::string identity(const file::Image& entry) {

@@ -71,9 +71,6 @@ void to_rgba(const PlainPng& png, const std::uint8_t* pixels, std::size_t step, 
         case 2:
             for (; to != end; to += 4, pixels += step) std::memcpy(to, pixels, 4), to[3] = 255;
             return;
-        case 3:
-            for (; to != end; to += 4, pixels += step) std::memcpy(to, png.palette[*pixels].data(), 4);
-            return;
         case 4:
             for (; to != end; to += 4, pixels += step) to[0] = to[1] = to[2] = pixels[0], to[3] = pixels[1];
             return;
@@ -97,8 +94,15 @@ bool decode_plain_png(std::span<const std::byte> file, const PlainPng& png, RowS
     const std::size_t room = 4 * (png.width + 1);
     std::vector<std::uint8_t> above(room), upper(room), lower(room), rgba(room);
     const auto add = [&](const std::uint8_t* pixels, std::size_t step) {
-        to_rgba(png, pixels, step, rgba.data());
-        sink.add_row(rgba.data());
+        if (png.color_type != 3) {
+            to_rgba(png, pixels, step, rgba.data());
+            sink.add_row(rgba.data());
+        } else if (step == 1) {
+            sink.add_indexed_row({pixels, png.width}, png.palette);
+        } else {
+            for (std::size_t x = 0; x < png.width; ++x) rgba[x] = pixels[step * x];
+            sink.add_indexed_row({rgba.data(), png.width}, png.palette);
+        }
     };
     for (std::size_t y = 0; y < png.height; y += 2) {
         const bool is_last = y + 1 == png.height;

@@ -4,17 +4,15 @@
 
 #include "apps/io/image_reader.hpp"
 
-#include <array>
-
 namespace halflit::io::detail {
 
 struct PlainPng {
     std::size_t width = 0, height = 0;
-    int color_type = 0;                                      ///< PNG's: 0 grey, 2 RGB, 3 palette, 4 grey and alpha, 6 RGBA
-    std::array<std::array<std::uint8_t, 4>, 256> palette{};  ///< RGBA, for colour type 3
+    int color_type = 0;  ///< PNG's: 0 grey, 2 RGB, 3 palette, 4 grey and alpha, 6 RGBA
+    Palette palette{};   ///< for colour type 3
 };
 
-/// Adds all rows as RGBA of 8 bits. False: the file is not plain, or is damaged; nothing was added. `file` is sound up to its pixels, and
+/// Adds all rows, of 8 bits. False: the file is not plain, or is damaged; nothing was added. `file` is sound up to its pixels, and
 /// has the header of `png`.
 bool decode_plain_png(std::span<const std::byte> file, const PlainPng& png, RowSink& sink);
 
