@@ -56,11 +56,17 @@ LoadedScene build(std::span<const std::byte> bytes, const std::string& base_dir,
     loaded.nodes = make_nodes(*document, tree);
     ImageStore images(*document, loaded.scene.textures);
     loaded.scene.materials = make_materials(*document, images, find_used_materials(*document, tree));
-    images.decode();
-    place_meshes(*document, accessors, tree, loaded);
-    recentre(*document, tree, loaded);
-    place_cameras(*document, tree, loaded);
-    place_lights(*document, tree, loaded);
+    images.start();
+    try {
+        place_meshes(*document, accessors, tree, loaded);
+        recentre(*document, tree, loaded);
+        place_cameras(*document, tree, loaded);
+        place_lights(*document, tree, loaded);
+    } catch (...) {
+        images.finish();  // a fault of a picture is reported first
+        throw;
+    }
+    images.finish();
     loaded.scene.calibrated = loaded.scene.lights.empty();
     if (loaded.scene.instances.empty()) document->warn("the model has nothing to draw");
     if (document->warnings_left_out > 0) document->warnings.push_back(fmt::format("and {} further warnings", document->warnings_left_out));

@@ -7,10 +7,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstring>
 #include <system_error>
-#include <thread>
 
 namespace halflit::io::detail {
 
@@ -137,31 +135,32 @@ void ImageStore::run(Job& job) {
     job.owned = {};
 }
 
-std::size_t ImageStore::thread_count() const {
+std::size_t ImageStore::other_threads() const {
     // A thread costs about as much as decoding some thousand pixels.
     constexpr std::size_t kPixelsAThread = 1 << 17;
     std::size_t pixels = 0;
     for (const Job& job : jobs_) pixels += static_cast<std::size_t>(job.width) * static_cast<std::size_t>(job.height);
     const int wanted = document_.options.threads;
     const std::size_t most = wanted > 0 ? static_cast<std::size_t>(wanted) : std::max(1u, std::thread::hardware_concurrency());
-    return std::min({most, jobs_.size(), 1 + pixels / kPixelsAThread});
+    return std::min({most - 1, jobs_.size(), pixels / kPixelsAThread});
 }
 
-void ImageStore::decode() {
-    std::atomic<std::size_t> next{0};
-    const auto work = [&] {
-        for (std::size_t i = next++; i < jobs_.size(); i = next++) run(jobs_[i]);
-    };
-    {
-        std::vector<std::jthread> threads;
-        const std::size_t count = thread_count();
-        try {
-            threads.reserve(count);
-            while (threads.size() + 1 < count) threads.emplace_back(work);
-        } catch (const std::system_error&) {  // no more threads: those that run do the work
-        }
-        work();
+void ImageStore::run_jobs() {
+    for (std::size_t i = next_job_++; i < jobs_.size(); i = next_job_++) run(jobs_[i]);
+}
+
+void ImageStore::start() {
+    const std::size_t count = other_threads();
+    try {
+        threads_.reserve(count);
+        while (threads_.size() < count) threads_.emplace_back([this] { run_jobs(); });
+    } catch (const std::system_error&) {  // no more threads: those that run do the work
     }
+}
+
+void ImageStore::finish() {
+    run_jobs();
+    threads_.clear();
     // In order, so that what is reported does not depend on the threads.
     for (const Job& job : jobs_) {
         if (job.failure == nullptr) continue;

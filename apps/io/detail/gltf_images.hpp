@@ -4,11 +4,13 @@
 #include "apps/io/detail/gltf_document.hpp"
 #include "halflit/texture.hpp"
 
+#include <atomic>
 #include <cstddef>
 #include <exception>
 #include <map>
 #include <span>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -18,12 +20,15 @@ class ImageStore {
 public:
     ImageStore(Document& document, std::vector<Texture>& textures);
 
-    /// Index into the scene's textures for an entry of "images", which decode() makes. Throws LoadFailure, or, when lenient, warns and
+    /// Index into the scene's textures for an entry of "images", which is decoded later. Throws LoadFailure, or, when lenient, warns and
     /// chooses a magenta checkerboard.
     int texture_for(int image, ColorSpace space);
 
-    /// Decodes all pictures, several at a time where they are large. Fails as texture_for, for the first picture that fails.
-    void decode();
+    /// Begins to decode all pictures on other threads, if they are large. Until finish(), the scene's textures are not to be read, and
+    /// there must be no further call of texture_for.
+    void start();
+    /// Decodes the pictures that no thread has begun, and waits. Fails as texture_for, for the first picture that fails.
+    void finish();
 
 private:
     /// A picture to be decoded.
@@ -41,7 +46,8 @@ private:
     [[nodiscard]] Job prepare(int image, ColorSpace space);
     [[nodiscard]] Texture make(const Job& job) const;
     void run(Job& job);
-    [[nodiscard]] std::size_t thread_count() const;
+    [[nodiscard]] std::size_t other_threads() const;
+    void run_jobs();
     /// For a failure that lenient loading draws as a checkerboard; else throws it again.
     void replace(int texture, ColorSpace space, const LoadFailure& failure);
 
@@ -50,6 +56,8 @@ private:
     Budget texture_memory_;
     std::vector<Job> jobs_;
     std::map<std::pair<std::string, ColorSpace>, int> made_;  // indexed by the picture's source
+    std::atomic<std::size_t> next_job_ = 0;
+    std::vector<std::jthread> threads_;  // last, so that they end before what they use
 };
 
 }  // namespace halflit::io::detail
