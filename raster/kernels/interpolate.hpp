@@ -2,9 +2,10 @@
 // triangle's snapped vertices. Every vertex attribute is then v0 + b1 (v1 - v0) + b2 (v2 - v0).
 //
 // The weight of vertex i is E_i / w_i, where E_i is the edge function of the opposite edge. With d_i = vertex_i - pixel (exact integers),
-// E_0 = d1 x d2, and so on. All three are clamped at 0, so that an attribute never leaves its triangle's range. If all lanes of a vector
-// show one triangle, it is loaded once. Otherwise each lane loads its own triangle, and 4x4 transposes make rows of the attributes. Both
-// ways do the same operations on each lane.
+// E_0 = d1 x d2, and so on. All three are clamped at 0, so that an attribute never leaves its triangle's range.
+//
+// First the block's vertices are found, then each vector of lanes is computed. If all of its lanes show one triangle, its values are
+// broadcast. Otherwise each lane loads records of its own, and transposes make rows of them. Both ways do the same operations on each lane.
 #pragma once
 
 #include "raster/kernels/raster_kernels.hpp"
@@ -75,149 +76,126 @@ HALFLIT_INLINE VertexRecords vertex_records_of(const InterpolateArgs& args, std:
     return out;
 }
 
-/// Interpolates kWidth lanes of one triangle.
-HALFLIT_INLINE void interpolate_one(const InterpolateArgs& args, shading::FragmentBlock& block, int at) {
-    const std::uint32_t id = args.ids[at];
-    const TriangleRecord& record = record_of(args.triangles, id);
-    const TriangleSource& source = args.triangles.chunks[id >> args.triangles.local_bits];
-    TriangleLanes t;
-    for (int k = 0; k < 3; ++k) {
-        const ScreenVertex& v = vertex_of(source, record.vertex[k]);
-        t.x[k] = I(v.x);
-        t.y[k] = I(v.y);
-        t.inv_w[k] = F(v.inv_w);
+/// Four floats of vertex k's record, from `offset` on, of kWidth lanes: of one triangle, or of a triangle each.
+struct OneTriangle {
+    VertexRecords records;
+    HALFLIT_INLINE void read(int k, int offset, F (&out)[4]) const {
+        for (int j = 0; j < 4; ++j) out[j] = F(records.v[k][offset + j]);
     }
+};
+struct ManyTriangles {
+    const float* const* v[3];
+    HALFLIT_INLINE void read(int k, int offset, F (&out)[4]) const {
+        const float* at[kWidth];
+        for (int l = 0; l < kWidth; ++l) at[l] = v[k][l] + offset;
+        load4(at, out[0], out[1], out[2], out[3]);
+    }
+};
+
+template <class Corners>
+HALFLIT_INLINE CornerLanes corner_lanes(const Corners& corners) {
+    CornerLanes out;
+    for (int k = 0; k < 3; ++k) {
+        F low[4], high[4];
+        corners.read(k, 0, low);
+        corners.read(k, 4, high);
+        out.position[k] = {low[0], low[1], low[2]};
+        out.normal[k] = {low[3], high[0], high[1]};
+    }
+    return out;
+}
+
+/// Interpolates kWidth lanes; `side`: -1 where the back is seen, else +1.
+template <class Corners>
+HALFLIT_INLINE void interpolate_lanes(const InterpolateArgs& args, const TriangleLanes& t, const Corners& corners, F side,
+                                      shading::FragmentBlock& block, int at) {
     const Barycentrics b = barycentrics(t, load(args.x_px + at), load(args.y_px + at), args.gradients);
-    const VertexRecords records = vertex_records_of(args, id, record);
     int offset = 0;
     for (int q = 0; q < shading::kSlotCount; ++q) {
         if (!(args.slots & (1u << q))) continue;
+        F v0[4], d1[4], d2[4];
+        corners.read(0, offset, v0);
+        corners.read(1, offset, d1);
+        corners.read(2, offset, d2);
         for (int j = 0; j < 4; ++j) {
-            const float v0 = records.v[0][offset + j];
-            const F d1(records.v[1][offset + j] - v0), d2(records.v[2][offset + j] - v0);
-            store(block.lane[4 * q + j] + at, mad(b.b2, d2, mad(b.b1, d1, F(v0))));
+            d1[j] = d1[j] - v0[j], d2[j] = d2[j] - v0[j];
+            store(block.lane[4 * q + j] + at, mad(b.b2, d2[j], mad(b.b1, d1[j], v0[j])));
         }
         const int uv_row = q == 1 ? 2 : q == 4 ? 0 : -1;
         if (args.gradients && uv_row >= 0) {
             const int first = q == 1 ? shading::kDu0Dx : shading::kDu1Dx;
             for (int j = 0; j < 2; ++j) {
-                const float v0 = records.v[0][offset + uv_row + j];
-                const F d1(records.v[1][offset + uv_row + j] - v0), d2(records.v[2][offset + uv_row + j] - v0);
-                store(block.lane[first + j] + at, mad(b.db2_dx, d2, b.db1_dx * d1));
-                store(block.lane[first + 2 + j] + at, mad(b.db2_dy, d2, b.db1_dy * d1));
+                const F along1 = uv_row == 2 ? d1[2 + j] : d1[j], along2 = uv_row == 2 ? d2[2 + j] : d2[j];
+                store(block.lane[first + j] + at, mad(b.db2_dx, along2, b.db1_dx * along1));
+                store(block.lane[first + 2 + j] + at, mad(b.db2_dy, along2, b.db1_dy * along1));
             }
         }
         offset += 4;
     }
-    const F side(args.facing && (record.draw_and_back & 1u) ? -1.0f : 1.0f);
     if (args.facing) store(block.lane[shading::kFacing] + at, side);
-    if (args.shadow_offset) {
-        CornerLanes corners;
-        for (int k = 0; k < 3; ++k) {
-            const float* v = records.v[k];
-            corners.position[k] = {F(v[0]), F(v[1]), F(v[2])};
-            corners.normal[k] = {F(v[3]), F(v[4]), F(v[5])};
-        }
-        store_terminator_offset(block, at, terminator_offset(corners, row3(block, shading::kPosX, at), b.b1, b.b2, side));
-    }
+    if (args.shadow_offset)
+        store_terminator_offset(block, at, terminator_offset(corner_lanes(corners), row3(block, shading::kPosX, at), b.b1, b.b2, side));
 }
 
-/// Stores the terminator offsets of kWidth lanes of different triangles.
-HALFLIT_INLINE void offset_many(const InterpolateArgs& args, const VertexRecords* records, const Barycentrics& b,
-                                shading::FragmentBlock& block, int at) {
-    alignas(64) float values[6][kWidth < 4 ? 4 : kWidth];
-    CornerLanes corners;
+/// Where the vertices of a block's fragments are. Of a vector of one triangle, the first lane alone is set.
+struct FragmentCorners {
+    const float *screen[3][shading::kBlockSize], *record[3][shading::kBlockSize];
+    alignas(64) float side[shading::kBlockSize];
+    bool same[shading::kBlockSize / kWidth];
+};
+
+HALFLIT_INLINE void find_corners(const InterpolateArgs& args, int at, FragmentCorners& out) {
+    const std::uint32_t id = args.ids[at];
+    const TriangleRecord& record = record_of(args.triangles, id);
+    const TriangleSource& source = source_of(args.triangles, id);
+    const VertexRecords records = vertex_records_of(args, id, record);
     for (int k = 0; k < 3; ++k) {
-        for (int l = 0; l < kWidth; ++l)
-            for (int j = 0; j < 6; ++j) values[j][l] = records[l].v[k][j];
-        corners.position[k] = {load(values[0]), load(values[1]), load(values[2])};
-        corners.normal[k] = {load(values[3]), load(values[4]), load(values[5])};
+        out.screen[k][at] = reinterpret_cast<const float*>(&vertex_of(source, record.vertex[k]));
+        out.record[k][at] = records.v[k];
+        __builtin_prefetch(records.v[k]);
     }
-    const F side = args.facing ? row(block, shading::kFacing, at) : F(1.0f);
-    store_terminator_offset(block, at, terminator_offset(corners, row3(block, shading::kPosX, at), b.b1, b.b2, side));
+    out.side[at] = args.facing && (record.draw_and_back & 1u) ? -1.0f : 1.0f;
+}
+
+/// Interpolates kWidth lanes of one triangle.
+HALFLIT_INLINE void interpolate_one(const InterpolateArgs& args, const FragmentCorners& of, shading::FragmentBlock& block, int at) {
+    TriangleLanes t;
+    OneTriangle corners;
+    for (int k = 0; k < 3; ++k) {
+        const ScreenVertex& v = *reinterpret_cast<const ScreenVertex*>(of.screen[k][at]);
+        t.x[k] = I(v.x);
+        t.y[k] = I(v.y);
+        t.inv_w[k] = F(v.inv_w);
+        corners.records.v[k] = of.record[k][at];
+    }
+    interpolate_lanes(args, t, corners, F(of.side[at]), block, at);
 }
 
 /// Interpolates kWidth lanes of different triangles.
-HALFLIT_INLINE void interpolate_many(const InterpolateArgs& args, shading::FragmentBlock& block, int at) {
-    constexpr int kLanes = kWidth < 4 ? 4 : kWidth;
-    const float* corner[3][kWidth];
-    VertexRecords records[kWidth];
-    for (int l = 0; l < kWidth; ++l) {
-        const std::uint32_t id = args.ids[at + l];
-        const TriangleRecord& record = record_of(args.triangles, id);
-        const TriangleSource& source = source_of(args.triangles, id);
-        for (int k = 0; k < 3; ++k) corner[k][l] = reinterpret_cast<const float*>(&vertex_of(source, record.vertex[k]));
-        records[l] = vertex_records_of(args, id, record);
-        if (args.facing) block.lane[shading::kFacing][at + l] = (record.draw_and_back & 1u) ? -1.0f : 1.0f;
-    }
+HALFLIT_INLINE void interpolate_many(const InterpolateArgs& args, const FragmentCorners& of, shading::FragmentBlock& block, int at) {
     TriangleLanes t;
     for (int k = 0; k < 3; ++k) {
         F x, y, z;
-        load4(corner[k], x, y, z, t.inv_w[k]);
+        load4(of.screen[k] + at, x, y, z, t.inv_w[k]);
         t.x[k] = bits(x);
         t.y[k] = bits(y);
     }
-    const Barycentrics b = barycentrics(t, load(args.x_px + at), load(args.y_px + at), args.gradients);
-    alignas(64) float b1[kLanes], b2[kLanes], db1_dx[kLanes], db1_dy[kLanes], db2_dx[kLanes], db2_dy[kLanes];
-    store(b1, b.b1);
-    store(b2, b.b2);
-    if (args.gradients) {
-        store(db1_dx, b.db1_dx);
-        store(db1_dy, b.db1_dy);
-        store(db2_dx, b.db2_dx);
-        store(db2_dy, b.db2_dy);
-    }
-    constexpr int kGroup = kWidth < 4 ? kWidth : 4;
-    int offset = 0;
-    for (int q = 0; q < shading::kSlotCount; ++q) {
-        if (!(args.slots & (1u << q))) continue;
-        const int uv_row = q == 1 ? 2 : q == 4 ? 0 : -1;
-        for (int g = 0; g < kWidth; g += kGroup) {
-            Q value[4], slope[4] = {};
-            for (int l = 0; l < kGroup; ++l) {
-                const VertexRecords& r = records[g + l];
-                const Q v0 = q_load(r.v[0] + offset);
-                const Q d1 = q_sub(q_load(r.v[1] + offset), v0), d2 = q_sub(q_load(r.v[2] + offset), v0);
-                value[l] = q_mad(q_set(b2[g + l]), d2, q_mad(q_set(b1[g + l]), d1, v0));
-                if (args.gradients && uv_row >= 0) {
-                    const Q sx = q_mad(q_set(db2_dx[g + l]), d2, q_mul(q_set(db1_dx[g + l]), d1));
-                    const Q sy = q_mad(q_set(db2_dy[g + l]), d2, q_mul(q_set(db1_dy[g + l]), d1));
-                    slope[l] = uv_row == 2 ? q_high_pair(sx, sy) : q_low_pair(sx, sy);
-                }
-            }
-            const int to = at + g;
-            if constexpr (kGroup == 4) {
-                q_transpose(value[0], value[1], value[2], value[3]);
-                for (int j = 0; j < 4; ++j) q_store(block.lane[4 * q + j] + to, value[j]);
-                if (args.gradients && uv_row >= 0) {
-                    q_transpose(slope[0], slope[1], slope[2], slope[3]);
-                    const int first = q == 1 ? shading::kDu0Dx : shading::kDu1Dx;
-                    for (int j = 0; j < 4; ++j) q_store(block.lane[first + j] + to, slope[j]);
-                }
-            } else {
-                alignas(16) float row[4];
-                q_store(row, value[0]);
-                for (int j = 0; j < 4; ++j) block.lane[4 * q + j][to] = row[j];
-                if (args.gradients && uv_row >= 0) {
-                    q_store(row, slope[0]);
-                    const int first = q == 1 ? shading::kDu0Dx : shading::kDu1Dx;
-                    for (int j = 0; j < 4; ++j) block.lane[first + j][to] = row[j];
-                }
-            }
-        }
-        offset += 4;
-    }
-    if (args.shadow_offset) offset_many(args, records, b, block, at);
+    interpolate_lanes(args, t, ManyTriangles{{of.record[0] + at, of.record[1] + at, of.record[2] + at}}, load(of.side + at), block, at);
 }
 
 inline void interpolate(const InterpolateArgs& args, shading::FragmentBlock& block) {
+    FragmentCorners corners;
     for (int at = 0; at < args.count; at += kWidth) {
         bool same = true;
         for (int l = 1; l < kWidth; ++l) same &= args.ids[at + l] == args.ids[at];
-        if (same)
-            interpolate_one(args, block, at);
+        corners.same[at / kWidth] = same;
+        for (int l = 0; l < (same ? 1 : kWidth); ++l) find_corners(args, at + l, corners);
+    }
+    for (int at = 0; at < args.count; at += kWidth) {
+        if (corners.same[at / kWidth])
+            interpolate_one(args, corners, block, at);
         else
-            interpolate_many(args, block, at);
+            interpolate_many(args, corners, block, at);
     }
 }
 
