@@ -27,6 +27,7 @@ HALFLIT_INLINE const TriangleRecord& record_of(const TriangleTable& table, std::
 #include "raster/kernels/interpolate.hpp"
 #include "raster/kernels/rasterize.hpp"
 #include "raster/kernels/transform.hpp"
+#include "raster/kernels/vertex_records.hpp"
 
 namespace halflit::raster {
 #define HALFLIT_RASTER_KERNELS HALFLIT_CONCAT(raster_kernels_, HALFLIT_ISA)

@@ -1,4 +1,4 @@
-// Vertex kernels: from object space to snapped window coordinates, and the records that shading interpolates.
+// Vertices from object space to snapped window coordinates.
 #pragma once
 
 #include "raster/kernels/raster_kernels.hpp"
@@ -19,8 +19,8 @@ HALFLIT_INLINE I outcode_bit(M m, std::int32_t bit) { return sel(m, I(bit), I(0)
 /// The window rule is that of the common software rasterizers: inv_w = 1/w by division, ndc = clip * inv_w, window = ndc * half + half with
 /// two roundings, snapped to nearest even at 8 sub-pixel bits.
 HALFLIT_INLINE void transform_vector(const TransformArgs& args, const float* p, ScreenVertex* screen, std::int32_t* outcode) {
-    const I at = iota_i() + iota_i() + iota_i();
-    const F x = gather(p, at), y = gather(p + 1, at), z = gather(p + 2, at);
+    F x, y, z;
+    load3(p, x, y, z);
     const float* m = args.clip_from_object;
     const F cx = transform_row(m, 0, x, y, z), cy = transform_row(m, 1, x, y, z);
     const F cz = transform_row(m, 2, x, y, z), cw = transform_row(m, 3, x, y, z);
@@ -64,57 +64,6 @@ inline void transform(const TransformArgs& args) {
     for (int l = 0; l < left; ++l) {
         args.screen[v + l] = screen[l];
         args.outcodes[v + l] = static_cast<std::uint8_t>(code[l]);
-    }
-}
-
-inline void vertex_records(const VertexRecordArgs& args) {
-    const float* w = args.world_from_object;
-    const float* n = args.normal_from_object;
-    const Q w0 = q_load(w), w1 = q_load(w + 4), w2 = q_load(w + 8), w3 = q_load(w + 12);
-    const Q n0 = q_load(n), n1 = q_load(n + 4), n2 = q_load(n + 8);
-    for (std::int64_t v = args.begin; v < args.end; ++v) {
-        float* out = args.records + v * args.stride;
-        // The position is stored as four floats. The normal's x then replaces the fourth.
-        if (args.slots & shading::kPositionSlot) {
-            const float* p = args.positions + 3 * v;
-            q_store(out, q_add(q_mad(w2, q_set(p[2]), q_mad(w1, q_set(p[1]), q_mul(w0, q_set(p[0])))), w3));
-        }
-        float normal[4] = {0, 0, 0, 0};
-        if (args.normals) {
-            const float* p = args.normals + 3 * v;
-            q_store(normal, q_mad(n2, q_set(p[2]), q_mad(n1, q_set(p[1]), q_mul(n0, q_set(p[0])))));
-        }
-        if (args.slots & shading::kPositionSlot) {
-            out[3] = normal[0];
-            out += 4;
-        }
-        if (args.slots & shading::kUv0Slot) {
-            out[0] = normal[1];
-            out[1] = normal[2];
-            out[2] = args.uv0 ? args.uv0[2 * v] : 0.0f;
-            out[3] = args.uv0 ? args.uv0[2 * v + 1] : 0.0f;
-            out += 4;
-        }
-        if (args.slots & shading::kTangentSlot) {
-            if (args.tangents) {
-                const float* t = args.tangents + 4 * v;
-                q_store(out, q_mad(w2, q_set(t[2]), q_mad(w1, q_set(t[1]), q_mul(w0, q_set(t[0])))));
-                out[3] = t[3] * args.tangent_sign;
-            } else {
-                q_store(out, w0);
-                out[3] = 1.0f;
-            }
-            out += 4;
-        }
-        if (args.slots & shading::kColorSlot) {
-            q_store(out, args.colors ? q_load(args.colors + 4 * v) : q_set(1.0f));
-            out += 4;
-        }
-        if (args.slots & shading::kUv1Slot) {
-            out[0] = args.uv1 ? args.uv1[2 * v] : 0.0f;
-            out[1] = args.uv1 ? args.uv1[2 * v + 1] : 0.0f;
-            out[2] = out[3] = 0.0f;
-        }
     }
 }
 

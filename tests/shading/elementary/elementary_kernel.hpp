@@ -63,6 +63,31 @@ HALFLIT_INLINE F records_there_and_back(F x) {
     return (a + b * F(3.0f)) + (c * F(5.0f) - d);
 }
 
+/// x and functions of it written one after the other, and read as pairs, triples and quadruples.
+HALFLIT_INLINE F packed_there_and_back(F x) {
+    float lanes[kWidth], pairs[2 * kWidth], triples[3 * kWidth], quadruples[4 * kWidth], apart[5 * kWidth];
+    store(lanes, x);
+    for (int l = 0; l < kWidth; ++l) {
+        for (int i = 0; i < 4; ++i) {
+            const float value = i == 0 ? lanes[l] : i == 1 ? lanes[l] * 2.0f : i == 2 ? lanes[l] + 1.0f : lanes[l] * 0.5f;
+            if (i < 2) pairs[2 * l + i] = value;
+            if (i < 3) triples[3 * l + i] = value;
+            quadruples[4 * l + i] = value;
+        }
+    }
+    F a, b, c, d, e, f, g, h, i;
+    load2(pairs, a, b);
+    load3(triples, c, d, e);
+    load4(quadruples, f, g, h, i);
+    store4(apart, 5, a - b, d + c, e, i);
+    F sum = (f + g * F(3.0f)) + (h * F(5.0f) - i);
+    for (int k = 0; k < 4; ++k) {
+        for (int l = 0; l < kWidth; ++l) lanes[l] = apart[5 * l + k];
+        sum = sum * F(0.75f) + load(lanes);
+    }
+    return sum;
+}
+
 HALFLIT_UNARY(run_sqrt, vsqrt(x))
 HALFLIT_UNARY(run_reciprocal, vdiv(F(1.0f), x))
 HALFLIT_UNARY(run_reciprocal_sqrt, vdiv(F(1.0f), vsqrt(x)))
@@ -78,6 +103,7 @@ HALFLIT_UNARY(run_shift, from_bits(shl<3>(shr<5>(bits(x)))))
 HALFLIT_UNARY(run_double, to_single(to_double(x) * d_set(0.7) - d_set(1.0) / to_double(x)))
 HALFLIT_UNARY(run_int_to_double, to_single(to_double(bits(x)) + d_set(0.3)))
 HALFLIT_UNARY(run_records, records_there_and_back(x))
+HALFLIT_UNARY(run_packed, packed_there_and_back(x))
 HALFLIT_UNARY(run_nan, sel(is_nan(x), F(1.0f), F(0.0f)))
 HALFLIT_UNARY(run_exp2, exp2_floored(kExp2Degree6, clamp(x, F(-2e3f), F(126.0f))))
 HALFLIT_UNARY(run_exp2_degree4, exp2_floored(kExp2Degree4, clamp(x, F(-2e3f), F(126.0f))))
@@ -150,6 +176,7 @@ static const testing::NamedUnary kUnary[] = {
     {"double", run_double},
     {"int to double", run_int_to_double},
     {"records of four", run_records},
+    {"pairs, triples and quadruples", run_packed},
     {"is nan", run_nan},
     {"log2 of degree 5", run_log2_degree5},
     {"log2 of degree 7", run_log2_degree7},

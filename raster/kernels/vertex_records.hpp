@@ -1,0 +1,86 @@
+// The records of vertices that shading interpolates, kWidth vertices at a time.
+#pragma once
+
+#include "raster/kernels/transform.hpp"
+
+namespace halflit::raster {
+inline namespace HALFLIT_ISA_NAMESPACE {
+
+/// (column 0 x + column 1 y) + column 2 z: row r of a column-major matrix applied to a direction.
+HALFLIT_INLINE F turn_row(const float* m, int r, const F (&v)[3]) { return (F(m[r]) * v[0] + F(m[4 + r]) * v[1]) + F(m[8 + r]) * v[2]; }
+
+/// Records of kWidth vertices from v on.
+HALFLIT_INLINE void vertex_records_at(const VertexRecordArgs& args, std::int64_t v) {
+    const float* const world = args.world_from_object;
+    const F none(0.0f), one(1.0f);
+    float* out = args.records + v * args.stride;
+    const auto put = [&](F a, F b, F c, F d) __attribute__((always_inline)) {
+        store4(out, args.stride, a, b, c, d);
+        out += 4;
+    };
+    F normal[3] = {none, none, none};
+    if (args.normals) {
+        F n[3];
+        load3(args.normals + 3 * v, n[0], n[1], n[2]);
+        for (int r = 0; r < 3; ++r) normal[r] = turn_row(args.normal_from_object, r, n);
+    }
+    if (args.slots & shading::kPositionSlot) {
+        F x, y, z;
+        load3(args.positions + 3 * v, x, y, z);
+        put(transform_row(world, 0, x, y, z), transform_row(world, 1, x, y, z), transform_row(world, 2, x, y, z), normal[0]);
+    }
+    if (args.slots & shading::kUv0Slot) {
+        F uv[2] = {none, none};
+        if (args.uv0) load2(args.uv0 + 2 * v, uv[0], uv[1]);
+        put(normal[1], normal[2], uv[0], uv[1]);
+    }
+    if (args.slots & shading::kTangentSlot) {
+        if (args.tangents) {
+            F t[3], w;
+            load4(args.tangents + 4 * v, t[0], t[1], t[2], w);
+            put(turn_row(world, 0, t), turn_row(world, 1, t), turn_row(world, 2, t), w * F(args.tangent_sign));
+        } else {
+            put(F(world[0]), F(world[1]), F(world[2]), one);
+        }
+    }
+    if (args.slots & shading::kColorSlot) {
+        F r = one, g = one, b = one, a = one;
+        if (args.colors) load4(args.colors + 4 * v, r, g, b, a);
+        put(r, g, b, a);
+    }
+    if (args.slots & shading::kUv1Slot) {
+        F uv[2] = {none, none};
+        if (args.uv1) load2(args.uv1 + 2 * v, uv[0], uv[1]);
+        put(uv[0], uv[1], none, none);
+    }
+}
+
+/// Fewer than kWidth vertices: by way of copies with room for a whole vector.
+[[gnu::noinline]] static void few_vertex_records(const VertexRecordArgs& args) {
+    float in[6][4 * kWidth] = {}, records[shading::kVertexFloats * kWidth];
+    VertexRecordArgs padded = args;
+    const std::int64_t count = args.end - args.begin;
+    const auto copy = [&](const float*& from, int size, float* to) {
+        if (from == nullptr) return;
+        for (std::int64_t i = 0; i < size * count; ++i) to[i] = from[size * args.begin + i];
+        from = to;
+    };
+    copy(padded.positions, 3, in[0]);
+    copy(padded.normals, 3, in[1]);
+    copy(padded.tangents, 4, in[2]);
+    copy(padded.uv0, 2, in[3]);
+    copy(padded.uv1, 2, in[4]);
+    copy(padded.colors, 4, in[5]);
+    padded.records = records;
+    vertex_records_at(padded, 0);
+    for (std::int64_t i = 0; i < args.stride * count; ++i) args.records[args.stride * args.begin + i] = records[i];
+}
+
+inline void vertex_records(const VertexRecordArgs& args) {
+    if (args.end - args.begin < kWidth) return few_vertex_records(args);
+    for (std::int64_t v = args.begin; v + kWidth <= args.end; v += kWidth) vertex_records_at(args, v);
+    vertex_records_at(args, args.end - kWidth);  // the rest, and some that are made already
+}
+
+}  // namespace HALFLIT_ISA_NAMESPACE
+}  // namespace halflit::raster
