@@ -152,7 +152,8 @@ HALFLIT_INLINE void find_corners(const InterpolateArgs& args, int at, FragmentCo
     for (int k = 0; k < 3; ++k) {
         out.screen[k][at] = reinterpret_cast<const float*>(&vertex_of(source, record.vertex[k]));
         out.record[k][at] = records.v[k];
-        __builtin_prefetch(records.v[k]);
+        prefetch(records.v[k]);
+        prefetch(out.screen[k][at]);
     }
     out.side[at] = args.facing && (record.draw_and_back & 1u) ? -1.0f : 1.0f;
 }
