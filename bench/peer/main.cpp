@@ -108,15 +108,24 @@ int main(int argc, char** argv) {
     const std::vector<Isa> isas = measured_isas();
     bool good = true;
     std::vector<TurnsRow> turns;
+    std::vector<FirstRow> first;
+    // After each row, so that a run that is ended leaves its tables; and once before, so that a folder that cannot be written is said
+    // early.
+    const auto save = [&] {
+        if (flags->csv.empty() || write_csv(flags->csv, turns, first, isas)) return true;
+        std::fprintf(stderr, "peer bench: %s: cannot be written\n", flags->csv.c_str());
+        return false;
+    };
+    if (!save()) return 1;
     print_turns_head(isas);
     for (const Subject& subject : subjects_of(*flags)) {
         turns.push_back({subject, measured(subject, flags->limits, measure_turns)});
         good = good && turns.back().turns.reason[0] == '\0' && pictures_agree(turns.back());
         print_turns(turns.back(), isas);
+        if (!save()) return 1;
     }
     print_means(turns, isas);
 
-    std::vector<FirstRow> first;
     if (flags->first) print_first_head();
     for (const Subject& subject : subjects_of(*flags)) {
         if (!flags->first || subject.depth_first) continue;
@@ -127,10 +136,7 @@ int main(int argc, char** argv) {
         row.halflit = measured(subject, flags->limits, measure_first_of_halflit);
         print_first(row);
         first.push_back(row);
-    }
-    if (!flags->csv.empty() && !write_csv(flags->csv, turns, first, isas)) {
-        std::fprintf(stderr, "peer bench: %s: cannot be written\n", flags->csv.c_str());
-        return 1;
+        if (!save()) return 1;
     }
     return good ? 0 : 1;
 }

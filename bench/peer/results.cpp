@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 namespace halflit::peer {
 namespace {
@@ -84,6 +85,8 @@ void print_first(const FirstRow& row) {
 bool write_csv(const std::string& folder, const std::vector<TurnsRow>& turns, const std::vector<FirstRow>& first,
                const std::vector<Isa>& isas) {
     const std::string machine = machine_name(isas.back());
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);  // if it fails, so does opening
     std::FILE* file = std::fopen((folder + "/peer_" + machine + ".csv").c_str(), "w");
     if (file == nullptr) return false;
     std::fprintf(file,
