@@ -14,7 +14,7 @@ namespace {
 
 using test::Random;
 
-constexpr int kTextureSide = 1024;
+constexpr int kTextureSide = Squares{}.texture_side;
 constexpr float kFovY = 1.04719755f;         // 60 degrees
 constexpr float kHalfHeight = 0.577350269f;  // of the view at distance 1: tan(30 degrees)
 
@@ -37,11 +37,10 @@ Material clay() {
 }
 
 /// Base colour and normals from textures, trilinear.
-void add_textures(BenchScene& bench, float repeats) {
-    bench.pictures = {colour_picture(kTextureSide), normal_picture(kTextureSide)};
+void add_textures(BenchScene& bench, int side, float repeats) {
+    bench.pictures = {colour_picture(side), normal_picture(side)};
     for (std::size_t i = 0; i < 2; ++i) {
-        auto texture =
-            Texture::from_rgba8(bench.pictures[i].rgba8, kTextureSide, kTextureSide, i == 0 ? ColorSpace::srgb : ColorSpace::linear);
+        auto texture = Texture::from_rgba8(bench.pictures[i].rgba8, side, side, i == 0 ? ColorSpace::srgb : ColorSpace::linear);
         if (!texture) std::abort();  // no memory
         bench.scene.textures.push_back(std::move(*texture));
     }
@@ -81,12 +80,11 @@ void spheres(BenchScene& bench, int lamps) {
     Mesh& mesh = bench.scene.meshes[0];
     for (int i = 0; i < 64; ++i)
         append(mesh, sphere, {1.03f * static_cast<float>(i % 11 - 5), 1.03f * (static_cast<float>(i / 11) - 2.5f), 0}, 1.0f);
-    add_textures(bench, 2.0f);
+    add_textures(bench, kTextureSide, 2.0f);
     add_lamps(bench.scene, lamps, {-6, -3.5f, 1}, {6, 3.5f, 4}, 10.0f);
     bench.camera = camera_at({0, 0, 6});
 }
 
-/// One sphere that touches the upper and the lower edge of the picture; without textures.
 void dense(BenchScene& bench, std::int64_t triangles) {
     bench.scene.meshes[0] = make_sphere_of(1.0f, triangles);
     bench.scene.meshes[0].uv0.clear();
@@ -94,11 +92,10 @@ void dense(BenchScene& bench, std::int64_t triangles) {
     bench.camera = camera_at({0, 0, 2});  // sin(30 degrees) = 1 / 2
 }
 
-/// Squares that fill the picture one over another, the farthest first.
-void layers(BenchScene& bench, int count, float aspect) {
+void fill(BenchScene& bench, const Squares& squares, float aspect) {
     Mesh& mesh = bench.scene.meshes[0];
     constexpr float kNear = 3.0f, kStep = 0.05f;
-    for (int i = count - 1; i >= 0; --i) {
+    for (int i = squares.layers - 1; i >= 0; --i) {
         const float distance = kNear + kStep * static_cast<float>(i), half_height = 1.001f * kHalfHeight * distance;
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
         for (int corner = 0; corner < 4; ++corner) {
@@ -110,8 +107,8 @@ void layers(BenchScene& bench, int count, float aspect) {
         }
         for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + corner);
     }
-    add_textures(bench, 2.0f);
-    add_lamps(bench.scene, 8, {-2.5f, -1.5f, -2}, {2.5f, 1.5f, -0.8f}, 3.5f);
+    add_textures(bench, squares.texture_side, 2.0f * static_cast<float>(kTextureSide) / static_cast<float>(squares.texture_side));
+    add_lamps(bench.scene, squares.lamps, {-2.5f, -1.5f, -2}, {2.5f, 1.5f, -0.8f}, 3.5f);
     bench.camera = camera_at({0, 0, 0});
 }
 
@@ -136,6 +133,22 @@ void boxes(BenchScene& bench, int count) {
     bench.camera = camera_at({0, 0, 7});
 }
 
+BenchScene begin(std::string_view name) {
+    BenchScene bench;
+    bench.name = name;
+    bench.scene.meshes.emplace_back();
+    bench.scene.materials.push_back(clay());
+    bench.scene.instances.push_back({0, {}});
+    return bench;
+}
+
+void finish(BenchScene& bench) {
+    bench.scene.meshes[0].material = 0;
+    auto sky = make_environment(built_in_sky());
+    if (!sky) std::abort();  // no memory
+    set_environment(bench.scene, *sky);
+}
+
 int number_after(std::string_view name, std::string_view prefix) {
     int number = 0;
     std::from_chars(name.data() + prefix.size(), name.data() + name.size(), number);
@@ -158,21 +171,27 @@ const std::vector<SceneEntry>& scene_entries() {
 }
 
 BenchScene make_bench_scene(std::string_view name, float aspect) {
-    BenchScene bench;
-    bench.name = name;
-    Scene& scene = bench.scene;
-    scene.meshes.emplace_back();
-    scene.materials.push_back(clay());
-    scene.instances.push_back({0, {}});
+    BenchScene bench = begin(name);
     if (name.starts_with("spheres-")) spheres(bench, number_after(name, "spheres-"));
     if (name.starts_with("dense-")) dense(bench, std::int64_t{1000000} * number_after(name, "dense-"));
-    if (name == "fill") layers(bench, 1, aspect);
-    if (name == "overdraw") layers(bench, 32, aspect);
+    if (name == "fill") fill(bench, {}, aspect);
+    if (name == "overdraw") fill(bench, {.layers = 32}, aspect);
     if (name == "boxes") boxes(bench, 200000);
-    scene.meshes[0].material = 0;
-    auto sky = make_environment(built_in_sky());
-    if (!sky) std::abort();  // no memory
-    set_environment(scene, *sky);
+    finish(bench);
+    return bench;
+}
+
+BenchScene make_sphere_scene(std::int64_t triangles) {
+    BenchScene bench = begin("sphere");
+    dense(bench, triangles);
+    finish(bench);
+    return bench;
+}
+
+BenchScene make_squares_scene(const Squares& squares, float aspect) {
+    BenchScene bench = begin("squares");
+    fill(bench, squares, aspect);
+    finish(bench);
     return bench;
 }
 

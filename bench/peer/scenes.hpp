@@ -33,6 +33,16 @@ struct SceneEntry {
 /// Makes a scene. `aspect`: the picture's width / height, which full-screen surfaces fill.
 [[nodiscard]] BenchScene make_bench_scene(std::string_view name, float aspect);
 
+/// One sphere that touches the upper and the lower edge of the picture, under 2 lamps; without textures.
+[[nodiscard]] BenchScene make_sphere_scene(std::int64_t triangles);
+
+/// Squares that fill the picture one over another, the farthest first.
+struct Squares {
+    int layers = 1, lamps = 8;
+    int texture_side = 1024;  ///< texels, of base colour and normals
+};
+[[nodiscard]] BenchScene make_squares_scene(const Squares& squares, float aspect);
+
 /// Bands of spherical harmonics by which the environment is taken.
 inline constexpr int kEnvironmentBands = 3;
 
