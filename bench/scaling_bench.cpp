@@ -92,7 +92,8 @@ std::vector<Axis> axes() {
     Axis layers{"layers", "textured squares, the farthest first, 8 lamps", "pixel and layer", {}};
     for (int n = 1; n <= 64; n *= 2) layers.rows.push_back(squares({.layers = n}, n));
     all.push_back(layers);
-    Axis textures{"texels", "a square, 8 lamps, two textures of this many texels on a side, repeated so that texels are equally large", "pixel", {}};
+    Axis textures{
+        "texels", "a square, 8 lamps, two textures of this many texels on a side, repeated so that texels are equally large", "pixel", {}};
     for (int n = 16; n <= 8192; n *= 2) textures.rows.push_back(squares({.texture_side = n}, n));
     all.push_back(textures);
     Axis threads{"threads", "a textured square, 8 lamps", "pixel, each thread", {}};

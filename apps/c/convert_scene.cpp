@@ -56,6 +56,7 @@ halflit_load_options to_c(const LoadOptions& from) {
     options.max_texture_side = from.limits.max_texture_side;
     options.max_jpeg_scans = from.limits.max_jpeg_scans;
     options.lenient = from.lenient;
+    options.threads = from.threads;
     return options;
 }
 
@@ -71,6 +72,7 @@ Result<LoadOptions> load_options(const halflit_load_options* given) {
         options.allow_external.emplace_back(read->allow_external[i]);
     }
     options.lenient = read->lenient != 0;
+    options.threads = read->threads;
     options.limits.max_file_bytes = read->max_file_bytes;
     options.limits.max_total_bytes = read->max_total_bytes;
     options.limits.max_json_tokens = read->max_json_tokens;

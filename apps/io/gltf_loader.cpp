@@ -101,6 +101,7 @@ Result<LoadedScene> load_gltf_bytes(std::span<const std::byte> bytes, const std:
     };
     try {
         try {
+            if (options.threads < 0) return failed(ErrorCode::usage, fmt::format("threads is {}, expected at least 0", options.threads));
             return build(bytes, base_dir, options);
         } catch (const LoadFailure& failure) {
             return failed(failure.error.code, failure.error.message);

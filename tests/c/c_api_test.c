@@ -556,6 +556,11 @@ static void test_loading(void) {
     fclose(file);
     CHECK_OK(halflit_scene_load(path, NULL, &from_file));
     CHECK_OK(halflit_load_options_init(&options, sizeof options));
+    CHECK(options.threads == 0);
+    options.threads = -1;
+    CHECK_FAILS(halflit_scene_load_memory(model, sizeof model - 1, "model", NULL, &options, &from_memory), HALFLIT_ERROR_USAGE,
+                "model: threads is -1, expected at least 0");
+    options.threads = 1;
     CHECK_OK(halflit_scene_load_memory(model, sizeof model - 1, "model", NULL, &options, &from_memory));
     init_setup(from_file, &camera, &settings);
     hash = draw(NULL, from_file, &camera, &settings);

@@ -40,7 +40,7 @@ struct LoadOptions {
     /// One that cannot be opened is an error (usage).
     std::vector<std::string> allow_external;
     LoadLimits limits;  ///< on memory and time
-    int threads = 0;  ///< threads that decode textures, this one included; 0: one for each processor. What is loaded does not depend on it
+    int threads = 0;    ///< threads that decode textures, this one included; 0: one for each processor. The result is the same
     /// Moves a scene to the origin if it lies farther from it than 1024 times its radius, and scales it by a power of two if its radius is
     /// below 2^-10 or above 2^30, so that float32 keeps its shape and the least distance of lamps (Light::source_radius) is small beside
     /// it. LoadedScene::origin and scale say what was done. pose() places nodes in the file's own world, so a host that poses such a scene
