@@ -96,7 +96,7 @@ std::vector<Axis> axes() {
         "texels", "a square, 8 lamps, two textures of this many texels on a side, repeated so that texels are equally large", "pixel", {}};
     for (int n = 16; n <= 8192; n *= 2) textures.rows.push_back(squares({.texture_side = n}, n));
     all.push_back(textures);
-    Axis threads{"threads", "a textured square, 8 lamps", "pixel, each thread", {}};
+    Axis threads{"threads", "a textured square, 8 lamps", "pixel, time times threads", {}};
     for (int n = 1; n <= processors(); n *= 2) {
         threads.rows.push_back(squares({}, n));
         threads.rows.back().threads = n;
@@ -116,7 +116,15 @@ double nanoseconds(std::string_view axis, const Row& row, double ms) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    for (const Axis& axis : axes()) {
+    const std::vector<Axis> all = axes();
+    for (int i = 1; i < argc; ++i) {
+        if (std::any_of(all.begin(), all.end(), [&](const Axis& axis) { return axis.name == argv[i]; })) continue;
+        std::fprintf(stderr, "scaling bench: unknown axis %s, expected some of", argv[i]);
+        for (const Axis& axis : all) std::fprintf(stderr, " %s", std::string(axis.name).c_str());
+        std::fprintf(stderr, "\n");
+        return 2;
+    }
+    for (const Axis& axis : all) {
         const auto asked = [&](const char* name) { return axis.name == name; };
         if (argc > 1 && std::none_of(argv + 1, argv + argc, asked)) continue;
         std::printf("\n| %s: %s | ms | ns per %s | MB |\n|---:|---:|---:|---:|\n", std::string(axis.name).c_str(),

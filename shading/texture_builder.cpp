@@ -100,13 +100,14 @@ Result<TextureBuilder> TextureBuilder::make(int width, int height) {
 }
 
 std::uint16_t* TextureBuilder::next_row() {
-    HALFLIT_ASSERT(rows_[0] < texture_.height());
+    if (rows_.empty() || rows_[0] == texture_.height()) return nullptr;
     return texture_.texels_->memory.get() +
            std::size_t{4} * static_cast<std::size_t>(rows_[0]) * static_cast<std::size_t>(texture_.width());
 }
 
 void TextureBuilder::add_row(const std::uint8_t* rgba8, ColorSpace space) {
-    std::uint16_t* to = next_row();
+    std::uint16_t* const to = next_row();
+    if (to == nullptr) return;
     const auto values = std::size_t{4} * static_cast<std::size_t>(texture_.width());
     // 257 = 65535 / 255 exactly.
     if (space == ColorSpace::linear)
@@ -120,7 +121,9 @@ void TextureBuilder::add_row(const std::uint8_t* rgba8, ColorSpace space) {
 }
 
 void TextureBuilder::add_row(const std::uint16_t* rgba16) {
-    std::copy_n(rgba16, std::size_t{4} * static_cast<std::size_t>(texture_.width()), next_row());
+    std::uint16_t* const to = next_row();
+    if (to == nullptr) return;
+    std::copy_n(rgba16, std::size_t{4} * static_cast<std::size_t>(texture_.width()), to);
     reduce(0);
 }
 
@@ -147,7 +150,11 @@ void TextureBuilder::reduce(std::size_t level) {
 }
 
 Texture TextureBuilder::finish() {
-    HALFLIT_ASSERT(rows_[0] == texture_.height() && rows_.back() == 1);
+    while (std::uint16_t* const to = next_row()) {
+        std::fill_n(to, std::size_t{4} * static_cast<std::size_t>(texture_.width()), std::uint16_t{0});
+        reduce(0);
+    }
+    rows_.clear();
     return std::move(texture_);
 }
 

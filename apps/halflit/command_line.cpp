@@ -128,8 +128,13 @@ std::string usage_message(const CLI::App& root, const CLI::ParseError& error, st
     if (!rest.empty() && (no_command || error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError))) {
         const std::string& word = rest[0];
         const std::string name = word.substr(0, word.find('='));
-        if (word.starts_with("-"))
-            message = "unknown flag " + word + meant_by(name, flag_names(command));
+        const std::vector<std::string> flags = flag_names(command);
+        if (word.starts_with("-") && command != nullptr && std::find(flags.begin(), flags.end(), name) != flags.end())
+            message = word + " stands before the command: expected halflit " + command->name + " " + word;
+        else if (word.starts_with("-"))
+            message = "unknown flag " + word + meant_by(name, flags);
+        else if (command == nullptr && word.find_first_of("./") != std::string::npos)
+            message = word + ": no such scene" + meant_by(name, known_words(commands));
         else if (command == nullptr)
             message = "unknown command " + word + meant_by(name, known_words(commands));
         else

@@ -57,6 +57,11 @@ bool means_render(std::span<const Command> commands, const std::vector<std::stri
     if (std::any_of(commands.begin(), commands.end(), is_first)) return false;
     if (first == "--") return true;
     if (!first.starts_with('-') || first == "-") return is_scene(first) || is_folder(first);  // a folder: for its message
+    const auto is_command = [&](const std::string& word) {
+        return !is_scene(word) &&
+               std::any_of(commands.begin(), commands.end(), [&](const Command& command) { return command.name == word; });
+    };
+    if (std::any_of(arguments.begin(), arguments.end(), is_command)) return false;  // for its message
     const std::string name = first.substr(0, first.find('='));
     for (const Flag* flag : flags_of(commands[0]))
         for (const std::string& spelling : words_of(flag->names, ','))

@@ -168,7 +168,11 @@ void append_lines(std::string& text, const std::string& label, const Json& value
     const bool plain_list = value.is_array() && (value.empty() || value[0].is_primitive());
     if (plain_list) {
         std::string list;
-        for (const Json& item : value) list += (list.empty() ? "" : ", ") + (item.is_string() ? item.get<std::string>() : item.dump());
+        const auto shown = [](const Json& item) {
+            if (!item.is_string()) return item.dump();
+            return item.get<std::string>().empty() ? std::string("(no name)") : item.get<std::string>();
+        };
+        for (const Json& item : value) list += (list.empty() ? "" : ", ") + shown(item);
         text += fmt::format("{}{}: {}\n", indent, label, list.empty() ? "none" : printable(list));
     } else if (value.is_structured()) {
         text += fmt::format("{}{}:\n", indent, label);

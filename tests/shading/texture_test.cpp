@@ -57,6 +57,27 @@ TEST_CASE("texture: all 256 sRGB codes survive decoding and encoding", "[shading
     }
 }
 
+TEST_CASE("texture: rows beyond the last are ignored, missing ones are 0", "[shading][texture]") {
+    const auto row = constant_picture(4, 1, 255);
+    const std::vector<std::uint16_t> row16(16, 65535);
+    TextureBuilder builder = TextureBuilder::make(4, 3).value();
+    for (int y = 0; y < 10; ++y) {
+        builder.add_row(row.data(), ColorSpace::srgb);
+        builder.add_row(row16.data());
+    }
+    const Texture whole = builder.finish();
+    CHECK(std::vector<std::uint16_t>(whole.data().begin(), whole.data().end()) == std::vector<std::uint16_t>(4 * (12 + 2 + 1), 65535));
+    builder.add_row(row.data(), ColorSpace::srgb);
+    CHECK(builder.finish().data().empty());
+
+    TextureBuilder started = TextureBuilder::make(4, 4).value();
+    started.add_row(row16.data());
+    const Texture part = started.finish();
+    for (int y = 0; y < 4; ++y) CHECK(texel_value(part, 0, 3, y, 2) == (y == 0 ? 65535 : 0));
+    CHECK(texel_value(part, 1, 0, 0, 0) == 32768);
+    CHECK(texel_value(part, 2, 0, 0, 0) == 16384);
+}
+
 TEST_CASE("texture: a level is half the one above, rounded down, to 1 x 1", "[shading][texture]") {
     const Texture texture = Texture::from_rgba8(constant_picture(13, 6, 9), 13, 6, ColorSpace::linear).value();
     const int widths[] = {13, 6, 3, 1}, heights[] = {6, 3, 1, 1};

@@ -93,16 +93,16 @@ public:
     /// @}
     HALFLIT_API ~TextureBuilder();
 
-    /// Adds the next row from `width` texels of four bytes. Alpha is always linear.
+    /// Adds the next row from `width` texels of four bytes. Alpha is always linear. Rows after the last one are ignored.
     HALFLIT_API void add_row(const std::uint8_t* rgba8, ColorSpace space);
     /// The same from four 16-bit channels a texel, taken as they are (linear).
     HALFLIT_API void add_row(const std::uint16_t* rgba16);
-    /// The texture; all rows must have been added. Only once.
+    /// The texture. Rows that were not added are 0 in all channels. A second call gives a texture without texels.
     [[nodiscard]] HALFLIT_API Texture finish();
 
 private:
     TextureBuilder();
-    std::uint16_t* next_row();
+    std::uint16_t* next_row();  ///< null: there is none
     void reduce(std::size_t level);
 
     Texture texture_;
