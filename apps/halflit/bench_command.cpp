@@ -1,5 +1,6 @@
 // halflit bench: the time of a frame, from a scene in memory to 8-bit codes in memory.
 #include "apps/halflit/commands.hpp"
+#include "apps/halflit/heap.hpp"
 #include "apps/halflit/median.hpp"
 #include "apps/halflit/messages.hpp"
 #include "apps/halflit/render_job.hpp"
@@ -67,6 +68,7 @@ Result<double> encoding_ms(const Image& image) {
 }
 
 Result<int> run_bench(const BenchOptions& options) {
+    if (options.max_memory_bytes == 0) prepare_heap();
     const auto job = make_render_job(options, kBenchSize);
     if (!job) return tl::unexpected(job.error());
     Image image = make_image(*job, false);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kReserved = 128 << 20;          // bytes of addresses; what is not touched takes no memory
 constexpr int kLargestInHeap = 32 << 20;      // the most that glibc allows; larger blocks are mapped one by one
-constexpr int kNeverReturned = 1 << 30;       // free memory at the heap's end that is kept
+constexpr int kKeptFree = 1 << 30;            // the most free memory at the heap's end that is kept
 constexpr std::size_t kFirstBlock = 1 << 20;  // more than is left of the small heap of the program's start
 constexpr std::uintptr_t kHugePage = 2 << 20;
 
@@ -31,8 +31,8 @@ bool is_limited(int resource) {
 bool set_up_heap() {
     if (is_limited(RLIMIT_DATA) || is_limited(RLIMIT_AS)) return false;
     mallopt(M_MMAP_THRESHOLD, kLargestInHeap);
-    mallopt(M_TRIM_THRESHOLD, kNeverReturned);
-    mallopt(M_ARENA_MAX, 1);  // other threads' heaps would have small pages; they allocate little
+    mallopt(M_TRIM_THRESHOLD, kKeptFree);
+    mallopt(M_ARENA_MAX, 1);  // other threads' heaps would have small pages; they allocate seldom. Overrides MALLOC_ARENA_MAX
     mallopt(M_TOP_PAD, kReserved);
     const auto before = reinterpret_cast<std::uintptr_t>(::sbrk(0));
     void* volatile const block = std::malloc(kFirstBlock);  // volatile: the compiler would leave out a block that is not used

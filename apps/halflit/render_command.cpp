@@ -1,6 +1,7 @@
 // halflit render: draws a scene into a picture.
 #include "apps/halflit/commands.hpp"
 #include "apps/halflit/file_names.hpp"
+#include "apps/halflit/heap.hpp"
 #include "apps/halflit/interrupt.hpp"
 #include "apps/halflit/messages.hpp"
 #include "apps/halflit/output_folder.hpp"
@@ -109,6 +110,7 @@ Result<std::string> render_and_write(RenderCommandOptions& options) {
     for (const std::string& path : {options.output, options.report.empty() ? "-" : options.report})
         if (const auto checked = check_writable(path); !checked) return tl::unexpected(checked.error());
     warn_of_lost_transparency(options, *format);
+    if (options.max_memory_bytes == 0) prepare_heap();
     auto job = make_render_job(options, kRenderSize);
     if (!job) return tl::unexpected(job.error());
     if (const auto checked = spare_inputs(options, *job); !checked) return tl::unexpected(checked.error());

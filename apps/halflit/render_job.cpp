@@ -1,6 +1,5 @@
 #include "apps/halflit/render_job.hpp"
 
-#include "apps/halflit/heap.hpp"
 #include "apps/halflit/stopwatch.hpp"
 #include "apps/io/errno_text.hpp"
 #include "halflit/auto_setup.hpp"
@@ -190,7 +189,6 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
         if (const auto checked = check_size(*options.size, options.settings.region); !checked) return tl::unexpected(checked.error());
     if (options.max_memory_bytes > 0)
         if (const auto limited = limit_process_memory(options.max_memory_bytes); !limited) return tl::unexpected(limited.error());
-    prepare_heap();
     RenderJob job;
     job.execution = options.execution;
     job.timeout_s = options.timeout_s;

@@ -43,7 +43,7 @@ auto in_child(const Work& work) -> std::optional<decltype(work())> {
 enum class PeerFilter { usual, fast };
 
 /// Restricts this process to its first `threads` processors, and llvmpipe to as many threads for rasterization. Its calling thread, which
-/// does the geometry, shares these processors. One thread is so at least as fast as none, which llvmpipe offers too.
+/// does the geometry, shares these processors. llvmpipe may also run without threads; one thread is at least as fast.
 void set_up_process(int threads, PeerFilter filter);
 
 /// Time that passes, or CPU time of this process's threads together, which other programs on the machine disturb less.

@@ -8,17 +8,15 @@ namespace halflit::peer {
 
 PictureDifference difference(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
     PictureDifference result;
-    std::size_t above = 0, sum = 0;
+    std::size_t above = 0;
     for (std::size_t i = 0; i + 3 < a.size(); i += 4) {
         int most = 0;
         for (std::size_t c = i; c < i + 4; ++c) most = std::max(most, std::abs(int{a[c]} - int{b[c]}));
         result.largest = std::max(result.largest, most);
         above += most > 2;
-        sum += static_cast<std::size_t>(most);
     }
     const double pixels = static_cast<double>(a.size()) / 4;
     result.share_above_2 = static_cast<double>(above) / pixels;
-    result.mean = static_cast<double>(sum) / pixels;
     return result;
 }
 

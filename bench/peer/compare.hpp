@@ -11,7 +11,6 @@ namespace halflit::peer {
 struct PictureDifference {
     int largest = 0;           ///< codes, over all channels
     double share_above_2 = 0;  ///< part of the pixels with a channel that differs by more than 2 codes
-    double mean = 0;           ///< of the largest difference of each pixel, codes
 };
 [[nodiscard]] PictureDifference difference(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b);
 

@@ -81,8 +81,8 @@ struct BinArgs {
     SamplePattern samples;
 };
 
-/// What is to be done with some triangles, as bits: bit i is triangle i.
 inline constexpr int kBinnedAtOnce = 64;
+/// Result of culling at most kBinnedAtOnce triangles, as bits: bit i is triangle i.
 struct BinnedTriangles {
     std::uint64_t keep;                                                       ///< small triangles that the view may show
     std::uint64_t other;                                                      ///< triangles that are large, clipped or not finite
@@ -178,7 +178,7 @@ struct PixelFragments {
     alignas(64) std::int32_t samples[(kMaxSamples + 2) * kPixelsARow];  ///< bit s: sample s shows the fragment
 };
 
-/// How the depth of a shadow map's view tells the distance: near / depth, or far - depth * (far - near).
+/// Mapping from depth to distance in a shadow map's view: near / depth, or far - depth * (far - near).
 struct DepthRange {
     float near_z, far_z;
     bool perspective;

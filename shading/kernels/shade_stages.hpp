@@ -14,7 +14,7 @@
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
-/// What the stages hand on, by lane. Rows that the material does not need are not set.
+/// Rows passed between the stages, one value a lane. Rows that the material does not need are not set.
 struct alignas(64) ShadeRows {
     using Row = float[shading::kBlockSize];
     using Row3 = Row[3];
@@ -82,7 +82,9 @@ template <bool kSpecular>
 static void find_directions(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, const shading::FragmentBlock& block,
                             int count, ShadeRows& rows) {
     for (int lane = 0; lane < count; lane += kWidth) {
-        const Normals facing = normals(material, block, lane, load3(rows.texel, lane));
+        V3 texel{F(0.0f), F(0.0f), F(0.0f)};
+        if (has(material, kStageNormalMap)) texel = load3(rows.texel, lane);
+        const Normals facing = normals(material, block, lane, texel);
         store3(rows.normal, lane, facing.shading);
         store3(rows.surface, lane, facing.surface);
         if constexpr (!kSpecular) continue;

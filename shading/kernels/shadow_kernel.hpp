@@ -154,8 +154,9 @@ HALFLIT_INLINE HiddenShares hidden_share(const shading::ShadowMapPlan& map, V3 p
     F hard_row[4], soft_row[4];
     for (int j = 0; j < 4; ++j) {
         F behind[4], hard[4], gone[4];
+        if (j > 0)
+            for (int l = 0; l < kWidth; ++l) texels[l] += map.size;
         load4(texels, behind[0], behind[1], behind[2], behind[3]);
-        for (int l = 0; l < kWidth; ++l) texels[l] += map.size;
         for (int i = 0; i < 4; ++i) {
             behind[i] = receiver - behind[i];
             hard[i] = sel(behind[i] > none, one, none);

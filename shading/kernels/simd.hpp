@@ -1,4 +1,4 @@
-// The vocabulary: every operation that a kernel may use, and the only place that names xsimd or an intrinsic.
+// The vocabulary: every operation that a kernel may use. It and the other files named simd_* alone name xsimd or an intrinsic.
 //
 // One kernel source is compiled once per instruction set. Before including this header a kernel file defines
 //   HALFLIT_ISA   the set's name as an identifier: scalar, sse2, sse41, avx2, avx512, neon64
@@ -260,10 +260,13 @@ HALFLIT_INLINE F clamp(F x, F lo, F hi) { return vmin(vmax(x, lo), hi); }
 struct Q {
     float v[4];
 };
-HALFLIT_INLINE Q q_load(const float* p) { return {{p[0], p[1], p[2], p[3]}}; }
-HALFLIT_INLINE void q_store(float* p, Q a) {
-    for (int i = 0; i < 4; ++i) p[i] = a.v[i];
+/// The memory may hold integers, as with all of these loads and stores.
+HALFLIT_INLINE Q q_load(const float* p) {
+    Q a;
+    __builtin_memcpy(&a, p, sizeof a);
+    return a;
 }
+HALFLIT_INLINE void q_store(float* p, Q a) { __builtin_memcpy(p, &a, sizeof a); }
 HALFLIT_INLINE Q q_set(float x) { return {{x, x, x, x}}; }
 HALFLIT_INLINE Q q_add(Q a, Q b) { return {{a.v[0] + b.v[0], a.v[1] + b.v[1], a.v[2] + b.v[2], a.v[3] + b.v[3]}}; }
 HALFLIT_INLINE Q q_sub(Q a, Q b) { return {{a.v[0] - b.v[0], a.v[1] - b.v[1], a.v[2] - b.v[2], a.v[3] - b.v[3]}}; }
@@ -304,8 +307,12 @@ HALFLIT_INLINE void q_transpose(Q& a, Q& b, Q& c, Q& d) {
 #elif defined(__aarch64__)
 
 using Q = float32x4_t;
-HALFLIT_INLINE Q q_load(const float* p) { return vld1q_f32(p); }
-HALFLIT_INLINE void q_store(float* p, Q a) { vst1q_f32(p, a); }
+HALFLIT_INLINE Q q_load(const float* p) {
+    Q a;
+    __builtin_memcpy(&a, p, sizeof a);
+    return a;
+}
+HALFLIT_INLINE void q_store(float* p, Q a) { __builtin_memcpy(p, &a, sizeof a); }
 HALFLIT_INLINE Q q_set(float x) { return vdupq_n_f32(x); }
 HALFLIT_INLINE Q q_add(Q a, Q b) { return vaddq_f32(a, b); }
 HALFLIT_INLINE Q q_sub(Q a, Q b) { return vsubq_f32(a, b); }

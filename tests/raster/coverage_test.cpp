@@ -151,6 +151,38 @@ TEST_CASE("coverage: each kind of difficult triangle equals the reference, in ev
     }
 }
 
+TEST_CASE("coverage: triangles drawn where they cover have the depths of opaque ones", "[raster][coverage]") {
+    Random random(11);
+    const auto opaque = std::make_unique<TileBuffers>(), masked = std::make_unique<TileBuffers>();
+    TriangleList list(kIdBase);
+    std::int64_t wrong = 0, drawn = 0;
+    for (int i = 0; i < 12'000; ++i) {
+        const SamplePattern pattern = standard_samples(i % 5 == 0 ? 8 : i % 5 < 3 ? 1 : 4);
+        const Place place(random, 16 << (i % 3));
+        const FixedTriangle t = TriangleSampler(random, place).any();
+        if (doubled_area(t) == 0) continue;
+        list.clear();
+        list.add(t, {random.real32(0.0, 1.0), random.real32(0.0, 1.0), random.real32(0.0, 1.0)});
+        for (const Isa isa : available_isas()) {
+            const RasterKernels& kernels = raster_kernels(isa);
+            for (TileBuffers* buffers : {opaque.get(), masked.get()}) clear_tile(*buffers, pattern, place.window.height);
+            std::memset(masked->coverage, 0, sizeof masked->coverage);
+            kernels.rasterize(place.window, pattern, *opaque, list.table(), list.ids(), 1);
+            kernels.cover(place.window, pattern, *masked, list.source(), 0);
+            kernels.draw_covered(place.window, pattern, *masked, list.source(), 0);
+            for (int s = 0; s < pattern.count; ++s)
+                for (int y = 0; y < place.window.height; ++y)
+                    for (int x = 0; x < place.window.width; ++x) {
+                        const int at = y * kTileStride + x;
+                        wrong += std::memcmp(&opaque->depth[s][at], &masked->depth[s][at], sizeof(float)) != 0;
+                        drawn += opaque->triangle[s][at] == kIdBase;
+                    }
+        }
+    }
+    CHECK(wrong == 0);
+    CHECK(drawn > 100'000);
+}
+
 TEST_CASE("coverage: cover marks exactly the samples, within its box, and draw_covered draws no others", "[raster][coverage]") {
     Random random(5);
     const auto buffers = std::make_unique<TileBuffers>();

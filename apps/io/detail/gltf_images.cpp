@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <new>
 #include <system_error>
 
 namespace halflit::io::detail {
@@ -60,7 +61,7 @@ std::string identity(const file::Image& entry) {
 ImageStore::ImageStore(Document& document, std::vector<Texture>& textures)
     : document_(document), textures_(textures), texture_memory_("the textures", document.options.limits.max_texture_bytes) {}
 
-ImageStore::Job ImageStore::prepare(int image, ColorSpace space) {
+ImageStore::Job ImageStore::prepare(int image, ColorSpace space, int texture) {
     document_.check_time();
     const file::Image& entry = document_.file.images[static_cast<std::size_t>(image)];
     const LoadLimits& limits = document_.options.limits;
@@ -92,9 +93,15 @@ ImageStore::Job ImageStore::prepare(int image, ColorSpace space) {
         refuse(where, fmt::format("the textures would take more than {} MB, which is the limit", limits.max_texture_bytes >> 20),
                ErrorCode::limit);
     texture_memory_.take(texture_bytes(header));
-    return {0,      space,        std::move(where), std::move(owned),
-            bytes,  header.width, header.height,    header.bits == 16 && space == ColorSpace::linear,
-            nullptr};
+    return {.texture = texture,
+            .space = space,
+            .where = std::move(where),
+            .owned = std::move(owned),
+            .bytes = bytes,
+            .width = header.width,
+            .height = header.height,
+            .keep_16_bits = header.bits == 16 && space == ColorSpace::linear,
+            .failure = nullptr};
 }
 
 int ImageStore::texture_for(int image, ColorSpace space) {
@@ -103,8 +110,7 @@ int ImageStore::texture_for(int image, ColorSpace space) {
     if (!is_new) return found->second;
     textures_.emplace_back();
     try {
-        jobs_.push_back(prepare(image, space));
-        jobs_.back().texture = found->second;
+        jobs_.push_back(prepare(image, space, found->second));
     } catch (const LoadFailure& failure) {
         replace(found->second, space, failure);
     }
@@ -136,7 +142,7 @@ void ImageStore::run(Job& job) {
 }
 
 std::size_t ImageStore::other_threads() const {
-    // A thread costs about as much as decoding some thousand pixels.
+    // A thread costs some tens of microseconds, and its memory; so many pixels take a millisecond.
     constexpr std::size_t kPixelsAThread = 1 << 17;
     std::size_t pixels = 0;
     for (const Job& job : jobs_) pixels += static_cast<std::size_t>(job.width) * static_cast<std::size_t>(job.height);
@@ -155,8 +161,11 @@ void ImageStore::start() {
         threads_.reserve(count);
         while (threads_.size() < count) threads_.emplace_back([this] { run_jobs(); });
     } catch (const std::system_error&) {  // no more threads: those that run do the work
+    } catch (const std::bad_alloc&) {     // likewise
     }
 }
+
+ImageStore::~ImageStore() { next_job_ = jobs_.size(); }
 
 void ImageStore::finish() {
     run_jobs();

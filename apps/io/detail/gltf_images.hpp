@@ -19,6 +19,8 @@ namespace halflit::io::detail {
 class ImageStore {
 public:
     ImageStore(Document& document, std::vector<Texture>& textures);
+    /// Waits for pictures that are being decoded, and leaves out the others.
+    ~ImageStore();
 
     /// Index into the scene's textures for an entry of "images", which is decoded later. Throws LoadFailure, or, when lenient, warns and
     /// chooses a magenta checkerboard.
@@ -27,7 +29,8 @@ public:
     /// Begins to decode all pictures on other threads, if they are large. Until finish(), the scene's textures are not to be read, and
     /// there must be no further call of texture_for.
     void start();
-    /// Decodes the pictures that no thread has begun, and waits. Fails as texture_for, for the first picture that fails.
+    /// Decodes the pictures that no thread has begun, and waits. Fails as texture_for, for the first picture that cannot be decoded. (One
+    /// that cannot be read, or whose header is wrong, has failed in texture_for.)
     void finish();
 
 private:
@@ -43,7 +46,7 @@ private:
         std::exception_ptr failure;
     };
 
-    [[nodiscard]] Job prepare(int image, ColorSpace space);
+    [[nodiscard]] Job prepare(int image, ColorSpace space, int texture);
     [[nodiscard]] Texture make(const Job& job) const;
     void run(Job& job);
     [[nodiscard]] std::size_t other_threads() const;

@@ -9,7 +9,7 @@ namespace halflit::io::detail {
 
 constexpr std::uint8_t kMaxPngFilter = 4;  ///< 0 none, 1 left, 2 up, 3 their mean, 4 Paeth: the nearest to left + up - left above
 
-/// A row of the file: the number of its filter, then its pixels. Six bytes past its last pixel are read.
+/// A row of the file: the number of its filter, then its pixels. Four bytes past its last pixel are read.
 using FilteredRow = const std::uint8_t*;
 
 /// Undoes the filters of two rows of pixels of one to four channels of 8 bits. In `above` and the results a pixel has four bytes, of which

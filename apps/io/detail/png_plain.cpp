@@ -13,8 +13,8 @@ namespace halflit::io::detail {
 namespace {
 
 constexpr std::size_t kSignature = 8, kChunkFrame = 12;       // bytes; the frame is a chunk's length, type and checksum
-constexpr std::size_t kMostInflated = std::size_t{64} << 20;  // larger pictures are decompressed bit by bit, in less memory
-constexpr std::size_t kReadPastRow = 6;                       // see FilteredRow
+constexpr std::size_t kMostInflated = std::size_t{64} << 20;  // larger pictures are decompressed row by row, in less memory
+constexpr std::size_t kReadPastRow = 4;                       // see FilteredRow
 constexpr std::uint32_t kIdat = 0x49444154, kIend = 0x49454E44;
 
 std::uint32_t big_endian(const std::byte* at) {
@@ -82,8 +82,9 @@ void to_rgba(const PlainPng& png, const std::uint8_t* pixels, std::size_t step, 
 }  // namespace
 
 bool decode_plain_png(std::span<const std::byte> file, const PlainPng& png, RowSink& sink) {
-    const std::size_t channels = channels_of(png.color_type), row = 1 + channels * png.width, size = row * png.height;
-    if (size > kMostInflated) return false;
+    const std::size_t channels = channels_of(png.color_type), row = 1 + channels * png.width;
+    if (std::uint64_t{row} * png.height > kMostInflated) return false;
+    const std::size_t size = row * png.height;
     const std::vector<std::byte> data = compressed_data(file);
     if (data.empty()) return false;
     const auto rows = inflate(data, size);

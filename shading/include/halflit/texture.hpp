@@ -84,10 +84,10 @@ private:
 /// Makes a texture from its rows, top to bottom, without a copy of the picture: for decoders. Smaller levels are made as rows come.
 class TextureBuilder {
 public:
-    /// Sides up to kMaxTextureSide.
+    /// Sides from 1 to kMaxTextureSide texels; others, and too little memory, are errors (limit).
     [[nodiscard]] HALFLIT_API static Result<TextureBuilder> make(int width, int height);
     /// @{
-    /// What is moved from may only be destroyed.
+    /// What is moved from may only be destroyed, or assigned to.
     HALFLIT_API TextureBuilder(TextureBuilder&&) noexcept;
     HALFLIT_API TextureBuilder& operator=(TextureBuilder&&) noexcept;
     /// @}

@@ -72,7 +72,7 @@ typedef struct halflit_load_options {
     int32_t max_jpeg_scans;             ///< passes over the picture of a progressive JPEG
     int32_t lenient;                    ///< draw what can be drawn: magenta for broken textures, triangles with bad indices left out
     int32_t threads;                    ///< threads that decode textures, the calling one included; 0: one for each core
-    int32_t reserved;
+    int32_t reserved;                   ///< 0
 } halflit_load_options;
 HALFLIT_C_API int32_t halflit_load_options_init(halflit_load_options* options, size_t size);
 
