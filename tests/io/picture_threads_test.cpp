@@ -20,8 +20,9 @@ struct TexturedFile : TriangleFile {
         attributes += ",\"TEXCOORD_0\":" + std::to_string(add(uv, R"("componentType":5126,"count":3,"type":"VEC2")"));
         std::string images, textures;
         for (int i = 0; i < 4; ++i) {
-            const Bytes png = make_png({kWidth, kHeight, 8, i == 3 ? 0 : 2, false, {}, {}, {i}, {}},
-                                       [&](std::uint32_t x, std::uint32_t y, int c) { return (x * 7 + y * 3 + static_cast<std::uint32_t>(c + i)) & 255; });
+            const Bytes png = make_png(
+                {kWidth, kHeight, 8, i == 3 ? 0 : 2, false, {}, {}, {i}, {}},
+                [&](std::uint32_t x, std::uint32_t y, int c) { return (x * 7 + y * 3 + static_cast<std::uint32_t>(c + i)) & 255; });
             while (bin.size() % 4 != 0) bin.push_back(std::byte{0});
             picture_at[i] = bin.size();
             views += ",{\"buffer\":0,\"byteOffset\":" + std::to_string(bin.size()) + ",\"byteLength\":" + std::to_string(png.size()) + "}";
