@@ -33,14 +33,22 @@ Texture checkerboard(ColorSpace space) {
 
 /// Makes a texture from rows as they are decoded.
 struct TextureRows : RowSink {
+    const Document& document;
     TextureBuilder builder;
     ColorSpace space;
     Texture palette;                 ///< 256 x 1 texels, once it is known
     std::vector<std::uint16_t> row;  ///< of colours of the palette
 
-    TextureRows(TextureBuilder made, ColorSpace of) : builder(std::move(made)), space(of) {}
-    void add_row(const std::uint8_t* rgba8) override { builder.add_row(rgba8, space); }
-    void add_row(const std::uint16_t* rgba16) override { builder.add_row(rgba16); }
+    TextureRows(const Document& of_picture, TextureBuilder made, ColorSpace of)
+        : document(of_picture), builder(std::move(made)), space(of) {}
+    void add_row(const std::uint8_t* rgba8) override {
+        document.check_time();
+        builder.add_row(rgba8, space);
+    }
+    void add_row(const std::uint16_t* rgba16) override {
+        document.check_time();
+        builder.add_row(rgba16);
+    }
     void add_indexed_row(std::span<const std::uint8_t> indices, const Palette& colors) override {
         if (palette.width() == 0) {
             palette = take(Texture::from_rgba8({colors[0].data(), sizeof(Palette)}, static_cast<int>(colors.size()), 1, space), "palette");
@@ -48,7 +56,7 @@ struct TextureRows : RowSink {
         }
         const std::uint16_t* const texels = palette.data().data();
         for (std::size_t x = 0; x < indices.size(); ++x) std::memcpy(&row[4 * x], texels + std::size_t{4} * indices[x], 8);
-        builder.add_row(row.data());
+        add_row(row.data());
     }
 };
 
@@ -126,7 +134,7 @@ void ImageStore::replace(int texture, ColorSpace space, const LoadFailure& failu
 Texture ImageStore::make(const Job& job) const {
     document_.check_time();
     const LoadLimits& limits = document_.options.limits;
-    TextureRows rows(take(TextureBuilder::make(job.width, job.height), job.where), job.space);
+    TextureRows rows(document_, take(TextureBuilder::make(job.width, job.height), job.where), job.space);
     take(decode_rows(job.bytes, {limits.max_texture_side, limits.max_texture_pixels, limits.max_jpeg_scans}, job.keep_16_bits, rows),
          job.where);
     return rows.builder.finish();

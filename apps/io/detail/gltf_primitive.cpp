@@ -205,6 +205,7 @@ void PrimitiveReader::morph(const file::Primitive& primitive, const std::string&
     for (std::size_t t = 0; t < std::min(primitive.targets.size(), weights.size()); ++t) {
         const auto weight = static_cast<float>(std::clamp(weights[t], -1e30, 1e30));
         if (weight == 0.0f) continue;
+        document_.check_time();
         const std::string target = fmt::format("{}.targets[{}]", where, t);
         const auto add = [&](const AttributeRule& rule, auto& values) {
             const Accessor* deltas = attribute(target, primitive.targets[t], rule, vertex_count);
