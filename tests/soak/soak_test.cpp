@@ -173,7 +173,7 @@ void soak(int frames) {
         std::printf("frame %d: %.1f MiB allocated, %.1f MiB resident\n", frame, now.allocated, now.resident);
         if (!early) early = now;
     }
-    const Memory late = memory_now();
+    [[maybe_unused]] const Memory late = memory_now();
     renderer.reset();
     stand.prepared.reset();
     stand.shot = {};
