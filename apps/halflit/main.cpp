@@ -53,15 +53,15 @@ int print(const std::string& text) {
 bool means_render(std::span<const Command> commands, const std::vector<std::string>& arguments) {
     if (arguments.empty()) return false;
     const std::string& first = arguments[0];
-    const auto is_first = [&](const Command& command) { return command.name == first; };
-    if (std::any_of(commands.begin(), commands.end(), is_first)) return false;
+    const auto is_command = [&](const std::string& word) {
+        return std::any_of(commands.begin(), commands.end(), [&](const Command& command) { return command.name == word; });
+    };
+    if (is_command(first)) return false;
     if (first == "--") return true;
     if (!first.starts_with('-') || first == "-") return is_scene(first) || is_folder(first);  // a folder: for its message
-    const auto is_command = [&](const std::string& word) {
-        return !is_scene(word) &&
-               std::any_of(commands.begin(), commands.end(), [&](const Command& command) { return command.name == word; });
-    };
-    if (std::any_of(arguments.begin(), arguments.end(), is_command)) return false;  // for its message
+    // A command after flags gets its message. A word right behind a flag may be the flag's value.
+    for (std::size_t i = 1; i < arguments.size(); ++i)
+        if (is_command(arguments[i]) && !is_scene(arguments[i]) && !arguments[i - 1].starts_with('-')) return false;
     const std::string name = first.substr(0, first.find('='));
     for (const Flag* flag : flags_of(commands[0]))
         for (const std::string& spelling : words_of(flag->names, ','))

@@ -42,6 +42,7 @@ TEST_CASE("usage: an invalid command line ends with 2 and says what was expected
         {{"nothing/modle.gbl"}, "nothing/modle.gbl: no such scene"},
         {{"--size", "10x10", "render"}, "--size stands before the command: expected halflit render --size"},
         {{"--size", "10x10", "render", "demo"}, "--size stands before the command: expected halflit render --size"},
+        {{"--camera", "info", "demo"}, "--camera: expected an index below 1 or a camera's name, found 'info'"},
         {{"convert", "demo"}, "unknown command convert (did you mean render?)"},
         {{"lobe", "valv"}, "did you mean valve?"},
         {{"figures", "curvs"}, "did you mean curves?"},
