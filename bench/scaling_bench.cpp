@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <functional>
+#include <string>
 #include <string_view>
 #include <thread>
 #include <vector>
@@ -31,7 +32,8 @@ struct Row {
     std::function<BenchScene(float)> make;  ///< from the picture's width / height
     Size size = kUsual;
     int threads = 1;
-    double count = 1;  ///< of what the axis counts, for time per piece
+    double count = 1;   ///< of what the axis counts
+    double pieces = 1;  ///< that a frame's time is divided by
 };
 
 struct Cost {
@@ -72,45 +74,41 @@ struct Axis {
 
 int processors() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
 
-Row squares(const Squares& what, double count, Size size = kUsual) {
-    return {[what](float aspect) { return make_squares_scene(what, aspect); }, size, processors(), count};
+double pixels_of(Size size) { return static_cast<double>(size.width) * size.height; }
+
+/// A row whose pieces are `layers` layers, or lamps, of all pixels.
+Row squares(const Squares& what, double count, double layers, Size size = kUsual) {
+    return {[what](float aspect) { return make_squares_scene(what, aspect); }, size, processors(), count, layers * pixels_of(size)};
 }
 
 std::vector<Axis> axes() {
     std::vector<Axis> all;
     Axis triangles{"triangles", "a sphere, 2 lamps", "triangle", {}};
     for (double n = 1e3; n < 2e7; n *= std::sqrt(10.0))
-        triangles.rows.push_back({[n](float) { return make_sphere_scene(std::llround(n)); }, kUsual, processors(), std::round(n)});
+        triangles.rows.push_back(
+            {[n](float) { return make_sphere_scene(std::llround(n)); }, kUsual, processors(), std::round(n), std::round(n)});
     all.push_back(triangles);
     Axis pixels{"pixels", "a textured square, 8 lamps", "pixel", {}};
     for (const Size size : {Size{426, 240}, {854, 480}, {1280, 720}, {1920, 1080}, {3840, 2160}, {7680, 4320}})
-        pixels.rows.push_back(squares({}, static_cast<double>(size.width) * size.height, size));
+        pixels.rows.push_back(squares({}, pixels_of(size), 1, size));
     all.push_back(pixels);
     Axis lamps{"lamps", "a textured square", "pixel and lamp", {}};
-    for (int n = 1; n <= 1024; n *= 4) lamps.rows.push_back(squares({.lamps = n}, n));
+    for (int n = 1; n <= 1024; n *= 4) lamps.rows.push_back(squares({.lamps = n}, n, n));
     all.push_back(lamps);
     Axis layers{"layers", "textured squares, the farthest first, 8 lamps", "pixel and layer", {}};
-    for (int n = 1; n <= 64; n *= 2) layers.rows.push_back(squares({.layers = n}, n));
+    for (int n = 1; n <= 64; n *= 2) layers.rows.push_back(squares({.layers = n}, n, n));
     all.push_back(layers);
     Axis textures{
         "texels", "a square, 8 lamps, two textures of this many texels on a side, repeated so that texels are equally large", "pixel", {}};
-    for (int n = 16; n <= 8192; n *= 2) textures.rows.push_back(squares({.texture_side = n}, n));
+    for (int n = 16; n <= 8192; n *= 2) textures.rows.push_back(squares({.texture_side = n}, n, 1));
     all.push_back(textures);
     Axis threads{"threads", "a textured square, 8 lamps", "pixel, time times threads", {}};
     for (int n = 1; n <= processors(); n *= 2) {
-        threads.rows.push_back(squares({}, n));
+        threads.rows.push_back(squares({}, n, 1.0 / n));
         threads.rows.back().threads = n;
     }
     all.push_back(threads);
     return all;
-}
-
-/// Nanoseconds for one piece, threads not counted.
-double nanoseconds(std::string_view axis, const Row& row, double ms) {
-    const double pixels = static_cast<double>(row.size.width) * row.size.height;
-    if (axis == "triangles" || axis == "pixels") return 1e6 * ms / row.count;
-    if (axis == "threads") return 1e6 * ms * row.count / pixels;
-    return 1e6 * ms / pixels / (axis == "texels" ? 1 : row.count);
 }
 
 }  // namespace
@@ -132,7 +130,7 @@ int main(int argc, char** argv) {
         for (const Row& row : axis.rows) {
             const auto cost = in_child([&] { return measure(row); });
             if (!cost || cost->frames == 0) return std::fprintf(stderr, "scaling bench: a frame failed\n"), 1;
-            std::printf("| %.0f | %.3g | %.3g | %.3g |\n", row.count, cost->ms, nanoseconds(axis.name, row, cost->ms), cost->mb);
+            std::printf("| %.0f | %.3g | %.3g | %.3g |\n", row.count, cost->ms, 1e6 * cost->ms / row.pieces, cost->mb);
             std::fflush(stdout);
         }
     }

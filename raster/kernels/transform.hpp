@@ -8,10 +8,10 @@
 namespace halflit::raster {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
-/// ((m0 x + m4 y) + m8 z) + m12: row r of a column-major matrix applied to a point.
-HALFLIT_INLINE F transform_row(const float* m, int r, F x, F y, F z) {
-    return ((F(m[r]) * x + F(m[4 + r]) * y) + F(m[8 + r]) * z) + F(m[12 + r]);
-}
+/// (m0 x + m4 y) + m8 z: row r of a column-major matrix applied to a direction.
+HALFLIT_INLINE F turn_row(const float* m, int r, F x, F y, F z) { return (F(m[r]) * x + F(m[4 + r]) * y) + F(m[8 + r]) * z; }
+/// The same of a point: + m12.
+HALFLIT_INLINE F transform_row(const float* m, int r, F x, F y, F z) { return turn_row(m, r, x, y, z) + F(m[12 + r]); }
 
 HALFLIT_INLINE I outcode_bit(M m, std::int32_t bit) { return sel(m, I(bit), I(0)); }
 

@@ -6,9 +6,6 @@
 namespace halflit::raster {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
-/// (column 0 x + column 1 y) + column 2 z: row r of a column-major matrix applied to a direction.
-HALFLIT_INLINE F turn_row(const float* m, int r, const F (&v)[3]) { return (F(m[r]) * v[0] + F(m[4 + r]) * v[1]) + F(m[8 + r]) * v[2]; }
-
 /// Records of kWidth vertices from v on.
 HALFLIT_INLINE void vertex_records_at(const VertexRecordArgs& args, std::int64_t v) {
     const float* const world = args.world_from_object;
@@ -20,9 +17,9 @@ HALFLIT_INLINE void vertex_records_at(const VertexRecordArgs& args, std::int64_t
     };
     F normal[3] = {none, none, none};
     if (args.normals) {
-        F n[3];
-        load3(args.normals + 3 * v, n[0], n[1], n[2]);
-        for (int r = 0; r < 3; ++r) normal[r] = turn_row(args.normal_from_object, r, n);
+        F x, y, z;
+        load3(args.normals + 3 * v, x, y, z);
+        for (int r = 0; r < 3; ++r) normal[r] = turn_row(args.normal_from_object, r, x, y, z);
     }
     if (args.slots & shading::kPositionSlot) {
         F x, y, z;
@@ -36,9 +33,9 @@ HALFLIT_INLINE void vertex_records_at(const VertexRecordArgs& args, std::int64_t
     }
     if (args.slots & shading::kTangentSlot) {
         if (args.tangents) {
-            F t[3], w;
-            load4(args.tangents + 4 * v, t[0], t[1], t[2], w);
-            put(turn_row(world, 0, t), turn_row(world, 1, t), turn_row(world, 2, t), w * F(args.tangent_sign));
+            F x, y, z, w;
+            load4(args.tangents + 4 * v, x, y, z, w);
+            put(turn_row(world, 0, x, y, z), turn_row(world, 1, x, y, z), turn_row(world, 2, x, y, z), w * F(args.tangent_sign));
         } else {
             put(F(world[0]), F(world[1]), F(world[2]), one);
         }
