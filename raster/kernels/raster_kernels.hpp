@@ -125,6 +125,11 @@ struct TileBuffers {
     alignas(64) std::uint8_t coverage[kTilePixels];
 };
 
+/// Depths of one triangle, where TileBuffers::coverage marks its samples; pixels as there.
+struct LayerDepths {
+    alignas(64) float depth[kMaxSamples][kTilePixels];
+};
+
 /// Position and size of a tile in the picture, pixels.
 struct TileRect {
     int x, y, width, height;
@@ -196,6 +201,9 @@ struct RasterKernels {
     void (*rasterize_depth)(const TileRect&, const SamplePattern&, TileBuffers&, const TriangleTable&, const std::uint32_t* ids, int count);
     /// Tests one triangle. Marks in `coverage` the samples that it covers and that are nearer than the tile's depth.
     CoverBox (*cover)(const TileRect&, const SamplePattern&, TileBuffers&, const TriangleSource&, std::uint32_t record);
+    /// The same in `part` of the tile alone, with the depths of the samples that it marks.
+    CoverBox (*cover_layer)(const TileRect&, const TileRect& part, const SamplePattern&, TileBuffers&, LayerDepths&, const TriangleSource&,
+                            std::uint32_t record);
     /// Draws one triangle into depth and triangle, but only the samples set in `coverage`: those that passed the alpha test.
     void (*draw_covered)(const TileRect&, const SamplePattern&, TileBuffers&, const TriangleSource&, std::uint32_t record);
     /// The fragments of `count` pixels, at most kPixelsARow. at: index of the first one in the buffers; x_px: its place in the picture.

@@ -67,10 +67,10 @@ HALFLIT_INLINE void small_edges(const Edge* edges, const ScreenVertex* const* fr
     }
 }
 
-/// Draws all samples of one triangle. make_sink(s) gives the sink of sample s. Returns the box walked.
+/// Draws all samples of one triangle in the part of a tile. make_sink(s) gives the sink of sample s. Returns the box walked.
 template <class MakeSink>
-HALFLIT_INLINE CoverBox draw_triangle(const TileRect& tile, const SamplePattern& pattern, const TriangleSource& source,
-                                      const TriangleRecord& record, const MakeSink& make_sink) {
+HALFLIT_INLINE CoverBox draw_triangle(const TileRect& tile, const TileRect& part, const SamplePattern& pattern,
+                                      const TriangleSource& source, const TriangleRecord& record, const MakeSink& make_sink) {
     const ScreenVertex& v0 = vertex_of(source, record.vertex[0]);
     const ScreenVertex& v1 = vertex_of(source, record.vertex[1]);
     const ScreenVertex& v2 = vertex_of(source, record.vertex[2]);
@@ -84,10 +84,10 @@ HALFLIT_INLINE CoverBox draw_triangle(const TileRect& tile, const SamplePattern&
     for (int s = 0; s < pattern.count; ++s) {
         const int sx = pattern.x[s], sy = pattern.y[s];
         int bx0 = (least_x - sx + 255) >> 8, bx1 = (most_x - sx) >> 8, by0 = (least_y - sy + 255) >> 8, by1 = (most_y - sy) >> 8;
-        bx0 = bx0 < tile.x ? tile.x : bx0;
-        by0 = by0 < tile.y ? tile.y : by0;
-        bx1 = bx1 >= tile.x + tile.width ? tile.x + tile.width - 1 : bx1;
-        by1 = by1 >= tile.y + tile.height ? tile.y + tile.height - 1 : by1;
+        bx0 = bx0 < part.x ? part.x : bx0;
+        by0 = by0 < part.y ? part.y : by0;
+        bx1 = bx1 >= part.x + part.width ? part.x + part.width - 1 : bx1;
+        by1 = by1 >= part.y + part.height ? part.y + part.height - 1 : by1;
         if (bx0 > bx1 || by0 > by1) continue;
         if (small) {
             BoxEdge at_corner[3];
@@ -185,7 +185,7 @@ HALFLIT_INLINE void draw_triangles(const TileRect& tile, const SamplePattern& pa
             if (large == 0) break;
             const std::uint32_t id = ids[first + __builtin_ctz(large)];
             draw_triangle(
-                tile, pattern, source_of(triangles, id), record_of(triangles, id), [&](int s) __attribute__((always_inline)) {
+                tile, tile, pattern, source_of(triangles, id), record_of(triangles, id), [&](int s) __attribute__((always_inline)) {
                     return visible_sink<kIds>(buffers.depth[s], buffers.triangle[s], id);
                 });
             left &= left - 1;
@@ -207,7 +207,7 @@ inline void rasterize_depth(const TileRect& tile, const SamplePattern& pattern, 
 inline void draw_covered(const TileRect& tile, const SamplePattern& pattern, TileBuffers& buffers, const TriangleSource& source,
                          std::uint32_t record) {
     draw_triangle(
-        tile, pattern, source, source.records[record], [&](int s) __attribute__((always_inline)) {
+        tile, tile, pattern, source, source.records[record], [&](int s) __attribute__((always_inline)) {
             return WriteCovered{
                 {buffers.depth[s], buffers.triangle[s], source.id_base + record}, buffers.coverage, static_cast<std::uint8_t>(1u << s)};
         });
@@ -216,8 +216,16 @@ inline void draw_covered(const TileRect& tile, const SamplePattern& pattern, Til
 inline CoverBox cover(const TileRect& tile, const SamplePattern& pattern, TileBuffers& buffers, const TriangleSource& source,
                       std::uint32_t record) {
     return draw_triangle(
-        tile, pattern, source, source.records[record], [&](int s) __attribute__((always_inline)) {
+        tile, tile, pattern, source, source.records[record], [&](int s) __attribute__((always_inline)) {
             return MarkCoverage{buffers.depth[s], buffers.coverage, static_cast<std::uint8_t>(1u << s)};
+        });
+}
+
+inline CoverBox cover_layer(const TileRect& tile, const TileRect& part, const SamplePattern& pattern, TileBuffers& buffers,
+                            LayerDepths& layer, const TriangleSource& source, std::uint32_t record) {
+    return draw_triangle(
+        tile, part, pattern, source, source.records[record], [&](int s) __attribute__((always_inline)) {
+            return MarkLayer{{buffers.depth[s], buffers.coverage, static_cast<std::uint8_t>(1u << s)}, layer.depth[s]};
         });
 }
 

@@ -145,6 +145,18 @@ struct MarkCoverage {
     }
 };
 
+/// The same, with the depths.
+struct MarkLayer {
+    MarkCoverage mark;
+    float* layer;
+
+    /// Lanes outside are written too: they are right of the triangle's box, or not marked.
+    HALFLIT_INLINE void pixels(int at, I outside, F z) const {
+        mark.pixels(at, outside, z);
+        store(layer + at, z);
+    }
+};
+
 /// Walks pixels [0, w) x [0, h) of a box with N crossing edges; `at` is the buffer index of its corner.
 template <int N, class Sink>
 HALFLIT_INLINE void walk(const BoxEdge* edges, const DepthPlane& plane, int x0, int y0, int w, int h, int at, const Sink& sink) {

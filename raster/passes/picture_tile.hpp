@@ -1,5 +1,5 @@
 // One tile of the picture, from triangle lists to pixels. Visibility comes first, then each visible pixel is shaded once per triangle that
-// it shows, then transparent triangles are blended in submission order, then the caller's memory is written.
+// it shows, then transparent triangles are blended by their depths, then the caller's memory is written.
 #pragma once
 
 #include "raster/frame_plan.hpp"
@@ -52,12 +52,20 @@ private:
     void write_normals(FragmentList& list);  ///< overwrites the scratch's block
     // blend.cpp
     void blend_layers();
+    void blend_layers(const TileRect& part);
+    [[nodiscard]] bool collect_layers(const TileRect& part);  ///< false: there are too many fragments
+    void shade_layers();
+    void shade_layers(FragmentList& list);  ///< whose `samples` are indices into the layers' fragments
+    void blend_pixels(const TileRect& part);
+    void blend_pixel(std::size_t at, std::span<const std::uint32_t> fragments);         ///< at: of the pixel in the tile's buffers
+    void blend_sample(int at, int sample);                                              ///< of a pixel with too many fragments
+    [[nodiscard]] Vec4f light_of(const shading::FragmentBlock& block, int lane) const;  ///< light times alpha, and alpha
     // resolve.cpp
     void clear();                                                               ///< fills a tile that has triangles with the background
     void fill_background();                                                     ///< writes a tile that has no triangles
     void fill_samples();                                                        ///< sets every sample to the environment behind its pixel
     void write(const FragmentList& list, const shading::FragmentBlock& block);  ///< to the caller's memory or to samples
-    void write_samples(const FragmentList& list, const shading::FragmentBlock& block, bool blend);
+    void write_samples(const FragmentList& list, const shading::FragmentBlock& block);
     [[nodiscard]] bool is_written(int x_px, int y_px) const {
         return x_px >= written_.x && x_px < written_.x + written_.width && y_px >= written_.y && y_px < written_.y + written_.height;
     }

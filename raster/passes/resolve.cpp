@@ -36,7 +36,7 @@ void PictureTile::clear() {
 
 void PictureTile::write(const FragmentList& list, const shading::FragmentBlock& block) {
     if (!direct_) {
-        write_samples(list, block, false);
+        write_samples(list, block);
         return;
     }
     const Output& output = pass_.output;
@@ -63,18 +63,18 @@ void PictureTile::write(const FragmentList& list, const shading::FragmentBlock& 
         }
 }
 
-void PictureTile::write_samples(const FragmentList& list, const shading::FragmentBlock& block, bool blend) {
-    const float exposure = plan_.exposure;
+Vec4f PictureTile::light_of(const shading::FragmentBlock& block, int lane) const {
+    const float exposure = plan_.exposure, a = number_or_zero(block.alpha[lane]);
+    return {number_or_zero(block.red[lane] * exposure) * a, number_or_zero(block.green[lane] * exposure) * a,
+            number_or_zero(block.blue[lane] * exposure) * a, a};
+}
+
+void PictureTile::write_samples(const FragmentList& list, const shading::FragmentBlock& block) {
     for (int l = 0; l < list.count; ++l) {
-        const float a = number_or_zero(block.alpha[l]);
-        const float source[4] = {number_or_zero(block.red[l] * exposure) * a, number_or_zero(block.green[l] * exposure) * a,
-                                 number_or_zero(block.blue[l] * exposure) * a, a};
+        const Vec4f light = light_of(block, l);
         const int at = (list.y_px[l] - rect_.y) * kTileStride + (list.x_px[l] - rect_.x);
-        for (auto samples = static_cast<unsigned>(list.samples[l]); samples != 0; samples &= samples - 1) {
-            float* p = sample_color(__builtin_ctz(samples)) + 4 * at;
-            const float keep = blend ? 1.0f - a : 0.0f;
-            for (int i = 0; i < 4; ++i) p[i] = blend ? source[i] + p[i] * keep : source[i];
-        }
+        for (auto samples = static_cast<unsigned>(list.samples[l]); samples != 0; samples &= samples - 1)
+            std::memcpy(sample_color(__builtin_ctz(samples)) + 4 * at, &light, sizeof light);
     }
 }
 

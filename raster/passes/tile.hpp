@@ -7,6 +7,8 @@
 #include "raster/view/light_culling.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 
+#include <array>
+
 namespace halflit::raster {
 
 /// A view as its tiles read it.
@@ -44,6 +46,23 @@ struct CellScratch {
     std::vector<shading::LightPlan> of_pixels;  ///< lights left to one cell's pixels
 };
 
+/// Fragments of transparent triangles in a part of a tile, in submission order.
+struct LayerScratch {
+    /// One triangle at one pixel.
+    struct Fragment {
+        std::uint32_t id;
+        std::uint16_t at;      ///< index of the pixel in the tile's buffers
+        std::uint8_t samples;  ///< bit s: sample s shows it
+    };
+    LayerDepths depths;
+    std::vector<Fragment> fragments;
+    std::vector<float> z;                              ///< of each sample of each fragment; a number only where `samples` has its bit
+    std::vector<Vec4f> light;                          ///< of fragments: light times alpha, and alpha
+    std::vector<std::uint32_t> by_pixel;               ///< fragments, those of a pixel together
+    std::array<std::uint32_t, kTilePixels + 1> first;  ///< of a pixel in by_pixel
+    std::vector<std::uint64_t> order;                  ///< of a pixel's or sample's fragments: layer_key
+};
+
 /// The working memory of one task.
 struct TileScratch {
     TileBuffers buffers{};
@@ -57,8 +76,9 @@ struct TileScratch {
         std::uint32_t id = kNoTriangle;
         int material = 0;
     };
-    MaterialOf materials[64];            ///< of triangles seen last
-    std::unique_ptr<CellScratch> cells;  ///< where light in cells is used
+    MaterialOf materials[64];              ///< of triangles seen last
+    std::unique_ptr<CellScratch> cells;    ///< where light in cells is used
+    std::unique_ptr<LayerScratch> layers;  ///< where there are transparent triangles
     /// Linear light times alpha, and alpha, of every sample; used only where samples or layers are combined.
     RawBuffer<float> color;
     std::vector<std::uint32_t> tile_list;  ///< ViewGeometry::tile_list's

@@ -14,7 +14,7 @@ namespace halflit {
 enum class AlphaMode : std::uint8_t {
     opaque,  ///< none: alpha counts as 1
     mask,    ///< drawn where alpha >= alpha_cutoff, opaque there
-    blend    ///< drawn over what is behind, in the order of instances and triangles
+    blend    ///< drawn over what is behind; each sample blends its layers by their depths, of one depth in the order of the scene
 };
 
 /// A surface. The defaults are glTF's: white, metallic and rough.
