@@ -52,6 +52,13 @@ std::size_t count(const std::string& text, const std::string& part) {
     return n;
 }
 
+/// Which pictures a page shows depends on times, and the letters of a picture may be any.
+std::string without_pictures(std::string page) {
+    for (std::size_t at = page.find("base64,"); at != std::string::npos; at = page.find("base64,", at + 1))
+        page.erase(at + 7, page.find('"', at) - (at + 7));
+    return page;
+}
+
 double time_of(const Json& row) { return row["ratio"]; }
 double error_of(const Json& row) { return row["error"]["p999"]; }
 
@@ -68,7 +75,7 @@ TEST_CASE("trade: page, table and report are complete, and list the same rows", 
     CHECK(count(page, "<svg ") == 2);  // the plot, and the part of it within the axes
     CHECK(count(page, "</svg>") == 2);
     CHECK(count(page, "<tr class=") == rows.size());
-    CHECK(page.find("nan") == std::string::npos);
+    CHECK(without_pictures(page).find("nan") == std::string::npos);
     // Nothing is fetched from elsewhere.
     CHECK(page.find("http") == page.find("http://www.w3.org"));
     CHECK(count(page, "<img ") == count(page, "src=\"data:image/png;base64,"));

@@ -72,7 +72,27 @@ int check_close_up(Random& random, int& cut) {
     const auto axis = [&](int c) { return Vec3d{m.c[c].x, m.c[c].y, m.c[c].z}; };
     const double tangent = std::tan(0.5 * double{fov});
     // The filter and the offset of the receiver reach less than six texels. A box that is smaller by that hides all that the filter reads.
-    const std::vector<Box> sure = enlarged(boxes, -6 * texel), possible = enlarged(boxes, 6 * texel);
+    struct Reach {
+        std::vector<Box> sure, possible;
+    };
+    std::vector<Reach> reaches;  // of each cascade
+    for (int k = 0; k <= map.coarser; ++k) {
+        const double reach = 6 * texel * double{(&map)[k].texel_size} / double{map.texel_size};
+        reaches.push_back({enlarged(boxes, -reach), enlarged(boxes, reach)});
+    }
+    // A point that all cascades' borders are far from is looked up in the first map that shows it; near a border, perhaps in the next one.
+    const auto reach_at = [&](Vec3d p) -> const Reach& {
+        int k = 0;
+        for (; k < map.coarser; ++k) {
+            const auto& rows = (&map)[k].rows;
+            const auto place = [&](int row) {
+                return double{rows[row][0]} * p.x + double{rows[row][1]} * p.y + double{rows[row][2]} * p.z + double{rows[row][3]};
+            };
+            const double margin = 2 * shading::kShadowBorder, end = (&map)[k].size - margin;
+            if (place(0) > margin && place(0) < end && place(1) > margin && place(1) < end) break;
+        }
+        return reaches[static_cast<std::size_t>(k)];
+    };
     const std::vector<Box> outlines = enlarged(boxes, 0.02);  // corners snap to 1/256 of a pixel, so a pixel beside a box may show it
     int checked = 0, wrong = 0;
     for (int j = 0; j < kHeight; ++j)
@@ -85,8 +105,9 @@ int check_close_up(Random& random, int& cut) {
             if (std::max(std::abs(p.x), std::abs(p.z)) > 149 || meets_any(eye, p, outlines) || !(lit[at] > 0)) continue;
             if (!directional && length(lamp - p) > length(lamp - target) + 10) continue;  // texels are wider there
             const Vec3d to = directional ? p + to_light * 400.0 : lamp;
-            const bool dark = meets_any(p, to, sure);
-            if (!dark && meets_any(p, to, possible)) continue;
+            const Reach& reach = reach_at(p);
+            const bool dark = meets_any(p, to, reach.sure);
+            if (!dark && meets_any(p, to, reach.possible)) continue;
             ++checked;
             wrong += with[at] != (dark ? 0.0f : lit[at]);
         }
