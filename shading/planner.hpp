@@ -49,6 +49,7 @@ struct PlanInputs {
     ShadingSettings options;
     std::shared_ptr<const Environment> environment = nullptr;
     double exposure = 1.0;  ///< display white is 1 / exposure
+    ToneCurve tone_curve = ToneCurve::none;
     Viewer viewer = {};
     ShadowInputs shadows = {};
     const SceneFacts* facts = nullptr;  ///< needed for an error budget only

@@ -3,6 +3,7 @@
 
 #include "shading/kernels/color_kernel.hpp"
 #include "shading/kernels/shade_stages.hpp"
+#include "shading/kernels/tone_kernel.hpp"
 
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
@@ -91,6 +92,15 @@ static void shade_alpha(const shading::MaterialPlan& material, shading::Fragment
     }
 }
 
+static void tone(ToneCurve curve, const float* const light[3], float exposure, float* const display[3], int count) {
+    if (curve == ToneCurve::reinhard)
+        tone_block<ToneCurve::reinhard>(light, exposure, display, count);
+    else if (curve == ToneCurve::aces)
+        tone_block<ToneCurve::aces>(light, exposure, display, count);
+    else
+        tone_block<ToneCurve::neutral>(light, exposure, display, count);
+}
+
 static void encode(const float* red, const float* green, const float* blue, const float* alpha, float exposure, std::uint32_t* rgba8,
                    int count) {
     encode_srgb8(red, green, blue, alpha, exposure, rgba8, count);
@@ -101,6 +111,6 @@ static void encode(const float* red, const float* green, const float* blue, cons
 namespace shading {
 #define HALFLIT_SHADE_KERNELS HALFLIT_CONCAT(shade_kernels_, HALFLIT_ISA)
 extern const ShadeKernels HALFLIT_SHADE_KERNELS;
-const ShadeKernels HALFLIT_SHADE_KERNELS = {shade, light, hidden, measure_cell, fit_cells, shade_alpha, encode};
+const ShadeKernels HALFLIT_SHADE_KERNELS = {shade, light, hidden, measure_cell, fit_cells, shade_alpha, tone, encode};
 }  // namespace shading
 }  // namespace halflit

@@ -44,6 +44,10 @@ struct ShadeKernels {
     /// Computes only the alpha channel that MASK compares and BLEND uses: base colour alpha * texture alpha * vertex alpha.
     void (*alpha)(const MaterialPlan& material, FragmentBlock& block, int count);
 
+    /// Applies a tone curve other than none to `count` colours, light (red, green, blue) times `exposure`. Writes display light in [0, 1].
+    /// NaN counts as 0, infinity as white. All arrays are padded to a multiple of 16 lanes; `display` may be `light`.
+    void (*tone)(ToneCurve curve, const float* const light[3], float exposure, float* const display[3], int count);
+
     /// Encodes `count` linear colours, times `exposure` and clamped to [0, 1], as 8-bit sRGB codes, packed R | G << 8 | B << 16 | A << 24.
     /// A is the linear alpha in 8 bits. All are rounded to nearest; NaN gives 0. All arrays are padded to a multiple of 16 lanes.
     void (*encode_srgb8)(const float* red, const float* green, const float* blue, const float* alpha, float exposure, std::uint32_t* rgba8,

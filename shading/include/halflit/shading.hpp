@@ -27,6 +27,7 @@ struct ErrorBound {
     double environment = 0;  ///< bands left out
     double cells = 0;        ///< light fitted over cells of 8 x 8 pixels
     double left_out = 0;     ///< lights beyond their cutoff radius, and highlights too weak to see
+    double tone_growth = 1;  ///< factor by which the tone curve may enlarge errors; all numbers above are those after the curve
 };
 
 /// Effect of a shadow on light through a lobe f that reaches past the terminator, where x = N.L = 0. V is the visibility by the shadow map.
@@ -69,6 +70,16 @@ struct ShadingSettings {
     TextureDetail texture_detail = TextureDetail::full;  ///< upper limit of the filters
     friend bool operator==(const ShadingSettings&, const ShadingSettings&) = default;
 };
+
+/// Tone curve: maps light, which has no upper limit, to the light of a display, 0 to 1. Formulas and sources: shading/README.md.
+enum class ToneCurve : std::uint8_t {
+    none,      ///< light above 1 is cut off
+    reinhard,  ///< light / (1 + its luminance): keeps hue and saturation; a saturated channel may still be cut off
+    aces,      ///< film-like contrast in each channel: darkens shadows, brightens the middle
+    neutral    ///< Khronos PBR Neutral: keeps colours below 0.8, compresses what is brighter
+};
+/// Curve of settings that name none.
+inline constexpr ToneCurve kDefaultToneCurve = ToneCurve::none;
 
 /// Stages of shading, one bit each. A fragment runs only those that its material requires.
 enum Stage : std::uint32_t {
