@@ -184,6 +184,7 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, 
          .options = options,
          .environment = scene.environment,
          .exposure = static_cast<double>(settings.exposure),
+         .tone_curve = settings.tone_curve,
          .viewer = viewer_of(camera),
          .shadows = {settings.shadows, settings.shadow_terminator_offset, std::move(shadows->maps), std::move(shadows->map_of_light),
                      prepared.object_radii(), static_cast<double>(settings.shadow_fade)},
@@ -201,6 +202,7 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, 
     }
     plan.background_linear = settings.background_linear;
     plan.exposure = settings.exposure;
+    plan.tone_curve = settings.tone_curve;
     plan.depth = depth_map(camera, static_cast<float>(width) / static_cast<float>(height));
     plan.environment_uses = environment_uses(prepared, plan.shading);
     add_lobe_warnings(prepared, plan.shading, options, plan.warnings);

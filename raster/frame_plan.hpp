@@ -34,6 +34,7 @@ struct FramePlan {
     Background background;     ///< replaces background_linear if it has an environment
     Vec4f background_linear{0, 0, 0, 0};
     float exposure = 1.0f;
+    ToneCurve tone_curve = ToneCurve::none;
     DepthMap depth;  ///< of the picture's depths
     std::vector<EnvironmentUse> environment_uses;
     std::vector<std::string> warnings;

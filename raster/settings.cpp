@@ -23,6 +23,7 @@ Result<void> check_settings(const Settings& settings, int width, int height) {
         return fail(ErrorCode::usage, "shadow size: " + std::to_string(side) + ", expected a power of two from 64 to 4096");
     if (!(settings.shadow_fade >= 0.0f && settings.shadow_fade < 3e38f))
         return fail(ErrorCode::usage, "shadow fade: expected a distance, or 0");
+    if (settings.tone_curve > ToneCurve::neutral) return fail(ErrorCode::usage, "tone curve: found a value that no name stands for");
     if (settings.shadows > ShadowMode::soft_split) return fail(ErrorCode::usage, "shadows: found a value that no name stands for");
     if (auto ok = shading::check_options(settings.shading); !ok) return ok;
     const Region& r = settings.region;

@@ -27,7 +27,8 @@ public:
           rect_(plan_.picture.tile_rect(tile)),
           samples_(plan_.picture.samples.count),
           scratch_(scratch),
-          written_(intersection(rect_, plan_.written)) {}
+          written_(intersection(rect_, plan_.written)),
+          toned_(plan_.tone_curve != ToneCurve::none && pass.output.codes) {}
 
     TileCounts draw();
 
@@ -61,6 +62,7 @@ private:
     void blend_sample(int at, int sample);                                              ///< of a pixel with too many fragments
     [[nodiscard]] Vec4f light_of(const shading::FragmentBlock& block, int lane) const;  ///< light times alpha, and alpha
     // resolve.cpp
+    [[nodiscard]] Vec4f background_sample() const;                              ///< of the background colour: times alpha, and alpha
     void clear();                                                               ///< fills a tile that has triangles with the background
     void fill_background();                                                     ///< writes a tile that has no triangles
     void fill_samples();                                                        ///< sets every sample to the environment behind its pixel
@@ -70,6 +72,13 @@ private:
         return x_px >= written_.x && x_px < written_.x + written_.width && y_px >= written_.y && y_px < written_.y + written_.height;
     }
     void resolve();
+    // tone.cpp
+    /// Display light of light times exposure, by the tone curve. Accuracy reference computes it in float64.
+    void tone(const float* const light[3], float exposure, float* const display[3], int count) const;
+    void fill_backing(float share);  ///< sets the share of the background colour in every sample
+    void cover_backing(const FragmentList& list, const shading::FragmentBlock& block, bool blend);  ///< lays fragments over it
+    /// Adds what `count` pixels from `at` on show of sample s: display light times alpha, and alpha.
+    void add_toned_sample(int s, int at, int count, float (&sum)[4][kTileStride]);
     [[nodiscard]] float* sample_color(int s) { return scratch_.color.data() + static_cast<std::size_t>(s) * 4 * kTilePixels; }
 
     const PicturePass& pass_;
@@ -80,6 +89,7 @@ private:
     TileScratch& scratch_;
     TileRect written_;  ///< the part of the rect that is the caller's; the rest completes cells
     TileCounts counts_;
+    bool toned_;          ///< codes are written, through a tone curve
     bool direct_ = true;  ///< one opaque sample per pixel: shaded colours go straight to the caller's memory
 };
 

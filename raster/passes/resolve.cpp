@@ -22,15 +22,20 @@ Vec4f resolved(const float (&sum)[4], float weight) {
 
 }  // namespace
 
+Vec4f PictureTile::background_sample() const {
+    const Vec4f b = number_or_zero(plan_.background_linear);
+    return {b.x * b.w, b.y * b.w, b.z * b.w, b.w};
+}
+
 void PictureTile::clear() {
     if (direct_) {
         fill_background();
         return;
     }
     float* color = scratch_.color.reserve(static_cast<std::size_t>(samples_) * 4 * kTilePixels);
-    const Vec4f b = number_or_zero(plan_.background_linear);
-    const float back[4] = {b.x * b.w, b.y * b.w, b.z * b.w, b.w};
-    for (int i = 0; i < samples_ * kTilePixels; ++i) std::memcpy(color + 4 * i, back, sizeof back);
+    const Vec4f back = background_sample();
+    for (int i = 0; i < samples_ * kTilePixels; ++i) std::memcpy(color + 4 * i, &back, sizeof back);
+    fill_backing(1.0f);
     if (plan_.background) fill_samples();
 }
 
@@ -43,7 +48,15 @@ void PictureTile::write(const FragmentList& list, const shading::FragmentBlock& 
     const float exposure = plan_.exposure;
     if (output.codes) {
         alignas(64) std::uint32_t code[shading::kBlockSize];
-        pass_.view.shade.encode_srgb8(block.red, block.green, block.blue, block.alpha, exposure, code, list.count);
+        if (toned_) {
+            alignas(64) float shown[3][shading::kBlockSize];
+            const float* const light[3] = {block.red, block.green, block.blue};
+            float* const display[3] = {shown[0], shown[1], shown[2]};
+            tone(light, exposure, display, list.count);
+            pass_.view.shade.encode_srgb8(shown[0], shown[1], shown[2], block.alpha, 1.0f, code, list.count);
+        } else {
+            pass_.view.shade.encode_srgb8(block.red, block.green, block.blue, block.alpha, exposure, code, list.count);
+        }
         output.finish_codes(code, list.count);
         // Neighbours in a row are copied together.
         for (int l = 0, end = 0; l < list.count; l = end) {
@@ -76,9 +89,11 @@ void PictureTile::write_samples(const FragmentList& list, const shading::Fragmen
         for (auto samples = static_cast<unsigned>(list.samples[l]); samples != 0; samples &= samples - 1)
             std::memcpy(sample_color(__builtin_ctz(samples)) + 4 * at, &light, sizeof light);
     }
+    cover_backing(list, block, blend);
 }
 
 void PictureTile::fill_samples() {
+    fill_backing(0.0f);  // an environment is light, as a surface's is
     for (int y = 0; y < rect_.height; ++y)
         for (int x = 0; x < rect_.width; ++x) {
             const Vec4f b = number_or_zero(plan_.background.at(rect_.x + x, rect_.y + y));
@@ -95,8 +110,8 @@ void PictureTile::fill_background() {
         return;
     }
     // Goes through samples in every case. Otherwise it would round differently in a tile or region that has nothing to blend.
-    const Vec4f back = number_or_zero(plan_.background_linear);
-    const float sample[4] = {back.x * back.w, back.y * back.w, back.z * back.w, back.w};
+    const Vec4f back = background_sample();
+    const float sample[4] = {back.x, back.y, back.z, back.w};
     float sum[4] = {0, 0, 0, 0};
     for (int s = 0; s < samples_; ++s)
         for (int i = 0; i < 4; ++i) sum[i] += sample[i];
@@ -127,26 +142,36 @@ void PictureTile::resolve() {
     const float weight = 1.0f / static_cast<float>(samples_);
     alignas(64) float row[4][kTileStride] = {};
     alignas(64) std::uint32_t code[kTileStride];
-    const int x0 = written_.x - rect_.x, y0 = written_.y - rect_.y;
+    const int x0 = written_.x - rect_.x, y0 = written_.y - rect_.y, count = written_.width;
+    const auto set = [&](int x, Vec4f pixel) {
+        row[0][x] = pixel.x;
+        row[1][x] = pixel.y;
+        row[2][x] = pixel.z;
+        row[3][x] = pixel.w;
+    };
     for (int y = y0; y < y0 + written_.height; ++y) {
-        for (int x = 0; x < written_.width; ++x) {
-            float sum[4] = {0, 0, 0, 0};
-            for (int s = 0; s < samples_; ++s)
-                for (int i = 0; i < 4; ++i) sum[i] += sample_color(s)[4 * (y * kTileStride + x0 + x) + i];
-            const Vec4f pixel = resolved(sum, weight);
-            row[0][x] = pixel.x;
-            row[1][x] = pixel.y;
-            row[2][x] = pixel.z;
-            row[3][x] = pixel.w;
-        }
-        if (output.codes) {
-            pass_.view.shade.encode_srgb8(row[0], row[1], row[2], row[3], 1.0f, code, written_.width);
-            output.finish_codes(code, written_.width);
-            std::memcpy(output.codes.at(written_.x, rect_.y + y), code, 4 * static_cast<std::size_t>(written_.width));
-        }
+        const int at = y * kTileStride + x0;
+        if (output.linear || !toned_)
+            for (int x = 0; x < count; ++x) {
+                float sum[4] = {0, 0, 0, 0};
+                for (int s = 0; s < samples_; ++s)
+                    for (int i = 0; i < 4; ++i) sum[i] += sample_color(s)[4 * (at + x) + i];
+                set(x, resolved(sum, weight));
+            }
         if (output.linear)
-            for (int x = 0; x < written_.width; ++x)
-                output.write_linear(written_.x + x, rect_.y + y, row[0][x], row[1][x], row[2][x], row[3][x]);
+            for (int x = 0; x < count; ++x) output.write_linear(written_.x + x, rect_.y + y, row[0][x], row[1][x], row[2][x], row[3][x]);
+        if (!output.codes) continue;
+        if (toned_) {
+            float sums[4][kTileStride] = {};
+            for (int s = 0; s < samples_; ++s) add_toned_sample(s, at, count, sums);
+            for (int x = 0; x < count; ++x) {
+                const float sum[4] = {sums[0][x], sums[1][x], sums[2][x], sums[3][x]};
+                set(x, resolved(sum, weight));
+            }
+        }
+        pass_.view.shade.encode_srgb8(row[0], row[1], row[2], row[3], 1.0f, code, count);
+        output.finish_codes(code, count);
+        std::memcpy(output.codes.at(written_.x, rect_.y + y), code, 4 * static_cast<std::size_t>(count));
     }
 }
 

@@ -81,6 +81,7 @@ struct TileScratch {
     std::unique_ptr<LayerScratch> layers;  ///< where there are transparent triangles
     /// Linear light times alpha, and alpha, of every sample; used only where samples or layers are combined.
     RawBuffer<float> color;
+    RawBuffer<float> backing;              ///< share of the background colour in every sample; used only with a tone curve
     std::vector<std::uint32_t> tile_list;  ///< ViewGeometry::tile_list's
 };
 

@@ -175,6 +175,7 @@ RenderFlags read_flags(Input& input) {
     // Direct integration over an environment takes seconds for each lobe.
     if (flags.environment && flags.settings.shading.accuracy == Accuracy::reference) flags.settings.shading.accuracy = Accuracy::exact;
     if (flags.own_camera) flags.camera = read_camera(input);
+    flags.settings.tone_curve = one_of<ToneCurve>(input, 4);
     return flags;
 }
 

@@ -45,6 +45,12 @@ std::vector<Variant> variants() {
     add("matte").shading.specular = SpecularModel::none;
     add("within-two-codes").shading.max_error_codes = 2.0;
     all.back().settings.shading.lobe = Lobe::sloan(0.3f);
+    add("reinhard-four-samples").samples = 4;
+    all.back().settings.tone_curve = ToneCurve::reinhard;
+    add("aces-transparent").tone_curve = ToneCurve::aces;
+    all.back().settings.background_linear = {0, 0, 0, 0};
+    add("neutral-four-samples").samples = 4;
+    all.back().settings.tone_curve = ToneCurve::neutral;
     add("environment");
     all.back().environment = true;
     return all;

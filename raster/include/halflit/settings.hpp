@@ -27,7 +27,9 @@ struct Settings {
     Vec4f background_linear{0, 0, 0, 0};  ///< linear colour, not premultiplied; w = 0 is transparent, without a colour
     bool background_environment = false;  ///< true: the scene's environment, if it kept its image
     float exposure = 1.0f;                ///< factor on all light, > 0
-    ShadingSettings shading{};            ///< light and textures
+    /// Applied to the light of each sample, after exposure and before codes. Target::linear and background_linear do without it.
+    ToneCurve tone_curve = kDefaultToneCurve;
+    ShadingSettings shading{};  ///< light and textures
     /// Effect of shadows on wrapped light; off: no shadow maps are drawn.
     ShadowMode shadows = ShadowMode::soft_split;
     int shadow_size = 2048;  ///< texels on a side of a shadow map, a power of two from 64 to 4096; a cube's faces have half

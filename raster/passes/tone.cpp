@@ -1,0 +1,79 @@
+// The tone curve, between linear light and codes. It is applied to the light of each sample, and the mean is taken of what a display would
+// show: a highlight of fifty times white then covers as much of an edge as its samples do. The background colour is a colour of the
+// display already. It is kept apart from the light in front of it, which is mapped as it is without alpha and laid over the colour again.
+#include "shading/reference/tone.hpp"
+#include "raster/passes/picture_tile.hpp"
+
+#include <algorithm>
+
+namespace halflit::raster {
+
+void PictureTile::tone(const float* const light[3], float exposure, float* const display[3], int count) const {
+    if (pass_.reference == nullptr) {
+        pass_.view.shade.tone(plan_.tone_curve, light, exposure, display, count);
+        return;
+    }
+    for (int i = 0; i < count; ++i) {
+        const auto channel = [&](int c) { return static_cast<double>(light[c][i] * exposure); };
+        const Vec3d out = shading::reference::toned(plan_.tone_curve, {channel(0), channel(1), channel(2)});
+        display[0][i] = static_cast<float>(out.x);
+        display[1][i] = static_cast<float>(out.y);
+        display[2][i] = static_cast<float>(out.z);
+    }
+}
+
+void PictureTile::fill_backing(float share) {
+    if (!toned_) return;
+    const std::size_t count = static_cast<std::size_t>(samples_) * kTilePixels;
+    std::fill_n(scratch_.backing.reserve(count), count, share);
+}
+
+void PictureTile::cover_backing(const FragmentList& list, const shading::FragmentBlock& block, bool blend) {
+    if (!toned_) return;
+    for (int l = 0; l < list.count; ++l) {
+        const float keep = blend && block.alpha[l] == block.alpha[l] ? 1.0f - block.alpha[l] : blend ? 1.0f : 0.0f;
+        float* const of_pixel = scratch_.backing.data() + (list.y_px[l] - rect_.y) * kTileStride + (list.x_px[l] - rect_.x);
+        for (auto samples = static_cast<unsigned>(list.samples[l]); samples != 0; samples &= samples - 1)
+            of_pixel[__builtin_ctz(samples) * kTilePixels] *= keep;
+    }
+}
+
+void PictureTile::add_toned_sample(int s, int at, int count, float (&sum)[4][kTileStride]) {
+    alignas(64) float light[3][kTileStride] = {}, front[kTileStride];
+    const Vec4f back = background_sample();
+    const float* const color = sample_color(s) + 4 * at;
+    const float* const backing = scratch_.backing.data() + s * kTilePixels + at;
+    bool plain = true;  // surfaces alone, and all of them opaque
+    for (int x = 0; x < count; ++x) plain &= backing[x] == 0.0f && color[4 * x + 3] == 1.0f;
+    if (plain) {
+        for (int x = 0; x < count; ++x)
+            for (int i = 0; i < 3; ++i) light[i][x] = color[4 * x + i];
+    } else {
+        const float of_back[4] = {back.x, back.y, back.z, back.w};
+        for (int x = 0; x < count; ++x) {
+            // What shows of the background colour is taken off. What is left is light times alpha, and alpha.
+            float left[4];
+            for (int i = 0; i < 4; ++i) left[i] = backing[x] > 0.0f ? color[4 * x + i] - of_back[i] * backing[x] : color[4 * x + i];
+            front[x] = left[3] > 0.0f ? left[3] : 0.0f;
+            for (int i = 0; i < 3; ++i) light[i][x] = front[x] > 0.0f ? left[i] / front[x] : 0.0f;
+        }
+    }
+    float* const rows[3] = {light[0], light[1], light[2]};
+    tone(rows, 1.0f, rows, count);
+    if (plain) {
+        for (int x = 0; x < count; ++x) {
+            for (int i = 0; i < 3; ++i) sum[i][x] += light[i][x];
+            sum[3][x] += 1.0f;
+        }
+        return;
+    }
+    for (int x = 0; x < count; ++x) {
+        const float share = backing[x];  // an infinite background must not make a NaN where it is hidden
+        sum[0][x] += light[0][x] * front[x] + (share > 0.0f ? back.x * share : 0.0f);
+        sum[1][x] += light[1][x] * front[x] + (share > 0.0f ? back.y * share : 0.0f);
+        sum[2][x] += light[2][x] * front[x] + (share > 0.0f ? back.z * share : 0.0f);
+        sum[3][x] += color[4 * x + 3];
+    }
+}
+
+}  // namespace halflit::raster
