@@ -20,7 +20,7 @@ HALFLIT_ENDS_WITH(halflit_mesh, reserved);
 HALFLIT_ENDS_WITH(halflit_light, reserved);
 HALFLIT_ENDS_WITH(halflit_environment_options, reserved);
 HALFLIT_ENDS_WITH(halflit_camera, reserved);
-HALFLIT_ENDS_WITH(halflit_settings, reserved);
+HALFLIT_ENDS_WITH(halflit_settings, tone_curve);
 HALFLIT_ENDS_WITH(halflit_execution, memory_limit);
 HALFLIT_ENDS_WITH(halflit_target, region_alone);
 HALFLIT_ENDS_WITH(halflit_report, reserved);
@@ -37,6 +37,8 @@ static_assert(HALFLIT_ACCURACY_EXACT == static_cast<int>(Accuracy::exact) && HAL
 static_assert(HALFLIT_DETAIL_NEAREST == static_cast<int>(TextureDetail::nearest));
 static_assert(HALFLIT_SPECULAR_BLINN == static_cast<int>(SpecularModel::blinn));
 static_assert(HALFLIT_SHADOWS_SOFT_SPLIT == static_cast<int>(ShadowMode::soft_split));
+static_assert(HALFLIT_TONE_REINHARD == static_cast<int>(ToneCurve::reinhard) &&
+              HALFLIT_TONE_NEUTRAL == static_cast<int>(ToneCurve::neutral));
 
 }  // namespace
 
@@ -94,6 +96,7 @@ halflit_settings to_c(const Settings& from) {
     settings.shadow_size = from.shadow_size;
     settings.shadow_fade = from.shadow_fade;
     settings.shadow_terminator_offset = from.shadow_terminator_offset;
+    settings.tone_curve = static_cast<std::int32_t>(from.tone_curve);
     return settings;
 }
 
@@ -123,6 +126,7 @@ Result<Settings> settings(const halflit_settings* given) {
     choices.read(read->texture_detail, TextureDetail::nearest, "texture_detail", shading.texture_detail);
     choices.read(read->specular, SpecularModel::blinn, "specular", shading.specular);
     choices.read(read->shadows, ShadowMode::soft_split, "shadows", settings.shadows);
+    choices.read(read->tone_curve, ToneCurve::neutral, "tone_curve", settings.tone_curve);
     if (!choices.result()) return tl::unexpected<Error>(choices.result().error());
     return settings;
 }

@@ -185,9 +185,8 @@ static void test_struct_sizes(void) {
     CHECK_OK(halflit_execution_init(&execution, sizeof execution));
     execution.size = offsetof(halflit_execution, cancelled) + sizeof execution.cancelled / 2;
     CHECK(halflit_renderer_create(&execution, &renderer) == HALFLIT_ERROR_USAGE && renderer == NULL);
-    older.size = sizeof older;
-    older.reserved = 1;
-    CHECK(draw(NULL, cube.scene, &cube.camera, &older) == 0 && strstr(halflit_last_error(), "reserved") != NULL);
+    cube.camera.reserved = 1;
+    CHECK(draw(NULL, cube.scene, &cube.camera, &cube.settings) == 0 && strstr(halflit_last_error(), "reserved") != NULL);
     counts.size = 3;
     CHECK_FAILS(halflit_scene_get_counts(cube.scene, &counts), HALFLIT_ERROR_USAGE, "halflit_counts");
     counts.size = offsetof(halflit_counts, meshes);
@@ -209,6 +208,7 @@ static void test_faulty_arguments(void) {
     halflit_target target = make_target(&mesh);
     const uint32_t beyond[3] = {0, 1, 8};
     uint8_t texel[4] = {0, 0, 0, 0};
+    uint64_t plain;
     init_cube_mesh(&mesh, 5);
     CHECK_FAILS(halflit_scene_add_mesh(cube.scene, &mesh, NULL), HALFLIT_ERROR_USAGE, "material 5, but the scene has 1");
     init_cube_mesh(&mesh, -1);
@@ -235,6 +235,16 @@ static void test_faulty_arguments(void) {
     CHECK_FAILS(halflit_scene_add_texture(cube.scene, texel, 0, 1, 0, 0, NULL), HALFLIT_ERROR_USAGE, "0 x 1 pixels");
     CHECK_FAILS(halflit_scene_add_texture(cube.scene, texel, 1, 1, 3, 0, NULL), HALFLIT_ERROR_USAGE, "row_bytes is 3");
     CHECK_FAILS(halflit_scene_add_texture(cube.scene, texel, 1, 1, 0, 2, NULL), HALFLIT_ERROR_USAGE, "color is 2");
+    cube.settings.tone_curve = 4;
+    CHECK(draw_cube(NULL, &cube) == 0);
+    CHECK(strstr(halflit_last_error(), "halflit_settings: tone_curve is 4, expected 0 to 3") != NULL);
+    cube.settings.tone_curve = HALFLIT_TONE_NONE;
+    plain = draw_cube(NULL, &cube);
+    for (cube.settings.tone_curve = HALFLIT_TONE_REINHARD; cube.settings.tone_curve <= HALFLIT_TONE_NEUTRAL; ++cube.settings.tone_curve) {
+        const uint64_t toned = draw_cube(NULL, &cube);
+        CHECK(toned != 0 && toned != plain);
+    }
+    cube.settings.tone_curve = HALFLIT_TONE_NONE;
     halflit_execution_init(&execution, sizeof execution);
     execution.isa = "mmx";
     CHECK_FAILS(halflit_renderer_create(&execution, &renderer), HALFLIT_ERROR_USAGE, "mmx");

@@ -44,6 +44,7 @@ Sized<halflit_settings> Session::settings() {
     settings.set(&halflit_settings::samples, in_.one_in(20) ? 3 : in_.flag() ? 1 : 4);
     settings.set(&halflit_settings::shadow_size, 64);
     settings.set(&halflit_settings::shadows, choice(3));
+    settings.set(&halflit_settings::tone_curve, choice(4));
     // Direct integration over an environment (reference) takes seconds for each lobe.
     settings.set(&halflit_settings::accuracy, environments_left_ > 0 ? choice(2) : 1);
     settings.set(&halflit_settings::shading_rate, in_.one_in(3) ? choice(3) : 2);

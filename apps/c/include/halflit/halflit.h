@@ -309,6 +309,9 @@ enum { HALFLIT_SPECULAR_NONE = 0, HALFLIT_SPECULAR_PHONG = 1, HALFLIT_SPECULAR_B
 /// Effects of a shadow on light past the terminator: none; a step; a soft end.
 enum { HALFLIT_SHADOWS_OFF = 0, HALFLIT_SHADOWS_HARD = 1, HALFLIT_SHADOWS_SOFT_SPLIT = 2 };
 
+/// Tone curves: light above 1 is cut off; light over 1 + its luminance; film-like contrast; Khronos PBR Neutral.
+enum { HALFLIT_TONE_NONE = 0, HALFLIT_TONE_REINHARD = 1, HALFLIT_TONE_ACES = 2, HALFLIT_TONE_NEUTRAL = 3 };
+
 /// A part of a picture, in pixels; width 0: all of it.
 typedef struct halflit_region {
     int32_t x, y;           ///< its upper left corner, from that of the picture
@@ -338,7 +341,7 @@ typedef struct halflit_settings {
     int32_t shadow_size;             ///< texels on a side of a shadow map, a power of two from 64 to 4096 (2048)
     float shadow_fade;  ///< soft-split: distance to the blocker at which wrapped light ends, world units; 0: from the objects' size (0)
     int32_t shadow_terminator_offset;  ///< moves look-ups onto the smooth surface of the vertex normals, for coarse meshes (0)
-    int32_t reserved;
+    int32_t tone_curve;                ///< HALFLIT_TONE: from light to codes; floats and `background` do without (none)
 } halflit_settings;
 HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t size);
 
@@ -380,7 +383,7 @@ HALFLIT_C_API int32_t halflit_renderer_set_execution(halflit_renderer* renderer,
 HALFLIT_C_API void halflit_renderer_destroy(halflit_renderer* renderer);
 
 /// Formats of a pixel. RGBA8 and BGRA8: four bytes in this order, sRGB codes, linear alpha. RGBA_F32: four floats, linear light after
-/// exposure. Premultiplied: colours are multiplied by alpha.
+/// exposure, without a tone curve. Premultiplied: colours are multiplied by alpha.
 enum {
     HALFLIT_FORMAT_RGBA8 = 0,
     HALFLIT_FORMAT_BGRA8 = 1,
