@@ -51,6 +51,10 @@ constexpr std::string_view lobe_path_name(shading::LobePath path) {
 inline constexpr std::string_view kRateNames[] = {"flat", "gouraud", "pixel"};
 constexpr std::string_view rate_name(ShadingRate rate) { return kRateNames[static_cast<std::size_t>(rate)]; }
 
+/// Indexed by ToneCurve.
+inline constexpr std::string_view kToneCurveNames[] = {"none", "reinhard", "aces", "neutral"};
+constexpr std::string_view tone_curve_name(ToneCurve curve) { return kToneCurveNames[static_cast<std::size_t>(curve)]; }
+
 inline constexpr std::string_view kTextureDetailNames[] = {"full", "bilinear", "nearest"};
 constexpr std::string_view texture_detail_name(TextureDetail detail) { return kTextureDetailNames[static_cast<std::size_t>(detail)]; }
 

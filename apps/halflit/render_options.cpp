@@ -89,7 +89,11 @@ FlagGroup picture_flags(RenderOptions& o, PictureSize usual) {
           fmt::format("transparent, #rgb, #rrggbb, #rrggbbaa or a name (default {}); environment: the image of --env", kUsualBackground),
           [&s](const std::string& text) { return read_background(s, text); }},
          {"--exposure", "EV|auto", "Multiply all light by 2^EV; auto: chosen from the file's lights or the environment (default)",
-          [&o](const std::string& text) { return read_exposure(o.exposure, text); }}}};
+          [&o](const std::string& text) { return read_exposure(o.exposure, text); }},
+         {"--tonemap", form_of(kToneCurveNames),
+          fmt::format("Tone curve from light to the picture's colours (default {}); the background colour and .hdr files do without",
+                      name_of(s.tone_curve, kToneCurveNames)),
+          named(s.tone_curve, kToneCurveNames)}}};
 }
 
 /// A flag of the view of the whole scene. Sets `given`.

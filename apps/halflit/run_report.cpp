@@ -49,6 +49,7 @@ void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered,
     report["threads"] = rendered.threads;
     report["samples"] = job.settings.samples;
     report["exposure"] = job.settings.exposure;
+    report["tone_curve"] = tone_curve_name(job.settings.tone_curve);
     report["accuracy"] = accuracy_name(job.settings.shading.accuracy);
     if (rendered.error.budget > 0.0) report["error_bound"] = error_bound_json(rendered.error);
     report["load_ms"] = job.load_ms;
@@ -80,7 +81,7 @@ Json error_bound_json(const ErrorBound& error) {
     const std::pair<const char*, double> parts[] = {{"rounding", error.rounding}, {"lobes", error.lobes},
                                                     {"specular", error.specular}, {"environment", error.environment},
                                                     {"cells", error.cells},       {"left_out", error.left_out}};
-    Json json{{"budget_codes", error.budget}, {"bound_codes", error.codes}, {"within", error.within}};
+    Json json{{"budget_codes", error.budget}, {"bound_codes", error.codes}, {"within", error.within}, {"tone_growth", error.tone_growth}};
     auto largest = std::max_element(std::begin(parts), std::end(parts), [](const auto& a, const auto& b) { return a.second < b.second; });
     json["largest_part"] = largest->first;
     for (const auto& [name, codes] : parts) json["parts"][name] = codes;

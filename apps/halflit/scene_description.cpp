@@ -196,6 +196,7 @@ Result<std::string> describe_scene(const RenderJob& job, bool json) {
     description["cameras"] = std::move(cameras);
     description["size"] = {job.width, job.height};
     description["exposure"] = number(job.settings.exposure);
+    description["tone_curve"] = tone_curve_name(job.settings.tone_curve);
     description["lights"] = lights_json(scene);
     description["ambient"] = {{"sky", vector_json(scene.ambient.sky_linear)}, {"ground", vector_json(scene.ambient.ground_linear)}};
     const auto frame = raster::plan_frame(job.prepared->data(), job.camera, job.settings, job.width, job.height);

@@ -126,7 +126,7 @@ Result<TradeRow> TradeBench::measure_reference(std::optional<std::size_t> lobe) 
     settings_.background_environment = job_.settings.background_environment;
     settings_.background_linear = job_.settings.background_linear;
     if (!coverage) return tl::unexpected(coverage.error());
-    references_.emplace_back(*picture, *coverage);
+    references_.emplace_back(*picture, *coverage, job_.settings.tone_curve);
     pictures_.push_back(std::move(*picture));
     pictures_.back().rgba_linear.clear();
     return row;

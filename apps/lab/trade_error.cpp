@@ -2,27 +2,30 @@
 
 #include "sh/config.hpp"
 #include "shading/reference/reference.hpp"
+#include "shading/reference/tone.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace halflit::cli {
-namespace {
 
-double code_of(float linear) { return shading::reference::srgb_code(static_cast<double>(linear)); }
-
-}  // namespace
-
-TradeReference::TradeReference(const Image& picture, const Image& coverage) {
+TradeReference::TradeReference(const Image& picture, const Image& coverage, ToneCurve curve) : curve_(curve) {
     HALFLIT_ASSERT(picture.rgba_linear.size() == coverage.rgba_linear.size());
     for (std::size_t i = 0; i * 4 < picture.rgba_linear.size(); ++i) {
         if (!(coverage.rgba_linear[i * 4 + 3] > 0.0f)) continue;
         pixels_.push_back(i);
-        for (std::size_t c = 0; c < 3; ++c) {
-            linear_.push_back(picture.rgba_linear[i * 4 + c]);
-            codes_.push_back(code_of(linear_.back()));
-        }
+        const float* const linear = &picture.rgba_linear[i * 4];
+        linear_.insert(linear_.end(), linear, linear + 3);
+        const auto codes = codes_of(linear);
+        codes_.insert(codes_.end(), codes.begin(), codes.end());
     }
+}
+
+std::array<double, 3> TradeReference::codes_of(const float* linear) const {
+    using shading::reference::srgb_code;
+    const auto light = [&](int c) { return static_cast<double>(linear[c]); };
+    const Vec3d shown = shading::reference::toned(curve_, {light(0), light(1), light(2)});
+    return {srgb_code(shown.x), srgb_code(shown.y), srgb_code(shown.z)};
 }
 
 TradeError TradeReference::error_of(const Image& picture) const {
@@ -30,14 +33,16 @@ TradeError TradeReference::error_of(const Image& picture) const {
     if (pixels_.empty()) return error;
     std::vector<double> worst(pixels_.size(), 0.0);
     double sum_squares = 0;
-    for (std::size_t k = 0; k < pixels_.size(); ++k)
+    for (std::size_t k = 0; k < pixels_.size(); ++k) {
+        const float* const linear = &picture.rgba_linear[pixels_[k] * 4];
+        if (std::equal(linear, linear + 3, &linear_[3 * k])) continue;  // true for most pixels; the curves are slow
+        const auto codes = codes_of(linear);
         for (std::size_t c = 0; c < 3; ++c) {
-            const float value = picture.rgba_linear[pixels_[k] * 4 + c];
-            if (value == linear_[3 * k + c]) continue;  // true for most values; the sRGB curve is slow
-            const double difference = std::abs(code_of(value) - codes_[3 * k + c]);
+            const double difference = std::abs(codes[c] - codes_[3 * k + c]);
             worst[k] = std::max(worst[k], difference);
             sum_squares += difference * difference;
         }
+    }
     const auto count = static_cast<double>(worst.size());
     for (const double one : worst) {
         error.max = std::max(error.max, one);
@@ -55,11 +60,13 @@ TradeError TradeReference::error_of(const Image& picture) const {
 Image TradeReference::difference(const Image& picture, double gain) const {
     Image image{picture.width, picture.height, std::vector<std::uint8_t>(picture.rgba8.size(), 0), {}};
     for (std::size_t i = 3; i < image.rgba8.size(); i += 4) image.rgba8[i] = 255;
-    for (std::size_t k = 0; k < pixels_.size(); ++k)
+    for (std::size_t k = 0; k < pixels_.size(); ++k) {
+        const auto codes = codes_of(&picture.rgba_linear[pixels_[k] * 4]);
         for (std::size_t c = 0; c < 3; ++c) {
-            const double difference = std::abs(code_of(picture.rgba_linear[pixels_[k] * 4 + c]) - codes_[3 * k + c]);
+            const double difference = std::abs(codes[c] - codes_[3 * k + c]);
             image.rgba8[pixels_[k] * 4 + c] = static_cast<std::uint8_t>(std::min(255.0, difference * gain + 0.5));
         }
+    }
     return image;
 }
 

@@ -2,7 +2,10 @@
 // less than one code into 0 or 1.
 #pragma once
 
+#include "halflit/shading.hpp"
 #include "halflit/target.hpp"
+
+#include <array>
 
 #include <optional>
 #include <vector>
@@ -20,8 +23,9 @@ struct TradeError {
 /// The codes of a reference picture, kept for many comparisons.
 class TradeReference {
 public:
-    /// `coverage` has alpha 0 where nothing was drawn, and the size of `picture`. Both need linear floats.
-    TradeReference(const Image& picture, const Image& coverage);
+    /// `coverage` has alpha 0 where nothing was drawn, and the size of `picture`. Both need linear floats. The curve is applied in float64
+    /// to each pixel of the pictures that are compared.
+    TradeReference(const Image& picture, const Image& coverage, ToneCurve curve = ToneCurve::none);
 
     [[nodiscard]] TradeError error_of(const Image& picture) const;
     /// Each channel's error times `gain`, rounded, as a grey or coloured picture; black where nothing was drawn.
@@ -29,6 +33,10 @@ public:
     [[nodiscard]] std::size_t pixels_drawn() const { return pixels_.size(); }
 
 private:
+    /// Codes of red, green and blue of a pixel, before they are rounded.
+    [[nodiscard]] std::array<double, 3> codes_of(const float* linear) const;
+
+    ToneCurve curve_;
     std::vector<std::size_t> pixels_;  ///< those that geometry covers
     std::vector<double> codes_;        ///< three for each of them
     std::vector<float> linear_;        ///< three for each of them

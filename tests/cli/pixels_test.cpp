@@ -81,6 +81,25 @@ TEST_CASE("pixels: a background's codes come out as they were given", "[cli]") {
     CHECK(corner("transparent")[3] == 0);
 }
 
+TEST_CASE("pixels: a tone curve changes surfaces, and neither the background colour nor .hdr files", "[cli]") {
+    const TemporaryFolder folder;
+    const auto draw = [&](const std::string& name, const std::vector<std::string>& flags) {
+        std::vector<std::string> all = {"render", "sphere:500", "--size", "60x40", "--exposure", "2", "-o", folder.file(name)};
+        all.insert(all.end(), flags.begin(), flags.end());
+        REQUIRE(run(all).code == 0);
+        return contents(folder.file(name));
+    };
+    const Picture plain = read_picture(draw("plain.png", {}));
+    const std::string light = draw("plain.hdr", {});
+    CHECK(draw("none.png", {"--tonemap", "none"}) == draw("default.png", {}));
+    for (const std::string curve : {"reinhard", "aces", "neutral"}) {
+        const Picture toned = read_picture(draw(curve + ".png", {"--tonemap", curve}));
+        CHECK(toned.pixel(0, 0) == std::vector<int>{0x3a, 0x3f, 0x47, 255});
+        CHECK(toned.pixel(30, 20) != plain.pixel(30, 20));
+        CHECK(draw(curve + ".hdr", {"--tonemap", curve}) == light);
+    }
+}
+
 TEST_CASE("pixels: ambient alone shows a surface's colour at every angle", "[cli]") {
     // The material is clay, 0.8 0.75 0.7 linear, under ambient 1: every pixel of it has this colour, as sRGB codes 231 225 218.
     const Picture picture =

@@ -119,6 +119,25 @@ TEST_CASE("info: it counts the built-in sphere and plans its one material", "[cl
     CHECK(flat["materials"][0]["does_without"].dump().find("specular") != std::string::npos);
 }
 
+TEST_CASE("report: it names the tone curve, and by how much the curve may enlarge errors", "[cli]") {
+    const auto info = [](const std::vector<std::string>& flags) {
+        std::vector<std::string> all = {"info", "sphere:500", "--json", "--max-error", "2"};
+        all.insert(all.end(), flags.begin(), flags.end());
+        return json_of(run(all).out);
+    };
+    const auto none = info({"--tonemap", "none"}), neutral = info({"--tonemap", "neutral"});
+    CHECK(none["tone_curve"] == "none");
+    CHECK(none["error_bound"]["tone_growth"] == 1.0);
+    CHECK(neutral["tone_curve"] == "neutral");
+    CHECK(neutral["error_bound"]["tone_growth"].get<double>() > 1.0);
+    CHECK(neutral["error_bound"]["budget_codes"] == 2.0);
+    CHECK(neutral["error_bound"]["bound_codes"].get<double>() <= 2.0);
+    const TemporaryFolder folder;
+    const std::string file = folder.file("r.json");
+    REQUIRE(run({"render", "sphere:500", "--size", "8x8", "--tonemap", "aces", "-o", folder.file("a.png"), "--report", file}).code == 0);
+    CHECK(json_of(contents(file))["tone_curve"] == "aces");
+}
+
 TEST_CASE("report: the orders and bounds of an environment are those of info", "[cli][env]") {
     const auto environment_of = [](const std::vector<std::string>& flags) {
         std::vector<std::string> arguments{"render", "sphere:500", "--size", "16x16", "-o", "", "--env", "sky"};

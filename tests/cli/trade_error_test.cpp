@@ -38,6 +38,14 @@ TEST_CASE("trade error: codes are compared before rounding, by a pixel's worst c
     CHECK(error.psnr.value() == Approx(10 * std::log10(255 * 255 / mean_square)).margin(1e-3));
 }
 
+TEST_CASE("trade error: codes are those after the tone curve", "[cli][trade]") {
+    Image reference = row_of({100}), picture = row_of({100});
+    for (std::size_t c = 0; c < 3; ++c) reference.rgba_linear[c] = 0.02f, picture.rgba_linear[c] = 0.03f;
+    // Neutral shows 6.25 x^2 of a dark grey x: 0.0025, of which the codes are straight, and 0.005625.
+    const TradeError error = TradeReference(reference, reference, ToneCurve::neutral).error_of(picture);
+    CHECK(error.max == Approx(255 * (1.055 * std::pow(0.005625, 1 / 2.4) - 0.055 - 12.92 * 0.0025)).margin(1e-4));
+}
+
 TEST_CASE("trade error: equal pictures have none, values above white count as white", "[cli][trade]") {
     Image reference = row_of({255, 30});
     const TradeReference same(reference, reference);

@@ -35,6 +35,7 @@ TEST_CASE("usage: an invalid command line ends with 2 and says what was expected
         {{"render", "--camera-target", "1,2,3"}, "--camera-position"},
         {{"render", "--up", "w"}, "one of x, y, z, -x, -y, -z"},
         {{"render", "--specular", "phnog"}, "did you mean phong?"},
+        {{"render", "--tonemap", "acse"}, "did you mean aces?"},
         {{"render", "--lobe", "lambret"}, "did you mean lambert?"},
         {{"render", "demo", "--resolution", "64x64"}, "unknown flag --resolution (did you mean --size?)"},
         {{"render", "demo", "--bg=white"}, "did you mean --background?"},
