@@ -172,6 +172,7 @@ void PictureTile::blend_pixel(std::size_t at, std::span<const std::uint32_t> fra
                 for (int s = 0; s < samples_; ++s) blend(color[s], light);
             else
                 for (unsigned left = samples; left != 0; left &= left - 1) blend(color[std::countr_zero(left)], light);
+            cover_backing(static_cast<int>(at), samples, light.w);
         }
         for (int s = 0; s < samples_; ++s) std::memcpy(sample_color(s) + 4 * at, color[s], sizeof color[s]);
         return;
@@ -181,7 +182,11 @@ void PictureTile::blend_pixel(std::size_t at, std::span<const std::uint32_t> fra
         for (const std::uint32_t fragment : fragments)
             if ((layers.fragments[fragment].samples >> s & 1u) != 0) layers.order.push_back(layer_key(z_of(fragment, s), fragment));
         std::sort(layers.order.begin(), layers.order.end());
-        for (const std::uint64_t layer : layers.order) blend(sample_color(s) + 4 * at, layers.light[static_cast<std::uint32_t>(layer)]);
+        for (const std::uint64_t layer : layers.order) {
+            const Vec4f light = layers.light[static_cast<std::uint32_t>(layer)];
+            blend(sample_color(s) + 4 * at, light);
+            cover_backing(static_cast<int>(at), 1u << s, light.w);
+        }
     }
 }
 
@@ -230,7 +235,10 @@ void PictureTile::blend_sample(int at, int sample) {
         layers.fragments.clear();
         for (const Kept& layer : kept) layers.fragments.push_back({layer.id, static_cast<std::uint16_t>(at), 0});
         shade_layers();
-        for (const Vec4f& light : layers.light) blend(sample_color(sample) + 4 * at, light);
+        for (const Vec4f& light : layers.light) {
+            blend(sample_color(sample) + 4 * at, light);
+            cover_backing(at, 1u << sample, light.w);
+        }
         if (!kept.empty()) done = kept.back().key;
     }
 }

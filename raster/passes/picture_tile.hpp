@@ -75,8 +75,8 @@ private:
     // tone.cpp
     /// Display light of light times exposure, by the tone curve. Accuracy reference computes it in float64.
     void tone(const float* const light[3], float exposure, float* const display[3], int count) const;
-    void fill_backing(float share);  ///< sets the share of the background colour in every sample
-    void cover_backing(const FragmentList& list, const shading::FragmentBlock& block, bool blend);  ///< lays fragments over it
+    void fill_backing(float share);                             ///< sets the share of the background colour in every sample
+    void cover_backing(int at, unsigned samples, float alpha);  ///< lays a fragment over it; at: of the pixel in the tile's buffers
     /// Adds what `count` pixels from `at` on show of sample s: display light times alpha, and alpha.
     void add_toned_sample(int s, int at, int count, float (&sum)[4][kTileStride]);
     [[nodiscard]] float* sample_color(int s) { return scratch_.color.data() + static_cast<std::size_t>(s) * 4 * kTilePixels; }

@@ -88,8 +88,8 @@ void PictureTile::write_samples(const FragmentList& list, const shading::Fragmen
         const int at = (list.y_px[l] - rect_.y) * kTileStride + (list.x_px[l] - rect_.x);
         for (auto samples = static_cast<unsigned>(list.samples[l]); samples != 0; samples &= samples - 1)
             std::memcpy(sample_color(__builtin_ctz(samples)) + 4 * at, &light, sizeof light);
+        cover_backing(at, static_cast<unsigned>(list.samples[l]), 1.0f);
     }
-    cover_backing(list, block, blend);
 }
 
 void PictureTile::fill_samples() {

@@ -28,14 +28,10 @@ void PictureTile::fill_backing(float share) {
     std::fill_n(scratch_.backing.reserve(count), count, share);
 }
 
-void PictureTile::cover_backing(const FragmentList& list, const shading::FragmentBlock& block, bool blend) {
+void PictureTile::cover_backing(int at, unsigned samples, float alpha) {
     if (!toned_) return;
-    for (int l = 0; l < list.count; ++l) {
-        const float keep = blend && block.alpha[l] == block.alpha[l] ? 1.0f - block.alpha[l] : blend ? 1.0f : 0.0f;
-        float* const of_pixel = scratch_.backing.data() + (list.y_px[l] - rect_.y) * kTileStride + (list.x_px[l] - rect_.x);
-        for (auto samples = static_cast<unsigned>(list.samples[l]); samples != 0; samples &= samples - 1)
-            of_pixel[__builtin_ctz(samples) * kTilePixels] *= keep;
-    }
+    float* const of_pixel = scratch_.backing.data() + at;
+    for (; samples != 0; samples &= samples - 1) of_pixel[__builtin_ctz(samples) * kTilePixels] *= 1.0f - alpha;
 }
 
 void PictureTile::add_toned_sample(int s, int at, int count, float (&sum)[4][kTileStride]) {
