@@ -70,18 +70,14 @@ shading::SceneFacts scene_facts(const PreparedData& scene, std::span<const Light
 
 /// Environments that drawn materials use, in the plan's order.
 std::vector<EnvironmentUse> environment_uses(const PreparedData& scene, const shading::ShadingPlan& plan) {
-    enum : unsigned { kDiffuse = 1, kSpecular = 2 };
-    std::vector<unsigned> uses(plan.environments.size(), 0);
-    for (std::size_t i = 0; i < plan.materials.size(); ++i) {
-        if (!scene.drawn_materials()[i]) continue;
-        if (plan.materials[i].environment >= 0) uses[static_cast<std::size_t>(plan.materials[i].environment)] |= kDiffuse;
-        if (plan.materials[i].specular_environment >= 0)
-            uses[static_cast<std::size_t>(plan.materials[i].specular_environment)] |= kSpecular;
-    }
+    std::vector<bool> used(plan.environments.size(), false);
+    for (std::size_t i = 0; i < plan.materials.size(); ++i)
+        if (scene.drawn_materials()[i] && plan.materials[i].environment >= 0)
+            used[static_cast<std::size_t>(plan.materials[i].environment)] = true;
     std::vector<EnvironmentUse> out;
-    for (std::size_t i = 0; i < uses.size(); ++i) {
+    for (std::size_t i = 0; i < used.size(); ++i) {
         const shading::EnvironmentPlan& environment = plan.environments[i];
-        if (uses[i] != 0) out.push_back({environment.bands, environment.bound, environment.within, uses[i] == kSpecular});
+        if (used[i]) out.push_back({environment.bands, environment.bound, environment.within});
     }
     return out;
 }
@@ -188,7 +184,9 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, 
          .viewer = viewer_of(camera),
          .shadows = {settings.shadows, settings.shadow_terminator_offset, std::move(shadows->maps), std::move(shadows->map_of_light),
                      prepared.object_radii(), static_cast<double>(settings.shadow_fade)},
-         .facts = budget ? &facts : nullptr},
+         .facts = budget ? &facts : nullptr,
+         .drawn = &prepared.drawn_materials(),
+         .for_each_row = memory.for_each_row ? memory.for_each_row : shading::in_turn},
         memory.shading);
     plan.written = plan.picture.region;
     plan.cells = uses_cells(plan.shading);

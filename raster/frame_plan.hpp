@@ -48,7 +48,8 @@ struct FramePlanMemory {
     std::map<std::array<double, 3>, double> light_distances;
     /// Texels of all shadow maps, one map after the other. Without a value the plan is only read: its maps have no texels.
     std::optional<RawBuffer<float>> shadow_texels;
-    StopSignal* stop = nullptr;  ///< of the call; null: none, and shadow_texels has no value
+    shading::ForEachRow for_each_row;  ///< of the call; empty: none
+    StopSignal* stop = nullptr;        ///< of the call; null: none, and shadow_texels has no value
 };
 
 /// Plans a picture of width x height pixels. Fails for settings that are out of range or exclude each other, and for a camera without a

@@ -113,6 +113,7 @@ struct Renderer::Impl {
         Stopwatch watch;
         executor.configure(execution);
         plan_memory.stop = &executor.stop();
+        plan_memory.for_each_row = [this](int count, const std::function<void(int)>& body) { executor.run(count, body); };
         if (auto ok = make_plan(scene, camera, settings, target, execution.tile_size); !ok) return tl::unexpected<Error>(ok.error());
         const RasterKernels& raster = raster_kernels(isa);
         const shading::ShadeKernels& shade = shading::shade_kernels(isa);

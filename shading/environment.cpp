@@ -55,11 +55,6 @@ SunShape shape_of(const sh::EquirectView& image, const sh::EquirectView& rest, c
 
 }  // namespace
 
-sh::WrapLobe specular_environment_lobe(float roughness) {
-    const double power = std::max(1.0, specular_exponent(static_cast<double>(roughness)) * 0.25);
-    return {0.0, power, 0.5 * (power + 1.0)};
-}
-
 Environment make_environment(const sh::EquirectView& image, const EnvironmentOptions& options) {
     const sh::Projection whole(image);
     const sh::Rotation turn = sh::rotation_about_y(options.rotate_rad);
@@ -77,8 +72,9 @@ Environment make_environment(const sh::EquirectView& image, const EnvironmentOpt
     environment.lit_width = image.width;
     environment.lit_height = image.height;
     environment.rotate_rad = options.rotate_rad;
-    if (options.keep_light) environment.lit_rgb.assign(image.rgb.begin(), image.rgb.end());
+    environment.kept_light = options.keep_light;
     if (!options.extract_suns) {
+        environment.lit_rgb.assign(image.rgb.begin(), image.rgb.end());
         take(whole);
         return environment;
     }
@@ -94,7 +90,10 @@ Environment make_environment(const sh::EquirectView& image, const EnvironmentOpt
         const sh::EquirectView rest{image.width, image.height, extraction.residual_rgb};
         environment.sun_shapes.push_back(shape_of(image, rest, sun, light, turn, options.keep_light));
     }
-    if (options.keep_light && !extraction.suns.empty()) environment.lit_rgb = std::move(extraction.residual_rgb);
+    if (extraction.suns.empty())
+        environment.lit_rgb.assign(image.rgb.begin(), image.rgb.end());
+    else
+        environment.lit_rgb = std::move(extraction.residual_rgb);
     return environment;
 }
 

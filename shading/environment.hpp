@@ -43,18 +43,15 @@ struct Environment {
     std::vector<float> rgb;
     int width = 0, height = 0;
     double rotate_rad = 0.0;
-    /// The image that the bands are made of, without the suns. Empty unless kept.
+    /// The image that the bands are made of, without the suns and before any rotation; reflections are made of it.
     std::vector<float> lit_rgb;
     int lit_width = 0, lit_height = 0;
+    bool kept_light = false;  ///< EnvironmentOptions::keep_light: the suns have their patches
 };
 
 }  // namespace halflit
 
 namespace halflit::shading {
-
-/// Lobe of the reflected environment: a normalised cosine power about the mirrored view direction. Its exponent is a quarter of the
-/// highlight's, because the mirrored direction turns twice as fast as the half vector.
-[[nodiscard]] sh::WrapLobe specular_environment_lobe(float roughness);
 
 /// A pointer to an environment that the caller keeps alive.
 [[nodiscard]] inline std::shared_ptr<const Environment> borrowed(const Environment& environment) {

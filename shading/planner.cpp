@@ -22,14 +22,6 @@ public:
         return find({lobe.wrap, static_cast<double>(lobe.power_minus_one) + 1.0, lobe.scale}, order);
     }
 
-    /// Plans reflections. They are an approximation, so the tolerance is doubled. With an error budget their ten bands count as exact.
-    int specular(float roughness) {
-        EnvironmentOrder order = order_;
-        order.tolerance *= 2.0;
-        order.ten_bands_are_all = true;
-        return find(specular_environment_lobe(roughness), order);
-    }
-
 private:
     int find(const sh::WrapLobe& lobe, const EnvironmentOrder& order) {
         const auto planned = std::find(lobes_.begin(), lobes_.end(), lobe);
@@ -44,6 +36,9 @@ private:
     std::vector<EnvironmentPlan>& plans_;
     std::vector<sh::WrapLobe> lobes_;
 };
+
+/// Reflections of surfaces that mirror no more than this, seen straight on, are taken by one lobe.
+constexpr float kFaintReflectance = 0.2f;
 
 void plan_environments(const PlanInputs& inputs, PlanMemory& memory, ShadingPlan& plan) {
     if (inputs.environment == nullptr) return;
@@ -61,10 +56,13 @@ void plan_environments(const PlanInputs& inputs, PlanMemory& memory, ShadingPlan
         material.stages |= kStageEnvironment;
         material.environment = planner.diffuse(material.lobe, split_shadows);
     }
-    // Reflections come last: at roughness 1 their lobe is Lambert's, and a Lambert surface must not get the plan with the larger error.
-    for (MaterialPlan& material : plan.materials)
-        if ((material.stages & kStageEnvironment) != 0 && (material.stages & kStageSpecular) != 0)
-            material.specular_environment = planner.specular(material.roughness);
+    for (std::size_t i = 0; i < plan.materials.size(); ++i) {
+        MaterialPlan& material = plan.materials[i];
+        if ((material.stages & kStageEnvironment) == 0 || (material.stages & kStageSpecular) == 0) continue;
+        material.reflection_lobes = material.metallic > 0.0f || material.dielectric > kFaintReflectance ? 2 : 1;
+        if (plan.reflections.rgba == nullptr && (inputs.drawn == nullptr || (*inputs.drawn)[i]))
+            plan.reflections = ReflectionPlan(memory.environments.reflections(inputs.for_each_row));
+    }
 }
 
 /// Plans shadows, and the distance over which wrapped light fades in them: d0 = 9/8 * 2 w R for a lobe of wrap w on an object of radius R.

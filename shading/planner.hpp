@@ -52,7 +52,9 @@ struct PlanInputs {
     ToneCurve tone_curve = ToneCurve::none;
     Viewer viewer = {};
     ShadowInputs shadows = {};
-    const SceneFacts* facts = nullptr;  ///< needed for an error budget only
+    const SceneFacts* facts = nullptr;         ///< needed for an error budget only
+    const std::vector<bool>* drawn = nullptr;  ///< for each planned material, whether an object is made of it; null: all
+    ForEachRow for_each_row = in_turn;
 };
 
 /// Fails (usage) for a lobe that check_lobe refuses, and for an error budget with options whose error has no bound.

@@ -66,7 +66,7 @@ void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered,
     if (job.scene().environment != nullptr) {
         Json uses = Json::array();
         for (const EnvironmentUse& use : rendered.environment) {
-            Json one{{"light", use.specular ? "specular" : "diffuse"}};
+            Json one{{"light", "diffuse"}};
             one.update(environment_use_json(use, job.settings));
             uses.push_back(std::move(one));
         }
@@ -98,7 +98,7 @@ Json environment_use_json(const EnvironmentUse& use, const Settings& settings) {
     return {{"order", use.bands},
             {"bound_linear", use.bound},
             {"bound_of_white", use.bound * static_cast<double>(settings.exposure)},
-            {"tolerance_of_white", settings.shading.environment_tolerance * (use.specular ? 2.0 : 1.0)},
+            {"tolerance_of_white", settings.shading.environment_tolerance},
             {"within", use.within}};
 }
 

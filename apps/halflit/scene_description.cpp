@@ -86,9 +86,9 @@ Json lights_json(const Scene& scene) {
     return lights;
 }
 
-Json environment_json(const shading::ShadingPlan& frame, int index, bool specular, const Settings& settings) {
+Json environment_json(const shading::ShadingPlan& frame, int index, const Settings& settings) {
     const shading::EnvironmentPlan& plan = frame.environments[static_cast<std::size_t>(index)];
-    return environment_use_json({plan.bands, plan.bound, plan.within, specular}, settings);
+    return environment_use_json({plan.bands, plan.bound, plan.within}, settings);
 }
 
 /// Approximations that the error budget allows.
@@ -118,9 +118,8 @@ Json material_json(const Material& source, const shading::ShadingPlan& frame, co
                             {"normalize", lobe.normalize},
                             {"computed_as", lobe_path_name(plan.lobe.path)}};
     }
-    if (plan.environment >= 0) material["environment"] = environment_json(frame, plan.environment, false, settings);
-    if (plan.specular_environment >= 0)
-        material["specular_environment"] = environment_json(frame, plan.specular_environment, true, settings);
+    if (plan.environment >= 0) material["environment"] = environment_json(frame, plan.environment, settings);
+    if (plan.reflection_lobes > 0) material["reflection_lobes"] = plan.reflection_lobes;
     if (frame.error.budget > 0.0) material["savings"] = savings_json(frame, plan);
     material["requires"] = std::move(needed);
     material["does_without"] = std::move(not_needed);

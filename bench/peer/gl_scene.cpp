@@ -2,7 +2,9 @@
 
 #include "bench/peer/gl_shaders.hpp"
 #include "raster/view/projection.hpp"
+#include "shading/environment.hpp"
 #include "shading/reference/reference.hpp"
+#include "shading/reflection_map.hpp"
 #include "tests/peer/mesa_program.hpp"
 
 #include <GLES3/gl3.h>
@@ -72,6 +74,32 @@ void upload_texture(const Texture& texture, TextureStorage storage, bool srgb) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
 }
 
+/// Uploads the maps of reflections one below the other, as 16-bit floats, which every driver filters.
+void upload_reflections(unsigned program, const Environment& environment, GLint unit) {
+    const shading::ReflectionMap map = shading::make_reflection_map({environment.lit_width, environment.lit_height, environment.lit_rgb},
+                                                                    environment.rotate_rad, shading::in_turn);
+    const int width = 2 * map.rows[0] + 1;
+    float rows[shading::kReflectionLevels], first[shading::kReflectionLevels];
+    int height = 0;
+    for (int k = 0; k < shading::kReflectionLevels; ++k) {
+        rows[k] = static_cast<float>(map.rows[k]), first[k] = static_cast<float>(height);
+        height += map.rows[k] + 1;
+    }
+    GLuint name = 0;
+    glGenTextures(1, &name);
+    glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
+    glBindTexture(GL_TEXTURE_2D, name);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, width, height, 0, GL_RGBA, GL_FLOAT, nullptr);
+    for (int k = 0; k < shading::kReflectionLevels; ++k)
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, static_cast<GLint>(first[k]), 2 * map.rows[k] + 1, map.rows[k] + 1, GL_RGBA, GL_FLOAT,
+                        map.rgba[static_cast<std::size_t>(map.first[k])].data());
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glUniform1i(glGetUniformLocation(program, "around_map"), unit);
+    glUniform1fv(glGetUniformLocation(program, "kRows"), shading::kReflectionLevels, rows);
+    glUniform1fv(glGetUniformLocation(program, "kFirst"), shading::kReflectionLevels, first);
+}
+
 /// The camera's matrix for OpenGL. y is turned over, so that the lowest row of the target is the picture's top. z / w runs from -1 at the
 /// near plane to 1.
 Mat4 gl_clip_from_world(const Camera& camera, float aspect) {
@@ -120,6 +148,7 @@ bool GlScene::make(const BenchScene& bench, float aspect, TextureStorage storage
     set_camera(out.depth_program_, clip_from_world);
     set_camera(out.program_, clip_from_world);
     set_lamps(out.program_, scene);
+    upload_reflections(out.program_, *scene.environment, 2);
     if (textured) {
         glUniform1i(glGetUniformLocation(out.program_, "base_color_texture"), 0);
         glUniform1i(glGetUniformLocation(out.program_, "normal_texture"), 1);

@@ -2,8 +2,10 @@
 
 #include "bench/peer/scenes.hpp"
 #include "shading/environment.hpp"
+#include "shading/model/reflection_tables.hpp"
 #include "shading/model/scalar.hpp"
 #include "shading/plan/environment_plans.hpp"
+#include "shading/reflection_map.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -50,6 +52,7 @@ in vec2 v_uv;
 uniform sampler2D base_color_texture;
 uniform sampler2D normal_texture;
 #endif
+uniform sampler2D around_map;
 uniform vec3 lamp_position[LAMPS];
 uniform vec3 lamp_color[LAMPS];
 out vec4 color;
@@ -66,6 +69,17 @@ void add_light(vec3 direction, float attenuation, vec3 light, vec3 normal, vec3 
     vec3 between = direction + to_eye;
     float cosine = max(dot(normal, between), 0.0) * inversesqrt(dot(between, between));
     highlight += light * (max(n_dot_l, 0.0) * pow(cosine, EXPONENT) * attenuation);
+}
+
+// The environment's maps lie one below the other; a row holds two times ROWS and one values.
+vec3 blurred(int level, vec2 at) {
+    vec2 place = vec2(at.x * 2.0 * kRows[level], at.y * kRows[level] + kFirst[level]) + 0.5;
+    return texture(around_map, place / vec2(textureSize(around_map, 0))).rgb;
+}
+vec3 mirrored(vec3 d, float level) {
+    vec2 at = vec2(atan(d.x, -d.z) * 0.159154943 + 0.5, atan(length(d.xz), d.y) * 0.318309886);
+    int fine = int(min(floor(level), LAST_LEVEL - 1.0));
+    return mix(blurred(fine, at), blurred(fine + 1, at), level - float(fine));
 }
 
 void main() {
@@ -85,12 +99,14 @@ void main() {
         add_light(offset * inversesqrt(squared), 1.0 / max(squared, LEAST_SQUARED), lamp_color[i], normal, to_eye, diffuse, highlight);
     }
     SUNS
-    vec3 f0 = mix(vec3(DIELECTRIC), base, METALLIC), albedo = base * ((1.0 - METALLIC) * (1.0 - DIELECTRIC));
-    float n_dot_v = dot(normal, to_eye);
-    float away = 1.0 - clamp(n_dot_v, 0.0, 1.0), away2 = away * away;
+    vec3 f0 = vec3(DIELECTRIC), albedo = base * (1.0 - DIELECTRIC);
+    float n_dot_v = dot(normal, to_eye), seen = clamp(n_dot_v, 0.0, 1.0), node = 18.0 * seen / (seen + 0.2);
     vec3 reflection = 2.0 * n_dot_v * normal - to_eye;
-    vec3 share = f0 + (max(vec3(1.0 - ROUGHNESS), f0) - f0) * (away2 * away2 * away);
-    vec3 around = albedo * SERIES(normal, kDiffuse) + share * SERIES(reflection, kMirrored);
+    int low = int(min(floor(node), 14.0));
+    vec4 shape = mix(kMirror[low], kMirror[low + 1], node - float(low));  // A, B, turn, level
+    float share = (shape.x * DIELECTRIC + shape.y) * (1.0 + DIELECTRIC * (1.0 / (shape.x + shape.y) - 1.0));
+    vec3 around = base * (1.0 - share) * SERIES(normal, kDiffuse) +
+        share * mirrored(reflection + (normal - n_dot_v * reflection) * shape.z, shape.w);
     color = vec4(albedo * diffuse + f0 * highlight * NORMALIZATION + around, 1.0);
 }
 )";
@@ -121,6 +137,23 @@ shading::EnvironmentPlan plan(const Environment& environment, const sh::WrapLobe
     return shading::plan_environment(environment, lobe, order);
 }
 
+/// The table of mirrors at one roughness, for one lobe, and the places of the environment's maps.
+std::string mirror_constants(float roughness) {
+    using shading::kReflectionNodes, shading::ReflectionShape;
+    const double row = double{roughness} * (kReflectionNodes - 1);
+    const int low = std::min(static_cast<int>(row), kReflectionNodes - 2);
+    std::string text = "const vec4 kMirror[16] = vec4[16](";
+    static_assert(kReflectionNodes == 16);
+    for (int j = 0; j < kReflectionNodes; ++j) {
+        const ReflectionShape &a = shading::kReflectionShapes[low * kReflectionNodes + j],
+                              &b = shading::kReflectionShapes[(low + 1) * kReflectionNodes + j];
+        const auto between = [&](float first, float second) { return number(first + (row - low) * (double{second} - first)); };
+        text += (j > 0 ? ", vec4(" : "vec4(") + between(a.a, b.a) + ", " + between(a.b, b.b) + ", " + between(a.turn0, b.turn0) + ", " +
+                between(a.level0, b.level0) + ")";
+    }
+    return text + ");\nuniform float kRows[8];\nuniform float kFirst[8];\n";
+}
+
 }  // namespace
 
 ShaderSources shader_sources(const Scene& scene, Vec3f eye) {
@@ -139,8 +172,6 @@ ShaderSources shader_sources(const Scene& scene, Vec3f eye) {
     define(head, "NORMALIZATION", number(specular_normalization(half_exponent, false)));
     define(head, "BASE", vec3({material.base_color.x, material.base_color.y, material.base_color.z}));
     define(head, "DIELECTRIC", number(material.dielectric_reflectance));
-    define(head, "METALLIC", number(material.metallic));
-    define(head, "ROUGHNESS", number(roughness));
     define(head, "LEAST_SQUARED", number(double{shading::kMinSourceRadius} * double{shading::kMinSourceRadius}));
     define(head, "EYE", vec3(eye));
     std::string suns;
@@ -150,8 +181,8 @@ ShaderSources shader_sources(const Scene& scene, Vec3f eye) {
                     ", normal, to_eye, diffuse, highlight); ";
     define(head, "SUNS", suns);
     const sh::WrapLobe lobe{material.lobe.wrap, material.lobe.power, material.lobe.scale()};
-    const std::string light = series("kDiffuse", plan(*scene.environment, lobe)) +
-                              series("kMirrored", plan(*scene.environment, shading::specular_environment_lobe(roughness)));
+    define(head, "LAST_LEVEL", number(shading::kReflectionLevels - 1));
+    const std::string light = series("kDiffuse", plan(*scene.environment, lobe)) + mirror_constants(roughness);
     return {head + kVertex, head + light + kFragment, head + "void main() {}\n"};
 }
 

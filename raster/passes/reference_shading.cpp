@@ -16,7 +16,7 @@ std::shared_ptr<const reference::Irradiance> ReferenceShading::diffuse(const Lob
 
 Result<void> ReferenceShading::build(const PreparedData& prepared, const shading::ShadingPlan& plan, const ShadingSettings& options) {
     const Scene& scene = prepared.scene();
-    if (scene.environment != nullptr && scene.environment->lit_rgb.empty())
+    if (scene.environment != nullptr && !scene.environment->kept_light)
         return fail(ErrorCode::usage, "accuracy reference: the environment was made without keep_light");
     scene_ = &prepared;
     frame_ = {scene.textures, scene.lights,           scene.ambient,     options,
@@ -32,13 +32,8 @@ Result<void> ReferenceShading::build(const PreparedData& prepared, const shading
     frame_.suns = suns_;
     if (environment_.replace(scene.environment)) known_.clear();
     diffuse_.assign(plan.materials.size(), nullptr);
-    specular_.assign(plan.materials.size(), nullptr);
     if (scene.environment == nullptr) return {};
-    for (std::size_t i = 0; i < plan.materials.size(); ++i) {
-        diffuse_[i] = diffuse(shading::lobe_of(prepared.material(i), options));
-        specular_[i] = std::make_shared<reference::BandIrradiance>(*scene.environment,
-                                                                   shading::specular_environment_lobe(plan.materials[i].roughness));
-    }
+    for (std::size_t i = 0; i < plan.materials.size(); ++i) diffuse_[i] = diffuse(shading::lobe_of(prepared.material(i), options));
     return {};
 }
 
@@ -60,7 +55,8 @@ void ReferenceShading::shade(const shading::ShadeKernels& kernels, const shading
     }
     reference::Surroundings around;
     around.diffuse = diffuse_[index].get();
-    around.specular = specular_[index].get();
+    around.reflections = plan.reflections.map.get();
+    around.reflection_lobes = material_plan.reflection_lobes;
     // Rows of the block that the plan does not need hold what was there before.
     const shading::SlotMask filled = scene_->available_slots()[index] & material_plan.slots;
     for (int lane = 0; lane < count; ++lane) {

@@ -31,9 +31,9 @@ private:
     const PreparedData* scene_ = nullptr;
     shading::reference::FrameInputs frame_;
     shading::EnvironmentSlot environment_;
-    std::vector<const SunShape*> suns_;                                                      ///< for each of the scene's lights, or null
-    std::vector<Around> known_;                                                              ///< of environment_
-    std::vector<std::shared_ptr<const shading::reference::Irradiance>> diffuse_, specular_;  ///< per material
+    std::vector<const SunShape*> suns_;                                           ///< for each of the scene's lights, or null
+    std::vector<Around> known_;                                                   ///< of environment_
+    std::vector<std::shared_ptr<const shading::reference::Irradiance>> diffuse_;  ///< per material
 };
 
 }  // namespace halflit::raster

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace halflit::shading {
 namespace {
@@ -32,9 +33,8 @@ double specular_tier_codes(const Surface& s, const Arriving& light, PowTier tier
 
 double environment_codes(const ShadingPlan& plan, const MaterialPlan& material, const Surface& s, double exposure) {
     double codes = 0.0;
-    for (const int index : {material.environment, material.specular_environment}) {
-        if (index < 0) continue;
-        const EnvironmentPlan& environment = plan.environments[static_cast<std::size_t>(index)];
+    if (material.environment >= 0) {
+        const EnvironmentPlan& environment = plan.environments[static_cast<std::size_t>(material.environment)];
         // Suns may shine where there is no other light.
         codes += environment.bound_codes + codes_of_absolute(s.albedo * environment.sun_bound * exposure);
     }
@@ -158,12 +158,14 @@ void spend_error_budget(ShadingPlan& plan, double budget_codes, double exposure,
     ErrorBound worst;
 
     // The parts that cannot be changed, and the codes that the poorest material has left for the cutoff radii, which all materials share.
+    std::optional<ReflectionSteps> reflections;
+    if (plan.reflections.map != nullptr) reflections = reflection_steps(*plan.reflections.map);
     std::vector<Surface> surfaces;
     std::vector<double> rounding, fixed;
     double poorest = budget_codes, most_reflected = 0.0;
     for (const MaterialPlan& material : plan.materials) {
         const Surface& s = surfaces.emplace_back(surface_of(plan, material, facts));
-        rounding.push_back(rounding_codes(material, plan, s, light, exposure));
+        rounding.push_back(rounding_codes(material, plan, s, light, reflections ? &*reflections : nullptr, exposure));
         fixed.push_back(rounding.back() + environment_codes(plan, material, s, exposure));
         if (!facts.drawn[rounding.size() - 1]) continue;
         poorest = std::min(poorest, budget_codes - fixed.back());

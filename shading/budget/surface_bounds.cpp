@@ -3,6 +3,7 @@
 #include "sh/power.hpp"
 #include "shading/budget/texture_bounds.hpp"
 #include "shading/model/code_bounds.hpp"
+#include "shading/model/reflection_tables.hpp"
 #include "shading/model/scalar.hpp"
 
 #include <algorithm>
@@ -58,6 +59,53 @@ Ambience ambience_of(const EnvironmentPlan& environment, double exposure, double
     return light;
 }
 
+/// Largest changes of the shapes of mirrors from node to node of their table.
+struct ShapeSlopes {
+    double share = 0, turn = 0, level = 0;
+};
+ShapeSlopes shape_slopes() {
+    ShapeSlopes slopes;
+    const auto compare = [&](const ReflectionShape& a, const ReflectionShape& b) {
+        const auto apart = [](float x, float y) { return std::fabs(static_cast<double>(x) - static_cast<double>(y)); };
+        slopes.share = std::max(slopes.share, apart(a.a, b.a) + apart(a.b, b.b));
+        slopes.turn = std::max({slopes.turn, apart(a.turn0, b.turn0), apart(a.turn1, b.turn1) + apart(a.spread, b.spread)});
+        slopes.level = std::max({slopes.level, apart(a.level0, b.level0), apart(a.level1, b.level1)});
+    };
+    for (int i = 0; i < kReflectionNodes; ++i)
+        for (int j = 0; j < kReflectionNodes; ++j) {
+            const ReflectionShape& at = kReflectionShapes[i * kReflectionNodes + j];
+            if (i + 1 < kReflectionNodes) compare(at, kReflectionShapes[(i + 1) * kReflectionNodes + j]);
+            if (j + 1 < kReflectionNodes) compare(at, kReflectionShapes[i * kReflectionNodes + j + 1]);
+        }
+    return slopes;
+}
+
+/// Codes of reflections' roundings, and of errors of normals and roughness: what a surface looks at is a little off in direction and width.
+double reflection_codes(const ReflectionSteps& steps, const Surface& s, double mirror_error, double exposure) {
+    constexpr double kNodes = kReflectionNodes - 1, kMostTurn = 4.0, kSteepest = 6.0;  // of the table's column over N.V
+    static const ShapeSlopes slopes = shape_slopes();
+    const double nodes = kNodes * (s.roughness.absolute + kSteepest * s.cosine_error()) + 1e-5;
+    // A lobe's direction is R + turn (N - (N.V) R), which is no shorter than R.
+    const double direction = (1.0 + 2.0 * kMostTurn) * mirror_error + nodes * slopes.turn, levels = nodes * slopes.level + 1e-6;
+    const double angle = direction + 1e-6;  // arc tangents, and coordinates in rows and columns
+    int first = 0;
+    while (first + 1 < kReflectionLevels && kReflectionSharpest * (2 << first) < s.least_roughness * s.least_roughness * 0.25) ++first;
+    double absolute = 0.0, relative = 0.0;
+    for (int k = first; k < kReflectionLevels; ++k) {
+        absolute = std::max(absolute, angle * steps.angle[k].absolute);
+        relative = std::max(relative, angle * steps.angle[k].relative);
+    }
+    double between = 0.0, between_relative = 0.0;
+    for (int k = first; k + 1 < kReflectionLevels; ++k) {
+        between = std::max(between, levels * steps.level[k].absolute);
+        between_relative = std::max(between_relative, levels * steps.level[k].relative);
+    }
+    const double share = std::max(1.0, s.reflectance) * exposure;
+    return std::min(codes_of_absolute(share * absolute), codes_of_relative(relative)) +
+           std::min(codes_of_absolute(share * between), codes_of_relative(between_relative)) +
+           codes_of_absolute(nodes * slopes.share * steps.most * share);
+}
+
 }  // namespace
 
 double Surface::cosine_error() const { return normal_error + (kCosineError - kNormalError); }
@@ -111,6 +159,7 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
     }
     if (has(kStageEmissiveTexture))
         s.emissive = textured(material.emissive_texture, {0, 1, 2}, *std::max_element(material.emissive, material.emissive + 3));
+    s.least_roughness = roughness;
     s.exponent = specular_exponent(roughness);
     s.normalization = plan.normalize_specular ? specular_normalization(0.5 * s.exponent, plan.specular == SpecularModel::phong) : 1.0;
     s.normal_error = kNormalError;
@@ -144,7 +193,8 @@ bool may_split(const ShadingPlan& plan, const MaterialPlan& material) {
     return plan.shadow_mode == ShadowMode::soft_split && material.shadow_fade_scale > 0.0f && (material.stages & kStageLights) != 0;
 }
 
-double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, const Surface& s, const Arriving& light, double exposure) {
+double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, const Surface& s, const Arriving& light,
+                      const ReflectionSteps* reflections, double exposure) {
     const auto has = [&](Stage stage) { return (material.stages & stage) != 0; };
     const double n = material.lobe.power_minus_one + 1.0, scale = material.lobe.scale;
     double codes = codes_of_relative(kProductError + 1.5e-7 * (has(kStageLights) ? n + light.count : 0.0));
@@ -158,7 +208,10 @@ double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, con
                 return ambience_of(plan.environments[static_cast<std::size_t>(index)], exposure, error);
             };
             diffuse = ambience(material.environment, s.normal_error);
-            if (s.specular) mirrored = ambience(material.specular_environment, mirror_error);
+            if (s.specular && reflections != nullptr) {
+                mirrored.most = reflections->most * exposure;
+                codes += reflection_codes(*reflections, s, mirror_error, exposure);
+            }
         } else {
             const Vec3f sky = plan.ambient.sky_linear, ground = plan.ambient.ground_linear;
             const double most = std::max({sky.x, sky.y, sky.z, ground.x, ground.y, ground.z}) * exposure;

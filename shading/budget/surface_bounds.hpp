@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shading/budget/error_budget.hpp"
+#include "shading/budget/reflection_bounds.hpp"
 
 namespace halflit::shading {
 
@@ -12,9 +13,10 @@ struct Factor {
 
 /// Upper bounds on what a surface reflects, and the errors of its inputs. Members for which there is no texture have no error.
 struct Surface {
-    double albedo, reflectance;       ///< largest colour; largest F0
-    double metallic;                  ///< largest
-    double exponent, normalization;   ///< those of the sharpest highlight
+    double albedo, reflectance;      ///< largest colour; largest F0
+    double metallic;                 ///< largest
+    double exponent, normalization;  ///< those of the sharpest highlight
+    double least_roughness;
     double least_albedo = 0;          ///< smallest colour that matt light is multiplied by; 0: not known
     double reflectance_at_least = 0;  ///< F0 of that colour
     double normal_error;
@@ -39,8 +41,8 @@ struct Arriving {
 /// core are close, so an error of the lobe shows most there.
 [[nodiscard]] bool may_split(const ShadingPlan& plan, const MaterialPlan& material);
 
-/// Codes that cannot be chosen: roundings, and the errors of textures.
+/// Codes that cannot be chosen: roundings, and the errors of textures. reflections: of the plan's map; null: there is none.
 [[nodiscard]] double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, const Surface& s, const Arriving& light,
-                                    double exposure);
+                                    const ReflectionSteps* reflections, double exposure);
 
 }  // namespace halflit::shading

@@ -6,6 +6,7 @@
 #include "shading/kernels/cell_kernel.hpp"
 #include "shading/kernels/environment_kernel.hpp"
 #include "shading/kernels/highlight_sums.hpp"
+#include "shading/kernels/reflection_kernel.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 #include "shading/kernels/surface_kernel.hpp"
 #include "shading/model/constants.hpp"
@@ -26,7 +27,8 @@ struct alignas(64) ShadeRows {
     Row half_exponent, normalization;  ///< of highlights
     Row3 diffuse, specular;            ///< light through the lobe, its scale included; highlights, before the reflectance
     Row3 ambient, mirrored;            ///< light of the surroundings towards the normal and the reflected view, times occlusion
-    Row grazing;                       ///< (1 - N.V)^5
+    Row grazing;                       ///< (1 - N.V)^5; without an environment
+    Row share_a, share_b, share_more;  ///< sky_share's, with an environment
 };
 HALFLIT_INLINE V3 load3(const ShadeRows::Row3& rows, int lane) {
     return {load(rows[0] + lane), load(rows[1] + lane), load(rows[2] + lane)};
@@ -139,13 +141,19 @@ static void add_surroundings(const shading::ShadingPlan& frame, const shading::M
         const F twice = n_dot_v + n_dot_v;
         const F away = F(1.0f) - clamp(n_dot_v, F(0.0f), F(1.0f));
         const F away2 = away * away;
-        store(rows.grazing + lane, (away2 * away2) * away);
+        if (!environment) store(rows.grazing + lane, (away2 * away2) * away);
         const V3 reflection{mad(twice, normal.x, F(0.0f) - to_eye.x), mad(twice, normal.y, F(0.0f) - to_eye.y),
                             mad(twice, normal.z, F(0.0f) - to_eye.z)};
+        if (!environment) {
+            store3(rows.mirrored, lane, hemisphere(frame.ambient, reflection.y) * occlusion);
+            continue;
+        }
+        const MirrorShape shape = mirror_shape(load(rows.roughness + lane), clamp(n_dot_v, F(0.0f), F(1.0f)));
         store3(rows.mirrored, lane,
-               (environment ? environment_light(frame.environments[static_cast<std::size_t>(material.specular_environment)], reflection)
-                            : hemisphere(frame.ambient, reflection.y)) *
-                   occlusion);
+               mirrored_radiance(frame.reflections, material.reflection_lobes, shape, normal, n_dot_v, reflection) * occlusion);
+        store(rows.share_a + lane, shape.a);
+        store(rows.share_b + lane, shape.b);
+        store(rows.share_more + lane, vdiv(F(1.0f), shape.a + shape.b) - F(1.0f));
     }
 }
 
@@ -172,6 +180,15 @@ HALFLIT_INLINE V3 reflected(const shading::MaterialPlan& material, const ShadeRo
     if (has(material, kStageLights)) {
         color = albedo * load3(rows.diffuse, lane);
         if constexpr (kSpecular) color = color + f0 * load3(rows.specular, lane);
+    }
+    if constexpr (kSpecular) {
+        if (has(material, kStageEnvironment)) {
+            const F a = load(rows.share_a + lane), b = load(rows.share_b + lane), more = load(rows.share_more + lane);
+            const F refracted = F(1.0f) - sky_share(a, b, more, F(material.dielectric));
+            const V3 matt = base * ((F(1.0f) - load(rows.metallic + lane)) * refracted);
+            const V3 share{sky_share(a, b, more, f0.x), sky_share(a, b, more, f0.y), sky_share(a, b, more, f0.z)};
+            return color + (matt * load3(rows.ambient, lane) + share * load3(rows.mirrored, lane));
+        }
     }
     if (has(material, kStageAmbient)) {
         color = color + albedo * load3(rows.ambient, lane);

@@ -338,6 +338,7 @@ HALFLIT_INLINE Q q_lerp(Q a, Q b, Q weight) { return q_mad(weight, q_sub(b, a), 
 #if defined(__AVX2__)
 
 using QQ = __m256;
+HALFLIT_INLINE QQ qq_load(const float* p) { return _mm256_loadu_ps(p); }
 HALFLIT_INLINE QQ qq_load_u16(const std::uint16_t* low, const std::uint16_t* high) {
     const __m128 first = _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(low)));
     const __m128 both = _mm_loadh_pi(first, reinterpret_cast<const __m64*>(high));
@@ -352,6 +353,7 @@ HALFLIT_INLINE Q qq_high(QQ a) { return _mm256_extractf128_ps(a, 1); }
 struct QQ {
     Q low, high;
 };
+HALFLIT_INLINE QQ qq_load(const float* p) { return {q_load(p), q_load(p + 4)}; }
 HALFLIT_INLINE QQ qq_load_u16(const std::uint16_t* low, const std::uint16_t* high) { return {q_load_u16(low), q_load_u16(high)}; }
 HALFLIT_INLINE QQ qq_lerp(QQ a, QQ b, float weight) { return {q_lerp(a.low, b.low, q_set(weight)), q_lerp(a.high, b.high, q_set(weight))}; }
 HALFLIT_INLINE Q qq_low(QQ a) { return a.low; }

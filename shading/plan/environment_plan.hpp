@@ -36,9 +36,7 @@ struct EnvironmentOrder {
     double tolerance = 1.0 / 510.0;  ///< relative to display white, in linear light: half an 8-bit code
     double exposure = 1.0;           ///< display white is 1 / exposure
     double codes = 0.0;              ///< if above 0, largest error in 8-bit sRGB codes, instead of the tolerance
-    /// The light is defined by ten bands, and by suns that have no size: all ten bands, and the suns, have no error.
-    bool ten_bands_are_all = false;
-    bool split_shadows = false;  ///< shadows may leave the excess of a lobe over its core
+    bool split_shadows = false;      ///< shadows may leave the excess of a lobe over its core
     bool operator==(const EnvironmentOrder&) const = default;
 };
 

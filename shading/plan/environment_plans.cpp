@@ -55,10 +55,9 @@ std::array<double, sh::kMaxBands> bounds_in_codes(const Environment& environment
             }
         }
     }
-    const Vec3d rest = order.ten_bands_are_all ? Vec3d{0, 0, 0} : bounds.by_order[sh::kMaxBands - 1];
+    const Vec3d rest = bounds.by_order[sh::kMaxBands - 1];
     std::array<double, sh::kMaxBands> codes{};
     for (std::size_t n = 0; n < sh::kMaxBands; ++n) {
-        if (n + 1 == sh::kMaxBands && order.ten_bands_are_all) break;
         const Vec3d bound = bounds.by_order[n];
         const double b[3] = {bound.x, bound.y, bound.z}, r[3] = {rest.x, rest.y, rest.z};
         for (int c = 0; c < 3; ++c) {
@@ -142,7 +141,7 @@ EnvironmentPlan plan_environment(const Environment& environment, const sh::WrapL
         plan.within = choice.within;
     }
     plan.bound_codes = codes[static_cast<std::size_t>(plan.bands - 1)];
-    if (!order.ten_bands_are_all) plan.sun_bound = sun_bound(environment, lobe, order.split_shadows);
+    plan.sun_bound = sun_bound(environment, lobe, order.split_shadows);
     plan.bound += plan.sun_bound;
     plan.within = plan.within && (order.codes > 0 ? codes_of_absolute(plan.sun_bound * order.exposure) <= order.codes
                                                   : plan.bound * order.exposure <= order.tolerance);
@@ -161,7 +160,18 @@ EnvironmentPlan plan_environment(const Environment& environment, const sh::WrapL
 
 void EnvironmentPlans::use(std::shared_ptr<const Environment> environment) {
     ++frame_;
-    if (environment_.replace(std::move(environment))) entries_.clear();
+    if (!environment_.replace(std::move(environment))) return;
+    entries_.clear();
+    reflections_ = nullptr;
+}
+
+std::shared_ptr<const ReflectionMap> EnvironmentPlans::reflections(const ForEachRow& for_each_row) {
+    if (reflections_ == nullptr) {
+        const Environment& source = *environment_;
+        reflections_ = std::make_shared<ReflectionMap>(
+            make_reflection_map({source.lit_width, source.lit_height, source.lit_rgb}, source.rotate_rad, for_each_row));
+    }
+    return reflections_;
 }
 
 EnvironmentPlan EnvironmentPlans::plan(const sh::WrapLobe& lobe, const EnvironmentOrder& order) {

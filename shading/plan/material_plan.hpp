@@ -53,8 +53,9 @@ struct MaterialPlan {
     /// Factor of -N.L that gives a body's own thickness towards the light, as a share of d0, where it turns away from the light. The body
     /// does not shade itself within that thickness.
     float shadow_turn_scale = 0;
-    int environment = -1, specular_environment = -1;  ///< indices into ShadingPlan::environments
-    bool occlusion_is_metallic_roughness = false;     ///< both read the same texels the same way: one fetch serves both
+    int environment = -1;                          ///< index into ShadingPlan::environments
+    int reflection_lobes = 0;                      ///< lobes by which the environment's reflections are taken, 0 to 2; 0: there are none
+    bool occlusion_is_metallic_roughness = false;  ///< both read the same texels the same way: one fetch serves both
     TexturePlan base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;
 };
 

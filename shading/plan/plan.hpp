@@ -5,6 +5,7 @@
 #include "shading/plan/environment_plan.hpp"
 #include "shading/plan/light_plan.hpp"
 #include "shading/plan/material_plan.hpp"
+#include "shading/plan/reflection_plan.hpp"
 #include "shading/plan/shadow_map_plan.hpp"
 
 #include <vector>
@@ -17,6 +18,7 @@ struct ShadingPlan {
     std::vector<LightPlan> lights;        ///< in list order, which sums keep; black lights and those not finite are left out
     std::vector<ShadowMapPlan> shadow_maps;
     std::vector<EnvironmentPlan> environments;  ///< one for each lobe that the environment is convolved with
+    ReflectionPlan reflections;
     ShadowMode shadow_mode = ShadowMode::off;
     bool shadow_offset = false;  ///< shadows are looked up at an offset from the position: raster fills the kShadowX.. rows
     SpecularModel specular = SpecularModel::blinn;

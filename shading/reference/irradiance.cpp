@@ -113,13 +113,4 @@ Vec3d DirectIrradiance::at(Vec3d normal) const {
     return sum;
 }
 
-BandIrradiance::BandIrradiance(const Environment& environment, const sh::WrapLobe& lobe)
-    : bands_(sh::convolve(environment.radiance, sh::zonal_bands(lobe), sh::kMaxBands)) {}
-
-Vec3d BandIrradiance::at(Vec3d normal) const {
-    if (!(dot(normal, normal) > 0)) return {};  // a cosine power of 0
-    const Vec3d sum = sh::evaluate(bands_, normal);
-    return {std::max(sum.x, 0.0), std::max(sum.y, 0.0), std::max(sum.z, 0.0)};
-}
-
 }  // namespace halflit::shading::reference

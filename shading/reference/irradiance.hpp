@@ -28,14 +28,4 @@ private:
     std::vector<Vec3d> nodes_ = std::vector<Vec3d>(std::size_t{6} * kNodes * kNodes);
 };
 
-/// Reflected surroundings: by definition ten bands, summed in double.
-class BandIrradiance final : public Irradiance {
-public:
-    BandIrradiance(const Environment& environment, const sh::WrapLobe& lobe);
-    [[nodiscard]] Vec3d at(Vec3d normal) const override;
-
-private:
-    sh::PreconvolvedSh bands_;
-};
-
 }  // namespace halflit::shading::reference

@@ -2,9 +2,11 @@
 
 #include "sh/vec3d.hpp"
 #include "shading/model/constants.hpp"
+#include "shading/model/reflection_tables.hpp"
 #include "shading/model/srgb.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace halflit::shading::reference {
@@ -83,6 +85,8 @@ Rgba material_texture(const FrameInputs& frame, const TextureUse& use, SlotMask 
 struct Surface {
     Vec3d base, normal, albedo, f0, to_eye;
     double roughness, occlusion;
+    Vec3d matt;         ///< base colour where not metallic
+    double dielectric;  ///< F0 there
 };
 
 /// Unit direction and attenuation of a light at a point.
@@ -131,6 +135,54 @@ Vec3d shading_normal(const FrameInputs& frame, const Material& material, SlotMas
     return material.double_sided ? scale(normal, block.lane[kFacing][lane]) : normal;
 }
 
+/// Value of a level of the environment's map towards a direction.
+Vec3d map_value(const ReflectionMap& map, int level, Vec3d d) {
+    const int rows = map.rows[level];
+    const double x = (std::atan2(d.x, -d.z) / kPi + 1) * rows, y = std::atan2(std::hypot(d.x, d.z), d.y) / kPi * rows;
+    const int i = std::clamp(static_cast<int>(x), 0, 2 * rows - 1), j = std::clamp(static_cast<int>(y), 0, rows - 1);
+    const auto value = [&](int column, int row) {
+        const std::array<float, 4>& at = map.rgba[static_cast<std::size_t>(map.first[level] + row * (2 * rows + 1) + column)];
+        return Vec3d{at[0], at[1], at[2]};
+    };
+    const Vec3d upper = value(i, j) + scale(value(i + 1, j) - value(i, j), x - i);
+    const Vec3d lower = value(i, j + 1) + scale(value(i + 1, j + 1) - value(i, j + 1), x - i);
+    return upper + scale(lower - upper, y - j);
+}
+
+/// The environment as a rough mirror sees it: GGX's A and B, and the mean radiance over its lobes (shading/model/reflection_tables.hpp).
+struct Mirrored {
+    double a, b;
+    Vec3d radiance;
+};
+Mirrored mirrored_environment(const ReflectionMap& map, int lobes, const Surface& surface) {
+    constexpr int kLast = kReflectionNodes - 1;
+    const double n_dot_v = dot(surface.normal, surface.to_eye);
+    const double x = std::clamp(surface.roughness, kHeldRoughness, 1.0) * kLast, held = std::clamp(n_dot_v, 0.0, 1.0),
+                 y = 1.2 * held / (held + 0.2) * kLast;
+    const int i = std::min(static_cast<int>(x), kLast - 1), j = std::min(static_cast<int>(y), kLast - 1);
+    const auto at = [&](float ReflectionShape::*member) {
+        const auto node = [&](int down, int right) { return double{kReflectionShapes[(i + down) * kReflectionNodes + j + right].*member}; };
+        const double left = node(0, 0) + (x - i) * (node(1, 0) - node(0, 0)), next = node(0, 1) + (x - i) * (node(1, 1) - node(0, 1));
+        return left + (y - j) * (next - left);
+    };
+    const Vec3d reflection = scale(surface.normal, 2 * n_dot_v) - surface.to_eye;
+    const auto blurred = [&](double turn, double level) {
+        const Vec3d d = reflection + scale(surface.normal - scale(reflection, n_dot_v), turn);
+        if (!(dot(d, d) > 0)) return Vec3d{};
+        const int fine = std::clamp(static_cast<int>(level), 0, kReflectionLevels - 2);
+        const Vec3d near = map_value(map, fine, d);
+        return near + scale(map_value(map, fine + 1, d) - near, level - fine);
+    };
+    Mirrored out{at(&ReflectionShape::a), at(&ReflectionShape::b), {}};
+    if (lobes == 1) {
+        out.radiance = blurred(at(&ReflectionShape::turn0), at(&ReflectionShape::level0));
+    } else {
+        const double turn = at(&ReflectionShape::turn1), spread = at(&ReflectionShape::spread), level = at(&ReflectionShape::level1);
+        out.radiance = scale(blurred(turn - spread, level) + blurred(turn + spread, level), 0.5);
+    }
+    return out;
+}
+
 Vec3d lit(const FrameInputs& frame, const Material& material, const Surface& surface, Vec3d position, const Surroundings& around) {
     const bool specular = frame.options.specular != SpecularModel::none;
     const Lobe& lobe = lobe_of(material, frame.options);
@@ -163,14 +215,22 @@ Vec3d lit(const FrameInputs& frame, const Material& material, const Surface& sur
         }
         sum = sum + scale(reflected, at.attenuation);
     }
-    const bool environment = around.diffuse != nullptr && around.specular != nullptr;
+    const bool environment = around.diffuse != nullptr;
     Vec3d ambient = surface.albedo * (environment ? around.diffuse->at(surface.normal) : hemisphere(frame.ambient, surface.normal.y));
-    if (specular) {
+    if (specular && environment) {
+        const Mirrored mirrored = mirrored_environment(*around.reflections, around.reflection_lobes, surface);
+        const auto share = [&](double f0) {
+            const double more = 1.0 / (mirrored.a + mirrored.b) - 1.0;
+            return (mirrored.a * f0 + mirrored.b) * (1.0 + f0 * more);
+        };
+        ambient = scale(surface.matt * around.diffuse->at(surface.normal), 1.0 - share(surface.dielectric)) +
+                  Vec3d{share(surface.f0.x), share(surface.f0.y), share(surface.f0.z)} * mirrored.radiance;
+    } else if (specular) {
         const double n_dot_v = dot(surface.normal, surface.to_eye), roughness = std::max(surface.roughness, kHeldRoughness);
         const Vec3d reflection = scale(surface.normal, 2 * n_dot_v) - surface.to_eye;
         const Vec3d share{environment_share(surface.f0.x, roughness, n_dot_v), environment_share(surface.f0.y, roughness, n_dot_v),
                           environment_share(surface.f0.z, roughness, n_dot_v)};
-        ambient = ambient + share * (environment ? around.specular->at(reflection) : hemisphere(frame.ambient, reflection.y));
+        ambient = ambient + share * hemisphere(frame.ambient, reflection.y);
     }
     return sum + scale(ambient, surface.occlusion);
 }
@@ -240,7 +300,9 @@ Rgba shade(const FrameInputs& frame, const Material& material, SlotMask availabl
     surface.albedo = surface.base;
     if (frame.options.specular != SpecularModel::none) {
         const double metallic = material.metallic * mr.b, dielectric = std::clamp(double{material.dielectric_reflectance}, 0.0, 1.0);
-        surface.albedo = scale(surface.base, (1 - metallic) * (1 - dielectric));
+        surface.matt = scale(surface.base, 1 - metallic);
+        surface.dielectric = dielectric;
+        surface.albedo = scale(surface.matt, 1 - dielectric);
         surface.f0 = scale(surface.base, metallic) + scale({1, 1, 1}, dielectric * (1 - metallic));
     }
     const Vec3d color = lit(frame, material, surface, position, around) + to_double(material.emissive) * Vec3d{glow.r, glow.g, glow.b};

@@ -9,6 +9,7 @@
 #include "shading/fragment_block.hpp"
 #include "shading/plan/plan.hpp"
 #include "shading/reference/shadow.hpp"
+#include "shading/reflection_map.hpp"
 
 #include <span>
 
@@ -44,10 +45,11 @@ struct FrameInputs {
 struct Surroundings {
     /// Hidden shares of each light; empty: nothing is hidden.
     std::span<const Hidden> hidden;
-    /// Environment light towards the normal and towards the reflected view. Where both are given, they replace the two-colour ambient
-    /// light.
+    /// Environment light at a normal. Where it is given, it replaces the two-colour ambient light.
     const Irradiance* diffuse = nullptr;
-    const Irradiance* specular = nullptr;
+    /// What the environment's reflections are taken from, and by how many lobes; where `diffuse` is given and highlights are on.
+    const ReflectionMap* reflections = nullptr;
+    int reflection_lobes = 1;
 };
 
 /// f(x; w, n) with its scale, by std::pow.

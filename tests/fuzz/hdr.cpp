@@ -6,6 +6,7 @@
 #include "sh/order.hpp"
 #include "sh/sun.hpp"
 #include "shading/environment.hpp"
+#include "shading/reflection_map.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -48,8 +49,9 @@ void run(View input) {
     check_environment(image, 1 + static_cast<int>(input.size() % sh::kMaxBands));
     const auto environment = make_environment(image, {true, static_cast<double>(input.back()), true, true});
     HALFLIT_PROMISE(environment.has_value() && std::isfinite(environment_level(**environment)));
-    const sh::LobeSpectrum mirrored = sh::lobe_spectrum(shading::specular_environment_lobe(0.3f));
-    for (const Vec3d& bound : (*environment)->grid.order_bounds(mirrored).by_order) HALFLIT_PROMISE(is_finite(bound));
+    const shading::ReflectionMap map = shading::make_reflection_map(shading::view_of(image), 0.0, shading::in_turn);
+    for (const auto& rgba : map.rgba)
+        for (const float value : rgba) HALFLIT_PROMISE(value >= 0.0f && value <= 1e31f);
 }
 
 /// Mostly the pixels: a header that is refused ends the run.

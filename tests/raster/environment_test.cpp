@@ -112,7 +112,6 @@ TEST_CASE("environment: Valve's lobe takes three bands, and nothing above them i
     CHECK(report.environment[0].bands == 3);
     CHECK(report.environment[0].bound == 0.0);
     CHECK(report.environment[0].within);
-    CHECK_FALSE(report.environment[0].specular);
     // Coefficients above the plan's bands are not read: NaN there would spread.
     shading::EnvironmentPlan plan = shading::plan_environment(*environment, {1.0, 2.0, 1.0}, {});
     shading::ShadingPlan frame;
@@ -203,9 +202,12 @@ TEST_CASE("environment: a scene that turns with its environment keeps its light,
     for (const double angle : {0.3, 1.5707963267948966, -2.0, 5.5}) {
         const sh::Rotation turn = sh::rotation_about_y(angle);
         const auto turned = environment_of(sky, true, angle);
-        for (int order = 1; order <= sh::kMaxBands; ++order) {
+        for (int i = 0; i < 2 * sh::kMaxBands; ++i) {
+            const int order = 1 + i / 2;
+            const bool reflecting = i % 2 != 0;
             ShadingSettings options;
             options.environment_bands = order;
+            if (!reflecting) options.specular = SpecularModel::none;
             const auto shaded = [&](const Environment& environment, const sh::Rotation& by, std::size_t material, Isa isa) {
                 auto plan = shading::plan_shading(
                     {materials, {}, slots, shading::plan_lights(environment.suns), {}, options, shading::borrowed(environment)});
@@ -233,11 +235,11 @@ TEST_CASE("environment: a scene that turns with its environment keeps its light,
                         worst = std::max(worst, largest_difference(a[l], b[l]));
                         most = std::max(most, sh::largest(a[l]));
                     }
-                    worst_of_all = std::max(worst_of_all, worst / most);
+                    if (!reflecting) worst_of_all = std::max(worst_of_all, worst / most);
                     INFO("angle " << angle << ", order " << order << ", material " << material << ", " << isa_name(isa) << ": "
                                   << worst / most);
                     CHECK(most > 1);
-                    CHECK(worst <= 1e-6 * most);
+                    CHECK(worst <= (reflecting ? 3e-3 : 1e-6) * most);  // maps are sampled at longitudes that do not turn
                 }
         }
     }

@@ -138,6 +138,10 @@ Pixels draw_prepared(Renderer& renderer, const PreparedScene& prepared, const Sh
 }
 
 void soak(int frames) {
+#if defined(__GLIBC__)
+    // One heap for all threads: mallinfo2 counts no other, and with several what is free in one of them is lost to the others.
+    mallopt(M_ARENA_MAX, 1);
+#endif
     Random random(1);
     const Shot always = separate_bodies(1);
     (void)draw(always, execution_of(3, 16, *default_isa()));  // starts what the process keeps
@@ -171,7 +175,8 @@ void soak(int frames) {
         (void)draw_prepared(*renderer, *stand.prepared, stand.shot, execution);
         const Memory now = memory_now();
         std::printf("frame %d: %.1f MiB allocated, %.1f MiB resident\n", frame, now.allocated, now.resident);
-        if (!early) early = now;
+        // A long run compares its halves: scenes of all sizes have come by then.
+        if (!early && (frames < 1000 || frame >= frames / 2)) early = now;
     }
     [[maybe_unused]] const Memory late = memory_now();
     renderer.reset();
@@ -188,7 +193,7 @@ void soak(int frames) {
     // library keeps for its threads. The sanitizers keep what was freed, and have allocators of their own.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
     CHECK(late.allocated <= early->allocated + 8);
-    CHECK(late.resident <= early->resident + 16);
+    CHECK(late.resident <= early->resident + (frames < 1000 ? 16 : 4));
     CHECK(after.allocated <= before.allocated + 0.5);
 #endif
 }

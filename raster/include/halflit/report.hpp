@@ -15,10 +15,9 @@ namespace halflit {
 
 /// Series of spherical harmonics by which the materials of one lobe take the light of the scene's environment.
 struct EnvironmentUse {
-    int bands = 0;          ///< length of the series, 1..10
-    double bound = 0;       ///< largest error of the light over all normals, white surface, worst channel, before exposure
-    bool within = true;     ///< true if bound times exposure is within the tolerance, or the bound in codes within the budget
-    bool specular = false;  ///< true: mirrored light, whose error may be twice the tolerance; false: diffuse light
+    int bands = 0;       ///< length of the series, 1..10
+    double bound = 0;    ///< largest error of the light over all normals, white surface, worst channel, before exposure
+    bool within = true;  ///< true if bound times exposure is within the tolerance, or the bound in codes within the budget
 };
 
 /// Amount of shading work, in lanes. The counts show that stages which are not required do not run. They do not depend on threads or

@@ -24,7 +24,7 @@ struct EnvironmentOptions {
     bool extract_suns = true;  ///< make directional lights of suns where that lowers the bound on the error
     double rotate_rad = 0.0;   ///< about +y, counter-clockwise seen from above
     bool keep_image = false;   ///< keep the image, for Settings::background_environment
-    bool keep_light = false;   ///< keep the image without the suns, for Accuracy::reference
+    bool keep_light = false;   ///< keep the pieces of the suns, for Accuracy::reference
 };
 
 /// An image in ten bands of spherical harmonics, its suns, and the data that bound the error of leaving bands out.
