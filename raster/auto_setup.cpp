@@ -79,19 +79,40 @@ int shadow_size_for(int width, int height) {
 
 bool is_dark(const Ambient& ambient) { return ambient.sky_linear == Vec3f{} && ambient.ground_linear == Vec3f{}; }
 
+/// The studio's share of the light of a file, where white comes out as 1: the far sides of what a sun lights stay dark, but readable; lamps
+/// alone seldom reach all of a scene.
+constexpr float kStudioUnderSun = 0.15f, kStudioUnderLamps = 0.5f;
+
 /// Adds the light that the scene lacks. Returns the exposure.
 float light_scene(Scene& scene, const Bounds& bounds, const Camera& camera, const AutoOptions& options) {
-    if (scene.environment != nullptr) return environment_exposure(*scene.environment);
-    const bool unknown_unit = !scene.calibrated && !scene.lights.empty();
-    if (scene.lights.empty() && is_dark(scene.ambient) && options.add_lights) {
-        add_default_lights(scene, camera);
+    const bool in_studio = scene.environment != nullptr && scene.environment->studio;
+    const bool always = options.studio == StudioUse::always && !options.ambient_linear;
+    if (scene.environment != nullptr && !in_studio && !always) return environment_exposure(*scene.environment);
+    const bool dark = scene.environment == nullptr && is_dark(scene.ambient);
+    if (scene.lights.empty() && dark && options.add_lights) {
         scene.calibrated = true;
+        if (options.studio == StudioUse::never || options.ambient_linear)
+            add_default_lights(scene, camera);
+        else
+            add_studio(scene, camera, options.studio_turn_rad);
     }
-    if (options.ambient_linear)
+    const bool unknown_unit = !scene.calibrated && !scene.lights.empty();
+    const float exposure = unknown_unit ? auto_exposure(scene, bounds) : 1.0f;
+    const auto add_share = [&](float share) {
+        set_environment(scene, studio_environment(camera, options.studio_turn_rad, share / exposure));
+    };
+    if (options.ambient_linear) {
         scene.ambient = {*options.ambient_linear, *options.ambient_linear};
-    else if (unknown_unit && is_dark(scene.ambient))
+    } else if (always) {
+        if (scene.environment == nullptr || !scene.environment->studio) add_share(1.0f);
+    } else if (unknown_unit && dark && options.studio == StudioUse::for_dark) {
+        const bool sun =
+            std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) { return light.type == LightType::directional; });
+        add_share(sun ? kStudioUnderSun : kStudioUnderLamps);
+    } else if (unknown_unit && dark) {
         scene.ambient = soft_ambient(scene, bounds);
-    return unknown_unit ? auto_exposure(scene, bounds) : 1.0f;
+    }
+    return exposure;
 }
 
 }  // namespace
@@ -100,6 +121,7 @@ Settings usual_settings() {
     const auto linear = [](int code) { return static_cast<float>(shading::linear_from_srgb(code / 255.0)); };
     Settings settings;
     settings.samples = 4;
+    settings.tone_curve = ToneCurve::neutral;
     settings.background_linear = {linear(0x3a), linear(0x3f), linear(0x47), 1.0f};
     return settings;
 }

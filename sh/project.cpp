@@ -4,6 +4,7 @@
 #include "sh/rotate.hpp"
 #include "sh/vec3d.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace halflit::sh {
@@ -129,12 +130,12 @@ void Projection::add_rows(const EquirectView& image, int first_row, int end_row,
     const std::vector<GaussNode> rule = gauss_legendre(8);
     Harmonics cosines, sines;
     std::array<detail::LegendreRow, kBands> integrals;
-    for (int row = first_row; row < end_row; ++row) {
+    const auto add_row = [&](int row, double odd) {  // odd: sign of the integrals of odd l - m
         transform.run(image, row, cosines, sines);
-        integrate_row(image.height, row, rule, integrals);
+        const double signs[2] = {factor, factor * odd};
         for (std::size_t m = 0; m < kBands; ++m)
             for (std::size_t l = m; l < kBands; ++l) {
-                const double p = factor * integrals[m].p[l - m];
+                const double p = signs[(l - m) % 2] * integrals[m].p[l - m];
                 Vec3d& plus = c_[l * l + l + m];
                 plus = plus + cosines[m] * p;
                 Vec3d& minus = c_[l * l + l - m];
@@ -149,6 +150,15 @@ void Projection::add_rows(const EquirectView& image, int first_row, int end_row,
         const double weight = factor * pixel_solid_angle(image.width, image.height, row);
         squares_ = squares_ + squares * weight;
         absolute_ = absolute_ + absolutes * weight;
+    };
+    for (int row = first_row; row < end_row; ++row) {
+        // The row as far below the equator as this one is above it: p_lm(-z) = (-1)^(l - m) p_lm(z).
+        const int mirrored = image.height - 1 - row;
+        const bool both = mirrored >= first_row && mirrored < end_row;
+        if (both && mirrored < row) continue;
+        integrate_row(image.height, row, rule, integrals);
+        add_row(row, 1.0);
+        if (both && mirrored != row) add_row(mirrored, -1.0);
     }
 }
 
@@ -185,26 +195,45 @@ std::array<Vec3d, kSpectrumBands> Projection::bands_at(Vec3d direction) const {
 }
 
 std::vector<Vec3f> Projection::bands_on_grid(int bands, int rows, int columns) const {
-    const auto count = static_cast<std::size_t>(bands), width = static_cast<std::size_t>(columns);
+    const auto count = static_cast<std::size_t>(bands), width = static_cast<std::size_t>(columns), half = (width + 1) / 2;
     std::vector<Vec3f> out(count * static_cast<std::size_t>(rows) * width);
-    std::vector<SinCos> around(count * width);  // [m][column]
+    std::vector<SinCos> around(count * half);  // [m][column]
     for (std::size_t m = 0; m < count; ++m)
-        for (std::size_t x = 0; x < width; ++x)
-            around[m * width + x] = sin_cos(2.0 * kPi * static_cast<double>(m) * (static_cast<double>(x) + 0.5) / columns);
+        for (std::size_t x = 0; x < half; ++x)
+            around[m * half + x] = sin_cos(2.0 * kPi * static_cast<double>(m) * (static_cast<double>(x) + 0.5) / columns);
     std::array<detail::LegendreRow, kBands> p;
-    std::vector<Vec3d> sums(width);
-    for (int row = 0; row < rows; ++row) {
+    // Columns mirror at phi = 0, where sines change their sign, and rows at the equator, where odd l - m do. So a quarter of the grid is
+    // summed: sums[cosine or sine][even or odd l - m].
+    std::vector<Vec3d> sums[2][2];
+    for (auto& of_sign : sums)
+        for (std::vector<Vec3d>& sum : of_sign) sum.resize(half);
+    for (int row = 0; row < (rows + 1) / 2; ++row) {
         const SinCos theta = sin_cos(kPi * (row + 0.5) / rows);
         detail::legendre(theta.cos, theta.sin, p);
         for (std::size_t l = 0; l < count; ++l) {
-            for (std::size_t x = 0; x < width; ++x) sums[x] = c_[l * l + l] * p[0].p[l];
+            for (auto& of_sign : sums)
+                for (std::vector<Vec3d>& sum : of_sign) std::fill(sum.begin(), sum.end(), Vec3d{});
+            std::fill(sums[0][l % 2].begin(), sums[0][l % 2].end(), c_[l * l + l] * p[0].p[l]);
             for (std::size_t m = 1; m <= l; ++m) {
                 const Vec3d c = c_[l * l + l + m] * p[m].p[l - m], s = c_[l * l + l - m] * p[m].p[l - m];
-                for (std::size_t x = 0; x < width; ++x) sums[x] = sums[x] + (c * around[m * width + x].cos + s * around[m * width + x].sin);
+                Vec3d *const cosines = sums[0][(l - m) % 2].data(), *const sines = sums[1][(l - m) % 2].data();
+                for (std::size_t x = 0; x < half; ++x) {
+                    cosines[x] = cosines[x] + c * around[m * half + x].cos;
+                    sines[x] = sines[x] + s * around[m * half + x].sin;
+                }
             }
-            for (std::size_t x = 0; x < width; ++x)
-                out[(static_cast<std::size_t>(row) * width + x) * count + l] = {
-                    static_cast<float>(sums[x].x), static_cast<float>(sums[x].y), static_cast<float>(sums[x].z)};
+            const auto write = [&](int at_row, std::size_t at_column, Vec3d value) {
+                out[(static_cast<std::size_t>(at_row) * width + at_column) * count + l] = {
+                    static_cast<float>(value.x), static_cast<float>(value.y), static_cast<float>(value.z)};
+            };
+            for (std::size_t x = 0; x < half; ++x) {
+                const Vec3d upper_cos = sums[0][0][x] + sums[0][1][x], upper_sin = sums[1][0][x] + sums[1][1][x];
+                const Vec3d lower_cos = sums[0][0][x] - sums[0][1][x], lower_sin = sums[1][0][x] - sums[1][1][x];
+                write(row, x, upper_cos + upper_sin);
+                write(row, width - 1 - x, upper_cos - upper_sin);
+                write(rows - 1 - row, x, lower_cos + lower_sin);
+                write(rows - 1 - row, width - 1 - x, lower_cos - lower_sin);
+            }
         }
     }
     return out;

@@ -46,6 +46,7 @@ struct Environment {
     /// The image that the bands are made of, without the suns and before any rotation; reflections are made of it.
     std::vector<float> lit_rgb;
     int lit_width = 0, lit_height = 0;
+    bool studio = false;      ///< it is the built-in studio
     bool kept_light = false;  ///< EnvironmentOptions::keep_light: the suns have their patches
 };
 

@@ -186,6 +186,8 @@ ReflectionMap make_reflection_map(const sh::EquirectView& image, double rotate_r
     int most = kLeastReflectionRows;
     while (most < kMostReflectionRows && most < source.height) most *= 2;
     const auto rows_of = [&](int k) { return std::clamp(kMostReflectionRows >> k, kLeastReflectionRows, most); };
+    // What bumps of 147 degrees and more have blurred needs fewer.
+    const auto blurred_rows = [&](int k) { return k < 8 ? rows_of(k) : kLeastReflectionRows / 2; };
 
     std::vector<Globe> blurs;
     blurs.push_back(sampled(source, rotate_rad, most, for_each_row));
@@ -193,7 +195,7 @@ ReflectionMap make_reflection_map(const sh::EquirectView& image, double rotate_r
         if ((kMostReflectionRows >> k) > most)  // the image has no details that this bump would blur
             blurs.push_back(blurs.back());
         else
-            blurs.push_back(blurred(blurs.back(), rows_of(k + 1), kFirstRadius * (1 << k), for_each_row));
+            blurs.push_back(blurred(blurs.back(), blurred_rows(k + 1), kFirstRadius * (1 << k), for_each_row));
     }
     ReflectionMap map{};
     std::size_t size = 0;

@@ -78,6 +78,17 @@ int32_t halflit_scene_add_default_lights(halflit_scene* scene, const halflit_cam
     });
 }
 
+int32_t halflit_scene_add_studio(halflit_scene* scene, const halflit_camera* given) {
+    return changing(__func__, scene, {{given, "camera"}}, [&]() -> Result<void> {
+        const auto made = camera(given);
+        if (!made) return tl::unexpected<Error>(made.error());
+        if (!is_dark(scene->scene)) return {};
+        scene->changes.lights();
+        add_studio(scene->scene, *made);
+        return {};
+    });
+}
+
 int32_t halflit_scene_clear_lights(halflit_scene* scene) {
     return changing(__func__, scene, {}, [&]() -> Result<void> {
         scene->changes.lights();

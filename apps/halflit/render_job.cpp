@@ -114,14 +114,21 @@ Result<void> choose_setup(RenderJob& job, const RenderOptions& options, const st
     choice.view = options.view;
     choice.ambient_linear = options.ambient_linear;
     choice.exposure = options.exposure;
+    choice.studio = options.studio;
+    if (options.ambient_linear && choice.studio == StudioUse::for_dark) choice.studio = StudioUse::never;
+    choice.studio_turn_rad = static_cast<double>(options.environment_rotate_deg) * (kPi / 180.0);
     for (const GivenLight& given : options.lights) scene.lights.push_back(given.light);
     const std::size_t given = scene.lights.size();
     const AutoSetup setup = auto_setup(scene, job.prepared->bounds(), job.width, job.height, choice);
+    if (options.settings.background_environment && scene.environment == nullptr)
+        return fail(ErrorCode::usage, "--background: environment needs --env");
     job.camera = setup.camera;
     job.settings.exposure = setup.settings.exposure;
     if (!options.shadow_size_given) job.settings.shadow_size = setup.settings.shadow_size;
     job.choices.push_back(fmt::format("lights: {}{}{}{}", scene.lights.size(), scene.lights.size() > given ? ", added by default" : "",
-                                      scene.environment != nullptr ? ", and the environment " + options.environment : "",
+                                      scene.environment == nullptr  ? ""
+                                      : options.environment.empty() ? ", and the environment studio"
+                                                                    : ", and the environment " + options.environment,
                                       scene.ambient.sky_linear == Vec3f{} ? "" : ", and ambient light"));
     job.choices.push_back(fmt::format("exposure: {}{}", job.settings.exposure, options.exposure ? "" : ", chosen"));
     return {};
@@ -176,8 +183,6 @@ Result<void> choose_settings(Settings& settings, const RenderOptions& options) {
 }  // namespace
 
 Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usual) {
-    if (options.settings.background_environment && options.environment.empty())
-        return fail(ErrorCode::usage, "--background: environment needs --env");
     if (options.camera_position && (options.camera || options.whole_scene))
         return fail(ErrorCode::usage, "--camera-position: cannot be combined with --camera, --azimuth, --elevation or --zoom");
     if (options.camera_target && !options.camera_position)

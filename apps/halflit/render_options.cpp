@@ -182,10 +182,12 @@ Result<void> read_bands(int& bands, const std::string& text) {
 FlagGroup environment_flags(RenderOptions& o) {
     int& bands = o.settings.shading.environment_bands;
     return {"Environment",
-            {{"--env", "FILE|sky|none",
-              "Environment, an image of light from all directions: a Radiance picture (.hdr) or the built-in sky (default none)",
+            {{"--env", "FILE|sky|studio|none",
+              "Environment, an image of light from all directions: a Radiance picture (.hdr), or the built-in sky or studio (default: the "
+              "studio where the scene has no light; with none, such a scene gets light from above and below)",
               [&o](const std::string& text) -> Result<void> {
-                  o.environment = text == "none" ? "" : text;
+                  o.studio = text == "studio" ? StudioUse::always : text == "none" ? StudioUse::never : StudioUse::for_dark;
+                  o.environment = text == "studio" || text == "none" ? "" : text;
                   return {};
               }},
              {"--env-rotate", "DEG", "Turn the environment about the vertical, counter-clockwise seen from above",

@@ -44,7 +44,8 @@ struct RenderOptions {
     std::optional<Vec3f> ambient_linear;
     std::vector<GivenLight> lights;  ///< in the file's world
     bool scene_lights = true;
-    std::string environment;  ///< a file, "sky", or empty
+    std::string environment;                 ///< a file or "sky"; empty: none, or the studio
+    StudioUse studio = StudioUse::for_dark;  ///< if there is no other environment
     bool environment_sun = true;
     float environment_rotate_deg = 0.0f;
     bool shadow_size_given = false;  ///< false: chosen for the picture's size

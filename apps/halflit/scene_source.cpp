@@ -83,9 +83,10 @@ bool is_scene(const std::string& name) { return name == "-" || is_built_in_name(
 
 Result<EnvironmentImage> find_environment(const std::string& name) {
     if (name == "sky") return built_in_sky();
+    if (name == "studio") return studio_image();
     auto environment = read_environment(name);
     if (!environment && environment.error().code == ErrorCode::io)
-        return fail(ErrorCode::io, environment.error().message + did_you_mean_file(name, {"sky"}));
+        return fail(ErrorCode::io, environment.error().message + did_you_mean_file(name, {"sky", "studio"}));
     return environment;
 }
 

@@ -21,16 +21,30 @@ Bounds scene_bounds(const Scene& scene) {
     return bounds;
 }
 
-void add_default_lights(Scene& scene, const Camera& camera) {
-    // In camera space the key light comes from the left, above and behind the viewer: light from the side shows the form, and little of
-    // what the viewer sees is unlit.
+namespace {
+
+/// In camera space it comes from the left, above and behind the viewer: light from the side shows the form, and little of what the viewer
+/// sees is unlit.
+Light key_light(const Camera& camera, Vec3f color_linear) {
     const Vec3f travels_vs{0.45f, -0.60f, -0.66f};
     Light key;
     key.type = LightType::directional;
     key.direction_ws = normalize_or(transform_vector(camera.world_from_camera, travels_vs), {0, -1, 0});
+    key.color_linear = color_linear;
+    return key;
+}
+
+}  // namespace
+
+void add_studio(Scene& scene, const Camera& camera, double turn_rad) {
+    // A white surface that faces the key light reaches 1 with the studio's light, 0.91 after the neutral tone curve.
+    scene.lights.push_back(key_light(camera, {0.52f, 0.51f, 0.49f}));
+    set_environment(scene, studio_environment(camera, turn_rad));
+}
+
+void add_default_lights(Scene& scene, const Camera& camera) {
     // A white Lambert surface that faces the key light reaches 0.82 of the display's white, and about 1 with the ambient light.
-    key.color_linear = {0.84f, 0.82f, 0.78f};
-    scene.lights.push_back(key);
+    scene.lights.push_back(key_light(camera, {0.84f, 0.82f, 0.78f}));
     scene.ambient.sky_linear = {0.23f, 0.25f, 0.28f};
     scene.ambient.ground_linear = {0.13f, 0.12f, 0.105f};
 }

@@ -153,7 +153,8 @@ static void test_struct_sizes(void) {
     halflit_execution execution;
     halflit_renderer* renderer = NULL;
     halflit_counts counts;
-    cube.settings.shadow_size = 2048;  // the default, which a shorter struct stands for
+    cube.settings.shadow_size = 2048;              // the default, which a shorter struct stands for
+    cube.settings.tone_curve = HALFLIT_TONE_NONE;  // so too
     older = cube.settings;
     expected = draw_cube(NULL, &cube);
     CHECK(expected != 0);
@@ -470,6 +471,17 @@ static void test_changes(void) {
     before = after;
     after = draw_cube(renderer, &cube);
     CHECK(after != before && after == draw_cube(NULL, &fresh));
+    CHECK_OK(halflit_scene_add_studio(cube.scene, &cube.camera));  // there is light
+    CHECK(draw_cube(renderer, &cube) == after);
+
+    CHECK_OK(halflit_scene_clear_lights(cube.scene));
+    CHECK_OK(halflit_scene_clear_lights(fresh.scene));
+    CHECK_OK(halflit_scene_add_studio(cube.scene, &cube.camera));
+    CHECK_OK(halflit_scene_add_studio(fresh.scene, &fresh.camera));
+    before = after;
+    after = draw_cube(renderer, &cube);
+    CHECK(after != before && after == draw_cube(NULL, &fresh));
+    CHECK_FAILS(halflit_scene_add_studio(fresh.scene, NULL), HALFLIT_ERROR_USAGE, "camera is null");
 
     // Nothing changed: nothing is prepared, which takes far less than a millisecond.
     CHECK_OK(halflit_render(renderer, cube.scene, &cube.camera, &cube.settings, &target, &report));
@@ -716,6 +728,7 @@ static void test_execution(void) {
         halflit_report report;
         report.size = sizeof report;
         cube.settings.max_error_codes = 0.5;
+        cube.settings.tone_curve = HALFLIT_TONE_NONE;  // a curve's slope multiplies errors
         CHECK_OK(halflit_renderer_create(NULL, &renderer));
         CHECK_OK(halflit_render(renderer, cube.scene, &cube.camera, &cube.settings, &target, &report));
         CHECK(report.error_budget == 0.5 && report.error_within == 1 && report.error_codes > 0 && report.error_codes <= 0.5);

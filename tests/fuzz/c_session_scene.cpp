@@ -118,7 +118,8 @@ void Session::cameras_and_lights() {
         case 0:
             return check(halflit_scene_set_ambient(scene(), or_null(sky.data()), or_null(ground.data())));
         case 1:
-            return check(halflit_scene_add_default_lights(scene(), or_null(view.get())));
+            return check(in_.one_in(2) ? halflit_scene_add_default_lights(scene(), or_null(view.get()))
+                                       : halflit_scene_add_studio(scene(), or_null(view.get())));
         case 2:
             return check(halflit_scene_clear_lights(scene()));
         default:

@@ -55,57 +55,79 @@ bool chosen(const Camera& camera, Scene scene = box_scene()) {
 
 }  // namespace
 
-TEST_CASE("setup: the usual settings are four samples over dark grey, and otherwise the defaults", "[raster][setup]") {
+TEST_CASE("setup: the usual settings are four samples over dark grey, the neutral curve, and otherwise the defaults", "[raster][setup]") {
     Settings s = usual_settings();
     CHECK(s.samples == 4);
+    CHECK(s.tone_curve == ToneCurve::neutral);
     std::vector<std::uint8_t> pixels(4);
     REQUIRE(render(Scene{}, Camera{}, s, {.width = 1, .height = 1, .pixels = pixels.data()}));
     CHECK(pixels == std::vector<std::uint8_t>{0x3a, 0x3f, 0x47, 0xff});
     s.samples = Settings{}.samples;
+    s.tone_curve = Settings{}.tone_curve;
     s.background_linear = Settings{}.background_linear;
     CHECK(s == Settings{});
 }
 
-TEST_CASE("setup: a scene without light gets the default lights, and exposure 1", "[raster][setup]") {
+TEST_CASE("setup: a scene without light gets the studio with a key light, and exposure 1", "[raster][setup]") {
     for (const bool calibrated : {true, false}) {
         Scene scene = box_scene(), wanted = box_scene();
         scene.calibrated = calibrated;
         const AutoSetup setup = auto_setup(scene, 200, 100);
-        add_default_lights(wanted, setup.camera);
+        add_studio(wanted, setup.camera);
         CHECK(setup.settings.exposure == 1.0f);
+        CHECK(scene.lights == wanted.lights);
         REQUIRE(scene.lights.size() == 1);
-        CHECK(same(scene.lights[0].color_linear, wanted.lights[0].color_linear));
-        CHECK(same(scene.lights[0].direction_ws, wanted.lights[0].direction_ws));
-        CHECK(same(scene.ambient, wanted.ambient));
+        REQUIRE(scene.environment != nullptr);
+        CHECK(environment_level(*scene.environment) == environment_level(*wanted.environment));
+        CHECK(same(scene.ambient, Ambient{}));
         // A second call finds light, and leaves it: the same view and exposure.
+        const std::shared_ptr<const Environment> studio = scene.environment;
         const AutoSetup again = auto_setup(scene, 200, 100);
         CHECK(scene.lights.size() == 1);
-        CHECK(same(scene.ambient, wanted.ambient));
+        CHECK(scene.environment == studio);
         CHECK(again.camera == setup.camera);
         CHECK(again.settings == setup.settings);
     }
     Scene scene = box_scene();
     static_cast<void>(auto_setup(scene, 200, 100, {.add_lights = false}));
     CHECK(scene.lights.empty());
+    CHECK(scene.environment == nullptr);
     CHECK(same(scene.ambient, Ambient{}));
 }
 
-TEST_CASE("setup: lights of a file give soft ambient light, and an exposure that makes them 1", "[raster][setup]") {
-    Scene scene = box_scene();
-    scene.lights = {sun({300, 200, 100}), sun({50, 0, 0})};
-    scene.calibrated = false;
-    const AutoSetup setup = auto_setup(scene, 200, 100);
-    const double luminance = 0.2126 * 350 + 0.7152 * 200 + 0.0722 * 100;  // Rec. 709
-    CHECK(double{setup.settings.exposure} == Approx(1 / luminance).epsilon(1e-4));
-    CHECK(double{scene.ambient.sky_linear.x} == Approx(35.0));
-    CHECK(double{scene.ambient.sky_linear.z} == Approx(10.0));
-    CHECK(double{scene.ambient.ground_linear.y} == Approx(10.0));
-    CHECK(scene.lights.size() == 2);
-    const Ambient ambient = scene.ambient;
-    const AutoSetup again = auto_setup(scene, 200, 100);
-    CHECK(same(scene.ambient, ambient));
-    CHECK(again.settings == setup.settings);
+TEST_CASE("setup: without the studio, a scene without light gets the default lights", "[raster][setup]") {
+    Scene scene = box_scene(), wanted = box_scene();
+    const AutoSetup setup = auto_setup(scene, 200, 100, {.studio = StudioUse::never});
+    add_default_lights(wanted, setup.camera);
+    CHECK(scene.environment == nullptr);
+    CHECK(scene.lights == wanted.lights);
+    CHECK(same(scene.ambient, wanted.ambient));
+    CHECK(setup.settings.exposure == 1.0f);
+}
 
+TEST_CASE("setup: lights of a file get an exposure that makes them 1, and a share of the studio", "[raster][setup]") {
+    Scene dark = box_scene();
+    static_cast<void>(auto_setup(dark, 200, 100));
+    const double whole = environment_level(*dark.environment);
+    for (const LightType type : {LightType::directional, LightType::point}) {
+        Scene scene = box_scene();
+        scene.lights = {sun({300, 200, 100}), sun({50, 0, 0})};
+        for (Light& light : scene.lights) light.type = type, light.position_ws = {2, 0, 0};
+        scene.calibrated = false;
+        const AutoSetup setup = auto_setup(scene, 200, 100);
+        const double falloff = type == LightType::point ? 0.25 : 1.0;                     // at a distance of 2 from the centre
+        const double luminance = falloff * (0.2126 * 350 + 0.7152 * 200 + 0.0722 * 100);  // Rec. 709
+        CHECK(double{setup.settings.exposure} == Approx(1 / luminance).epsilon(1e-4));
+        REQUIRE(scene.environment != nullptr);
+        const double share = type == LightType::point ? 0.5 : 0.15;
+        CHECK(environment_level(*scene.environment) * double{setup.settings.exposure} == Approx(share * whole).epsilon(1e-5));
+        CHECK(same(scene.ambient, Ambient{}));
+        CHECK(scene.lights.size() == 2);
+        const std::shared_ptr<const Environment> studio = scene.environment;
+        const AutoSetup again = auto_setup(scene, 200, 100);
+        CHECK(scene.environment == studio);
+        CHECK(again.settings == setup.settings);
+    }
     // Ambient light that is there stays.
     Scene own = box_scene();
     own.lights = {sun({300, 200, 100})};
@@ -113,6 +135,37 @@ TEST_CASE("setup: lights of a file give soft ambient light, and an exposure that
     own.ambient = {{1, 2, 3}, {0, 0, 0}};
     static_cast<void>(auto_setup(own, 200, 100));
     CHECK(same(own.ambient, {{1, 2, 3}, {0, 0, 0}}));
+    CHECK(own.environment == nullptr);
+}
+
+TEST_CASE("setup: without the studio, lights of a file get soft ambient light", "[raster][setup]") {
+    Scene scene = box_scene();
+    scene.lights = {sun({300, 200, 100}), sun({50, 0, 0})};
+    scene.calibrated = false;
+    static_cast<void>(auto_setup(scene, 200, 100, {.studio = StudioUse::never}));
+    CHECK(double{scene.ambient.sky_linear.x} == Approx(35.0));
+    CHECK(double{scene.ambient.sky_linear.z} == Approx(10.0));
+    CHECK(double{scene.ambient.ground_linear.y} == Approx(10.0));
+    CHECK(scene.environment == nullptr);
+}
+
+TEST_CASE("setup: on request the studio lights a scene in full, whatever lights it has", "[raster][setup]") {
+    Scene dark = box_scene();
+    static_cast<void>(auto_setup(dark, 200, 100));
+    const double whole = environment_level(*dark.environment);
+    for (const bool calibrated : {true, false}) {
+        Scene scene = box_scene();
+        scene.lights = {sun({300, 200, 100})};
+        scene.calibrated = calibrated;
+        const AutoSetup setup = auto_setup(scene, 200, 100, {.studio = StudioUse::always});
+        CHECK(scene.lights.size() == 1);
+        CHECK((setup.settings.exposure == 1.0f) == calibrated);
+        CHECK(environment_level(*scene.environment) * double{setup.settings.exposure} == Approx(whole).epsilon(1e-5));
+    }
+    Scene outdoors = box_scene();
+    set_environment(outdoors, grey(5, false));
+    CHECK(auto_setup(outdoors, 200, 100, {.studio = StudioUse::always}).settings.exposure == 1.0f);
+    CHECK(environment_level(*outdoors.environment) == Approx(whole).epsilon(1e-5));
 }
 
 TEST_CASE("setup: calibrated lights stay as they are", "[raster][setup]") {

@@ -23,6 +23,7 @@ struct Variant {
     const char* name;
     Settings settings;
     bool environment = false;
+    bool studio = false;  ///< instead of the scene's lights
 };
 
 std::vector<Variant> variants() {
@@ -53,6 +54,9 @@ std::vector<Variant> variants() {
     all.back().settings.tone_curve = ToneCurve::neutral;
     add("environment");
     all.back().environment = true;
+    add("studio").samples = 4;
+    all.back().settings.tone_curve = ToneCurve::neutral;
+    all.back().studio = true;
     return all;
 }
 
@@ -81,6 +85,10 @@ std::string hashes(const test::NamedScene& named, const Variant& variant) {
     if (variant.environment) {
         scene.environment = small_sky();
         scene.lights.insert(scene.lights.end(), scene.environment->suns.begin(), scene.environment->suns.end());
+    }
+    if (variant.studio) {
+        scene.lights.clear();
+        add_studio(scene, named.camera);
     }
     std::vector<std::uint8_t> rgba8(std::size_t{4} * kWidth * kHeight);
     std::vector<float> linear(rgba8.size());

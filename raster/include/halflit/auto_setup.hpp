@@ -6,18 +6,28 @@
 #include "halflit/scene.hpp"
 #include "halflit/settings.hpp"
 
+#include <cstdint>
 #include <optional>
 
 namespace halflit {
 
+/// When auto_setup() puts the scene into the built-in studio (studio_environment).
+enum class StudioUse : std::uint8_t {
+    for_dark,  ///< where the scene has no light from all around
+    always,    ///< always, in full, instead of the scene's ambient light and environment
+    never      ///< never: light from above and below takes its place
+};
+
 /// What the caller decides; the rest is chosen.
 struct AutoOptions {
-    std::optional<Camera> camera{};         ///< the view; empty: choose_camera()'s, or else a view of the whole scene
-    bool frame = false;                     ///< a view of the whole scene, whatever cameras the scene has
-    ViewSettings view{};                    ///< of a view of the whole scene
-    std::optional<Vec3f> ambient_linear{};  ///< ambient light from all directions; empty: chosen
-    std::optional<float> exposure{};        ///< factor on all light; empty: chosen
-    bool add_lights = true;                 ///< a scene without any light gets some
+    std::optional<Camera> camera{};          ///< the view; empty: choose_camera()'s, or else a view of the whole scene
+    bool frame = false;                      ///< a view of the whole scene, whatever cameras the scene has
+    ViewSettings view{};                     ///< of a view of the whole scene
+    std::optional<Vec3f> ambient_linear{};   ///< ambient light from all directions; empty: chosen
+    std::optional<float> exposure{};         ///< factor on all light; empty: chosen
+    bool add_lights = true;                  ///< a scene without any light gets some
+    StudioUse studio = StudioUse::for_dark;  ///< the built-in studio's part in that
+    double studio_turn_rad = 0.0;            ///< turns the studio about the vertical, counter-clockwise seen from above
 };
 
 /// What auto_setup() chose; render() takes both. The lights are in the scene.
@@ -27,12 +37,13 @@ struct AutoSetup {
     bool framed = false;  ///< the camera is a view of the whole scene
 };
 
-/// Four samples, the dark grey background #3a3f47, and otherwise the defaults.
+/// Four samples, the dark grey background #3a3f47, the neutral tone curve, and otherwise the defaults.
 [[nodiscard]] HALFLIT_API Settings usual_settings();
 
 /// Chooses camera, lights, ambient light and exposure for a picture of width x height pixels. Adds to the scene the light that it lacks:
-///   - no light at all: a key light and ambient light (add_default_lights), which are calibrated, exposure 1;
-///   - lights of a file (Scene::calibrated is false): ambient light (soft_ambient), and an exposure from the lights (auto_exposure);
+///   - no light at all: the studio with a key light (add_studio; StudioUse::never: add_default_lights), exposure 1;
+///   - lights of a file (Scene::calibrated is false): an exposure from the lights (auto_exposure), and where nothing else lights it from
+///     all around, 0.15 of the studio if there is a directional light, 0.5 if there are lamps alone (StudioUse::never: soft_ambient);
 ///   - an environment: an exposure by which its mean light makes a white surface 0.5, or 1 if its image is calibrated.
 /// Nothing depends on pixels. Call it once for each scene: a second call finds the light that the first one added.
 [[nodiscard]] HALFLIT_API AutoSetup auto_setup(Scene& scene, int width, int height, const AutoOptions& options = {});

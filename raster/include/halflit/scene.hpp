@@ -20,7 +20,7 @@ struct Scene {
     std::vector<Instance> instances;  ///< drawn in this order
     std::vector<Material> materials;  ///< shared by meshes
     std::vector<Texture> textures;    ///< shared by materials
-    std::vector<Light> lights;        ///< summed in this order; empty: see add_default_lights
+    std::vector<Light> lights;        ///< summed in this order; empty: see add_studio
     /// Light from all around, black by default.
     Ambient ambient;
     std::shared_ptr<const Environment> environment;  ///< replaces `ambient`; its suns must be in `lights` (see set_environment)
@@ -35,6 +35,18 @@ struct Scene {
 
 /// Adds light to a scene that has none: a key light over the viewer's left shoulder, and ambient light from sky and ground.
 HALFLIT_API void add_default_lights(Scene& scene, const Camera& camera);
+
+/// The built-in studio, made by code: a dim room with a bright horizon, soft boxes, and a floor that returns some light. 128 x 64 pixels,
+/// calibrated; a white Lambert surface in it reaches 0.1 (facing down) to 0.6 (facing up).
+[[nodiscard]] HALFLIT_API EnvironmentImage studio_image();
+
+/// The studio turned with the camera about the vertical, its main soft box over the viewer's left shoulder, with its image kept.
+/// turn_rad: a further turn, counter-clockwise seen from above; level: a factor on its light.
+[[nodiscard]] HALFLIT_API std::shared_ptr<const Environment> studio_environment(const Camera& camera, double turn_rad = 0.0,
+                                                                                float level = 1.0f);
+
+/// Adds light to a scene that has none: the studio, and a key light from its main soft box that casts shadows. Exposure 1.
+HALFLIT_API void add_studio(Scene& scene, const Camera& camera, double turn_rad = 0.0);
 
 /// Lights the scene by an environment: sets it, removes the ambient light, and adds its suns to the scene's lights. The suns of the
 /// environment before, if there was one, are removed. Null: no environment.

@@ -272,6 +272,9 @@ HALFLIT_C_API int32_t halflit_scene_set_light(halflit_scene* scene, int32_t inde
 HALFLIT_C_API int32_t halflit_scene_set_ambient(halflit_scene* scene, const float sky[3], const float ground[3]);
 /// If the scene has no light of any kind, adds a key light over the viewer's left shoulder, and ambient light.
 HALFLIT_C_API int32_t halflit_scene_add_default_lights(halflit_scene* scene, const halflit_camera* camera);
+/// If the scene has no light of any kind, puts it into the built-in studio: an environment of soft boxes, turned with the camera about the
+/// vertical, and a key light over the viewer's left shoulder. halflit_auto_setup does the same.
+HALFLIT_C_API int32_t halflit_scene_add_studio(halflit_scene* scene, const halflit_camera* camera);
 /// Removes the lights, the ambient light and the environment.
 HALFLIT_C_API int32_t halflit_scene_clear_lights(halflit_scene* scene);
 

@@ -1,0 +1,96 @@
+// The built-in studio: how bright it is, where its light comes from, and that it turns with the camera.
+#include "halflit/renderer.hpp"
+#include "halflit/scene.hpp"
+#include "halflit/shapes.hpp"
+#include "sh/equirect.hpp"
+
+#include "tests/support/catch.hpp"
+
+#include <cmath>
+#include <vector>
+
+using namespace halflit;
+
+namespace {
+
+/// Light that a white Lambert surface of this normal reflects, by a sum over the image's pixels.
+double reflected(const EnvironmentImage& image, Vec3d normal) {
+    double sum = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const double cosine = dot(sh::equirect_direction((x + 0.5) / image.width, (y + 0.5) / image.height), normal);
+            const auto* const rgb = &image.rgb[static_cast<std::size_t>(3 * (y * image.width + x))];
+            if (cosine > 0)
+                sum += cosine * sh::luminance({double{rgb[0]}, double{rgb[1]}, double{rgb[2]}}) *
+                       sh::pixel_solid_angle(image.width, image.height, y);
+        }
+    return sum / kPi;
+}
+
+Camera seen_from(Vec3f eye) {
+    Camera camera;
+    camera.world_from_camera = look_at(eye, {0, 0, 0});
+    return camera;
+}
+
+/// A white sphere in the studio, from a place; 40 x 40 linear pixels.
+std::vector<float> sphere_seen_from(Vec3f eye) {
+    Scene scene;
+    scene.meshes.push_back(make_sphere_of(1.0f, 4000));
+    scene.meshes[0].material = 0;
+    scene.instances.push_back({0, {}});
+    scene.materials.resize(1);
+    scene.materials[0].metallic = 0;
+    const Camera camera = seen_from(eye);
+    add_studio(scene, camera);
+    std::vector<float> linear(4 * 40 * 40);
+    REQUIRE(render(scene, camera, {}, {.width = 40, .height = 40, .linear = linear.data()}));
+    return linear;
+}
+
+}  // namespace
+
+TEST_CASE("studio: white surfaces reflect what its header says, brightest upwards and darkest downwards", "[raster][studio]") {
+    const EnvironmentImage image = studio_image();
+    CHECK(image.calibrated);
+    REQUIRE(image.rgb.size() == static_cast<std::size_t>(3 * image.width * image.height));
+    CHECK(reflected(image, {0, 1, 0}) == Approx(0.6).margin(0.1));
+    CHECK(reflected(image, {0, -1, 0}) == Approx(0.1).margin(0.05));
+    double least = 1e9, most = 0;
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 32; ++x) {
+            const double light = reflected(image, sh::equirect_direction((x + 0.5) / 32, (y + 0.5) / 16));
+            least = std::min(least, light), most = std::max(most, light);
+        }
+    CHECK(least > 0.08);  // nothing is lost in black
+    CHECK(most < 0.75);   // and with the key light white stays near 1
+    // More light comes from the viewer's left than from the right, and a mirror sees soft boxes well above the walls.
+    CHECK(reflected(image, {-0.6, 0.6, 0.52}) > reflected(image, {0.6, 0.6, 0.52}));
+    CHECK(*std::max_element(image.rgb.begin(), image.rgb.end()) > 1.5f);
+}
+
+TEST_CASE("studio: a sphere looks the same from every side", "[raster][studio]") {
+    const std::vector<float> front = sphere_seen_from({0, 1, 4});
+    CHECK(front[4 * (20 * 40 + 20)] > 0.2f);
+    for (const double azimuth : {0.7, 2.0, 3.14159, 4.5}) {
+        const std::vector<float> other =
+            sphere_seen_from({static_cast<float>(4 * std::sin(azimuth)), 1, static_cast<float>(4 * std::cos(azimuth))});
+        double worst = 0;
+        for (int y = 12; y < 28; ++y)
+            for (int x = 12; x < 28; ++x)
+                for (int c = 0; c < 3; ++c) {
+                    const auto i = static_cast<std::size_t>(4 * (y * 40 + x) + c);
+                    worst = std::max(worst, std::abs(double{front[i]} - double{other[i]}));
+                }
+        CHECK(worst < 0.02);  // the facets of the sphere, and the bands left out
+    }
+}
+
+TEST_CASE("studio: cameras that look straight down or up have it upright in their picture", "[raster][studio]") {
+    // The picture's left edge shows what faces left: the side of the main soft box.
+    for (const float height : {4.0f, -4.0f}) {
+        const std::vector<float> linear = sphere_seen_from({0, height, 0});
+        const auto at = [&](int x, int y) { return double{linear[static_cast<std::size_t>(4 * (y * 40 + x) + 1)]}; };
+        CHECK(at(12, 20) > at(28, 20));
+    }
+}
