@@ -4,6 +4,7 @@
 #include "raster/detail/view_math.hpp"
 #include "raster/scene/surface_distance.hpp"
 #include "shading/light_cell.hpp"
+#include "shading/sky_lights.hpp"
 
 #include <algorithm>
 
@@ -145,6 +146,26 @@ std::optional<SeenVolume> looked_up_where_seen(const PreparedData& scene, const 
     return seen_volume(picture, depth_map(camera, aspect), scene.bounds());
 }
 
+/// Lights for sky shadows, with their maps, which are added to `shadows`. Light from all around reaches all of the scene, so its maps are
+/// not cut to what is seen.
+Result<std::vector<LightPlan>> plan_sky(const PreparedData& scene, const Settings& settings, ShadowViews& shadows) {
+    constexpr int kSkyMapSize = 256;
+    const Scene& source = scene.scene();
+    const bool ambient =
+        source.environment != nullptr || !(source.ambient.sky_linear == Vec3f{} && source.ambient.ground_linear == Vec3f{});
+    if (settings.sky_shadows == 0 || settings.shadows == ShadowMode::off || !ambient) return std::vector<LightPlan>{};
+    std::vector<LightPlan> lights =
+        shading::plan_lights(shading::sky_lights(settings.sky_shadows, source.environment.get(), source.ambient));
+    Settings of_sky = settings;
+    of_sky.shadow_size = std::min(settings.shadow_size, kSkyMapSize);
+    auto views = plan_shadow_views(lights, scene, nullptr, of_sky);
+    if (!views) return tl::unexpected<Error>(views.error());
+    const std::vector<std::int32_t> maps = views->map_of_light;
+    const auto before = static_cast<std::int32_t>(append(shadows, std::move(*views)));
+    for (std::size_t i = 0; i < maps.size(); ++i) lights[i].shadow_map = maps[i] < 0 ? -1 : maps[i] + before;
+    return lights;
+}
+
 Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, const Settings& settings, int width, int height,
                             int tile_size, FramePlanMemory& memory) {
     if (auto ok = check_settings(settings, width, height); !ok) return tl::unexpected<Error>(ok.error());
@@ -159,6 +180,8 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, 
     const std::optional<SeenVolume> seen = looked_up_where_seen(prepared, camera, options, settings, plan.picture);
     auto shadows = plan_shadow_views(lights, prepared, seen ? &*seen : nullptr, settings);
     if (!shadows) return tl::unexpected<Error>(shadows.error());
+    auto sky = plan_sky(prepared, settings, *shadows);
+    if (!sky) return tl::unexpected<Error>(sky.error());
     bool finite_views = all_finite(plan.picture.clip_from_world);
     for (const ShadowView& face : shadows->views) finite_views &= !face.sees_casters || all_finite(face.view.clip_from_world);
     if (!finite_views) return fail(ErrorCode::bad_input, "the camera's matrix is not finite");
@@ -183,7 +206,7 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, 
          .tone_curve = settings.tone_curve,
          .viewer = viewer_of(camera),
          .shadows = {settings.shadows, settings.shadow_terminator_offset, std::move(shadows->maps), std::move(shadows->map_of_light),
-                     prepared.object_radii(), static_cast<double>(settings.shadow_fade)},
+                     prepared.object_radii(), std::move(*sky), settings.sky_shadows, static_cast<double>(settings.shadow_fade)},
          .facts = budget ? &facts : nullptr,
          .drawn = &prepared.drawn_materials(),
          .for_each_row = memory.for_each_row ? memory.for_each_row : shading::in_turn},

@@ -4,6 +4,7 @@
 
 #include "raster/kernels/raster_kernels.hpp"
 #include "shading/planner.hpp"
+#include "shading/sky_lights.hpp"
 
 #include <algorithm>
 #include <string>
@@ -23,6 +24,9 @@ Result<void> check_settings(const Settings& settings, int width, int height) {
         return fail(ErrorCode::usage, "shadow size: " + std::to_string(side) + ", expected a power of two from 64 to 4096");
     if (!(settings.shadow_fade >= 0.0f && settings.shadow_fade < 3e38f))
         return fail(ErrorCode::usage, "shadow fade: expected a distance, or 0");
+    if (settings.sky_shadows != 0 &&
+        (settings.sky_shadows < shading::kLeastSkyDirections || settings.sky_shadows > shading::kMostSkyDirections))
+        return fail(ErrorCode::usage, "sky shadows: " + std::to_string(settings.sky_shadows) + ", expected 0, or 16 to 1024 directions");
     if (settings.tone_curve > ToneCurve::neutral) return fail(ErrorCode::usage, "tone curve: found a value that no name stands for");
     if (settings.shadows > ShadowMode::soft_split) return fail(ErrorCode::usage, "shadows: found a value that no name stands for");
     if (auto ok = shading::check_options(settings.shading); !ok) return ok;

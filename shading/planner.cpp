@@ -69,6 +69,8 @@ void plan_environments(const PlanInputs& inputs, PlanMemory& memory, ShadingPlan
 /// Materials without wrap get none.
 void plan_shadows(const ShadowInputs& shadows, ShadingPlan& plan) {
     plan.shadow_maps = shadows.maps;
+    plan.sky = shadows.sky;
+    if (!plan.sky.empty()) plan.sky_focus = narrowest_sky_focus(shadows.sky_directions);
     for (std::size_t i = 0; i < std::min(plan.lights.size(), shadows.map_of_light.size()); ++i)
         plan.lights[i].shadow_map = shadows.map_of_light[i];
     plan.shadow_mode = plan.shadow_maps.empty() ? ShadowMode::off : shadows.mode;

@@ -29,6 +29,8 @@ struct ShadowInputs {
     std::vector<ShadowMapPlan> maps;
     std::vector<std::int32_t> map_of_light;  ///< index into `maps` for each of plan_lights(), or -1; empty: no light casts shadows
     std::span<const double> object_radius;   ///< radius of the largest object made of each material, world units
+    std::vector<LightPlan> sky;              ///< of sky_lights(), with their maps; empty: no sky shadows
+    int sky_directions = 0;                  ///< that they are made for; black ones are left out
     double fade_distance = 0;                ///< distance behind a blocker where wrapped light is gone; 0: from object size and wrap
 };
 

@@ -20,7 +20,7 @@ HALFLIT_ENDS_WITH(halflit_mesh, reserved);
 HALFLIT_ENDS_WITH(halflit_light, reserved);
 HALFLIT_ENDS_WITH(halflit_environment_options, reserved);
 HALFLIT_ENDS_WITH(halflit_camera, reserved);
-HALFLIT_ENDS_WITH(halflit_settings, tone_curve);
+HALFLIT_ENDS_WITH(halflit_settings, reserved);
 HALFLIT_ENDS_WITH(halflit_execution, memory_limit);
 HALFLIT_ENDS_WITH(halflit_target, region_alone);
 HALFLIT_ENDS_WITH(halflit_report, reserved);
@@ -97,6 +97,7 @@ halflit_settings to_c(const Settings& from) {
     settings.shadow_fade = from.shadow_fade;
     settings.shadow_terminator_offset = from.shadow_terminator_offset;
     settings.tone_curve = static_cast<std::int32_t>(from.tone_curve);
+    settings.sky_shadows = from.sky_shadows;
     return settings;
 }
 
@@ -114,6 +115,7 @@ Result<Settings> settings(const halflit_settings* given) {
     settings.shadow_memory_limit = read->shadow_memory_limit;
     settings.shadow_fade = read->shadow_fade;
     settings.shadow_terminator_offset = read->shadow_terminator_offset != 0;
+    settings.sky_shadows = read->sky_shadows;
     ShadingSettings& shading = settings.shading;
     if (read->override_lobe != 0) shading.lobe = lobe(read->lobe);
     shading.normalize_specular = read->normalize_specular != 0;

@@ -229,6 +229,16 @@ FlagGroup shadow_flags(RenderOptions& o) {
               fmt::format("Memory limit of all shadow maps, 1 to 65536 MiB: they are halved in size until they fit (default {})",
                           s.shadow_memory_limit / kMib),
               [&s](const std::string& text) { return read_shadow_memory(s.shadow_memory_limit, text); }},
+             {"--sky-shadows", "N",
+              fmt::format("Look up in N directions, 16 to 1024, how much of the sky, the studio or ambient light reaches a surface; 0: all "
+                          "of it (default {}; 64 is a good number)",
+                          s.sky_shadows),
+              [&s](const std::string& text) -> Result<void> {
+                  const auto n = parse_int(text, 0, 1024);
+                  if (!n || (*n > 0 && *n < 16)) return fail(ErrorCode::usage, fmt::format("expected 0, or 16 to 1024, found '{}'", text));
+                  s.sky_shadows = static_cast<int>(*n);
+                  return {};
+              }},
              {"--shadow-terminator", form_of(kOffOn),
               fmt::format("Look shadows of coarse meshes up on the smooth surface given by the vertex normals (default {})",
                           name_of(s.shadow_terminator_offset, kOffOn)),

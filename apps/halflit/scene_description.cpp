@@ -11,6 +11,7 @@
 
 #include <charconv>
 #include <iterator>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -140,13 +141,16 @@ Json shadows_json(const raster::FramePlan& frame, const Settings& settings) {
     constexpr std::string_view kKinds[] = {"orthographic", "perspective", "cube"};
     Json maps = Json::array();
     std::size_t view = 0;
-    for (const shading::ShadowMapPlan& map : frame.shading.shadow_maps) {
+    std::size_t sky_maps = 0;
+    for (const shading::LightPlan& light : frame.shading.sky) sky_maps += light.shadow_map >= 0 ? 1 : 0;
+    const auto maps_of_lights = std::span(frame.shading.shadow_maps).first(frame.shading.shadow_maps.size() - sky_maps);
+    for (const shading::ShadowMapPlan& map : maps_of_lights) {
         const std::size_t faces = map.kind == shading::ShadowMapPlan::Kind::cube ? 6 : 1;
         std::size_t drawn = 0;
         for (std::size_t i = 0; i < faces; ++i) drawn += frame.shadow_views[view++].sees_casters ? 1 : 0;
         maps.push_back({{"kind", kKinds[static_cast<std::size_t>(map.kind)]}, {"texels", map.size}, {"faces_drawn", drawn}});
     }
-    return {{"mode", shadow_mode_name(settings.shadows)}, {"maps", std::move(maps)}};
+    return {{"mode", shadow_mode_name(settings.shadows)}, {"maps", std::move(maps)}, {"sky_maps", sky_maps}};
 }
 
 Json materials_json(const RenderJob& job, const shading::ShadingPlan& plan) {

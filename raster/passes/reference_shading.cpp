@@ -53,7 +53,17 @@ void ReferenceShading::shade(const shading::ShadeKernels& kernels, const shading
             share.soft = static_cast<double>(excess[lane]);
         }
     }
+    std::vector<reference::Hidden> hidden_sky(plan.sky.size() * shading::kBlockSize);
+    for (std::size_t i = 0; i < plan.sky.size(); ++i) {
+        if (plan.sky[i].shadow_map < 0) continue;
+        alignas(64) float core[shading::kBlockSize], excess[shading::kBlockSize];
+        kernels.hidden(plan, material_plan, plan.sky[i], block, count, core, excess);
+        for (std::size_t lane = 0; lane < static_cast<std::size_t>(count); ++lane)
+            hidden_sky[lane * plan.sky.size() + i] = {static_cast<double>(core[lane]), static_cast<double>(excess[lane]), 0.0};
+    }
     reference::Surroundings around;
+    around.sky = plan.sky;
+    around.sky_focus = static_cast<double>(plan.sky_focus);
     around.diffuse = diffuse_[index].get();
     around.reflections = plan.reflections.map.get();
     around.reflection_lobes = material_plan.reflection_lobes;
@@ -61,6 +71,7 @@ void ReferenceShading::shade(const shading::ShadeKernels& kernels, const shading
     const shading::SlotMask filled = scene_->available_slots()[index] & material_plan.slots;
     for (int lane = 0; lane < count; ++lane) {
         if (!hidden.empty()) around.hidden = std::span(hidden).subspan(static_cast<std::size_t>(lane) * light_count, light_count);
+        around.hidden_sky = std::span(hidden_sky).subspan(static_cast<std::size_t>(lane) * plan.sky.size(), plan.sky.size());
         const reference::Rgba color = reference::shade(frame_, scene_->material(index), filled, block, lane, around);
         block.red[lane] = static_cast<float>(color.r);
         block.green[lane] = static_cast<float>(color.g);

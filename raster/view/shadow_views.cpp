@@ -277,4 +277,17 @@ Result<ShadowViews> plan_shadow_views(std::span<const LightPlan> lights, const P
     return out;
 }
 
+std::size_t append(ShadowViews& to, ShadowViews&& more) {
+    const std::size_t before = to.maps.size();
+    to.maps.insert(to.maps.end(), more.maps.begin(), more.maps.end());
+    for (const std::size_t first : more.first_texel) to.first_texel.push_back(first + to.texel_count);
+    for (ShadowView& view : more.views) {
+        view.first_texel += to.texel_count;
+        to.views.push_back(std::move(view));
+    }
+    to.texel_count += more.texel_count;
+    if (to.warning.empty()) to.warning = std::move(more.warning);
+    return before;
+}
+
 }  // namespace halflit::raster

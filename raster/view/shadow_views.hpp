@@ -44,4 +44,7 @@ struct ShadowViews {
 [[nodiscard]] Result<ShadowViews> plan_shadow_views(std::span<const shading::LightPlan> lights, const PreparedData& scene,
                                                     const SeenVolume* seen, const Settings& settings);
 
+/// Appends the maps of one list of views to another one. Returns the number of maps before.
+std::size_t append(ShadowViews& to, ShadowViews&& more);
+
 }  // namespace halflit::raster

@@ -223,6 +223,14 @@ double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, con
         codes += codes_of_absolute(s.albedo * diffuse.error);
         codes += codes_of_absolute(share * mirrored.error + (s.roughness.absolute + 5.0 * s.cosine_error()) * mirrored.most);
         codes += codes_of(s.occlusion, s.albedo * diffuse.most + share * mirrored.most);
+        if (!plan.sky.empty()) {
+            // Shares of sums over the sky: rounding, and weights that change with the normal, no faster than a lobe's slope, or twice the
+            // inverse width of the narrowest focus, by a factor of the lights in reach.
+            const double sums = 2.4e-7 * (static_cast<double>(plan.sky.size()) + 8.0);
+            const double slope = 8.0 * (static_cast<double>(material.lobe.power_minus_one) + 1.0);
+            codes += codes_of_absolute(s.albedo * (sums + slope * s.normal_error) * diffuse.most);
+            codes += codes_of_absolute(share * (sums + 16.0 / (1.0 - static_cast<double>(plan.sky_focus)) * mirror_error) * mirrored.most);
+        }
         matt += diffuse.most;
         shiny += mirrored.most;
     }

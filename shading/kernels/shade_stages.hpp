@@ -8,6 +8,7 @@
 #include "shading/kernels/highlight_sums.hpp"
 #include "shading/kernels/reflection_kernel.hpp"
 #include "shading/kernels/shade_kernels.hpp"
+#include "shading/kernels/sky_shadow_kernel.hpp"
 #include "shading/kernels/surface_kernel.hpp"
 #include "shading/model/constants.hpp"
 #include "shading/model/formulas.hpp"
@@ -130,7 +131,7 @@ static void add_surroundings(const shading::ShadingPlan& frame, const shading::M
     const bool environment = has(material, kStageEnvironment);
     for (int lane = 0; lane < count; lane += kWidth) {
         const V3 normal = load3(rows.normal, lane);
-        const F occlusion = load(rows.occlusion + lane);
+        const F occlusion = frame.sky.empty() ? load(rows.occlusion + lane) : F(1.0f);
         store3(rows.ambient, lane,
                (environment ? surrounding_light(frame.environments[static_cast<std::size_t>(material.environment)], normal)
                             : hemisphere(frame.ambient, normal.y)) *
@@ -157,13 +158,40 @@ static void add_surroundings(const shading::ShadingPlan& frame, const shading::M
     }
 }
 
+/// Sky shadows. A texture's occlusion stands for what is too small for the maps, and for the same bodies that they show: the darker of
+/// both counts.
+template <bool kSpecular>
+[[gnu::noinline]] static void hide_sky(const shading::ShadingPlan& frame, const shading::MaterialPlan& material,
+                                       const shading::FragmentBlock& block, int count, ShadeRows& rows) {
+    for (int lane = 0; lane < count; lane += kWidth) {
+        const V3 normal = load3(rows.normal, lane);
+        V3 reflection = normal;
+        F roughness(1.0f);
+        if constexpr (kSpecular) {
+            const V3 to_eye = load3(rows.to_eye, lane);
+            const F n_dot_v = dot(normal, to_eye);
+            reflection = normal * (n_dot_v + n_dot_v) - to_eye;
+            roughness = load(rows.roughness + lane);
+        }
+        const ShadowReceiver receiver{
+            frame, looked_up(frame, block, lane), load3(rows.surface, lane), {material.shadow_fade_scale, material.shadow_turn_scale}};
+        const SkyVisibility seen = sky_visibility<kSpecular>(receiver, material.lobe, normal, reflection, roughness);
+        const F occlusion = load(rows.occlusion + lane);
+        const V3 diffuse{vmin(seen.diffuse.x, occlusion), vmin(seen.diffuse.y, occlusion), vmin(seen.diffuse.z, occlusion)};
+        store3(rows.ambient, lane, load3(rows.ambient, lane) * diffuse);
+        if constexpr (kSpecular) store3(rows.mirrored, lane, load3(rows.mirrored, lane) * vmin(seen.mirrored, occlusion));
+    }
+}
+
 /// All stages before reflection, for a material that is lit.
 template <bool kSpecular>
 HALFLIT_INLINE void add_light(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, shading::LightList lights,
                               const shading::FragmentBlock& block, int count, ShadeRows& rows) {
     find_directions<kSpecular>(frame, material, block, count, rows);
     if (has(material, kStageLights)) add_lights<kSpecular>(frame, material, lights, block, count, rows);
-    if (has(material, kStageAmbient)) add_surroundings<kSpecular>(frame, material, count, rows);
+    if (!has(material, kStageAmbient)) return;
+    add_surroundings<kSpecular>(frame, material, count, rows);
+    if (!frame.sky.empty()) hide_sky<kSpecular>(frame, material, block, count, rows);
 }
 
 /// Light that a surface of this base colour reflects to the eye.

@@ -12,11 +12,18 @@
 
 namespace halflit::shading {
 
+/// A reflection is seen as much as the lights of ShadingPlan::sky about the mirrored direction are, weighted by max(0, cosine - c)^2 with
+/// c = min(sky_focus, 1 - kSkyFocusByAlpha roughness^2): about four lights or more.
+constexpr float narrowest_sky_focus(int directions) { return 1.0f - 8.0f / static_cast<float>(directions); }
+inline constexpr float kSkyFocusByAlpha = 1.5f;
+
 /// Everything about the frame that shading needs, the same for all fragments.
 struct ShadingPlan {
     std::vector<MaterialPlan> materials;  ///< index = index of Scene material; one more at the end for "no material"
     std::vector<LightPlan> lights;        ///< in list order, which sums keep; black lights and those not finite are left out
     std::vector<ShadowMapPlan> shadow_maps;
+    std::vector<LightPlan> sky;                 ///< what sky shadows take the surroundings for (sky_lights.hpp); empty: there are none
+    float sky_focus = 0;                        ///< narrowest_sky_focus() of their number
     std::vector<EnvironmentPlan> environments;  ///< one for each lobe that the environment is convolved with
     ReflectionPlan reflections;
     ShadowMode shadow_mode = ShadowMode::off;

@@ -183,6 +183,34 @@ Mirrored mirrored_environment(const ReflectionMap& map, int lobes, const Surface
     return out;
 }
 
+struct SkySeen {
+    Vec3d diffuse{1, 1, 1};
+    double mirrored = 1;
+};
+
+/// Shares of the light of the surroundings that a surface sees.
+SkySeen sky_seen(const FrameInputs& frame, const Lobe& lobe, const Surface& surface, const Surroundings& around) {
+    if (around.sky.empty()) return {};
+    const Vec3d reflection = scale(surface.normal, 2 * dot(surface.normal, surface.to_eye)) - surface.to_eye;
+    const double roughness = std::max(surface.roughness, kHeldRoughness);
+    const double focus = std::min(around.sky_focus, 1.0 - double{kSkyFocusByAlpha} * roughness * roughness);
+    Vec3d total{}, hidden{};
+    double mirrored = 0, mirrored_hidden = 0;
+    for (std::size_t i = 0; i < around.sky.size(); ++i) {
+        const LightPlan& light = around.sky[i];
+        const Vec3d direction{light.to_light[0], light.to_light[1], light.to_light[2]},
+            color{light.color[0], light.color[1], light.color[2]};
+        const double x = dot(surface.normal, direction), f = lobe_value(lobe, x);
+        total = total + scale(color, f);
+        hidden = hidden + scale(color, f - shadowed_lobe(lobe, x, around.hidden_sky[i], frame.shadow_mode));
+        const double glance = std::pow(std::max(0.0, dot(reflection, direction) - focus), 2.0) * std::max({color.x, color.y, color.z});
+        mirrored += glance;
+        mirrored_hidden += glance * around.hidden_sky[i].hard;
+    }
+    const auto seen = [](double part, double all) { return all > 0 ? 1.0 - std::min(part / all, 1.0) : 1.0; };
+    return {{seen(hidden.x, total.x), seen(hidden.y, total.y), seen(hidden.z, total.z)}, seen(mirrored_hidden, mirrored)};
+}
+
 Vec3d lit(const FrameInputs& frame, const Material& material, const Surface& surface, Vec3d position, const Surroundings& around) {
     const bool specular = frame.options.specular != SpecularModel::none;
     const Lobe& lobe = lobe_of(material, frame.options);
@@ -215,6 +243,10 @@ Vec3d lit(const FrameInputs& frame, const Material& material, const Surface& sur
         }
         sum = sum + scale(reflected, at.attenuation);
     }
+    const SkySeen seen = sky_seen(frame, lobe, surface, around);
+    const auto min3 = [](Vec3d v, double most) { return Vec3d{std::min(v.x, most), std::min(v.y, most), std::min(v.z, most)}; };
+    const Vec3d diffuse_seen = min3(seen.diffuse, surface.occlusion);
+    const double mirrored_seen = std::min(seen.mirrored, surface.occlusion);
     const bool environment = around.diffuse != nullptr;
     Vec3d ambient = surface.albedo * (environment ? around.diffuse->at(surface.normal) : hemisphere(frame.ambient, surface.normal.y));
     if (specular && environment) {
@@ -223,16 +255,18 @@ Vec3d lit(const FrameInputs& frame, const Material& material, const Surface& sur
             const double more = 1.0 / (mirrored.a + mirrored.b) - 1.0;
             return (mirrored.a * f0 + mirrored.b) * (1.0 + f0 * more);
         };
-        ambient = scale(surface.matt * around.diffuse->at(surface.normal), 1.0 - share(surface.dielectric)) +
-                  Vec3d{share(surface.f0.x), share(surface.f0.y), share(surface.f0.z)} * mirrored.radiance;
+        ambient = scale(surface.matt * around.diffuse->at(surface.normal), 1.0 - share(surface.dielectric)) * diffuse_seen +
+                  scale(Vec3d{share(surface.f0.x), share(surface.f0.y), share(surface.f0.z)} * mirrored.radiance, mirrored_seen);
     } else if (specular) {
         const double n_dot_v = dot(surface.normal, surface.to_eye), roughness = std::max(surface.roughness, kHeldRoughness);
         const Vec3d reflection = scale(surface.normal, 2 * n_dot_v) - surface.to_eye;
         const Vec3d share{environment_share(surface.f0.x, roughness, n_dot_v), environment_share(surface.f0.y, roughness, n_dot_v),
                           environment_share(surface.f0.z, roughness, n_dot_v)};
-        ambient = ambient + share * hemisphere(frame.ambient, reflection.y);
+        ambient = ambient * diffuse_seen + scale(share * hemisphere(frame.ambient, reflection.y), mirrored_seen);
+    } else {
+        ambient = ambient * diffuse_seen;
     }
-    return sum + scale(ambient, surface.occlusion);
+    return sum + ambient;
 }
 
 }  // namespace

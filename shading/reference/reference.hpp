@@ -50,6 +50,10 @@ struct Surroundings {
     /// What the environment's reflections are taken from, and by how many lobes; where `diffuse` is given and highlights are on.
     const ReflectionMap* reflections = nullptr;
     int reflection_lobes = 1;
+    /// Sky shadows: the lights that stand for the surroundings, and their hidden shares; empty: there are none.
+    std::span<const LightPlan> sky{};
+    std::span<const Hidden> hidden_sky{};
+    double sky_focus = 0;  ///< ShadingPlan::sky_focus
 };
 
 /// f(x; w, n) with its scale, by std::pow.

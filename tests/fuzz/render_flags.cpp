@@ -81,6 +81,7 @@ Settings read_settings(Input& input, const RenderFlags& flags) {
     settings.shadow_terminator_offset = input.flag();
     if (input.one_in(8)) settings.shadow_fade = input.real();
     if (input.one_in(16)) settings.shadow_memory_limit = input.number<std::uint16_t>();
+    settings.sky_shadows = input.pick(std::array{0, 0, 0, 16, 33});
     return settings;
 }
 

@@ -57,6 +57,8 @@ std::vector<Variant> variants() {
     add("studio").samples = 4;
     all.back().settings.tone_curve = ToneCurve::neutral;
     all.back().studio = true;
+    add("sky-shadows").sky_shadows = 32;
+    all.back().environment = true;
     return all;
 }
 

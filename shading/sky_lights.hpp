@@ -1,0 +1,23 @@
+// The light of the surroundings as lights in a few directions, for sky shadows: whether a surface sees each of them is looked up in a
+// shadow map, and weighted by what the lobe receives from there.
+#pragma once
+
+#include "halflit/light.hpp"
+#include "shading/environment.hpp"
+
+#include <vector>
+
+namespace halflit::shading {
+
+/// Fewest and most directions of Settings::sky_shadows.
+inline constexpr int kLeastSkyDirections = 16, kMostSkyDirections = 1024;
+
+/// n unit vectors spread evenly over the sphere: a spherical Fibonacci lattice about +y [Kein15].
+[[nodiscard]] std::vector<Vec3d> sky_directions(int n);
+
+/// Directional lights from sky_directions(n). Each has the light of the part of the sphere that is nearest to it, mean radiance times solid
+/// angle over pi. Of an environment it is the image's without its suns, turned as the environment is; of ambient light, which lobes have
+/// been applied to, it is the radiance that a Lambert lobe makes it of, or 0 where that would be negative.
+[[nodiscard]] std::vector<Light> sky_lights(int n, const Environment* environment, const Ambient& ambient);
+
+}  // namespace halflit::shading
