@@ -21,7 +21,8 @@ inline constexpr std::string_view kStageNames[kStageCount] = {"base colour textu
                                                               "unlit",
                                                               "texture gradients",
                                                               "light at vertices or triangles",
-                                                              "environment"};
+                                                              "environment",
+                                                              "transmission"};
 
 /// Indexed by LightType.
 inline constexpr std::string_view kLightTypeNames[] = {"directional", "point", "spot"};

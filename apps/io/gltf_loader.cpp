@@ -59,6 +59,7 @@ LoadedScene build(std::span<const std::byte> bytes, const std::string& base_dir,
     images.start();
     try {
         place_meshes(*document, accessors, tree, loaded);
+        scale_thickness(loaded.scene);
         recentre(*document, tree, loaded);
         place_cameras(*document, tree, loaded);
         place_lights(*document, tree, loaded);

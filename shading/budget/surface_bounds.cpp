@@ -157,6 +157,11 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
         s.occlusion = factor_of(strength * filtered(material.occlusion_texture, {0}),
                                 1.0 + strength * (least_value(material.occlusion_texture, 0) - 1.0));
     }
+    if (has(kStageTransmission)) {
+        const TransmissionPlan& inside = material.transmission;
+        if (inside.texture.data != nullptr) s.scattered = factor_of(inside.share * filtered(inside.texture, {0}), 1.0 - inside.share);
+        s.least_albedo = 0.0;
+    }
     if (has(kStageEmissiveTexture))
         s.emissive = textured(material.emissive_texture, {0, 1, 2}, *std::max_element(material.emissive, material.emissive + 3));
     s.least_roughness = roughness;
@@ -247,6 +252,7 @@ double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, con
         shiny += strength;
     }
     codes += codes_of(s.base_color, matt + s.metallic * std::max(0.0, shiny - matt));
+    codes += codes_of(s.scattered, s.albedo * matt);
     codes += codes_of(s.matt, s.albedo * matt) + codes_of(s.shiny, shiny);
     codes += codes_of(s.emissive, exposure);
     return std::min(codes, 255.0);

@@ -8,36 +8,14 @@
 #include "shading/kernels/highlight_sums.hpp"
 #include "shading/kernels/reflection_kernel.hpp"
 #include "shading/kernels/shade_kernels.hpp"
+#include "shading/kernels/shade_rows.hpp"
 #include "shading/kernels/surface_kernel.hpp"
+#include "shading/kernels/transmission_kernel.hpp"
 #include "shading/model/constants.hpp"
 #include "shading/model/formulas.hpp"
 
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
-
-/// Rows passed between the stages, one value a lane. Rows that the material does not need are not set.
-struct alignas(64) ShadeRows {
-    using Row = float[shading::kBlockSize];
-    using Row3 = Row[3];
-    Row3 base, emitted;
-    Row alpha;
-    Row3 texel;  ///< of the normal map
-    Row metallic, roughness, occlusion;
-    Row3 normal, surface, to_eye;      ///< unit: with the normal map, without it; towards the viewer
-    Row half_exponent, normalization;  ///< of highlights
-    Row3 diffuse, specular;            ///< light through the lobe, its scale included; highlights, before the reflectance
-    Row3 ambient, mirrored;            ///< light of the surroundings towards the normal and the reflected view, times occlusion
-    Row grazing;                       ///< (1 - N.V)^5; without an environment
-    Row share_a, share_b, share_more;  ///< sky_share's, with an environment
-};
-HALFLIT_INLINE V3 load3(const ShadeRows::Row3& rows, int lane) {
-    return {load(rows[0] + lane), load(rows[1] + lane), load(rows[2] + lane)};
-}
-HALFLIT_INLINE void store3(ShadeRows::Row3& rows, int lane, V3 v) {
-    store(rows[0] + lane, v.x);
-    store(rows[1] + lane, v.y);
-    store(rows[2] + lane, v.z);
-}
 
 HALFLIT_INLINE V3 lerp(V3 a, V3 b, F weight) { return a + (b - a) * weight; }
 
@@ -53,10 +31,13 @@ HALFLIT_INLINE V3 looked_up(const shading::ShadingPlan& frame, const shading::Fr
     return frame.shadow_offset ? position + row3(block, shading::kShadowX, lane) : position;
 }
 
+/// Stages that need a surface's direction and its metallic and rough parts.
+inline constexpr std::uint32_t kSurfaceStages = kStageLights | kStageAmbient | kStageTransmission;
+
 /// Base colour, emission and alpha; `needs_color` is false where only light is asked for.
 static void fetch_surfaces(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int count, bool needs_color,
                            ShadeRows& rows) {
-    const bool lit = (material.stages & (kStageLights | kStageAmbient)) != 0 && !has(material, kStagePrelit);
+    const bool lit = (material.stages & kSurfaceStages) != 0 && !has(material, kStagePrelit);
     for (int lane = 0; lane < count; lane += kWidth) {
         TexelTaps taps;
         if (needs_color) {
@@ -164,6 +145,10 @@ HALFLIT_INLINE void add_light(const shading::ShadingPlan& frame, const shading::
     find_directions<kSpecular>(frame, material, block, count, rows);
     if (has(material, kStageLights)) add_lights<kSpecular>(frame, material, lights, block, count, rows);
     if (has(material, kStageAmbient)) add_surroundings<kSpecular>(frame, material, count, rows);
+    if (has(material, kStageTransmission)) {
+        fetch_transmission(material, block, count, rows);
+        dim_matt_light(material, count, rows);
+    }
 }
 
 /// Light that a surface of this base colour reflects to the eye.

@@ -30,6 +30,14 @@ struct CellTolerance {
     float half_exponent = 0, peak = 0;  ///< of the widest highlight; normalisation of the sharpest
 };
 
+/// Transmission as planned; used with kStageTransmission.
+struct TransmissionPlan {
+    float share = 0;
+    float passed[3] = {1, 1, 1};    ///< share of light that is not absorbed, without a texture of thickness
+    float absorbed[3] = {0, 0, 0};  ///< -log2 of it where the texture of thickness is 1
+    TexturePlan texture, thickness_texture;
+};
+
 struct MaterialPlan {
     std::uint32_t stages = 0;  ///< bits of Stage; a block runs only these
     SlotMask slots = 0;        ///< vertex slots that raster interpolates
@@ -57,6 +65,7 @@ struct MaterialPlan {
     int reflection_lobes = 0;                      ///< lobes by which the environment's reflections are taken, 0 to 2; 0: there are none
     bool occlusion_is_metallic_roughness = false;  ///< both read the same texels the same way: one fetch serves both
     TexturePlan base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;
+    TransmissionPlan transmission;
 };
 
 /// Kinds of light in the frame, which decide what a material needs.

@@ -84,8 +84,8 @@ Rgba material_texture(const FrameInputs& frame, const TextureUse& use, SlotMask 
 
 struct Surface {
     Vec3d base, normal, albedo, f0, to_eye;
-    double roughness, occlusion;
-    Vec3d matt;         ///< base colour where not metallic
+    double roughness, occlusion, metallic;
+    Vec3d matt;         ///< base colour where not metallic, and where light does not pass through
     double dielectric;  ///< F0 there
 };
 
@@ -149,22 +149,37 @@ Vec3d map_value(const ReflectionMap& map, int level, Vec3d d) {
     return upper + scale(lower - upper, y - j);
 }
 
+/// Values of kReflectionShapes at a roughness and a cosine N.V.
+class MirrorTable {
+public:
+    MirrorTable(double roughness, double n_dot_v) {
+        constexpr int kLast = kReflectionNodes - 1;
+        const double x = std::clamp(roughness, kHeldRoughness, 1.0) * kLast, held = std::clamp(n_dot_v, 0.0, 1.0),
+                     y = 1.2 * held / (held + 0.2) * kLast;
+        i_ = std::min(static_cast<int>(x), kLast - 1), j_ = std::min(static_cast<int>(y), kLast - 1);
+        down_ = x - i_, right_ = y - j_;
+    }
+    double operator()(float ReflectionShape::*member) const {
+        const auto node = [&](int down, int right) {
+            return double{kReflectionShapes[(i_ + down) * kReflectionNodes + j_ + right].*member};
+        };
+        const double left = node(0, 0) + down_ * (node(1, 0) - node(0, 0)), next = node(0, 1) + down_ * (node(1, 1) - node(0, 1));
+        return left + right_ * (next - left);
+    }
+
+private:
+    int i_, j_;
+    double down_, right_;
+};
+
 /// The environment as a rough mirror sees it: GGX's A and B, and the mean radiance over its lobes (shading/model/reflection_tables.hpp).
 struct Mirrored {
     double a, b;
     Vec3d radiance;
 };
 Mirrored mirrored_environment(const ReflectionMap& map, int lobes, const Surface& surface) {
-    constexpr int kLast = kReflectionNodes - 1;
     const double n_dot_v = dot(surface.normal, surface.to_eye);
-    const double x = std::clamp(surface.roughness, kHeldRoughness, 1.0) * kLast, held = std::clamp(n_dot_v, 0.0, 1.0),
-                 y = 1.2 * held / (held + 0.2) * kLast;
-    const int i = std::min(static_cast<int>(x), kLast - 1), j = std::min(static_cast<int>(y), kLast - 1);
-    const auto at = [&](float ReflectionShape::*member) {
-        const auto node = [&](int down, int right) { return double{kReflectionShapes[(i + down) * kReflectionNodes + j + right].*member}; };
-        const double left = node(0, 0) + (x - i) * (node(1, 0) - node(0, 0)), next = node(0, 1) + (x - i) * (node(1, 1) - node(0, 1));
-        return left + (y - j) * (next - left);
-    };
+    const MirrorTable at(surface.roughness, n_dot_v);
     const Vec3d reflection = scale(surface.normal, 2 * n_dot_v) - surface.to_eye;
     const auto blurred = [&](double turn, double level) {
         const Vec3d d = reflection + scale(surface.normal - scale(reflection, n_dot_v), turn);
@@ -276,37 +291,97 @@ double level_of_detail(const Texture& texture, const TextureUse& use, const Frag
     return std::log2(right > down ? right : down);
 }
 
-Rgba shade(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
-           const Surroundings& around) {
-    const Rgba white{1, 1, 1, 1};
-    Rgba base = material_texture(frame, material.base_color_texture, available, block, lane, white);
+namespace {
+
+Rgba base_color(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane) {
+    Rgba base = material_texture(frame, material.base_color_texture, available, block, lane, {1, 1, 1, 1});
     base = {base.r * material.base_color.x, base.g * material.base_color.y, base.b * material.base_color.z, base.a * material.base_color.w};
     if ((available & 8u) != 0)
         base = {base.r * block.lane[kColorR][lane], base.g * block.lane[kColorG][lane], base.b * block.lane[kColorB][lane],
                 base.a * block.lane[kColorA][lane]};
-    const double alpha = material.alpha_mode == AlphaMode::blend ? std::clamp(base.a, 0.0, 1.0) : 1.0;
-    if (material.unlit) return {base.r, base.g, base.b, alpha};
+    return base;
+}
 
+double alpha_of(const Material& material, double alpha) {
+    const double held = std::clamp(alpha, 0.0, 1.0);
+    if (material.alpha_mode == AlphaMode::blend) return held;
+    if (material.alpha_mode == AlphaMode::mask && material.transmits()) return held >= double{material.alpha_cutoff} ? 1.0 : 0.0;
+    return 1.0;
+}
+
+/// Share of the light that enters the surface which passes through it.
+double transmitted(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane) {
+    if (!material.transmits()) return 0.0;
+    return std::clamp(double{material.transmission.share}, 0.0, 1.0) *
+           material_texture(frame, material.transmission.texture, available, block, lane, {1, 1, 1, 1}).r;
+}
+
+Surface surface_of(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane) {
+    const Rgba white{1, 1, 1, 1}, base = base_color(frame, material, available, block, lane);
     const Rgba mr = material_texture(frame, material.metallic_roughness_texture, available, block, lane, white);
     const Rgba occlusion = material_texture(frame, material.occlusion_texture, available, block, lane, white);
-    const Rgba glow = material_texture(frame, material.emissive_texture, available, block, lane, white);
-    const Vec3d position = row3(block, kPosX, lane);
     Surface surface{};
     surface.base = {base.r, base.g, base.b};
     surface.normal = shading_normal(frame, material, available, block, lane);
     surface.roughness = material.roughness * mr.g;
     surface.occlusion = 1.0 + double{material.occlusion_strength} * (occlusion.r - 1.0);
+    const Vec3d position = row3(block, kPosX, lane);
     surface.to_eye = frame.orthographic ? scale(to_double(frame.view_direction_ws), -1) : unit(to_double(frame.eye_ws) - position);
-    surface.albedo = surface.base;
+    const double scattered = 1.0 - transmitted(frame, material, available, block, lane);
+    surface.albedo = scale(surface.base, scattered);
     if (frame.options.specular != SpecularModel::none) {
-        const double metallic = material.metallic * mr.b, dielectric = std::clamp(double{material.dielectric_reflectance}, 0.0, 1.0);
-        surface.matt = scale(surface.base, 1 - metallic);
+        const double dielectric = std::clamp(double{material.dielectric_reflectance}, 0.0, 1.0);
+        surface.metallic = material.metallic * mr.b;
+        surface.matt = scale(surface.base, (1 - surface.metallic) * scattered);
         surface.dielectric = dielectric;
         surface.albedo = scale(surface.matt, 1 - dielectric);
-        surface.f0 = scale(surface.base, metallic) + scale({1, 1, 1}, dielectric * (1 - metallic));
+        surface.f0 = scale(surface.base, surface.metallic) + scale({1, 1, 1}, dielectric * (1 - surface.metallic));
     }
-    const Vec3d color = lit(frame, material, surface, position, around) + to_double(material.emissive) * Vec3d{glow.r, glow.g, glow.b};
+    return surface;
+}
+
+}  // namespace
+
+Rgba shade(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
+           const Surroundings& around) {
+    const Rgba base = base_color(frame, material, available, block, lane);
+    const double alpha = alpha_of(material, base.a);
+    if (material.unlit) return {base.r, base.g, base.b, alpha};
+    const Surface surface = surface_of(frame, material, available, block, lane);
+    const Rgba glow = material_texture(frame, material.emissive_texture, available, block, lane, {1, 1, 1, 1});
+    const Vec3d color =
+        lit(frame, material, surface, row3(block, kPosX, lane), around) + to_double(material.emissive) * Vec3d{glow.r, glow.g, glow.b};
     return {color.x, color.y, color.z, alpha};
+}
+
+Vec3d kept(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
+           const Surroundings& around) {
+    const double alpha = alpha_of(material, base_color(frame, material, available, block, lane).a);
+    const Surface surface = surface_of(frame, material, available, block, lane);
+    double mirrored = 0.0;
+    if (frame.options.specular != SpecularModel::none) {
+        const double n_dot_v = dot(surface.normal, surface.to_eye), f0 = surface.dielectric;
+        if (around.diffuse != nullptr) {
+            const MirrorTable at(surface.roughness, n_dot_v);
+            const double a = at(&ReflectionShape::a), b = at(&ReflectionShape::b);
+            mirrored = (a * f0 + b) * (1.0 + f0 * (1.0 / (a + b) - 1.0));
+        } else {
+            mirrored = environment_share(f0, std::max(surface.roughness, kHeldRoughness), n_dot_v);
+        }
+    }
+    const Transmission& inside = material.transmission;
+    const double thickness =
+        double{inside.thickness} * material_texture(frame, inside.thickness_texture, available, block, lane, {1, 1, 1, 1}).g;
+    const bool front = !material.double_sided || block.lane[kFacing][lane] > 0.0f;
+    const double share = transmitted(frame, material, available, block, lane) * (1 - mirrored) * (1 - surface.metallic);
+    const auto channel = [&](double base, float color) {
+        const double passed = front && inside.attenuation_distance > 0.0f && inside.thickness > 0.0f
+                                  ? std::pow(double{color}, thickness / double{inside.attenuation_distance})
+                                  : 1.0;
+        return std::clamp(1 - alpha + alpha * share * base * passed, 0.0, 1.0);
+    };
+    return {channel(surface.base.x, inside.attenuation_color.x), channel(surface.base.y, inside.attenuation_color.y),
+            channel(surface.base.z, inside.attenuation_color.z)};
 }
 
 double srgb_code(double linear) {

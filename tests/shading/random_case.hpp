@@ -91,6 +91,14 @@ inline Material make_material(FloatMaker& make) {
         if (make.below(2) == 0) *use = make_use(make);
     if (make.below(3) == 0) material.occlusion_texture = material.metallic_roughness_texture;
     if (make.below(2) == 0) material.dielectric_reflectance = make.ordinary(0, 1);
+    if (make.below(3) == 0) {
+        Transmission& inside = material.transmission;
+        inside.share = make.ordinary(0, 1);
+        if (make.below(2) == 0) inside.thickness = make.ordinary(0, 2), inside.attenuation_distance = make.ordinary(0, 2);
+        inside.attenuation_color = {make.ordinary(0, 1), make.ordinary(0, 1), make.below(2) == 0 ? 0.0f : 1.0f};
+        for (TextureUse* use : {&inside.texture, &inside.thickness_texture})
+            if (make.below(2) == 0) *use = make_use(make);
+    }
     return material;
 }
 

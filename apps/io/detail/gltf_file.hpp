@@ -146,8 +146,12 @@ struct Material {
     double emissive_strength = 1;  ///< KHR_materials_emissive_strength
     double ior = 1.5;              ///< KHR_materials_ior; 0: everything is mirrored
     bool double_sided = false;
-    bool unlit = false;  ///< KHR_materials_unlit
+    bool unlit = false;                                     ///< KHR_materials_unlit
+    double transmission_factor = 0;                         ///< KHR_materials_transmission
+    double thickness_factor = 0, attenuation_distance = 0;  ///< KHR_materials_volume; distance 0: infinite
+    std::vector<double> attenuation_color;                  ///< 3, or empty
     TexturePlace base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;
+    TexturePlace transmission_texture, thickness_texture;
     std::optional<OwnLobe> own_lobe;
 };
 

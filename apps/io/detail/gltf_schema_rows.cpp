@@ -174,6 +174,15 @@ constexpr SchemaRow kRows[] = {
     at_least(0, {"materials/#/extensions/KHR_materials_emissive_strength/emissiveStrength", number,
      put<&File::materials, &file::Material::emissive_strength>}),
     at_least(0, {"materials/#/extensions/KHR_materials_ior/ior", number, put<&File::materials, &file::Material::ior>}),
+    within(0, 1, {"materials/#/extensions/KHR_materials_transmission/transmissionFactor", number,
+     put<&File::materials, &file::Material::transmission_factor>}),
+    at_least(0, {"materials/#/extensions/KHR_materials_volume/thicknessFactor", number,
+     put<&File::materials, &file::Material::thickness_factor>}),
+    above(0, "drawn as if nothing were absorbed", {"materials/#/extensions/KHR_materials_volume/attenuationDistance", number,
+     put<&File::materials, &file::Material::attenuation_distance>}),
+    {"materials/#/extensions/KHR_materials_volume/attenuationColor", array, nullptr, Target::none, nullptr, 3},
+    within(0, 1, {"materials/#/extensions/KHR_materials_volume/attenuationColor/#", number,
+     put<&File::materials, &file::Material::attenuation_color>}),
     {"materials/#/extras", open},
     {.path = "materials/#/extras/halflit",
      .rule = object,
@@ -191,6 +200,8 @@ constexpr SchemaRow kTexturePlaces[] = {
     {"materials/#/normalTexture", object, begin_place<&file::Material::normal_texture>},
     {"materials/#/occlusionTexture", object, begin_place<&file::Material::occlusion_texture>},
     {"materials/#/emissiveTexture", object, begin_place<&file::Material::emissive_texture>},
+    {"materials/#/extensions/KHR_materials_transmission/transmissionTexture", object, begin_place<&file::Material::transmission_texture>},
+    {"materials/#/extensions/KHR_materials_volume/thicknessTexture", object, begin_place<&file::Material::thickness_texture>},
 };
 
 constexpr SchemaRow kTextureRows[] = {

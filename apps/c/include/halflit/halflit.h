@@ -168,6 +168,12 @@ typedef struct halflit_material {
     halflit_texture_use occlusion_texture;           ///< linear: red
     halflit_texture_use emissive_texture;            ///< sRGB
     float dielectric_reflectance;                    ///< where not metallic: light mirrored straight on, 0 to 1; default 0.04
+    float transmission;          ///< share of light from behind that passes through, 0 to 1, times the texture's; above 0: a layer
+    float thickness;             ///< way of that light inside, in world units, times the texture's
+    float attenuation_distance;  ///< way after which white light has attenuation_color, in world units; 0: nothing is absorbed
+    float attenuation_color[3];  ///< 0 to 1
+    halflit_texture_use transmission_texture;  ///< linear: red
+    halflit_texture_use thickness_texture;     ///< linear: green
     int32_t reserved;
 } halflit_material;
 HALFLIT_C_API int32_t halflit_material_init(halflit_material* material, size_t size);
