@@ -124,6 +124,10 @@ halflit_material to_c(const Material& from) {
     put(from.transmission.attenuation_color, material.attenuation_color);
     material.transmission_texture = to_c(from.transmission.texture);
     material.thickness_texture = to_c(from.transmission.thickness_texture);
+    material.specular = from.specular;
+    put(from.specular_color, material.specular_color);
+    material.specular_texture = to_c(from.specular_texture);
+    material.specular_color_texture = to_c(from.specular_color_texture);
     return material;
 }
 
@@ -159,6 +163,10 @@ Result<Material> material(const halflit_material* given) {
     material.transmission.attenuation_distance = read->attenuation_distance;
     material.transmission.attenuation_color = vec3(read->attenuation_color);
     material.transmission.texture = texture_use(read->transmission_texture, "a value of transmission_texture", choices);
+    material.specular = read->specular;
+    material.specular_color = vec3(read->specular_color);
+    material.specular_texture = texture_use(read->specular_texture, "a value of specular_texture", choices);
+    material.specular_color_texture = texture_use(read->specular_color_texture, "a value of specular_color_texture", choices);
     material.transmission.thickness_texture = texture_use(read->thickness_texture, "a value of thickness_texture", choices);
     if (!choices.result()) return tl::unexpected<Error>(choices.result().error());
     if (auto ok = check_lobe(material.lobe); !ok) return fail(ErrorCode::usage, "halflit_material: lobe: " + ok.error().message);

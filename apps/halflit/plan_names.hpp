@@ -22,7 +22,8 @@ inline constexpr std::string_view kStageNames[kStageCount] = {"base colour textu
                                                               "texture gradients",
                                                               "light at vertices or triangles",
                                                               "environment",
-                                                              "transmission"};
+                                                              "transmission",
+                                                              "specular colour"};
 
 /// Indexed by LightType.
 inline constexpr std::string_view kLightTypeNames[] = {"directional", "point", "spot"};

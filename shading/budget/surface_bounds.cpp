@@ -157,6 +157,16 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
         s.occlusion = factor_of(strength * filtered(material.occlusion_texture, {0}),
                                 1.0 + strength * (least_value(material.occlusion_texture, 0) - 1.0));
     }
+    if (has(kStageSpecularColor)) {
+        // F0 and its weight, the latter at grazing views; the matt part lacks the largest F0.
+        double error = 0.0;
+        if (material.specular_color_texture.data != nullptr)
+            error += std::max({material.dielectric_color[0], material.dielectric_color[1], material.dielectric_color[2]}) *
+                     filtered(material.specular_color_texture, {0, 1, 2});
+        if (material.specular_texture.data != nullptr) error += filtered(material.specular_texture, {3});
+        s.dielectric = {error, error > 0.0 ? kAnyShare : 0.0};
+        s.least_albedo = 0.0;
+    }
     if (has(kStageTransmission)) {
         const TransmissionPlan& inside = material.transmission;
         if (inside.texture.data != nullptr) s.scattered = factor_of(inside.share * filtered(inside.texture, {0}), 1.0 - inside.share);
@@ -253,6 +263,7 @@ double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, con
     }
     codes += codes_of(s.base_color, matt + s.metallic * std::max(0.0, shiny - matt));
     codes += codes_of(s.scattered, s.albedo * matt);
+    codes += codes_of(s.dielectric, s.albedo * matt + shiny);
     codes += codes_of(s.matt, s.albedo * matt) + codes_of(s.shiny, shiny);
     codes += codes_of(s.emissive, exposure);
     return std::min(codes, 255.0);

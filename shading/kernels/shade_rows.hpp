@@ -21,6 +21,8 @@ struct alignas(64) ShadeRows {
     Row3 ambient, mirrored;            ///< light of the surroundings towards the normal and the reflected view, times occlusion
     Row grazing;                       ///< (1 - N.V)^5; without an environment
     Row share_a, share_b, share_more;  ///< sky_share's, with an environment
+    Row3 dielectric;                   ///< F0 where not metallic; with kStageSpecularColor
+    Row specular_weight;               ///< factor of what is mirrored at grazing views there; with kStageSpecularColor
     Row transmitted;                   ///< share of the light that enters the surface which passes through; of materials that transmit
     Row3 passed;                       ///< share of that light which is not absorbed
 };

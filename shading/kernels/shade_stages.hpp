@@ -9,6 +9,7 @@
 #include "shading/kernels/reflection_kernel.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 #include "shading/kernels/shade_rows.hpp"
+#include "shading/kernels/specular_color_kernel.hpp"
 #include "shading/kernels/surface_kernel.hpp"
 #include "shading/kernels/transmission_kernel.hpp"
 #include "shading/model/constants.hpp"
@@ -145,6 +146,7 @@ HALFLIT_INLINE void add_light(const shading::ShadingPlan& frame, const shading::
     find_directions<kSpecular>(frame, material, block, count, rows);
     if (has(material, kStageLights)) add_lights<kSpecular>(frame, material, lights, block, count, rows);
     if (has(material, kStageAmbient)) add_surroundings<kSpecular>(frame, material, count, rows);
+    if (has(material, kStageSpecularColor)) fetch_specular_color(material, block, count, rows);
     if (has(material, kStageTransmission)) {
         fetch_transmission(material, block, count, rows);
         dim_matt_light(material, count, rows);
@@ -156,6 +158,10 @@ template <bool kSpecular>
 HALFLIT_INLINE V3 reflected(const shading::MaterialPlan& material, const ShadeRows& rows, int lane, V3 base) {
     V3 albedo = base, f0{F(0.0f), F(0.0f), F(0.0f)};
     if constexpr (kSpecular) {
+        if (has(material, kStageSpecularColor)) {
+            reflect_colored(material, rows, lane, base, albedo);
+            return albedo;
+        }
         const F metallic = load(rows.metallic + lane);
         const F dielectric = F(material.dielectric) * (F(1.0f) - metallic);  // no difference that could cancel
         f0 = base * metallic + V3{dielectric, dielectric, dielectric};

@@ -47,12 +47,16 @@ inline namespace HALFLIT_ISA_NAMESPACE {
 /// Share of the light from behind that the surface mirrors back, which is also what it mirrors of the surroundings. `seen`: the rows of
 /// directions are set; without them it is F0.
 HALFLIT_INLINE F mirrored_back(const shading::MaterialPlan& material, const ShadeRows& rows, int lane, bool seen) {
-    const F f0(material.dielectric);
+    F f0(material.dielectric), weight(1.0f);
     if (!seen) return f0;
+    if (has(material, kStageSpecularColor)) {
+        const V3 dielectric = load3(rows.dielectric, lane);
+        f0 = vmax(dielectric.x, vmax(dielectric.y, dielectric.z)), weight = load(rows.specular_weight + lane);
+    }
     if (has(material, kStageEnvironment))
-        return sky_share(load(rows.share_a + lane), load(rows.share_b + lane), load(rows.share_more + lane), f0);
+        return sky_share(load(rows.share_a + lane), load(rows.share_b + lane) * weight, load(rows.share_more + lane), f0);
     const F away = F(1.0f) - clamp(dot(load3(rows.normal, lane), load3(rows.to_eye, lane)), F(0.0f), F(1.0f)), away2 = away * away;
-    return environment_reflectance(f0, load(rows.roughness + lane), (away2 * away2) * away);
+    return mad(vmax((F(1.0f) - load(rows.roughness + lane)) * weight, f0) - f0, (away2 * away2) * away, f0);
 }
 
 /// Sets the block's alpha and what it keeps of the light behind it: 1 - a + a t (1 - S) (1 - metallic) base passed.

@@ -20,6 +20,8 @@ SlotMask slots_of(const MaterialPlan& plan, bool lit) {
     add(kStageNormalMap, plan.normal_texture);
     add(kStageOcclusionTexture, plan.occlusion_texture);
     add(kStageEmissiveTexture, plan.emissive_texture);
+    for (const TexturePlan* texture : {&plan.specular_texture, &plan.specular_color_texture})
+        if (texture->data != nullptr) add(kStageSpecularColor, *texture);
     for (const TexturePlan* texture : {&plan.transmission.texture, &plan.transmission.thickness_texture})
         if (texture->data != nullptr) add(kStageTransmission, *texture);
     return slots;
@@ -33,13 +35,29 @@ void number_taps(MaterialPlan& plan) {
                                      &plan.occlusion_texture,
                                      &plan.emissive_texture,
                                      &plan.transmission.texture,
-                                     &plan.transmission.thickness_texture};
+                                     &plan.transmission.thickness_texture,
+                                     &plan.specular_texture,
+                                     &plan.specular_color_texture};
     std::int32_t number = 0;
     for (TexturePlan* const& texture : textures) {
         const auto* const same = std::find_if(
             textures, &texture, [&](const TexturePlan* earlier) { return earlier->data != nullptr && same_taps(*earlier, *texture); });
         texture->taps = same == &texture ? ++number : (*same)->taps;
     }
+}
+
+/// Where not metallic: F0 by channel, and the weight. Leaves the largest F0 in `dielectric`, which bounds go by.
+void plan_specular_color(const Material& material, MaterialPlan& plan) {
+    const float color[] = {material.specular_color.x, material.specular_color.y, material.specular_color.z};
+    constexpr float kMost = 1e18f;
+    plan.specular_weight = clamp_or_low(material.specular, 0.0f, 1.0f);
+    float largest = 0.0f;
+    for (int c = 0; c < 3; ++c) {
+        plan.dielectric_color[c] = plan.dielectric * clamp_or_low(color[c], 0.0f, kMost);
+        largest = std::max(largest, plan.dielectric_color[c]);
+    }
+    plan.dielectric = std::min(largest, 1.0f) * plan.specular_weight;
+    plan.refracted = 1.0f - plan.dielectric;
 }
 
 /// Plans what is not a texture: Beer's law over the thickness, colour^(thickness / distance).
@@ -100,6 +118,12 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
     use_texture(lit && kinds.ambient && plan.occlusion_strength > 0.0f, kStageOcclusionTexture, material.occlusion_texture,
                 plan.occlusion_texture);
     use_texture(!material.unlit && !zero(material.emissive), kStageEmissiveTexture, material.emissive_texture, plan.emissive_texture);
+    if (lit && kinds.specular && material.has_specular_color()) {
+        plan.stages |= kStageSpecularColor;
+        plan_specular_color(material, plan);
+        use_texture(true, kStageSpecularColor, material.specular_texture, plan.specular_texture);
+        use_texture(true, kStageSpecularColor, material.specular_color_texture, plan.specular_color_texture);
+    }
     if (material.transmits()) {
         plan.stages |= kStageTransmission;
         plan_transmission(material.transmission, plan.transmission);

@@ -43,7 +43,9 @@ struct MaterialPlan {
     SlotMask slots = 0;        ///< vertex slots that raster interpolates
     float base_color[4] = {1, 1, 1, 1};
     float metallic = 0, roughness = 1;
-    float dielectric = 0.04f, refracted = 0.96f;  ///< F0 where not metallic; 1 - F0, which the matt part gets
+    float dielectric = 0.04f, refracted = 0.96f;        ///< F0 where not metallic; 1 - F0, which the matt part gets
+    float dielectric_color[3] = {0.04f, 0.04f, 0.04f};  ///< with kStageSpecularColor: F0 where not metallic, before its limit of 1
+    float specular_weight = 1;  ///< with kStageSpecularColor: factor of that, and of what is mirrored at grazing views
     float emissive[3] = {0, 0, 0};
     float normal_scale = 1, occlusion_strength = 1;
     AlphaMode alpha_mode = AlphaMode::opaque;
@@ -65,6 +67,7 @@ struct MaterialPlan {
     int reflection_lobes = 0;                      ///< lobes by which the environment's reflections are taken, 0 to 2; 0: there are none
     bool occlusion_is_metallic_roughness = false;  ///< both read the same texels the same way: one fetch serves both
     TexturePlan base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;
+    TexturePlan specular_texture, specular_color_texture;
     TransmissionPlan transmission;
 };
 

@@ -85,8 +85,11 @@ Rgba material_texture(const FrameInputs& frame, const TextureUse& use, SlotMask 
 struct Surface {
     Vec3d base, normal, albedo, f0, to_eye;
     double roughness, occlusion, metallic;
-    Vec3d matt;         ///< base colour where not metallic, and where light does not pass through
-    double dielectric;  ///< F0 there
+    Vec3d matt;        ///< base colour where not metallic, and where light does not pass through
+    Vec3d dielectric;  ///< F0 there
+    double weight;     ///< factor of what is mirrored at grazing views there
+    [[nodiscard]] double largest_dielectric() const { return std::max({dielectric.x, dielectric.y, dielectric.z}); }
+    [[nodiscard]] double at_grazing() const { return metallic + (1 - metallic) * weight; }
 };
 
 /// Unit direction and attenuation of a light at a point.
@@ -119,8 +122,8 @@ Vec3d hemisphere(const Ambient& ambient, double up) {
     return ground + scale(sky - ground, 0.5 * (1.0 + up));
 }
 
-double environment_share(double f0, double roughness, double n_dot_v) {
-    return f0 + (std::max(1.0 - roughness, f0) - f0) * std::pow(1.0 - std::clamp(n_dot_v, 0.0, 1.0), 5.0);
+double environment_share(double f0, double weight, double roughness, double n_dot_v) {
+    return f0 + (std::max((1.0 - roughness) * weight, f0) - f0) * std::pow(1.0 - std::clamp(n_dot_v, 0.0, 1.0), 5.0);
 }
 
 Vec3d shading_normal(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane) {
@@ -234,17 +237,20 @@ Vec3d lit(const FrameInputs& frame, const Material& material, const Surface& sur
     Vec3d ambient = surface.albedo * (environment ? around.diffuse->at(surface.normal) : hemisphere(frame.ambient, surface.normal.y));
     if (specular && environment) {
         const Mirrored mirrored = mirrored_environment(*around.reflections, around.reflection_lobes, surface);
-        const auto share = [&](double f0) {
+        const auto share = [&](double f0, double weight) {
             const double more = 1.0 / (mirrored.a + mirrored.b) - 1.0;
-            return (mirrored.a * f0 + mirrored.b) * (1.0 + f0 * more);
+            return (mirrored.a * f0 + mirrored.b * weight) * (1.0 + f0 * more);
         };
-        ambient = scale(surface.matt * around.diffuse->at(surface.normal), 1.0 - share(surface.dielectric)) +
-                  Vec3d{share(surface.f0.x), share(surface.f0.y), share(surface.f0.z)} * mirrored.radiance;
+        const double end = surface.at_grazing();
+        ambient = scale(surface.matt * around.diffuse->at(surface.normal), 1.0 - share(surface.largest_dielectric(), surface.weight)) +
+                  Vec3d{share(surface.f0.x, end), share(surface.f0.y, end), share(surface.f0.z, end)} * mirrored.radiance;
     } else if (specular) {
         const double n_dot_v = dot(surface.normal, surface.to_eye), roughness = std::max(surface.roughness, kHeldRoughness);
         const Vec3d reflection = scale(surface.normal, 2 * n_dot_v) - surface.to_eye;
-        const Vec3d share{environment_share(surface.f0.x, roughness, n_dot_v), environment_share(surface.f0.y, roughness, n_dot_v),
-                          environment_share(surface.f0.z, roughness, n_dot_v)};
+        const double end = surface.at_grazing();
+        const Vec3d share{environment_share(surface.f0.x, end, roughness, n_dot_v),
+                          environment_share(surface.f0.y, end, roughness, n_dot_v),
+                          environment_share(surface.f0.z, end, roughness, n_dot_v)};
         ambient = ambient + share * hemisphere(frame.ambient, reflection.y);
     }
     return sum + scale(ambient, surface.occlusion);
@@ -333,9 +339,16 @@ Surface surface_of(const FrameInputs& frame, const Material& material, SlotMask 
         const double dielectric = std::clamp(double{material.dielectric_reflectance}, 0.0, 1.0);
         surface.metallic = material.metallic * mr.b;
         surface.matt = scale(surface.base, (1 - surface.metallic) * scattered);
-        surface.dielectric = dielectric;
-        surface.albedo = scale(surface.matt, 1 - dielectric);
-        surface.f0 = scale(surface.base, surface.metallic) + scale({1, 1, 1}, dielectric * (1 - surface.metallic));
+        const Rgba color = material_texture(frame, material.specular_color_texture, available, block, lane, white);
+        surface.weight = std::clamp(double{material.specular}, 0.0, 1.0) *
+                         material_texture(frame, material.specular_texture, available, block, lane, white).a;
+        const auto channel = [&](float factor, double texture) {
+            return std::min(1.0, dielectric * std::max(0.0, double{factor}) * texture) * surface.weight;
+        };
+        surface.dielectric = {channel(material.specular_color.x, color.r), channel(material.specular_color.y, color.g),
+                              channel(material.specular_color.z, color.b)};
+        surface.albedo = scale(surface.matt, 1 - surface.largest_dielectric());
+        surface.f0 = scale(surface.base, surface.metallic) + scale(surface.dielectric, 1 - surface.metallic);
     }
     return surface;
 }
@@ -360,13 +373,13 @@ Vec3d kept(const FrameInputs& frame, const Material& material, SlotMask availabl
     const Surface surface = surface_of(frame, material, available, block, lane);
     double mirrored = 0.0;
     if (frame.options.specular != SpecularModel::none) {
-        const double n_dot_v = dot(surface.normal, surface.to_eye), f0 = surface.dielectric;
+        const double n_dot_v = dot(surface.normal, surface.to_eye), f0 = surface.largest_dielectric();
         if (around.diffuse != nullptr) {
             const MirrorTable at(surface.roughness, n_dot_v);
             const double a = at(&ReflectionShape::a), b = at(&ReflectionShape::b);
-            mirrored = (a * f0 + b) * (1.0 + f0 * (1.0 / (a + b) - 1.0));
+            mirrored = (a * f0 + b * surface.weight) * (1.0 + f0 * (1.0 / (a + b) - 1.0));
         } else {
-            mirrored = environment_share(f0, std::max(surface.roughness, kHeldRoughness), n_dot_v);
+            mirrored = environment_share(f0, surface.weight, std::max(surface.roughness, kHeldRoughness), n_dot_v);
         }
     }
     const Transmission& inside = material.transmission;

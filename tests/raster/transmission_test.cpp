@@ -25,8 +25,7 @@ struct Picture {
 Picture draw(const Scene& scene, const Settings& settings, int width, int height, const Execution& execution = {}) {
     Picture picture{std::vector<std::uint8_t>(static_cast<std::size_t>(4 * width * height)), {}};
     picture.linear.resize(picture.codes.size());
-    const auto report =
-        render(scene, camera_flat(), settings, {width, height, picture.codes.data(), picture.linear.data()}, execution);
+    const auto report = render(scene, camera_flat(), settings, {width, height, picture.codes.data(), picture.linear.data()}, execution);
     REQUIRE(report);
     return picture;
 }
@@ -74,10 +73,9 @@ PaneModel model_of(const Material& m, double tilt, double ambient) {
                              double{m.transmission.attenuation_color.z}};
     PaneModel out{};
     for (std::size_t c = 0; c < 3; ++c) {
-        const double passed =
-            m.transmission.attenuation_distance > 0
-                ? std::pow(inside[c], double{m.transmission.thickness} / double{m.transmission.attenuation_distance})
-                : 1.0;
+        const double passed = m.transmission.attenuation_distance > 0
+                                  ? std::pow(inside[c], double{m.transmission.thickness} / double{m.transmission.attenuation_distance})
+                                  : 1.0;
         const double matt = colors[c] * (1 - metallic) * (1 - k) * (1 - t), f0 = k * (1 - metallic) + metallic * colors[c];
         out.light[c] = a * ambient * (matt + schlick(f0));
         out.keep[c] = 1 - a + a * t * (1 - schlick(k)) * (1 - metallic) * colors[c] * passed;
@@ -272,7 +270,8 @@ TEST_CASE("transmission: thickness follows its texture by Beer's law, once in a 
     material.transmission.thickness = 3, material.transmission.attenuation_distance = 1.5f;
     material.transmission.attenuation_color = {0.8f, 0.3f, 0};
     material.transmission.thickness_texture.texture = 0;
-    material.transmission.thickness_texture.sampler = {.mag = TextureFilter::nearest, .min = TextureFilter::nearest, .mip = MipFilter::none};
+    material.transmission.thickness_texture.sampler = {
+        .mag = TextureFilter::nearest, .min = TextureFilter::nearest, .mip = MipFilter::none};
     material.double_sided = true;
     add_pane(scene, panel({1, 1, 1, 1}), -5, 0);
     add_pane(scene, material, 0, 0, -1, 1);

@@ -92,6 +92,12 @@ inline Material make_material(FloatMaker& make) {
     if (make.below(3) == 0) material.occlusion_texture = material.metallic_roughness_texture;
     if (make.below(2) == 0) material.dielectric_reflectance = make.ordinary(0, 1);
     if (make.below(3) == 0) {
+        material.specular = make.ordinary(0, 1);
+        if (make.below(2) == 0) material.specular_color = {make.ordinary(0, 2), make.ordinary(0, 2), make.ordinary(0, 40)};
+        for (TextureUse* use : {&material.specular_texture, &material.specular_color_texture})
+            if (make.below(2) == 0) *use = make_use(make);
+    }
+    if (make.below(3) == 0) {
         Transmission& inside = material.transmission;
         inside.share = make.ordinary(0, 1);
         if (make.below(2) == 0) inside.thickness = make.ordinary(0, 2), inside.attenuation_distance = make.ordinary(0, 2);

@@ -83,6 +83,7 @@ public:
 
     Material make(std::size_t index, bool used) {
         const file::Material& source = document_.file.materials[index];
+        const file::MaterialExtensions& more = document_.file.extensions_of(source);
         where_ = fmt::format("materials[{}]", index);
         Material material;
         material.name = source.name;
@@ -106,25 +107,40 @@ public:
         material.alpha_cutoff = static_cast<float>(std::clamp(source.alpha_cutoff, 0.0, 1e6));
         material.double_sided = source.double_sided;
         material.unlit = source.unlit;
-        material.transmission = transmission(source);
+        material.transmission = transmission(more);
+        material.specular = clamp01(more.specular_factor);
+        const auto specular = [&](std::size_t c) {
+            return static_cast<float>(std::max(0.0, number_at(more.specular_color_factor, c, 1.0)));
+        };
+        material.specular_color = {specular(0), specular(1), specular(2)};
         if (source.own_lobe) own_lobe(*source.own_lobe, material, used);
         if (used) {
-            material.base_color_texture = use(source.base_color_texture, "pbrMetallicRoughness.baseColorTexture", ColorSpace::srgb);
+            if (more.specular_glossiness) {
+                constexpr const char* kWhere = "extensions.KHR_materials_pbrSpecularGlossiness.";
+                material.base_color_texture = use(more.diffuse_texture, fmt::format("{}diffuseTexture", kWhere), ColorSpace::srgb);
+                material.metallic_roughness_texture =
+                    use(more.specular_glossiness_texture, fmt::format("{}specularGlossinessTexture", kWhere), ColorSpace::srgb);
+            } else {
+                material.base_color_texture = use(source.base_color_texture, "pbrMetallicRoughness.baseColorTexture", ColorSpace::srgb);
+                material.metallic_roughness_texture =
+                    use(source.metallic_roughness_texture, "pbrMetallicRoughness.metallicRoughnessTexture", ColorSpace::linear);
+            }
+            material.specular_texture = use(more.specular_texture, "extensions.KHR_materials_specular.specularTexture", ColorSpace::linear);
+            material.specular_color_texture =
+                use(more.specular_color_texture, "extensions.KHR_materials_specular.specularColorTexture", ColorSpace::srgb);
             material.emissive_texture = use(source.emissive_texture, "emissiveTexture", ColorSpace::srgb);
-            material.metallic_roughness_texture =
-                use(source.metallic_roughness_texture, "pbrMetallicRoughness.metallicRoughnessTexture", ColorSpace::linear);
             material.normal_texture = use(source.normal_texture, "normalTexture", ColorSpace::linear);
             material.occlusion_texture = use(source.occlusion_texture, "occlusionTexture", ColorSpace::linear);
             material.transmission.texture =
-                use(source.transmission_texture, "extensions.KHR_materials_transmission.transmissionTexture", ColorSpace::linear);
+                use(more.transmission_texture, "extensions.KHR_materials_transmission.transmissionTexture", ColorSpace::linear);
             material.transmission.thickness_texture =
-                use(source.thickness_texture, "extensions.KHR_materials_volume.thicknessTexture", ColorSpace::linear);
+                use(more.thickness_texture, "extensions.KHR_materials_volume.thicknessTexture", ColorSpace::linear);
         }
         return material;
     }
 
 private:
-    static Transmission transmission(const file::Material& source) {
+    static Transmission transmission(const file::MaterialExtensions& source) {
         Transmission transmission;
         transmission.share = clamp01(source.transmission_factor);
         transmission.thickness = static_cast<float>(std::clamp(source.thickness_factor, 0.0, 1e18));
@@ -134,7 +150,7 @@ private:
         return transmission;
     }
 
-    TextureUse use(const file::TexturePlace& info, const char* key, ColorSpace space) {
+    TextureUse use(const file::TexturePlace& info, std::string_view key, ColorSpace space) {
         TextureUse use;
         if (info.index < 0) return use;
         const file::Texture& texture = document_.file.textures[static_cast<std::size_t>(info.index)];

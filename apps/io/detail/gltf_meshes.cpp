@@ -143,6 +143,8 @@ private:
             {&material.normal_texture, "normalTexture"},
             {&material.occlusion_texture, "occlusionTexture"},
             {&material.emissive_texture, "emissiveTexture"},
+            {&material.specular_texture, "extensions.KHR_materials_specular.specularTexture"},
+            {&material.specular_color_texture, "extensions.KHR_materials_specular.specularColorTexture"},
             {&material.transmission.texture, "extensions.KHR_materials_transmission.transmissionTexture"},
             {&material.transmission.thickness_texture, "extensions.KHR_materials_volume.thicknessTexture"}};
         for (const auto& [use, key] : places)

@@ -46,7 +46,13 @@ struct Material {
     Lobe lobe;                                 ///< diffuse lobe
     bool has_own_lobe = false;                 ///< the file chose the lobe; a setting for all materials does not replace it
 
-    Transmission transmission;  ///< light from behind that passes through
+    float specular = 1;             ///< KHR_materials_specular: factor of what is mirrored where not metallic, in [0, 1]
+    Vec3f specular_color{1, 1, 1};  ///< linear, from 0: factor of F0 there, which is at most 1
+    Transmission transmission;      ///< light from behind that passes through
+    /// True if F0 where not metallic is more than one number.
+    [[nodiscard]] bool has_specular_color() const {
+        return specular != 1.0f || specular_color != Vec3f{1, 1, 1} || specular_texture.used() || specular_color_texture.used();
+    }
     /// True if light passes through.
     [[nodiscard]] bool transmits() const { return transmission.share > 0.0f && !unlit; }
     /// True if the surface is drawn over what is behind it.
@@ -57,18 +63,16 @@ struct Material {
     TextureUse normal_texture;              ///< linear: tangent space, (2c - 1) * (scale, scale, 1)
     TextureUse occlusion_texture;           ///< linear: R
     TextureUse emissive_texture;            ///< sRGB
+    TextureUse specular_texture;            ///< linear: A, times `specular`
+    TextureUse specular_color_texture;      ///< sRGB, times `specular_color`
 };
 
 /// Every place of a material where a texture may be used. `material` may be const.
 template <class AnyMaterial>
 [[nodiscard]] constexpr auto texture_uses(AnyMaterial& material) {
-    return std::array{&material.base_color_texture,
-                      &material.metallic_roughness_texture,
-                      &material.normal_texture,
-                      &material.occlusion_texture,
-                      &material.emissive_texture,
-                      &material.transmission.texture,
-                      &material.transmission.thickness_texture};
+    return std::array{&material.base_color_texture,     &material.metallic_roughness_texture, &material.normal_texture,
+                      &material.occlusion_texture,      &material.emissive_texture,           &material.specular_texture,
+                      &material.specular_color_texture, &material.transmission.texture,       &material.transmission.thickness_texture};
 }
 
 }  // namespace halflit

@@ -93,11 +93,12 @@ enum Stage : std::uint32_t {
     kStageSpecular = 1u << 7,
     kStageAmbient = 1u << 8,
     kStageUnlit = 1u << 9,
-    kStageGradients = 1u << 10,     ///< some texture's level or filter depends on how fast its coordinates change
-    kStagePrelit = 1u << 11,        ///< the fragments bring their light: a shading rate below one a pixel
-    kStageEnvironment = 1u << 12,   ///< the ambient light is an environment's, in spherical harmonics
-    kStageTransmission = 1u << 13,  ///< light from behind passes through the surface
-    kStageCount = 14
+    kStageGradients = 1u << 10,      ///< some texture's level or filter depends on how fast its coordinates change
+    kStagePrelit = 1u << 11,         ///< the fragments bring their light: a shading rate below one a pixel
+    kStageEnvironment = 1u << 12,    ///< the ambient light is an environment's, in spherical harmonics
+    kStageTransmission = 1u << 13,   ///< light from behind passes through the surface
+    kStageSpecularColor = 1u << 14,  ///< where not metallic, F0 has a colour, a weight or textures of its own
+    kStageCount = 15
 };
 
 }  // namespace halflit
