@@ -32,7 +32,7 @@ inline constexpr std::string_view kAccuracyNames[] = {"reference", "exact"};
 constexpr std::string_view accuracy_name(Accuracy accuracy) { return kAccuracyNames[static_cast<std::size_t>(accuracy)]; }
 
 /// Indexed by SpecularModel.
-inline constexpr std::string_view kSpecularNames[] = {"none", "phong", "blinn"};
+inline constexpr std::string_view kSpecularNames[] = {"none", "phong", "blinn", "ggx"};
 
 constexpr std::string_view tier_name(shading::PowTier tier) {
     constexpr std::string_view kNames[] = {"exact", "degrees 5, 4", "degrees 3, 3"};

@@ -18,6 +18,7 @@ struct alignas(64) ShadeRows {
     Row3 normal, surface, to_eye;      ///< unit: with the normal map, without it; towards the viewer
     Row half_exponent, normalization;  ///< of highlights
     Row3 diffuse, specular;            ///< light through the lobe, its scale included; highlights, before the reflectance
+    Row3 specular_grazing;             ///< of GGX: highlights times (1 - V.H)^5; `specular` has them times the rest
     Row3 ambient, mirrored;            ///< light of the surroundings towards the normal and the reflected view, times occlusion
     Row grazing;                       ///< (1 - N.V)^5; without an environment
     Row share_a, share_b, share_more;  ///< sky_share's, with an environment

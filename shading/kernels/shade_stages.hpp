@@ -5,6 +5,7 @@
 
 #include "shading/kernels/cell_kernel.hpp"
 #include "shading/kernels/environment_kernel.hpp"
+#include "shading/kernels/ggx_kernel.hpp"
 #include "shading/kernels/highlight_sums.hpp"
 #include "shading/kernels/reflection_kernel.hpp"
 #include "shading/kernels/shade_kernels.hpp"
@@ -107,6 +108,15 @@ static void add_lights(const shading::ShadingPlan& frame, const shading::Materia
     }
 }
 
+/// Not inlined, like add_lights.
+[[gnu::noinline]] static void add_lights_by_ggx(const shading::ShadingPlan& frame, const shading::MaterialPlan& material,
+                                                shading::LightList lights, const shading::FragmentBlock& block, int count,
+                                                ShadeRows& rows) {
+    add_ggx_lights(
+        frame, material, lights, block, count, [&](int lane) __attribute__((always_inline)) { return looked_up(frame, block, lane); },
+        rows);
+}
+
 template <bool kSpecular>
 static void add_surroundings(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, int count, ShadeRows& rows) {
     const bool environment = has(material, kStageEnvironment);
@@ -144,7 +154,12 @@ template <bool kSpecular>
 HALFLIT_INLINE void add_light(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, shading::LightList lights,
                               const shading::FragmentBlock& block, int count, ShadeRows& rows) {
     find_directions<kSpecular>(frame, material, block, count, rows);
-    if (has(material, kStageLights)) add_lights<kSpecular>(frame, material, lights, block, count, rows);
+    if (has(material, kStageLights)) {
+        if (kSpecular && material.ggx)
+            add_lights_by_ggx(frame, material, lights, block, count, rows);
+        else
+            add_lights<kSpecular>(frame, material, lights, block, count, rows);
+    }
     if (has(material, kStageAmbient)) add_surroundings<kSpecular>(frame, material, count, rows);
     if (has(material, kStageSpecularColor)) fetch_specular_color(material, block, count, rows);
     if (has(material, kStageTransmission)) {
@@ -170,7 +185,7 @@ HALFLIT_INLINE V3 reflected(const shading::MaterialPlan& material, const ShadeRo
     V3 color{F(0.0f), F(0.0f), F(0.0f)};
     if (has(material, kStageLights)) {
         color = albedo * load3(rows.diffuse, lane);
-        if constexpr (kSpecular) color = color + f0 * load3(rows.specular, lane);
+        if constexpr (kSpecular) color = color + (material.ggx ? ggx_reflected(rows, lane, f0, F(1.0f)) : f0 * load3(rows.specular, lane));
     }
     if constexpr (kSpecular) {
         if (has(material, kStageEnvironment)) {

@@ -1,6 +1,7 @@
 // KHR_materials_specular: where not metallic, F0 has a colour and a weight. These stages run only for materials that have them.
 #pragma once
 
+#include "shading/kernels/ggx_kernel.hpp"
 #include "shading/kernels/reflection_kernel.hpp"
 #include "shading/kernels/shade_rows.hpp"
 #include "shading/kernels/surface_kernel.hpp"
@@ -51,11 +52,13 @@ struct SkyShare {
     const F largest = vmax(dielectric.x, vmax(dielectric.y, dielectric.z));
     const V3 albedo = base * (matt * (F(1.0f) - largest));
     color = {F(0.0f), F(0.0f), F(0.0f)};
-    if (has(material, kStageLights)) color = albedo * load3(rows.diffuse, lane) + f0 * load3(rows.specular, lane);
+    const F at_grazing = mad(weight, matt, metallic);
+    if (has(material, kStageLights))
+        color = albedo * load3(rows.diffuse, lane) +
+                (material.ggx ? ggx_reflected(rows, lane, f0, at_grazing) : f0 * load3(rows.specular, lane));
     if (!has(material, kStageAmbient)) return;
     const SkyShare share(material, rows, lane);
     const V3 scattered = has(material, kStageEnvironment) ? base * (matt * (F(1.0f) - share(largest, weight))) : albedo;
-    const F at_grazing = mad(weight, matt, metallic);
     const V3 mirrored{share(f0.x, at_grazing), share(f0.y, at_grazing), share(f0.z, at_grazing)};
     color = color + (scattered * load3(rows.ambient, lane) + mirrored * load3(rows.mirrored, lane));
 }

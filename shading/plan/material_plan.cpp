@@ -100,6 +100,7 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
     if (lit && kinds.lights) plan.stages |= kStageLights;
     if (lit && kinds.ambient) plan.stages |= kStageAmbient;
     if (lit && kinds.specular) plan.stages |= kStageSpecular;
+    plan.ggx = lit && kinds.lights && options.specular == SpecularModel::ggx;
     if (lit && options.rate != ShadingRate::pixel) plan.stages |= kStagePrelit;
 
     bool gradients = false;

@@ -56,6 +56,7 @@ struct MaterialPlan {
     /// A light's highlight, before the reflectance, is left out where it is surely below this. 0: only where it is exactly 0.
     float specular_threshold = 0;
     SpecularCurve specular_curve;
+    bool ggx = false;  ///< highlights of lights are SpecularModel::ggx
     CellTolerance cells;
     /// 1 / d0, d0 in world units: a blocker at the distance d0 or more hides all wrapped light. 0: no fading; shadows cut wrapped light
     /// off.

@@ -201,6 +201,23 @@ Mirrored mirrored_environment(const ReflectionMap& map, int lobes, const Surface
     return out;
 }
 
+/// GGX's highlight of a directional light of colour 1, by the textbook's formulas: pi D V (N.L) F and light that bounces between facets.
+Vec3d ggx_highlight(const Surface& surface, Vec3d to_light) {
+    const double n_dot_l = dot(surface.normal, to_light), n_dot_v = std::clamp(dot(surface.normal, surface.to_eye), 0.0, 1.0);
+    const Vec3d both = to_light + surface.to_eye, half = unit(both);
+    if (!(n_dot_l > 0) || !(dot(surface.normal, both) > double{kLeastHalfVector})) return {};
+    const double roughness = std::max(surface.roughness, kHeldRoughness), a2 = std::pow(roughness, 4.0);
+    const Vec3d sine = cross(surface.normal, half);
+    const double n_dot_h = dot(surface.normal, half), d = dot(sine, sine) + a2 * n_dot_h * n_dot_h;
+    const auto root = [&](double x) { return std::sqrt(x * x * (1 - a2) + a2); };
+    const double masking = 0.5 / (n_dot_l * root(n_dot_v) + n_dot_v * root(n_dot_l));
+    const double value = a2 / (d * d) * masking * n_dot_l, schlick = std::pow(1 - std::min(dot(surface.to_eye, half), 1.0), 5.0);
+    const MirrorTable at(roughness, n_dot_v);
+    const double more = 1.0 / (at(&ReflectionShape::a) + at(&ReflectionShape::b)) - 1.0;
+    const auto channel = [&](double f0) { return value * (f0 * (1 - schlick) + surface.at_grazing() * schlick) * (1 + f0 * more); };
+    return {channel(surface.f0.x), channel(surface.f0.y), channel(surface.f0.z)};
+}
+
 Vec3d lit(const FrameInputs& frame, const Material& material, const Surface& surface, Vec3d position, const Surroundings& around) {
     const bool specular = frame.options.specular != SpecularModel::none;
     const Lobe& lobe = lobe_of(material, frame.options);
@@ -222,7 +239,9 @@ Vec3d lit(const FrameInputs& frame, const Material& material, const Surface& sur
         else
             for (const SunPatch& patch : sun->patches) through_lobe = through_lobe + scale(patch.light, lobe_at(patch.direction));
         Vec3d reflected = surface.albedo * through_lobe;
-        if (specular && n_dot_l > 0) {
+        if (frame.options.specular == SpecularModel::ggx) {
+            reflected = reflected + color * scale(ggx_highlight(surface, at.direction), 1.0 - hidden.hard);
+        } else if (specular && n_dot_l > 0) {
             const bool phong = frame.options.specular == SpecularModel::phong;
             const Vec3d reflection = scale(surface.normal, 2 * n_dot_l) - at.direction;
             const double cosine = phong ? dot(surface.to_eye, unit(reflection)) : dot(surface.normal, unit(at.direction + surface.to_eye));

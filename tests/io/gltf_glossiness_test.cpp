@@ -119,9 +119,9 @@ TEST_CASE("glossiness: textures of two sizes are converted texel by texel, and t
         });
     };
     const auto code = [](int x, int y, int c, int seed) { return (x * 97 + y * 57 + c * 31 + seed) % 256; };
-    const LoadedScene loaded = load_ok(glossy(
-        R"("diffuseTexture":{"index":0},"specularGlossinessTexture":{"index":1},"diffuseFactor":[1,0.5,1,1],"glossinessFactor":0.5)",
-        {random_png(4, 7), random_png(2, 90)}));
+    const LoadedScene loaded = load_ok(
+        glossy(R"("diffuseTexture":{"index":0},"specularGlossinessTexture":{"index":1},"diffuseFactor":[1,0.5,1,1],"glossinessFactor":0.5)",
+               {random_png(4, 7), random_png(2, 90)}));
     REQUIRE(loaded.scene.textures.size() == 2);
     const Material& m = loaded.scene.materials.at(0);
     const Texture& base = loaded.scene.textures[static_cast<std::size_t>(m.base_color_texture.texture)];

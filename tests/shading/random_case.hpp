@@ -171,7 +171,7 @@ inline Case make_case(FloatMaker& make, bool smooth_textures) {
     for (std::uint32_t i = 0; i < light_count; ++i) c.lights.push_back(make_light(make));
     if (make.below(2) == 0)
         c.ambient = {{make.ordinary(0, 1), make.ordinary(0, 1), make.ordinary(0, 1)}, {0.2f, make.ordinary(0, 1), 0.0f}};
-    c.options.specular = static_cast<SpecularModel>(make.below(3));
+    c.options.specular = static_cast<SpecularModel>(make.below(4));
     c.options.normalize_specular = make.below(4) != 0;
     const bool override_lobe = make.below(4) == 0;
     if (const Lobe lobe = make_lobe(make); override_lobe) c.options.lobe = lobe;

@@ -157,9 +157,10 @@ private:
             material.metallic_roughness_texture.texture = rough;
             return;
         }
-        document_.warn(fmt::format("materials[{}].extensions.KHR_materials_pbrSpecularGlossiness: its two textures lie differently, each is "
-                                   "converted with the mean of the other",
-                                   index));
+        document_.warn(
+            fmt::format("materials[{}].extensions.KHR_materials_pbrSpecularGlossiness: its two textures lie differently, each is "
+                        "converted with the mean of the other",
+                        index));
         const Texture mean_matt = mean_of(*matt), mean_shiny = mean_of(*shiny);
         Texture base = convert(document_, factors, matt, &mean_shiny).base_color;
         Texture rough = convert(document_, factors, &mean_matt, shiny).metallic_roughness;
@@ -168,8 +169,8 @@ private:
     }
 
     std::pair<int, int> converted(const Factors& f, int diffuse, int specular, const Texture* matt, const Texture* shiny) {
-        const Key key{diffuse,       specular,      f.diffuse[0],  f.diffuse[1],  f.diffuse[2],
-                      f.diffuse[3],  f.specular[0], f.specular[1], f.specular[2], f.glossiness};
+        const Key key{diffuse,      specular,      f.diffuse[0],  f.diffuse[1],  f.diffuse[2],
+                      f.diffuse[3], f.specular[0], f.specular[1], f.specular[2], f.glossiness};
         if (const auto found = known_.find(key); found != known_.end()) return found->second;
         Converted made = convert(document_, f, matt, shiny);
         const int base = add(std::move(made.base_color)), rough = add(std::move(made.metallic_roughness));
