@@ -127,7 +127,7 @@ double most_bounced() {
 /// Codes of GGX's highlights (DERIVATION.md). N.(L + V) is at least kLeastHalfVector, and so are N.L + N.V and |L + V|.
 double ggx_codes(const Surface& s, double light_sum) {
     static const ShapeSlopes slopes = shape_slopes();
-    const double a = held_alpha(s.least_roughness), least = kLeastHalfVector, strength = s.normalization * light_sum;
+    const double a = held_alpha(s.least_roughness), least = kLeastHalfVector, strength = s.reflectance * s.normalization * light_sum;
     const double direction = s.cosine_error() + kHalfVectorError / least;
     const double bounced = 24.0 * (s.roughness.absolute + 6.0 * s.cosine_error()) * slopes.share * most_bounced();
     const double of_roughness = 6.0 * s.roughness.relative;
@@ -207,7 +207,10 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
     s.least_roughness = roughness;
     s.exponent = specular_exponent(roughness);
     s.normalization = plan.normalize_specular ? specular_normalization(0.5 * s.exponent, plan.specular == SpecularModel::phong) : 1.0;
-    if (material.ggx) s.normalization = ggx_most(roughness) * most_bounced();
+    if (material.ggx) {
+        s.reflectance = std::max(1.0, s.reflectance);  // at grazing views
+        s.normalization = ggx_most(roughness) * most_bounced() * s.reflectance;
+    }
     s.normal_error = kNormalError;
     if (has(kStageNormalMap)) {
         // The three components are in [-1, 1], each off by twice its channel's error. The vector is no shorter than its z. Where z may be 0
@@ -282,7 +285,7 @@ double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, con
     }
     if (s.specular && material.ggx) {
         codes += ggx_codes(s, light.sum);
-        shiny += s.normalization * light.sum;
+        shiny += s.reflectance * s.normalization * light.sum;
     } else if (s.specular && has(kStageLights)) {
         const double turning = plan.specular == SpecularModel::phong ? 2.0 : 1.0, strength = s.normalization * light.sum;
         const double constant = 4.0 * s.roughness.relative, linear = 3e-7 + constant;  // roughness^4, in exponent and norm

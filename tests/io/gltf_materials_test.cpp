@@ -1,3 +1,4 @@
+#include "apps/io/detail/gltf_materials.hpp"
 #include "tests/io/png_maker.hpp"
 
 #include <fmt/core.h>
@@ -53,6 +54,20 @@ TEST_CASE("materials: transmission and absorption are read", "[io]") {
     CHECK(inside.thickness_texture.texture == 0);
     CHECK(inside.thickness_texture.uv_set == 1);
     CHECK(material_of(with_material("")).transmission.share == 0.0f);
+}
+
+TEST_CASE("materials: thickness is taken to world space by the scale of the first instance", "[io]") {
+    Scene scene;
+    scene.materials.resize(2);
+    for (Material& material : scene.materials) material.transmission.thickness = 0.5f;
+    scene.meshes.resize(3);
+    scene.meshes[0].material = 1, scene.meshes[1].material = 1;
+    Instance first{0, {}}, second{1, {}};
+    first.world_from_object.c[0].x = -2, first.world_from_object.c[1].y = 4, first.world_from_object.c[2].z = 8;  // mirrored, mean 4
+    scene.instances = {first, second, {2, {}}};
+    io::detail::scale_thickness(scene);
+    CHECK(scene.materials[0].transmission.thickness == 0.5f);
+    CHECK(scene.materials[1].transmission.thickness == Approx(2.0f));
 }
 
 TEST_CASE("materials: factors, alpha mode and sides are read", "[io]") {

@@ -29,9 +29,9 @@ struct Bench {
     Bench() { options.specular = SpecularModel::ggx; }
     void add_light(Vec3d to_light, double color) {
         const auto c = static_cast<float>(color);
-        lights.push_back({.color_linear = {c, c, c},
-                          .direction_ws = {static_cast<float>(-to_light.x), static_cast<float>(-to_light.y),
-                                           static_cast<float>(-to_light.z)}});
+        lights.push_back(
+            {.color_linear = {c, c, c},
+             .direction_ws = {static_cast<float>(-to_light.x), static_cast<float>(-to_light.y), static_cast<float>(-to_light.z)}});
     }
     [[nodiscard]] float seen_from(Vec3d to_eye, Isa isa = Isa::scalar) const {
         ShadingPlan plan = plan_shading({std::span(&material, 1), {}, available, plan_lights(lights), {}, options});
