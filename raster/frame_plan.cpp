@@ -224,6 +224,8 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, 
     plan.background_linear = settings.background_linear;
     plan.exposure = settings.exposure;
     plan.tone_curve = settings.tone_curve;
+    for (std::size_t i = 0; i < plan.shading.materials.size(); ++i)
+        plan.transmits |= prepared.drawn_materials()[i] && (plan.shading.materials[i].stages & kStageTransmission) != 0;
     plan.depth = depth_map(camera, static_cast<float>(width) / static_cast<float>(height));
     plan.environment_uses = environment_uses(prepared, plan.shading);
     add_lobe_warnings(prepared, plan.shading, options, plan.warnings);

@@ -35,7 +35,8 @@ struct FramePlan {
     Vec4f background_linear{0, 0, 0, 0};
     float exposure = 1.0f;
     ToneCurve tone_curve = ToneCurve::none;
-    DepthMap depth;  ///< of the picture's depths
+    bool transmits = false;  ///< light passes through some drawn material
+    DepthMap depth;          ///< of the picture's depths
     std::vector<EnvironmentUse> environment_uses;
     std::vector<std::string> warnings;
 };

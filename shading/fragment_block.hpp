@@ -38,6 +38,9 @@ struct alignas(64) FragmentBlock {
     float lane[kInputRows][kBlockSize];
     /// Result: linear light, not premultiplied; alpha is 1 for opaque and mask materials.
     alignas(64) float red[kBlockSize], green[kBlockSize], blue[kBlockSize], alpha[kBlockSize];
+    /// Result for materials that transmit: shares of the light from behind that pass, in red, green and blue, in [0, 1]. Elsewhere it is
+    /// 1 - alpha, and these are not set.
+    alignas(64) float keep[3][kBlockSize];
 };
 
 }  // namespace halflit::shading

@@ -91,7 +91,7 @@ void plan_shadows(const ShadowInputs& shadows, ShadingPlan& plan) {
 void plan_highlights(ShadingPlan& plan, PowerFits& fits) {
     for (MaterialPlan& material : plan.materials) {
         constexpr std::uint32_t kNeeded = kStageLights | kStageSpecular;
-        if ((material.stages & kNeeded) != kNeeded || (material.stages & kStageMetallicRoughnessTexture) != 0) continue;
+        if (material.ggx || (material.stages & kNeeded) != kNeeded || (material.stages & kStageMetallicRoughnessTexture) != 0) continue;
         const double exponent = specular_exponent(static_cast<double>(material.roughness));
         const double half_exponent = exponent * (plan.specular == SpecularModel::phong ? 0.125 : 0.5);
         if (!(half_exponent > 1.0)) continue;
@@ -115,7 +115,7 @@ void spend_toned_budget(const PlanInputs& inputs, PowerFits& fits, ShadingPlan& 
 }  // namespace
 
 Result<void> check_options(const ShadingSettings& options) {
-    if (options.rate > ShadingRate::pixel || options.specular > SpecularModel::blinn || options.accuracy > Accuracy::exact ||
+    if (options.rate > ShadingRate::pixel || options.specular > SpecularModel::ggx || options.accuracy > Accuracy::exact ||
         options.texture_detail > TextureDetail::nearest)
         return fail(ErrorCode::usage, "shading settings: found a value that no name stands for");
     if (options.lobe)

@@ -37,8 +37,7 @@ public:
     template <class Fn>
     void each(const Fn& f) const {
         for (int y = 0; y < kGridRows; ++y)
-            for (int x = 0; x < 2 * kGridRows; ++x)
-                f(direction(y, x), cells_[static_cast<std::size_t>(y * 2 * kGridRows + x)].sum);
+            for (int x = 0; x < 2 * kGridRows; ++x) f(direction(y, x), cells_[static_cast<std::size_t>(y * 2 * kGridRows + x)].sum);
     }
 
 private:

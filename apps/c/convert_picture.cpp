@@ -35,7 +35,7 @@ static_assert(HALFLIT_WRAP_CLAMP == static_cast<int>(TextureWrap::clamp) &&
 static_assert(HALFLIT_MIP_LINEAR == static_cast<int>(MipFilter::linear) && HALFLIT_LIGHT_SPOT == static_cast<int>(LightType::spot));
 static_assert(HALFLIT_ACCURACY_EXACT == static_cast<int>(Accuracy::exact) && HALFLIT_RATE_PIXEL == static_cast<int>(ShadingRate::pixel));
 static_assert(HALFLIT_DETAIL_NEAREST == static_cast<int>(TextureDetail::nearest));
-static_assert(HALFLIT_SPECULAR_BLINN == static_cast<int>(SpecularModel::blinn));
+static_assert(HALFLIT_SPECULAR_GGX == static_cast<int>(SpecularModel::ggx));
 static_assert(HALFLIT_SHADOWS_SOFT_SPLIT == static_cast<int>(ShadowMode::soft_split));
 static_assert(HALFLIT_TONE_REINHARD == static_cast<int>(ToneCurve::reinhard) &&
               HALFLIT_TONE_NEUTRAL == static_cast<int>(ToneCurve::neutral));
@@ -126,7 +126,7 @@ Result<Settings> settings(const halflit_settings* given) {
     choices.read(read->accuracy, Accuracy::exact, "accuracy", shading.accuracy);
     choices.read(read->shading_rate, ShadingRate::pixel, "shading_rate", shading.rate);
     choices.read(read->texture_detail, TextureDetail::nearest, "texture_detail", shading.texture_detail);
-    choices.read(read->specular, SpecularModel::blinn, "specular", shading.specular);
+    choices.read(read->specular, SpecularModel::ggx, "specular", shading.specular);
     choices.read(read->shadows, ShadowMode::soft_split, "shadows", settings.shadows);
     choices.read(read->tone_curve, ToneCurve::neutral, "tone_curve", settings.tone_curve);
     if (!choices.result()) return tl::unexpected<Error>(choices.result().error());

@@ -118,6 +118,16 @@ halflit_material to_c(const Material& from) {
     material.normal_texture = to_c(from.normal_texture);
     material.occlusion_texture = to_c(from.occlusion_texture);
     material.emissive_texture = to_c(from.emissive_texture);
+    material.transmission = from.transmission.share;
+    material.thickness = from.transmission.thickness;
+    material.attenuation_distance = from.transmission.attenuation_distance;
+    put(from.transmission.attenuation_color, material.attenuation_color);
+    material.transmission_texture = to_c(from.transmission.texture);
+    material.thickness_texture = to_c(from.transmission.thickness_texture);
+    material.specular = from.specular;
+    put(from.specular_color, material.specular_color);
+    material.specular_texture = to_c(from.specular_texture);
+    material.specular_color_texture = to_c(from.specular_color_texture);
     return material;
 }
 
@@ -148,6 +158,16 @@ Result<Material> material(const halflit_material* given) {
     material.normal_texture = texture_use(read->normal_texture, "a value of normal_texture", choices);
     material.occlusion_texture = texture_use(read->occlusion_texture, "a value of occlusion_texture", choices);
     material.emissive_texture = texture_use(read->emissive_texture, "a value of emissive_texture", choices);
+    material.transmission.share = read->transmission;
+    material.transmission.thickness = read->thickness;
+    material.transmission.attenuation_distance = read->attenuation_distance;
+    material.transmission.attenuation_color = vec3(read->attenuation_color);
+    material.transmission.texture = texture_use(read->transmission_texture, "a value of transmission_texture", choices);
+    material.specular = read->specular;
+    material.specular_color = vec3(read->specular_color);
+    material.specular_texture = texture_use(read->specular_texture, "a value of specular_texture", choices);
+    material.specular_color_texture = texture_use(read->specular_color_texture, "a value of specular_color_texture", choices);
+    material.transmission.thickness_texture = texture_use(read->thickness_texture, "a value of thickness_texture", choices);
     if (!choices.result()) return tl::unexpected<Error>(choices.result().error());
     if (auto ok = check_lobe(material.lobe); !ok) return fail(ErrorCode::usage, "halflit_material: lobe: " + ok.error().message);
     return material;

@@ -21,7 +21,9 @@ inline constexpr std::string_view kStageNames[kStageCount] = {"base colour textu
                                                               "unlit",
                                                               "texture gradients",
                                                               "light at vertices or triangles",
-                                                              "environment"};
+                                                              "environment",
+                                                              "transmission",
+                                                              "specular colour"};
 
 /// Indexed by LightType.
 inline constexpr std::string_view kLightTypeNames[] = {"directional", "point", "spot"};
@@ -30,7 +32,7 @@ inline constexpr std::string_view kAccuracyNames[] = {"reference", "exact"};
 constexpr std::string_view accuracy_name(Accuracy accuracy) { return kAccuracyNames[static_cast<std::size_t>(accuracy)]; }
 
 /// Indexed by SpecularModel.
-inline constexpr std::string_view kSpecularNames[] = {"none", "phong", "blinn"};
+inline constexpr std::string_view kSpecularNames[] = {"none", "phong", "blinn", "ggx"};
 
 constexpr std::string_view tier_name(shading::PowTier tier) {
     constexpr std::string_view kNames[] = {"exact", "degrees 5, 4", "degrees 3, 3"};

@@ -2,6 +2,7 @@
 
 #include "apps/io/detail/gltf_accessor.hpp"
 #include "apps/io/detail/gltf_document.hpp"
+#include "apps/io/detail/gltf_glossiness.hpp"
 #include "apps/io/detail/gltf_images.hpp"
 #include "apps/io/detail/gltf_materials.hpp"
 #include "apps/io/detail/gltf_meshes.hpp"
@@ -59,6 +60,7 @@ LoadedScene build(std::span<const std::byte> bytes, const std::string& base_dir,
     images.start();
     try {
         place_meshes(*document, accessors, tree, loaded);
+        scale_thickness(loaded.scene);
         recentre(*document, tree, loaded);
         place_cameras(*document, tree, loaded);
         place_lights(*document, tree, loaded);
@@ -67,6 +69,7 @@ LoadedScene build(std::span<const std::byte> bytes, const std::string& base_dir,
         throw;
     }
     images.finish();
+    convert_specular_glossiness(*document, loaded.scene);
     loaded.scene.calibrated = loaded.scene.lights.empty();
     if (loaded.scene.instances.empty()) document->warn("the model has nothing to draw");
     if (document->warnings_left_out > 0) document->warnings.push_back(fmt::format("and {} further warnings", document->warnings_left_out));

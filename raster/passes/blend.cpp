@@ -37,6 +37,13 @@ bool for_each_layer(const TilePass& pass, int tile, TileScratch& scratch, const 
     return true;
 }
 
+void blend(float* under, const Vec4f& over, const Vec4f& keep) {
+    under[0] = over.x + under[0] * keep.x;
+    under[1] = over.y + under[1] * keep.y;
+    under[2] = over.z + under[2] * keep.z;
+    under[3] = keep.w + under[3] * (1.0f - keep.w);
+}
+
 void blend(float* under, const Vec4f& over) {
     const float keep = 1.0f - over.w;
     under[0] = over.x + under[0] * keep;
@@ -101,6 +108,7 @@ bool PictureTile::collect_layers(const TileRect& part) {
 void PictureTile::shade_layers() {
     LayerScratch& layers = *scratch_.layers;
     layers.light.resize(layers.fragments.size());
+    layers.keep.resize(transmits_ ? layers.fragments.size() : 0);
     FragmentQueue& queue = scratch_.queue;
     queue.begin(pass_.view.materials.size());
     for (std::size_t i = 0; i < layers.fragments.size(); ++i) {
@@ -115,8 +123,39 @@ void PictureTile::shade_layers() {
 
 void PictureTile::shade_layers(FragmentList& list) {
     shade(list);
-    for (int l = 0; l < list.count; ++l) scratch_.layers->light[static_cast<std::size_t>(list.samples[l])] = light_of(scratch_.block, l);
+    for (int l = 0; l < list.count; ++l) {
+        const Vec4f light = light_of(scratch_.block, l);
+        const auto fragment = static_cast<std::size_t>(list.samples[l]);
+        scratch_.layers->light[fragment] = light;
+        if (transmits_) scratch_.layers->keep[fragment] = keep_of(list.material, l, light);
+    }
     list.count = 0;
+}
+
+/// The picture's alpha is what the light from behind lacks, in the mean of the channels, but at least the brightest channel: colours
+/// divided by alpha then keep the highlights of clear glass.
+Vec4f PictureTile::keep_of(int material, int lane, Vec4f light) const {
+    if ((plan_.shading.materials[static_cast<std::size_t>(material)].stages & kStageTransmission) == 0) {
+        const float keep = 1.0f - light.w;
+        return {keep, keep, keep, light.w};
+    }
+    const auto& keep = scratch_.block.keep;
+    const float mean = (keep[0][lane] + keep[1][lane] + keep[2][lane]) * (1.0f / 3.0f);
+    const float alpha = std::max(1.0f - mean, std::max(light.x, std::max(light.y, light.z)));
+    return {keep[0][lane], keep[1][lane], keep[2][lane], std::min(std::max(alpha, 0.0f), 1.0f)};
+}
+
+void PictureTile::blend_fragment(std::size_t fragment, int at, int sample) {
+    const LayerScratch& layers = *scratch_.layers;
+    const Vec4f light = layers.light[fragment];
+    float* const under = sample_color(sample) + 4 * static_cast<std::ptrdiff_t>(at);
+    if (!transmits_) {
+        blend(under, light);
+        cover_backing(at, 1u << sample, light.w);
+        return;
+    }
+    blend(under, light, layers.keep[fragment]);
+    cover_backing(at, 1u << sample, light.w, layers.keep[fragment]);
 }
 
 void PictureTile::blend_pixels(const TileRect& part) {
@@ -168,6 +207,12 @@ void PictureTile::blend_pixel(std::size_t at, std::span<const std::uint32_t> fra
             const auto fragment = static_cast<std::uint32_t>(layer);
             const Vec4f light = layers.light[fragment];
             const unsigned samples = layers.fragments[fragment].samples;
+            if (transmits_) {
+                const Vec4f keep = layers.keep[fragment];
+                for (unsigned left = samples; left != 0; left &= left - 1) blend(color[std::countr_zero(left)], light, keep);
+                cover_backing(static_cast<int>(at), samples, light.w, keep);
+                continue;
+            }
             if (samples == all)
                 for (int s = 0; s < samples_; ++s) blend(color[s], light);
             else
@@ -182,11 +227,7 @@ void PictureTile::blend_pixel(std::size_t at, std::span<const std::uint32_t> fra
         for (const std::uint32_t fragment : fragments)
             if ((layers.fragments[fragment].samples >> s & 1u) != 0) layers.order.push_back(layer_key(z_of(fragment, s), fragment));
         std::sort(layers.order.begin(), layers.order.end());
-        for (const std::uint64_t layer : layers.order) {
-            const Vec4f light = layers.light[static_cast<std::uint32_t>(layer)];
-            blend(sample_color(s) + 4 * at, light);
-            cover_backing(static_cast<int>(at), 1u << s, light.w);
-        }
+        for (const std::uint64_t layer : layers.order) blend_fragment(static_cast<std::uint32_t>(layer), static_cast<int>(at), s);
     }
 }
 
@@ -235,10 +276,7 @@ void PictureTile::blend_sample(int at, int sample) {
         layers.fragments.clear();
         for (const Kept& layer : kept) layers.fragments.push_back({layer.id, static_cast<std::uint16_t>(at), 0});
         shade_layers();
-        for (const Vec4f& light : layers.light) {
-            blend(sample_color(sample) + 4 * at, light);
-            cover_backing(at, 1u << sample, light.w);
-        }
+        for (std::size_t i = 0; i < layers.light.size(); ++i) blend_fragment(i, at, sample);
         if (!kept.empty()) done = kept.back().key;
     }
 }

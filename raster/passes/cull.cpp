@@ -114,7 +114,7 @@ void ViewGeometry::list_draws(Executor& executor) {
         draw.mirrored = determinant3(instances[i].world_from_object) < 0.0;
         const Material& material = scene_->material(scene_->material_of(mesh));
         draw.cull_back = !material.double_sided;
-        draw.alpha_mode = material.alpha_mode;
+        draw.alpha_mode = material.is_layer() ? AlphaMode::blend : material.alpha_mode;
         has_mode_[static_cast<std::size_t>(draw.alpha_mode)] = true;
         triangle_count_ += triangles;
         vertex_count_ += draw.vertex_count;

@@ -28,7 +28,8 @@ public:
           samples_(plan_.picture.samples.count),
           scratch_(scratch),
           written_(intersection(rect_, plan_.written)),
-          toned_(plan_.tone_curve != ToneCurve::none && pass.output.codes) {}
+          toned_(plan_.tone_curve != ToneCurve::none && pass.output.codes),
+          transmits_(plan_.transmits) {}
 
     TileCounts draw();
 
@@ -61,6 +62,8 @@ private:
     void blend_pixel(std::size_t at, std::span<const std::uint32_t> fragments);         ///< at: of the pixel in the tile's buffers
     void blend_sample(int at, int sample);                                              ///< of a pixel with too many fragments
     [[nodiscard]] Vec4f light_of(const shading::FragmentBlock& block, int lane) const;  ///< light times alpha, and alpha
+    [[nodiscard]] Vec4f keep_of(int material, int lane, Vec4f light) const;             ///< LayerScratch::keep, of the scratch's block
+    void blend_fragment(std::size_t fragment, int at, int sample);                      ///< lays a fragment of the layers over a sample
     // resolve.cpp
     [[nodiscard]] Vec4f background_sample() const;                              ///< of the background colour: times alpha, and alpha
     void clear();                                                               ///< fills a tile that has triangles with the background
@@ -77,6 +80,7 @@ private:
     void tone(const float* const light[3], float exposure, float* const display[3], int count) const;
     void fill_backing(float share);                             ///< sets the share of the background colour in every sample
     void cover_backing(int at, unsigned samples, float alpha);  ///< lays a fragment over it; at: of the pixel in the tile's buffers
+    void cover_backing(int at, unsigned samples, float alpha, Vec4f keep);  ///< of a layer, in frames where light passes through some
     /// Adds what `count` pixels from `at` on show of sample s: display light times alpha, and alpha.
     void add_toned_sample(int s, int at, int count, float (&sum)[4][kTileStride]);
     [[nodiscard]] float* sample_color(int s) { return scratch_.color.data() + static_cast<std::size_t>(s) * 4 * kTilePixels; }
@@ -90,6 +94,7 @@ private:
     TileRect written_;  ///< the part of the rect that is the caller's; the rest completes cells
     TileCounts counts_;
     bool toned_;          ///< codes are written, through a tone curve
+    bool transmits_;      ///< light passes through some drawn material
     bool direct_ = true;  ///< one opaque sample per pixel: shaded colours go straight to the caller's memory
 };
 

@@ -77,6 +77,11 @@ void ReferenceShading::shade(const shading::ShadeKernels& kernels, const shading
         block.green[lane] = static_cast<float>(color.g);
         block.blue[lane] = static_cast<float>(color.b);
         block.alpha[lane] = static_cast<float>(color.a);
+        if ((material_plan.stages & kStageTransmission) == 0) continue;
+        const Vec3d keep = reference::kept(frame_, scene_->material(index), filled, block, lane, around);
+        block.keep[0][lane] = static_cast<float>(keep.x);
+        block.keep[1][lane] = static_cast<float>(keep.y);
+        block.keep[2][lane] = static_cast<float>(keep.z);
     }
 }
 

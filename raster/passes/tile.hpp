@@ -56,8 +56,11 @@ struct LayerScratch {
     };
     LayerDepths depths;
     std::vector<Fragment> fragments;
-    std::vector<float> z;                              ///< of each sample of each fragment; a number only where `samples` has its bit
-    std::vector<Vec4f> light;                          ///< of fragments: light times alpha, and alpha
+    std::vector<float> z;      ///< of each sample of each fragment; a number only where `samples` has its bit
+    std::vector<Vec4f> light;  ///< of fragments: light times alpha, and alpha
+    /// Of fragments: share of red, green and blue light from behind that passes, and alpha as it is seen in the picture. Empty unless a
+    /// drawn material transmits; otherwise these are 1 - alpha, and alpha.
+    std::vector<Vec4f> keep;
     std::vector<std::uint32_t> by_pixel;               ///< fragments, those of a pixel together
     std::array<std::uint32_t, kTilePixels + 1> first;  ///< of a pixel in by_pixel
     std::vector<std::uint64_t> order;                  ///< of a pixel's or sample's fragments: layer_key
@@ -82,6 +85,7 @@ struct TileScratch {
     /// Linear light times alpha, and alpha, of every sample; used only where samples or layers are combined.
     RawBuffer<float> color;
     RawBuffer<float> backing;              ///< share of the background colour in every sample; used only with a tone curve
+    RawBuffer<float> tint;                 ///< the same in red, green and blue; used only with a tone curve and materials that transmit
     std::vector<std::uint32_t> tile_list;  ///< ViewGeometry::tile_list's
 };
 

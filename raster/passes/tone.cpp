@@ -26,12 +26,29 @@ void PictureTile::fill_backing(float share) {
     if (!toned_) return;
     const std::size_t count = static_cast<std::size_t>(samples_) * kTilePixels;
     std::fill_n(scratch_.backing.reserve(count), count, share);
+    if (transmits_) std::fill_n(scratch_.tint.reserve(3 * count), 3 * count, share);
 }
 
 void PictureTile::cover_backing(int at, unsigned samples, float alpha) {
     if (!toned_) return;
+    if (transmits_) {
+        const float keep = 1.0f - alpha;
+        return cover_backing(at, samples, alpha, {keep, keep, keep, alpha});
+    }
     float* const of_pixel = scratch_.backing.data() + at;
     for (; samples != 0; samples &= samples - 1) of_pixel[__builtin_ctz(samples) * kTilePixels] *= 1.0f - alpha;
+}
+
+void PictureTile::cover_backing(int at, unsigned samples, float alpha, Vec4f keep) {
+    if (!toned_) return;
+    for (; samples != 0; samples &= samples - 1) {
+        const int sample = __builtin_ctz(samples);
+        scratch_.backing.data()[sample * kTilePixels + at] *= 1.0f - alpha;
+        float* const tint = scratch_.tint.data() + (3 * sample) * kTilePixels + at;
+        tint[0] *= keep.x;
+        tint[kTilePixels] *= keep.y;
+        tint[2 * kTilePixels] *= keep.z;
+    }
 }
 
 void PictureTile::add_toned_sample(int s, int at, int count, float (&sum)[4][kTileStride]) {
@@ -39,8 +56,14 @@ void PictureTile::add_toned_sample(int s, int at, int count, float (&sum)[4][kTi
     const Vec4f back = background_sample();
     const float* const color = sample_color(s) + 4 * at;
     const float* const backing = scratch_.backing.data() + s * kTilePixels + at;
+    // What shows of the background colour in each channel.
+    const float* share_of[3] = {backing, backing, backing};
+    if (transmits_)
+        for (int i = 0; i < 3; ++i) share_of[i] = scratch_.tint.data() + (3 * s + i) * kTilePixels + at;
     bool plain = true;  // surfaces alone, and all of them opaque
     for (int x = 0; x < count; ++x) plain &= backing[x] == 0.0f && color[4 * x + 3] == 1.0f;
+    if (transmits_)
+        for (int x = 0; x < count; ++x) plain &= share_of[0][x] == 0.0f && share_of[1][x] == 0.0f && share_of[2][x] == 0.0f;
     if (plain) {
         for (int x = 0; x < count; ++x)
             for (int i = 0; i < 3; ++i) light[i][x] = color[4 * x + i];
@@ -49,7 +72,12 @@ void PictureTile::add_toned_sample(int s, int at, int count, float (&sum)[4][kTi
         for (int x = 0; x < count; ++x) {
             // What shows of the background colour is taken off. What is left is light times alpha, and alpha.
             float left[4];
-            for (int i = 0; i < 4; ++i) left[i] = backing[x] > 0.0f ? color[4 * x + i] - of_back[i] * backing[x] : color[4 * x + i];
+            for (int i = 0; i < 4; ++i) {
+                const float share = i < 3 ? share_of[i][x] : backing[x];
+                left[i] = share > 0.0f ? color[4 * x + i] - of_back[i] * share : color[4 * x + i];
+            }
+            // Where light passes through, alpha is not the share of the surfaces, by which their light is multiplied.
+            if (transmits_) left[3] = 1.0f - backing[x];
             front[x] = left[3] > 0.0f ? left[3] : 0.0f;
             for (int i = 0; i < 3; ++i) light[i][x] = front[x] > 0.0f ? left[i] / front[x] : 0.0f;
         }
@@ -64,10 +92,11 @@ void PictureTile::add_toned_sample(int s, int at, int count, float (&sum)[4][kTi
         return;
     }
     for (int x = 0; x < count; ++x) {
-        const float share = backing[x];  // an infinite background must not make a NaN where it is hidden
-        sum[0][x] += light[0][x] * front[x] + (share > 0.0f ? back.x * share : 0.0f);
-        sum[1][x] += light[1][x] * front[x] + (share > 0.0f ? back.y * share : 0.0f);
-        sum[2][x] += light[2][x] * front[x] + (share > 0.0f ? back.z * share : 0.0f);
+        // An infinite background must not make a NaN where it is hidden.
+        const float red = share_of[0][x], green = share_of[1][x], blue = share_of[2][x];
+        sum[0][x] += light[0][x] * front[x] + (red > 0.0f ? back.x * red : 0.0f);
+        sum[1][x] += light[1][x] * front[x] + (green > 0.0f ? back.y * green : 0.0f);
+        sum[2][x] += light[2][x] * front[x] + (blue > 0.0f ? back.z * blue : 0.0f);
         sum[3][x] += color[4 * x + 3];
     }
 }

@@ -29,7 +29,7 @@ struct Draw {
     std::int64_t cluster_base = 0;   ///< index of its first cluster, over all draws
     std::int64_t triangle_base = 0;  ///< number of its first triangle in submission order, over all instances of the scene
     bool mirrored = false, cull_back = true;
-    AlphaMode alpha_mode = AlphaMode::opaque;
+    AlphaMode alpha_mode = AlphaMode::opaque;  ///< blend for all layers (Material::is_layer)
 
     std::int64_t vertex_count = 0;
     [[nodiscard]] std::int64_t group_count() const { return (vertex_count + kVertexGroup - 1) / kVertexGroup; }

@@ -28,8 +28,7 @@ shading::SlotMask slots_of(const Mesh& mesh) {
 }
 
 Result<void> check_material(const Material& material, std::size_t index, std::size_t texture_count) {
-    for (const TextureUse* use : {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
-                                  &material.occlusion_texture, &material.emissive_texture})
+    for (const TextureUse* use : texture_uses(material))
         if (use->used() && static_cast<std::size_t>(use->texture) >= texture_count)
             return fail(ErrorCode::bad_input, "material " + std::to_string(index) + ": refers to texture " + std::to_string(use->texture) +
                                                   ", but the scene has " + std::to_string(texture_count));
@@ -96,7 +95,7 @@ bool PreparedData::note_coverage() {
     std::vector<std::pair<AlphaMode, bool>> coverage;
     bool masks = false;  // they cover what their textures say, which are not compared
     for (const Material& material : scene_->materials) {
-        coverage.emplace_back(material.alpha_mode, material.double_sided);
+        coverage.emplace_back(material.is_layer() ? AlphaMode::blend : material.alpha_mode, material.double_sided);
         masks |= material.alpha_mode == AlphaMode::mask;
     }
     const bool same = coverage == coverage_ && !masks;

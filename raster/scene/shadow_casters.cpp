@@ -44,7 +44,7 @@ Bounds placed(const Bounds& box, const Mat4& m) {
 
 bool casts_no_shadow(const Scene& scene, const Instance& instance) {
     const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
-    return material >= 0 && scene.materials[static_cast<std::size_t>(material)].alpha_mode == AlphaMode::blend;
+    return material >= 0 && scene.materials[static_cast<std::size_t>(material)].is_layer();
 }
 
 }  // namespace

@@ -70,7 +70,9 @@ bool may_use_cells(const ShadingPlan& plan, const MaterialPlan& material, const 
     const auto has = [&](Stage stage) { return (material.stages & stage) != 0; };
     const auto casts_none = [](const LightPlan& light) { return light.shadow_map < 0; };
     const double n = static_cast<double>(material.lobe.power_minus_one) + 1.0;
-    if (!has(kStageLights) || has(kStageNormalMap) || material.alpha_mode == AlphaMode::blend || !(n >= 1.0 && n <= 3.0)) return false;
+    if (material.ggx || !has(kStageLights) || has(kStageNormalMap) || material.alpha_mode == AlphaMode::blend || has(kStageTransmission) ||
+        !(n >= 1.0 && n <= 3.0))
+        return false;
     if (s.albedo <= 0.0) return false;
     return std::count_if(plan.lights.begin(), plan.lights.end(), casts_none) >= kLeastCellLights;
 }
@@ -197,7 +199,8 @@ void spend_error_budget(ShadingPlan& plan, double budget_codes, double exposure,
             bound.lobes = spend_on_lobe(material, may_split(plan, material), s, light, kBudgetShares.lobe * left, fits);
             left -= bound.lobes;
             const double of_cells = may_use_cells(plan, material, s) ? kBudgetShares.cells * left : 0.0;
-            if (s.specular && light.count > 0) spend_on_specular(plan, material, s, light, exposure, left - of_cells, fits, bound);
+            if (s.specular && light.count > 0 && !material.ggx)
+                spend_on_specular(plan, material, s, light, exposure, left - of_cells, fits, bound);
             left -= bound.specular + (bound.left_out - cutoff_codes);
             if (of_cells > 0.0 && left > 0.0) bound.cells = spend_on_cells(material, s, exposure, kBudgetShares.cells_of_rest * left);
         }

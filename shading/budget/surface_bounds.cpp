@@ -106,6 +106,36 @@ double reflection_codes(const ReflectionSteps& steps, const Surface& s, double m
            codes_of_absolute(nodes * slopes.share * steps.most * share);
 }
 
+double held_alpha(double roughness) { return std::max(roughness, double{kMinRoughness}) * std::max(roughness, double{kMinRoughness}); }
+
+/// Largest highlight of GGX: D is at most 1 / a^2, times pi, and (N.L) V at most 1 / (2 a).
+double ggx_most(double roughness) {
+    const double a = held_alpha(roughness);
+    return 0.5 / (a * a * a);
+}
+
+/// Largest factor by which light that bounces between facets brightens a highlight: 1 / (A + B).
+double most_bounced() {
+    static const double most = [] {
+        double least = 1.0;
+        for (const ReflectionShape& at : kReflectionShapes) least = std::min(least, static_cast<double>(at.a) + static_cast<double>(at.b));
+        return 1.0 / least;
+    }();
+    return most;
+}
+
+/// Codes of GGX's highlights (DERIVATION.md). N.(L + V) is at least kLeastHalfVector, and so are N.L + N.V and |L + V|.
+double ggx_codes(const Surface& s, double light_sum) {
+    static const ShapeSlopes slopes = shape_slopes();
+    const double a = held_alpha(s.least_roughness), least = kLeastHalfVector, strength = s.reflectance * s.normalization * light_sum;
+    const double direction = s.cosine_error() + kHalfVectorError / least;
+    const double bounced = 24.0 * (s.roughness.absolute + 6.0 * s.cosine_error()) * slopes.share * most_bounced();
+    const double of_roughness = 6.0 * s.roughness.relative;
+    constexpr double kSchlickError = 1.5e-6;
+    return codes_of_relative(std::exp(std::min(2.0 / a * direction + of_roughness + bounced, 13.0)) - 1.0) +
+           codes_of_absolute(strength * s.cosine_error() / least) + codes_of_absolute(strength * kSchlickError);
+}
+
 }  // namespace
 
 double Surface::cosine_error() const { return normal_error + (kCosineError - kNormalError); }
@@ -157,11 +187,30 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
         s.occlusion = factor_of(strength * filtered(material.occlusion_texture, {0}),
                                 1.0 + strength * (least_value(material.occlusion_texture, 0) - 1.0));
     }
+    if (has(kStageSpecularColor)) {
+        // F0 and its weight, the latter at grazing views; the matt part lacks the largest F0.
+        double error = 0.0;
+        if (material.specular_color_texture.data != nullptr)
+            error += std::max({material.dielectric_color[0], material.dielectric_color[1], material.dielectric_color[2]}) *
+                     filtered(material.specular_color_texture, {0, 1, 2});
+        if (material.specular_texture.data != nullptr) error += filtered(material.specular_texture, {3});
+        s.dielectric = {error, error > 0.0 ? kAnyShare : 0.0};
+        s.least_albedo = 0.0;
+    }
+    if (has(kStageTransmission)) {
+        const TransmissionPlan& inside = material.transmission;
+        if (inside.texture.data != nullptr) s.scattered = factor_of(inside.share * filtered(inside.texture, {0}), 1.0 - inside.share);
+        s.least_albedo = 0.0;
+    }
     if (has(kStageEmissiveTexture))
         s.emissive = textured(material.emissive_texture, {0, 1, 2}, *std::max_element(material.emissive, material.emissive + 3));
     s.least_roughness = roughness;
     s.exponent = specular_exponent(roughness);
     s.normalization = plan.normalize_specular ? specular_normalization(0.5 * s.exponent, plan.specular == SpecularModel::phong) : 1.0;
+    if (material.ggx) {
+        s.reflectance = std::max(1.0, s.reflectance);  // at grazing views
+        s.normalization = ggx_most(roughness) * most_bounced() * s.reflectance;
+    }
     s.normal_error = kNormalError;
     if (has(kStageNormalMap)) {
         // The three components are in [-1, 1], each off by twice its channel's error. The vector is no shorter than its z. Where z may be 0
@@ -242,7 +291,10 @@ double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, con
         if (light.cone_error > 0) codes += codes_of_edge(amplitude, 2.0, light.cone_error);
         matt += light.sum * scale;
     }
-    if (s.specular && has(kStageLights)) {
+    if (s.specular && material.ggx) {
+        codes += ggx_codes(s, light.sum);
+        shiny += s.reflectance * s.normalization * light.sum;
+    } else if (s.specular && has(kStageLights)) {
         const double turning = plan.specular == SpecularModel::phong ? 2.0 : 1.0, strength = s.normalization * light.sum;
         const double constant = 4.0 * s.roughness.relative, linear = 3e-7 + constant;  // roughness^4, in exponent and norm
         codes += codes_of_specular(s.reflectance * s.normalization * light.largest, light.count, constant, linear,
@@ -255,6 +307,8 @@ double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, con
         shiny += strength;
     }
     codes += codes_of(s.base_color, matt + s.metallic * std::max(0.0, shiny - matt));
+    codes += codes_of(s.scattered, s.albedo * matt);
+    codes += codes_of(s.dielectric, s.albedo * matt + shiny);
     codes += codes_of(s.matt, s.albedo * matt) + codes_of(s.shiny, shiny);
     codes += codes_of(s.emissive, exposure);
     return std::min(codes, 255.0);

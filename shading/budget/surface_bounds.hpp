@@ -21,6 +21,8 @@ struct Surface {
     double reflectance_at_least = 0;  ///< F0 of that colour
     double normal_error;
     Factor base_color, roughness, matt, shiny, occlusion, emissive;  ///< matt: 1 - metallic; shiny: F0, by the metallic texture's error
+    Factor dielectric;                                               ///< F0 where not metallic, by textures of its own
+    Factor scattered;                                                ///< share of the light that enters which does not pass through
     bool specular;
 
     [[nodiscard]] double cosine_error() const;  ///< of N.L

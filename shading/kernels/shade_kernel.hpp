@@ -13,7 +13,7 @@ HALFLIT_INLINE void shade_block(const shading::ShadingPlan& frame, const shading
                                 shading::FragmentBlock& block, int count) {
     ShadeRows rows;
     fetch_surfaces(material, block, count, true, rows);
-    const bool prelit = has(material, kStagePrelit), lit = (material.stages & (kStageLights | kStageAmbient)) != 0;
+    const bool prelit = has(material, kStagePrelit), lit = (material.stages & kSurfaceStages) != 0;
     if (lit && !prelit) add_light<kSpecular>(frame, material, lights, block, count, rows);
     for (int lane = 0; lane < count; lane += kWidth) {
         V3 color = load3(rows.base, lane);
@@ -31,6 +31,10 @@ HALFLIT_INLINE void shade_block(const shading::ShadingPlan& frame, const shading
         store(block.blue + lane, color.z);
         const bool blended = material.alpha_mode == AlphaMode::blend;
         store(block.alpha + lane, blended ? clamp(load(rows.alpha + lane), F(0.0f), F(1.0f)) : F(1.0f));
+    }
+    if (has(material, kStageTransmission)) {
+        if (prelit) fetch_transmission(material, block, count, rows);
+        keep_light_behind(material, rows, block, count, !prelit);
     }
 }
 

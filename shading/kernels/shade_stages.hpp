@@ -5,40 +5,20 @@
 
 #include "shading/kernels/cell_kernel.hpp"
 #include "shading/kernels/environment_kernel.hpp"
+#include "shading/kernels/ggx_kernel.hpp"
 #include "shading/kernels/highlight_sums.hpp"
 #include "shading/kernels/reflection_kernel.hpp"
 #include "shading/kernels/shade_kernels.hpp"
+#include "shading/kernels/shade_rows.hpp"
 #include "shading/kernels/sky_shadow_kernel.hpp"
+#include "shading/kernels/specular_color_kernel.hpp"
 #include "shading/kernels/surface_kernel.hpp"
+#include "shading/kernels/transmission_kernel.hpp"
 #include "shading/model/constants.hpp"
 #include "shading/model/formulas.hpp"
 
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
-
-/// Rows passed between the stages, one value a lane. Rows that the material does not need are not set.
-struct alignas(64) ShadeRows {
-    using Row = float[shading::kBlockSize];
-    using Row3 = Row[3];
-    Row3 base, emitted;
-    Row alpha;
-    Row3 texel;  ///< of the normal map
-    Row metallic, roughness, occlusion;
-    Row3 normal, surface, to_eye;      ///< unit: with the normal map, without it; towards the viewer
-    Row half_exponent, normalization;  ///< of highlights
-    Row3 diffuse, specular;            ///< light through the lobe, its scale included; highlights, before the reflectance
-    Row3 ambient, mirrored;            ///< light of the surroundings towards the normal and the reflected view, times occlusion
-    Row grazing;                       ///< (1 - N.V)^5; without an environment
-    Row share_a, share_b, share_more;  ///< sky_share's, with an environment
-};
-HALFLIT_INLINE V3 load3(const ShadeRows::Row3& rows, int lane) {
-    return {load(rows[0] + lane), load(rows[1] + lane), load(rows[2] + lane)};
-}
-HALFLIT_INLINE void store3(ShadeRows::Row3& rows, int lane, V3 v) {
-    store(rows[0] + lane, v.x);
-    store(rows[1] + lane, v.y);
-    store(rows[2] + lane, v.z);
-}
 
 HALFLIT_INLINE V3 lerp(V3 a, V3 b, F weight) { return a + (b - a) * weight; }
 
@@ -54,10 +34,13 @@ HALFLIT_INLINE V3 looked_up(const shading::ShadingPlan& frame, const shading::Fr
     return frame.shadow_offset ? position + row3(block, shading::kShadowX, lane) : position;
 }
 
+/// Stages that need a surface's direction and its metallic and rough parts.
+inline constexpr std::uint32_t kSurfaceStages = kStageLights | kStageAmbient | kStageTransmission;
+
 /// Base colour, emission and alpha; `needs_color` is false where only light is asked for.
 static void fetch_surfaces(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int count, bool needs_color,
                            ShadeRows& rows) {
-    const bool lit = (material.stages & (kStageLights | kStageAmbient)) != 0 && !has(material, kStagePrelit);
+    const bool lit = (material.stages & kSurfaceStages) != 0 && !has(material, kStagePrelit);
     for (int lane = 0; lane < count; lane += kWidth) {
         TexelTaps taps;
         if (needs_color) {
@@ -126,6 +109,15 @@ static void add_lights(const shading::ShadingPlan& frame, const shading::Materia
     }
 }
 
+/// Not inlined, like add_lights.
+[[gnu::noinline]] static void add_lights_by_ggx(const shading::ShadingPlan& frame, const shading::MaterialPlan& material,
+                                                shading::LightList lights, const shading::FragmentBlock& block, int count,
+                                                ShadeRows& rows) {
+    add_ggx_lights(
+        frame, material, lights, block, count, [&](int lane) __attribute__((always_inline)) { return looked_up(frame, block, lane); },
+        rows);
+}
+
 template <bool kSpecular>
 static void add_surroundings(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, int count, ShadeRows& rows) {
     const bool environment = has(material, kStageEnvironment);
@@ -188,10 +180,21 @@ template <bool kSpecular>
 HALFLIT_INLINE void add_light(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, shading::LightList lights,
                               const shading::FragmentBlock& block, int count, ShadeRows& rows) {
     find_directions<kSpecular>(frame, material, block, count, rows);
-    if (has(material, kStageLights)) add_lights<kSpecular>(frame, material, lights, block, count, rows);
-    if (!has(material, kStageAmbient)) return;
-    add_surroundings<kSpecular>(frame, material, count, rows);
-    if (!frame.sky.empty()) hide_sky<kSpecular>(frame, material, block, count, rows);
+    if (has(material, kStageLights)) {
+        if (kSpecular && material.ggx)
+            add_lights_by_ggx(frame, material, lights, block, count, rows);
+        else
+            add_lights<kSpecular>(frame, material, lights, block, count, rows);
+    }
+    if (has(material, kStageAmbient)) {
+        add_surroundings<kSpecular>(frame, material, count, rows);
+        if (!frame.sky.empty()) hide_sky<kSpecular>(frame, material, block, count, rows);
+    }
+    if (has(material, kStageSpecularColor)) fetch_specular_color(material, block, count, rows);
+    if (has(material, kStageTransmission)) {
+        fetch_transmission(material, block, count, rows);
+        dim_matt_light(material, count, rows);
+    }
 }
 
 /// Light that a surface of this base colour reflects to the eye.
@@ -199,6 +202,10 @@ template <bool kSpecular>
 HALFLIT_INLINE V3 reflected(const shading::MaterialPlan& material, const ShadeRows& rows, int lane, V3 base) {
     V3 albedo = base, f0{F(0.0f), F(0.0f), F(0.0f)};
     if constexpr (kSpecular) {
+        if (has(material, kStageSpecularColor)) {
+            reflect_colored(material, rows, lane, base, albedo);
+            return albedo;
+        }
         const F metallic = load(rows.metallic + lane);
         const F dielectric = F(material.dielectric) * (F(1.0f) - metallic);  // no difference that could cancel
         f0 = base * metallic + V3{dielectric, dielectric, dielectric};
@@ -207,7 +214,7 @@ HALFLIT_INLINE V3 reflected(const shading::MaterialPlan& material, const ShadeRo
     V3 color{F(0.0f), F(0.0f), F(0.0f)};
     if (has(material, kStageLights)) {
         color = albedo * load3(rows.diffuse, lane);
-        if constexpr (kSpecular) color = color + f0 * load3(rows.specular, lane);
+        if constexpr (kSpecular) color = color + (material.ggx ? ggx_reflected(rows, lane, f0, F(1.0f)) : f0 * load3(rows.specular, lane));
     }
     if constexpr (kSpecular) {
         if (has(material, kStageEnvironment)) {

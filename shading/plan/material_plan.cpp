@@ -1,5 +1,6 @@
 #include "shading/plan/material_plan.hpp"
 
+#include "sh/power.hpp"
 #include "shading/model/numbers.hpp"
 
 #include <algorithm>
@@ -19,18 +20,59 @@ SlotMask slots_of(const MaterialPlan& plan, bool lit) {
     add(kStageNormalMap, plan.normal_texture);
     add(kStageOcclusionTexture, plan.occlusion_texture);
     add(kStageEmissiveTexture, plan.emissive_texture);
+    for (const TexturePlan* texture : {&plan.specular_texture, &plan.specular_color_texture})
+        if (texture->data != nullptr) add(kStageSpecularColor, *texture);
+    for (const TexturePlan* texture : {&plan.transmission.texture, &plan.transmission.thickness_texture})
+        if (texture->data != nullptr) add(kStageTransmission, *texture);
     return slots;
 }
 
 /// Numbers the textures' taps: textures with the same taps get the same number.
 void number_taps(MaterialPlan& plan) {
-    TexturePlan* const textures[] = {&plan.base_color_texture, &plan.metallic_roughness_texture, &plan.normal_texture,
-                                     &plan.occlusion_texture, &plan.emissive_texture};
+    TexturePlan* const textures[] = {&plan.base_color_texture,
+                                     &plan.metallic_roughness_texture,
+                                     &plan.normal_texture,
+                                     &plan.occlusion_texture,
+                                     &plan.emissive_texture,
+                                     &plan.transmission.texture,
+                                     &plan.transmission.thickness_texture,
+                                     &plan.specular_texture,
+                                     &plan.specular_color_texture};
     std::int32_t number = 0;
     for (TexturePlan* const& texture : textures) {
         const auto* const same = std::find_if(
             textures, &texture, [&](const TexturePlan* earlier) { return earlier->data != nullptr && same_taps(*earlier, *texture); });
         texture->taps = same == &texture ? ++number : (*same)->taps;
+    }
+}
+
+/// Where not metallic: F0 by channel, and the weight. Leaves the largest F0 in `dielectric`, which bounds go by.
+void plan_specular_color(const Material& material, MaterialPlan& plan) {
+    const float color[] = {material.specular_color.x, material.specular_color.y, material.specular_color.z};
+    constexpr float kMost = 1e18f;
+    plan.specular_weight = clamp_or_low(material.specular, 0.0f, 1.0f);
+    float largest = 0.0f;
+    for (int c = 0; c < 3; ++c) {
+        plan.dielectric_color[c] = plan.dielectric * clamp_or_low(color[c], 0.0f, kMost);
+        largest = std::max(largest, plan.dielectric_color[c]);
+    }
+    plan.dielectric = std::min(largest, 1.0f) * plan.specular_weight;
+    plan.refracted = 1.0f - plan.dielectric;
+}
+
+/// Plans what is not a texture: Beer's law over the thickness, colour^(thickness / distance).
+void plan_transmission(const Transmission& material, TransmissionPlan& plan) {
+    plan.share = clamp_or_low(material.share, 0.0f, 1.0f);
+    const double ways = material.attenuation_distance > 0.0f && material.thickness > 0.0f
+                            ? static_cast<double>(material.thickness) / static_cast<double>(material.attenuation_distance)
+                            : 0.0;
+    const float color[] = {material.attenuation_color.x, material.attenuation_color.y, material.attenuation_color.z};
+    for (int c = 0; c < 3; ++c) {
+        constexpr double kDarkest = 1e-37, kAll = 1e30;
+        const auto held = static_cast<double>(clamp_or_low(color[c], 0.0f, 1.0f));
+        const double bits = ways > 0.0 ? std::min(kAll, held > kDarkest ? -log2_of(held) * ways : kAll) : 0.0;
+        plan.absorbed[c] = static_cast<float>(bits);
+        plan.passed[c] = static_cast<float>(exp2_of(-bits));
     }
 }
 
@@ -52,12 +94,13 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
     plan.alpha_cutoff = material.alpha_cutoff;
     plan.lobe = plan_lobe(lobe_of(material, options), plan.specular_tier);
 
-    const bool lit = !material.unlit && (kinds.lights || kinds.ambient);
+    const bool lit = (!material.unlit && (kinds.lights || kinds.ambient)) || material.transmits();
     plan.double_sided = material.double_sided && lit;
     if (material.unlit) plan.stages |= kStageUnlit;
     if (lit && kinds.lights) plan.stages |= kStageLights;
     if (lit && kinds.ambient) plan.stages |= kStageAmbient;
     if (lit && kinds.specular) plan.stages |= kStageSpecular;
+    plan.ggx = lit && kinds.lights && options.specular == SpecularModel::ggx;
     if (lit && options.rate != ShadingRate::pixel) plan.stages |= kStagePrelit;
 
     bool gradients = false;
@@ -76,6 +119,20 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
     use_texture(lit && kinds.ambient && plan.occlusion_strength > 0.0f, kStageOcclusionTexture, material.occlusion_texture,
                 plan.occlusion_texture);
     use_texture(!material.unlit && !zero(material.emissive), kStageEmissiveTexture, material.emissive_texture, plan.emissive_texture);
+    if (lit && kinds.specular && material.has_specular_color()) {
+        plan.stages |= kStageSpecularColor;
+        plan_specular_color(material, plan);
+        use_texture(true, kStageSpecularColor, material.specular_texture, plan.specular_texture);
+        use_texture(true, kStageSpecularColor, material.specular_color_texture, plan.specular_color_texture);
+    }
+    if (material.transmits()) {
+        plan.stages |= kStageTransmission;
+        plan_transmission(material.transmission, plan.transmission);
+        use_texture(true, kStageTransmission, material.transmission.texture, plan.transmission.texture);
+        const float(&absorbed)[3] = plan.transmission.absorbed;
+        use_texture(absorbed[0] + absorbed[1] + absorbed[2] > 0.0f, kStageTransmission, material.transmission.thickness_texture,
+                    plan.transmission.thickness_texture);
+    }
     if (gradients) plan.stages |= kStageGradients;
     if (base_color_seen && (available & kColorSlot) != 0) plan.stages |= kStageVertexColor;
     plan.occlusion_is_metallic_roughness = (plan.stages & kStageOcclusionTexture) != 0 &&

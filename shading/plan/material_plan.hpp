@@ -30,12 +30,22 @@ struct CellTolerance {
     float half_exponent = 0, peak = 0;  ///< of the widest highlight; normalisation of the sharpest
 };
 
+/// Transmission as planned; used with kStageTransmission.
+struct TransmissionPlan {
+    float share = 0;
+    float passed[3] = {1, 1, 1};    ///< share of light that is not absorbed, without a texture of thickness
+    float absorbed[3] = {0, 0, 0};  ///< -log2 of it where the texture of thickness is 1
+    TexturePlan texture, thickness_texture;
+};
+
 struct MaterialPlan {
     std::uint32_t stages = 0;  ///< bits of Stage; a block runs only these
     SlotMask slots = 0;        ///< vertex slots that raster interpolates
     float base_color[4] = {1, 1, 1, 1};
     float metallic = 0, roughness = 1;
-    float dielectric = 0.04f, refracted = 0.96f;  ///< F0 where not metallic; 1 - F0, which the matt part gets
+    float dielectric = 0.04f, refracted = 0.96f;        ///< F0 where not metallic; 1 - F0, which the matt part gets
+    float dielectric_color[3] = {0.04f, 0.04f, 0.04f};  ///< with kStageSpecularColor: F0 where not metallic, before its limit of 1
+    float specular_weight = 1;  ///< with kStageSpecularColor: factor of that, and of what is mirrored at grazing views
     float emissive[3] = {0, 0, 0};
     float normal_scale = 1, occlusion_strength = 1;
     AlphaMode alpha_mode = AlphaMode::opaque;
@@ -46,6 +56,7 @@ struct MaterialPlan {
     /// A light's highlight, before the reflectance, is left out where it is surely below this. 0: only where it is exactly 0.
     float specular_threshold = 0;
     SpecularCurve specular_curve;
+    bool ggx = false;  ///< highlights of lights are SpecularModel::ggx
     CellTolerance cells;
     /// 1 / d0, d0 in world units: a blocker at the distance d0 or more hides all wrapped light. 0: no fading; shadows cut wrapped light
     /// off.
@@ -57,6 +68,8 @@ struct MaterialPlan {
     int reflection_lobes = 0;                      ///< lobes by which the environment's reflections are taken, 0 to 2; 0: there are none
     bool occlusion_is_metallic_roughness = false;  ///< both read the same texels the same way: one fetch serves both
     TexturePlan base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;
+    TexturePlan specular_texture, specular_color_texture;
+    TransmissionPlan transmission;
 };
 
 /// Kinds of light in the frame, which decide what a material needs.

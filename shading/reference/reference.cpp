@@ -84,9 +84,12 @@ Rgba material_texture(const FrameInputs& frame, const TextureUse& use, SlotMask 
 
 struct Surface {
     Vec3d base, normal, albedo, f0, to_eye;
-    double roughness, occlusion;
-    Vec3d matt;         ///< base colour where not metallic
-    double dielectric;  ///< F0 there
+    double roughness, occlusion, metallic;
+    Vec3d matt;        ///< base colour where not metallic, and where light does not pass through
+    Vec3d dielectric;  ///< F0 there
+    double weight;     ///< factor of what is mirrored at grazing views there
+    [[nodiscard]] double largest_dielectric() const { return std::max({dielectric.x, dielectric.y, dielectric.z}); }
+    [[nodiscard]] double at_grazing() const { return metallic + (1 - metallic) * weight; }
 };
 
 /// Unit direction and attenuation of a light at a point.
@@ -119,8 +122,8 @@ Vec3d hemisphere(const Ambient& ambient, double up) {
     return ground + scale(sky - ground, 0.5 * (1.0 + up));
 }
 
-double environment_share(double f0, double roughness, double n_dot_v) {
-    return f0 + (std::max(1.0 - roughness, f0) - f0) * std::pow(1.0 - std::clamp(n_dot_v, 0.0, 1.0), 5.0);
+double environment_share(double f0, double weight, double roughness, double n_dot_v) {
+    return f0 + (std::max((1.0 - roughness) * weight, f0) - f0) * std::pow(1.0 - std::clamp(n_dot_v, 0.0, 1.0), 5.0);
 }
 
 Vec3d shading_normal(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane) {
@@ -149,22 +152,37 @@ Vec3d map_value(const ReflectionMap& map, int level, Vec3d d) {
     return upper + scale(lower - upper, y - j);
 }
 
+/// Values of kReflectionShapes at a roughness and a cosine N.V.
+class MirrorTable {
+public:
+    MirrorTable(double roughness, double n_dot_v) {
+        constexpr int kLast = kReflectionNodes - 1;
+        const double x = std::clamp(roughness, kHeldRoughness, 1.0) * kLast, held = std::clamp(n_dot_v, 0.0, 1.0),
+                     y = 1.2 * held / (held + 0.2) * kLast;
+        i_ = std::min(static_cast<int>(x), kLast - 1), j_ = std::min(static_cast<int>(y), kLast - 1);
+        down_ = x - i_, right_ = y - j_;
+    }
+    double operator()(float ReflectionShape::*member) const {
+        const auto node = [&](int down, int right) {
+            return double{kReflectionShapes[(i_ + down) * kReflectionNodes + j_ + right].*member};
+        };
+        const double left = node(0, 0) + down_ * (node(1, 0) - node(0, 0)), next = node(0, 1) + down_ * (node(1, 1) - node(0, 1));
+        return left + right_ * (next - left);
+    }
+
+private:
+    int i_, j_;
+    double down_, right_;
+};
+
 /// The environment as a rough mirror sees it: GGX's A and B, and the mean radiance over its lobes (shading/model/reflection_tables.hpp).
 struct Mirrored {
     double a, b;
     Vec3d radiance;
 };
 Mirrored mirrored_environment(const ReflectionMap& map, int lobes, const Surface& surface) {
-    constexpr int kLast = kReflectionNodes - 1;
     const double n_dot_v = dot(surface.normal, surface.to_eye);
-    const double x = std::clamp(surface.roughness, kHeldRoughness, 1.0) * kLast, held = std::clamp(n_dot_v, 0.0, 1.0),
-                 y = 1.2 * held / (held + 0.2) * kLast;
-    const int i = std::min(static_cast<int>(x), kLast - 1), j = std::min(static_cast<int>(y), kLast - 1);
-    const auto at = [&](float ReflectionShape::*member) {
-        const auto node = [&](int down, int right) { return double{kReflectionShapes[(i + down) * kReflectionNodes + j + right].*member}; };
-        const double left = node(0, 0) + (x - i) * (node(1, 0) - node(0, 0)), next = node(0, 1) + (x - i) * (node(1, 1) - node(0, 1));
-        return left + (y - j) * (next - left);
-    };
+    const MirrorTable at(surface.roughness, n_dot_v);
     const Vec3d reflection = scale(surface.normal, 2 * n_dot_v) - surface.to_eye;
     const auto blurred = [&](double turn, double level) {
         const Vec3d d = reflection + scale(surface.normal - scale(reflection, n_dot_v), turn);
@@ -211,6 +229,23 @@ SkySeen sky_seen(const FrameInputs& frame, const Lobe& lobe, const Surface& surf
     return {{seen(hidden.x, total.x), seen(hidden.y, total.y), seen(hidden.z, total.z)}, seen(mirrored_hidden, mirrored)};
 }
 
+/// GGX's highlight of a directional light of colour 1, by the textbook's formulas: pi D V (N.L) F and light that bounces between facets.
+Vec3d ggx_highlight(const Surface& surface, Vec3d to_light) {
+    const double n_dot_l = dot(surface.normal, to_light), n_dot_v = std::clamp(dot(surface.normal, surface.to_eye), 0.0, 1.0);
+    const Vec3d both = to_light + surface.to_eye, half = unit(both);
+    if (!(n_dot_l > 0) || !(dot(surface.normal, both) > double{kLeastHalfVector})) return {};
+    const double roughness = std::max(surface.roughness, kHeldRoughness), a2 = std::pow(roughness, 4.0);
+    const Vec3d sine = cross(surface.normal, half);
+    const double n_dot_h = dot(surface.normal, half), d = dot(sine, sine) + a2 * n_dot_h * n_dot_h;
+    const auto root = [&](double x) { return std::sqrt(x * x * (1 - a2) + a2); };
+    const double masking = 0.5 / (n_dot_l * root(n_dot_v) + n_dot_v * root(n_dot_l));
+    const double value = a2 / (d * d) * masking * n_dot_l, schlick = std::pow(1 - std::min(dot(surface.to_eye, half), 1.0), 5.0);
+    const MirrorTable at(roughness, n_dot_v);
+    const double more = 1.0 / (at(&ReflectionShape::a) + at(&ReflectionShape::b)) - 1.0;
+    const auto channel = [&](double f0) { return value * (f0 * (1 - schlick) + surface.at_grazing() * schlick) * (1 + f0 * more); };
+    return {channel(surface.f0.x), channel(surface.f0.y), channel(surface.f0.z)};
+}
+
 Vec3d lit(const FrameInputs& frame, const Material& material, const Surface& surface, Vec3d position, const Surroundings& around) {
     const bool specular = frame.options.specular != SpecularModel::none;
     const Lobe& lobe = lobe_of(material, frame.options);
@@ -232,7 +267,9 @@ Vec3d lit(const FrameInputs& frame, const Material& material, const Surface& sur
         else
             for (const SunPatch& patch : sun->patches) through_lobe = through_lobe + scale(patch.light, lobe_at(patch.direction));
         Vec3d reflected = surface.albedo * through_lobe;
-        if (specular && n_dot_l > 0) {
+        if (frame.options.specular == SpecularModel::ggx) {
+            reflected = reflected + color * scale(ggx_highlight(surface, at.direction), 1.0 - hidden.hard);
+        } else if (specular && n_dot_l > 0) {
             const bool phong = frame.options.specular == SpecularModel::phong;
             const Vec3d reflection = scale(surface.normal, 2 * n_dot_l) - at.direction;
             const double cosine = phong ? dot(surface.to_eye, unit(reflection)) : dot(surface.normal, unit(at.direction + surface.to_eye));
@@ -251,17 +288,22 @@ Vec3d lit(const FrameInputs& frame, const Material& material, const Surface& sur
     Vec3d ambient = surface.albedo * (environment ? around.diffuse->at(surface.normal) : hemisphere(frame.ambient, surface.normal.y));
     if (specular && environment) {
         const Mirrored mirrored = mirrored_environment(*around.reflections, around.reflection_lobes, surface);
-        const auto share = [&](double f0) {
+        const auto share = [&](double f0, double weight) {
             const double more = 1.0 / (mirrored.a + mirrored.b) - 1.0;
-            return (mirrored.a * f0 + mirrored.b) * (1.0 + f0 * more);
+            return (mirrored.a * f0 + mirrored.b * weight) * (1.0 + f0 * more);
         };
-        ambient = scale(surface.matt * around.diffuse->at(surface.normal), 1.0 - share(surface.dielectric)) * diffuse_seen +
-                  scale(Vec3d{share(surface.f0.x), share(surface.f0.y), share(surface.f0.z)} * mirrored.radiance, mirrored_seen);
+        const double end = surface.at_grazing();
+        ambient =
+            scale(surface.matt * around.diffuse->at(surface.normal), 1.0 - share(surface.largest_dielectric(), surface.weight)) *
+                diffuse_seen +
+            scale(Vec3d{share(surface.f0.x, end), share(surface.f0.y, end), share(surface.f0.z, end)} * mirrored.radiance, mirrored_seen);
     } else if (specular) {
         const double n_dot_v = dot(surface.normal, surface.to_eye), roughness = std::max(surface.roughness, kHeldRoughness);
         const Vec3d reflection = scale(surface.normal, 2 * n_dot_v) - surface.to_eye;
-        const Vec3d share{environment_share(surface.f0.x, roughness, n_dot_v), environment_share(surface.f0.y, roughness, n_dot_v),
-                          environment_share(surface.f0.z, roughness, n_dot_v)};
+        const double end = surface.at_grazing();
+        const Vec3d share{environment_share(surface.f0.x, end, roughness, n_dot_v),
+                          environment_share(surface.f0.y, end, roughness, n_dot_v),
+                          environment_share(surface.f0.z, end, roughness, n_dot_v)};
         ambient = ambient * diffuse_seen + scale(share * hemisphere(frame.ambient, reflection.y), mirrored_seen);
     } else {
         ambient = ambient * diffuse_seen;
@@ -310,37 +352,104 @@ double level_of_detail(const Texture& texture, const TextureUse& use, const Frag
     return std::log2(right > down ? right : down);
 }
 
-Rgba shade(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
-           const Surroundings& around) {
-    const Rgba white{1, 1, 1, 1};
-    Rgba base = material_texture(frame, material.base_color_texture, available, block, lane, white);
+namespace {
+
+Rgba base_color(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane) {
+    Rgba base = material_texture(frame, material.base_color_texture, available, block, lane, {1, 1, 1, 1});
     base = {base.r * material.base_color.x, base.g * material.base_color.y, base.b * material.base_color.z, base.a * material.base_color.w};
     if ((available & 8u) != 0)
         base = {base.r * block.lane[kColorR][lane], base.g * block.lane[kColorG][lane], base.b * block.lane[kColorB][lane],
                 base.a * block.lane[kColorA][lane]};
-    const double alpha = material.alpha_mode == AlphaMode::blend ? std::clamp(base.a, 0.0, 1.0) : 1.0;
-    if (material.unlit) return {base.r, base.g, base.b, alpha};
+    return base;
+}
 
+double alpha_of(const Material& material, double alpha) {
+    const double held = std::clamp(alpha, 0.0, 1.0);
+    if (material.alpha_mode == AlphaMode::blend) return held;
+    if (material.alpha_mode == AlphaMode::mask && material.transmits()) return held >= double{material.alpha_cutoff} ? 1.0 : 0.0;
+    return 1.0;
+}
+
+/// Share of the light that enters the surface which passes through it.
+double transmitted(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane) {
+    if (!material.transmits()) return 0.0;
+    return std::clamp(double{material.transmission.share}, 0.0, 1.0) *
+           material_texture(frame, material.transmission.texture, available, block, lane, {1, 1, 1, 1}).r;
+}
+
+Surface surface_of(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane) {
+    const Rgba white{1, 1, 1, 1}, base = base_color(frame, material, available, block, lane);
     const Rgba mr = material_texture(frame, material.metallic_roughness_texture, available, block, lane, white);
     const Rgba occlusion = material_texture(frame, material.occlusion_texture, available, block, lane, white);
-    const Rgba glow = material_texture(frame, material.emissive_texture, available, block, lane, white);
-    const Vec3d position = row3(block, kPosX, lane);
     Surface surface{};
     surface.base = {base.r, base.g, base.b};
     surface.normal = shading_normal(frame, material, available, block, lane);
     surface.roughness = material.roughness * mr.g;
     surface.occlusion = 1.0 + double{material.occlusion_strength} * (occlusion.r - 1.0);
+    const Vec3d position = row3(block, kPosX, lane);
     surface.to_eye = frame.orthographic ? scale(to_double(frame.view_direction_ws), -1) : unit(to_double(frame.eye_ws) - position);
-    surface.albedo = surface.base;
+    const double scattered = 1.0 - transmitted(frame, material, available, block, lane);
+    surface.albedo = scale(surface.base, scattered);
     if (frame.options.specular != SpecularModel::none) {
-        const double metallic = material.metallic * mr.b, dielectric = std::clamp(double{material.dielectric_reflectance}, 0.0, 1.0);
-        surface.matt = scale(surface.base, 1 - metallic);
-        surface.dielectric = dielectric;
-        surface.albedo = scale(surface.matt, 1 - dielectric);
-        surface.f0 = scale(surface.base, metallic) + scale({1, 1, 1}, dielectric * (1 - metallic));
+        const double dielectric = std::clamp(double{material.dielectric_reflectance}, 0.0, 1.0);
+        surface.metallic = material.metallic * mr.b;
+        surface.matt = scale(surface.base, (1 - surface.metallic) * scattered);
+        const Rgba color = material_texture(frame, material.specular_color_texture, available, block, lane, white);
+        surface.weight = std::clamp(double{material.specular}, 0.0, 1.0) *
+                         material_texture(frame, material.specular_texture, available, block, lane, white).a;
+        const auto channel = [&](float factor, double texture) {
+            return std::min(1.0, dielectric * std::max(0.0, double{factor}) * texture) * surface.weight;
+        };
+        surface.dielectric = {channel(material.specular_color.x, color.r), channel(material.specular_color.y, color.g),
+                              channel(material.specular_color.z, color.b)};
+        surface.albedo = scale(surface.matt, 1 - surface.largest_dielectric());
+        surface.f0 = scale(surface.base, surface.metallic) + scale(surface.dielectric, 1 - surface.metallic);
     }
-    const Vec3d color = lit(frame, material, surface, position, around) + to_double(material.emissive) * Vec3d{glow.r, glow.g, glow.b};
+    return surface;
+}
+
+}  // namespace
+
+Rgba shade(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
+           const Surroundings& around) {
+    const Rgba base = base_color(frame, material, available, block, lane);
+    const double alpha = alpha_of(material, base.a);
+    if (material.unlit) return {base.r, base.g, base.b, alpha};
+    const Surface surface = surface_of(frame, material, available, block, lane);
+    const Rgba glow = material_texture(frame, material.emissive_texture, available, block, lane, {1, 1, 1, 1});
+    const Vec3d color =
+        lit(frame, material, surface, row3(block, kPosX, lane), around) + to_double(material.emissive) * Vec3d{glow.r, glow.g, glow.b};
     return {color.x, color.y, color.z, alpha};
+}
+
+Vec3d kept(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
+           const Surroundings& around) {
+    const double alpha = alpha_of(material, base_color(frame, material, available, block, lane).a);
+    const Surface surface = surface_of(frame, material, available, block, lane);
+    double mirrored = 0.0;
+    if (frame.options.specular != SpecularModel::none) {
+        const double n_dot_v = dot(surface.normal, surface.to_eye), f0 = surface.largest_dielectric();
+        if (around.diffuse != nullptr) {
+            const MirrorTable at(surface.roughness, n_dot_v);
+            const double a = at(&ReflectionShape::a), b = at(&ReflectionShape::b);
+            mirrored = (a * f0 + b * surface.weight) * (1.0 + f0 * (1.0 / (a + b) - 1.0));
+        } else {
+            mirrored = environment_share(f0, surface.weight, std::max(surface.roughness, kHeldRoughness), n_dot_v);
+        }
+    }
+    const Transmission& inside = material.transmission;
+    const double thickness =
+        double{inside.thickness} * material_texture(frame, inside.thickness_texture, available, block, lane, {1, 1, 1, 1}).g;
+    const bool front = !material.double_sided || block.lane[kFacing][lane] > 0.0f;
+    const double share = transmitted(frame, material, available, block, lane) * (1 - mirrored) * (1 - surface.metallic);
+    const auto channel = [&](double base, float color) {
+        const double passed = front && inside.attenuation_distance > 0.0f && inside.thickness > 0.0f
+                                  ? std::pow(double{color}, thickness / double{inside.attenuation_distance})
+                                  : 1.0;
+        return std::clamp(1 - alpha + alpha * share * base * passed, 0.0, 1.0);
+    };
+    return {channel(surface.base.x, inside.attenuation_color.x), channel(surface.base.y, inside.attenuation_color.y),
+            channel(surface.base.z, inside.attenuation_color.z)};
 }
 
 double srgb_code(double linear) {

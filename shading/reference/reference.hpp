@@ -69,6 +69,10 @@ struct Surroundings {
 [[nodiscard]] Rgba shade(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
                          const Surroundings& around = {});
 
+/// Shares of the light from behind that a lane keeps, in red, green and blue; of materials that transmit.
+[[nodiscard]] Vec3d kept(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
+                         const Surroundings& around = {});
+
 /// The sRGB curve times 255, not rounded; x is clamped to [0, 1].
 [[nodiscard]] double srgb_code(double linear);
 

@@ -33,7 +33,7 @@ ShadingSettings read_shading(Input& input) {
     ShadingSettings shading;
     shading.rate = input.one_in(2) ? one_of<ShadingRate>(input, 3) : ShadingRate::pixel;
     if (input.one_in(3)) shading.lobe = read_lobe(input);
-    shading.specular = one_of<SpecularModel>(input, 3);
+    shading.specular = one_of<SpecularModel>(input, 4);
     shading.normalize_specular = input.flag();
     shading.environment_bands = static_cast<int>(input.below(11));
     shading.accuracy = one_of<Accuracy>(input, 2);

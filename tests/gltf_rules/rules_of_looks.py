@@ -90,6 +90,17 @@ values("KHR_materials_ior", M + ".extensions.KHR_materials_ior.ior", [0, 1, 1.5,
        with_also=lambda s: s.json["extensionsUsed"].append("KHR_materials_ior"))
 values("KHR_materials_unlit", M + ".extensions.KHR_materials_unlit", [{}], [5, "yes"],
        with_also=lambda s: s.json["extensionsUsed"].append("KHR_materials_unlit"))
+for name, key, good, bad in [("transmission", "transmissionFactor", [0, 0.5, 1], [-1, 2, "1", None]),
+                             ("volume", "thicknessFactor", [0, 1e3], [-1, "1"]),
+                             ("volume", "attenuationDistance", [1e-3, 1e6], [0, -1, "1"]),
+                             ("specular", "specularFactor", [0, 1], [-1, 2, "1"]),
+                             ("specular", "specularColorFactor", [[0, 1, 7]], [[0, 1], [-1, 1, 1], 5]),
+                             ("pbrSpecularGlossiness", "diffuseFactor", [[0, 0.5, 1, 1]], [[0, 1, 1], [0, 1, 2, 1], 5]),
+                             ("pbrSpecularGlossiness", "specularFactor", [[0, 0.5, 1]], [[0, 1], [0, 1, 2], 5]),
+                             ("pbrSpecularGlossiness", "glossinessFactor", [0, 1], [-1, 2, "1"]),
+                             ("volume", "attenuationColor", [[0, 0.5, 1]], [[0, 1], [0, 1, 2], 5, ["1", 1, 1]])]:
+    values("KHR_materials_" + name, M + ".extensions.KHR_materials_" + name + "." + key, good, bad,
+           with_also=lambda s, n="KHR_materials_" + name: s.json["extensionsUsed"].append(n))
 T = PBR + ".baseColorTexture.extensions.KHR_texture_transform"
 for key in ("offset", "scale"):
     values("KHR_texture_transform", T + "." + key, [[0, 0], [-1, 2]], [[1], [1, 1, 1], 5, ["1", "1"], {}], see=T + "." + key)
@@ -99,9 +110,9 @@ values("KHR_texture_transform", T, [{}], [5, []])
 
 # ---- extensions that are not drawn are said, once --------------------------------------------------------------------------------------
 SIMPLE = "KHR_materials_"
-for name in [SIMPLE + n for n in ("clearcoat", "transmission", "volume", "sheen", "anisotropy", "iridescence", "specular",
+for name in [SIMPLE + n for n in ("clearcoat", "sheen", "anisotropy", "iridescence",
                                   "variants", "dispersion",
-                                  "pbrSpecularGlossiness", "diffuse_transmission")] + [
+                                  "diffuse_transmission")] + [
         "KHR_draco_mesh_compression", "EXT_meshopt_compression", "EXT_mesh_gpu_instancing", "KHR_texture_basisu", "EXT_texture_webp",
         "EXT_texture_avif",
         "MSFT_texture_dds", "KHR_animation_pointer", "KHR_xmp_json_ld", "EXT_lights_image_based", "MSFT_lod", "VENDOR_unheard_of"]:

@@ -1,3 +1,4 @@
+#include "apps/io/detail/gltf_materials.hpp"
 #include "tests/io/png_maker.hpp"
 
 #include <fmt/core.h>
@@ -36,6 +37,38 @@ Vec2f apply(const TextureUse& use, Vec2f uv) {
 }
 
 }  // namespace
+
+TEST_CASE("materials: transmission and absorption are read", "[io]") {
+    const Bytes one = plain_png(1, 1, 9, 9, 9),
+                file = with_material(
+                    R"("extensions":{"KHR_materials_transmission":{"transmissionFactor":0.75,"transmissionTexture":{"index":0}},)"
+                    R"("KHR_materials_volume":{"thicknessFactor":0.5,"attenuationDistance":3,"attenuationColor":[0.1,0.2,0.3],)"
+                    R"("thicknessTexture":{"index":0,"texCoord":1}}})",
+                    {one});
+    const Transmission inside = material_of(file).transmission;
+    CHECK(inside.share == 0.75f);
+    CHECK(inside.thickness == Approx(0.5f));
+    CHECK(inside.attenuation_distance == 3.0f);
+    CHECK(inside.attenuation_color == Vec3f{0.1f, 0.2f, 0.3f});
+    CHECK(inside.texture.texture == 0);
+    CHECK(inside.thickness_texture.texture == 0);
+    CHECK(inside.thickness_texture.uv_set == 1);
+    CHECK(material_of(with_material("")).transmission.share == 0.0f);
+}
+
+TEST_CASE("materials: thickness is taken to world space by the scale of the first instance", "[io]") {
+    Scene scene;
+    scene.materials.resize(2);
+    for (Material& material : scene.materials) material.transmission.thickness = 0.5f;
+    scene.meshes.resize(3);
+    scene.meshes[0].material = 1, scene.meshes[1].material = 1;
+    Instance first{0, {}}, second{1, {}};
+    first.world_from_object.c[0].x = -2, first.world_from_object.c[1].y = 4, first.world_from_object.c[2].z = 8;  // mirrored, mean 4
+    scene.instances = {first, second, {2, {}}};
+    io::detail::scale_thickness(scene);
+    CHECK(scene.materials[0].transmission.thickness == 0.5f);
+    CHECK(scene.materials[1].transmission.thickness == Approx(2.0f));
+}
 
 TEST_CASE("materials: factors, alpha mode and sides are read", "[io]") {
     const Material plain = material_of(with_material(""));

@@ -121,7 +121,7 @@ inline Settings random_settings(Random& random) {
     // Otherwise it comes from the size of the largest object, which is another one where a mesh is split.
     settings.shadow_fade = 0.75f;
     settings.shadow_terminator_offset = random.chance(0.3);
-    settings.shading.specular = static_cast<SpecularModel>(random.index(3));
+    settings.shading.specular = static_cast<SpecularModel>(random.index(4));
     if (random.chance(0.3)) settings.shading.rate = static_cast<ShadingRate>(random.index(3));
     return settings;
 }

@@ -99,8 +99,7 @@ struct Nearest {
 
 Model of_boxes(const char* name, const EnvironmentImage& sky, std::vector<Box> boxes, Camera camera) {
     Model model{name, white_scene(sky), std::move(camera), {}};
-    for (const Box& box : boxes)
-        add(model.scene, make_box(to_float((box.high - box.low) * 0.5)), to_float((box.high + box.low) * 0.5));
+    for (const Box& box : boxes) add(model.scene, make_box(to_float((box.high - box.low) * 0.5)), to_float((box.high + box.low) * 0.5));
     model.first = [boxes = std::move(boxes)](Vec3d from, Vec3d d) {
         Nearest nearest;
         for (const Box& box : boxes) nearest.add_box(box, from, d);
@@ -116,12 +115,12 @@ Model box_on_plane(const EnvironmentImage& sky) {
 
 Model niche(const EnvironmentImage& sky) {
     return of_boxes("a niche", sky,
-                    {{{-1.2, -1.2, -1.2}, {1.2, -1, 1}},     // floor
-                     {{-1.2, 1, -1.2}, {1.2, 1.2, 1}},       // ceiling
-                     {{-1.2, -1, -1.2}, {-1, 1, 1}},         // left
-                     {{1, -1, -1.2}, {1.2, 1, 1}},           // right
-                     {{-1, -1, -1.2}, {1, 1, -1}},           // back
-                     {{-0.6, -1, -0.6}, {0, 0.2, 0}},        // two blocks in it
+                    {{{-1.2, -1.2, -1.2}, {1.2, -1, 1}},  // floor
+                     {{-1.2, 1, -1.2}, {1.2, 1.2, 1}},    // ceiling
+                     {{-1.2, -1, -1.2}, {-1, 1, 1}},      // left
+                     {{1, -1, -1.2}, {1.2, 1, 1}},        // right
+                     {{-1, -1, -1.2}, {1, 1, -1}},        // back
+                     {{-0.6, -1, -0.6}, {0, 0.2, 0}},     // two blocks in it
                      {{0.2, -1, -0.1}, {0.7, -0.4, 0.4}}},
                     looking({0.3f, 0.2f, 4.5f}, {0, 0, 0}));
 }
@@ -229,7 +228,8 @@ EnvironmentImage uneven_sky() {
 
 }  // namespace
 
-TEST_CASE("sky shadows: the light of rays in 4,096 directions, within five codes on average, and two with 256 maps", "[raster][sky-shadows]") {
+TEST_CASE("sky shadows: the light of rays in 4,096 directions, within five codes on average, and two with 256 maps",
+          "[raster][sky-shadows]") {
     for (const bool studio : {false, true}) {
         const EnvironmentImage sky = studio ? studio_image() : uneven_sky();
         for (const auto& make : {box_on_plane, niche, ball_in_bowl}) {
@@ -256,7 +256,8 @@ TEST_CASE("sky shadows: what nothing hides keeps its bits", "[raster][sky-shadow
     CHECK(draw(model, 64) == draw(model, 0));
 }
 
-TEST_CASE("sky shadows: a closed room is black inside, with highlights and wrapped light, under a sky and ambient light", "[raster][sky-shadows]") {
+TEST_CASE("sky shadows: a closed room is black inside, with highlights and wrapped light, under a sky and ambient light",
+          "[raster][sky-shadows]") {
     for (const bool ambient : {false, true})
         for (const float wrap : {0.0f, 0.5f}) {
             Scene scene = white_scene(uneven_sky());

@@ -32,6 +32,13 @@ void roughen_vectors(FloatMaker& make, FragmentBlock& block) {
     }
 }
 
+/// What a lane keeps of the light behind has the same bits; of materials that transmit.
+bool same_keep(const MaterialPlan& material, const FragmentBlock& a, const FragmentBlock& b, int lane) {
+    if ((material.stages & kStageTransmission) == 0) return true;
+    return same_bits(a.keep[0][lane], b.keep[0][lane]) && same_bits(a.keep[1][lane], b.keep[1][lane]) &&
+           same_bits(a.keep[2][lane], b.keep[2][lane]);
+}
+
 /// Counts over a run of random cases.
 struct Agreement {
     std::int64_t fragments = 0;  ///< each compared on every set
@@ -75,7 +82,7 @@ Agreement compare_case(std::uint32_t number, const std::vector<Isa>& isas) {
             for (int lane = 0; lane < count; ++lane) {
                 if (same_bits(want.red[lane], got.red[lane]) && same_bits(want.green[lane], got.green[lane]) &&
                     same_bits(want.blue[lane], got.blue[lane]) && same_bits(want.alpha[lane], got.alpha[lane]) &&
-                    same_bits(want_alpha.alpha[lane], got_alpha.alpha[lane]))
+                    same_bits(want_alpha.alpha[lane], got_alpha.alpha[lane]) && same_keep(material, want, got, lane))
                     continue;
                 ++seen.differing;
                 if (!seen.first.empty()) continue;
@@ -110,7 +117,7 @@ void check_cases(int case_count) {
     INFO(all.fragments << " fragments, " << all.nan_fragments << " with NaN; " << all.first);
     CHECK(all.differing == 0);
     // All stages that materials and lights alone can bring into a plan.
-    CHECK(all.stages_seen == 2u * kStageGradients - 1u);
+    CHECK(all.stages_seen == (2u * kStageGradients - 1u | kStageTransmission | kStageSpecularColor));
     CHECK(all.fragments > std::int64_t{case_count} * kBlocksPerCase * kBlockSize / 2);
     CHECK(all.nan_fragments > all.fragments / 1000);
     CHECK(all.nan_fragments < all.fragments / 2);

@@ -17,12 +17,11 @@ TEST_CASE("kernels: shade agrees with the float64 reference for every kind of sc
     // which is no error of the arithmetic. sampling_test covers those.
     FloatMaker make(31);
     double worst = 0, sum = 0;
-    int compared = 0;
+    int compared = 0, kept = 0;
     for (int round = 0; round < 400; ++round) {
         Case c = make_case(make, true);
         Material& material = c.materials[0];
-        for (TextureUse* use : {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
-                                &material.occlusion_texture, &material.emissive_texture}) {
+        for (TextureUse* use : texture_uses(material)) {
             use->sampler.mag = use->sampler.min = TextureFilter::linear;
             if (use->sampler.mip == MipFilter::nearest) use->sampler.mip = MipFilter::linear;
         }
@@ -49,10 +48,19 @@ TEST_CASE("kernels: shade agrees with the float64 reference for every kind of sc
                 if (!(error <= bound)) CHECK(got[channel] == Approx(expected[channel]));
                 worst = std::max(worst, error), sum += error, ++compared;
             }
+            if (!material.transmits()) continue;
+            const Vec3d keep = reference::kept(frame, material, c.available[0], block, lane);
+            for (const auto& [kernel, truth] :
+                 {std::pair{block.keep[0][lane], keep.x}, {block.keep[1][lane], keep.y}, {block.keep[2][lane], keep.z}}) {
+                INFO("round " << round << ", lane " << lane << ", stages " << c.plan.materials[0].stages);
+                if (!(std::fabs(double{kernel} - truth) <= 2e-6)) CHECK(kernel == Approx(truth));
+                ++kept;
+            }
         }
     }
     INFO("worst " << worst << ", mean " << sum / compared);
     CHECK(compared > 90000);
+    CHECK(kept > 10000);
     CHECK(sum / compared <= 2e-7);
 }
 

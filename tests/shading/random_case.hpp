@@ -91,6 +91,20 @@ inline Material make_material(FloatMaker& make) {
         if (make.below(2) == 0) *use = make_use(make);
     if (make.below(3) == 0) material.occlusion_texture = material.metallic_roughness_texture;
     if (make.below(2) == 0) material.dielectric_reflectance = make.ordinary(0, 1);
+    if (make.below(3) == 0) {
+        material.specular = make.ordinary(0, 1);
+        if (make.below(2) == 0) material.specular_color = {make.ordinary(0, 2), make.ordinary(0, 2), make.ordinary(0, 40)};
+        for (TextureUse* use : {&material.specular_texture, &material.specular_color_texture})
+            if (make.below(2) == 0) *use = make_use(make);
+    }
+    if (make.below(3) == 0) {
+        Transmission& inside = material.transmission;
+        inside.share = make.ordinary(0, 1);
+        if (make.below(2) == 0) inside.thickness = make.ordinary(0, 2), inside.attenuation_distance = make.ordinary(0, 2);
+        inside.attenuation_color = {make.ordinary(0, 1), make.ordinary(0, 1), make.below(2) == 0 ? 0.0f : 1.0f};
+        for (TextureUse* use : {&inside.texture, &inside.thickness_texture})
+            if (make.below(2) == 0) *use = make_use(make);
+    }
     return material;
 }
 
@@ -157,7 +171,7 @@ inline Case make_case(FloatMaker& make, bool smooth_textures) {
     for (std::uint32_t i = 0; i < light_count; ++i) c.lights.push_back(make_light(make));
     if (make.below(2) == 0)
         c.ambient = {{make.ordinary(0, 1), make.ordinary(0, 1), make.ordinary(0, 1)}, {0.2f, make.ordinary(0, 1), 0.0f}};
-    c.options.specular = static_cast<SpecularModel>(make.below(3));
+    c.options.specular = static_cast<SpecularModel>(make.below(4));
     c.options.normalize_specular = make.below(4) != 0;
     const bool override_lobe = make.below(4) == 0;
     if (const Lobe lobe = make_lobe(make); override_lobe) c.options.lobe = lobe;

@@ -18,6 +18,11 @@ bool is_drawn(std::string_view attribute) {
 
 bool is_of_skin(std::string_view attribute) { return attribute.starts_with("JOINTS_") || attribute.starts_with("WEIGHTS_"); }
 
+const MaterialExtensions& File::extensions_of(const Material& material) const {
+    static const MaterialExtensions kNone;
+    return material.extended < 0 ? kNone : extended[static_cast<std::size_t>(material.extended)];
+}
+
 bool File::uses(std::string_view extension) const {
     const auto holds = [&](const auto& list) { return std::find(list.begin(), list.end(), extension) != list.end(); };
     return holds(extensions_used) || holds(extensions_required);

@@ -138,6 +138,21 @@ struct OwnLobe {
     LobeParameters parameters;
 };
 
+/// Extensions that few materials have.
+struct MaterialExtensions {
+    double transmission_factor = 0;                         ///< KHR_materials_transmission
+    double thickness_factor = 0, attenuation_distance = 0;  ///< KHR_materials_volume; distance 0: infinite
+    std::vector<double> attenuation_color;                  ///< 3, or empty
+    TexturePlace transmission_texture, thickness_texture;
+    double specular_factor = 1;  ///< KHR_materials_specular
+    std::vector<double> specular_color_factor;
+    TexturePlace specular_texture, specular_color_texture;
+    bool specular_glossiness = false;  ///< KHR_materials_pbrSpecularGlossiness, which replaces the metallic-roughness parameters
+    std::vector<double> diffuse_factor, glossy_specular_factor;  ///< 4 and 3, or empty
+    double glossiness_factor = 1;
+    TexturePlace diffuse_texture, specular_glossiness_texture;
+};
+
 struct Material {
     std::string_view name;
     std::string_view alpha_mode = "OPAQUE";
@@ -149,6 +164,7 @@ struct Material {
     bool unlit = false;  ///< KHR_materials_unlit
     TexturePlace base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;
     std::optional<OwnLobe> own_lobe;
+    int extended = -1;  ///< into File::extended; -1: none of those extensions
 };
 
 struct Scene {
@@ -174,11 +190,14 @@ struct File {
     std::vector<Sampler> samplers;
     std::vector<Texture> textures;
     std::vector<Material> materials;
+    std::vector<MaterialExtensions> extended;
     std::vector<Scene> scenes;
     int scene = -1;
     std::size_t animations = 0, primitives = 0, morph_targets = 0;
     std::deque<std::string> texts;  ///< strings that had escapes, decoded; all others point into the JSON text
 
+    /// Extensions of a material, or their defaults.
+    [[nodiscard]] const MaterialExtensions& extensions_of(const Material& material) const;
     [[nodiscard]] bool uses(std::string_view extension) const;
 };
 

@@ -2,7 +2,9 @@
 
 #include "apps/io/lobe_name.hpp"
 #include "apps/io/text.hpp"
+#include "sh/power.hpp"
 #include "sh/trig.hpp"
+#include "sh/vec3d.hpp"
 
 #include <fmt/format.h>
 
@@ -81,6 +83,7 @@ public:
 
     Material make(std::size_t index, bool used) {
         const file::Material& source = document_.file.materials[index];
+        const file::MaterialExtensions& more = document_.file.extensions_of(source);
         where_ = fmt::format("materials[{}]", index);
         Material material;
         material.name = source.name;
@@ -104,20 +107,50 @@ public:
         material.alpha_cutoff = static_cast<float>(std::clamp(source.alpha_cutoff, 0.0, 1e6));
         material.double_sided = source.double_sided;
         material.unlit = source.unlit;
+        material.transmission = transmission(more);
+        material.specular = clamp01(more.specular_factor);
+        const auto specular = [&](std::size_t c) {
+            return static_cast<float>(std::max(0.0, number_at(more.specular_color_factor, c, 1.0)));
+        };
+        material.specular_color = {specular(0), specular(1), specular(2)};
         if (source.own_lobe) own_lobe(*source.own_lobe, material, used);
         if (used) {
-            material.base_color_texture = use(source.base_color_texture, "pbrMetallicRoughness.baseColorTexture", ColorSpace::srgb);
+            if (more.specular_glossiness) {
+                constexpr const char* kWhere = "extensions.KHR_materials_pbrSpecularGlossiness.";
+                material.base_color_texture = use(more.diffuse_texture, fmt::format("{}diffuseTexture", kWhere), ColorSpace::srgb);
+                material.metallic_roughness_texture =
+                    use(more.specular_glossiness_texture, fmt::format("{}specularGlossinessTexture", kWhere), ColorSpace::srgb);
+            } else {
+                material.base_color_texture = use(source.base_color_texture, "pbrMetallicRoughness.baseColorTexture", ColorSpace::srgb);
+                material.metallic_roughness_texture =
+                    use(source.metallic_roughness_texture, "pbrMetallicRoughness.metallicRoughnessTexture", ColorSpace::linear);
+            }
+            material.specular_texture = use(more.specular_texture, "extensions.KHR_materials_specular.specularTexture", ColorSpace::linear);
+            material.specular_color_texture =
+                use(more.specular_color_texture, "extensions.KHR_materials_specular.specularColorTexture", ColorSpace::srgb);
             material.emissive_texture = use(source.emissive_texture, "emissiveTexture", ColorSpace::srgb);
-            material.metallic_roughness_texture =
-                use(source.metallic_roughness_texture, "pbrMetallicRoughness.metallicRoughnessTexture", ColorSpace::linear);
             material.normal_texture = use(source.normal_texture, "normalTexture", ColorSpace::linear);
             material.occlusion_texture = use(source.occlusion_texture, "occlusionTexture", ColorSpace::linear);
+            material.transmission.texture =
+                use(more.transmission_texture, "extensions.KHR_materials_transmission.transmissionTexture", ColorSpace::linear);
+            material.transmission.thickness_texture =
+                use(more.thickness_texture, "extensions.KHR_materials_volume.thicknessTexture", ColorSpace::linear);
         }
         return material;
     }
 
 private:
-    TextureUse use(const file::TexturePlace& info, const char* key, ColorSpace space) {
+    static Transmission transmission(const file::MaterialExtensions& source) {
+        Transmission transmission;
+        transmission.share = clamp01(source.transmission_factor);
+        transmission.thickness = static_cast<float>(std::clamp(source.thickness_factor, 0.0, 1e18));
+        transmission.attenuation_distance = static_cast<float>(std::clamp(source.attenuation_distance, 0.0, 1e18));
+        const auto color = [&](std::size_t c) { return clamp01(number_at(source.attenuation_color, c, 1.0)); };
+        transmission.attenuation_color = {color(0), color(1), color(2)};
+        return transmission;
+    }
+
+    TextureUse use(const file::TexturePlace& info, std::string_view key, ColorSpace space) {
         TextureUse use;
         if (info.index < 0) return use;
         const file::Texture& texture = document_.file.textures[static_cast<std::size_t>(info.index)];
@@ -161,6 +194,20 @@ std::vector<Material> make_materials(Document& document, ImageStore& images, con
     materials.reserve(document.file.materials.size());
     for (std::size_t i = 0; i < document.file.materials.size(); ++i) materials.push_back(maker.make(i, used[i]));
     return materials;
+}
+
+void scale_thickness(Scene& scene) {
+    std::vector<bool> done(scene.materials.size(), false);
+    for (const Instance& instance : scene.instances) {
+        const int index = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
+        if (index < 0 || done[static_cast<std::size_t>(index)]) continue;
+        done[static_cast<std::size_t>(index)] = true;
+        float& thickness = scene.materials[static_cast<std::size_t>(index)].transmission.thickness;
+        const Mat4& m = instance.world_from_object;
+        const auto column = [&](int c) { return Vec3d{m.c[c].x, m.c[c].y, m.c[c].z}; };
+        const double volume = dot(column(0), cross(column(1), column(2)));
+        thickness = static_cast<float>(std::min(1e18, static_cast<double>(thickness) * power_of(volume < 0 ? -volume : volume, 1.0 / 3)));
+    }
 }
 
 }  // namespace halflit::io::detail

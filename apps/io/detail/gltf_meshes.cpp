@@ -142,7 +142,11 @@ private:
             {&material.metallic_roughness_texture, "pbrMetallicRoughness.metallicRoughnessTexture"},
             {&material.normal_texture, "normalTexture"},
             {&material.occlusion_texture, "occlusionTexture"},
-            {&material.emissive_texture, "emissiveTexture"}};
+            {&material.emissive_texture, "emissiveTexture"},
+            {&material.specular_texture, "extensions.KHR_materials_specular.specularTexture"},
+            {&material.specular_color_texture, "extensions.KHR_materials_specular.specularColorTexture"},
+            {&material.transmission.texture, "extensions.KHR_materials_transmission.transmissionTexture"},
+            {&material.transmission.thickness_texture, "extensions.KHR_materials_volume.thicknessTexture"}};
         for (const auto& [use, key] : places)
             if (use->used() && (use->uv_set == 1 ? read.mesh.uv1 : read.mesh.uv0).empty() && !document_.warnings_are_full())
                 document_.warn(fmt::format("materials[{}].{}: {} has no TEXCOORD_{}, {}", read.mesh.material, key, read.where, use->uv_set,

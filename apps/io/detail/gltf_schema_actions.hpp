@@ -123,6 +123,26 @@ void begin_place(F f, V) {
     f.place = &(f.file.materials.back().*Member);
 }
 
+/// Extensions of the material that is being read.
+inline file::MaterialExtensions& extended(F f) {
+    file::Material& material = f.file.materials.back();
+    if (material.extended < 0) {
+        f.append(f.file.extended);
+        material.extended = static_cast<int>(f.file.extended.size() - 1);
+    }
+    return f.file.extended.back();
+}
+
+template <auto Member>
+void put_extended(F f, V value) {
+    assign(f, extended(f).*Member, value);
+}
+
+template <auto Member>
+void begin_extended_place(F f, V) {
+    f.place = &(extended(f).*Member);
+}
+
 template <auto Member>
 void put_place(F f, V value) {
     assign(f, f.place->*Member, value);

@@ -71,8 +71,11 @@ private:
         accessor(primitive.indices);
         if (!mark(Target::materials, primitive.material)) return;
         const file::Material& m = file_.materials[static_cast<std::size_t>(primitive.material)];
+        const file::MaterialExtensions& more = file_.extensions_of(m);
         for (const file::TexturePlace* place :
-             {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.occlusion_texture, &m.emissive_texture})
+             {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.occlusion_texture, &m.emissive_texture,
+              &more.transmission_texture, &more.thickness_texture, &more.specular_texture, &more.specular_color_texture,
+              &more.diffuse_texture, &more.specular_glossiness_texture})
             texture(place->index);
     }
 

@@ -5,6 +5,7 @@
 #include "halflit/math.hpp"
 #include "halflit/texture.hpp"
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -15,6 +16,18 @@ enum class AlphaMode : std::uint8_t {
     opaque,  ///< none: alpha counts as 1
     mask,    ///< drawn where alpha >= alpha_cutoff, opaque there
     blend    ///< drawn over what is behind; each sample blends its layers by their depths, of one depth in the order of the scene
+};
+
+/// Light that passes through a surface without being scattered or refracted, tinted by the base colour and by what absorbs it on its way:
+/// KHR_materials_transmission, and KHR_materials_volume without refraction. A surface that transmits is drawn as a transparent layer, and
+/// casts no shadow, whatever its alpha mode.
+struct Transmission {
+    float share = 0;                   ///< of the light that enters the surface, in [0, 1], times the texture's; the rest is matt
+    float thickness = 0;               ///< way that light goes inside, world units, from 0, times the texture's
+    float attenuation_distance = 0;    ///< way after which white light has the colour below, world units; 0: nothing is absorbed
+    Vec3f attenuation_color{1, 1, 1};  ///< linear, in [0, 1]
+    TextureUse texture;                ///< linear: R
+    TextureUse thickness_texture;      ///< linear: G
 };
 
 /// A surface. The defaults are glTF's: white, metallic and rough.
@@ -33,11 +46,33 @@ struct Material {
     Lobe lobe;                                 ///< diffuse lobe
     bool has_own_lobe = false;                 ///< the file chose the lobe; a setting for all materials does not replace it
 
+    float specular = 1;             ///< KHR_materials_specular: factor of what is mirrored where not metallic, in [0, 1]
+    Vec3f specular_color{1, 1, 1};  ///< linear, from 0: factor of F0 there, which is at most 1
+    Transmission transmission;      ///< light from behind that passes through
+    /// True if F0 where not metallic is more than one number.
+    [[nodiscard]] bool has_specular_color() const {
+        return specular != 1.0f || specular_color != Vec3f{1, 1, 1} || specular_texture.used() || specular_color_texture.used();
+    }
+    /// True if light passes through.
+    [[nodiscard]] bool transmits() const { return transmission.share > 0.0f && !unlit; }
+    /// True if the surface is drawn over what is behind it.
+    [[nodiscard]] bool is_layer() const { return alpha_mode == AlphaMode::blend || transmits(); }
+
     TextureUse base_color_texture;          ///< sRGB, alpha linear
     TextureUse metallic_roughness_texture;  ///< linear: G roughness, B metallic
     TextureUse normal_texture;              ///< linear: tangent space, (2c - 1) * (scale, scale, 1)
     TextureUse occlusion_texture;           ///< linear: R
     TextureUse emissive_texture;            ///< sRGB
+    TextureUse specular_texture;            ///< linear: A, times `specular`
+    TextureUse specular_color_texture;      ///< sRGB, times `specular_color`
 };
+
+/// Every place of a material where a texture may be used. `material` may be const.
+template <class AnyMaterial>
+[[nodiscard]] constexpr auto texture_uses(AnyMaterial& material) {
+    return std::array{&material.base_color_texture,     &material.metallic_roughness_texture, &material.normal_texture,
+                      &material.occlusion_texture,      &material.emissive_texture,           &material.specular_texture,
+                      &material.specular_color_texture, &material.transmission.texture,       &material.transmission.thickness_texture};
+}
 
 }  // namespace halflit

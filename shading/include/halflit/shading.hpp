@@ -38,8 +38,8 @@ enum class ShadowMode : std::uint8_t {
 };
 
 /// Shape of the highlight. Phong uses the mirrored light, Blinn the half vector. Blinn's exponent is four times Phong's, which gives the
-/// same width.
-enum class SpecularModel : std::uint8_t { none, phong, blinn };
+/// same width. ggx is the model by which environments are mirrored: a longer tail, and Fresnel's rise towards grazing views.
+enum class SpecularModel : std::uint8_t { none, phong, blinn, ggx };
 
 /// Upper limit of the texture filters.
 enum class TextureDetail : std::uint8_t {
@@ -60,8 +60,9 @@ struct ShadingSettings {
     ShadingRate rate = ShadingRate::pixel;          ///< how often light is evaluated
     std::optional<Lobe> lobe;                       ///< replaces the lobe of all materials but those with Material::has_own_lobe
     SpecularModel specular = SpecularModel::blinn;  ///< none: no specular stage, albedo is the base colour itself
-    bool normalize_specular = true;  ///< sharper highlights are brighter, for the same light in all; off: a peak of 1 for every exponent
-    int environment_bands = 0;       ///< of spherical harmonics, 1..10; 0: the fewest whose error is within environment_tolerance
+    /// Sharper highlights are brighter, for the same light in all; off: a peak of 1 for every exponent. ggx always is.
+    bool normalize_specular = true;
+    int environment_bands = 0;  ///< of spherical harmonics, 1..10; 0: the fewest whose error is within environment_tolerance
     double environment_tolerance = 1.0 / 510.0;  ///< relative to display white, in linear light; the default is half an 8-bit code
     Accuracy accuracy = Accuracy::exact;         ///< exact if there is an error budget
     /// An error budget in 8-bit codes. 0: `accuracy` decides. Above 0: the cheapest way whose proven bound is below this (ErrorBound), for
@@ -93,10 +94,12 @@ enum Stage : std::uint32_t {
     kStageSpecular = 1u << 7,
     kStageAmbient = 1u << 8,
     kStageUnlit = 1u << 9,
-    kStageGradients = 1u << 10,    ///< some texture's level or filter depends on how fast its coordinates change
-    kStagePrelit = 1u << 11,       ///< the fragments bring their light: a shading rate below one a pixel
-    kStageEnvironment = 1u << 12,  ///< the ambient light is an environment's, in spherical harmonics
-    kStageCount = 13
+    kStageGradients = 1u << 10,      ///< some texture's level or filter depends on how fast its coordinates change
+    kStagePrelit = 1u << 11,         ///< the fragments bring their light: a shading rate below one a pixel
+    kStageEnvironment = 1u << 12,    ///< the ambient light is an environment's, in spherical harmonics
+    kStageTransmission = 1u << 13,   ///< light from behind passes through the surface
+    kStageSpecularColor = 1u << 14,  ///< where not metallic, F0 has a colour, a weight or textures of its own
+    kStageCount = 15
 };
 
 }  // namespace halflit

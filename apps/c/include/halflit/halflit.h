@@ -168,6 +168,16 @@ typedef struct halflit_material {
     halflit_texture_use occlusion_texture;           ///< linear: red
     halflit_texture_use emissive_texture;            ///< sRGB
     float dielectric_reflectance;                    ///< where not metallic: light mirrored straight on, 0 to 1; default 0.04
+    float transmission;          ///< share of light from behind that passes through, 0 to 1, times the texture's; above 0: a layer
+    float thickness;             ///< way of that light inside, in world units, times the texture's
+    float attenuation_distance;  ///< way after which white light has attenuation_color, in world units; 0: nothing is absorbed
+    float attenuation_color[3];  ///< 0 to 1
+    halflit_texture_use transmission_texture;    ///< linear: red
+    halflit_texture_use thickness_texture;       ///< linear: green
+    float specular;                              ///< factor of what is mirrored where not metallic, 0 to 1
+    float specular_color[3];                     ///< factor of the light mirrored straight on there, from 0
+    halflit_texture_use specular_texture;        ///< linear: alpha, times specular
+    halflit_texture_use specular_color_texture;  ///< sRGB, times specular_color
     int32_t reserved;
 } halflit_material;
 HALFLIT_C_API int32_t halflit_material_init(halflit_material* material, size_t size);
@@ -308,7 +318,7 @@ enum { HALFLIT_RATE_FLAT = 0, HALFLIT_RATE_GOURAUD = 1, HALFLIT_RATE_PIXEL = 2 }
 /// Upper limits of the texture filters: the sampler's own; one mip level; one texel of it.
 enum { HALFLIT_DETAIL_FULL = 0, HALFLIT_DETAIL_BILINEAR = 1, HALFLIT_DETAIL_NEAREST = 2 };
 /// Shapes of highlights: none; by the mirrored light; by the half vector.
-enum { HALFLIT_SPECULAR_NONE = 0, HALFLIT_SPECULAR_PHONG = 1, HALFLIT_SPECULAR_BLINN = 2 };
+enum { HALFLIT_SPECULAR_NONE = 0, HALFLIT_SPECULAR_PHONG = 1, HALFLIT_SPECULAR_BLINN = 2, HALFLIT_SPECULAR_GGX = 3 };
 /// Effects of a shadow on light past the terminator: none; a step; a soft end.
 enum { HALFLIT_SHADOWS_OFF = 0, HALFLIT_SHADOWS_HARD = 1, HALFLIT_SHADOWS_SOFT_SPLIT = 2 };
 

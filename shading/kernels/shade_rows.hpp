@@ -1,0 +1,40 @@
+// Rows passed between the stages of shading a block.
+#pragma once
+
+#include "shading/fragment_block.hpp"
+#include "shading/kernels/vector.hpp"
+
+namespace halflit {
+inline namespace HALFLIT_ISA_NAMESPACE {
+
+/// Rows passed between the stages, one value a lane. Rows that the material does not need are not set.
+struct alignas(64) ShadeRows {
+    using Row = float[shading::kBlockSize];
+    using Row3 = Row[3];
+    Row3 base, emitted;
+    Row alpha;
+    Row3 texel;  ///< of the normal map
+    Row metallic, roughness, occlusion;
+    Row3 normal, surface, to_eye;      ///< unit: with the normal map, without it; towards the viewer
+    Row half_exponent, normalization;  ///< of highlights
+    Row3 diffuse, specular;            ///< light through the lobe, its scale included; highlights, before the reflectance
+    Row3 specular_grazing;             ///< of GGX: highlights times (1 - V.H)^5; `specular` has them times the rest
+    Row3 ambient, mirrored;            ///< light of the surroundings towards the normal and the reflected view, times occlusion
+    Row grazing;                       ///< (1 - N.V)^5; without an environment
+    Row share_a, share_b, share_more;  ///< sky_share's, with an environment
+    Row3 dielectric;                   ///< F0 where not metallic; with kStageSpecularColor
+    Row specular_weight;               ///< factor of what is mirrored at grazing views there; with kStageSpecularColor
+    Row transmitted;                   ///< share of the light that enters the surface which passes through; of materials that transmit
+    Row3 passed;                       ///< share of that light which is not absorbed
+};
+HALFLIT_INLINE V3 load3(const ShadeRows::Row3& rows, int lane) {
+    return {load(rows[0] + lane), load(rows[1] + lane), load(rows[2] + lane)};
+}
+HALFLIT_INLINE void store3(ShadeRows::Row3& rows, int lane, V3 v) {
+    store(rows[0] + lane, v.x);
+    store(rows[1] + lane, v.y);
+    store(rows[2] + lane, v.z);
+}
+
+}  // namespace HALFLIT_ISA_NAMESPACE
+}  // namespace halflit
