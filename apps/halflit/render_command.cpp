@@ -75,8 +75,8 @@ Result<void> spare_inputs(RenderCommandOptions& options, const RenderJob& job) {
 void warn_of_lost_transparency(const RenderCommandOptions& options, OutputFormat format) {
     const Settings& settings = options.settings;
     const bool transparent = settings.background_linear.w < 1.0f && !settings.background_environment;
-    if (transparent && (format == OutputFormat::jpg || format == OutputFormat::hdr))
-        print_warning(options.output + ": this format has no transparency; the picture is shown over black (.png .bmp .tga keep it)");
+    if (transparent && (format == OutputFormat::jpg || format == OutputFormat::hdr || format == OutputFormat::pfm))
+        print_warning(options.output + ": this format has no transparency; the picture is shown over black (.png .bmp .tga .exr keep it)");
 }
 
 /// Shows the progress of a drawing that takes longer than half a second.
@@ -245,8 +245,8 @@ Command render_command() {
     groups.push_back(
         {"Output",
          {{"-o,--output", "FILE",
-           "A .png, .jpg, .bmp, .tga or .hdr file; - for PNG on standard output; FOLDER/ for one picture of each scene (default: "
-           "SCENE's name.png)",
+           "A .png, .jpg, .bmp or .tga file, or linear floats as .exr, .pfm or .hdr; - for PNG on standard output; FOLDER/ for one "
+           "picture of each scene (default: SCENE's name.png)",
            read_path(o.output)},
           {"--report", "FILE.json|-", "Write size, hash, times and counts as JSON; on failure, the error", read_path(o.report)}}});
     Positional scene = scene_argument(o, false);

@@ -291,7 +291,7 @@ HALFLIT_C_API int32_t halflit_environment_options_init(halflit_environment_optio
 /// quarters of the width along +x. options may be null: the defaults. Takes about 0.2 s for 1024 x 512 pixels.
 HALFLIT_C_API int32_t halflit_scene_set_environment(halflit_scene* scene, const float* rgb, int32_t width, int32_t height,
                                                     const halflit_environment_options* options);
-/// The same from a Radiance file (.hdr).
+/// The same from a file (.hdr, .pfm or .exr).
 HALFLIT_C_API int32_t halflit_scene_load_environment(halflit_scene* scene, const char* path, const halflit_environment_options* options);
 /// The same by a built-in clear day.
 HALFLIT_C_API int32_t halflit_scene_set_sky(halflit_scene* scene, const halflit_environment_options* options);
@@ -448,8 +448,8 @@ HALFLIT_C_API int32_t halflit_renderer_get_warning(const halflit_renderer* rende
 
 /// 64-bit hash of bytes, XXH64 with seed 0: the identity of a picture whose rows have no gaps. Null counts as no bytes.
 HALFLIT_C_API uint64_t halflit_pixel_hash(const void* bytes, size_t count);
-/// Writes the target's pixels, width x height of them, into a file: .png, .bmp, .tga or .jpg from 8-bit formats, .hdr from floats. The file
-/// is either old or new, never half written. "-" is PNG on standard output. Fails (usage) for a target with region_alone.
+/// Writes the target's pixels, width x height of them, into a file: .png, .bmp, .tga or .jpg from 8-bit formats, .hdr, .pfm or .exr from
+/// floats. The file is either old or new, never half written. "-" is PNG on standard output. Fails (usage) for a target with region_alone.
 HALFLIT_C_API int32_t halflit_write_image(const char* path, const halflit_target* target);
 
 #ifdef __cplusplus
