@@ -411,6 +411,16 @@ typedef struct halflit_target {
     int32_t width, height;      ///< pixels, of the whole picture: what the camera sees
     int32_t format;             ///< HALFLIT_FORMAT, of `pixels`
     int32_t region_alone;       ///< the memory holds halflit_settings.region alone, not the whole picture
+    float* shading_normal;  ///< 3 floats a pixel: unit normal with the normal map, world space; 0 where nothing is, as in all that follow
+    size_t shading_normal_row_bytes;  ///< stride
+    float* albedo;                    ///< 3 floats a pixel: base colour, linear
+    size_t albedo_row_bytes;          ///< stride
+    float* position;                  ///< 3 floats a pixel, world space
+    size_t position_row_bytes;        ///< stride
+    uint32_t* lights;                 ///< lights whose range and cone the surface is in; 0 on unlit materials
+    size_t lights_row_bytes;          ///< stride
+    float* coverage;                  ///< share of the samples that an opaque or masked surface covers
+    size_t coverage_row_bytes;        ///< stride
 } halflit_target;
 HALFLIT_C_API int32_t halflit_target_init(halflit_target* target, size_t size);
 
