@@ -20,8 +20,8 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfIO.h>
 #include <ImfInputFile.h>
+#include <ImfIO.h>
 #include <ImfOutputFile.h>
 #endif
 
@@ -82,17 +82,19 @@ private:
     std::size_t at_ = 0;
 };
 
-/// Names of the red, green and blue channel; empty: there are none.
+/// Names of the red, green and blue channel; all the same for grey.
 Result<std::array<std::string, 3>> colour_channels(const Imf::ChannelList& list) {
     const bool rgb = list.findChannel("R") != nullptr && list.findChannel("G") != nullptr && list.findChannel("B") != nullptr;
-    const bool grey = list.findChannel("Y") != nullptr && list.findChannel("RY") == nullptr && list.findChannel("BY") == nullptr;
+    auto second = list.begin();
+    if (second != list.end()) ++second;
+    const bool grey = !rgb && list.begin() != list.end() && second == list.end();
     std::array<std::string, 3> names{"R", "G", "B"};
-    if (!rgb && grey) names = {"Y", "Y", "Y"};
+    if (grey) names.fill(list.begin().name());
     if (!rgb && !grey) {
         std::string found;
         for (auto channel = list.begin(); channel != list.end() && found.size() < 60; ++channel)
             found += std::string(found.empty() ? "" : " ") + channel.name();
-        return fail(ErrorCode::bad_input, fmt::format("expected the channels R G B, or Y, found {}", printable(found, 80)));
+        return fail(ErrorCode::bad_input, fmt::format("expected the channels R G B, or one alone, found {}", printable(found, 80)));
     }
     for (const std::string& name : names)
         if (const Imf::Channel& channel = *list.findChannel(name); channel.xSampling != 1 || channel.ySampling != 1)

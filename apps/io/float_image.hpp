@@ -26,7 +26,8 @@ inline constexpr float kLargestLight = 1e30f;
 [[nodiscard]] bool is_float_image(std::span<const std::byte> file);
 
 /// Decodes the format that the first bytes tell; others fail as a Radiance picture. Errors: bad_input for broken files, limit above
-/// `limits`, which is checked on the header; usage for an EXR file where the library is built without OpenEXR. Messages have no file prefix.
+/// `limits`, which is checked on the header; usage for an EXR file where the library is built without OpenEXR. Messages have no file
+/// prefix.
 [[nodiscard]] Result<FloatImage> decode_float_image(std::span<const std::byte> file, const FloatImageLimits& limits = {});
 
 /// Fails above the limits.
