@@ -73,11 +73,11 @@ std::string triangle_at(float x, float z) {
 
 TEST_CASE("aov: files beside the picture show a sphere as its formula does", "[cli]") {
     const TemporaryFolder folder;
-    const Outcome outcome = run({"render", "sphere:200000", "--size", "101x101", "--samples", "1", "--camera-position", "0,0,5", "--camera-target", "0,0,0",
-                                 "--aov", kAll, "-o", folder.file("s.png"), "--report", "-"});
+    const Outcome outcome = run({"render", "sphere:200000", "--size", "101x101", "--samples", "1", "--camera-position", "0,0,5",
+                                 "--camera-target", "0,0,0", "--aov", kAll, "-o", folder.file("s.png"), "--report", "-"});
     REQUIRE(outcome.code == 0);
-    CHECK(folder.names() == std::vector<std::string>{"s.albedo" + kFloats, "s.coverage.png", "s.depth" + kFloats, "s.id.png", "s.lights.png",
-                                                     "s.normal" + kFloats, "s.png", "s.position" + kFloats});
+    CHECK(folder.names() == std::vector<std::string>{"s.albedo" + kFloats, "s.coverage.png", "s.depth" + kFloats, "s.id.png",
+                                                     "s.lights.png", "s.normal" + kFloats, "s.png", "s.position" + kFloats});
     const auto report = nlohmann::json::parse(outcome.out);
     CHECK(report["aov"].size() == 7);
     CHECK(report["aov"]["id"] == folder.file("s.id.png"));

@@ -63,7 +63,9 @@ struct Planes {
         return {plane[3 * i], plane[3 * i + 1], plane[3 * i + 2]};
     }
     bool operator==(const Planes& o) const {
-        const auto same = [](const auto& a, const auto& b) { return a.size() == b.size() && std::memcmp(a.data(), b.data(), 4 * a.size()) == 0; };
+        const auto same = [](const auto& a, const auto& b) {
+            return a.size() == b.size() && std::memcmp(a.data(), b.data(), 4 * a.size()) == 0;
+        };
         return same(normal, o.normal) && same(albedo, o.albedo) && same(position, o.position) && same(coverage, o.coverage) &&
                same(lights, o.lights);
     }
