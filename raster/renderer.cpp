@@ -60,9 +60,10 @@ struct Renderer::Impl {
     ShadowMaps shadow_maps;
     ViewGeometry geometry;
     VertexRecords records;
-    /// For the plane of normals: shading needs them of some materials only, and keeps light in their place at a rate below one a pixel.
-    VertexRecords normals;
-    std::vector<shading::MaterialPlan> normal_materials;
+    /// For the planes of surfaces: shading needs their attributes of some materials only, and keeps light in their place at a rate below
+    /// one a pixel.
+    VertexRecords surface;
+    std::vector<shading::MaterialPlan> surface_materials;
     ReferenceShading reference;
     Pool<TileScratch> scratch;
 
@@ -79,13 +80,20 @@ struct Renderer::Impl {
         return {};
     }
 
-    void make_normals(const PreparedData& scene, const RasterKernels& kernels) {
-        normal_materials.assign(scene.drawn_materials().size(), {});
-        for (std::size_t i = 0; i < normal_materials.size(); ++i) {
-            normal_materials[i].slots = shading::kBaseSlots;
-            normal_materials[i].double_sided = scene.material(i).double_sided;
+    /// of_materials: base colours and normal maps are read too, whatever light there is.
+    void make_surface(const PreparedData& scene, const RasterKernels& kernels, bool of_materials) {
+        ShadingSettings options = plan.options;
+        options.rate = ShadingRate::pixel;
+        surface_materials.assign(scene.drawn_materials().size(), {});
+        for (std::size_t i = 0; i < surface_materials.size(); ++i) {
+            shading::MaterialPlan& material = surface_materials[i];
+            if (of_materials)
+                material = shading::plan_material(scene.material(i), scene.scene().textures, scene.available_slots()[i], {.lights = true},
+                                                  options);
+            material.slots |= shading::kBaseSlots;
+            material.double_sided = scene.material(i).double_sided;
         }
-        normals.make(geometry, normal_materials, kernels, executor);
+        surface.make(geometry, surface_materials, kernels, executor);
     }
 
     TileCounts draw_tiles(const PicturePass& pass, const Execution& execution) {
@@ -135,15 +143,16 @@ struct Renderer::Impl {
 
         records.make(geometry, plan.shading.materials, raster, executor);
         if (plan.options.rate == ShadingRate::gouraud) report.work = light_vertices(geometry, records, plan.shading, shade, executor);
-        if (target.normal != nullptr) make_normals(scene, raster);
+        const Output output(target, plan.written);
+        if (output.has_surface()) make_surface(scene, raster, output.has_material());
         report.ms.transform += watch.lap();
 
-        const TilePass normals_pass{geometry, normals, normal_materials, raster, shade, executor.stop()};
+        const TilePass surface_pass{geometry, surface, surface_materials, raster, shade, executor.stop()};
         const PicturePass pass{{geometry, records, plan.shading.materials, raster, shade, executor.stop(), plan.shading.shadow_offset},
                                plan,
-                               Output(target, plan.written),
+                               output,
                                by_reference ? &reference : nullptr,
-                               target.normal != nullptr ? &normals_pass : nullptr};
+                               output.has_surface() ? &surface_pass : nullptr};
         const TileCounts tiles = draw_tiles(pass, execution);
         report.ms.tiles = watch.lap();
 
@@ -189,7 +198,7 @@ void Renderer::forget_frames() {
     impl_->shadow_maps.forget();
     impl_->geometry.forget();
     impl_->records.changed();
-    impl_->normals.changed();
+    impl_->surface.changed();
 }
 
 namespace {

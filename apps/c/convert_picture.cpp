@@ -22,7 +22,7 @@ HALFLIT_ENDS_WITH(halflit_environment_options, reserved);
 HALFLIT_ENDS_WITH(halflit_camera, reserved);
 HALFLIT_ENDS_WITH(halflit_settings, reserved);
 HALFLIT_ENDS_WITH(halflit_execution, memory_limit);
-HALFLIT_ENDS_WITH(halflit_target, region_alone);
+HALFLIT_ENDS_WITH(halflit_target, coverage_row_bytes);
 HALFLIT_ENDS_WITH(halflit_report, reserved);
 #undef HALFLIT_ENDS_WITH
 
@@ -223,6 +223,16 @@ Target target(const halflit_target& given) {
     target.instance_row_bytes = given.instance_row_bytes;
     target.triangle = given.triangle;
     target.triangle_row_bytes = given.triangle_row_bytes;
+    target.shading_normal = given.shading_normal;
+    target.shading_normal_row_bytes = given.shading_normal_row_bytes;
+    target.albedo = given.albedo;
+    target.albedo_row_bytes = given.albedo_row_bytes;
+    target.position = given.position;
+    target.position_row_bytes = given.position_row_bytes;
+    target.lights = given.lights;
+    target.lights_row_bytes = given.lights_row_bytes;
+    target.coverage = given.coverage;
+    target.coverage_row_bytes = given.coverage_row_bytes;
     return target;
 }
 

@@ -9,6 +9,7 @@ namespace halflit::cli {
 [[nodiscard]] Command bench_command();
 [[nodiscard]] Command info_command();
 [[nodiscard]] Command diff_command();
+[[nodiscard]] Command sheet_command();
 [[nodiscard]] Command golden_command();
 [[nodiscard]] Command lobe_command();
 [[nodiscard]] Command env_command();

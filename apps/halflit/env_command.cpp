@@ -148,7 +148,7 @@ Command env_command() {
     return {"env",
             "Describe an environment: its bands of spherical harmonics, its suns, and how many bands it needs",
             {{.name = "ENVIRONMENT",
-              .help = "A Radiance picture (.hdr), or sky or studio for the built-in ones",
+              .help = "A picture of floats (.hdr .exr .pfm), or sky or studio for the built-in ones",
               .read = read_text(o.name),
               .required = true,
               .form = "FILE|sky|studio"}},

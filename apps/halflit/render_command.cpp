@@ -1,4 +1,5 @@
 // halflit render: draws a scene into a picture.
+#include "apps/halflit/aov.hpp"
 #include "apps/halflit/commands.hpp"
 #include "apps/halflit/file_names.hpp"
 #include "apps/halflit/heap.hpp"
@@ -31,6 +32,14 @@ struct RenderCommandOptions : RenderOptions {
     std::vector<std::string> words;  ///< scenes, and the picture as the last of several
     std::string output;              ///< empty: named after the scene
     std::string report;              ///< empty: none
+    std::vector<Aov> aovs;
+
+    /// The picture, and the files beside it.
+    [[nodiscard]] std::vector<std::string> pictures() const {
+        std::vector<std::string> paths{output};
+        for (const Aov aov : aovs) paths.push_back(aov_path(output, aov));
+        return paths;
+    }
 };
 
 /// The scene's name without folder and extension, as a PNG in the current folder.
@@ -42,10 +51,14 @@ std::string default_output(const std::string& scene) {
 
 /// Refuses output paths that would overwrite the scene, the environment or each other.
 Result<void> check_paths(const RenderCommandOptions& options) {
-    if (!options.report.empty() &&
-        (options.report == options.output || (options.report != "-" && same_file(options.report, options.output))))
-        return fail(ErrorCode::usage, "--report: expected another file than the picture's, found '" + options.report + "'");
-    for (const std::string& path : {options.output, options.report}) {
+    if (!options.aovs.empty() && options.output == "-")
+        return fail(ErrorCode::usage, "--aov: expected a picture with a name, which its files take, found -");
+    std::vector<std::string> paths = options.pictures();
+    for (const std::string& path : paths)
+        if (!options.report.empty() && (options.report == path || (options.report != "-" && same_file(options.report, path))))
+            return fail(ErrorCode::usage, "--report: expected another file than the picture's, found '" + options.report + "'");
+    paths.push_back(options.report);
+    for (const std::string& path : paths) {
         if (path == "-" || path.empty()) continue;
         if (!options.scene.empty() && same_file(path, options.scene))
             return fail(ErrorCode::io, path + ": is the scene itself and is not overwritten");
@@ -62,11 +75,13 @@ Result<void> check_paths(const RenderCommandOptions& options) {
 /// written at all: its path is cleared.
 Result<void> spare_inputs(RenderCommandOptions& options, const RenderJob& job) {
     if (!job.source.file) return {};
-    for (std::string* const path : {&options.output, &options.report})
+    std::vector<std::string> paths = options.pictures();
+    paths.push_back(options.report);
+    for (const std::string& path : paths)
         for (const std::string& input : job.source.file->files)
-            if (*path != "-" && !path->empty() && same_file(*path, input)) {
-                const std::string name = path == &options.report ? std::exchange(options.report, "") : *path;
-                return fail(ErrorCode::io, name + ": the scene refers to it, and it is not overwritten");
+            if (path != "-" && !path.empty() && same_file(path, input)) {
+                if (path == options.report) options.report.clear();
+                return fail(ErrorCode::io, path + ": the scene refers to it, and it is not overwritten");
             }
     return {};
 }
@@ -75,16 +90,18 @@ Result<void> spare_inputs(RenderCommandOptions& options, const RenderJob& job) {
 void warn_of_lost_transparency(const RenderCommandOptions& options, OutputFormat format) {
     const Settings& settings = options.settings;
     const bool transparent = settings.background_linear.w < 1.0f && !settings.background_environment;
-    if (transparent && (format == OutputFormat::jpg || format == OutputFormat::hdr))
-        print_warning(options.output + ": this format has no transparency; the picture is shown over black (.png .bmp .tga keep it)");
+    if (transparent && (format == OutputFormat::jpg || format == OutputFormat::hdr || format == OutputFormat::pfm))
+        print_warning(options.output + ": this format has no transparency; the picture is shown over black (.png .bmp .tga .exr keep it)");
 }
 
 /// Shows the progress of a drawing that takes longer than half a second.
-Result<RenderReport> draw(RenderJob& job, Image& image) {
+Result<RenderReport> draw(RenderJob& job, Image& image, AovPlanes& planes) {
     constexpr double kDelayMs = 500;
     ProgressLine line(false, kDelayMs);
     job.execution.progress = [&line](double share) { line.show(share); };
-    return Renderer().render(*job.prepared, job.camera, job.settings, target_of(job, image), job.timed_execution());
+    Target target = target_of(job, image);
+    planes.add_to(target);
+    return Renderer().render(*job.prepared, job.camera, job.settings, target, job.timed_execution());
 }
 
 void print_choices(const RenderJob& job, const RenderReport& rendered, double encode_ms) {
@@ -107,7 +124,9 @@ Result<std::string> render_and_write(RenderCommandOptions& options) {
     const auto format = output_format_of(options.output);
     if (!format) return tl::unexpected(format.error());
     if (const auto checked = check_paths(options); !checked) return tl::unexpected(checked.error());
-    for (const std::string& path : {options.output, options.report.empty() ? "-" : options.report})
+    std::vector<std::string> paths = options.pictures();
+    if (!options.report.empty()) paths.push_back(options.report);
+    for (const std::string& path : paths)
         if (const auto checked = check_writable(path); !checked) return tl::unexpected(checked.error());
     warn_of_lost_transparency(options, *format);
     if (options.max_memory_bytes == 0) prepare_heap();
@@ -115,7 +134,8 @@ Result<std::string> render_and_write(RenderCommandOptions& options) {
     if (!job) return tl::unexpected(job.error());
     if (const auto checked = spare_inputs(options, *job); !checked) return tl::unexpected(checked.error());
     Image image = make_image(*job, is_linear(*format));
-    const auto rendered = draw(*job, image);
+    AovPlanes planes(options.aovs, *job);
+    const auto rendered = draw(*job, image, planes);
     if (!rendered) return fail(rendered.error().code, job->source.name + ": " + rendered.error().message);
     for (const auto& warnings : {job->warnings, rendered->warnings})
         for (const std::string& warning : warnings) print_warning(warning);
@@ -123,11 +143,16 @@ Result<std::string> render_and_write(RenderCommandOptions& options) {
     const Stopwatch encoding;
     const auto bytes = encode_image(image, *format);
     if (!bytes) return tl::unexpected(bytes.error());
+    const auto beside = planes.encode(options.output, *job, options.up);
+    if (!beside) return tl::unexpected(beside.error());
     const double encode_ms = encoding.ms();
     // Whatever can fail comes before the picture has its name.
-    std::string report = picture_report(options.output, *job, *rendered, image, encode_ms);
+    std::string report = picture_report(options.output, *beside, *job, *rendered, image, encode_ms);
     print_choices(*job, *rendered, encode_ms);
-    const std::string note = "wrote " + options.output;
+    std::string note = "wrote " + options.output;
+    for (const AovFile& file : *beside) note += ", " + file.path;
+    for (const AovFile& file : *beside)
+        if (const auto written = io::write_file(file.path, file.bytes); !written) return tl::unexpected(written.error());
     if (const auto written = io::write_file(options.output, *bytes); !written) return tl::unexpected(written.error());
     if (options.output != "-") print_note(note);
     return report;
@@ -184,9 +209,13 @@ Result<int> render_all(RenderCommandOptions options) {
     if (!options.output.ends_with('/')) options.output += '/';
     std::vector<std::string> names;
     for (const std::string& scene : options.words) {
-        names.push_back(options.output + default_output(scene));
-        if (std::find(names.begin(), names.end() - 1, names.back()) != names.end() - 1)
-            return fail(ErrorCode::usage, scene + ": another scene has the same picture " + names.back());
+        RenderCommandOptions one = options;
+        one.output += default_output(scene);
+        for (std::string& name : one.pictures()) {
+            if (std::find(names.begin(), names.end(), name) != names.end())
+                return fail(ErrorCode::usage, scene + ": another scene has the same picture " + name);
+            names.push_back(std::move(name));
+        }
     }
     if (const auto checked = spare_inputs_of_all(options, names); !checked) return tl::unexpected(checked.error());
     if (const auto made = make_folder(options.output); !made) return tl::unexpected(made.error());
@@ -245,9 +274,13 @@ Command render_command() {
     groups.push_back(
         {"Output",
          {{"-o,--output", "FILE",
-           "A .png, .jpg, .bmp, .tga or .hdr file; - for PNG on standard output; FOLDER/ for one picture of each scene (default: "
-           "SCENE's name.png)",
+           "A .png, .jpg, .bmp or .tga file, or linear floats as .exr, .pfm or .hdr; - for PNG on standard output; FOLDER/ for one "
+           "picture of each scene (default: SCENE's name.png)",
            read_path(o.output)},
+          {"--aov", "NAME,...",
+           "Also write files beside the picture, as x.depth.exr for x.png: depth, normal, albedo, position as floats (.exr; .pfm without "
+           "OpenEXR); id, coverage, lights as 16-bit PNG",
+           parsed(o.aovs, parse_aovs)},
           {"--report", "FILE.json|-", "Write size, hash, times and counts as JSON; on failure, the error", read_path(o.report)}}});
     Positional scene = scene_argument(o, false);
     scene.help += ". A picture's name after it is the output";

@@ -91,7 +91,8 @@ FlagGroup picture_flags(RenderOptions& o, PictureSize usual) {
          {"--exposure", "EV|auto", "Multiply all light by 2^EV; auto: chosen from the file's lights or the environment (default)",
           [&o](const std::string& text) { return read_exposure(o.exposure, text); }},
          {"--tonemap", form_of(kToneCurveNames),
-          fmt::format("Tone curve from light to the picture's colours (default {}); the background colour and .hdr files do without",
+          fmt::format("Tone curve from light to the picture's colours (default {}); the background colour and files of floats (.exr .pfm "
+                      ".hdr) do without",
                       name_of(s.tone_curve, kToneCurveNames)),
           named(s.tone_curve, kToneCurveNames)}}};
 }
@@ -183,8 +184,8 @@ FlagGroup environment_flags(RenderOptions& o) {
     int& bands = o.settings.shading.environment_bands;
     return {"Environment",
             {{"--env", "FILE|sky|studio|none",
-              "Environment, an image of light from all directions: a Radiance picture (.hdr), or the built-in sky or studio (default: the "
-              "studio where the scene has no light; with none, such a scene gets light from above and below)",
+              "Environment, an image of light from all directions: a picture of floats (.hdr .exr .pfm), or the built-in sky or studio "
+              "(default: the studio where the scene has no light; with none, such a scene gets light from above and below)",
               [&o](const std::string& text) -> Result<void> {
                   o.studio = text == "studio" ? StudioUse::always : text == "none" ? StudioUse::never : StudioUse::for_dark;
                   o.environment = text == "studio" || text == "none" ? "" : text;

@@ -104,10 +104,11 @@ Json environment_use_json(const EnvironmentUse& use, const Settings& settings) {
 
 std::string to_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
-std::string picture_report(const std::string& output, const RenderJob& job, const RenderReport& rendered, const Image& picture,
-                           double encode_ms) {
+std::string picture_report(const std::string& output, const std::vector<AovFile>& beside, const RenderJob& job,
+                           const RenderReport& rendered, const Image& picture, double encode_ms) {
     Json report = report_head("report");
     report["output"] = output;
+    for (const AovFile& file : beside) report["aov"][std::string(kAovNames[static_cast<std::size_t>(file.aov)])] = file.path;
     add_frame(report, job, rendered, picture);
     report["encode_ms"] = encode_ms;
     return to_text(report);

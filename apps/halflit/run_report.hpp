@@ -2,6 +2,7 @@
 // includes <nlohmann/json.hpp>, which takes long to compile.
 #pragma once
 
+#include "apps/halflit/aov.hpp"
 #include "apps/halflit/render_job.hpp"
 
 #include <nlohmann/json_fwd.hpp>
@@ -34,8 +35,8 @@ void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered,
 [[nodiscard]] std::string to_text(const Json& json);
 
 /// The report of a picture that was drawn and encoded.
-[[nodiscard]] std::string picture_report(const std::string& output, const RenderJob& job, const RenderReport& rendered,
-                                         const Image& picture, double encode_ms);
+[[nodiscard]] std::string picture_report(const std::string& output, const std::vector<AovFile>& beside, const RenderJob& job,
+                                         const RenderReport& rendered, const Image& picture, double encode_ms);
 /// A report of render with {"status": "error", ..., "error": {"code": N, "message": "..."}}.
 [[nodiscard]] std::string error_report(int code, const std::string& message);
 

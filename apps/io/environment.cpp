@@ -1,7 +1,7 @@
 #include "halflit/image.hpp"
 
 #include "apps/io/file_access.hpp"
-#include "apps/io/rgbe_reader.hpp"
+#include "apps/io/float_image.hpp"
 #include "apps/io/text.hpp"
 #include "sh/equirect.hpp"
 #include "sh/trig.hpp"
@@ -74,7 +74,7 @@ Result<EnvironmentImage> read_environment(const std::string& path, const Environ
     try {
         const auto file = read_file(path, limits.max_file_bytes);
         if (!file) return tl::unexpected(file.error());
-        auto image = decode_rgbe(*file, {.max_width = limits.max_width, .max_height = limits.max_height});
+        auto image = decode_float_image(*file, {.max_width = limits.max_width, .max_height = limits.max_height});
         if (!image) return fail(image.error().code, printable(path) + ": " + image.error().message);
         return EnvironmentImage{image->width, image->height, std::move(image->rgb), false};
     } catch (const std::bad_alloc&) {

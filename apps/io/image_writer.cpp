@@ -1,6 +1,8 @@
 #include "halflit/image.hpp"
 
 #include "apps/io/atomic_file.hpp"
+#include "apps/io/exr_file.hpp"
+#include "apps/io/pfm_file.hpp"
 #include "apps/io/text.hpp"
 #include "shading/out_of_memory.hpp"
 
@@ -158,7 +160,34 @@ std::vector<float> rgb_linear_over_black(const Image& image) {
     return rgb;
 }
 
-std::vector<std::uint8_t> encode(const Image& image, OutputFormat format) {
+/// Light times alpha, as EXR demands it; over black, the picture is the same without alpha.
+std::vector<float> premultiplied(const Image& image) {
+    std::vector<float> rgba = image.rgba_linear;
+    for (std::size_t i = 0; i < rgba.size(); i += 4)
+        for (std::size_t c = 0; c < 3; ++c) rgba[i + c] = rgba[i + 3] > 0.0f ? rgba[i + c] * rgba[i + 3] : 0.0f;
+    return rgba;
+}
+
+std::vector<std::uint8_t> pfm_of(const Image& image) {
+    const std::vector<float> rgba = premultiplied(image);
+    std::vector<float> rgb;
+    rgb.reserve(rgba.size() / 4 * 3);
+    for (std::size_t i = 0; i < rgba.size(); i += 4) rgb.insert(rgb.end(), &rgba[i], &rgba[i] + 3);
+    return encode_pfm(image.width, image.height, 3, rgb);
+}
+
+/// An opaque picture is stored without alpha.
+Result<std::vector<std::uint8_t>> exr_of(const Image& image) {
+    const std::vector<float> rgba = premultiplied(image);
+    bool opaque = true;
+    for (std::size_t i = 3; i < rgba.size(); i += 4) opaque &= rgba[i] == 1.0f;
+    const ExrChannel channels[] = {{"R", rgba.data(), 4}, {"G", rgba.data() + 1, 4}, {"B", rgba.data() + 2, 4}, {"A", rgba.data() + 3, 4}};
+    return encode_exr(image.width, image.height, std::span(channels, opaque ? 3 : 4));
+}
+
+Result<std::vector<std::uint8_t>> encode(const Image& image, OutputFormat format) {
+    if (format == OutputFormat::pfm) return pfm_of(image);
+    if (format == OutputFormat::exr) return exr_of(image);
     const int w = image.width, h = image.height;
     const EncoderMemory memory;
     Sink sink;
@@ -178,6 +207,9 @@ std::vector<std::uint8_t> encode(const Image& image, OutputFormat format) {
             break;
         case OutputFormat::hdr:
             done = stbi_write_hdr_to_func(&Sink::append, &sink, w, h, 3, rgb_linear_over_black(image).data());
+            break;
+        case OutputFormat::pfm:
+        case OutputFormat::exr:
             break;
     }
     if (sink.failure) std::rethrow_exception(sink.failure);
@@ -199,7 +231,13 @@ Result<OutputFormat> output_format_of(std::string_view path) {
     if (extension == "tga") return OutputFormat::tga;
     if (extension == "jpg" || extension == "jpeg") return OutputFormat::jpg;
     if (extension == "hdr") return OutputFormat::hdr;
-    return fail(ErrorCode::usage, std::string(path) + ": unknown file extension, expected .png, .bmp, .tga, .jpg or .hdr");
+    if (extension == "pfm") return OutputFormat::pfm;
+    if (extension == "exr" && has_exr()) return OutputFormat::exr;
+    if (extension == "exr")
+        return fail(ErrorCode::usage, std::string(path) +
+                                          ": EXR files need the library OpenEXR, which this build lacks (.pfm has the same "
+                                          "floats)");
+    return fail(ErrorCode::usage, std::string(path) + ": unknown file extension, expected .png, .bmp, .tga, .jpg, .hdr, .pfm or .exr");
 }
 
 Result<std::vector<std::uint8_t>> encode_image(const Image& image, OutputFormat format) {

@@ -2,7 +2,7 @@
 
 #include "apps/io/detail/image_decoders.hpp"
 #include "apps/io/file_access.hpp"
-#include "apps/io/rgbe_reader.hpp"
+#include "apps/io/float_image.hpp"
 #include "apps/io/text.hpp"
 #include "halflit/image.hpp"
 #include "shading/model/srgb.hpp"
@@ -33,8 +33,9 @@ std::uint8_t code_of(float linear) {
     return static_cast<std::uint8_t>(std::upper_bound(limits.begin(), limits.end(), linear) - limits.begin());
 }
 
-Result<Image> decode_hdr(std::span<const std::byte> file, const ImageLimits& limits) {
-    const auto decoded = decode_rgbe(file, {limits.max_side, limits.max_side, limits.max_pixels});
+/// Light as 8-bit codes.
+Result<Image> decode_light(std::span<const std::byte> file, const ImageLimits& limits) {
+    const auto decoded = decode_float_image(file, {limits.max_side, limits.max_side, limits.max_pixels});
     if (!decoded) return tl::unexpected(decoded.error());
     Image image{decoded->width, decoded->height, {}, {}};
     image.rgba8.reserve(decoded->rgb.size() / 3 * 4);
@@ -48,7 +49,7 @@ Result<Image> decode_hdr(std::span<const std::byte> file, const ImageLimits& lim
 }  // namespace
 
 Result<Image> decode_picture(std::span<const std::byte> file, std::string_view name, const ImageLimits& limits) {
-    if (starts_with(file, "#?")) return decode_hdr(file, limits);
+    if (is_float_image(file)) return decode_light(file, limits);
     const auto format = output_format_of(name);
     const bool tga = format && *format == OutputFormat::tga;
     auto decoded = starts_with(file, "BM") ? detail::decode_bmp(file, limits)

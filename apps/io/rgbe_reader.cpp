@@ -14,7 +14,7 @@ namespace halflit::io {
 namespace {
 
 constexpr std::size_t kMaxHeaderBytes = 65536;
-constexpr double kLargest = 1e30;
+constexpr double kLargest = static_cast<double>(kLargestLight);
 
 tl::unexpected<Error> refuse(std::string message) { return fail(ErrorCode::bad_input, std::move(message)); }
 
@@ -255,12 +255,7 @@ std::vector<float> reordered(const Header& header, std::vector<float> stored) {
 Result<RgbeImage> decode_rgbe(std::span<const std::byte> file, const RgbeLimits& limits) {
     const auto header = read_header(file);
     if (!header) return tl::unexpected(header.error());
-    if (header->width > limits.max_width || header->height > limits.max_height)
-        return fail(ErrorCode::limit, fmt::format("has {}x{} pixels, the limit is {}x{}", header->width, header->height, limits.max_width,
-                                                  limits.max_height));
-    if (static_cast<std::size_t>(header->width) * static_cast<std::size_t>(header->height) > limits.max_pixels)
-        return fail(ErrorCode::limit,
-                    fmt::format("has {}x{} pixels, the limit is {} in all", header->width, header->height, limits.max_pixels));
+    if (auto ok = check_float_image_size(header->width, header->height, limits); !ok) return tl::unexpected(ok.error());
     const auto scales = make_scales(*header);
     const int lines = header->columns ? header->width : header->height;
     std::vector<Rgbe> line(static_cast<std::size_t>(header->columns ? header->height : header->width));

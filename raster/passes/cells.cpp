@@ -80,7 +80,7 @@ void PictureTile::shade_cells(std::span<std::unique_ptr<FragmentList>> lists) {
             continue;
         }
         FragmentList& list = *lists[static_cast<std::size_t>(i)];
-        if (pass_.normals != nullptr) write_normals(list);
+        if (pass_.surface != nullptr) write_surface(list);
         interpolate(pass_.view, list, scratch.blocks[i]);
         pass_.view.shade.measure_cell(material, scratch.blocks[i], list.count, batch, i);
     }

@@ -44,7 +44,12 @@ Result<void> check_target(const Target& target, const Region& region) {
                   {"depth", target.depth, target.depth_row_bytes, 4, alignof(float)},
                   {"normal", target.normal, target.normal_row_bytes, 12, alignof(float)},
                   {"instance", target.instance, target.instance_row_bytes, 4, alignof(std::uint32_t)},
-                  {"triangle", target.triangle, target.triangle_row_bytes, 4, alignof(std::uint32_t)}};
+                  {"triangle", target.triangle, target.triangle_row_bytes, 4, alignof(std::uint32_t)},
+                  {"shading_normal", target.shading_normal, target.shading_normal_row_bytes, 12, alignof(float)},
+                  {"albedo", target.albedo, target.albedo_row_bytes, 12, alignof(float)},
+                  {"position", target.position, target.position_row_bytes, 12, alignof(float)},
+                  {"lights", target.lights, target.lights_row_bytes, 4, alignof(std::uint32_t)},
+                  {"coverage", target.coverage, target.coverage_row_bytes, 4, alignof(float)}};
     for (const auto& plane : planes)
         if (auto ok = check_plane(plane.name, plane.data, plane.row_bytes, plane.pixel_bytes, plane.alignment, width); !ok) return ok;
     return {};
@@ -62,6 +67,11 @@ Output::Output(const Target& target, const Region& region)
     normal = {target.normal, target.normal_row_bytes, 3, width, x0, y0};
     instance = {target.instance, target.instance_row_bytes, 1, width, x0, y0};
     triangle = {target.triangle, target.triangle_row_bytes, 1, width, x0, y0};
+    shading_normal = {target.shading_normal, target.shading_normal_row_bytes, 3, width, x0, y0};
+    albedo = {target.albedo, target.albedo_row_bytes, 3, width, x0, y0};
+    position = {target.position, target.position_row_bytes, 3, width, x0, y0};
+    lights = {target.lights, target.lights_row_bytes, 1, width, x0, y0};
+    coverage = {target.coverage, target.coverage_row_bytes, 1, width, x0, y0};
 }
 
 void Output::finish_codes(std::uint32_t* codes_of_pixels, int count) const {

@@ -55,9 +55,12 @@ public:
     }
 
     Plane<std::uint8_t> codes;
-    Plane<float> linear, depth, normal;
-    Plane<std::uint32_t> instance, triangle;
-    [[nodiscard]] bool has_planes() const { return depth || normal || instance || triangle; }
+    Plane<float> linear, depth, normal, shading_normal, albedo, position, coverage;
+    Plane<std::uint32_t> instance, triangle, lights;
+    [[nodiscard]] bool has_planes() const { return depth || instance || triangle || coverage || has_surface(); }
+    /// Planes of what is interpolated or read from textures.
+    [[nodiscard]] bool has_surface() const { return normal || has_material(); }
+    [[nodiscard]] bool has_material() const { return shading_normal || albedo || position || lights; }
 
 private:
     bool straight_rgba_;  ///< codes are copied as they are

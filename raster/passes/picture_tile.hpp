@@ -15,7 +15,7 @@ struct PicturePass {
     const FramePlan& plan;
     Output output;
     const ReferenceShading* reference;  ///< shades instead of the kernels; null: the kernels shade
-    const TilePass* normals;            ///< reads positions and normals alone; null: no plane of normals
+    const TilePass* surface;            ///< reads what the planes of surfaces need; null: there are none
 };
 
 class PictureTile {
@@ -50,8 +50,9 @@ private:
     void shade_cells();
     void shade_cells(std::span<std::unique_ptr<FragmentList>> lists);  ///< of one material, at most kCellLanes
     // planes.cpp
-    void write_planes(bool empty);           ///< depth and numbers of what each pixel's first sample shows; empty: no triangles
-    void write_normals(FragmentList& list);  ///< overwrites the scratch's block
+    void write_planes(bool empty);                ///< what visibility knows, and 0 in the planes of surfaces; empty: no triangles
+    void write_surface(FragmentList& list);       ///< the planes of surfaces; overwrites the scratch's block and list of lights
+    void write_lights(const FragmentList& list);  ///< of the scratch's block
     // blend.cpp
     void blend_layers();
     void blend_layers(const TileRect& part);

@@ -98,7 +98,7 @@ void PictureTile::flush_full(FragmentList*& list) {
 }
 
 void PictureTile::flush(FragmentList& list) {
-    if (pass_.normals != nullptr) write_normals(list);
+    if (pass_.surface != nullptr) write_surface(list);
     shade(list);
     write(list, scratch_.block);
     list.count = 0;

@@ -96,6 +96,32 @@ static void shade_alpha(const shading::MaterialPlan& material, shading::Fragment
     }
 }
 
+static void surface(const shading::MaterialPlan& material, shading::FragmentBlock& block, int count) {
+    for (int lane = 0; lane < count; lane += kWidth) {
+        TexelTaps taps;
+        const Sample base = base_color(material, block, lane, taps);
+        const V3 normal = normals(material, block, lane, taps).shading;
+        store(block.red + lane, base.r);
+        store(block.green + lane, base.g);
+        store(block.blue + lane, base.b);
+        store(block.alpha + lane, base.a);
+        store(&block.lane[shading::kNormalX][lane], normal.x);
+        store(&block.lane[shading::kNormalY][lane], normal.y);
+        store(&block.lane[shading::kNormalZ][lane], normal.z);
+    }
+}
+
+static void count_lights(shading::LightList lights, const shading::FragmentBlock& block, int count, std::uint32_t* number) {
+    for (int lane = 0; lane < count; lane += kWidth) {
+        const V3 position = row3(block, shading::kPosX, lane);
+        F sum(0.0f);  // exact up to 2^24
+        for (int i = 0; i < lights.count; ++i) sum = sum + sel(arrival(lights.lights[i], position).attenuation > F(0.0f), F(1.0f), F(0.0f));
+        alignas(64) float sums[kWidth];
+        store(sums, sum);
+        for (int l = 0; l < kWidth && lane + l < count; ++l) number[lane + l] = static_cast<std::uint32_t>(sums[l]);
+    }
+}
+
 static void tone(ToneCurve curve, const float* const light[3], float exposure, float* const display[3], int count) {
     if (curve == ToneCurve::reinhard)
         tone_block<ToneCurve::reinhard>(light, exposure, display, count);
@@ -115,6 +141,7 @@ static void encode(const float* red, const float* green, const float* blue, cons
 namespace shading {
 #define HALFLIT_SHADE_KERNELS HALFLIT_CONCAT(shade_kernels_, HALFLIT_ISA)
 extern const ShadeKernels HALFLIT_SHADE_KERNELS;
-const ShadeKernels HALFLIT_SHADE_KERNELS = {shade, light, hidden, measure_cell, fit_cells, shade_alpha, tone, encode};
+const ShadeKernels HALFLIT_SHADE_KERNELS = {shade,       light,   hidden,       measure_cell, fit_cells,
+                                            shade_alpha, surface, count_lights, tone,         encode};
 }  // namespace shading
 }  // namespace halflit

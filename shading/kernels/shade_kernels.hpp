@@ -44,6 +44,13 @@ struct ShadeKernels {
     /// Computes only the alpha channel that MASK compares and BLEND uses: base colour alpha * texture alpha * vertex alpha.
     void (*alpha)(const MaterialPlan& material, FragmentBlock& block, int count);
 
+    /// Writes the base colour to red, green, blue and alpha, and the unit normal that light falls on to kNormalX.. Needs what `shade`
+    /// needs.
+    void (*surface)(const MaterialPlan& material, FragmentBlock& block, int count);
+
+    /// Writes to `number` of each lane in [0, count) how many of the lights have it in their range and cone. Needs positions.
+    void (*count_lights)(LightList lights, const FragmentBlock& block, int count, std::uint32_t* number);
+
     /// Applies a tone curve other than none to `count` colours, light (red, green, blue) times `exposure`. Writes display light in [0, 1].
     /// NaN counts as 0, infinity as white. All arrays are padded to a multiple of 16 lanes; `display` may be `light`.
     void (*tone)(ToneCurve curve, const float* const light[3], float exposure, float* const display[3], int count);

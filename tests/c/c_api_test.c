@@ -271,7 +271,8 @@ static void test_formats(void) {
     enum { STRIDE = WIDTH * 4 + 12 };
     static uint8_t rgba[PIXELS * 4], bgra[HEIGHT * STRIDE], premultiplied[PIXELS * 4];
     static float linear[PIXELS * 4], depth[PIXELS], normal[PIXELS * 3];
-    static uint32_t instance[PIXELS], triangle[PIXELS];
+    static float shading_normal[PIXELS * 3], albedo[PIXELS * 3], position[PIXELS * 3], coverage[PIXELS];
+    static uint32_t instance[PIXELS], triangle[PIXELS], lights[PIXELS];
     Cube cube = make_cube();
     halflit_renderer* renderer;
     halflit_report report;
@@ -284,6 +285,11 @@ static void test_formats(void) {
     target.normal = normal;
     target.instance = instance;
     target.triangle = triangle;
+    target.shading_normal = shading_normal;
+    target.albedo = albedo;
+    target.position = position;
+    target.coverage = coverage;
+    target.lights = lights;
     report.size = sizeof report;
     CHECK_OK(halflit_render(renderer, cube.scene, &cube.camera, &cube.settings, &target, &report));
     CHECK(report.triangles_submitted == 12 && report.triangles_drawn > 0 && report.pixels_visible > 0 && report.isa[0] != '\0');
@@ -292,6 +298,11 @@ static void test_formats(void) {
         if (instance[x] == 0) continue;
         ++seen;
         if (instance[x] != 1 || triangle[x] < 1 || triangle[x] > 12 || !(depth[x] > 0) || isinf(depth[x])) ++wrong;
+        // Without a normal map both normals are the same direction, and every share of a pixel that is seen is above 0.
+        for (c = 0; c < 3; ++c)
+            if (fabsf(shading_normal[3 * x + c] - normal[3 * x + c]) > 1e-6f || !(albedo[3 * x + c] >= 0.0f)) ++wrong;
+        if (!(coverage[x] > 0.0f && coverage[x] <= 1.0f)) ++wrong;
+        if (position[3 * x] == 0.0f && position[3 * x + 1] == 0.0f && position[3 * x + 2] == 0.0f) ++wrong;
     }
     CHECK(seen > PIXELS / 10 && wrong == 0 && instance[0] == 0 && isinf(depth[0]));
 

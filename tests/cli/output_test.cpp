@@ -1,5 +1,7 @@
 #include "tests/cli/program.hpp"
 
+#include "apps/io/float_image.hpp"
+#include "halflit/image.hpp"
 #include "tests/support/catch.hpp"
 
 #include <unistd.h>
@@ -52,6 +54,43 @@ TEST_CASE("output: each format begins with its own mark", "[cli]") {
     REQUIRE(tga.size() > 18);  // no mark: 40 x 30 at fixed places in the header
     CHECK(static_cast<int>(tga[12]) == 40);
     CHECK(static_cast<int>(tga[14]) == 30);
+}
+
+TEST_CASE("output: a PFM file has the same bytes for every instruction set, thread count and tile size, and an EXR file its floats",
+          "[cli]") {
+    const TemporaryFolder folder;
+    const auto draw = [&](const std::string& name, const std::vector<std::string>& flags) {
+        std::vector<std::string> all = {"render", "demo", "--size", "64x40", "-o", folder.file(name)};
+        all.insert(all.end(), flags.begin(), flags.end());
+        REQUIRE(run(all).code == 0);
+        return contents(folder.file(name));
+    };
+    const std::string pfm = draw("a.pfm", {});
+    CHECK(pfm.size() == std::string("PF\n64 40\n-1.0\n").size() + 64 * 40 * 12);
+    CHECK(pfm.starts_with("PF\n64 40\n-1.0\n"));
+    CHECK(draw("a.pfm", {"--isa", "scalar", "--threads", "1", "--tile", "16"}) == pfm);
+    if (!halflit::has_exr()) {
+        const Outcome refused = run({"render", "demo", "-o", folder.file("a.exr")});
+        CHECK(refused.code == 2);
+        CHECK(refused.err.find("OpenEXR") != std::string::npos);
+        return;
+    }
+    draw("a.exr", {});
+    const auto floats = [&](const std::string& name) {
+        const std::string file = contents(folder.file(name));
+        const auto image = halflit::io::decode_float_image({reinterpret_cast<const std::byte*>(file.data()), file.size()});
+        REQUIRE(image);
+        return image->rgb;
+    };
+    CHECK(floats("a.exr") == floats("a.pfm"));
+    // As environments, both give the same picture.
+    CHECK(run({"render", "sphere:500", "--size", "30x30", "--env", folder.file("a.exr"), "-o", "-"}).out ==
+          run({"render", "sphere:500", "--size", "30x30", "--env", folder.file("a.pfm"), "-o", "-"}).out);
+    write_contents(folder.file("cut.exr"), contents(folder.file("a.exr")).substr(0, 400));
+    const Outcome cut = run({"render", "sphere:500", "--env", folder.file("cut.exr"), "-o", folder.file("b.png")});
+    CHECK(cut.code == 3);
+    CHECK(cut.err.find("cut.exr: ") != std::string::npos);
+    CHECK(std::count(cut.err.begin(), cut.err.end(), '\n') == 1);
 }
 
 TEST_CASE("output: a folder that is not there, a folder as file, no right to write end with 4 and the reason", "[cli]") {

@@ -69,7 +69,9 @@ void Session::draw() {
     const std::int32_t format = in_.one_in(20) ? in_.number<std::int32_t>() : static_cast<std::int32_t>(in_.below(6));
     const std::size_t pixel = format >= HALFLIT_FORMAT_RGBA_F32 ? 16 : 4, row = pixel * (width + padding);
     std::vector<float> pixels((row * (height - 1) + pixel * width) / 4), depth(width * height), normal(3 * width * height);
-    std::vector<std::uint32_t> instance(width * height), triangle(width * height);
+    std::vector<std::uint32_t> instance(width * height), triangle(width * height), lights(width * height);
+    std::vector<float> shading_normal(3 * width * height), albedo(3 * width * height), position(3 * width * height),
+        coverage(width * height);
     check(halflit_target_init(target.get(), target.size()));
     target.set(&halflit_target::pixels, or_null(pixels.data()));
     target.set(&halflit_target::row_bytes, padding == 0 && in_.flag() ? 0 : row);
@@ -78,6 +80,11 @@ void Session::draw() {
         target.set(&halflit_target::normal, or_null(normal.data(), 3));
         target.set(&halflit_target::instance, or_null(instance.data(), 3));
         target.set(&halflit_target::triangle, or_null(triangle.data(), 3));
+        target.set(&halflit_target::shading_normal, shading_normal.data());
+        target.set(&halflit_target::albedo, albedo.data());
+        target.set(&halflit_target::position, position.data());
+        target.set(&halflit_target::lights, lights.data());
+        target.set(&halflit_target::coverage, coverage.data());
     }
     static constexpr std::int32_t kWrong[] = {0, -1, 32769, 2147483647};
     target.set(&halflit_target::width, in_.one_in(30) ? in_.pick(kWrong) : w);

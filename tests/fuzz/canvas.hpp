@@ -16,8 +16,8 @@ struct Canvas {
     static constexpr std::uint8_t kUntouched = 0xA5;
 
     Bytes pixels;
-    std::vector<float> linear, depth, normal;
-    std::vector<std::uint32_t> instance, triangle;
+    std::vector<float> linear, depth, normal, shading_normal, albedo, position, coverage;
+    std::vector<std::uint32_t> instance, triangle, lights;
     Target target;
 
     explicit Canvas(const RenderFlags& flags) {
@@ -35,6 +35,14 @@ struct Canvas {
         normal.assign(3 * width * height, 0.0f);
         instance.assign(width * height, 0);
         triangle.assign(width * height, 0);
+        for (auto* plane : {&shading_normal, &albedo, &position}) plane->assign(3 * width * height, 0.0f);
+        coverage.assign(width * height, 0.0f);
+        lights.assign(width * height, 0);
+        target.shading_normal = shading_normal.data();
+        target.albedo = albedo.data();
+        target.position = position.data();
+        target.coverage = coverage.data();
+        target.lights = lights.data();
         target.linear = linear.data();
         target.depth = depth.data();
         target.normal = normal.data();
@@ -50,7 +58,8 @@ struct Canvas {
             return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0);
         };
         return same(pixels, other.pixels) && same(linear, other.linear) && same(depth, other.depth) && same(normal, other.normal) &&
-               same(instance, other.instance) && same(triangle, other.triangle);
+               same(instance, other.instance) && same(triangle, other.triangle) && same(shading_normal, other.shading_normal) &&
+               same(albedo, other.albedo) && same(position, other.position) && same(coverage, other.coverage) && same(lights, other.lights);
     }
 
     /// Nothing outside of the region is written, no NaN anywhere, and numbers are those of the scene.
@@ -65,9 +74,10 @@ struct Canvas {
                     pixels.data() + static_cast<std::size_t>(y) * target.row_bytes + static_cast<std::size_t>(4 * x);
                 HALFLIT_PROMISE(inside || std::all_of(pixel, pixel + 4, is_untouched));
             }
-        for (const auto* plane : {&linear, &depth, &normal})
+        for (const auto* plane : {&linear, &depth, &normal, &shading_normal, &albedo, &position, &coverage})
             for (const float value : *plane) HALFLIT_PROMISE(!std::isnan(value));
         for (std::size_t i = 0; i < instance.size(); ++i) {
+            HALFLIT_PROMISE(lights[i] <= scene.lights.size() && coverage[i] >= 0.0f && coverage[i] <= 1.0f);
             HALFLIT_PROMISE(instance[i] <= scene.instances.size() && (instance[i] == 0) == (triangle[i] == 0));
             if (instance[i] == 0) continue;
             const int mesh = scene.instances[instance[i] - 1].mesh;

@@ -1,7 +1,8 @@
-// Bytes as a Radiance picture, which becomes an environment: its series of spherical harmonics, its suns, and the bounds of both.
+// Bytes as a picture of floats (Radiance, PFM or EXR), which becomes an environment: its series of spherical harmonics, its suns, and the
+// bounds of both.
 #include "tests/fuzz/loading.hpp"
 
-#include "apps/io/rgbe_reader.hpp"
+#include "apps/io/float_image.hpp"
 #include "halflit/environment.hpp"
 #include "sh/order.hpp"
 #include "sh/sun.hpp"
@@ -14,7 +15,7 @@
 namespace halflit::fuzz {
 namespace {
 
-constexpr io::RgbeLimits kLimits{256, 128, 2048};
+constexpr io::FloatImageLimits kLimits{256, 128, 2048};
 
 bool is_finite(Vec3d v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
@@ -41,7 +42,7 @@ void check_environment(const EnvironmentImage& image, int bands) {
 }
 
 void run(View input) {
-    const auto decoded = io::decode_rgbe(as_bytes(input), kLimits);
+    const auto decoded = io::decode_float_image(as_bytes(input), kLimits);
     if (!decoded) return check_error(decoded.error());
     const EnvironmentImage image{decoded->width, decoded->height, decoded->rgb, false};
     HALFLIT_PROMISE(image.rgb.size() == static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 3);

@@ -135,6 +135,23 @@ def pictures():
     return out
 
 
+def exr():
+    """Two rows of two pixels, floats without compression."""
+    def attribute(name, kind, value):
+        return name + b'\0' + kind + b'\0' + struct.pack('<i', len(value)) + value
+    window = struct.pack('<4i', 0, 0, 1, 1)
+    channels = b''.join(name + b'\0' + struct.pack('<4i', 2, 0, 1, 1) for name in (b'B', b'G', b'R')) + b'\0'
+    head = (b'\x76\x2f\x31\x01' + struct.pack('<i', 2) + attribute(b'channels', b'chlist', channels) +
+            attribute(b'compression', b'compression', b'\0') + attribute(b'dataWindow', b'box2i', window) +
+            attribute(b'displayWindow', b'box2i', window) + attribute(b'lineOrder', b'lineOrder', b'\0') +
+            attribute(b'pixelAspectRatio', b'float', struct.pack('<f', 1)) +
+            attribute(b'screenWindowCenter', b'v2f', struct.pack('<2f', 0, 0)) +
+            attribute(b'screenWindowWidth', b'float', struct.pack('<f', 1)) + b'\0')
+    rows = [struct.pack('<2i6f', y, 24, 1, 2, 3, 4, 5, 6) for y in range(2)]
+    first = len(head) + 16
+    return head + struct.pack('<2Q', first, first + len(rows[0])) + b''.join(rows)
+
+
 def environments():
     head = b'#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n'
     pixel = bytes([128, 64, 32, 128])
@@ -152,6 +169,8 @@ def environments():
         'sun': head + b'\n-Y 8 +X 16\n' + bytes(sun),
         'exposure': head + b'# comment\nEXPOSURE=2.5\nCOLORCORR= 1 2 0.5\nEXPOSURE=4\n\n-Y 1 +X 2\n' + pixel * 2,
         'black': b'#?RGBE\n\n-Y 1 +X 1\n' + bytes(4),
+        'pfm': b'PF\n2 1\n-1.0\n' + struct.pack('<6f', 0.5, 1, 2, 0.25, 0, 1e6),
+        'exr': exr(),
     }
 
 

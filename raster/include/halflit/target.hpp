@@ -38,6 +38,19 @@ struct Target {
     std::uint32_t* instance = nullptr;  ///< index into Scene::instances, plus 1; 0 where nothing is
     std::uint32_t* triangle = nullptr;  ///< number of the triangle in the instance's mesh, plus 1; 0 where nothing is
     std::size_t depth_row_bytes = 0, normal_row_bytes = 0, instance_row_bytes = 0, triangle_row_bytes = 0;  ///< strides of these planes
+
+    /// The triangle that the first sample shows, at the point where it is shaded: the pixel's centre, or a point of the triangle beside it
+    /// where the triangle does not hold the centre. In these planes all values are 0 where nothing is. Reading a material's textures for
+    /// them takes about as long as for shading.
+    float* shading_normal = nullptr;  ///< three floats: the unit normal that light falls on, world space; of lit materials with normal maps
+    float* albedo = nullptr;          ///< three floats: base colour, linear: factor times texture times vertex colour; metals' too
+    float* position = nullptr;        ///< three floats: world space
+    /// Lights that reach the point: those of Scene::lights whose range and cone it is in. Neither its normal nor shadows count. 0 on unlit
+    /// materials. With an error budget, also without lights that are left out there for their distance.
+    std::uint32_t* lights = nullptr;
+    float* coverage = nullptr;  ///< samples that an opaque or masked surface covers, as a share of the pixel's; of all samples
+    std::size_t shading_normal_row_bytes = 0, albedo_row_bytes = 0, position_row_bytes = 0;  ///< strides of these planes
+    std::size_t lights_row_bytes = 0, coverage_row_bytes = 0;                                ///< strides of these planes
 };
 
 /// A picture with its own memory. Either array may be empty.

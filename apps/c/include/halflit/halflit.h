@@ -304,7 +304,7 @@ HALFLIT_C_API int32_t halflit_environment_options_init(halflit_environment_optio
 /// quarters of the width along +x. options may be null: the defaults. Takes about 0.2 s for 1024 x 512 pixels.
 HALFLIT_C_API int32_t halflit_scene_set_environment(halflit_scene* scene, const float* rgb, int32_t width, int32_t height,
                                                     const halflit_environment_options* options);
-/// The same from a Radiance file (.hdr).
+/// The same from a file (.hdr, .pfm or .exr).
 HALFLIT_C_API int32_t halflit_scene_load_environment(halflit_scene* scene, const char* path, const halflit_environment_options* options);
 /// The same by a built-in clear day.
 HALFLIT_C_API int32_t halflit_scene_set_sky(halflit_scene* scene, const halflit_environment_options* options);
@@ -426,6 +426,16 @@ typedef struct halflit_target {
     int32_t width, height;      ///< pixels, of the whole picture: what the camera sees
     int32_t format;             ///< HALFLIT_FORMAT, of `pixels`
     int32_t region_alone;       ///< the memory holds halflit_settings.region alone, not the whole picture
+    float* shading_normal;  ///< 3 floats a pixel: unit normal with the normal map, world space; 0 where nothing is, as in all that follow
+    size_t shading_normal_row_bytes;  ///< stride
+    float* albedo;                    ///< 3 floats a pixel: base colour, linear
+    size_t albedo_row_bytes;          ///< stride
+    float* position;                  ///< 3 floats a pixel, world space
+    size_t position_row_bytes;        ///< stride
+    uint32_t* lights;                 ///< lights whose range and cone the surface is in; 0 on unlit materials
+    size_t lights_row_bytes;          ///< stride
+    float* coverage;                  ///< share of the samples that an opaque or masked surface covers
+    size_t coverage_row_bytes;        ///< stride
 } halflit_target;
 HALFLIT_C_API int32_t halflit_target_init(halflit_target* target, size_t size);
 
@@ -463,8 +473,8 @@ HALFLIT_C_API int32_t halflit_renderer_get_warning(const halflit_renderer* rende
 
 /// 64-bit hash of bytes, XXH64 with seed 0: the identity of a picture whose rows have no gaps. Null counts as no bytes.
 HALFLIT_C_API uint64_t halflit_pixel_hash(const void* bytes, size_t count);
-/// Writes the target's pixels, width x height of them, into a file: .png, .bmp, .tga or .jpg from 8-bit formats, .hdr from floats. The file
-/// is either old or new, never half written. "-" is PNG on standard output. Fails (usage) for a target with region_alone.
+/// Writes the target's pixels, width x height of them, into a file: .png, .bmp, .tga or .jpg from 8-bit formats, .hdr, .pfm or .exr from
+/// floats. The file is either old or new, never half written. "-" is PNG on standard output. Fails (usage) for a target with region_alone.
 HALFLIT_C_API int32_t halflit_write_image(const char* path, const halflit_target* target);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
 // Pictures and environments as files. The bytes of a picture depend on its pixels and the format alone: no date, name or version is stored.
-// Those of a PNG also depend on the version of libdeflate, which compresses it; its pixels do not.
+// Those of a PNG or EXR also depend on the version of libdeflate or OpenEXR, which compresses it; its pixels do not.
 #pragma once
 
 #include "halflit/environment.hpp"
@@ -15,8 +15,8 @@
 
 namespace halflit {
 
-/// Formats of picture files; hdr is Radiance's RGBE.
-enum class OutputFormat : std::uint8_t { png, bmp, tga, jpg, hdr };
+/// Formats of picture files; hdr is Radiance's RGBE, pfm a Portable Float Map, exr OpenEXR.
+enum class OutputFormat : std::uint8_t { png, bmp, tga, jpg, hdr, pfm, exr };
 
 /// Largest number of pixels of a picture file.
 inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 28;
@@ -25,10 +25,14 @@ inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 28;
 [[nodiscard]] HALFLIT_API Result<OutputFormat> output_format_of(std::string_view path);
 
 /// True for a format that stores linear floats (Image::rgba_linear) instead of sRGB codes (Image::rgba8).
-[[nodiscard]] constexpr bool is_linear(OutputFormat format) { return format == OutputFormat::hdr; }
+[[nodiscard]] constexpr bool is_linear(OutputFormat format) { return format >= OutputFormat::hdr; }
+
+/// True if the library was built with OpenEXR. Without it, .exr files are refused by name.
+[[nodiscard]] HALFLIT_API bool has_exr();
 
 /// Makes the whole file in memory. PNG, BMP and TGA keep alpha; JPG (quality 95) and HDR have none and show the picture over black.
-/// A PNG of a picture that is opaque everywhere is RGB. HDR holds what RGBE can: [0, 1.7e38], with NaN as 0. The picture may have up to
+/// A PNG or EXR of a picture that is opaque everywhere is RGB. HDR holds what RGBE can: [0, 1.7e38], with NaN as 0. PFM and EXR hold the
+/// float32 values of rgba_linear times alpha, which is exact where alpha is 1; PFM has no alpha. The picture may have up to
 /// kMaxImagePixels.
 [[nodiscard]] HALFLIT_API Result<std::vector<std::uint8_t>> encode_image(const Image& image, OutputFormat format);
 
@@ -41,7 +45,9 @@ struct EnvironmentLimits {
     std::size_t max_file_bytes = std::size_t{1} << 30;  ///< bytes as stored
 };
 
-/// A Radiance file (.hdr). Any aspect is accepted: the picture always covers the whole sphere. Values above 1e30 are clamped to it.
+/// A Radiance picture (.hdr), a Portable Float Map (.pfm) or an OpenEXR picture (.exr), whichever the first bytes tell. Any aspect is
+/// accepted: the picture always covers the whole sphere. Values above 1e30 are clamped to it, and negative ones to 0. An infinite half of
+/// an EXR file becomes 65504, the largest half. A NaN is an error.
 [[nodiscard]] HALFLIT_API Result<EnvironmentImage> read_environment(const std::string& path, const EnvironmentLimits& limits = {});
 
 /// A clear day, 512 x 256: blue towards the zenith, pale at the horizon, ground of albedo 0.2 and a sun of 1.5 degrees radius, 40 degrees
