@@ -11,6 +11,8 @@ namespace {
 
 /// A duck that is drawn a fifth of the picture wide has a box of 15 %.
 constexpr double kLeastShare = 1.0 / 6.0;
+/// Long and flat scenes fill little of any picture. Those that reach over so much of its width or height are not shown small.
+constexpr double kLeastReach = 2.0 / 3.0;
 
 /// Smallest rectangle of the picture around what is added, in [-1, 1]^2.
 class PictureRectangle {
@@ -23,14 +25,18 @@ public:
         }
     }
     /// Its share of the picture; 0 if nothing was added.
-    [[nodiscard]] double share() const { return std::max(0.0, high_[0] - low_[0]) * std::max(0.0, high_[1] - low_[1]) / 4.0; }
+    [[nodiscard]] double share() const { return side(0) * side(1); }
+    /// The larger of its shares of the picture's width and height.
+    [[nodiscard]] double reach() const { return std::max(side(0), side(1)); }
 
 private:
+    [[nodiscard]] double side(int axis) const { return std::max(0.0, high_[axis] - low_[axis]) / 2.0; }
+
     double low_[2] = {1, 1}, high_[2] = {-1, -1};
 };
 
-/// Share of the camera's picture that the box around the scene fills: the part of the box between the near and the far plane.
-double share_of_picture(const Camera& camera, const Bounds& bounds) {
+/// The part of the camera's picture that the box around the scene fills: that of the box between the near and the far plane.
+PictureRectangle rectangle_in_picture(const Camera& camera, const Bounds& bounds) {
     struct Corner {
         double x, y, w;
         double inside[2];  ///< distances to the near and the far plane, negative outside
@@ -60,7 +66,7 @@ double share_of_picture(const Camera& camera, const Bounds& bounds) {
             }
         }
     }
-    return rectangle.share();
+    return rectangle;
 }
 
 float environment_exposure(const Environment& environment) {
@@ -129,7 +135,9 @@ Settings usual_settings() {
 const Camera* choose_camera(const Scene& scene, const Bounds& bounds) {
     if (scene.cameras.empty()) return nullptr;
     const Camera& first = scene.cameras.front();
-    return bounds.empty || share_of_picture(first, bounds) >= kLeastShare ? &first : nullptr;
+    if (bounds.empty) return &first;
+    const PictureRectangle filled = rectangle_in_picture(first, bounds);
+    return filled.share() >= kLeastShare || filled.reach() >= kLeastReach ? &first : nullptr;
 }
 
 AutoSetup auto_setup(Scene& scene, const Bounds& bounds, int width, int height, const AutoOptions& options) {

@@ -208,6 +208,20 @@ TEST_CASE("setup: an environment is exposed to 0.5, or to 1 where it is calibrat
     CHECK(double{linear[4 * (20 * 40 + 20)]} == Approx(0.5).epsilon(0.005));  // within half an 8-bit code, the tolerance of bands
 }
 
+TEST_CASE("setup: the camera of a long flat scene is used if the scene reaches over most of its picture", "[raster][setup]") {
+    Scene strip;
+    strip.meshes.push_back(make_box({50, 1, 1}));
+    strip.instances.push_back({0, {}});
+    Camera camera = seen_from({0, 0, 10}, {0, 0, 0});
+    camera.orthographic = true;
+    camera.near_z = 1, camera.far_z = 20;
+    camera.half_height = 40;
+    for (const auto& [half_width, wanted] : {std::pair{60.0f, true}, {70.0f, true}, {80.0f, false}}) {
+        camera.half_width = half_width;  // the strip is 5 of 6, 5 of 7, 5 of 8 as wide, and a 40th as high
+        CHECK(chosen(camera, strip) == wanted);
+    }
+}
+
 TEST_CASE("setup: what the caller decides is not chosen", "[raster][setup]") {
     Scene scene = box_scene();
     scene.cameras = {seen_from({0, 0, 5}, {0, 0, 0})};
