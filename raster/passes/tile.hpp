@@ -51,8 +51,8 @@ struct LayerScratch {
     /// One triangle at one pixel.
     struct Fragment {
         std::uint32_t id;
-        std::uint16_t at;      ///< index of the pixel in the tile's buffers
-        std::uint8_t samples;  ///< bit s: sample s shows it
+        std::uint16_t at;       ///< index of the pixel in the tile's buffers
+        std::uint16_t samples;  ///< bit s: sample s shows it
     };
     LayerDepths depths;
     std::vector<Fragment> fragments;

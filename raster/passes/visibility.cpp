@@ -86,7 +86,8 @@ void interpolate(const TilePass& pass, FragmentList& list, shading::FragmentBloc
 
 void clear_coverage(TileScratch& scratch, const CoverBox& box) {
     for (int y = box.y0; y <= box.y1; ++y)
-        std::memset(scratch.buffers.coverage + y * kTileStride + box.x0, 0, static_cast<std::size_t>(box.x1 - box.x0 + 1));
+        std::memset(scratch.buffers.coverage + y * kTileStride + box.x0, 0,
+                    sizeof(scratch.buffers.coverage[0]) * static_cast<std::size_t>(box.x1 - box.x0 + 1));
 }
 
 void draw_visibility(const TilePass& pass, int tile, TileScratch& scratch, TileCounts& counts) {

@@ -41,7 +41,7 @@ Sized<halflit_execution> Session::execution() {
 Sized<halflit_settings> Session::settings() {
     Sized<halflit_settings> settings(in_);
     check(halflit_settings_init(settings.get(), settings.size()));
-    settings.set(&halflit_settings::samples, in_.one_in(20) ? 3 : in_.flag() ? 1 : 4);
+    settings.set(&halflit_settings::samples, in_.one_in(20) ? 3 : in_.one_in(8) ? 16 : in_.flag() ? 1 : 4);
     settings.set(&halflit_settings::shadow_size, 64);
     settings.set(&halflit_settings::shadows, choice(3));
     settings.set(&halflit_settings::tone_curve, choice(4));

@@ -71,7 +71,7 @@ Camera read_camera(Input& input) {
 Settings read_settings(Input& input, const RenderFlags& flags) {
     Settings settings;
     settings.region = read_region(input, flags);
-    settings.samples = input.pick(std::array{1, 4, 1, 4, 8, 3});
+    settings.samples = input.pick(std::array{1, 4, 1, 16, 8, 3});
     settings.background_linear = {input.real(), input.real(), input.real(), input.flag() ? 1.0f : input.real()};
     settings.background_environment = flags.environment && input.flag();
     if (input.one_in(8)) settings.exposure = input.real();

@@ -328,7 +328,7 @@ typedef struct halflit_settings {
     double environment_tolerance;    ///< error of leaving out bands of the environment, relative to white (1/510)
     uint64_t shadow_memory_limit;    ///< bytes; shadow maps are made smaller until all fit (256 MiB)
     halflit_region region;           ///< the part to draw; pixels outside are not touched (all)
-    int32_t samples;                 ///< a pixel: 1, 4 or 8 (1)
+    int32_t samples;                 ///< a pixel: 1, 4, 8 or 16 (1)
     float background[4];             ///< alpha 0 is transparent, not premultiplied (0, 0, 0, 0)
     int32_t background_environment;  ///< show the environment behind the scene (0)
     float exposure;                  ///< factor on all light, above 0 (1)
