@@ -89,7 +89,7 @@ void plan_shadows(const ShadowInputs& shadows, ShadingPlan& plan) {
 void plan_highlights(ShadingPlan& plan, PowerFits& fits) {
     for (MaterialPlan& material : plan.materials) {
         constexpr std::uint32_t kNeeded = kStageLights | kStageSpecular;
-        if ((material.stages & kNeeded) != kNeeded || (material.stages & kStageMetallicRoughnessTexture) != 0) continue;
+        if ((material.stages & kNeeded) != kNeeded || roughness_varies(material)) continue;
         const double exponent = specular_exponent(static_cast<double>(material.roughness));
         const double half_exponent = exponent * (plan.specular == SpecularModel::phong ? 0.125 : 0.5);
         if (!(half_exponent > 1.0)) continue;

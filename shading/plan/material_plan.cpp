@@ -76,6 +76,9 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
     use_texture(lit && kinds.ambient && plan.occlusion_strength > 0.0f, kStageOcclusionTexture, material.occlusion_texture,
                 plan.occlusion_texture);
     use_texture(!material.unlit && !zero(material.emissive), kStageEmissiveTexture, material.emissive_texture, plan.emissive_texture);
+    const TexturePlan& normals = plan.normal_texture;
+    plan.normal_roughness = kinds.specular && normals.data != nullptr && normals.source->rule() == MipRule::normal &&
+                            normals.mip != MipFilter::none && normals.level_count > 1;
     if (gradients) plan.stages |= kStageGradients;
     if (base_color_seen && (available & kColorSlot) != 0) plan.stages |= kStageVertexColor;
     plan.occlusion_is_metallic_roughness = (plan.stages & kStageOcclusionTexture) != 0 &&

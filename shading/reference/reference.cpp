@@ -315,3 +315,11 @@ double srgb_code(double linear) {
 }
 
 }  // namespace halflit::shading::reference
+    const Rgba bumps = material_texture(frame, material.normal_texture, available, block, lane, {});
+    const bool loses = material.normal_texture.used() && (available & 4u) != 0 && bumps.a != 0.0 &&
+                       static_cast<std::size_t>(material.normal_texture.texture) < frame.textures.size() &&
+                       frame.textures[static_cast<std::size_t>(material.normal_texture.texture)].rule() == MipRule::normal;
+    if (loses)
+        surface.roughness = std::min(
+            1.0,
+            std::pow(std::pow(std::max(surface.roughness, kHeldRoughness), 4.0) + std::pow(bumps.a * material.normal_scale, 2.0), 0.25));

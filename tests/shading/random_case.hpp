@@ -18,7 +18,7 @@ inline std::vector<Texture> make_textures(FloatMaker& make, bool smooth) {
         std::vector<std::uint16_t> texels;
         for (int i = 0; i < width * height * 4; ++i)
             texels.push_back(static_cast<std::uint16_t>(smooth ? 30000 + make.below(2000) : make.below(65536)));
-        textures.push_back(Texture::from_rgba16(texels, width, height).value());
+        textures.push_back(Texture::from_rgba16(texels, width, height, static_cast<MipRule>(make.below(3))).value());
     }
     return textures;
 }

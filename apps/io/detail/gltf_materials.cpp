@@ -106,18 +106,19 @@ public:
         material.unlit = source.unlit;
         if (source.own_lobe) own_lobe(*source.own_lobe, material, used);
         if (used) {
-            material.base_color_texture = use(source.base_color_texture, "pbrMetallicRoughness.baseColorTexture", ColorSpace::srgb);
+            material.base_color_texture = use(source.base_color_texture, "pbrMetallicRoughness.baseColorTexture", ColorSpace::srgb,
+                                              material.alpha_mode == AlphaMode::opaque ? MipRule::equal : MipRule::alpha);
             material.emissive_texture = use(source.emissive_texture, "emissiveTexture", ColorSpace::srgb);
             material.metallic_roughness_texture =
                 use(source.metallic_roughness_texture, "pbrMetallicRoughness.metallicRoughnessTexture", ColorSpace::linear);
-            material.normal_texture = use(source.normal_texture, "normalTexture", ColorSpace::linear);
+            material.normal_texture = use(source.normal_texture, "normalTexture", ColorSpace::linear, MipRule::normal);
             material.occlusion_texture = use(source.occlusion_texture, "occlusionTexture", ColorSpace::linear);
         }
         return material;
     }
 
 private:
-    TextureUse use(const file::TexturePlace& info, const char* key, ColorSpace space) {
+    TextureUse use(const file::TexturePlace& info, const char* key, ColorSpace space, MipRule rule = MipRule::equal) {
         TextureUse use;
         if (info.index < 0) return use;
         const file::Texture& texture = document_.file.textures[static_cast<std::size_t>(info.index)];
@@ -135,7 +136,7 @@ private:
         }
         use.uv_set = uv_set;
         use.sampler = sampler_of(document_, texture.sampler);
-        use.texture = images_.texture_for(texture.source, space);
+        use.texture = images_.texture_for(texture.source, space, rule);
         return use;
     }
 

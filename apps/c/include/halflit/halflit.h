@@ -107,8 +107,9 @@ HALFLIT_C_API int32_t halflit_scene_get_bounds(const halflit_scene* scene, float
 
 // ---- materials and textures --------------------------------------------------------------------------------------------
 
-/// Encodings of a texture's red, green and blue.
-enum { HALFLIT_COLOR_SRGB = 0, HALFLIT_COLOR_LINEAR = 1 };
+/// Encodings of a texture's red, green and blue. HALFLIT_COLOR_SRGB_BY_ALPHA: sRGB, and in the smaller levels a colour counts as its alpha,
+/// for materials that mask or blend. HALFLIT_COLOR_NORMAL: linear, a normal map, whose smaller levels make the surface rougher.
+enum { HALFLIT_COLOR_SRGB = 0, HALFLIT_COLOR_LINEAR = 1, HALFLIT_COLOR_SRGB_BY_ALPHA = 2, HALFLIT_COLOR_NORMAL = 3 };
 
 /// Adds a texture: four bytes a pixel (RGBA), row 0 on top, rows row_bytes apart (0: without gaps). color is that of red, green and blue;
 /// alpha is linear. Sides up to 16384. index may be null.
