@@ -116,6 +116,8 @@ Result<void> check_options(const ShadingSettings& options) {
     if (options.rate > ShadingRate::pixel || options.specular > SpecularModel::blinn || options.accuracy > Accuracy::exact ||
         options.texture_detail > TextureDetail::nearest)
         return fail(ErrorCode::usage, "shading settings: found a value that no name stands for");
+    if (options.anisotropy < 1 || options.anisotropy > kMostAnisotropy)
+        return fail(ErrorCode::usage, "anisotropy: expected 1 to 16, found " + std::to_string(options.anisotropy));
     if (options.lobe)
         if (const auto lobe = check_lobe(*options.lobe); !lobe) return fail(ErrorCode::usage, "lobe: " + lobe.error().message);
     if (options.environment_bands < 0 || options.environment_bands > sh::kMaxBands)

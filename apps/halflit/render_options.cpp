@@ -284,7 +284,11 @@ FlagGroup accuracy_flags(ShadingSettings& s) {
              {"--texture-filter", form_of(kTextureDetailNames),
               fmt::format("full: as the file asks; bilinear: one mip level; nearest: one texel of it (default {})",
                           name_of(s.texture_detail, kTextureDetailNames)),
-              named(s.texture_detail, kTextureDetailNames)}}};
+              named(s.texture_detail, kTextureDetailNames)},
+             {"--anisotropy", "1|2|4|8|16",
+              fmt::format("Filter textures along a footprint up to so many times as long as wide, as floors have it (default {})",
+                          s.anisotropy),
+              choice(s.anisotropy, {1, 2, 4, 8, 16})}}};
 }
 
 Result<void> read_isa(std::optional<Isa>& target, const std::string& text) {

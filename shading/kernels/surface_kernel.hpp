@@ -1,7 +1,7 @@
 // Surface properties at each lane: colour and alpha, shading normal, metallic and roughness.
 #pragma once
 
-#include "shading/kernels/texture_kernel.hpp"
+#include "shading/kernels/anisotropic_kernel.hpp"
 #include "shading/kernels/vector.hpp"
 
 namespace halflit {

@@ -63,7 +63,7 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
     bool gradients = false;
     const auto use_texture = [&](bool wanted, Stage stage, const TextureUse& use, TexturePlan& target) {
         if (!wanted) return;
-        target = plan_texture(use, textures, available, options.texture_detail);
+        target = plan_texture(use, textures, available, options);
         if (target.data == nullptr) return;
         plan.stages |= stage;
         gradients = gradients || target.needs_lod;

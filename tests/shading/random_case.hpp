@@ -158,6 +158,7 @@ inline Case make_case(FloatMaker& make, bool smooth_textures) {
     if (make.below(2) == 0)
         c.ambient = {{make.ordinary(0, 1), make.ordinary(0, 1), make.ordinary(0, 1)}, {0.2f, make.ordinary(0, 1), 0.0f}};
     c.options.specular = static_cast<SpecularModel>(make.below(3));
+    if (make.below(3) == 0) c.options.anisotropy = static_cast<int>(2 + make.below(15));
     c.options.normalize_specular = make.below(4) != 0;
     const bool override_lobe = make.below(4) == 0;
     if (const Lobe lobe = make_lobe(make); override_lobe) c.options.lobe = lobe;

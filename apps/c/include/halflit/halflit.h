@@ -346,6 +346,8 @@ typedef struct halflit_settings {
     float shadow_fade;  ///< soft-split: distance to the blocker at which wrapped light ends, world units; 0: from the objects' size (0)
     int32_t shadow_terminator_offset;  ///< moves look-ups onto the smooth surface of the vertex normals, for coarse meshes (0)
     int32_t tone_curve;                ///< HALFLIT_TONE: from light to codes; floats and `background` do without (none)
+    int32_t anisotropy;                ///< largest ratio of a texture's footprint that is filtered along its length, 1 to 16 (1)
+    int32_t reserved;                  ///< 0
 } halflit_settings;
 HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t size);
 
