@@ -86,7 +86,8 @@ struct TileScratch {
 };
 
 /// Fills the attribute rows of the scratch's block for a list. The list is padded with copies of its last fragment.
-void interpolate(const TilePass& pass, FragmentList& list, shading::FragmentBlock& block);
+/// gradients: the kDu.. rows too, also where the material does without.
+void interpolate(const TilePass& pass, FragmentList& list, shading::FragmentBlock& block, bool gradients = false);
 
 /// Visibility: fills the buffers with the depth and triangle of each sample. Draws opaque triangles, and masked ones where they pass the
 /// alpha test. Leaves out blended ones.
