@@ -114,7 +114,8 @@ void add_normal_warning(const PreparedData& scene, const shading::ShadingPlan& p
 }
 
 /// Material plans for the alpha test of the shadow pass; empty if no material has a mask.
-std::vector<MaterialPlan> plan_casters(const PreparedData& scene, const ShadingSettings& options) {
+std::vector<MaterialPlan> plan_casters(const PreparedData& scene, ShadingSettings options) {
+    options.anisotropy = 1;
     std::vector<MaterialPlan> casters;
     for (std::size_t i = 0; i < scene.drawn_materials().size(); ++i) {
         const Material& material = scene.material(i);

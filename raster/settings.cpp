@@ -16,8 +16,8 @@ Result<void> check_settings(const Settings& settings, int width, int height) {
     if (width > 2 * raster::kGuardBandPx || height > 2 * raster::kGuardBandPx)
         return fail(ErrorCode::limit, "picture size: " + std::to_string(width) + " x " + std::to_string(height) +
                                           " pixels, expected at most " + std::to_string(2 * raster::kGuardBandPx) + " on a side");
-    if (settings.samples != 1 && settings.samples != 4 && settings.samples != 8)
-        return fail(ErrorCode::usage, "samples: " + std::to_string(settings.samples) + ", expected 1, 4 or 8");
+    if (settings.samples != 1 && settings.samples != 4 && settings.samples != 8 && settings.samples != 16)
+        return fail(ErrorCode::usage, "samples: " + std::to_string(settings.samples) + ", expected 1, 4, 8 or 16");
     if (!(settings.exposure > 0.0f && settings.exposure < 3e38f)) return fail(ErrorCode::usage, "the exposure is not a positive number");
     const int side = settings.shadow_size;
     if (side < 64 || side > 4096 || (side & (side - 1)) != 0)

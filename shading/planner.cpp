@@ -91,7 +91,7 @@ void plan_shadows(const ShadowInputs& shadows, ShadingPlan& plan) {
 void plan_highlights(ShadingPlan& plan, PowerFits& fits) {
     for (MaterialPlan& material : plan.materials) {
         constexpr std::uint32_t kNeeded = kStageLights | kStageSpecular;
-        if (material.ggx || (material.stages & kNeeded) != kNeeded || (material.stages & kStageMetallicRoughnessTexture) != 0) continue;
+        if (material.ggx || (material.stages & kNeeded) != kNeeded || roughness_varies(material)) continue;
         const double exponent = specular_exponent(static_cast<double>(material.roughness));
         const double half_exponent = exponent * (plan.specular == SpecularModel::phong ? 0.125 : 0.5);
         if (!(half_exponent > 1.0)) continue;
@@ -118,6 +118,8 @@ Result<void> check_options(const ShadingSettings& options) {
     if (options.rate > ShadingRate::pixel || options.specular > SpecularModel::ggx || options.accuracy > Accuracy::exact ||
         options.texture_detail > TextureDetail::nearest)
         return fail(ErrorCode::usage, "shading settings: found a value that no name stands for");
+    if (options.anisotropy < 1 || options.anisotropy > kMostAnisotropy)
+        return fail(ErrorCode::usage, "anisotropy: expected 1 to 16, found " + std::to_string(options.anisotropy));
     if (options.lobe)
         if (const auto lobe = check_lobe(*options.lobe); !lobe) return fail(ErrorCode::usage, "lobe: " + lobe.error().message);
     if (options.environment_bands < 0 || options.environment_bands > sh::kMaxBands)

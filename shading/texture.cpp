@@ -58,7 +58,7 @@ TextureRange range_of(const std::uint16_t* data, const std::vector<TextureLevel>
 
 /// The largest difference between the smaller levels as stored and as they would be without rounding, made from the stored level 0; units
 /// of 1 / 65535. Levels are kept as float here, which is off by at most 1/256 of that unit a level.
-float chain_error(const std::uint16_t* data, std::span<const TextureLevel> levels) {
+float chain_error(const std::uint16_t* data, std::span<const TextureLevel> levels, MipRule rule) {
     std::vector<float> large, small;
     float largest = 0.0f;
     for (std::size_t l = 1; l < levels.size(); ++l) {
@@ -74,7 +74,8 @@ float chain_error(const std::uint16_t* data, std::span<const TextureLevel> level
         }
         large.swap(small);
         const std::uint16_t* stored = data + std::size_t{4} * static_cast<std::size_t>(levels[l].offset);
-        for (std::size_t i = 0; i < values; ++i) largest = std::max(largest, std::fabs(large[i] - static_cast<float>(stored[i])));
+        for (std::size_t i = 0; i < values; ++i)
+            if (i % 4 != 3 || rule == MipRule::equal) largest = std::max(largest, std::fabs(large[i] - static_cast<float>(stored[i])));
     }
     return largest + static_cast<float>(levels.size()) / 256.0f;
 }
@@ -92,7 +93,9 @@ float Texture::storage_error() const {
     float known = texels_->storage_error.load(std::memory_order_relaxed);
     if (known < 0.0f) {
         // Half a unit for level 0, which the averages of the smaller levels pass on.
-        known = 0.5f + chain_error(data_.data(), levels_);
+        constexpr float kOnce = 0.51f;  // one rounding, of means in double
+        known = 0.5f + (rule_ == MipRule::alpha ? kOnce : chain_error(data_.data(), levels_, rule_));
+        if (rule_ == MipRule::normal) known = std::max(known, 0.5f + kOnce);
         texels_->storage_error.store(known, std::memory_order_relaxed);  // another thread finds the same
     }
     return known;

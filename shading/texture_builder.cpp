@@ -1,6 +1,7 @@
 // Making of textures: texels as they come, and the mip levels.
 #include "sh/config.hpp"
 #include "shading/model/srgb.hpp"
+#include "shading/moment_levels.hpp"
 #include "shading/out_of_memory.hpp"
 #include "shading/texture_texels.hpp"
 
@@ -80,7 +81,7 @@ TextureBuilder::TextureBuilder(TextureBuilder&&) noexcept = default;
 TextureBuilder& TextureBuilder::operator=(TextureBuilder&&) noexcept = default;
 TextureBuilder::~TextureBuilder() = default;
 
-Result<TextureBuilder> TextureBuilder::make(int width, int height) {
+Result<TextureBuilder> TextureBuilder::make(int width, int height, MipRule rule) {
     if (auto sides = check_sides(width, height); !sides) return tl::unexpected(sides.error());
     try {
         TextureBuilder builder;
@@ -92,6 +93,8 @@ Result<TextureBuilder> TextureBuilder::make(int width, int height) {
         texture.texels_->memory = allocate_texels(values);
         texture.data_ = {texture.texels_->memory.get(), values};
         builder.rows_.assign(texture.levels_.size(), 0);
+        texture.rule_ = rule;
+        if (rule != MipRule::equal) builder.moments_ = std::make_unique<MomentLevels>(rule, texture.levels_.size());
         return builder;
     } catch (const std::bad_alloc&) {
         return fail_out_of_memory(
@@ -129,6 +132,10 @@ void TextureBuilder::add_row(const std::uint16_t* rgba16) {
 
 /// Counts a row of a level as done, and makes the rows of smaller levels that need no other.
 void TextureBuilder::reduce(std::size_t level) {
+    if (level == 0 && texture_.rule_ == MipRule::normal) {
+        std::uint16_t* const row = next_row();
+        for (int x = 0; x < texture_.width(); ++x) row[4 * x + 3] = 0;
+    }
     ++rows_[level];
     if (level + 1 == rows_.size()) return;
     const TextureLevel &large = texture_.levels_[level], &small = texture_.levels_[level + 1];
@@ -141,10 +148,13 @@ void TextureBuilder::reduce(std::size_t level) {
         const Box rows = box_of(y, large.height);
         if (rows.first + rows.count > rows_[level]) return;
         std::uint16_t* to = texels_of(small, y);
-        if (large.width % 2 == 0 && large.height % 2 == 0)
-            halve_row(texels_of(large, 2 * y), texels_of(large, 2 * y + 1), to, small.width);
-        else
-            reduce_row([from = texels_of(large, 0)](std::size_t i) { return from + 4 * i; }, large, to, small, y);
+        if (texture_.rule_ != MipRule::alpha) {
+            if (large.width % 2 == 0 && large.height % 2 == 0)
+                halve_row(texels_of(large, 2 * y), texels_of(large, 2 * y + 1), to, small.width);
+            else
+                reduce_row([from = texels_of(large, 0)](std::size_t i) { return from + 4 * i; }, large, to, small, y);
+        }
+        if (moments_ != nullptr) moments_->reduce(texels_of(large, 0), large, level + 1, small, y, to);
         reduce(level + 1);
     }
 }
@@ -158,18 +168,18 @@ Texture TextureBuilder::finish() {
     return std::move(texture_);
 }
 
-Result<Texture> Texture::from_rgba8(std::span<const std::uint8_t> rgba8, int width, int height, ColorSpace space) {
+Result<Texture> Texture::from_rgba8(std::span<const std::uint8_t> rgba8, int width, int height, ColorSpace space, MipRule rule) {
     if (auto size = check_size(width, height, rgba8.size()); !size) return tl::unexpected(size.error());
-    auto builder = TextureBuilder::make(width, height);
+    auto builder = TextureBuilder::make(width, height, rule);
     if (!builder) return tl::unexpected(builder.error());
     const auto row = std::size_t{4} * static_cast<std::size_t>(width);
     for (std::size_t at = 0; at < rgba8.size(); at += row) builder->add_row(&rgba8[at], space);
     return builder->finish();
 }
 
-Result<Texture> Texture::from_rgba16(std::span<const std::uint16_t> rgba16, int width, int height) {
+Result<Texture> Texture::from_rgba16(std::span<const std::uint16_t> rgba16, int width, int height, MipRule rule) {
     if (auto size = check_size(width, height, rgba16.size()); !size) return tl::unexpected(size.error());
-    auto builder = TextureBuilder::make(width, height);
+    auto builder = TextureBuilder::make(width, height, rule);
     if (!builder) return tl::unexpected(builder.error());
     const auto row = std::size_t{4} * static_cast<std::size_t>(width);
     for (std::size_t at = 0; at < rgba16.size(); at += row) builder->add_row(&rgba16[at]);

@@ -30,7 +30,11 @@ void put(const Mat4& m, float to[16]);
 [[nodiscard]] Result<Camera> camera(const halflit_camera* given);
 [[nodiscard]] Result<Settings> settings(const halflit_settings* given);
 [[nodiscard]] Result<Execution> execution(const halflit_execution* given);
-[[nodiscard]] Result<ColorSpace> color_space(std::int32_t given);
+struct TextureColor {
+    ColorSpace space;
+    MipRule rule;
+};
+[[nodiscard]] Result<TextureColor> texture_color(std::int32_t given);
 
 /// An environment's options, and whether its image is calibrated.
 struct EnvironmentRequest {

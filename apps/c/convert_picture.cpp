@@ -20,7 +20,7 @@ HALFLIT_ENDS_WITH(halflit_mesh, reserved);
 HALFLIT_ENDS_WITH(halflit_light, reserved);
 HALFLIT_ENDS_WITH(halflit_environment_options, reserved);
 HALFLIT_ENDS_WITH(halflit_camera, reserved);
-HALFLIT_ENDS_WITH(halflit_settings, reserved);
+HALFLIT_ENDS_WITH(halflit_settings, anisotropy);
 HALFLIT_ENDS_WITH(halflit_execution, memory_limit);
 HALFLIT_ENDS_WITH(halflit_target, coverage_row_bytes);
 HALFLIT_ENDS_WITH(halflit_report, reserved);
@@ -98,6 +98,7 @@ halflit_settings to_c(const Settings& from) {
     settings.shadow_terminator_offset = from.shadow_terminator_offset;
     settings.tone_curve = static_cast<std::int32_t>(from.tone_curve);
     settings.sky_shadows = from.sky_shadows;
+    settings.anisotropy = from.shading.anisotropy;
     return settings;
 }
 
@@ -122,6 +123,7 @@ Result<Settings> settings(const halflit_settings* given) {
     shading.environment_bands = read->environment_bands;
     shading.environment_tolerance = read->environment_tolerance;
     shading.max_error_codes = read->max_error_codes;
+    shading.anisotropy = read->anisotropy;
     Choices choices("halflit_settings");
     choices.read(read->accuracy, Accuracy::exact, "accuracy", shading.accuracy);
     choices.read(read->shading_rate, ShadingRate::pixel, "shading_rate", shading.rate);

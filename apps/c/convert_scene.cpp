@@ -86,12 +86,14 @@ Result<LoadOptions> load_options(const halflit_load_options* given) {
     return options;
 }
 
-Result<ColorSpace> color_space(std::int32_t given) {
+Result<TextureColor> texture_color(std::int32_t given) {
+    if (given == HALFLIT_COLOR_SRGB_BY_ALPHA) return TextureColor{ColorSpace::srgb, MipRule::alpha};
+    if (given == HALFLIT_COLOR_NORMAL) return TextureColor{ColorSpace::linear, MipRule::normal};
     ColorSpace space = ColorSpace::srgb;
     Choices choices("texture");
     choices.read(given, ColorSpace::linear, "color", space);
     if (!choices.result()) return tl::unexpected<Error>(choices.result().error());
-    return space;
+    return TextureColor{space, MipRule::equal};
 }
 
 // ---- parts of a scene --------------------------------------------------------------------------------------------------

@@ -15,8 +15,8 @@ namespace {
 
 Result<Texture> make_texture(const std::uint8_t* rgba8, std::int32_t width, std::int32_t height, std::size_t row_bytes,
                              std::int32_t color) {
-    const auto space = color_space(color);
-    if (!space) return tl::unexpected<Error>(space.error());
+    const auto read = texture_color(color);
+    if (!read) return tl::unexpected<Error>(read.error());
     if (width < 1 || height < 1 || width > kMaxTextureSide || height > kMaxTextureSide)
         return fail(ErrorCode::usage, "texture: " + std::to_string(width) + " x " + std::to_string(height) + " pixels, expected 1 to " +
                                           std::to_string(kMaxTextureSide) + " on a side");
@@ -24,10 +24,10 @@ Result<Texture> make_texture(const std::uint8_t* rgba8, std::int32_t width, std:
     if (row_bytes != 0 && row_bytes < row)
         return fail(ErrorCode::usage,
                     "texture: row_bytes is " + std::to_string(row_bytes) + ", expected 0 or at least " + std::to_string(row));
-    if (row_bytes == 0 || row_bytes == row) return Texture::from_rgba8({rgba8, row * rows}, width, height, *space);
+    if (row_bytes == 0 || row_bytes == row) return Texture::from_rgba8({rgba8, row * rows}, width, height, read->space, read->rule);
     std::vector<std::uint8_t> packed(row * rows);
     for (std::size_t y = 0; y < rows; ++y) std::memcpy(packed.data() + y * row, rgba8 + y * row_bytes, row);
-    return Texture::from_rgba8(packed, width, height, *space);
+    return Texture::from_rgba8(packed, width, height, read->space, read->rule);
 }
 
 Result<Material> make_material(const Scene& scene, const halflit_material* given) {

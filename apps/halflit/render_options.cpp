@@ -84,7 +84,8 @@ FlagGroup picture_flags(RenderOptions& o, PictureSize usual) {
           fmt::format("Size in pixels (default {}x{}, reduced to the aspect ratio of the file's camera)", usual.width, usual.height),
           parsed(o.size, parse_size)},
          {"--region", "X,Y,W,H", "Draw and write only this part of the picture", parsed(s.region, parse_region)},
-         {"--samples", "1|4|8", fmt::format("Samples per pixel, which smooth edges (default {})", s.samples), choice(s.samples, {1, 4, 8})},
+         {"--samples", "1|4|8|16", fmt::format("Samples per pixel, which smooth edges (default {})", s.samples),
+          choice(s.samples, {1, 4, 8, 16})},
          {"--background", "COLOR|environment",
           fmt::format("transparent, #rgb, #rrggbb, #rrggbbaa or a name (default {}); environment: the image of --env", kUsualBackground),
           [&s](const std::string& text) { return read_background(s, text); }},
@@ -294,7 +295,11 @@ FlagGroup accuracy_flags(ShadingSettings& s) {
              {"--texture-filter", form_of(kTextureDetailNames),
               fmt::format("full: as the file asks; bilinear: one mip level; nearest: one texel of it (default {})",
                           name_of(s.texture_detail, kTextureDetailNames)),
-              named(s.texture_detail, kTextureDetailNames)}}};
+              named(s.texture_detail, kTextureDetailNames)},
+             {"--anisotropy", "1|2|4|8|16",
+              fmt::format("Filter textures along a footprint up to so many times as long as wide, as floors have it (default {})",
+                          s.anisotropy),
+              choice(s.anisotropy, {1, 2, 4, 8, 16})}}};
 }
 
 Result<void> read_isa(std::optional<Isa>& target, const std::string& text) {

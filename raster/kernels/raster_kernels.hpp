@@ -61,7 +61,7 @@ struct TransformArgs {
     std::uint8_t* outcodes;
 };
 
-inline constexpr int kMaxSamples = 8;
+inline constexpr int kMaxSamples = 16;
 
 /// Sample positions relative to the pixel centre, in 1/256 pixel.
 struct SamplePattern {
@@ -122,7 +122,7 @@ struct TileBuffers {
     alignas(64) float depth[kMaxSamples][kTilePixels];
     alignas(64) std::uint32_t triangle[kMaxSamples][kTilePixels];
     /// Bit s is set if sample s passed in `cover`. `cover` only sets bits; the caller clears them.
-    alignas(64) std::uint8_t coverage[kTilePixels];
+    alignas(64) std::uint16_t coverage[kTilePixels];
 };
 
 /// Depths of one triangle, where TileBuffers::coverage marks its samples; pixels as there.

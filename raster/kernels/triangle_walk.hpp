@@ -118,8 +118,8 @@ struct WriteDepth {
 /// Draws into depth and triangle where the coverage plane has this sample's bit.
 struct WriteCovered {
     WriteVisible visible;
-    const std::uint8_t* coverage;
-    std::uint8_t bit;
+    const std::uint16_t* coverage;
+    std::uint16_t bit;
 
     HALFLIT_INLINE void pixels(int at, I outside, F z) const {
         alignas(64) std::int32_t not_covered[kWidth];
@@ -131,8 +131,8 @@ struct WriteCovered {
 /// Marks in the coverage plane the samples that pass the depth test.
 struct MarkCoverage {
     const float* depth;
-    std::uint8_t* coverage;
-    std::uint8_t bit;
+    std::uint16_t* coverage;
+    std::uint16_t bit;
 
     HALFLIT_INLINE void pixels(int at, I outside, F z) const {
         const M pass = less(I(-1), outside) & (z > load(depth + at));
@@ -140,7 +140,7 @@ struct MarkCoverage {
         while (mask != 0) {
             const int l = __builtin_ctz(mask);
             mask &= mask - 1;
-            coverage[at + l] = static_cast<std::uint8_t>(coverage[at + l] | bit);
+            coverage[at + l] = static_cast<std::uint16_t>(coverage[at + l] | bit);
         }
     }
 };

@@ -87,7 +87,7 @@ bool PictureTile::collect_layers(const TileRect& part) {
     LayerScratch& layers = *scratch_.layers;
     layers.fragments.clear();
     layers.z.clear();
-    std::uint8_t* const coverage = scratch_.buffers.coverage;
+    std::uint16_t* const coverage = scratch_.buffers.coverage;
     return for_each_layer(pass_.view, tile_, scratch_, [&](std::size_t chunk, std::uint32_t record) {
         const TriangleSource& source = pass_.view.geometry.source(chunk);
         const CoverBox box =

@@ -51,8 +51,8 @@ struct LayerScratch {
     /// One triangle at one pixel.
     struct Fragment {
         std::uint32_t id;
-        std::uint16_t at;      ///< index of the pixel in the tile's buffers
-        std::uint8_t samples;  ///< bit s: sample s shows it
+        std::uint16_t at;       ///< index of the pixel in the tile's buffers
+        std::uint16_t samples;  ///< bit s: sample s shows it
     };
     LayerDepths depths;
     std::vector<Fragment> fragments;
@@ -90,7 +90,8 @@ struct TileScratch {
 };
 
 /// Fills the attribute rows of the scratch's block for a list. The list is padded with copies of its last fragment.
-void interpolate(const TilePass& pass, FragmentList& list, shading::FragmentBlock& block);
+/// gradients: the kDu.. rows too, also where the material does without.
+void interpolate(const TilePass& pass, FragmentList& list, shading::FragmentBlock& block, bool gradients = false);
 
 /// Visibility: fills the buffers with the depth and triangle of each sample. Draws opaque triangles, and masked ones where they pass the
 /// alpha test. Leaves out blended ones.

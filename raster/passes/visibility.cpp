@@ -38,15 +38,55 @@ private:
     std::size_t count_ = 0;
 };
 
+/// True if the samples of a pixel may have different alpha: a texture gives it.
+bool tests_samples(const TilePass& pass, const shading::MaterialPlan& material) {
+    return pass.geometry.view().samples.count > 1 && (material.stages & kStageBaseColorTexture) != 0;
+}
+
+/// Takes the samples off the coverage plane that fail the alpha test, each at its own place in the texture: the edge of a mask is as smooth
+/// as that of a triangle. True if some are left.
+bool test_samples(const TilePass& pass, const shading::MaterialPlan& material, const TileRect& rect, const FragmentList& list,
+                  TileScratch& scratch) {
+    const SamplePattern& samples = pass.geometry.view().samples;
+    const bool second = material.base_color_texture.uv_set == 1;
+    auto& lane = scratch.block.lane;
+    float* const u = lane[second ? shading::kU1 : shading::kU0];
+    float* const v = lane[second ? shading::kV1 : shading::kV0];
+    const int steps = second ? shading::kDu1Dx : shading::kDu0Dx;
+    float middle_u[shading::kBlockSize], middle_v[shading::kBlockSize];
+    std::memcpy(middle_u, u, sizeof middle_u);
+    std::memcpy(middle_v, v, sizeof middle_v);
+    unsigned left = 0;
+    for (int s = 0; s < samples.count; ++s) {
+        const float x = static_cast<float>(samples.x[s]) * (1.0f / 256.0f), y = static_cast<float>(samples.y[s]) * (1.0f / 256.0f);
+        for (int l = 0; l < list.count; ++l) {
+            u[l] = middle_u[l] + (x * lane[steps][l] + y * lane[steps + 2][l]);
+            v[l] = middle_v[l] + (x * lane[steps + 1][l] + y * lane[steps + 3][l]);
+        }
+        pass.shade.alpha(material, scratch.block, list.count);
+        for (int l = 0; l < list.count; ++l) {
+            std::uint16_t& mask = scratch.buffers.coverage[(list.y_px[l] - rect.y) * kTileStride + (list.x_px[l] - rect.x)];
+            if (!(scratch.block.alpha[l] >= material.alpha_cutoff)) mask = static_cast<std::uint16_t>(mask & ~(1u << s));
+        }
+    }
+    for (int l = 0; l < list.count; ++l) left |= scratch.buffers.coverage[(list.y_px[l] - rect.y) * kTileStride + (list.x_px[l] - rect.x)];
+    return left != 0;
+}
+
 /// Draws one triangle of a masked material: the samples that pass its alpha test.
 void draw_masked(const TilePass& pass, const TileRect& rect, std::size_t chunk, std::uint32_t record, TileScratch& scratch,
                  TileCounts& counts) {
     bool any = false;
     const CoverBox box = collect_covered(pass, rect, chunk, record, scratch, [&](FragmentList& list) {
         const shading::MaterialPlan& material = pass.materials[static_cast<std::size_t>(list.material)];
-        interpolate(pass, list, scratch.block);
-        pass.shade.alpha(material, scratch.block, list.count);
+        const bool of_samples = tests_samples(pass, material);
+        interpolate(pass, list, scratch.block, of_samples);
         count_alpha_test(counts.work, material, list.count);
+        if (of_samples) {
+            any |= test_samples(pass, material, rect, list, scratch);
+            return;
+        }
+        pass.shade.alpha(material, scratch.block, list.count);
         for (int l = 0; l < list.count; ++l) {
             if (scratch.block.alpha[l] >= material.alpha_cutoff)
                 any = true;
@@ -60,7 +100,7 @@ void draw_masked(const TilePass& pass, const TileRect& rect, std::size_t chunk, 
 
 }  // namespace
 
-void interpolate(const TilePass& pass, FragmentList& list, shading::FragmentBlock& block) {
+void interpolate(const TilePass& pass, FragmentList& list, shading::FragmentBlock& block, bool gradients) {
     const int last = list.count - 1, padded = (list.count + 15) & ~15;
     for (int l = list.count; l < padded; ++l) {
         list.id[l] = list.id[last];
@@ -74,7 +114,7 @@ void interpolate(const TilePass& pass, FragmentList& list, shading::FragmentBloc
     args.clip_records = pass.records.clip_records();
     args.slots = material.slots;
     args.stride = 4 * __builtin_popcount(material.slots);
-    args.gradients = (material.stages & kStageGradients) != 0;
+    args.gradients = gradients || (material.stages & kStageGradients) != 0;
     args.facing = material.double_sided;
     args.shadow_offset = pass.shadow_offset && (material.stages & (kStageLights | kStagePrelit)) == kStageLights;
     args.count = padded;
@@ -86,7 +126,8 @@ void interpolate(const TilePass& pass, FragmentList& list, shading::FragmentBloc
 
 void clear_coverage(TileScratch& scratch, const CoverBox& box) {
     for (int y = box.y0; y <= box.y1; ++y)
-        std::memset(scratch.buffers.coverage + y * kTileStride + box.x0, 0, static_cast<std::size_t>(box.x1 - box.x0 + 1));
+        std::memset(scratch.buffers.coverage + y * kTileStride + box.x0, 0,
+                    sizeof(scratch.buffers.coverage[0]) * static_cast<std::size_t>(box.x1 - box.x0 + 1));
 }
 
 void draw_visibility(const TilePass& pass, int tile, TileScratch& scratch, TileCounts& counts) {

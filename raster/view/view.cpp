@@ -9,12 +9,22 @@ SamplePattern sample_pattern(int samples) {
     // Standard sample positions of graphics hardware, rotated grids, in 1/16 pixel.
     static constexpr std::int8_t k4[4][2] = {{-2, -6}, {6, -2}, {-6, 2}, {2, 6}};
     static constexpr std::int8_t k8[8][2] = {{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}};
+    // In 1/32 pixel, each in a row and a column of its own, found by a search over such patterns: over edges of every slope and place the
+    // share of samples is within 0.114 of the area, 0.026 in the mean (hardware's: 0.171 and 0.034). No pattern is within 1/16: an edge
+    // beside two samples has both or neither, at the same area.
+    static constexpr std::int8_t k16[16][2] = {{1, 3},    {-7, -1}, {5, -5},    {7, 1},   {-3, -7}, {-5, 7},  {3, 11},  {-1, -13},
+                                               {-13, -3}, {13, 5},  {-11, -11}, {11, 13}, {-15, 9}, {-9, 15}, {9, -15}, {15, -9}};
     SamplePattern p;
     p.count = samples;
-    for (int s = 0; s < samples && samples > 1; ++s) {
-        p.x[s] = static_cast<std::int16_t>(16 * (samples == 4 ? k4[s][0] : k8[s][0]));
-        p.y[s] = static_cast<std::int16_t>(16 * (samples == 4 ? k4[s][1] : k8[s][1]));
-    }
+    const auto fill = [&](const auto& positions, int unit) {
+        for (int s = 0; s < samples; ++s) {
+            p.x[s] = static_cast<std::int16_t>(unit * positions[s][0]);
+            p.y[s] = static_cast<std::int16_t>(unit * positions[s][1]);
+        }
+    };
+    if (samples == 4) fill(k4, 16);
+    if (samples == 8) fill(k8, 16);
+    if (samples == 16) fill(k16, 8);
     return p;
 }
 

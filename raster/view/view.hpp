@@ -36,7 +36,7 @@ struct View {
     return both;
 }
 
-/// View of a camera through a window of width x height pixels, of which only `region` is drawn. samples: 1, 4 or 8.
+/// View of a camera through a window of width x height pixels, of which only `region` is drawn. samples: 1, 4, 8 or 16.
 [[nodiscard]] View make_view(const Camera& camera, int width, int height, const Region& region, int tile_size, int samples);
 
 }  // namespace halflit::raster

@@ -112,7 +112,7 @@ void spend_on_specular(const ShadingPlan& plan, MaterialPlan& material, const Su
                        double budget, PowerFits& fits, ErrorBound& bound) {
     // Highlights below this, before the reflectance, can be left out at a cost of `codes` codes.
     const auto threshold_of = [&](double codes) { return codes / (kSlopeAtBlack * exposure * s.reflectance * light.count); };
-    if ((material.stages & kStageMetallicRoughnessTexture) == 0) {
+    if (!roughness_varies(material)) {
         const double half_exponent = s.exponent * (plan.specular == SpecularModel::phong ? 0.125 : 0.5);
         const double share = threshold_of(kBudgetShares.specular_cut * budget) / (light.largest / exposure * s.normalization);
         for (const int terms : {SpecularCurve::kFewTerms, SpecularCurve::kMostTerms}) {

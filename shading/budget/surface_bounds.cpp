@@ -219,6 +219,13 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
         const double error =
             2.0 * 1.7320508 * filtered(material.normal_texture, {0, 1, 2}) * std::max(1.0, std::fabs(double{material.normal_scale}));
         s.normal_error += error < z ? error / (z - error) : 2.0;
+        if (material.normal_roughness) {
+            // (r^4 + u^2)^(1/4), u being what the normals lost, has the slope u / (2 (r^4 + u^2)^(3/4)) in u, which is at most 1 / (2 r).
+            const double held = std::max(roughness, double{kMinRoughness});
+            const double lost = filtered(material.normal_texture, {3}) * std::fabs(double{material.normal_scale}) / (2.0 * held);
+            s.roughness.absolute += lost;
+            s.roughness.relative += lost / held;
+        }
     }
     return s;
 }

@@ -35,7 +35,16 @@ double filter_error(const TexturePlan& texture, int c, double largest_uv) {
     // each axis.
     const double level =
         texture.mip == MipFilter::linear && texture.level_count > 1 ? (texture.transform ? 1e-5 : 4e-6) * std::min(range, 9.0 * step) : 0.0;
-    return std::min(shift * step, range) + level + 10.0 * kRounding + static_cast<double>(texture.source->storage_error()) * kUnit;
+    // Anisotropic filters: ratio, level and direction of the footprint are off by 1e-5 of themselves (the shorter axis is a difference of
+    // products, up to 16 times the longer one times an ulp). Probes lie up to 8 widths away, at most 16 texels of the larger level, and
+    // their places round once more.
+    double ellipse = 0.0;
+    if (texture.anisotropy > 1) {
+        const double places = kRounding * (largest_uv + 1.0) * (texture.width[0] + texture.height[0]);
+        ellipse = 3e-5 * std::min(range, 9.0 * step) + 2e-5 * range + std::min((places + 2.0 * 16.0 * 1e-5) * step, range);
+    }
+    return std::min(shift * step, range) + level + ellipse + 10.0 * kRounding +
+           static_cast<double>(texture.source->storage_error()) * kUnit;
 }
 
 double least_value(const TexturePlan& texture, int c) { return texture.source->range().least[c] * kUnit; }

@@ -51,13 +51,16 @@ static void fetch_surfaces(const shading::MaterialPlan& material, const shading:
             store(rows.alpha + lane, base.a);
         }
         if (lit || !needs_color) {
+            F lost(0.0f);
             if (has(material, kStageNormalMap)) {
                 const Sample texel = sample_texture(material.normal_texture, block, lane, taps);
                 store3(rows.texel, lane, {texel.r, texel.g, texel.b});
+                lost = texel.a * F(material.normal_scale);
             }
             const Reflectance surface = reflectance(material, block, lane, taps);
             store(rows.metallic + lane, surface.metallic);
-            store(rows.roughness + lane, vmax(surface.roughness, F(shading::kMinRoughness)));
+            const F roughness = vmax(surface.roughness, F(shading::kMinRoughness));
+            store(rows.roughness + lane, material.normal_roughness ? rougher(roughness, lost) : roughness);
             store(rows.occlusion + lane, surface.occlusion);
         }
         if (needs_color) store3(rows.emitted, lane, emitted(material, block, lane, taps));

@@ -1,7 +1,7 @@
 // Surface properties at each lane: colour and alpha, shading normal, metallic and roughness.
 #pragma once
 
-#include "shading/kernels/texture_kernel.hpp"
+#include "shading/kernels/anisotropic_kernel.hpp"
 #include "shading/kernels/vector.hpp"
 
 namespace halflit {
@@ -53,6 +53,14 @@ HALFLIT_INLINE Normals normals(const shading::MaterialPlan& material, const shad
         texel = {texture.r, texture.g, texture.b};
     }
     return normals(material, block, lane, texel);
+}
+
+/// Roughness r >= kMinRoughness of a surface whose normals were filtered. lost: the root of what is added to alpha^2 = r^4 for that
+/// (MomentLevels), 0 where nothing is lost; then it is r itself.
+HALFLIT_INLINE F rougher(F roughness, F lost) {
+    const F squared = roughness * roughness, more = lost * lost;
+    const F wider = vmin(vsqrt(vsqrt(mad(squared, squared, more))), F(1.0f));
+    return sel(more > F(0.0f), wider, roughness);
 }
 
 /// Metallic-roughness parameters and the occlusion of ambient light.

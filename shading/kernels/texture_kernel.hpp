@@ -69,11 +69,5 @@ HALFLIT_INLINE Sample sample_lanes(const Fetch& fetch) {
     return sample_lanes([&](int l) __attribute__((always_inline)) { return scattered(data, near, l); });
 }
 
-/// `taps`: memory of this vector of lanes; a new one starts with key 0.
-HALFLIT_INLINE Sample sample_texture(const shading::TexturePlan& texture, const shading::FragmentBlock& block, int lane, TexelTaps& taps) {
-    if (taps.key != texture.taps) make_taps(texture, block, lane, taps);
-    return filter_texels(texture.data, taps);
-}
-
 }  // namespace HALFLIT_ISA_NAMESPACE
 }  // namespace halflit

@@ -122,8 +122,11 @@ HALFLIT_INLINE bool level_taps(const shading::TexturePlan& texture, F unit_u, F 
     return false;
 }
 
-/// log2 of the larger of the two lengths, in texels of level 0, that a step of one pixel right or down covers. 0 or less: magnified.
-HALFLIT_INLINE F level_of_detail(const shading::TexturePlan& texture, const shading::FragmentBlock& block, int lane) {
+/// Change of the texel coordinates at level 0 by a step of one pixel to the right and down.
+struct TexelSteps {
+    F ux, vx, uy, vy;
+};
+HALFLIT_INLINE TexelSteps texel_steps(const shading::TexturePlan& texture, const shading::FragmentBlock& block, int lane) {
     const int first = texture.uv_set == 1 ? shading::kDu1Dx : shading::kDu0Dx;
     F du_dx = load(&block.lane[first][lane]), dv_dx = load(&block.lane[first + 1][lane]);
     F du_dy = load(&block.lane[first + 2][lane]), dv_dy = load(&block.lane[first + 3][lane]);
@@ -136,12 +139,20 @@ HALFLIT_INLINE F level_of_detail(const shading::TexturePlan& texture, const shad
         dv_dy = mad(vu, du_dy_in, vv * dv_dy);
     }
     const F width(static_cast<float>(texture.width[0])), height(static_cast<float>(texture.height[0]));
-    const F ux = du_dx * width, vx = dv_dx * height, uy = du_dy * width, vy = dv_dy * height;
-    const F right = mad(ux, ux, vx * vx), down = mad(uy, uy, vy * vy);
-    // Clamped below infinity; NaN counts as no footprint.
-    const F squared = clamp(vmax(right, down), F(0.0f), F(1e30f));
-    const Log2 log = log2_parts(kLog2Degree5, squared);
+    return {du_dx * width, dv_dx * height, du_dy * width, dv_dy * height};
+}
+
+/// log2 of a length, from its square: clamped below infinity; NaN counts as no length.
+HALFLIT_INLINE F log2_of_length(F squared) {
+    const Log2 log = log2_parts(kLog2Degree5, clamp(squared, F(0.0f), F(1e30f)));
     return F(0.5f) * (log.exponent + log.fraction);
+}
+
+/// log2 of the larger of the two lengths, in texels of level 0, that a step of one pixel right or down covers. 0 or less: magnified.
+HALFLIT_INLINE F level_of_detail(const shading::TexturePlan& texture, const shading::FragmentBlock& block, int lane) {
+    const TexelSteps step = texel_steps(texture, block, lane);
+    const F right = mad(step.ux, step.ux, step.vx * step.vx), down = mad(step.uy, step.uy, step.vy * step.vy);
+    return log2_of_length(vmax(right, down));
 }
 
 /// The levels that lanes read, and the weight of the second.
@@ -158,18 +169,21 @@ HALFLIT_INLINE LevelPair level_pair(const shading::TexturePlan& texture, F lod) 
     return {level, level + sel(less(level, I(last)), I(1), I(0)), nearest ? F(0.0f) : held - low};
 }
 
-/// Not inlined: a material has up to five textures.
-[[gnu::noinline]] static void make_taps(const shading::TexturePlan& texture, const shading::FragmentBlock& block, int lane,
-                                        TexelTaps& out) {
-    F u = load(&block.lane[texture.uv_set == 1 ? shading::kU1 : shading::kU0][lane]);
-    F v = load(&block.lane[texture.uv_set == 1 ? shading::kV1 : shading::kV0][lane]);
-    if (texture.transform) {
-        const F u_in = u;
-        u = mad(F(texture.row_u[0]), u_in, F(texture.row_u[1]) * v) + F(texture.row_u[2]);
-        v = mad(F(texture.row_v[0]), u_in, F(texture.row_v[1]) * v) + F(texture.row_v[2]);
-    }
-    const F unit_u = wrap_unit(u, texture.wrap_u), unit_v = wrap_unit(v, texture.wrap_v);
-    const F lod = texture.needs_lod ? level_of_detail(texture, block, lane) : F(0.0f);
+/// A place in a texture, its transform applied.
+struct TexelPlace {
+    F u, v;
+};
+HALFLIT_INLINE TexelPlace texel_place(const shading::TexturePlan& texture, const shading::FragmentBlock& block, int lane) {
+    const F u = load(&block.lane[texture.uv_set == 1 ? shading::kU1 : shading::kU0][lane]);
+    const F v = load(&block.lane[texture.uv_set == 1 ? shading::kV1 : shading::kV0][lane]);
+    if (!texture.transform) return {u, v};
+    return {mad(F(texture.row_u[0]), u, F(texture.row_u[1]) * v) + F(texture.row_u[2]),
+            mad(F(texture.row_v[0]), u, F(texture.row_v[1]) * v) + F(texture.row_v[2])};
+}
+
+/// Taps around a place, for footprints of 2^lod texels.
+HALFLIT_INLINE void make_taps_at(const shading::TexturePlan& texture, TexelPlace at, F lod, TexelTaps& out) {
+    const F unit_u = wrap_unit(at.u, texture.wrap_u), unit_v = wrap_unit(at.v, texture.wrap_v);
     const bool one_filter = texture.mag == texture.min;
     out.key = texture.taps;
     out.linear = !(one_filter && texture.mag == TextureFilter::nearest);
@@ -184,6 +198,13 @@ HALFLIT_INLINE LevelPair level_pair(const shading::TexturePlan& texture, F lod) 
     if (!out.two_levels) return;
     store(out.blend, pair.blend);
     out.neighbours = level_taps(texture, unit_u, unit_v, level_shape(texture, pair.far), mode, nearest, out.far) && out.neighbours;
+}
+
+/// Not inlined: a material has up to five textures.
+[[gnu::noinline]] static void make_taps(const shading::TexturePlan& texture, const shading::FragmentBlock& block, int lane,
+                                        TexelTaps& out) {
+    const TexelPlace at = texel_place(texture, block, lane);
+    make_taps_at(texture, at, texture.needs_lod ? level_of_detail(texture, block, lane) : F(0.0f), out);
 }
 
 }  // namespace HALFLIT_ISA_NAMESPACE

@@ -106,7 +106,7 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
     bool gradients = false;
     const auto use_texture = [&](bool wanted, Stage stage, const TextureUse& use, TexturePlan& target) {
         if (!wanted) return;
-        target = plan_texture(use, textures, available, options.texture_detail);
+        target = plan_texture(use, textures, available, options);
         if (target.data == nullptr) return;
         plan.stages |= stage;
         gradients = gradients || target.needs_lod;
@@ -133,6 +133,9 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
         use_texture(absorbed[0] + absorbed[1] + absorbed[2] > 0.0f, kStageTransmission, material.transmission.thickness_texture,
                     plan.transmission.thickness_texture);
     }
+    const TexturePlan& normals = plan.normal_texture;
+    plan.normal_roughness = kinds.specular && normals.data != nullptr && normals.source->rule() == MipRule::normal &&
+                            normals.mip != MipFilter::none && normals.level_count > 1;
     if (gradients) plan.stages |= kStageGradients;
     if (base_color_seen && (available & kColorSlot) != 0) plan.stages |= kStageVertexColor;
     plan.occlusion_is_metallic_roughness = (plan.stages & kStageOcclusionTexture) != 0 &&

@@ -66,11 +66,17 @@ struct MaterialPlan {
     float shadow_turn_scale = 0;
     int environment = -1;                          ///< index into ShadingPlan::environments
     int reflection_lobes = 0;                      ///< lobes by which the environment's reflections are taken, 0 to 2; 0: there are none
+    bool normal_roughness = false;                 ///< minified normals make the surface rougher: their texture was made so
     bool occlusion_is_metallic_roughness = false;  ///< both read the same texels the same way: one fetch serves both
     TexturePlan base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;
     TexturePlan specular_texture, specular_color_texture;
     TransmissionPlan transmission;
 };
+
+/// True if the roughness may differ from fragment to fragment.
+[[nodiscard]] inline bool roughness_varies(const MaterialPlan& material) {
+    return (material.stages & kStageMetallicRoughnessTexture) != 0 || material.normal_roughness;
+}
 
 /// Kinds of light in the frame, which decide what a material needs.
 struct LightKinds {

@@ -4,7 +4,8 @@
 
 namespace halflit::shading {
 
-TexturePlan plan_texture(const TextureUse& use, std::span<const Texture> textures, SlotMask available, TextureDetail detail) {
+TexturePlan plan_texture(const TextureUse& use, std::span<const Texture> textures, SlotMask available, const ShadingSettings& options) {
+    const TextureDetail detail = options.texture_detail;
     TexturePlan plan{};
     if (use.texture < 0 || static_cast<std::size_t>(use.texture) >= textures.size()) return plan;
     const Texture& texture = textures[static_cast<std::size_t>(use.texture)];
@@ -35,6 +36,8 @@ TexturePlan plan_texture(const TextureUse& use, std::span<const Texture> texture
     plan.mip = use.sampler.mip;
     if (detail != TextureDetail::full && plan.mip == MipFilter::linear) plan.mip = MipFilter::nearest;
     if (detail == TextureDetail::nearest) plan.mag = plan.min = TextureFilter::nearest;
+    const bool smooth = plan.mag == TextureFilter::linear && plan.min == TextureFilter::linear && plan.mip == MipFilter::linear;
+    plan.anisotropy = smooth && plan.level_count > 1 ? options.anisotropy : 1;
     plan.needs_lod = (plan.mip != MipFilter::none && plan.level_count > 1) || plan.mag != plan.min;
     return plan;
 }
@@ -42,7 +45,7 @@ TexturePlan plan_texture(const TextureUse& use, std::span<const Texture> texture
 bool same_taps(const TexturePlan& a, const TexturePlan& b) {
     return a.level_count == b.level_count && a.width[0] == b.width[0] && a.height[0] == b.height[0] && a.uv_set == b.uv_set &&
            a.wrap_u == b.wrap_u && a.wrap_v == b.wrap_v && a.mag == b.mag && a.min == b.min && a.mip == b.mip &&
-           std::equal(a.row_u, a.row_u + 3, b.row_u) && std::equal(a.row_v, a.row_v + 3, b.row_v);
+           a.anisotropy == b.anisotropy && std::equal(a.row_u, a.row_u + 3, b.row_u) && std::equal(a.row_v, a.row_v + 3, b.row_v);
 }
 
 bool same_fetch(const TexturePlan& a, const TexturePlan& b) { return a.data == b.data && same_taps(a, b); }

@@ -24,10 +24,14 @@ struct TexturePlan {
     TextureWrap wrap_u, wrap_v;
     TextureFilter mag, min;
     MipFilter mip;
+    std::int32_t anisotropy = 1;  ///< largest ratio of a footprint's length to its width that is filtered along its length
 };
 
+inline constexpr int kMostAnisotropy = 16;
+
 /// Plans one use of a texture; `data` is null where the material has none. `available`: attribute slots that the material's meshes have.
-[[nodiscard]] TexturePlan plan_texture(const TextureUse& use, std::span<const Texture> textures, SlotMask available, TextureDetail detail);
+[[nodiscard]] TexturePlan plan_texture(const TextureUse& use, std::span<const Texture> textures, SlotMask available,
+                                       const ShadingSettings& options);
 
 /// True if both read texels at the same places with the same weights: sizes, coordinates and filters are equal.
 [[nodiscard]] bool same_taps(const TexturePlan& a, const TexturePlan& b);

@@ -67,6 +67,47 @@ Rgba sample_level(const Texture& texture, const TextureLevel& level, const Sampl
 /// True if the coordinates are used as they are: a transform would carry a NaN from one coordinate to the other.
 bool is_identity(const TextureUse& use) { return use.row_u == Vec3f{1, 0, 0} && use.row_v == Vec3f{0, 1, 0}; }
 
+/// Changes of (u, v) in texels of level 0 by a step of one pixel to the right, and down.
+struct Steps {
+    double ux, vx, uy, vy;
+};
+Steps texel_steps(const Texture& texture, const TextureUse& use, const FragmentBlock& block, int lane) {
+    const int first = use.uv_set == 1 ? kDu1Dx : kDu0Dx;
+    const auto step = [&](int at, double& x, double& y) {
+        double du = block.lane[at][lane], dv = block.lane[at + 1][lane];
+        if (!is_identity(use)) {
+            const double du_in = du;
+            du = double{use.row_u.x} * du_in + double{use.row_u.y} * dv;
+            dv = double{use.row_v.x} * du_in + double{use.row_v.y} * dv;
+        }
+        x = du * texture.width(), y = dv * texture.height();
+    };
+    Steps out{};
+    step(first, out.ux, out.vx);
+    step(first + 2, out.uy, out.vy);
+    return out;
+}
+
+/// The mean of probes along the longer axis of a footprint (kernels/anisotropic_kernel.hpp).
+Rgba sample_ellipse(const Texture& texture, const TextureUse& use, const FragmentBlock& block, int lane, double u, double v, int most) {
+    Steps s = texel_steps(texture, use, block, lane);
+    for (double* x : {&s.ux, &s.vx, &s.uy, &s.vy}) *x = std::isnan(*x) ? 0.0 : std::clamp(*x, -1e8, 1e8);
+    // The longer axis is at the angle t with tan 2t = 2 uv / (uu - vv).
+    const double uu = s.ux * s.ux + s.uy * s.uy, vv = s.vx * s.vx + s.vy * s.vy, uv = s.ux * s.vx + s.uy * s.vy;
+    const double angle = 0.5 * std::atan2(2 * uv, uu - vv), length = std::sqrt(0.5 * (uu + vv) + std::hypot(0.5 * (uu - vv), uv));
+    const double width = length > 0 ? std::abs(s.ux * s.vy - s.uy * s.vx) / length : 0.0;
+    const double ratio = std::clamp(length / std::max(width, 1.0), 1.0, static_cast<double>(most)), between = length / ratio;
+    const double du = between * std::cos(angle) / texture.width(), dv = between * std::sin(angle) / texture.height();
+    Rgba sum{};
+    for (int i = -9; i <= 9; ++i) {
+        const double weight = i == 0 ? 1.0 : std::clamp(0.5 * (ratio - (2 * std::abs(i) - 1)), 0.0, 1.0);
+        if (weight == 0.0) continue;
+        const Rgba at = sample(texture, use.sampler, u + i * du, v + i * dv, std::log2(between));
+        sum = {sum.r + weight * at.r, sum.g + weight * at.g, sum.b + weight * at.b, sum.a + weight * at.a};
+    }
+    return {sum.r / ratio, sum.g / ratio, sum.b / ratio, sum.a / ratio};
+}
+
 /// A material's texture at a lane; `fallback` where it is not used.
 Rgba material_texture(const FrameInputs& frame, const TextureUse& use, SlotMask available, const FragmentBlock& block, int lane,
                       const Rgba& fallback) {
@@ -76,9 +117,16 @@ Rgba material_texture(const FrameInputs& frame, const TextureUse& use, SlotMask 
     double u = block.lane[use.uv_set == 1 ? kU1 : kU0][lane], v = block.lane[use.uv_set == 1 ? kV1 : kV0][lane];
     double lod = level_of_detail(texture, use, block, lane);
     if (use.uv_set == 1 && (available & 16u) == 0) u = v = 0, lod = -100;
-    if (is_identity(use)) return sample(texture, use.sampler, u, v, lod);
-    const double tu = double{use.row_u.x} * u + double{use.row_u.y} * v + double{use.row_u.z};
-    const double tv = double{use.row_v.x} * u + double{use.row_v.y} * v + double{use.row_v.z};
+    const bool has_uv = use.uv_set != 1 || (available & 16u) != 0;
+    double tu = u, tv = v;
+    if (!is_identity(use)) {
+        tu = double{use.row_u.x} * u + double{use.row_u.y} * v + double{use.row_u.z};
+        tv = double{use.row_v.x} * u + double{use.row_v.y} * v + double{use.row_v.z};
+    }
+    const bool smooth = use.sampler.mag == TextureFilter::linear && use.sampler.min == TextureFilter::linear &&
+                        use.sampler.mip == MipFilter::linear && texture.levels().size() > 1;
+    if (smooth && has_uv && frame.options.anisotropy > 1)
+        return sample_ellipse(texture, use, block, lane, tu, tv, frame.options.anisotropy);
     return sample(texture, use.sampler, tu, tv, lod);
 }
 
@@ -336,19 +384,10 @@ Rgba sample(const Texture& texture, const Sampler& sampler, double u, double v, 
 }
 
 double level_of_detail(const Texture& texture, const TextureUse& use, const FragmentBlock& block, int lane) {
-    const int first = use.uv_set == 1 ? kDu1Dx : kDu0Dx;
-    const auto length = [&](int at) {
-        double du = block.lane[at][lane], dv = block.lane[at + 1][lane];
-        if (!is_identity(use)) {
-            const double du_in = du;
-            du = double{use.row_u.x} * du_in + double{use.row_u.y} * dv;
-            dv = double{use.row_v.x} * du_in + double{use.row_v.y} * dv;
-        }
-        const double x = du * texture.width(), y = dv * texture.height();
-        return std::sqrt(x * x + y * y);  // NaN if one is, where hypot may be infinite
-    };
+    const Steps step = texel_steps(texture, use, block, lane);
+    const auto length = [](double x, double y) { return std::sqrt(x * x + y * y); };  // NaN if one is, where hypot may be infinite
     // A footprint that is NaN: the step down decides, so that of a NaN there is no footprint at all.
-    const double right = length(first), down = length(first + 2);
+    const double right = length(step.ux, step.vx), down = length(step.uy, step.vy);
     return std::log2(right > down ? right : down);
 }
 
@@ -385,6 +424,14 @@ Surface surface_of(const FrameInputs& frame, const Material& material, SlotMask 
     surface.base = {base.r, base.g, base.b};
     surface.normal = shading_normal(frame, material, available, block, lane);
     surface.roughness = material.roughness * mr.g;
+    const Rgba bumps = material_texture(frame, material.normal_texture, available, block, lane, {});
+    const bool loses = material.normal_texture.used() && (available & 4u) != 0 && bumps.a != 0.0 &&
+                       static_cast<std::size_t>(material.normal_texture.texture) < frame.textures.size() &&
+                       frame.textures[static_cast<std::size_t>(material.normal_texture.texture)].rule() == MipRule::normal;
+    if (loses)
+        surface.roughness = std::min(
+            1.0,
+            std::pow(std::pow(std::max(surface.roughness, kHeldRoughness), 4.0) + std::pow(bumps.a * material.normal_scale, 2.0), 0.25));
     surface.occlusion = 1.0 + double{material.occlusion_strength} * (occlusion.r - 1.0);
     const Vec3d position = row3(block, kPosX, lane);
     surface.to_eye = frame.orthographic ? scale(to_double(frame.view_direction_ws), -1) : unit(to_double(frame.eye_ws) - position);

@@ -235,7 +235,7 @@ static void test_faulty_arguments(void) {
     CHECK_FAILS(halflit_scene_add_light(cube.scene, &light, NULL), HALFLIT_ERROR_USAGE, "type is -1");
     CHECK_FAILS(halflit_scene_add_texture(cube.scene, texel, 0, 1, 0, 0, NULL), HALFLIT_ERROR_USAGE, "0 x 1 pixels");
     CHECK_FAILS(halflit_scene_add_texture(cube.scene, texel, 1, 1, 3, 0, NULL), HALFLIT_ERROR_USAGE, "row_bytes is 3");
-    CHECK_FAILS(halflit_scene_add_texture(cube.scene, texel, 1, 1, 0, 2, NULL), HALFLIT_ERROR_USAGE, "color is 2");
+    CHECK_FAILS(halflit_scene_add_texture(cube.scene, texel, 1, 1, 0, 4, NULL), HALFLIT_ERROR_USAGE, "color is 4");
     cube.settings.tone_curve = 4;
     CHECK(draw_cube(NULL, &cube) == 0);
     CHECK(strstr(halflit_last_error(), "halflit_settings: tone_curve is 4, expected 0 to 3") != NULL);

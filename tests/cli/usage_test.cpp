@@ -56,7 +56,7 @@ TEST_CASE("usage: an invalid command line ends with 2 and says what was expected
         {{"render", "--size", "8x8", "--size", "9x9"}, "--size"},
         {{"render", "--size", "8x"}, "WIDTHxHEIGHT"},
         {{"render", "--size", "8x8x8"}, "WIDTHxHEIGHT"},
-        {{"render", "--samples", "3"}, "1, 4, 8"},
+        {{"render", "--samples", "3"}, "1, 4, 8, 16"},
         {{"render", "--size", "8x8", "--region", "0,0,9,8"}, "8x8"},
         {{"render", "--region", "0,0,0,0"}, "X,Y,WIDTH,HEIGHT"},
         {{"render", "--background", "#12345"}, "#rrggbb"},

@@ -41,13 +41,14 @@ Sized<halflit_execution> Session::execution() {
 Sized<halflit_settings> Session::settings() {
     Sized<halflit_settings> settings(in_);
     check(halflit_settings_init(settings.get(), settings.size()));
-    settings.set(&halflit_settings::samples, in_.one_in(20) ? 3 : in_.flag() ? 1 : 4);
+    settings.set(&halflit_settings::samples, in_.one_in(20) ? 3 : in_.one_in(8) ? 16 : in_.flag() ? 1 : 4);
     settings.set(&halflit_settings::shadow_size, 64);
     settings.set(&halflit_settings::shadows, choice(3));
     settings.set(&halflit_settings::tone_curve, choice(4));
     // Direct integration over an environment (reference) takes seconds for each lobe.
     settings.set(&halflit_settings::accuracy, environments_left_ > 0 ? choice(2) : 1);
     settings.set(&halflit_settings::shading_rate, in_.one_in(3) ? choice(3) : 2);
+    settings.set(&halflit_settings::anisotropy, in_.one_in(20) ? 17 : in_.flag() ? 1 : 5);
     settings.set(&halflit_settings::texture_detail, in_.one_in(3) ? choice(3) : 0);
     settings.set(&halflit_settings::background_environment, in_.one_in(6));
     if (in_.one_in(4)) settings.set(&halflit_settings::region, halflit_region{index(), index(), index(), index()});

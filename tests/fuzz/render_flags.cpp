@@ -37,6 +37,7 @@ ShadingSettings read_shading(Input& input) {
     shading.normalize_specular = input.flag();
     shading.environment_bands = static_cast<int>(input.below(11));
     shading.accuracy = one_of<Accuracy>(input, 2);
+    if (input.one_in(3)) shading.anisotropy = input.pick(std::array{1, 2, 3, 16});
     shading.texture_detail = input.one_in(3) ? one_of<TextureDetail>(input, 3) : TextureDetail::full;
     if (input.one_in(4)) shading.max_error_codes = std::array{0.01, 0.5, 4.0, -1.0}[input.below(4)];
     if (input.one_in(16)) shading.environment_tolerance = static_cast<double>(input.real());
@@ -71,7 +72,7 @@ Camera read_camera(Input& input) {
 Settings read_settings(Input& input, const RenderFlags& flags) {
     Settings settings;
     settings.region = read_region(input, flags);
-    settings.samples = input.pick(std::array{1, 4, 1, 4, 8, 3});
+    settings.samples = input.pick(std::array{1, 4, 1, 16, 8, 3});
     settings.background_linear = {input.real(), input.real(), input.real(), input.flag() ? 1.0f : input.real()};
     settings.background_environment = flags.environment && input.flag();
     if (input.one_in(8)) settings.exposure = input.real();

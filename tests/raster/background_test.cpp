@@ -79,7 +79,7 @@ TEST_CASE("background: the same bits for every instruction set, tile size, threa
           "[raster][background]") {
     raster::test::NamedScene s = raster::test::layers_scene();
     s.scene.environment = kept(random_sky(64, 32, 7), 0.4);
-    for (const int samples : {1, 4, 8}) {
+    for (const int samples : {1, 4, 8, 16}) {
         halflit::test::Setup settings;
         settings.samples = samples;
         settings.shadow_size = 64;

@@ -26,7 +26,7 @@ bool bit(std::uint64_t bits, std::size_t i) { return (bits >> i & 1) != 0; }
 void compare(Random& random, Tally& tally) {
     const Place place(random, 64);
     const TileRect& region = place.window;
-    const SamplePattern pattern = standard_samples(random.chance(0.5) ? 1 : random.chance(0.5) ? 4 : 8);
+    const SamplePattern pattern = standard_samples(random.chance(0.5) ? 1 : random.chance(0.5) ? 4 : random.chance(0.5) ? 8 : 16);
     BinArgs args{};
     args.mirrored = random.chance(0.5);
     args.cull_back = random.chance(0.5);

@@ -157,7 +157,7 @@ TEST_CASE("coverage: triangles drawn where they cover have the depths of opaque 
     TriangleList list(kIdBase);
     std::int64_t wrong = 0, drawn = 0;
     for (int i = 0; i < 12'000; ++i) {
-        const SamplePattern pattern = standard_samples(i % 5 == 0 ? 8 : i % 5 < 3 ? 1 : 4);
+        const SamplePattern pattern = standard_samples(i % 5 == 0 ? (i % 2 == 0 ? 8 : 16) : i % 5 < 3 ? 1 : 4);
         const Place place(random, 16 << (i % 3));
         const FixedTriangle t = TriangleSampler(random, place).any();
         if (doubled_area(t) == 0) continue;
@@ -191,7 +191,7 @@ TEST_CASE("coverage: cover marks exactly the samples, within its box, and draw_c
     std::int64_t wrong_bits = 0, outside_box = 0, wrong_draws = 0, covered = 0;
     for (int i = 0; i < 12'000; ++i) {
         const int tile = 16 << (i % 3);
-        const SamplePattern pattern = standard_samples(i % 5 == 0 ? 8 : i % 5 < 3 ? 1 : 4);
+        const SamplePattern pattern = standard_samples(i % 5 == 0 ? (i % 2 == 0 ? 8 : 16) : i % 5 < 3 ? 1 : 4);
         const Place place(random, tile);
         const FixedTriangle t = TriangleSampler(random, place).any();
         if (doubled_area(t) == 0) continue;
@@ -205,7 +205,7 @@ TEST_CASE("coverage: cover marks exactly the samples, within its box, and draw_c
             std::memset(buffers->coverage, 0, sizeof buffers->coverage);
             const CoverBox box = kernels.cover(place.window, pattern, *buffers, list.source(), 0);
             Random keep(keep_seed);
-            std::vector<std::uint8_t> kept(kTilePixels, 0);
+            std::vector<std::uint16_t> kept(kTilePixels, 0);
             for (int at = 0; at < kTilePixels; ++at) {
                 const int x = at % kTileStride, y = at / kTileStride;
                 unsigned want = 0;
@@ -331,7 +331,7 @@ TEST_CASE("visibility: each sample shows the nearest of many triangles, and of e
     std::int64_t wrong = 0, contested = 0;
     for (int round = 0; round < 250; ++round) {
         const int tile = 16 << (round % 3);
-        const SamplePattern pattern = standard_samples(round % 4 == 0 ? 8 : round % 4 == 1 ? 4 : 1);
+        const SamplePattern pattern = standard_samples(round % 8 == 0 ? 16 : round % 4 == 0 ? 8 : round % 4 == 1 ? 4 : 1);
         const Place place(random, tile);
         TriangleSampler sampler(random, place);
         TriangleList list(kIdBase);

@@ -103,7 +103,7 @@ Scene coloured(Random& random, std::vector<Mesh> meshes) {
 halflit::test::Setup any_settings(Random& random, int width, int height) {
     halflit::test::Setup settings;
     settings.execution.threads = static_cast<int>(random.integer(1, 2));
-    settings.samples = random.chance(0.5) ? 1 : random.chance(0.5) ? 4 : 8;
+    settings.samples = random.chance(0.5) ? 1 : random.chance(0.5) ? 4 : random.chance(0.5) ? 8 : 16;
     settings.execution.tile_size = 16 << random.index(3);
     if (random.chance(0.3)) settings.region = random_region(random, width, height);
     return settings;

@@ -94,7 +94,7 @@ const std::vector<NamedScene>& scenes() {
 
 TEST_CASE("determinism: every instruction set, thread count and tile size gives the same pixels", "[raster][determinism]") {
     for (const NamedScene& s : scenes()) {
-        for (const int samples : {1, 4, 8}) {
+        for (const int samples : {1, 4, 8, 16}) {
             const Picture first = draw(s, settings_of(Isa::scalar, 1, 64, samples));
             REQUIRE(first.visible > 3000);
             int combinations = 0;

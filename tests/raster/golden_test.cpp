@@ -37,6 +37,7 @@ std::vector<Variant> variants() {
     add("four-samples").samples = 4;
     add("eight-samples-transparent").samples = 8;
     all.back().settings.background_linear = {0, 0, 0, 0};
+    add("sixteen-samples").samples = 16;
     add("gouraud").shading.rate = ShadingRate::gouraud;
     add("flat").shading.rate = ShadingRate::flat;
     add("unshadowed").shadows = ShadowMode::off;

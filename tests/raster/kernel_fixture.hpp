@@ -14,15 +14,19 @@ namespace halflit::raster::test {
 
 using halflit::test::Random;
 
-/// The standard positions of 4 and 8 samples, in 1/256 pixel from the centre.
+/// The standard positions of 4 and 8 samples, and the renderer's own 16, in 1/256 pixel from the centre.
 inline SamplePattern standard_samples(int count) {
     static constexpr int k4[4][2] = {{-2, -6}, {6, -2}, {-6, 2}, {2, 6}};
     static constexpr int k8[8][2] = {{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}};
+    static constexpr int k16[16][2] = {{1, 3},    {-7, -1}, {5, -5},    {7, 1},   {-3, -7}, {-5, 7},  {3, 11},  {-1, -13},
+                                       {-13, -3}, {13, 5},  {-11, -11}, {11, 13}, {-15, 9}, {-9, 15}, {9, -15}, {15, -9}};
     SamplePattern p;
     p.count = count;
     for (int s = 0; s < count && count > 1; ++s) {
-        p.x[s] = static_cast<std::int16_t>(16 * (count == 4 ? k4[s][0] : k8[s][0]));
-        p.y[s] = static_cast<std::int16_t>(16 * (count == 4 ? k4[s][1] : k8[s][1]));
+        const int unit = count == 16 ? 8 : 16;
+        const int* const at = count == 4 ? k4[s] : count == 8 ? k8[s] : k16[s];
+        p.x[s] = static_cast<std::int16_t>(unit * at[0]);
+        p.y[s] = static_cast<std::int16_t>(unit * at[1]);
     }
     return p;
 }

@@ -113,8 +113,8 @@ inline Light random_light(Random& random) {
 
 inline Settings random_settings(Random& random) {
     Settings settings;
-    static constexpr std::array<int, 3> kSamples = {1, 4, 8};
-    settings.samples = kSamples[static_cast<std::size_t>(random.index(3))];
+    static constexpr std::array<int, 4> kSamples = {1, 4, 8, 16};
+    settings.samples = kSamples[static_cast<std::size_t>(random.index(4))];
     settings.background_linear = {0.1f, 0.2f, 0.3f, random.chance(0.5) ? 1.0f : 0.0f};
     settings.shadows = static_cast<ShadowMode>(random.index(3));
     settings.shadow_size = 128;

@@ -169,7 +169,7 @@ struct Street {
 TEST_CASE("planes: depth is the distance of a plane that faces the camera", "[raster][planes]") {
     for (const float distance : {0.11f, 0.5f, 1.0f, 7.25f, 300.0f, 4e4f, 1e7f})
         for (const float far_ratio : {0.0f, 1.5f, 1000.0f})
-            for (const int samples : {1, 4, 8}) {
+            for (const int samples : {1, 4, 8, 16}) {
                 Scene scene;
                 add(scene, square(2 * distance));
                 Camera camera;
@@ -242,7 +242,7 @@ TEST_CASE("planes: where nothing is, depth is infinite, and the rest is 0", "[ra
     Scene scene;
     add(scene, square(0.5f));
     Scene empty;
-    for (const int samples : {1, 4, 8})
+    for (const int samples : {1, 4, 8, 16})
         for (const int tile : {16, 64}) {
             Settings settings;
             settings.samples = samples;
@@ -309,7 +309,7 @@ TEST_CASE("planes: numbers are those of the visibility view, clipped triangles i
     std::vector<NamedScene> scenes = raster::test::all_scenes();
     scenes.push_back({"street", street.scene, street.camera});
     for (const NamedScene& s : scenes)
-        for (const int samples : {1, 4, 8}) {
+        for (const int samples : {1, 4, 8, 16}) {
             constexpr int kW = 120, kH = 90;
             Settings settings;
             settings.samples = samples;
@@ -552,7 +552,7 @@ TEST_CASE("planes: normals follow materials that become double-sided", "[raster]
 TEST_CASE("planes: a region is the same part of the whole, in either layout, with padded rows", "[raster][planes]") {
     const Street street;
     constexpr int kW = 100, kH = 70;
-    for (const int samples : {1, 8}) {
+    for (const int samples : {1, 16}) {
         Settings settings;
         settings.samples = samples;
         const Planes whole = planes_of(street.scene, street.camera, settings, kW, kH);

@@ -66,7 +66,7 @@ TEST_CASE("settings: sizes below 1 are usage errors, sizes beyond the guard band
 }
 
 TEST_CASE("settings: samples, tile size, exposure and region are checked", "[raster][settings]") {
-    for (const int samples : {0, -1, 2, 3, 5, 16, kMost}) {
+    for (const int samples : {0, -1, 2, 3, 5, 12, 32, kMost}) {
         Settings s;
         s.samples = samples;
         CHECK(refused(outcome(box_scene(), s), ErrorCode::usage));

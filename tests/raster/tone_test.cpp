@@ -105,7 +105,7 @@ TEST_CASE("tone: a pixel's codes are those of its light through the curve", "[ra
 
 TEST_CASE("tone: linear light is the same bits whatever the curve", "[raster][tone]") {
     for (const raster::test::NamedScene& s : raster::test::all_scenes())
-        for (const int samples : {1, 4, 8}) {
+        for (const int samples : {1, 4, 8, 16}) {
             const Drawn none = drawn(s.scene, s.camera, setup_of(ToneCurve::none, samples));
             for (const ToneCurve curve : kCurves) {
                 const Drawn with = drawn(s.scene, s.camera, setup_of(curve, samples));
@@ -121,7 +121,7 @@ TEST_CASE("tone: linear light is the same bits whatever the curve", "[raster][to
 
 TEST_CASE("tone: the background colour keeps its codes under every curve, beside surfaces and behind nothing", "[raster][tone]") {
     const raster::test::NamedScene s = raster::test::layers_scene();
-    for (const int samples : {1, 4, 8})
+    for (const int samples : {1, 4, 8, 16})
         for (const ToneCurve curve : kCurves)
             for (const std::array<int, 4> color :
                  {std::array{0x3a, 0x3f, 0x47, 255}, {255, 255, 255, 255}, {255, 0, 1, 255}, {9, 200, 77, 128}}) {
@@ -180,7 +180,7 @@ TEST_CASE("tone: light is mapped as it is without alpha, and laid over the backg
     const double both = 0.25 + 0.75 * 0.5;
     const Vec3d one = layer(far_layer), two = (layer(near_layer) * 0.25 + layer(far_layer) * (0.75 * 0.5)) * (1 / both);
     const Vec3d back{0.1, 0.5, 0.9};
-    for (const int samples : {1, 4, 8})
+    for (const int samples : {1, 4, 8, 16})
         for (const ToneCurve curve : kCurves) {
             auto settings = setup_of(curve, samples);
             settings.exposure = 1.0f;
@@ -203,7 +203,7 @@ TEST_CASE("tone: the same bits for every instruction set, tile size, thread coun
     raster::test::NamedScene s = raster::test::layers_scene();
     s.scene.environment = std::make_shared<Environment>(shading::make_environment(random_sky(64, 32, 7).view(), {false, 0.4, true}));
     for (const ToneCurve curve : kCurves)
-        for (const int samples : {1, 4, 8})
+        for (const int samples : {1, 4, 8, 16})
             for (const int back : {0, 1, 2}) {
                 auto settings = setup_of(curve, samples);
                 settings.background_environment = back == 1;

@@ -18,7 +18,7 @@ inline std::vector<Texture> make_textures(FloatMaker& make, bool smooth) {
         std::vector<std::uint16_t> texels;
         for (int i = 0; i < width * height * 4; ++i)
             texels.push_back(static_cast<std::uint16_t>(smooth ? 30000 + make.below(2000) : make.below(65536)));
-        textures.push_back(Texture::from_rgba16(texels, width, height).value());
+        textures.push_back(Texture::from_rgba16(texels, width, height, static_cast<MipRule>(make.below(3))).value());
     }
     return textures;
 }
@@ -172,6 +172,7 @@ inline Case make_case(FloatMaker& make, bool smooth_textures) {
     if (make.below(2) == 0)
         c.ambient = {{make.ordinary(0, 1), make.ordinary(0, 1), make.ordinary(0, 1)}, {0.2f, make.ordinary(0, 1), 0.0f}};
     c.options.specular = static_cast<SpecularModel>(make.below(4));
+    if (make.below(3) == 0) c.options.anisotropy = static_cast<int>(2 + make.below(15));
     c.options.normalize_specular = make.below(4) != 0;
     const bool override_lobe = make.below(4) == 0;
     if (const Lobe lobe = make_lobe(make); override_lobe) c.options.lobe = lobe;

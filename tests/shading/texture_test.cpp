@@ -6,6 +6,9 @@
 
 #include "tests/support/catch.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 using namespace halflit;
 using namespace halflit::shading;
 
@@ -55,6 +58,103 @@ TEST_CASE("texture: all 256 sRGB codes survive decoding and encoding", "[shading
             CHECK(out[code] == code * 0x01010101u);
         }
     }
+}
+
+TEST_CASE("texture: levels by alpha have the colour of what shows, the mean alpha, and one rounding", "[shading][texture]") {
+    // A leaf of one green over black that is transparent: every level is that green wherever it is anything.
+    std::vector<std::uint8_t> leaf;
+    for (int i = 0; i < 64; ++i) {
+        const bool inside = (i % 8 - 3) * (i % 8 - 3) + (i / 8 - 3) * (i / 8 - 3) < 9;
+        leaf.insert(leaf.end(), {0, static_cast<std::uint8_t>(inside ? 180 : 0), 0, static_cast<std::uint8_t>(inside ? 255 : 0)});
+    }
+    const Texture green = Texture::from_rgba8(leaf, 8, 8, ColorSpace::srgb, MipRule::alpha).value();
+    const Texture equal = Texture::from_rgba8(leaf, 8, 8, ColorSpace::srgb).value();
+    const double full = texel_value(green, 0, 3, 3, 1);
+    CHECK(texel_value(green, 3, 0, 0, 1) == full);
+    CHECK(texel_value(green, 1, 0, 1, 1) == full);
+    CHECK(texel_value(equal, 3, 0, 0, 1) < 0.5 * full);
+    CHECK(texel_value(green, 3, 0, 0, 3) == texel_value(equal, 3, 0, 0, 3));
+    // Noise, with sides that are no powers of two: level by level in long double from level 0.
+    std::vector<std::uint16_t> noise;
+    std::uint64_t state = 7;
+    for (int i = 0; i < 4 * 13 * 22; ++i) {
+        state = state * 6364136223846793005u + 1442695040888963407u;
+        noise.push_back(static_cast<std::uint16_t>(i % 4 == 3 && state >> 62 == 0 ? 0 : state >> 48));
+    }
+    const Texture made = Texture::from_rgba16(noise, 13, 22, MipRule::alpha).value();
+    std::vector<long double> above;  // colour times alpha, and alpha
+    for (std::size_t i = 0; i < noise.size(); i += 4)
+        for (std::size_t c = 0; c < 4; ++c) above.push_back(c == 3 ? noise[i + 3] : static_cast<long double>(noise[i + c]) * noise[i + 3]);
+    double worst = 0;
+    for (std::size_t l = 1; l < made.levels().size(); ++l) {
+        const TextureLevel &large = made.levels()[l - 1], &small = made.levels()[l];
+        std::vector<long double> mean;
+        for (int y = 0; y < small.height; ++y)
+            for (int x = 0; x < small.width; ++x)
+                for (std::size_t c = 0; c < 4; ++c) {
+                    // The share of each texel that lies in the box, by the lengths of the overlaps.
+                    const long double w = static_cast<long double>(large.width) / small.width;
+                    const long double h = static_cast<long double>(large.height) / small.height;
+                    const auto overlap = [](int i, long double from, long double size) {
+                        return std::max(0.0L, std::min(i + 1.0L, from + size) - std::max(static_cast<long double>(i), from)) / size;
+                    };
+                    long double sum = 0;
+                    for (int j = 0; j < large.height; ++j)
+                        for (int i = 0; i < large.width; ++i)
+                            sum +=
+                                overlap(i, x * w, w) * overlap(j, y * h, h) * above[4 * static_cast<std::size_t>(j * large.width + i) + c];
+                    mean.push_back(sum);
+                }
+        for (std::size_t i = 0; i < mean.size(); i += 4)
+            for (std::size_t c = 0; c < 4; ++c) {
+                const int at = static_cast<int>(i / 4);
+                const long double want = c == 3 ? mean[i + 3] : mean[i + c] / mean[i + 3];
+                worst = std::max(worst, std::fabs(texel_value(made, l, at % small.width, at / small.width, static_cast<int>(c)) -
+                                                  static_cast<double>(want)));
+            }
+        above = std::move(mean);
+    }
+    CHECK(worst < 0.5001);
+    CHECK(static_cast<double>(made.storage_error()) >= 0.5 + worst);
+}
+
+TEST_CASE("texture: levels of a normal map have what the mean of its normals lost in alpha, and level 0 has nothing",
+          "[shading][texture]") {
+    std::vector<std::uint8_t> map;
+    std::uint64_t state = 3;
+    for (int i = 0; i < 32 * 16; ++i) {
+        state = state * 6364136223846793005u + 1442695040888963407u;
+        const bool flat = i % 32 < 8;
+        map.insert(map.end(), {static_cast<std::uint8_t>(flat ? 128 : 96 + (state >> 58)),
+                               static_cast<std::uint8_t>(flat ? 128 : 96 + (state >> 40 & 63)), 240, 77});
+    }
+    const Texture made = Texture::from_rgba8(map, 32, 16, ColorSpace::linear, MipRule::normal).value();
+    const Texture equal = Texture::from_rgba8(map, 32, 16, ColorSpace::linear).value();
+    CHECK(made.rule() == MipRule::normal);
+    CHECK(equal.rule() == MipRule::equal);
+    double worst = 0, most = 0;
+    for (std::size_t l = 0; l < made.levels().size(); ++l) {
+        const TextureLevel& level = made.levels()[l];
+        const int wide = 32 / level.width, high = 16 / level.height;
+        for (int y = 0; y < level.height; ++y)
+            for (int x = 0; x < level.width; ++x) {
+                for (int c = 0; c < 3; ++c) CHECK(texel_value(made, l, x, y, c) == texel_value(equal, l, x, y, c));
+                long double mean[3] = {};
+                for (int j = y * high; j < (y + 1) * high; ++j)
+                    for (int i = x * wide; i < (x + 1) * wide; ++i) {
+                        long double n[3], length = 0;
+                        for (int c = 0; c < 3; ++c) n[c] = 2 * texel_value(made, 0, i, j, c) / 65535.0L - 1, length += n[c] * n[c];
+                        for (int c = 0; c < 3; ++c) mean[c] += n[c] / std::sqrt(length) / (wide * high);
+                    }
+                const long double length = std::sqrt(mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]);
+                const long double lost = l == 0 ? 0.0L : std::sqrt(std::max(0.0L, 2 * (1 - length) / length));
+                worst = std::max(worst, std::fabs(texel_value(made, l, x, y, 3) - static_cast<double>(65535 * lost)));
+                most = std::max(most, texel_value(made, l, x, y, 3));
+            }
+    }
+    CHECK(worst < 0.51);
+    CHECK(most > 10000);
+    CHECK(texel_value(made, 2, 0, 0, 3) == 0);  // where the map is flat
 }
 
 TEST_CASE("texture: rows beyond the last are ignored, missing ones are 0", "[shading][texture]") {

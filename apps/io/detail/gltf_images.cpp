@@ -69,7 +69,7 @@ std::string identity(const file::Image& entry) {
 ImageStore::ImageStore(Document& document, std::vector<Texture>& textures)
     : document_(document), textures_(textures), texture_memory_("the textures", document.options.limits.max_texture_bytes) {}
 
-ImageStore::Job ImageStore::prepare(int image, ColorSpace space, int texture) {
+ImageStore::Job ImageStore::prepare(int image, ColorSpace space, MipRule rule, int texture) {
     document_.check_time();
     const file::Image& entry = document_.file.images[static_cast<std::size_t>(image)];
     const LoadLimits& limits = document_.options.limits;
@@ -103,6 +103,7 @@ ImageStore::Job ImageStore::prepare(int image, ColorSpace space, int texture) {
     texture_memory_.take(texture_bytes(header));
     return {.texture = texture,
             .space = space,
+            .rule = rule,
             .where = std::move(where),
             .owned = std::move(owned),
             .bytes = bytes,
@@ -112,13 +113,13 @@ ImageStore::Job ImageStore::prepare(int image, ColorSpace space, int texture) {
             .failure = nullptr};
 }
 
-int ImageStore::texture_for(int image, ColorSpace space) {
-    const auto [found, is_new] =
-        made_.try_emplace({identity(document_.file.images[static_cast<std::size_t>(image)]), space}, static_cast<int>(textures_.size()));
+int ImageStore::texture_for(int image, ColorSpace space, MipRule rule) {
+    const auto [found, is_new] = made_.try_emplace({identity(document_.file.images[static_cast<std::size_t>(image)]), space, rule},
+                                                   static_cast<int>(textures_.size()));
     if (!is_new) return found->second;
     textures_.emplace_back();
     try {
-        jobs_.push_back(prepare(image, space, found->second));
+        jobs_.push_back(prepare(image, space, rule, found->second));
     } catch (const LoadFailure& failure) {
         replace(found->second, space, failure);
     }
@@ -134,7 +135,7 @@ void ImageStore::replace(int texture, ColorSpace space, const LoadFailure& failu
 Texture ImageStore::make(const Job& job) const {
     document_.check_time();
     const LoadLimits& limits = document_.options.limits;
-    TextureRows rows(document_, take(TextureBuilder::make(job.width, job.height), job.where), job.space);
+    TextureRows rows(document_, take(TextureBuilder::make(job.width, job.height, job.rule), job.where), job.space);
     take(decode_rows(job.bytes, {limits.max_texture_side, limits.max_texture_pixels, limits.max_jpeg_scans}, job.keep_16_bits, rows),
          job.where);
     return rows.builder.finish();

@@ -1,4 +1,5 @@
-// The pictures that materials use: fetched, decoded under limits, made into textures. One texture for each picture and colour space.
+// The pictures that materials use: fetched, decoded under limits, made into textures. One texture for each picture, colour space and rule
+// of its levels.
 #pragma once
 
 #include "apps/io/detail/gltf_document.hpp"
@@ -11,6 +12,7 @@
 #include <span>
 #include <string>
 #include <thread>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -24,7 +26,7 @@ public:
 
     /// Index into the scene's textures for an entry of "images", which is decoded later. Throws LoadFailure, or, when lenient, warns and
     /// chooses a magenta checkerboard.
-    int texture_for(int image, ColorSpace space);
+    int texture_for(int image, ColorSpace space, MipRule rule = MipRule::equal);
 
     /// Begins to decode all pictures on other threads, if they are large. Until finish(), the scene's textures are not to be read, and
     /// there must be no further call of texture_for.
@@ -38,6 +40,7 @@ private:
     struct Job {
         int texture;  ///< index into textures_
         ColorSpace space;
+        MipRule rule;
         std::string where;
         std::vector<std::byte> owned;  ///< a file's content; empty if `bytes` lie in a buffer
         std::span<const std::byte> bytes;
@@ -46,7 +49,7 @@ private:
         std::exception_ptr failure;
     };
 
-    [[nodiscard]] Job prepare(int image, ColorSpace space, int texture);
+    [[nodiscard]] Job prepare(int image, ColorSpace space, MipRule rule, int texture);
     [[nodiscard]] Texture make(const Job& job) const;
     void run(Job& job);
     [[nodiscard]] std::size_t other_threads() const;
@@ -58,7 +61,7 @@ private:
     std::vector<Texture>& textures_;
     Budget texture_memory_;
     std::vector<Job> jobs_;
-    std::map<std::pair<std::string, ColorSpace>, int> made_;  // indexed by the picture's source
+    std::map<std::tuple<std::string, ColorSpace, MipRule>, int> made_;  // indexed by the picture's source
     std::atomic<std::size_t> next_job_ = 0;
     std::vector<std::jthread> threads_;  // last, so that they end before what they use
 };

@@ -115,13 +115,16 @@ public:
         material.specular_color = {specular(0), specular(1), specular(2)};
         if (source.own_lobe) own_lobe(*source.own_lobe, material, used);
         if (used) {
+            const MipRule color_rule = material.alpha_mode == AlphaMode::opaque ? MipRule::equal : MipRule::alpha;
             if (more.specular_glossiness) {
                 constexpr const char* kWhere = "extensions.KHR_materials_pbrSpecularGlossiness.";
-                material.base_color_texture = use(more.diffuse_texture, fmt::format("{}diffuseTexture", kWhere), ColorSpace::srgb);
+                material.base_color_texture =
+                    use(more.diffuse_texture, fmt::format("{}diffuseTexture", kWhere), ColorSpace::srgb, color_rule);
                 material.metallic_roughness_texture =
                     use(more.specular_glossiness_texture, fmt::format("{}specularGlossinessTexture", kWhere), ColorSpace::srgb);
             } else {
-                material.base_color_texture = use(source.base_color_texture, "pbrMetallicRoughness.baseColorTexture", ColorSpace::srgb);
+                material.base_color_texture =
+                    use(source.base_color_texture, "pbrMetallicRoughness.baseColorTexture", ColorSpace::srgb, color_rule);
                 material.metallic_roughness_texture =
                     use(source.metallic_roughness_texture, "pbrMetallicRoughness.metallicRoughnessTexture", ColorSpace::linear);
             }
@@ -129,7 +132,7 @@ public:
             material.specular_color_texture =
                 use(more.specular_color_texture, "extensions.KHR_materials_specular.specularColorTexture", ColorSpace::srgb);
             material.emissive_texture = use(source.emissive_texture, "emissiveTexture", ColorSpace::srgb);
-            material.normal_texture = use(source.normal_texture, "normalTexture", ColorSpace::linear);
+            material.normal_texture = use(source.normal_texture, "normalTexture", ColorSpace::linear, MipRule::normal);
             material.occlusion_texture = use(source.occlusion_texture, "occlusionTexture", ColorSpace::linear);
             material.transmission.texture =
                 use(more.transmission_texture, "extensions.KHR_materials_transmission.transmissionTexture", ColorSpace::linear);
@@ -150,7 +153,7 @@ private:
         return transmission;
     }
 
-    TextureUse use(const file::TexturePlace& info, std::string_view key, ColorSpace space) {
+    TextureUse use(const file::TexturePlace& info, std::string_view key, ColorSpace space, MipRule rule = MipRule::equal) {
         TextureUse use;
         if (info.index < 0) return use;
         const file::Texture& texture = document_.file.textures[static_cast<std::size_t>(info.index)];
@@ -168,7 +171,7 @@ private:
         }
         use.uv_set = uv_set;
         use.sampler = sampler_of(document_, texture.sampler);
-        use.texture = images_.texture_for(texture.source, space);
+        use.texture = images_.texture_for(texture.source, space, rule);
         return use;
     }
 

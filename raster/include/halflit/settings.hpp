@@ -23,7 +23,7 @@ struct Region {
 /// Everything besides scene, camera and size that decides a pixel.
 struct Settings {
     Region region{};                      ///< part of the picture to draw
-    int samples = 1;                      ///< per pixel: 1, 4 or 8
+    int samples = 1;                      ///< per pixel: 1, 4, 8 or 16
     Vec4f background_linear{0, 0, 0, 0};  ///< linear colour, not premultiplied; w = 0 is transparent, without a colour
     bool background_environment = false;  ///< true: the scene's environment, if it kept its image
     float exposure = 1.0f;                ///< factor on all light, > 0
@@ -64,7 +64,7 @@ struct Execution {
     /// that is prepared, a light that is planned.
     double time_limit_s = 0.0;
     /// Working memory for the call, bytes: vertices, triangle lists and shadow maps of a frame, kept from frame to frame. 0: no limit. A
-    /// frame that needs more stops (ErrorCode::limit). The caller's scene and target, and fixed buffers of about 1 MB a thread, do not
+    /// frame that needs more stops (ErrorCode::limit). The caller's scene and target, and fixed buffers of 1 to 3 MB a thread, do not
     /// count.
     std::size_t memory_limit = 0;
     std::function<void(const Region&)> on_tile{};  ///< told after each tile which pixels are final

@@ -69,6 +69,9 @@ struct ShadingSettings {
     /// ShadingRate::pixel, TextureDetail::full and Accuracy::exact alone.
     double max_error_codes = 0.0;
     TextureDetail texture_detail = TextureDetail::full;  ///< upper limit of the filters
+    /// Largest ratio of a footprint's length to its width that is filtered along its length, 1 to 16; 1: footprints count as squares.
+    /// For textures that are linear within and between levels.
+    int anisotropy = 1;
     friend bool operator==(const ShadingSettings&, const ShadingSettings&) = default;
 };
 

@@ -22,6 +22,12 @@ enum class TextureFilter : std::uint8_t { nearest, linear };
 enum class MipFilter : std::uint8_t { none, nearest, linear };
 /// Encoding of the 8-bit red, green and blue that a texture is made from.
 enum class ColorSpace : std::uint8_t { srgb, linear };
+/// How smaller levels are made from larger ones.
+enum class MipRule : std::uint8_t {
+    equal,  ///< each channel by itself; all texels count the same
+    alpha,  ///< a texel's colour counts as its alpha, for materials that mask or blend: a colour that does not show reaches no edge
+    normal  ///< a normal map: as equal, but alpha is replaced by what the mean of its normals lost, which makes a surface rougher
+};
 
 /// Rules by which a texture is read.
 struct Sampler {
@@ -30,6 +36,8 @@ struct Sampler {
     MipFilter mip = MipFilter::linear;                                       ///< where texels are smaller than pixels
     friend bool operator==(const Sampler&, const Sampler&) = default;
 };
+
+class MomentLevels;
 
 /// One mip level, and its place in Texture::data().
 struct TextureLevel {
@@ -54,9 +62,10 @@ class Texture {
 public:
     /// `rgba8`: width * height * 4 bytes, row 0 on top. Alpha is always linear. Sides up to kMaxTextureSide.
     [[nodiscard]] HALFLIT_API static Result<Texture> from_rgba8(std::span<const std::uint8_t> rgba8, int width, int height,
-                                                                ColorSpace space);
+                                                                ColorSpace space, MipRule rule = MipRule::equal);
     /// The same from 16-bit channels, taken as they are (linear).
-    [[nodiscard]] HALFLIT_API static Result<Texture> from_rgba16(std::span<const std::uint16_t> rgba16, int width, int height);
+    [[nodiscard]] HALFLIT_API static Result<Texture> from_rgba16(std::span<const std::uint16_t> rgba16, int width, int height,
+                                                                 MipRule rule = MipRule::equal);
 
     /// Texels of level 0; 0 for a texture without levels, made by the default constructor.
     [[nodiscard]] int width() const { return levels_.empty() ? 0 : levels_[0].width; }
@@ -66,6 +75,8 @@ public:
     [[nodiscard]] std::span<const TextureLevel> levels() const { return levels_; }
     /// All levels: four numbers a texel, linear, 65535 is 1.
     [[nodiscard]] std::span<const std::uint16_t> data() const { return levels_.empty() ? std::span<const std::uint16_t>() : data_; }
+    /// As the texture was made.
+    [[nodiscard]] MipRule rule() const { return rule_; }
     /// The largest error of a texel by its rounding to 16 bits and by that of the levels above it, in units of 1 / 65535. Measured when it
     /// is first asked for, which takes about as long as making the texture. Thread-safe. Throws std::bad_alloc.
     [[nodiscard]] HALFLIT_API float storage_error() const;
@@ -76,6 +87,7 @@ private:
     friend class TextureBuilder;
     struct Texels;
 
+    MipRule rule_ = MipRule::equal;
     std::vector<TextureLevel> levels_;
     std::span<const std::uint16_t> data_;
     std::shared_ptr<Texels> texels_;
@@ -85,7 +97,7 @@ private:
 class TextureBuilder {
 public:
     /// Sides from 1 to kMaxTextureSide texels; others, and too little memory, are errors (limit).
-    [[nodiscard]] HALFLIT_API static Result<TextureBuilder> make(int width, int height);
+    [[nodiscard]] HALFLIT_API static Result<TextureBuilder> make(int width, int height, MipRule rule = MipRule::equal);
     /// @{
     /// What is moved from may only be destroyed, or assigned to.
     HALFLIT_API TextureBuilder(TextureBuilder&&) noexcept;
@@ -106,7 +118,8 @@ private:
     void reduce(std::size_t level);
 
     Texture texture_;
-    std::vector<int> rows_;  ///< of each level that are done
+    std::vector<int> rows_;                  ///< of each level that are done
+    std::unique_ptr<MomentLevels> moments_;  ///< for rules other than equal
 };
 
 /// A material's use of a texture: the texture, its sampler and the coordinates.

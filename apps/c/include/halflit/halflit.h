@@ -107,8 +107,9 @@ HALFLIT_C_API int32_t halflit_scene_get_bounds(const halflit_scene* scene, float
 
 // ---- materials and textures --------------------------------------------------------------------------------------------
 
-/// Encodings of a texture's red, green and blue.
-enum { HALFLIT_COLOR_SRGB = 0, HALFLIT_COLOR_LINEAR = 1 };
+/// Encodings of a texture's red, green and blue. HALFLIT_COLOR_SRGB_BY_ALPHA: sRGB, and in the smaller levels a colour counts as its alpha,
+/// for materials that mask or blend. HALFLIT_COLOR_NORMAL: linear, a normal map, whose smaller levels make the surface rougher.
+enum { HALFLIT_COLOR_SRGB = 0, HALFLIT_COLOR_LINEAR = 1, HALFLIT_COLOR_SRGB_BY_ALPHA = 2, HALFLIT_COLOR_NORMAL = 3 };
 
 /// Adds a texture: four bytes a pixel (RGBA), row 0 on top, rows row_bytes apart (0: without gaps). color is that of red, green and blue;
 /// alpha is linear. Sides up to 16384. index may be null.
@@ -338,7 +339,7 @@ typedef struct halflit_settings {
     double environment_tolerance;    ///< error of leaving out bands of the environment, relative to white (1/510)
     uint64_t shadow_memory_limit;    ///< bytes; shadow maps are made smaller until all fit (256 MiB)
     halflit_region region;           ///< the part to draw; pixels outside are not touched (all)
-    int32_t samples;                 ///< a pixel: 1, 4 or 8 (1)
+    int32_t samples;                 ///< a pixel: 1, 4, 8 or 16 (1)
     float background[4];             ///< alpha 0 is transparent, not premultiplied (0, 0, 0, 0)
     int32_t background_environment;  ///< show the environment behind the scene (0)
     float exposure;                  ///< factor on all light, above 0 (1)
@@ -356,7 +357,7 @@ typedef struct halflit_settings {
     int32_t shadow_terminator_offset;  ///< moves look-ups onto the smooth surface of the vertex normals, for coarse meshes (0)
     int32_t tone_curve;                ///< HALFLIT_TONE: from light to codes; floats and `background` do without (none)
     int32_t sky_shadows;               ///< directions in which light from all around may be hidden, 16 to 1024; 0: it never is (0)
-    int32_t reserved;
+    int32_t anisotropy;                ///< largest ratio of a texture's footprint that is filtered along its length, 1 to 16 (1)
 } halflit_settings;
 HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t size);
 
