@@ -11,7 +11,8 @@ namespace {
 
 /// A duck that is drawn a fifth of the picture wide has a box of 15 %.
 constexpr double kLeastShare = 1.0 / 6.0;
-/// Long and flat scenes fill little of any picture. Those that reach over so much of its width or height are not shown small.
+/// Long and flat scenes fill little of any picture. Those that lie in it as a whole, and reach over so much of its width or height, are not
+/// shown small.
 constexpr double kLeastReach = 2.0 / 3.0;
 
 /// Smallest rectangle of the picture around what is added, in [-1, 1]^2.
@@ -20,19 +21,22 @@ public:
     void add(double x, double y) {
         const double at[2] = {x, y};
         for (int axis = 0; axis < 2; ++axis) {
+            cut_ |= !(at[axis] >= -1.0 && at[axis] <= 1.0);
             low_[axis] = std::min(low_[axis], std::clamp(at[axis], -1.0, 1.0));
             high_[axis] = std::max(high_[axis], std::clamp(at[axis], -1.0, 1.0));
         }
     }
     /// Its share of the picture; 0 if nothing was added.
     [[nodiscard]] double share() const { return side(0) * side(1); }
-    /// The larger of its shares of the picture's width and height.
-    [[nodiscard]] double reach() const { return std::max(side(0), side(1)); }
+    /// The larger of its shares of the picture's width and height; 0 if a part of what was added lies outside.
+    [[nodiscard]] double reach() const { return cut_ ? 0.0 : std::max(side(0), side(1)); }
+    void add_unseen() { cut_ = true; }
 
 private:
     [[nodiscard]] double side(int axis) const { return std::max(0.0, high_[axis] - low_[axis]) / 2.0; }
 
     double low_[2] = {1, 1}, high_[2] = {-1, -1};
+    bool cut_ = false;
 };
 
 /// The part of the camera's picture that the box around the scene fills: that of the box between the near and the far plane.
@@ -55,7 +59,10 @@ PictureRectangle rectangle_in_picture(const Camera& camera, const Bounds& bounds
     };
     for (unsigned i = 0; i < 8; ++i) {
         const Corner& a = corners[i];
-        if (a.inside[0] >= 0.0 && a.inside[1] >= 0.0) add(a.x, a.y, a.w);
+        if (a.inside[0] >= 0.0 && a.inside[1] >= 0.0)
+            add(a.x, a.y, a.w);
+        else
+            rectangle.add_unseen();
         for (unsigned axis = 1; axis < 8; axis *= 2) {
             if ((i & axis) != 0) continue;
             const Corner& b = corners[i | axis];

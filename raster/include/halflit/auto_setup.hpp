@@ -51,8 +51,8 @@ struct AutoSetup {
 [[nodiscard]] HALFLIT_API AutoSetup auto_setup(Scene& scene, const Bounds& bounds, int width, int height, const AutoOptions& options);
 
 /// The scene's first camera, or null if it has none, or if that camera shows it small or not at all: the box around the scene, between the
-/// camera's near and far plane, fills less than a sixth of its picture, and less than two thirds of its width and of its height. Where
-/// nothing has bounds, the first camera.
+/// camera's near and far plane, fills less than a sixth of its picture, unless it lies in it as a whole and spans two thirds of its width
+/// or height. Where nothing has bounds, the first camera.
 [[nodiscard]] HALFLIT_API const Camera* choose_camera(const Scene& scene, const Bounds& bounds);
 
 }  // namespace halflit
