@@ -54,6 +54,9 @@ void render(Scene& scene, RenderFlags flags, Input& input) {
     }
     AutoOptions choice;
     if (flags.own_camera) choice.camera = flags.camera;
+    // The reference integrates the studio for seconds, and each scene makes it anew.
+    const bool reference = flags.settings.shading.accuracy == Accuracy::reference;
+    choice.studio = reference || flags.width % 4 != 0 ? StudioUse::never : StudioUse::for_dark;
     const AutoSetup setup = auto_setup(scene, flags.width, flags.height, choice);
     flags.camera = setup.camera;
     if (flags.settings.exposure == 1.0f) flags.settings.exposure = setup.settings.exposure;
