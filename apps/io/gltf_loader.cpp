@@ -1,11 +1,13 @@
 #include "halflit/gltf.hpp"
 
 #include "apps/io/detail/gltf_accessor.hpp"
+#include "apps/io/detail/gltf_animation.hpp"
 #include "apps/io/detail/gltf_document.hpp"
 #include "apps/io/detail/gltf_glossiness.hpp"
 #include "apps/io/detail/gltf_images.hpp"
 #include "apps/io/detail/gltf_materials.hpp"
 #include "apps/io/detail/gltf_meshes.hpp"
+#include "apps/io/detail/gltf_motion.hpp"
 #include "apps/io/detail/gltf_nodes.hpp"
 #include "apps/io/detail/gltf_placed.hpp"
 #include "apps/io/detail/gltf_world.hpp"
@@ -18,6 +20,7 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <memory>
 #include <new>
 #include <set>
 
@@ -48,22 +51,35 @@ std::vector<std::string> files_of(const Document& document) {
 LoadedScene build(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
     const std::unique_ptr<Document> document = open_document(bytes, base_dir, options);
     document->check_time();
-    NodeTree tree = place_nodes(*document);
+    NodeTree tree = walk_nodes(*document);
+    find_animations(*document);
+    mark_below(tree, document->animations.hides);
     settle(*document, tree.drawn, tree.parent);
     load_buffers(*document);
     document->check_time();
     const std::vector<Accessor> accessors = check_accessors(*document);
+    std::vector<Animation> animations = read_animations(*document, accessors);
     LoadedScene loaded;
+    loaded.animations = describe_animations(document->file, animations);
+    loaded.animation = document->animations.drawn;
+    const std::shared_ptr<Motion> motion = options.keep_animations ? std::make_shared<Motion>(document->file, tree) : nullptr;
+    for (const Animation& animation : animations)
+        if (animation.index == loaded.animation) apply(animation, options.time_s, document->file);
+    place_nodes(document->file, tree);
     loaded.nodes = make_nodes(*document, tree);
     ImageStore images(*document, loaded.scene.textures);
     loaded.scene.materials = make_materials(*document, images, find_used_materials(*document, tree));
     images.start();
     try {
-        place_meshes(*document, accessors, tree, loaded);
-        scale_thickness(loaded.scene);
-        recentre(*document, tree, loaded);
+        place_meshes(*document, accessors, tree, loaded, motion.get());
+        std::vector<Mat4> in_file;
+        for (const Instance& instance : loaded.scene.instances) in_file.push_back(instance.world_from_object);
+        set_thickness(document->file, loaded.scene, in_file);
+        const std::vector<double> mesh_scales = recentre(*document, tree, loaded);
         place_cameras(*document, tree, loaded);
         place_lights(*document, tree, loaded);
+        if (motion) motion->finish(loaded, std::move(animations), document->animations.hides, mesh_scales);
+        loaded.motion = motion;
     } catch (...) {
         images.finish();  // a fault of a picture is reported first
         throw;

@@ -1,12 +1,12 @@
 #include "apps/io/detail/gltf_placed.hpp"
 #include "apps/io/detail/gltf_transform.hpp"
+#include "apps/io/detail/replace.hpp"
 #include "halflit/gltf.hpp"
 #include "shading/out_of_memory.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdint>
-#include <cstring>
 #include <new>
 #include <vector>
 
@@ -57,14 +57,6 @@ Result<std::vector<Affine>> place_all(std::span<const Node> nodes) {
         }
     }
     return world;
-}
-
-/// Sets a value. Returns true if its bytes change.
-template <class T>
-bool replace(T& value, const T& by) {
-    if (std::memcmp(&value, &by, sizeof value) == 0) return false;  // NOLINT(bugprone-suspicious-memory-comparison): bits are meant
-    value = by;
-    return true;
 }
 
 }  // namespace

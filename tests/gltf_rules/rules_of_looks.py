@@ -115,5 +115,5 @@ for name in [SIMPLE + n for n in ("clearcoat", "sheen", "anisotropy", "iridescen
                                   "diffuse_transmission")] + [
         "KHR_draco_mesh_compression", "EXT_meshopt_compression", "EXT_mesh_gpu_instancing", "KHR_texture_basisu", "EXT_texture_webp",
         "EXT_texture_avif",
-        "MSFT_texture_dds", "KHR_animation_pointer", "KHR_xmp_json_ld", "EXT_lights_image_based", "MSFT_lod", "VENDOR_unheard_of"]:
+        "MSFT_texture_dds", "KHR_xmp_json_ld", "EXT_lights_image_based", "MSFT_lod", "VENDOR_unheard_of"]:
     pair("3.12", name + " is said to be left out", lambda s: None, put(("extensionsUsed[3]", name)), name)

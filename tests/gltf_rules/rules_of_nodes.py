@@ -88,20 +88,78 @@ values(K, LIGHTS + "[0].name", [""], [5], see=None)
 values(K, "nodes[6].extensions.KHR_lights_punctual.light", [0, 2], [3, -1, "0", 0.5])
 pair(K, "a light that nothing uses is whole", put((LIGHTS + "[3]", {"type": "point"})), put((LIGHTS + "[3]", {"type": "spot"})), None)
 
-# ---- 5.5 to 5.8: animations, which are left out ----------------------------------------------------------------------------------------
-def animated(target=None, channel=None, sampler=None, **members):
+# ---- 5.5 to 5.8 and 3.11: animations; the first one is drawn ---------------------------------------------------------------------------
+BYTE, UNSIGNED_BYTE, SHORT = 5120, 5121, 5122
+POINTER = {"extensions": {"KHR_animation_pointer": {"pointer": "/nodes/1/translation"}}}
+
+
+def animated(target=None, channel=None, sampler=None, times=(0, 1), moves=(0, 0, 0, 1, 1, 1), of_times=None, of_moves=None, kind="VEC3",
+             component=FLOAT, put=None, also=(), **members):
     def apply(s):
-        times, moves = s.accessor("SCALAR", FLOAT, [0, 1], min=[0], max=[1]), s.accessor("VEC3", FLOAT, [0, 0, 0, 1, 1, 1])
-        s.put("animations", [{"channels": [{"sampler": 0, "target": {"node": 1, "path": "translation", **(target or {})},
-        **(channel or {})}],
-                              "samplers": [{"input": times, "output": moves, **(sampler or {})}], **members}])
+        limits = {"min": [min(times)], "max": [max(times)]}
+        input_ = s.accessor("SCALAR", FLOAT, list(times), **{**limits, **(of_times or {})})
+        output = s.accessor(kind, component, list(moves), **(of_moves or {}))
+        sound = {"channels": [{"sampler": 0, "target": {"node": 1, "path": "translation", **(target or {})}, **(channel or {})}],
+                 "samplers": [{"input": input_, "output": output, **(sampler or {})}]}
+        s.put("animations", [{**sound, **members}, *also])
+        if put:
+            s.put(*put)
     return apply
 
 
-for bad in [dict(target={"node": 99}), dict(target={"path": "colour"}), dict(target={"path": 5}), dict(channel={"sampler": 9}),
-                 dict(channel={"target": 5}),
-            dict(sampler={"input": 99}), dict(sampler={"output": -1}), dict(sampler={"interpolation": "WAVY"}), dict(channels=[]),
-            dict(samplers={}),
-            dict(name=5), dict(channels=None)]:
-    pair("5.5", "animations[0] with %s" % bad, animated(), animated(**bad), None, ["animations"])
-pair("5.5", "animations that are left out are said", lambda s: None, animated(), "animations")
+A = "animations[0]"
+C, S = A + ".channels[0]", A + ".samplers[0]"
+for bad, see in [(dict(target={"node": 99}), C + ".target.node"), (dict(target={"node": -1}), C + ".target.node"),
+                 (dict(target={"path": "colour"}), C + ".target.path"), (dict(target={"path": 5}), C + ".target.path"),
+                 (dict(channel={"sampler": 9}), A), (dict(channel={"sampler": "0"}), C + ".sampler"),
+                 (dict(channel={"target": 5}), C + ".target"), (dict(sampler={"input": 99}), S + ".input"),
+                 (dict(sampler={"output": -1}), S + ".output"), (dict(sampler={"interpolation": "WAVY"}), S + ".interpolation"),
+                 (dict(sampler={"interpolation": 5}), S + ".interpolation"), (dict(channels=[]), A), (dict(samplers={}), A + ".samplers"),
+                 (dict(channels=None), A + ".channels"), (dict(samplers=[]), A)]:
+    pair("5.5", "animations[0] with %s" % bad, animated(), animated(**bad), see)
+pair("5.5", "animations[0].name is 5", animated(name=""), animated(name=5), None)
+for other in [5, {}, {"channels": 5, "samplers": []},
+              {"channels": [{"sampler": 0, "target": {"node": 99, "path": "scale"}}], "samplers": []}]:
+    pair("5.5", "an animation that is not drawn is %s" % str(other)[:40], animated(), animated(also=[other]), None)
+for times in [(1, 0), (0, 0), (-1, 1), (0, float("inf"))]:
+    limits = {"max": [1], "min": [0]} if times[1] > 1e38 else None
+    pair("3.11", "times are %s, %s" % times, animated(), animated(times=times, of_times=limits), S + ".input")
+pair("3.11", "times have a max", animated(), animated(of_times={"max": [2]}), "accessors[14].max")
+pair("3.11", "times are floats of one component", animated(), animated(sampler={"input": 0}), S + ".input")
+pair("3.11", "there is a value for each time", animated(), animated(moves=(0, 0, 0)), S + ".output")
+pair("3.11", "translations have three components", animated(), animated(moves=(0, 0, 0, 1), kind="VEC2"), S + ".output")
+pair("3.11", "translations are floats", animated(), animated(component=SHORT, of_moves={"normalized": True}), S + ".output")
+pair("3.11", "rotations of integers are normalized",
+     animated(target={"path": "rotation"}, moves=(0, 0, 0, 127, 0, 0, 127, 0), kind="VEC4", component=BYTE, of_moves={"normalized": True}),
+     animated(target={"path": "rotation"}, moves=(0, 0, 0, 127, 0, 0, 127, 0), kind="VEC4", component=BYTE), S + ".output")
+pair("3.11", "rotations have length 1", animated(target={"path": "rotation"}, moves=(0, 0, 0, 1, 0.6, 0, 0, 0.8), kind="VEC4"),
+     animated(target={"path": "rotation"}, moves=(0, 0, 0, 1, 0.6, 0, 0, 0.6), kind="VEC4"), S + ".output")
+CUBIC = {"interpolation": "CUBICSPLINE"}
+pair("3.11", "a cubic key has three values", animated(sampler=CUBIC, moves=(0, 0, 0) * 6), animated(sampler=CUBIC), S + ".output")
+pair("3.11", "a cubic spline has two keys", animated(sampler=CUBIC, moves=(0, 0, 0) * 6),
+     animated(sampler=CUBIC, times=(0,), moves=(0, 0, 0) * 3), S)
+TWICE = [{"sampler": 0, "target": {"node": 1, "path": "translation"}}] * 2
+pair("5.5", "channels have different targets", animated(), animated(channels=TWICE), A + ".channels[1].target")
+pair("5.7", "a node of weights has morph targets", animated(target={}), animated(target={"path": "weights"}, moves=(0, 1), kind="SCALAR"),
+     C + ".target.path", ["weights"])
+pair("3.11", "an animated node has no matrix", animated(),
+     lambda s: (ALONE(s), animated(put=(N + ".matrix", IDENTITY))(s)) and None, C + ".target.path")
+
+# ---- KHR_animation_pointer and KHR_node_visibility -------------------------------------------------------------------------------------
+P = "KHR_animation_pointer"
+V = "nodes[1].extensions.KHR_node_visibility"
+
+
+def pointed(pointer, **more):
+    return lambda s: (s.put("extensionsUsed[3]", P), animated(
+        target={"path": "pointer", "extensions": {P: {"pointer": pointer}}}, **more)(s)) and None
+
+
+for pointer in ["/nodes/99/translation", "/nodes/1", "nodes/1/translation", "/nodes/-1/translation", "/meshes/0/name", "", 5]:
+    pair(P, "a pointer is %s" % pointer, pointed("/nodes/1/translation"), pointed(pointer),
+         C + ".target.extensions.KHR_animation_pointer.pointer")
+pair(P, "true and false change in steps", pointed("/nodes/1/extensions/KHR_node_visibility/visible", moves=(1, 0), kind="SCALAR",
+                                                  component=UNSIGNED_BYTE, sampler={"interpolation": "STEP"}),
+     pointed("/nodes/1/extensions/KHR_node_visibility/visible", moves=(1, 0), kind="SCALAR", component=UNSIGNED_BYTE), S + ".interpolation")
+values("KHR_node_visibility", V + ".visible", [True, False], ["yes", 1, None],
+       with_also=lambda s: s.put("extensionsUsed[3]", "KHR_node_visibility"))

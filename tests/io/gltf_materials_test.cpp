@@ -57,6 +57,10 @@ TEST_CASE("materials: transmission and absorption are read", "[io]") {
 }
 
 TEST_CASE("materials: thickness is taken to world space by the scale of the first instance", "[io]") {
+    io::detail::file::File file;
+    file.extended.emplace_back().thickness_factor = 0.5;
+    file.materials.resize(2);
+    for (auto& material : file.materials) material.extended = 0;
     Scene scene;
     scene.materials.resize(2);
     for (Material& material : scene.materials) material.transmission.thickness = 0.5f;
@@ -65,7 +69,10 @@ TEST_CASE("materials: thickness is taken to world space by the scale of the firs
     Instance first{0, {}}, second{1, {}};
     first.world_from_object.c[0].x = -2, first.world_from_object.c[1].y = 4, first.world_from_object.c[2].z = 8;  // mirrored, mean 4
     scene.instances = {first, second, {2, {}}};
-    io::detail::scale_thickness(scene);
+    std::vector<Mat4> places;
+    for (const Instance& instance : scene.instances) places.push_back(instance.world_from_object);
+    CHECK(io::detail::set_thickness(file, scene, places));
+    CHECK(!io::detail::set_thickness(file, scene, places));
     CHECK(scene.materials[0].transmission.thickness == 0.5f);
     CHECK(scene.materials[1].transmission.thickness == Approx(2.0f));
 }

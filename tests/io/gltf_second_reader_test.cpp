@@ -1,6 +1,7 @@
 // Comparison of the loader's reading of a model's JSON with tinygltf's, which shares no code with it.
 #include "apps/io/detail/glb_container.hpp"
 #include "apps/io/detail/gltf_json.hpp"
+#include "apps/io/detail/gltf_node_transform.hpp"
 #include "apps/io/file_access.hpp"
 #include "tests/io/rich_file.hpp"
 #include "tests/io/tinygltf.hpp"
@@ -118,7 +119,7 @@ void compare_nodes(const file::File& a, const tinygltf::Model& b) {
         for (std::size_t w = 0; w < y.weights.size(); ++w) CHECK(a.weights[x.weights.first + w] == y.weights[w]);
         CHECK((x.transform >= 0) == !(y.matrix.empty() && y.translation.empty() && y.rotation.empty() && y.scale.empty()));
         if (x.transform < 0) continue;
-        const io::detail::Affine& m = a.transforms[static_cast<std::size_t>(x.transform)];
+        const io::detail::Affine m = io::detail::node_transform(a.transforms[static_cast<std::size_t>(x.transform)]);
         if (!y.matrix.empty()) {
             for (std::size_t c = 0; c < 4; ++c) CHECK(m.c[c] == Vec3d{y.matrix[4 * c], y.matrix[4 * c + 1], y.matrix[4 * c + 2]});
         } else if (!y.translation.empty()) {

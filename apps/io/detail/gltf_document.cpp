@@ -80,7 +80,7 @@ void fill_info(Document& document) {
     info.materials = file.materials.size();
     info.textures = file.textures.size();
     info.images = file.images.size();
-    info.animations = file.animations;
+    info.animations = file.animations.size();
     info.skins = file.skins.size();
     info.cameras = file.cameras.size();
     info.lights = file.lights.size();
@@ -143,11 +143,17 @@ std::unique_ptr<Document> open_document(std::span<const std::byte> bytes, const 
 }
 
 void settle(Document& document, std::span<const int> drawn_nodes, std::span<const int> parents) {
-    document.used = find_used(document.file, drawn_nodes, parents);
+    document.used = find_used(document.file, document.animations, drawn_nodes, parents);
     const auto drawn = [&](const Owner& owner) { return document.used.has(owner.target, owner.element); };
     const JsonScanLimits limits = scan_limits(document.options);
-    for (const Note& fault : document.notes.faults)
-        if (drawn(fault.owner)) refuse_at(document.text, limits, fault.offset, fault.what, ErrorCode::bad_input);
+    for (Note& fault : document.notes.faults) {
+        if (!drawn(fault.owner)) continue;
+        if (fault.owner.target != Target::animations || !document.options.lenient)
+            refuse_at(document.text, limits, fault.offset, fault.what, ErrorCode::bad_input);
+        fault.instead = "the animation is left out";
+        std::erase_if(document.animations.used,
+                      [&](const AnimationUse::Used& used) { return used.animation == static_cast<int>(fault.owner.element); });
+    }
 
     std::vector<Note> notes = std::move(document.notes.warnings);
     for (Note& fault : document.notes.faults) notes.push_back(std::move(fault));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/io/detail/glb_container.hpp"
+#include "apps/io/detail/gltf_animation_use.hpp"
 #include "apps/io/detail/gltf_file.hpp"
 #include "apps/io/detail/gltf_notes.hpp"
 #include "apps/io/detail/gltf_used.hpp"
@@ -27,6 +28,7 @@ struct Document {
     Notes notes;            ///< what read_gltf_json found
     GlbParts glb;
     file::File file;
+    AnimationUse animations;                          ///< set by find_animations()
     Used used;                                        ///< what the drawn nodes use; empty until settle() has run
     std::vector<std::span<const std::byte>> buffers;  ///< byteLength bytes each; those that nothing drawn uses are empty
     std::vector<std::vector<std::byte>> owned_buffers;

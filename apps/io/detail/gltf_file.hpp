@@ -42,6 +42,7 @@ struct Accessor {
     int sparse = -1;     ///< into File::sparse
     std::uint64_t byte_offset = 0, count = 0;
     bool normalized = false;
+    std::optional<double> max;  ///< the first number of `max`: of key times, the last one
 };
 
 /// Accessors by attribute name. There are few, so a list is as fast as a map, and smaller.
@@ -70,12 +71,19 @@ struct Run {
     std::uint32_t first = 0, count = 0;
 };
 
+/// A matrix, or translation, rotation (a quaternion x, y, z, w) and scale.
+struct Transform {
+    double translation[3] = {0, 0, 0}, rotation[4] = {0, 0, 0, 1}, scale[3] = {1, 1, 1};
+    std::optional<Affine> matrix;
+};
+
 struct Node {
     std::string_view name;
     int mesh = -1, skin = -1, camera = -1, light = -1;
     int transform = -1;  ///< into File::transforms; -1: none
     Run children;        ///< entries of File::children
     Run weights;         ///< entries of File::weights
+    double visible = 1;  ///< KHR_node_visibility; 0: hidden, with all below. A number, as animations write it
 };
 
 struct Skin {
@@ -171,6 +179,25 @@ struct Scene {
     std::vector<int> nodes;
 };
 
+enum class Interpolation : std::uint8_t { linear, step, cubic };
+
+struct AnimationSampler {
+    int input = -1, output = -1;  ///< accessors: key times, and values
+    Interpolation interpolation = Interpolation::linear;
+};
+
+struct AnimationChannel {
+    int sampler = -1, node = -1;  ///< sampler: of the same animation
+    std::string_view path;
+    std::string_view pointer;  ///< KHR_animation_pointer
+};
+
+struct Animation {
+    std::string_view name;
+    std::vector<AnimationChannel> channels;
+    std::vector<AnimationSampler> samplers;
+};
+
 struct File {
     std::string_view version, min_version, generator;
     std::vector<std::string_view> extensions_used, extensions_required;
@@ -180,7 +207,7 @@ struct File {
     std::vector<Sparse> sparse;
     std::vector<Mesh> meshes;
     std::vector<Node> nodes;
-    std::vector<Affine> transforms;
+    std::vector<Transform> transforms;
     std::vector<int> children;
     std::vector<double> weights;
     std::vector<Skin> skins;
@@ -192,8 +219,9 @@ struct File {
     std::vector<Material> materials;
     std::vector<MaterialExtensions> extended;
     std::vector<Scene> scenes;
+    std::vector<Animation> animations;
     int scene = -1;
-    std::size_t animations = 0, primitives = 0, morph_targets = 0;
+    std::size_t primitives = 0, morph_targets = 0;
     std::deque<std::string> texts;  ///< strings that had escapes, decoded; all others point into the JSON text
 
     /// Extensions of a material, or their defaults.

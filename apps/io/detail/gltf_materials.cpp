@@ -64,6 +64,46 @@ Sampler sampler_of(const Document& document, int index) {
     return sampler;
 }
 
+float thickness_of(const file::MaterialExtensions& source) { return static_cast<float>(std::clamp(source.thickness_factor, 0.0, 1e18)); }
+
+/// Sets a value. Returns true if it changes.
+template <class T>
+bool put(T& to, const T& value) {
+    const bool changes = !(to == value);
+    to = value;
+    return changes;
+}
+
+/// All numbers of a material but those of its textures.
+bool set_factors(const file::Material& source, const file::MaterialExtensions& more, Material& material) {
+    bool changed = false;
+    if (!more.specular_glossiness) {
+        const auto base = [&](std::size_t c) { return clamp01(number_at(source.base_color_factor, c, 1.0)); };
+        changed |= put(material.base_color, {base(0), base(1), base(2), base(3)});
+        changed |= put(material.metallic, clamp01(source.metallic_factor));
+        changed |= put(material.roughness, clamp01(source.roughness_factor));
+        const double root = (source.ior - 1.0) / (source.ior + 1.0);  // Fresnel, straight on; -1 for the index 0, as the extension asks
+        changed |= put(material.dielectric_reflectance, clamp01(root * root));
+    }
+    const double glow = std::clamp(source.emissive_strength, 0.0, 1e18);
+    const auto emissive = [&](std::size_t c) {
+        return static_cast<float>(std::clamp(number_at(source.emissive_factor, c, 0.0), 0.0, 1.0) * glow);
+    };
+    changed |= put(material.emissive, {emissive(0), emissive(1), emissive(2)});
+    changed |= put(material.normal_scale, static_cast<float>(std::clamp(source.normal_texture.scale, -kMostScale, kMostScale)));
+    changed |= put(material.occlusion_strength, clamp01(source.occlusion_texture.strength));
+    changed |= put(material.alpha_cutoff, static_cast<float>(std::clamp(source.alpha_cutoff, 0.0, 1e6)));
+    Transmission& t = material.transmission;
+    changed |= put(t.share, clamp01(more.transmission_factor));
+    changed |= put(t.attenuation_distance, static_cast<float>(std::clamp(more.attenuation_distance, 0.0, 1e18)));
+    const auto attenuation = [&](std::size_t c) { return clamp01(number_at(more.attenuation_color, c, 1.0)); };
+    changed |= put(t.attenuation_color, {attenuation(0), attenuation(1), attenuation(2)});
+    changed |= put(material.specular, clamp01(more.specular_factor));
+    const auto specular = [&](std::size_t c) { return static_cast<float>(std::max(0.0, number_at(more.specular_color_factor, c, 1.0))); };
+    changed |= put(material.specular_color, {specular(0), specular(1), specular(2)});
+    return changed;
+}
+
 /// KHR_texture_transform: uv' = T R S uv, with rows R = [cos sin; -sin cos]: counter-clockwise as seen, where v points down.
 /// differs: the shader in the extension's text, whose matrices are given by columns, has the transpose. The extension's test model and
 /// viewers agree with R as it is here.
@@ -87,32 +127,14 @@ public:
         where_ = fmt::format("materials[{}]", index);
         Material material;
         material.name = source.name;
-        const auto base = [&](std::size_t c) { return clamp01(number_at(source.base_color_factor, c, 1.0)); };
-        material.base_color = {base(0), base(1), base(2), base(3)};
-        material.metallic = clamp01(source.metallic_factor);
-        material.roughness = clamp01(source.roughness_factor);
-        const double root = (source.ior - 1.0) / (source.ior + 1.0);  // Fresnel, straight on; -1 for the index 0, as the extension asks
-        material.dielectric_reflectance = clamp01(root * root);
-        const double glow = std::clamp(source.emissive_strength, 0.0, 1e18);
-        const auto emissive = [&](std::size_t c) {
-            return static_cast<float>(std::clamp(number_at(source.emissive_factor, c, 0.0), 0.0, 1.0) * glow);
-        };
-        material.emissive = {emissive(0), emissive(1), emissive(2)};
-        material.normal_scale = static_cast<float>(std::clamp(source.normal_texture.scale, -kMostScale, kMostScale));
-        material.occlusion_strength = clamp01(source.occlusion_texture.strength);
+        set_factors(source, more, material);
+        material.transmission.thickness = thickness_of(more);
         if (source.alpha_mode == "MASK")
             material.alpha_mode = AlphaMode::mask;
         else if (source.alpha_mode == "BLEND")
             material.alpha_mode = AlphaMode::blend;
-        material.alpha_cutoff = static_cast<float>(std::clamp(source.alpha_cutoff, 0.0, 1e6));
         material.double_sided = source.double_sided;
         material.unlit = source.unlit;
-        material.transmission = transmission(more);
-        material.specular = clamp01(more.specular_factor);
-        const auto specular = [&](std::size_t c) {
-            return static_cast<float>(std::max(0.0, number_at(more.specular_color_factor, c, 1.0)));
-        };
-        material.specular_color = {specular(0), specular(1), specular(2)};
         if (source.own_lobe) own_lobe(*source.own_lobe, material, used);
         if (used) {
             const MipRule color_rule = material.alpha_mode == AlphaMode::opaque ? MipRule::equal : MipRule::alpha;
@@ -143,16 +165,6 @@ public:
     }
 
 private:
-    static Transmission transmission(const file::MaterialExtensions& source) {
-        Transmission transmission;
-        transmission.share = clamp01(source.transmission_factor);
-        transmission.thickness = static_cast<float>(std::clamp(source.thickness_factor, 0.0, 1e18));
-        transmission.attenuation_distance = static_cast<float>(std::clamp(source.attenuation_distance, 0.0, 1e18));
-        const auto color = [&](std::size_t c) { return clamp01(number_at(source.attenuation_color, c, 1.0)); };
-        transmission.attenuation_color = {color(0), color(1), color(2)};
-        return transmission;
-    }
-
     TextureUse use(const file::TexturePlace& info, std::string_view key, ColorSpace space, MipRule rule = MipRule::equal) {
         TextureUse use;
         if (info.index < 0) return use;
@@ -199,18 +211,47 @@ std::vector<Material> make_materials(Document& document, ImageStore& images, con
     return materials;
 }
 
-void scale_thickness(Scene& scene) {
-    std::vector<bool> done(scene.materials.size(), false);
-    for (const Instance& instance : scene.instances) {
-        const int index = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
-        if (index < 0 || done[static_cast<std::size_t>(index)]) continue;
-        done[static_cast<std::size_t>(index)] = true;
-        float& thickness = scene.materials[static_cast<std::size_t>(index)].transmission.thickness;
-        const Mat4& m = instance.world_from_object;
+bool set_material(const file::File& file, std::size_t index, Material& material) {
+    const file::Material& source = file.materials[index];
+    const file::MaterialExtensions& more = file.extensions_of(source);
+    bool changed = set_factors(source, more, material);
+    const auto transform = [&](const file::TexturePlace& place, TextureUse& use) {
+        if (!place.transform || !use.used()) return;
+        const TextureUse before = use;
+        int uv_set = use.uv_set;
+        apply_transform(*place.transform, use, uv_set);
+        changed |= !(use.row_u == before.row_u && use.row_v == before.row_v);
+    };
+    if (!more.specular_glossiness) {
+        transform(source.base_color_texture, material.base_color_texture);
+        transform(source.metallic_roughness_texture, material.metallic_roughness_texture);
+    }
+    transform(source.normal_texture, material.normal_texture);
+    transform(source.occlusion_texture, material.occlusion_texture);
+    transform(source.emissive_texture, material.emissive_texture);
+    transform(more.transmission_texture, material.transmission.texture);
+    transform(more.thickness_texture, material.transmission.thickness_texture);
+    transform(more.specular_texture, material.specular_texture);
+    transform(more.specular_color_texture, material.specular_color_texture);
+    return changed;
+}
+
+bool set_thickness(const file::File& file, Scene& scene, std::span<const Mat4> world_from_object) {
+    bool changed = false;
+    std::vector<bool> done(file.materials.size(), false);
+    for (std::size_t i = 0; i < world_from_object.size(); ++i) {
+        const int index = scene.meshes[static_cast<std::size_t>(scene.instances[i].mesh)].material;
+        if (index < 0 || static_cast<std::size_t>(index) >= done.size() || done[static_cast<std::size_t>(index)]) continue;
+        const auto material = static_cast<std::size_t>(index);
+        done[material] = true;
+        const float thickness = thickness_of(file.extensions_of(file.materials[material]));
+        const Mat4& m = world_from_object[i];
         const auto column = [&](int c) { return Vec3d{m.c[c].x, m.c[c].y, m.c[c].z}; };
         const double volume = dot(column(0), cross(column(1), column(2)));
-        thickness = static_cast<float>(std::min(1e18, static_cast<double>(thickness) * power_of(volume < 0 ? -volume : volume, 1.0 / 3)));
+        const double scaled = thickness == 0.0f ? 0.0 : static_cast<double>(thickness) * power_of(volume < 0 ? -volume : volume, 1.0 / 3);
+        changed |= put(scene.materials[material].transmission.thickness, static_cast<float>(std::min(1e18, scaled)));
     }
+    return changed;
 }
 
 }  // namespace halflit::io::detail

@@ -6,6 +6,7 @@
 #include "halflit/material.hpp"
 #include "halflit/scene.hpp"
 
+#include <span>
 #include <vector>
 
 namespace halflit::io::detail {
@@ -14,7 +15,11 @@ namespace halflit::io::detail {
 /// (`used` false) are not read. Throws LoadFailure.
 std::vector<Material> make_materials(Document& document, ImageStore& images, const std::vector<bool>& used);
 
-/// Takes thicknesses, which the file gives in the space of meshes, to world space, by the scale of each material's first instance.
-void scale_thickness(Scene& scene);
+/// Sets a material's factors and the places of its textures as the file gives them. Thickness stays. Returns true if any changes.
+bool set_material(const file::File& file, std::size_t index, Material& material);
+
+/// Sets thicknesses, which the file gives in the space of meshes, in world space, by the scale of each material's first instance.
+/// world_from_object: of the scene's first instances. Returns true if any changes.
+bool set_thickness(const file::File& file, Scene& scene, std::span<const Mat4> world_from_object);
 
 }  // namespace halflit::io::detail

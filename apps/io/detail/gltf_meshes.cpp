@@ -17,10 +17,11 @@ namespace {
 
 class MeshPlacer {
 public:
-    MeshPlacer(Document& document, const std::vector<Accessor>& accessors, const NodeTree& tree, LoadedScene& loaded)
+    MeshPlacer(Document& document, const std::vector<Accessor>& accessors, const NodeTree& tree, LoadedScene& loaded, Motion* motion)
         : document_(document),
           accessors_(accessors),
           tree_(tree),
+          motion_(motion),
           scene_(loaded.scene),
           nodes_(loaded.nodes),
           reader_(document, accessors),
@@ -41,30 +42,35 @@ private:
         int mesh;                       // index into the scene's meshes
         std::optional<Vec3d> at_world;  // skinned: where it is placed, without the node's transform
     };
-    using Key = std::tuple<int, int, std::vector<double>>;  // mesh, skin, morph weights
+    /// Mesh, skin, morph weights, and the node if its own animation deforms or hides the mesh; otherwise -1.
+    using Key = std::tuple<int, int, std::vector<double>, int>;
 
     void place(std::size_t index) {
         const file::Node& node = document_.file.nodes[index];
-        const file::Mesh& mesh = document_.file.meshes[static_cast<std::size_t>(node.mesh)];
-        const auto own = std::span(document_.file.weights).subspan(node.weights.first, node.weights.count);
-        std::vector<double> weights = own.empty() ? mesh.weights : std::vector(own.begin(), own.end());
+        const bool own = document_.animations.morphs_node(index) || document_.animations.hides_node(index);
+        if (is_hidden(index) && !document_.animations.hides_node(index)) return;
+        const std::span<const double> all = weights_of(document_.file, index);
+        std::vector<double> weights(all.begin(), all.end());
         while (!weights.empty() && weights.back() == 0.0) weights.pop_back();
         check_weights(index);
-        const auto [entry, is_new] = made_.try_emplace(Key{node.mesh, node.skin, std::move(weights)});
-        if (is_new) entry->second = make(static_cast<std::size_t>(node.mesh), node.skin, std::get<2>(entry->first));
+        const auto [entry, is_new] = made_.try_emplace(Key{node.mesh, node.skin, std::move(weights), own ? static_cast<int>(index) : -1});
+        if (is_new) entry->second = make(index, std::get<2>(entry->first));
 
         const std::vector<Made>& primitives = entry->second;
         const Affine& world = tree_.world_from_node[index];
         const bool needs_world = std::any_of(primitives.begin(), primitives.end(), [](const Made& made) { return !made.at_world; });
         if (needs_world && !is_finite(world)) {
             document_.warn(fmt::format("nodes[{}]: its transform is not finite, not drawn", index));
-            return;
+            if (motion_ == nullptr) return;  // it may be finite at another time
         }
         document_.geometry.take(primitives.size() * (sizeof(Instance) + sizeof(int)));
         for (const auto& [mesh_of_scene, at_world] : primitives) {
             if (!at_world) nodes_[index].instances.push_back(static_cast<int>(scene_.instances.size()));
             Affine placed = world;
             if (at_world) placed = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, *at_world}};
+            if (motion_ != nullptr)
+                motion_->add(
+                    {.instance = static_cast<int>(scene_.instances.size()), .node = static_cast<int>(index), .at_world = at_world});
             scene_.instances.push_back({mesh_of_scene, to_mat4(placed)});
             document_.info.triangles_drawn += scene_.meshes[static_cast<std::size_t>(mesh_of_scene)].indices.size() / 3;
         }
@@ -93,37 +99,65 @@ private:
                                 mesh_index, p, targets, mesh.primitives[p].targets.size()));
     }
 
-    std::vector<Made> make(std::size_t mesh, int skin, const std::vector<double>& weights) {
+    [[nodiscard]] bool is_hidden(std::size_t node) const { return !tree_.hidden.empty() && tree_.hidden[node]; }
+
+    /// Reads the mesh of a node, and poses it.
+    std::vector<Made> make(std::size_t node_index, const std::vector<double>& weights) {
+        const file::Node& node = document_.file.nodes[node_index];
+        const auto mesh = static_cast<std::size_t>(node.mesh);
+        const bool morphs = document_.animations.morphs_node(node_index), hides = document_.animations.hides_node(node_index);
         std::vector<Made> made;
         const auto& primitives = document_.file.meshes[mesh].primitives;
         for (std::size_t p = 0; p < primitives.size(); ++p) {
             document_.check_time();
-            std::optional<ReadMesh> read = reader_.read(mesh, p, weights);
+            // All targets are read if any may be used at another time.
+            std::optional<ReadMesh> read = reader_.read(mesh, p, morphs ? std::vector<double>(primitives[p].targets.size(), 1.0) : weights);
             if (!read) continue;
-            std::optional<Vec3d> at_world;
-            if (skin >= 0) {
-                at_world = apply_skin(document_, accessors_, reader_, tree_, skin, primitives[p], *read);
-                if (!at_world)
-                    document_.warn(fmt::format("{}: has a skin, but no JOINTS_0 and WEIGHTS_0; drawn as a plain mesh", read->where));
-            }
+            const bool skinned = node.skin >= 0 && read_influences(document_, accessors_, reader_, node.skin, primitives[p], *read);
+            if (node.skin >= 0 && !skinned)
+                document_.warn(fmt::format("{}: has a skin, but no JOINTS_0 and WEIGHTS_0; drawn as a plain mesh", read->where));
             complete(*read);
-            document_.info.vertices += read->mesh.positions.size();
-            document_.info.triangles_stored += read->mesh.indices.size() / 3;
-            made.push_back({static_cast<int>(scene_.meshes.size()), at_world});
-            scene_.meshes.push_back(std::move(read->mesh));
+            const std::vector<Affine> joints = skinned ? joints_of(node.skin) : std::vector<Affine>();
+            const bool kept = motion_ != nullptr && (skinned || morphs || hides);
+            if (kept) document_.geometry.take(bytes_of(read->source.mesh));
+            MeshSource& source = read->source;
+            Posed posed = pose_mesh(kept ? source.mesh : std::move(source.mesh), source, weights, joints,
+                                    document_.options.recentre ? std::nullopt : std::optional(Vec3d{}));
+            if (is_hidden(node_index)) posed.mesh = without_triangles(posed.mesh);
+            document_.info.vertices += posed.mesh.positions.size();
+            document_.info.triangles_stored += posed.mesh.indices.size() / 3;
+            const int index = static_cast<int>(scene_.meshes.size());
+            made.push_back({index, skinned ? std::optional(posed.place) : std::nullopt});
+            scene_.meshes.push_back(std::move(posed.mesh));
+            if (kept)
+                motion_->add({.mesh = index,
+                              .node = static_cast<int>(node_index),
+                              .skin = skinned ? node.skin : -1,
+                              .source = std::move(source),
+                              .place = posed.place});
         }
         return made;
     }
 
-    /// Adds flat normals if there are none, and tangents if the material needs them.
+    std::vector<Affine> joints_of(int index) {
+        const auto [entry, is_new] = skins_.try_emplace(index);
+        if (is_new) {
+            entry->second = read_skin(document_, accessors_, index);
+            if (motion_ != nullptr) motion_->add(index, entry->second);
+        }
+        document_.geometry.take(entry->second.joints.size() * sizeof(Affine));
+        return joint_matrices(entry->second, tree_.world_from_node);
+    }
+
+    /// Notes what the mesh lacks: flat normals if there are none, and tangents if the material needs them.
     void complete(ReadMesh& read) {
-        Mesh& mesh = read.mesh;
+        MeshSource& source = read.source;
+        const Mesh& mesh = source.mesh;
         const std::uint64_t corners = mesh.indices.size();
-        if (mesh.normals.empty()) {
+        source.flat_normals = mesh.normals.empty();
+        if (source.flat_normals)
             document_.geometry.take(corners *
                                     (24 + (mesh.uv0.empty() ? 0 : 8) + (mesh.uv1.empty() ? 0 : 8) + (mesh.colors.empty() ? 0 : 16)));
-            generate_flat_normals(mesh);
-        }
         if (mesh.material < 0) return;
         check_texture_coordinates(read);
         if (!mesh.tangents.empty()) return;
@@ -131,12 +165,12 @@ private:
         if (!normal_map.used()) return;
         if ((normal_map.uv_set == 1 ? mesh.uv1 : mesh.uv0).empty()) return;
         document_.geometry.take(corners * 16);
-        generate_tangents(mesh, normal_map.uv_set);
+        source.tangents_of = normal_map.uv_set;
     }
 
     /// Warns of textures of the material for which the mesh has no coordinates.
     void check_texture_coordinates(const ReadMesh& read) {
-        const Material& material = scene_.materials[static_cast<std::size_t>(read.mesh.material)];
+        const Material& material = scene_.materials[static_cast<std::size_t>(read.source.mesh.material)];
         const std::pair<const TextureUse*, const char*> places[] = {
             {&material.base_color_texture, "pbrMetallicRoughness.baseColorTexture"},
             {&material.metallic_roughness_texture, "pbrMetallicRoughness.metallicRoughnessTexture"},
@@ -148,20 +182,22 @@ private:
             {&material.transmission.texture, "extensions.KHR_materials_transmission.transmissionTexture"},
             {&material.transmission.thickness_texture, "extensions.KHR_materials_volume.thicknessTexture"}};
         for (const auto& [use, key] : places)
-            if (use->used() && (use->uv_set == 1 ? read.mesh.uv1 : read.mesh.uv0).empty() && !document_.warnings_are_full())
-                document_.warn(fmt::format("materials[{}].{}: {} has no TEXCOORD_{}, {}", read.mesh.material, key, read.where, use->uv_set,
-                                           use == &material.normal_texture && read.mesh.tangents.empty()
-                                               ? "drawn without it"
-                                               : "drawn with the colour at (0, 0)"));
+            if (use->used() && (use->uv_set == 1 ? read.source.mesh.uv1 : read.source.mesh.uv0).empty() && !document_.warnings_are_full())
+                document_.warn(
+                    fmt::format("materials[{}].{}: {} has no TEXCOORD_{}, {}", read.source.mesh.material, key, read.where, use->uv_set,
+                                use == &material.normal_texture && read.source.mesh.tangents.empty() ? "drawn without it"
+                                                                                                     : "drawn with the colour at (0, 0)"));
     }
 
     Document& document_;
     const std::vector<Accessor>& accessors_;
     const NodeTree& tree_;
+    Motion* motion_;
     Scene& scene_;
     std::vector<Node>& nodes_;
     PrimitiveReader reader_;
     std::map<Key, std::vector<Made>> made_;
+    std::map<int, Skin> skins_;
     std::vector<bool> mesh_checked_;
 };
 
@@ -179,8 +215,8 @@ std::vector<bool> find_used_materials(const Document& document, const NodeTree& 
     return used;
 }
 
-void place_meshes(Document& document, const std::vector<Accessor>& accessors, const NodeTree& tree, LoadedScene& loaded) {
-    MeshPlacer(document, accessors, tree, loaded).run();
+void place_meshes(Document& document, const std::vector<Accessor>& accessors, const NodeTree& tree, LoadedScene& loaded, Motion* motion) {
+    MeshPlacer(document, accessors, tree, loaded, motion).run();
 }
 
 }  // namespace halflit::io::detail

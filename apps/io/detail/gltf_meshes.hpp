@@ -1,6 +1,7 @@
 // Meshes and their instances: each mesh of the drawn nodes is made once, completed for its material, and placed by its nodes.
 #pragma once
 
+#include "apps/io/detail/gltf_motion.hpp"
 #include "apps/io/detail/gltf_nodes.hpp"
 #include "apps/io/detail/gltf_primitive.hpp"
 #include "halflit/scene.hpp"
@@ -12,7 +13,8 @@ namespace halflit::io::detail {
 /// One flag for each material of the file: true if a drawn primitive has it.
 std::vector<bool> find_used_materials(const Document& document, const NodeTree& tree);
 
-/// Fills the scene's meshes and instances, and adds the instances to the nodes. Requires materials and nodes. Throws LoadFailure.
-void place_meshes(Document& document, const std::vector<Accessor>& accessors, const NodeTree& tree, LoadedScene& loaded);
+/// Fills the scene's meshes and instances, and adds the instances to the nodes. Requires materials and nodes. motion: gets what is needed
+/// to pose the meshes again; may be null. Throws LoadFailure.
+void place_meshes(Document& document, const std::vector<Accessor>& accessors, const NodeTree& tree, LoadedScene& loaded, Motion* motion);
 
 }  // namespace halflit::io::detail

@@ -16,18 +16,18 @@ Affine rotation_of(double x, double y, double z, double w) {
 
 }  // namespace
 
-Affine node_transform(std::span<const double> matrix, std::span<const double> translation, std::span<const double> rotation,
-                      std::span<const double> scale) {
-    Affine m;
-    if (!matrix.empty()) {  // the last row of an affine transform is 0 0 0 1
-        for (std::size_t j = 0; j < 4; ++j) m.c[j] = {matrix[4 * j], matrix[4 * j + 1], matrix[4 * j + 2]};
-        return m;
-    }
-    if (!rotation.empty()) m = rotation_of(rotation[0], rotation[1], rotation[2], rotation[3]);
-    if (!scale.empty())
-        for (std::size_t j = 0; j < 3; ++j) m.c[j] = m.c[j] * scale[j];
-    if (!translation.empty()) m.c[3] = {translation[0], translation[1], translation[2]};
+Affine node_transform(const file::Transform& transform) {
+    if (transform.matrix) return *transform.matrix;
+    const double* const q = transform.rotation;
+    Affine m = rotation_of(q[0], q[1], q[2], q[3]);
+    for (std::size_t j = 0; j < 3; ++j) m.c[j] = m.c[j] * transform.scale[j];
+    m.c[3] = {transform.translation[0], transform.translation[1], transform.translation[2]};
     return m;
+}
+
+Affine local_transform(const file::File& file, std::size_t node) {
+    const int transform = file.nodes[node].transform;
+    return transform < 0 ? Affine{} : node_transform(file.transforms[static_cast<std::size_t>(transform)]);
 }
 
 }  // namespace halflit::io::detail

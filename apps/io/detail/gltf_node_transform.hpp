@@ -1,15 +1,13 @@
-// A node's local transform, from its matrix or its translation, rotation and scale.
+// A node's transform to its parent, from its matrix or its translation, rotation and scale.
 #pragma once
 
-#include "apps/io/detail/gltf_transform.hpp"
-
-#include <span>
+#include "apps/io/detail/gltf_file.hpp"
 
 namespace halflit::io::detail {
 
-/// Each list is complete (16, 3, 4 and 3 numbers) or empty. A matrix, column by column, is taken alone; otherwise the transform is T R S.
-/// Quaternions are normalised; one of length zero means no rotation.
-[[nodiscard]] Affine node_transform(std::span<const double> matrix, std::span<const double> translation, std::span<const double> rotation,
-                                    std::span<const double> scale);
+/// The matrix if there is one, otherwise T R S. Quaternions are normalised; one of length zero means no rotation.
+[[nodiscard]] Affine node_transform(const file::Transform& transform);
+/// Transform of a node of the file; the identity if it has none.
+[[nodiscard]] Affine local_transform(const file::File& file, std::size_t node);
 
 }  // namespace halflit::io::detail

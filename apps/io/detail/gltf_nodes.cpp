@@ -1,5 +1,7 @@
 #include "apps/io/detail/gltf_nodes.hpp"
 
+#include "apps/io/detail/gltf_node_transform.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,11 +14,6 @@ namespace {
 std::span<const int> children_of(const file::File& file, std::size_t node) {
     const file::Run run = file.nodes[node].children;
     return std::span(file.children).subspan(run.first, run.count);
-}
-
-Affine local_transform(const file::File& file, std::size_t node) {
-    const int transform = file.nodes[node].transform;
-    return transform < 0 ? Affine{} : file.transforms[static_cast<std::size_t>(transform)];
 }
 
 std::vector<int> find_parents(const file::File& file) {
@@ -68,35 +65,50 @@ void check_roots(Document& document, std::size_t scene, const std::vector<int>& 
 
 }  // namespace
 
-NodeTree place_nodes(Document& document) {
+NodeTree walk_nodes(Document& document) {
     const file::File& file = document.file;
-    const std::vector<file::Node>& nodes = file.nodes;
     NodeTree tree;
     tree.parent = find_parents(file);
     const std::vector<int>& parent = tree.parent;
-    std::vector<int> roots, order;
-    for (std::size_t i = 0; i < nodes.size(); ++i)
+    std::vector<int> roots;
+    for (std::size_t i = 0; i < parent.size(); ++i)
         if (parent[i] < 0) roots.push_back(static_cast<int>(i));
-    std::vector<bool> seen(nodes.size(), false);
-    append_trees(file, roots, seen, order);
-    for (std::size_t i = 0; i < nodes.size(); ++i)
+    std::vector<bool> seen(parent.size(), false);
+    append_trees(file, roots, seen, tree.order);
+    for (std::size_t i = 0; i < parent.size(); ++i)
         if (!seen[i]) refuse(fmt::format("nodes[{}].children", i), "the node is its own ancestor");
-
-    tree.world_from_node.resize(nodes.size());
-    for (const int i : order) {
-        const auto node = static_cast<std::size_t>(i);
-        const Affine local = local_transform(file, node);
-        tree.world_from_node[node] = parent[node] < 0 ? local : tree.world_from_node[static_cast<std::size_t>(parent[node])] * local;
-    }
     if (file.scenes.empty()) {
-        tree.drawn = std::move(order);
+        tree.drawn = tree.order;
     } else {
         const std::size_t scene = static_cast<std::size_t>(std::max(file.scene, 0));
         check_roots(document, scene, parent);
-        seen.assign(nodes.size(), false);
+        seen.assign(parent.size(), false);
         append_trees(file, file.scenes[scene].nodes, seen, tree.drawn);
     }
     return tree;
+}
+
+void place_nodes(const file::File& file, NodeTree& tree) {
+    tree.world_from_node.resize(file.nodes.size());
+    tree.hidden.clear();
+    for (const int i : tree.order) {
+        const auto node = static_cast<std::size_t>(i);
+        const Affine local = local_transform(file, node);
+        const int parent = tree.parent[node];
+        tree.world_from_node[node] = parent < 0 ? local : tree.world_from_node[static_cast<std::size_t>(parent)] * local;
+        if (file.nodes[node].visible != 0) continue;
+        tree.hidden.resize(file.nodes.size(), false);
+        tree.hidden[node] = true;
+    }
+    mark_below(tree, tree.hidden);
+}
+
+void mark_below(const NodeTree& tree, std::vector<bool>& marks) {
+    if (marks.empty()) return;
+    for (const int i : tree.order) {
+        const auto node = static_cast<std::size_t>(i);
+        if (tree.parent[node] >= 0 && marks[static_cast<std::size_t>(tree.parent[node])]) marks[node] = true;
+    }
 }
 
 std::vector<Node> make_nodes(Document& document, const NodeTree& tree) {

@@ -16,7 +16,8 @@ Vec3d unit_or(Vec3d v, Vec3d otherwise) {
     return len > 1e-200 && len < 1e200 ? v * (1.0 / len) : otherwise;
 }
 
-/// scale: of the drawn world.
+}  // namespace
+
 bool set_projection(const file::Camera& source, double scale, Camera& camera) {
     const auto in = [](double value, double low, double high) { return value > low && value < high; };
     if (source.type == "orthographic") {
@@ -43,8 +44,6 @@ bool set_projection(const file::Camera& source, double scale, Camera& camera) {
     return true;
 }
 
-/// KHR_lights_punctual gives lux (directional) and candela (point, spot); colours here are those values divided by pi.
-/// scale: of the drawn world; the light of a lamp falls with the squared distance.
 std::optional<Light> light_of(const file::Light& source, double scale) {
     Light light;
     if (source.type == "point")
@@ -67,7 +66,10 @@ std::optional<Light> light_of(const file::Light& source, double scale) {
     return light;
 }
 
-}  // namespace
+bool is_valid(const file::Camera& source) {
+    Camera camera;
+    return set_projection(source, 1.0, camera);
+}
 
 Mat4 rigid_part(const Affine& world) {
     const Vec3d z = unit_or(world.c[2], {0, 0, 1});
@@ -119,6 +121,9 @@ void place_lights(Document& document, const NodeTree& tree, LoadedScene& loaded)
             continue;  // a type that is unknown has been warned of
         }
         place(world, *light);
+        const bool hidden = !tree.hidden.empty() && tree.hidden[static_cast<std::size_t>(n)];
+        if (hidden && !document.animations.hides_node(static_cast<std::size_t>(n))) continue;
+        if (hidden) light->color_linear = {};
         if (lights.size() >= document.options.limits.max_lights)
             refuse("nodes", fmt::format("more than {} lights, which is the limit", document.options.limits.max_lights), ErrorCode::limit);
         loaded.nodes[static_cast<std::size_t>(n)].light = static_cast<int>(lights.size());

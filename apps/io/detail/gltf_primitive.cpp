@@ -22,6 +22,9 @@ constexpr AttributeRule kColor{"COLOR_0", 3, 4, kFloat, kUnsigned, {}, {}};
 constexpr AttributeRule kPositionDelta{"POSITION", 3, 3, kFloat, {}, kSigned, kSigned};
 constexpr AttributeRule kNormalDelta{"NORMAL", 3, 3, kFloat, {}, kSigned, kSigned};
 constexpr AttributeRule kTangentDelta{"TANGENT", 3, 3, kFloat, {}, kSigned, kSigned};
+constexpr AttributeRule kUv0Delta{"TEXCOORD_0", 2, 2, kFloat, kSmall, kSigned, {}};
+constexpr AttributeRule kUv1Delta{"TEXCOORD_1", 2, 2, kFloat, kSmall, kSigned, {}};
+constexpr AttributeRule kColorDelta{"COLOR_0", 3, 4, kFloat, kSmall, {}, {}};
 
 constexpr std::size_t kMaxIndices = std::numeric_limits<std::int32_t>::max();
 
@@ -200,27 +203,29 @@ std::vector<std::uint32_t> PrimitiveReader::gather_vertices(std::vector<std::uin
     return vertices;
 }
 
-void PrimitiveReader::morph(const file::Primitive& primitive, const std::string& where, std::size_t vertex_count,
-                            std::span<const double> weights, ReadMesh& out) {
+void PrimitiveReader::read_targets(const file::Primitive& primitive, std::size_t vertex_count, std::span<const double> weights,
+                                   ReadMesh& out) {
+    const Mesh& mesh = out.source.mesh;
+    const std::span<const std::uint32_t> vertices = out.source_vertices;
     for (std::size_t t = 0; t < std::min(primitive.targets.size(), weights.size()); ++t) {
-        const auto weight = static_cast<float>(std::clamp(weights[t], -1e30, 1e30));
-        if (weight == 0.0f) continue;
+        if (weights[t] == 0.0) continue;
         document_.check_time();
-        const std::string target = fmt::format("{}.targets[{}]", where, t);
-        const auto add = [&](const AttributeRule& rule, auto& values) {
-            const Accessor* deltas = attribute(target, primitive.targets[t], rule, vertex_count);
-            if (deltas == nullptr) return;
-            float delta[4];
-            for (std::size_t i = 0; i < values.size(); ++i) {
-                deltas->read_floats(out.source_vertices[i], delta);
-                values[i].x += weight * delta[0];
-                values[i].y += weight * delta[1];
-                values[i].z += weight * delta[2];
-            }
+        const std::string where = fmt::format("{}.targets[{}]", out.where, t);
+        // Null for what the mesh itself lacks.
+        const auto deltas = [&](const AttributeRule& rule, bool has_base, std::size_t bytes) {
+            const Accessor* const found = has_base ? attribute(where, primitive.targets[t], rule, vertex_count) : nullptr;
+            if (found != nullptr) document_.geometry.take(std::uint64_t{vertices.size()} * bytes);
+            return found;
         };
-        add(kPositionDelta, out.mesh.positions);
-        add(kNormalDelta, out.mesh.normals);
-        add(kTangentDelta, out.mesh.tangents);
+        document_.geometry.take((t + 1 - out.source.targets.size()) * sizeof(MorphTarget));
+        out.source.targets.resize(t + 1);
+        MorphTarget& target = out.source.targets[t];
+        if (const Accessor* a = deltas(kPositionDelta, true, 12)) target.positions = read_vec3(*a, vertices);
+        if (const Accessor* a = deltas(kNormalDelta, !mesh.normals.empty(), 12)) target.normals = read_vec3(*a, vertices);
+        if (const Accessor* a = deltas(kTangentDelta, !mesh.tangents.empty(), 12)) target.tangents = read_vec3(*a, vertices);
+        if (const Accessor* a = deltas(kUv0Delta, !mesh.uv0.empty(), 8)) target.uv0 = read_vec2(*a, vertices);
+        if (const Accessor* a = deltas(kUv1Delta, !mesh.uv1.empty(), 8)) target.uv1 = read_vec2(*a, vertices);
+        if (const Accessor* a = deltas(kColorDelta, !mesh.colors.empty(), 16)) target.colors = read_vec4(*a, vertices, 0.0f);
     }
 }
 
@@ -248,7 +253,7 @@ std::optional<ReadMesh> PrimitiveReader::read(std::size_t mesh_index, std::size_
     const Accessor* uv1 = attribute(list, primitive.attributes, kUv1, count);
     const Accessor* color = attribute(list, primitive.attributes, kColor, count);
 
-    Mesh& mesh = out.mesh;
+    Mesh& mesh = out.source.mesh;
     mesh.name = document_.file.meshes[mesh_index].name;
     mesh.material = primitive.material;
     mesh.indices = triangle_indices(primitive, out.where, count);
@@ -267,7 +272,7 @@ std::optional<ReadMesh> PrimitiveReader::read(std::size_t mesh_index, std::size_
     if (uv1 != nullptr) mesh.uv1 = read_vec2(*uv1, vertices);
     if (color != nullptr) mesh.colors = read_vec4(*color, vertices, 1.0f);
     warn_of_values(document_, list, mesh);
-    morph(primitive, out.where, count, morph_weights, out);
+    read_targets(primitive, count, morph_weights, out);
     for (Vec4f& t : mesh.tangents) t.w = t.w < 0.0f ? -1.0f : 1.0f;
     return out;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/io/detail/gltf_accessor.hpp"
+#include "apps/io/detail/gltf_deform.hpp"
 #include "halflit/mesh.hpp"
 
 #include <optional>
@@ -21,7 +22,7 @@ struct AttributeRule {
 };
 
 struct ReadMesh {
-    Mesh mesh;                                   ///< without material-dependent parts: normals may be missing
+    MeshSource source;                           ///< without joints, and without what its material requires
     std::vector<std::uint32_t> source_vertices;  ///< the file's vertex number of each vertex
     std::string where;                           ///< "meshes[0].primitives[1]", for messages
 };
@@ -30,7 +31,8 @@ class PrimitiveReader {
 public:
     PrimitiveReader(Document& document, const std::vector<Accessor>& accessors);
 
-    /// Reads a primitive; empty if there is nothing to draw (points, lines, no positions, no triangles). `morph_weights` may be empty.
+    /// Reads a primitive; empty if there is nothing to draw (points, lines, no positions, no triangles). morph_weights: targets with the
+    /// weight 0 are not read; it may be empty.
     std::optional<ReadMesh> read(std::size_t mesh, std::size_t primitive, std::span<const double> morph_weights);
 
     /// The accessor of an attribute in `list` ("meshes[0].primitives[1].attributes"), or null if there is none. Throws if its type or its
@@ -44,8 +46,7 @@ private:
     void warn_of_layout(const std::string& where, int accessor);
     std::vector<std::uint32_t> triangle_indices(const file::Primitive& primitive, const std::string& where, std::size_t vertex_count);
     std::vector<std::uint32_t> gather_vertices(std::vector<std::uint32_t>& indices, std::size_t vertex_count);
-    void morph(const file::Primitive& primitive, const std::string& where, std::size_t vertex_count, std::span<const double> weights,
-               ReadMesh& out);
+    void read_targets(const file::Primitive& primitive, std::size_t vertex_count, std::span<const double> weights, ReadMesh& out);
 
     Document& document_;
     const std::vector<Accessor>& accessors_;

@@ -68,8 +68,9 @@ private:
 }  // namespace
 
 const char* name_of(Target target) {
-    static constexpr const char* kNames[] = {"",          "accessors", "buffers", "bufferViews", "cameras", "images", "lights",
-                                             "materials", "meshes",    "nodes",   "samplers",    "scenes",  "skins",  "textures"};
+    static constexpr const char* kNames[] = {"",        "accessors", "animations", "buffers",   "bufferViews",
+                                             "cameras", "images",    "lights",     "materials", "meshes",
+                                             "nodes",   "samplers",  "scenes",     "skins",     "textures"};
     return kNames[static_cast<int>(target)];
 }
 
@@ -79,6 +80,8 @@ std::size_t count_of(Target target, const file::File& file) {
             break;
         case Target::accessors:
             return file.accessors.size();
+        case Target::animations:
+            return file.animations.size();
         case Target::buffers:
             return file.buffers.size();
         case Target::buffer_views:

@@ -2,13 +2,14 @@
 #pragma once
 
 #include "apps/io/detail/gltf_filler.hpp"
-#include "apps/io/detail/gltf_node_transform.hpp"
 #include "apps/io/detail/gltf_schema.hpp"
 #include "apps/io/text.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -244,8 +245,59 @@ inline void end_node(F f, V) {
     if (!f.matrix.empty() && parts)
         f.fault(f.matrix_offset, "there are a translation, a rotation or a scale beside it, and they exclude each other");
     check_transform(f);
-    f.append(f.file.transforms, node_transform(f.matrix, f.translation, f.rotation, f.scale));
+    file::Transform& made = f.append(f.file.transforms);
+    if (!f.matrix.empty()) {  // the last row of an affine transform is 0 0 0 1
+        made.matrix.emplace();
+        for (std::size_t j = 0; j < 4; ++j) made.matrix->c[j] = {f.matrix[4 * j], f.matrix[4 * j + 1], f.matrix[4 * j + 2]};
+    }
+    std::copy(f.translation.begin(), f.translation.end(), made.translation);
+    std::copy(f.rotation.begin(), f.rotation.end(), made.rotation);
+    std::copy(f.scale.begin(), f.scale.end(), made.scale);
     f.file.nodes.back().transform = static_cast<int>(f.file.transforms.size() - 1);
+}
+
+inline void put_first_max(F f, V value) {
+    if (std::optional<double>& max = f.file.accessors.back().max; !max) max = value.number;
+}
+
+inline void add_channel(F f, V) { f.append(f.file.animations.back().channels); }
+
+template <auto Member>
+void put_channel(F f, V value) {
+    assign(f, f.file.animations.back().channels.back().*Member, value);
+}
+
+inline void put_path(F f, V value) {
+    static constexpr std::string_view kPaths[] = {"translation", "rotation", "scale", "weights", "pointer"};
+    f.file.animations.back().channels.back().path = f.keep(value);
+    if (std::find(std::begin(kPaths), std::end(kPaths), value.text) == std::end(kPaths))
+        f.warn(value.offset, fmt::format("\"{}\" is unknown", printable(value.text, 40)), "the channel is left out");
+}
+
+inline void add_animation_sampler(F f, V) { f.append(f.file.animations.back().samplers); }
+
+template <auto Member>
+void put_animation_sampler(F f, V value) {
+    assign(f, f.file.animations.back().samplers.back().*Member, value);
+}
+
+inline void put_interpolation(F f, V value) {
+    file::Interpolation& interpolation = f.file.animations.back().samplers.back().interpolation;
+    if (value.text == "STEP")
+        interpolation = file::Interpolation::step;
+    else if (value.text == "CUBICSPLINE")
+        interpolation = file::Interpolation::cubic;
+    else if (value.text != "LINEAR")
+        f.warn(value.offset, fmt::format("\"{}\" is unknown", printable(value.text, 40)), "read as LINEAR");
+}
+
+inline void end_animation(F f, V value) {
+    const file::Animation& animation = f.file.animations.back();
+    if (animation.channels.empty()) f.warn(value.offset, "it has no channels", "it moves nothing");
+    for (std::size_t i = 0; i < animation.channels.size(); ++i)
+        if (const int sampler = animation.channels[i].sampler; sampler >= static_cast<int>(animation.samplers.size()))
+            fault(value,
+                  fmt::format("channels[{}].sampler: index {}, but the animation has {} samplers", i, sampler, animation.samplers.size()));
 }
 
 inline void end_camera(F f, V value) {

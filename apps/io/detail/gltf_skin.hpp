@@ -1,17 +1,17 @@
-// Skinned meshes, drawn in the pose that the nodes give: each vertex is moved by its joints, once, while loading.
+// Skins: joints and weights of the vertices, and the joints' inverse bind matrices.
 #pragma once
 
-#include "apps/io/detail/gltf_nodes.hpp"
+#include "apps/io/detail/gltf_deform.hpp"
 #include "apps/io/detail/gltf_primitive.hpp"
-
-#include <optional>
 
 namespace halflit::io::detail {
 
-/// Moves a mesh by `skin` into world space (glTF ignores the transform of the mesh's own node). Returns the point of the world at which the
-/// mesh is to be placed, which floats hold exactly: the origin, or, with LoadOptions::recentre, the middle of a mesh that is far from it.
-/// Returns nothing, and leaves the mesh as it is, if it has no joints. Throws LoadFailure.
-std::optional<Vec3d> apply_skin(Document& document, const std::vector<Accessor>& accessors, PrimitiveReader& reader, const NodeTree& tree,
-                                int skin, const file::Primitive& primitive, ReadMesh& read);
+/// Throws LoadFailure.
+Skin read_skin(Document& document, const std::vector<Accessor>& accessors, int index);
+
+/// Reads the influences of all sets (JOINTS_0 and WEIGHTS_0, JOINTS_1 and WEIGHTS_1, ...). Returns false, and leaves the mesh as it is, if
+/// it has none. Throws LoadFailure.
+bool read_influences(Document& document, const std::vector<Accessor>& accessors, PrimitiveReader& reader, int skin,
+                     const file::Primitive& primitive, ReadMesh& read);
 
 }  // namespace halflit::io::detail

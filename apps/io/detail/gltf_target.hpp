@@ -11,6 +11,7 @@ namespace halflit::io::detail {
 enum class Target : std::uint8_t {
     none,
     accessors,
+    animations,
     buffers,
     buffer_views,
     cameras,
@@ -24,7 +25,7 @@ enum class Target : std::uint8_t {
     skins,
     textures
 };
-inline constexpr std::size_t kTargets = 14;
+inline constexpr std::size_t kTargets = 15;
 
 [[nodiscard]] const char* name_of(Target target);  ///< "accessors"
 [[nodiscard]] std::size_t count_of(Target target, const file::File& file);

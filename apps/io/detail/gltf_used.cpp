@@ -7,7 +7,7 @@ namespace halflit::io::detail {
 
 class UseFinder {
 public:
-    explicit UseFinder(const file::File& file) : file_(file) {
+    UseFinder(const file::File& file, const AnimationUse& animations) : file_(file), animations_(animations) {
         for (std::size_t target = 0; target < kTargets; ++target)
             used_.of_[target].assign(count_of(static_cast<Target>(target), file), false);
         targets_seen_.resize(file.meshes.size());
@@ -19,8 +19,9 @@ public:
         mark(Target::scenes, std::max(file_.scene, 0));
         for (const int node : drawn_nodes) {
             place(node, parents);
-            follow(file_.nodes[static_cast<std::size_t>(node)]);
+            follow(static_cast<std::size_t>(node));
         }
+        for (const AnimationUse::Used& used : animations_.used) follow(used);
         for (std::size_t skin = 0; skin < file_.skins.size(); ++skin)
             if (used_.of_[static_cast<std::size_t>(Target::skins)][skin])
                 for (const int joint : file_.skins[skin].joints) place(joint, parents);
@@ -41,7 +42,20 @@ private:
         while (mark(Target::nodes, node)) node = parents[static_cast<std::size_t>(node)];
     }
 
-    void follow(const file::Node& node) {
+    /// The samplers of the channels that move something. Those that move nothing may be anything.
+    void follow(const AnimationUse::Used& used) {
+        mark(Target::animations, used.animation);
+        const file::Animation& animation = file_.animations[static_cast<std::size_t>(used.animation)];
+        for (const AnimationUse::Channel& channel : used.channels) {
+            const int sampler = animation.channels[channel.channel].sampler;
+            if (sampler < 0 || static_cast<std::size_t>(sampler) >= animation.samplers.size()) continue;
+            accessor(animation.samplers[static_cast<std::size_t>(sampler)].input);
+            accessor(animation.samplers[static_cast<std::size_t>(sampler)].output);
+        }
+    }
+
+    void follow(std::size_t number) {
+        const file::Node& node = file_.nodes[number];
         mark(Target::cameras, node.camera);
         mark(Target::lights, node.light);
         if (node.mesh < 0 || static_cast<std::size_t>(node.mesh) >= file_.meshes.size()) return;
@@ -49,7 +63,11 @@ private:
         const file::Mesh& mesh = file_.meshes[index];
         if (mark(Target::meshes, node.mesh))
             for (const file::Primitive& primitive : mesh.primitives) follow(primitive);
-        if (node.weights.count > 0) {
+        if (animations_.morphs_node(number)) {
+            std::size_t most = 0;
+            for (const file::Primitive& primitive : mesh.primitives) most = std::max(most, primitive.targets.size());
+            follow_targets(index, std::vector<double>(most, 1.0));
+        } else if (node.weights.count > 0) {
             follow_targets(index, std::span(file_.weights).subspan(node.weights.first, node.weights.count));
         } else if (!has_own_weights_[index]) {
             has_own_weights_[index] = true;
@@ -89,7 +107,7 @@ private:
             for (const file::Primitive& primitive : file_.meshes[mesh].primitives)
                 if (t < primitive.targets.size())
                     for (const auto& [name, value] : primitive.targets[t])
-                        if (name == "POSITION" || name == "NORMAL" || name == "TANGENT") accessor(value);
+                        if (file::is_drawn(name)) accessor(value);
         }
     }
 
@@ -114,14 +132,15 @@ private:
     }
 
     const file::File& file_;
+    const AnimationUse& animations_;
     Used used_;
     // By mesh: targets that have been followed, whether its own weights have been, and whether its joints have been.
     std::vector<std::vector<bool>> targets_seen_;
     std::vector<bool> has_own_weights_, skinned_;
 };
 
-Used find_used(const file::File& file, std::span<const int> drawn_nodes, std::span<const int> parents) {
-    return UseFinder(file).run(drawn_nodes, parents);
+Used find_used(const file::File& file, const AnimationUse& animations, std::span<const int> drawn_nodes, std::span<const int> parents) {
+    return UseFinder(file, animations).run(drawn_nodes, parents);
 }
 
 }  // namespace halflit::io::detail

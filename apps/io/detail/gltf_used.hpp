@@ -1,6 +1,7 @@
 // The elements of a file that its drawn nodes use. A fault of another element does not touch the picture.
 #pragma once
 
+#include "apps/io/detail/gltf_animation_use.hpp"
 #include "apps/io/detail/gltf_target.hpp"
 
 #include <array>
@@ -17,12 +18,16 @@ public:
         return element < list.size() && list[element];
     }
 
+    /// Takes an element out.
+    void drop(Target target, std::size_t element) { of_[static_cast<std::size_t>(target)][element] = false; }
+
 private:
     friend class UseFinder;
     std::array<std::vector<bool>, kTargets> of_;
 };
 
-/// Follows the references from the drawn nodes. An index that is out of range is left out.
-[[nodiscard]] Used find_used(const file::File& file, std::span<const int> drawn_nodes, std::span<const int> parents);
+/// Follows the references from the drawn nodes, and from the animations that pose them. An index that is out of range is left out.
+[[nodiscard]] Used find_used(const file::File& file, const AnimationUse& animations, std::span<const int> drawn_nodes,
+                             std::span<const int> parents);
 
 }  // namespace halflit::io::detail

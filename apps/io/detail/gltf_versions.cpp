@@ -21,7 +21,8 @@ constexpr std::string_view kSupportedExtensions[] = {"KHR_lights_punctual",     
                                                      "KHR_texture_transform",      "KHR_materials_emissive_strength",
                                                      "KHR_materials_ior",          "KHR_mesh_quantization",
                                                      "KHR_materials_transmission", "KHR_materials_volume",
-                                                     "KHR_materials_specular",     "KHR_materials_pbrSpecularGlossiness"};
+                                                     "KHR_materials_specular",     "KHR_materials_pbrSpecularGlossiness",
+                                                     "KHR_animation_pointer",      "KHR_node_visibility"};
 
 /// "2.0" as {2, 0}.
 std::optional<std::pair<int, int>> parse_version(std::string_view text) {
@@ -51,7 +52,6 @@ constexpr LeftOut kLeftOut[] = {
     {"EXT_meshopt_compression", "the data without compression are drawn"},
     {"EXT_texture_avif", "the pictures of other formats are drawn"},
     {"EXT_texture_webp", "the pictures of other formats are drawn"},
-    {"KHR_animation_pointer", "animations are left out"},
     {"KHR_draco_mesh_compression", "the data without compression are drawn"},
     {"KHR_materials_anisotropy", "highlights are drawn round"},
     {"KHR_materials_clearcoat", "the coat is left out"},
@@ -60,7 +60,6 @@ constexpr LeftOut kLeftOut[] = {
     {"KHR_materials_iridescence", "the thin film is left out"},
     {"KHR_materials_sheen", "the sheen is left out"},
     {"KHR_materials_variants", "the materials without a variant are drawn"},
-    {"KHR_node_visibility", "hidden nodes are drawn"},
     {"KHR_texture_basisu", "the pictures of other formats are drawn"},
     {"KHR_xmp_json_ld", "nothing is left out of the picture"},
     {"MSFT_lod", "the finest level is drawn"},
@@ -102,9 +101,6 @@ void check_extensions(Document& document) {
         if (!used.contains(file.extensions_required[i]))
             document.warn(fmt::format("extensionsRequired[{}]: {} is not in extensionsUsed, read as if it were", i,
                                       printable(file.extensions_required[i], 80)));
-    if (file.animations > 0)
-        document.warn(fmt::format("animations: {} left out, drawn in the pose of the nodes",
-                                  file.animations == 1 ? "one is" : fmt::format("{} are", file.animations)));
 }
 
 }  // namespace halflit::io::detail

@@ -53,9 +53,17 @@ std::vector<Affine> instance_transforms(const NodeTree& tree, const LoadedScene&
 
 }  // namespace
 
-void recentre(Document& document, NodeTree& tree, LoadedScene& loaded) {
+Affine drawn(const Affine& world, Vec3d origin, double scale) {
+    return {{world.c[0] * scale, world.c[1] * scale, world.c[2] * scale, (world.c[3] - origin) * scale}};
+}
+
+void scale_positions(Mesh& mesh, double factor) {
+    for (Vec3f& p : mesh.positions) p = to_float(to_double(p) * factor);
+}
+
+std::vector<double> recentre(Document& document, NodeTree& tree, LoadedScene& loaded) {
     Scene& scene = loaded.scene;
-    if (!document.options.recentre || scene.instances.empty()) return;
+    if (!document.options.recentre || scene.instances.empty()) return {};
     std::vector<Affine> transforms = instance_transforms(tree, loaded);
     std::vector<DoubleBox> boxes;
     for (const Mesh& mesh : scene.meshes) boxes.push_back(box_of(mesh));
@@ -67,25 +75,23 @@ void recentre(Document& document, NodeTree& tree, LoadedScene& loaded) {
             world.include(
                 apply(transforms[i], {k & 1 ? box.max.x : box.min.x, k & 2 ? box.max.y : box.min.y, k & 4 ? box.max.z : box.min.z}));
     }
-    if (world.empty() || !std::isfinite(world.radius())) return;
+    if (world.empty() || !std::isfinite(world.radius())) return {};
     const bool far = world.is_far();
     const Vec3d origin = far ? world.center() : Vec3d{};
     const double scale = unit_scale(world.radius(), kSmallestScene);
     // Positions that are small or large themselves are scaled in the mesh, so that an instance's transform is neither.
     std::vector<double> in_mesh;
     for (const DoubleBox& box : boxes) in_mesh.push_back(unit_scale(largest(box), kSmallest));
-    if (!far && scale == 1.0 && std::all_of(in_mesh.begin(), in_mesh.end(), [](double s) { return s == 1.0; })) return;
+    if (!far && scale == 1.0 && std::all_of(in_mesh.begin(), in_mesh.end(), [](double s) { return s == 1.0; })) return {};
 
-    const auto moved = [&](const Affine& m) { return Affine{{m.c[0] * scale, m.c[1] * scale, m.c[2] * scale, (m.c[3] - origin) * scale}}; };
     for (std::size_t i = 0; i < transforms.size(); ++i) {
-        Affine m = moved(transforms[i]);
+        Affine m = drawn(transforms[i], origin, scale);
         for (int k = 0; k < 3; ++k) m.c[k] = m.c[k] * (1.0 / in_mesh[static_cast<std::size_t>(scene.instances[i].mesh)]);
         scene.instances[i].world_from_object = to_mat4(m);
     }
     for (std::size_t m = 0; m < scene.meshes.size(); ++m)
-        if (in_mesh[m] != 1.0)
-            for (Vec3f& p : scene.meshes[m].positions) p = to_float(to_double(p) * in_mesh[m]);
-    for (Affine& m : tree.world_from_node) m = moved(m);
+        if (in_mesh[m] != 1.0) scale_positions(scene.meshes[m], in_mesh[m]);
+    for (Affine& m : tree.world_from_node) m = drawn(m, origin, scale);
     loaded.origin = origin;
     loaded.scale = scale;
     if (far)
@@ -93,6 +99,7 @@ void recentre(Document& document, NodeTree& tree, LoadedScene& loaded) {
                                   length(origin) / std::max(2.0 * world.radius(), 1e-300)));
     if (unit_scale(world.radius(), kSmallest) != 1.0)
         document.warn(fmt::format("the scene is {:.3g} units in size: it is drawn {:.3g} times as large", 2.0 * world.radius(), scale));
+    return in_mesh;
 }
 
 }  // namespace halflit::io::detail

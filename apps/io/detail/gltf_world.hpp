@@ -3,11 +3,20 @@
 
 #include "apps/io/detail/gltf_document.hpp"
 #include "apps/io/detail/gltf_nodes.hpp"
+#include "halflit/mesh.hpp"
+
+#include <vector>
 
 namespace halflit::io::detail {
 
 /// If LoadOptions::recentre asks for it and the scene needs it: moves and scales the scene's instances and meshes, and the transforms of
-/// `tree`, which place cameras and lights afterwards. Sets LoadedScene::origin and scale, and warns.
-void recentre(Document& document, NodeTree& tree, LoadedScene& loaded);
+/// `tree`, which place cameras and lights afterwards. Sets LoadedScene::origin and scale, and warns. Returns the factor that each mesh's
+/// positions were multiplied by; empty: none were.
+std::vector<double> recentre(Document& document, NodeTree& tree, LoadedScene& loaded);
+
+/// World of the file to that of the drawn scene.
+[[nodiscard]] Affine drawn(const Affine& world, Vec3d origin, double scale);
+/// Multiplies a mesh's positions.
+void scale_positions(Mesh& mesh, double factor);
 
 }  // namespace halflit::io::detail

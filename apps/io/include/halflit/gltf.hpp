@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,7 +50,27 @@ struct LoadOptions {
     /// it. LoadedScene::origin and scale say what was done. pose() places nodes in the file's own world, so a host that poses such a scene
     /// leaves this off.
     bool recentre = false;
+    /// Animation that poses the scene: its name, or else its index in the file; empty: the first one, if the file has any; "none": the pose
+    /// of the nodes, without animation. A name or an index that the file does not have is an error (usage).
+    std::string animation;
+    /// Time of the pose in seconds. Each channel holds its first value before its first key, and its last one after its last key, so a time
+    /// beyond the animation's end draws its end.
+    double time_s = 0.0;
+    /// Reads all animations and keeps what they need (LoadedScene::motion), so that pose_at() can pose the scene at other times. A fault of
+    /// any of them refuses the file then.
+    bool keep_animations = false;
 };
+
+/// An animation of a file.
+struct AnimationInfo {
+    std::string name;          ///< may be empty, and several may have the same
+    double end_s = 0.0;        ///< time of the last key, seconds; 0 if the file does not tell
+    std::size_t channels = 0;  ///< properties that it moves, drawn or not
+};
+
+/// Animations of a file, with their key frames and all that they move. Made by the loader (LoadOptions::keep_animations); it never changes,
+/// so any number of threads may use it.
+class Motion;
 
 /// Contents of the file, drawn or not.
 struct SceneInfo {
@@ -93,8 +114,11 @@ struct Node {
 
 /// A file's scene, its nodes, and the loader's warnings and counts.
 struct LoadedScene {
-    Scene scene;              ///< the file's default scene, or else its first
-    std::vector<Node> nodes;  ///< all nodes of the file, by their numbers in it
+    Scene scene;                            ///< the file's default scene, or else its first
+    std::vector<Node> nodes;                ///< all nodes of the file, by their numbers in it, in the pose that was loaded
+    std::vector<AnimationInfo> animations;  ///< all animations of the file, by their numbers in it
+    int animation = -1;                     ///< the animation that poses the scene; -1: none
+    std::shared_ptr<const Motion> motion;   ///< for pose_at(); null without LoadOptions::keep_animations
     /// What the picture lacks, and values that the file must not have, by their JSON path: one line each, no file prefix, at most a hundred
     /// and one that counts the others.
     std::vector<std::string> warnings;
@@ -116,5 +140,15 @@ struct LoadedScene {
 /// Instances, cameras and lights that a host appends to the scene stay where they are. Fails (usage), with the scene unchanged, where a
 /// parent is out of range or its own ancestor, or the scene lacks what a node places.
 [[nodiscard]] HALFLIT_API Result<SceneChanges> pose(std::span<const Node> nodes, Scene& scene);
+
+/// Poses a scene by one of its file's animations, as LoadOptions::animation and time_s would: the scene then draws the same pixels as one
+/// that is loaded so (if it was not moved by LoadOptions::recentre, whose choice stays). Each call begins at the pose of the nodes, so the
+/// order of calls does not matter. Moves instances, skinned and morphed meshes, cameras and lights, and sets the animated factors of
+/// materials, lights and cameras; all else in the scene stays as a host has set it. Returns what changed, for PreparedScene::update.
+/// nodes: LoadedScene::nodes, which get the pose too; may be empty.
+/// Fails (usage) for an animation that the file does not have, a time that is not finite, and where the scene lacks what the file placed;
+/// the scene is unchanged then.
+[[nodiscard]] HALFLIT_API Result<SceneChanges> pose_at(const Motion& motion, const std::string& animation, double time_s, Scene& scene,
+                                                       std::span<Node> nodes = {});
 
 }  // namespace halflit
