@@ -57,6 +57,8 @@ halflit_load_options to_c(const LoadOptions& from) {
     options.max_jpeg_scans = from.limits.max_jpeg_scans;
     options.lenient = from.lenient;
     options.threads = from.threads;
+    options.keep_animations = from.keep_animations;
+    options.time_s = from.time_s;
     return options;
 }
 
@@ -73,6 +75,9 @@ Result<LoadOptions> load_options(const halflit_load_options* given) {
     }
     options.lenient = read->lenient != 0;
     options.threads = read->threads;
+    options.keep_animations = read->keep_animations != 0;
+    if (read->animation != nullptr) options.animation = read->animation;
+    options.time_s = read->time_s;
     options.limits.max_file_bytes = read->max_file_bytes;
     options.limits.max_total_bytes = read->max_total_bytes;
     options.limits.max_json_tokens = read->max_json_tokens;

@@ -19,6 +19,8 @@ Result<void> hand_over(Result<LoadedScene> loaded, halflit_scene** scene) {
     made->scene = std::move(loaded->scene);
     made->file_meshes = made->scene.meshes.size();
     made->warnings = std::move(loaded->warnings);
+    made->animations = std::move(loaded->animations);
+    made->motion = std::move(loaded->motion);
     *scene = made.release();
     return {};
 }
@@ -76,11 +78,10 @@ void halflit_scene_destroy(halflit_scene* scene) { delete scene; }
 int32_t halflit_scene_get_counts(const halflit_scene* scene, halflit_counts* counts) {
     return reading(__func__, scene, {{counts, "counts"}}, [&] {
         const Scene& from = scene->scene;
-        const halflit_counts found{sizeof(halflit_counts),    triangle_count(from),
-                                   count_of(from.meshes),     count_of(from.instances),
-                                   count_of(from.materials),  count_of(from.textures),
-                                   count_of(from.cameras),    static_cast<std::int32_t>(scene->light_count()),
-                                   count_of(scene->warnings), 0};
+        const halflit_counts found{
+            sizeof(halflit_counts),    triangle_count(from),       count_of(from.meshes),  count_of(from.instances),
+            count_of(from.materials),  count_of(from.textures),    count_of(from.cameras), static_cast<std::int32_t>(scene->light_count()),
+            count_of(scene->warnings), count_of(scene->animations)};
         return write_struct(found, counts, "halflit_counts");
     });
 }
@@ -90,6 +91,33 @@ int32_t halflit_scene_get_warning(const halflit_scene* scene, int32_t index, con
         const auto at = check_index(index, scene->warnings.size(), "warning");
         if (!at) return tl::unexpected<Error>(at.error());
         *text = scene->warnings[*at].c_str();
+        return {};
+    });
+}
+
+int32_t halflit_scene_get_animation(const halflit_scene* scene, int32_t index, halflit_animation* animation) {
+    return reading(__func__, scene, {{animation, "animation"}}, [&]() -> Result<void> {
+        const auto at = check_index(index, scene->animations.size(), "animation");
+        if (!at) return tl::unexpected<Error>(at.error());
+        const AnimationInfo& from = scene->animations[*at];
+        const halflit_animation found{sizeof(halflit_animation), from.name.c_str(), from.end_s, from.channels};
+        return write_struct(found, animation, "halflit_animation");
+    });
+}
+
+int32_t halflit_scene_pose(halflit_scene* scene, const char* animation, double time_s) {
+    return changing(__func__, scene, {}, [&]() -> Result<void> {
+        if (scene->motion == nullptr)
+            return fail(ErrorCode::usage, "halflit_scene_pose: expected a scene that was loaded with keep_animations");
+        const auto posed = pose_at(*scene->motion, animation != nullptr ? animation : "", time_s, scene->scene);
+        if (!posed) return tl::unexpected<Error>(posed.error());
+        for (const std::size_t i : posed->moved_instances) scene->changes.instance(i);
+        for (const std::size_t i : posed->deformed_meshes) {
+            scene->put_mesh(i, std::move(scene->scene.meshes[i]));
+            scene->changes.mesh(i);
+        }
+        if (posed->materials) scene->changes.materials();
+        if (posed->lights) scene->changes.lights();
         return {};
     });
 }

@@ -4,11 +4,13 @@
 #include "halflit/halflit.h"
 
 #include <halflit/error.hpp>
+#include <halflit/gltf.hpp>
 #include <halflit/prepared_scene.hpp>
 #include <halflit/scene.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -52,6 +54,8 @@ using GivenMeshes = std::unordered_map<std::size_t, Mesh>;
 struct halflit_scene {
     halflit::Scene scene;
     std::vector<std::string> warnings;
+    std::vector<halflit::AnimationInfo> animations;
+    std::shared_ptr<const halflit::Motion> motion;  ///< null: not kept
     /// The last lights of the scene are the environment's suns; callers do not see them.
     std::size_t sun_count = 0;
     std::size_t file_meshes = 0;       ///< the first meshes, which a file or the library brought

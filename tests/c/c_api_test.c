@@ -27,6 +27,18 @@ static const char model[] =
     "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,"
     "\"uri\":\"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}";
 
+/// The same triangle, moved by 2 along x within a second.
+static const char animated_model[] =
+    "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
+    "{\"bufferView\":1,\"componentType\":5126,\"count\":2,\"type\":\"SCALAR\",\"min\":[0],\"max\":[1]},"
+    "{\"bufferView\":2,\"componentType\":5126,\"count\":2,\"type\":\"VEC3\"}],"
+    "\"animations\":[{\"name\":\"slide\",\"samplers\":[{\"input\":1,\"output\":2}],"
+    "\"channels\":[{\"sampler\":0,\"target\":{\"node\":0,\"path\":\"translation\"}}]}],"
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36},{\"buffer\":0,\"byteOffset\":36,\"byteLength\":8},"
+    "{\"buffer\":0,\"byteOffset\":44,\"byteLength\":24}],\"buffers\":[{\"byteLength\":68,\"uri\":\"data:application/octet-stream;base64,"
+    "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAABAAAAAAAAAAAA=\"}]}";
+
 /// A scene with one cube, and what auto_setup chose for it.
 typedef struct {
     halflit_scene* scene;
@@ -573,6 +585,54 @@ static void test_environments(void) {
     halflit_scene_destroy(cube.scene);
 }
 
+static void test_animations(void) {
+    halflit_scene *posed, *loaded;
+    halflit_load_options options;
+    halflit_counts counts;
+    halflit_animation animation;
+    halflit_camera camera, unused;
+    halflit_settings settings, also_unused;
+    float placed[16];
+    uint64_t before, after;
+    CHECK_OK(halflit_load_options_init(&options, sizeof options));
+    CHECK(options.animation == NULL && options.time_s == 0.0 && options.keep_animations == 0);
+    CHECK_OK(halflit_scene_load_memory(animated_model, sizeof animated_model - 1, "slide", NULL, &options, &loaded));
+    CHECK_FAILS(halflit_scene_pose(loaded, NULL, 0.5), HALFLIT_ERROR_USAGE, "keep_animations");
+    counts.size = sizeof counts;
+    CHECK_OK(halflit_scene_get_counts(loaded, &counts));
+    CHECK(counts.animations == 1);
+    animation.size = sizeof animation;
+    CHECK_OK(halflit_scene_get_animation(loaded, 0, &animation));
+    CHECK(strcmp(animation.name, "slide") == 0 && animation.end_s == 1.0 && animation.channels == 1);
+    CHECK_FAILS(halflit_scene_get_animation(loaded, 1, &animation), HALFLIT_ERROR_USAGE, "animation 1, but the scene has 1");
+    init_setup(loaded, &camera, &settings);
+    before = draw(NULL, loaded, &camera, &settings);
+    halflit_scene_destroy(loaded);
+
+    options.keep_animations = 1;
+    CHECK_OK(halflit_scene_load_memory(animated_model, sizeof animated_model - 1, "slide", NULL, &options, &posed));
+    init_setup(posed, &unused, &also_unused);  // adds lights
+    CHECK(before == draw(NULL, posed, &camera, &settings));
+    CHECK_OK(halflit_scene_pose(posed, "slide", 0.25));
+    CHECK_OK(halflit_scene_get_instance(posed, 0, NULL, placed));
+    CHECK(placed[12] == 0.5f);
+    after = draw(NULL, posed, &camera, &settings);
+    CHECK(after != before);
+    options.animation = "0";
+    options.time_s = 0.25;
+    CHECK_OK(halflit_scene_load_memory(animated_model, sizeof animated_model - 1, "slide", NULL, &options, &loaded));
+    init_setup(loaded, &unused, &also_unused);
+    CHECK(after == draw(NULL, loaded, &camera, &settings));
+    CHECK_OK(halflit_scene_pose(posed, "none", 0));
+    CHECK(before == draw(NULL, posed, &camera, &settings));
+    CHECK_FAILS(halflit_scene_pose(posed, "walk", 0), HALFLIT_ERROR_USAGE, "walk");
+    CHECK_FAILS(halflit_scene_pose(NULL, NULL, 0), HALFLIT_ERROR_USAGE, "scene is null");
+    halflit_scene_destroy(loaded);
+    options.animation = "walk";
+    CHECK(halflit_scene_load_memory(animated_model, sizeof animated_model - 1, "slide", NULL, &options, &loaded) == HALFLIT_ERROR_USAGE);
+    halflit_scene_destroy(posed);
+}
+
 static void test_loading(void) {
     const char* path = "c_api_test.gltf";
     halflit_scene *from_file, *from_memory;
@@ -760,6 +820,7 @@ int main(void) {
     test_tangents_and_normals_follow_the_material();
     test_environments();
     test_loading();
+    test_animations();
     test_cameras();
     test_execution();
     printf("%d checks, %d failed\n", checks, failures);

@@ -72,7 +72,11 @@ typedef struct halflit_load_options {
     int32_t max_jpeg_scans;             ///< passes over the picture of a progressive JPEG
     int32_t lenient;                    ///< draw what can be drawn: magenta for broken textures, triangles with bad indices left out
     int32_t threads;                    ///< threads that decode textures, the calling one included; 0: one for each core
-    int32_t reserved;                   ///< 0
+    int32_t keep_animations;            ///< keep what halflit_scene_pose() needs
+    /// Animation that poses the scene: its name, or else its index in the file; null or empty: the first one, if there is any; "none": the
+    /// pose of the nodes.
+    const char* animation;
+    double time_s;  ///< time of the pose, seconds; before an animation's first key and after its last one, these are drawn
 } halflit_load_options;
 HALFLIT_C_API int32_t halflit_load_options_init(halflit_load_options* options, size_t size);
 
@@ -83,8 +87,16 @@ typedef struct halflit_counts {
     int32_t meshes, instances, materials, textures, cameras;  ///< one more than the largest index
     int32_t lights;                                           ///< without the suns of the environment
     int32_t warnings;                                         ///< of loading
-    int32_t reserved;
+    int32_t animations;                                       ///< of the file
 } halflit_counts;
+
+/// An animation of a scene's file.
+typedef struct halflit_animation {
+    size_t size;
+    const char* name;   ///< may be empty; valid as long as the scene
+    double end_s;       ///< time of the last key, seconds; 0 if the file does not tell
+    uint64_t channels;  ///< properties that it moves
+} halflit_animation;
 
 /// Makes an empty scene.
 HALFLIT_C_API int32_t halflit_scene_create(halflit_scene** scene);
@@ -102,6 +114,12 @@ HALFLIT_C_API void halflit_scene_destroy(halflit_scene* scene);
 HALFLIT_C_API int32_t halflit_scene_get_counts(const halflit_scene* scene, halflit_counts* counts);
 /// A warning of loading: one line, valid as long as the scene.
 HALFLIT_C_API int32_t halflit_scene_get_warning(const halflit_scene* scene, int32_t index, const char** text);
+/// An animation of the file. Set animation->size before.
+HALFLIT_C_API int32_t halflit_scene_get_animation(const halflit_scene* scene, int32_t index, halflit_animation* animation);
+/// Poses a scene, loaded with keep_animations, by another animation or at another time: the next frame is the one of a scene that is loaded
+/// so. animation: as in halflit_load_options. Meshes, instances, cameras, lights and factors of materials that the file's animations move
+/// are set; all else stays as the caller has set it.
+HALFLIT_C_API int32_t halflit_scene_pose(halflit_scene* scene, const char* animation, double time_s);
 /// World-space box of everything drawn; min is infinity and max -infinity if there is nothing. Takes time in proportion to the vertices.
 HALFLIT_C_API int32_t halflit_scene_get_bounds(const halflit_scene* scene, float min[3], float max[3]);
 
