@@ -44,6 +44,19 @@ void check_loaded(const LoadedScene& loaded) {
     HALFLIT_PROMISE(pose(loaded.nodes, posed).has_value());
     for (std::size_t i = 0; i < posed.instances.size(); ++i)  // nodes as loaded give the same bits
         HALFLIT_PROMISE(std::memcmp(&posed.instances[i].world_from_object, &scene.instances[i].world_from_object, sizeof(Mat4)) == 0);
+    if (loaded.motion == nullptr) return;
+    for (const double time : {1e9, 0.7, -1.0}) {
+        HALFLIT_PROMISE(pose_at(*loaded.motion, "", time, posed).has_value());
+        for (const Mesh& mesh : posed.meshes) check_mesh(mesh, posed);
+    }
+    HALFLIT_PROMISE(pose_at(*loaded.motion, "none", 0.0, posed).has_value());
+    HALFLIT_PROMISE(pose_at(*loaded.motion, "", 0.0, posed).has_value());  // the pose that was loaded: the same bits again
+    for (std::size_t i = 0; i < posed.instances.size(); ++i)
+        HALFLIT_PROMISE(std::memcmp(&posed.instances[i].world_from_object, &scene.instances[i].world_from_object, sizeof(Mat4)) == 0);
+    for (std::size_t i = 0; i < posed.meshes.size(); ++i) {
+        const auto &a = posed.meshes[i].positions, &b = scene.meshes[i].positions;
+        HALFLIT_PROMISE(a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3f)) == 0));
+    }
 }
 
 void check_error(const Error& error) {

@@ -15,6 +15,7 @@ inline std::span<const std::byte> as_bytes(View input) { return std::as_bytes(in
 inline LoadOptions small_limits(bool lenient) {
     LoadOptions options;
     options.lenient = lenient;
+    options.keep_animations = true;
     options.limits.max_total_bytes = std::size_t{4} << 20;
     options.limits.max_json_tokens = 100'000;
     options.limits.max_texture_bytes = std::size_t{1} << 20;
@@ -25,7 +26,7 @@ inline LoadOptions small_limits(bool lenient) {
     return options;
 }
 
-/// Arrays of equal length, indices in range, and nodes that pose() accepts.
+/// Arrays of equal length, indices in range, nodes that pose() accepts, and animations that pose_at() does.
 void check_loaded(const LoadedScene& loaded);
 /// One line of text that a terminal shows as it is.
 void check_error(const Error& error);

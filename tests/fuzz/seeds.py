@@ -268,8 +268,21 @@ def skinned():
     model.json.update(nodes=[{'mesh': 0, 'skin': 0, 'weights': [0.25]}, {'translation': [0, 1, 0], 'children': [2]},
                              {'rotation': [0, 0, 0.6, 0.8], 'scale': [1, 2, 1]}], scenes=[{'nodes': [0, 1]}],
                       skins=[{'joints': [1, 2], 'inverseBindMatrices': model.add(identity * 2, 5126, 'MAT4'), 'skeleton': 1}],
-                      animations=[{'channels': [{'sampler': 0, 'target': {'node': 1, 'path': 'translation'}}],
-                                   'samplers': [{'input': 0, 'output': 0}]}])
+                      animations=[])
+    times = model.add([0, 1, 2], 5126, 'SCALAR', min=[0], max=[2])
+    moves = {'translation': model.add([0, 1, 0, 1, 1, 1, 0, 2, 0], 5126, 'VEC3'), 'weights': model.add([0, 127, 0], 5120, 'SCALAR', normalized=True),
+             'rotation': model.add([0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0] * 3, 5126, 'VEC4')}
+    kinds = {'translation': 'STEP', 'weights': 'LINEAR', 'rotation': 'CUBICSPLINE'}
+    nodes = {'translation': 1, 'weights': 0, 'rotation': 2}
+    model.json['animations'] = [{'name': 'wave', 'channels': [{'sampler': i, 'target': {'node': nodes[path], 'path': path}}
+                                                              for i, path in enumerate(moves)],
+                                 'samplers': [{'input': times, 'output': output, 'interpolation': kinds[path]}
+                                              for path, output in moves.items()]}]
+    shown = model.add([1, 0, 1], 5121, 'SCALAR')
+    pointer = {'path': 'pointer', 'extensions': {'KHR_animation_pointer': {'pointer': '/nodes/0/extensions/KHR_node_visibility/visible'}}}
+    model.json['animations'].append({'channels': [{'sampler': 0, 'target': pointer}],
+                                     'samplers': [{'input': times, 'output': shown, 'interpolation': 'STEP'}]})
+    model.json['extensionsUsed'] = ['KHR_animation_pointer', 'KHR_node_visibility']
     return model
 
 
