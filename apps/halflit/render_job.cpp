@@ -50,6 +50,11 @@ std::string camera_choice(const Camera* of_file, const RenderOptions& options) {
     return fmt::format("camera: a view of the whole scene, azimuth {}, elevation {}", options.view.azimuth_deg, options.view.elevation_deg);
 }
 
+std::string pose_choice(const AnimationInfo& animation, int index, double time_s) {
+    return fmt::format("pose: animation {}{}{}, at {} s of {}", index, animation.name.empty() ? "" : ", ", animation.name, time_s,
+                       animation.end_s);
+}
+
 Result<const Camera*> find_camera(const std::vector<Camera>& cameras, const std::string& wanted) {
     for (const Camera& camera : cameras)
         if (camera.name == wanted) return &camera;
@@ -213,6 +218,9 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
     job.load_ms = loading.ms();
     job.source = std::move(*source);
     job.warnings = job.source.warnings;
+    job.pose_time_s = options.load.time_s;
+    if (const AnimationInfo* const animation = job.animation())
+        job.choices.push_back(pose_choice(*animation, job.source.animation, job.pose_time_s));
     turn_upright(job.scene(), options.up);
     replace_materials(job.scene(), options.classic);
 

@@ -21,11 +21,16 @@ struct RenderJob {
     Execution execution;
     int width = 0, height = 0;  ///< of the whole picture
     double load_ms = 0, prepare_ms = 0;
+    double pose_time_s = 0;  ///< of the animation, if there is one
     Stopwatch started;       ///< with the job's loading
     double timeout_s = 0.0;  ///< from then on; 0: none
     std::vector<std::string> warnings;
     std::vector<std::string> choices;  ///< what was chosen, one line each
 
+    /// The animation that poses the scene; null: none.
+    [[nodiscard]] const AnimationInfo* animation() const {
+        return source.animation < 0 ? nullptr : &source.animations[static_cast<std::size_t>(source.animation)];
+    }
     [[nodiscard]] Scene& scene() { return *source.scene; }
     [[nodiscard]] const Scene& scene() const { return *source.scene; }
     /// The execution with the time that is left.

@@ -143,6 +143,19 @@ FlagGroup camera_flags(RenderOptions& o) {
           [read = named(o.up, kUpAxisNames)](const std::string& text) { return read(plain_axis(text)); }}}};
 }
 
+FlagGroup pose_flags(RenderOptions& o) {
+    return {
+        "Pose",
+        {{"--animation", "NAME|INDEX|none", "Animation of the file that poses the scene (default: the first); none: the pose of the nodes",
+          [&o](const std::string& text) -> Result<void> {
+              if (text.empty()) return fail(ErrorCode::usage, "expected a name, an index or none, found ''");
+              o.load.animation = text;
+              return {};
+          }},
+         {"--time", "SECONDS", "Time in the animation (default 0); before its first key and after its last one, these are drawn",
+          parsed(o.load.time_s, parse_time)}}};
+}
+
 Result<void> read_light(std::vector<GivenLight>& lights, const std::string& text) {
     const auto light = parse_light(text);
     if (!light) return tl::unexpected(light.error());
@@ -344,15 +357,9 @@ namespace {
 
 /// The flags that decide the picture and its speed.
 std::vector<FlagGroup> scene_flags(RenderOptions& o, PictureSize usual) {
-    return {picture_flags(o, usual),
-            camera_flags(o),
-            light_flags(o),
-            environment_flags(o),
-            shadow_flags(o),
-            surface_flags(o),
-            accuracy_flags(o.settings.shading),
-            machine_flags(o.execution),
-            untrusted_file_flags(o)};
+    return {picture_flags(o, usual),    camera_flags(o),        pose_flags(o),    light_flags(o),
+            environment_flags(o),       shadow_flags(o),        surface_flags(o), accuracy_flags(o.settings.shading),
+            machine_flags(o.execution), untrusted_file_flags(o)};
 }
 
 }  // namespace

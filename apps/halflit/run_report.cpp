@@ -48,6 +48,7 @@ void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered,
     report["isa"] = isa_name(rendered.isa);
     report["threads"] = rendered.threads;
     report["samples"] = job.settings.samples;
+    if (job.animation() != nullptr) report["pose"] = pose_json(job);
     report["exposure"] = job.settings.exposure;
     report["tone_curve"] = tone_curve_name(job.settings.tone_curve);
     report["accuracy"] = accuracy_name(job.settings.shading.accuracy);
@@ -86,6 +87,10 @@ Json error_bound_json(const ErrorBound& error) {
     json["largest_part"] = largest->first;
     for (const auto& [name, codes] : parts) json["parts"][name] = codes;
     return json;
+}
+
+Json pose_json(const RenderJob& job) {
+    return {{"animation", job.source.animation}, {"name", job.animation()->name}, {"time_s", job.pose_time_s}};
 }
 
 Json stages_ms(const RenderReport& rendered) {

@@ -24,6 +24,9 @@ void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered,
 /// {"budget_codes", "bound_codes", "within", "parts"}: the budget of --max-error, and the proven bound with its parts.
 [[nodiscard]] Json error_bound_json(const ErrorBound& error);
 
+/// {"animation", "name", "time_s"}. Requires: an animation poses the scene.
+[[nodiscard]] Json pose_json(const RenderJob& job);
+
 /// {"plan": ms, ...}: the renderer's stages.
 [[nodiscard]] Json stages_ms(const RenderReport& rendered);
 

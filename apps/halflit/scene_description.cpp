@@ -197,6 +197,11 @@ Result<std::string> describe_scene(const RenderJob& job, bool json) {
     Json cameras = Json::array();
     for (const Camera& camera : scene.cameras) cameras.push_back(camera.name);
     description["cameras"] = std::move(cameras);
+    Json animations = Json::array();
+    for (const AnimationInfo& animation : job.source.animations)
+        animations.push_back({{"name", animation.name}, {"end_s", animation.end_s}, {"channels", animation.channels}});
+    description["animations"] = std::move(animations);
+    if (job.animation() != nullptr) description["pose"] = pose_json(job);
     description["size"] = {job.width, job.height};
     description["exposure"] = number(job.settings.exposure);
     description["tone_curve"] = tone_curve_name(job.settings.tone_curve);

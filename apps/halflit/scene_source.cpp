@@ -75,6 +75,8 @@ Result<SceneSource> load_scene(const RenderOptions& options) {
                        std::make_unique<Scene>(std::move(loaded->scene)),
                        std::move(loaded->info),
                        std::move(loaded->warnings),
+                       std::move(loaded->animations),
+                       loaded->animation,
                        loaded->origin,
                        loaded->scale};
 }

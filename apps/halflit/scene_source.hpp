@@ -19,7 +19,9 @@ struct SceneSource {
     std::unique_ptr<Scene> scene;   ///< keeps its address when the source is moved
     std::optional<SceneInfo> file;  ///< counts for a file or standard input; the unit of such a scene's lights is not known
     std::vector<std::string> warnings;
-    Vec3d origin{0, 0, 0};  ///< a point p of the file is drawn at (p - origin) * scale
+    std::vector<AnimationInfo> animations{};  ///< of the file
+    int animation = -1;                       ///< the one that poses the scene; -1: none
+    Vec3d origin{0, 0, 0};                    ///< a point p of the file is drawn at (p - origin) * scale
     double scale = 1.0;
 };
 

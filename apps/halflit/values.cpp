@@ -132,6 +132,13 @@ Result<double> parse_share(std::string_view text) {
     return *value / whole;
 }
 
+Result<double> parse_time(std::string_view text) {
+    constexpr double kMost = 1e8;
+    const auto value = number<double>(text);
+    if (!value || !(std::abs(*value) <= kMost)) return expected("a number of seconds from -1e8 to 1e8", text);
+    return *value;
+}
+
 Result<Vec3d> parse_point(std::string_view text) {
     const auto parts = split(text, ",");
     double values[3] = {};

@@ -24,6 +24,8 @@ namespace halflit::cli {
 inline constexpr std::size_t kMib = std::size_t{1} << 20;
 
 /// "X,Y,Z": three numbers within the range of float. In double, as a scene may be moved before it is drawn.
+/// Seconds within a year or so of 0.
+[[nodiscard]] Result<double> parse_time(std::string_view text);
 [[nodiscard]] Result<Vec3d> parse_point(std::string_view text);
 
 struct PictureSize {

@@ -1,4 +1,5 @@
 #include "tests/cli/program.hpp"
+#include "tests/io/animated_file.hpp"
 
 #include <nlohmann/json.hpp>
 #include "tests/support/catch.hpp"
@@ -208,6 +209,10 @@ TEST_CASE("schema: bench, info, diff, golden and trade have the keys that their 
     check_report("info", output_of({"info", "sphere:100", "--json", "--specular", "none", "--light", "point"}));
     write_contents(folder.file("empty.gltf"), R"({"asset":{"version":"2.0"},"scenes":[{}],"scene":0})");
     check_report("info", output_of({"info", folder.file("empty.gltf"), "--json"}));
+    const Bytes arm = Arm(1, Keys::linear).file;  // animated
+    write_contents(folder.file("arm.glb"), std::string(reinterpret_cast<const char*>(arm.data()), arm.size()));
+    check_report("info", output_of({"info", folder.file("arm.glb"), "--json"}));
+    check_report("report", output_of({"render", folder.file("arm.glb"), "--size", "16x9", "-o", folder.file("arm.png"), "--report", "-"}));
 
     for (const char* sub : {"a", "b"}) std::filesystem::create_directory(folder.file(sub));
     const auto picture = [&](const std::string& path, unsigned char red) {
