@@ -44,7 +44,7 @@ struct Arriving {
 [[nodiscard]] bool may_split(const ShadingPlan& plan, const MaterialPlan& material);
 
 /// Codes that cannot be chosen: roundings, and the errors of textures. reflections: of the plan's map; null: there is none.
-[[nodiscard]] double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, const Surface& s, const Arriving& light,
-                                    const ReflectionSteps* reflections, double exposure);
+[[nodiscard]] double rounding_codes(const CodeCosts& costs, const MaterialPlan& material, const ShadingPlan& plan, const Surface& s,
+                                    const Arriving& light, const ReflectionSteps* reflections, double exposure);
 
 }  // namespace halflit::shading
