@@ -14,10 +14,11 @@ enum class Accuracy : std::uint8_t {
     exact       ///< float32, elementary functions within about 2 ulp
 };
 
-/// Factors by which a tone curve may enlarge the codes that an error of light costs: an error of a fixed size, a share of the light, and
-/// others.
+/// Factors by which a tone curve may enlarge the codes that an error of light costs.
 struct ErrorGrowth {
-    double absolute = 1, relative = 1, other = 1;
+    double absolute = 1;  ///< of an error of a fixed size
+    double relative = 1;  ///< of an error that is a share of the light
+    double other = 1;     ///< of all other errors
     friend bool operator==(const ErrorGrowth&, const ErrorGrowth&) = default;
 };
 
