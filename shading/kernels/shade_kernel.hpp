@@ -131,6 +131,12 @@ static void tone(ToneCurve curve, const float* const light[3], float exposure, f
         tone_block<ToneCurve::neutral>(light, exposure, display, count);
 }
 
+static int tone_samples(ToneCurve curve, const shading::SampleRows& in, int count, float* const sums[4]) {
+    if (curve == ToneCurve::reinhard) return toned_sums<ToneCurve::reinhard>(in, count, sums);
+    if (curve == ToneCurve::aces) return toned_sums<ToneCurve::aces>(in, count, sums);
+    return toned_sums<ToneCurve::neutral>(in, count, sums);
+}
+
 static void encode(const float* red, const float* green, const float* blue, const float* alpha, float exposure, std::uint32_t* rgba8,
                    int count) {
     encode_srgb8(red, green, blue, alpha, exposure, rgba8, count);
@@ -141,7 +147,7 @@ static void encode(const float* red, const float* green, const float* blue, cons
 namespace shading {
 #define HALFLIT_SHADE_KERNELS HALFLIT_CONCAT(shade_kernels_, HALFLIT_ISA)
 extern const ShadeKernels HALFLIT_SHADE_KERNELS;
-const ShadeKernels HALFLIT_SHADE_KERNELS = {shade,       light,   hidden,       measure_cell, fit_cells,
-                                            shade_alpha, surface, count_lights, tone,         encode};
+const ShadeKernels HALFLIT_SHADE_KERNELS = {shade,   light,        hidden, measure_cell, fit_cells, shade_alpha,
+                                            surface, count_lights, tone,   tone_samples, encode};
 }  // namespace shading
 }  // namespace halflit
