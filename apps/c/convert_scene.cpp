@@ -114,6 +114,7 @@ halflit_material to_c(const Material& from) {
     material.double_sided = from.double_sided;
     material.unlit = from.unlit;
     material.own_lobe = from.has_own_lobe;
+    material.shadow_catcher = from.shadow_catcher;
     material.lobe = to_c(from.lobe);
     material.base_color_texture = to_c(from.base_color_texture);
     material.metallic_roughness_texture = to_c(from.metallic_roughness_texture);
@@ -170,6 +171,7 @@ Result<Material> material(const halflit_material* given) {
     material.specular_texture = texture_use(read->specular_texture, "a value of specular_texture", choices);
     material.specular_color_texture = texture_use(read->specular_color_texture, "a value of specular_color_texture", choices);
     material.transmission.thickness_texture = texture_use(read->thickness_texture, "a value of thickness_texture", choices);
+    material.shadow_catcher = read->shadow_catcher != 0;
     if (!choices.result()) return tl::unexpected<Error>(choices.result().error());
     if (auto ok = check_lobe(material.lobe); !ok) return fail(ErrorCode::usage, "halflit_material: lobe: " + ok.error().message);
     return material;

@@ -170,7 +170,7 @@ void spend_error_budget(ShadingPlan& plan, double budget_codes, const CodeCosts&
         const Surface& s = surfaces.emplace_back(surface_of(plan, material, facts));
         rounding.push_back(rounding_codes(costs, material, plan, s, light, reflections ? &*reflections : nullptr, exposure));
         fixed.push_back(rounding.back() + environment_codes(costs, plan, material, s, exposure));
-        if (!facts.drawn[rounding.size() - 1]) continue;
+        if (!facts.drawn[rounding.size() - 1] || (material.stages & kStageShadowCatcher) != 0) continue;
         poorest = std::min(poorest, budget_codes - fixed.back());
         most_reflected = std::max(most_reflected, s.albedo * material.lobe.scale + (s.specular ? s.reflectance * s.normalization : 0.0));
     }
@@ -188,8 +188,8 @@ void spend_error_budget(ShadingPlan& plan, double budget_codes, const CodeCosts&
     }
 
     for (std::size_t i = 0; i < plan.materials.size(); ++i) {
-        if (!facts.drawn[i]) continue;
         MaterialPlan& material = plan.materials[i];
+        if (!facts.drawn[i] || (material.stages & kStageShadowCatcher) != 0) continue;
         const Surface& s = surfaces[i];
         ErrorBound bound;
         bound.rounding = rounding[i];

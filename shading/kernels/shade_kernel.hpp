@@ -32,6 +32,10 @@ HALFLIT_INLINE void shade_block(const shading::ShadingPlan& frame, const shading
         const bool blended = material.alpha_mode == AlphaMode::blend;
         store(block.alpha + lane, blended ? clamp(load(rows.alpha + lane), F(0.0f), F(1.0f)) : F(1.0f));
     }
+    if (has(material, kStageShadowCatcher))
+        catch_shadows(
+            frame, material, lights, rows, block,
+            count, [&](V3 normal) __attribute__((always_inline)) { return surroundings_at(frame, material, normal); });
     if (has(material, kStageTransmission)) {
         if (prelit) fetch_transmission(material, block, count, rows);
         keep_light_behind(material, rows, block, count, !prelit);

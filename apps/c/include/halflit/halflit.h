@@ -179,7 +179,7 @@ typedef struct halflit_material {
     float specular_color[3];                     ///< factor of the light mirrored straight on there, from 0
     halflit_texture_use specular_texture;        ///< linear: alpha, times specular
     halflit_texture_use specular_color_texture;  ///< sRGB, times specular_color
-    int32_t reserved;
+    int32_t shadow_catcher;                      ///< invisible but for the shadows on it, which are black with the hidden share as alpha
 } halflit_material;
 HALFLIT_C_API int32_t halflit_material_init(halflit_material* material, size_t size);
 
@@ -286,6 +286,9 @@ HALFLIT_C_API int32_t halflit_scene_add_default_lights(halflit_scene* scene, con
 /// If the scene has no light of any kind, puts it into the built-in studio: an environment of soft boxes, turned with the camera about the
 /// vertical, and a key light over the viewer's left shoulder. halflit_auto_setup does the same.
 HALFLIT_C_API int32_t halflit_scene_add_studio(halflit_scene* scene, const halflit_camera* camera);
+/// Adds a ground that is invisible but for the shadows on it: a horizontal square below the lowest point of all that is drawn. Views are
+/// framed as without it. instance: its index, may be null.
+HALFLIT_C_API int32_t halflit_scene_add_ground(halflit_scene* scene, int32_t* instance);
 /// Removes the lights, the ambient light and the environment.
 HALFLIT_C_API int32_t halflit_scene_clear_lights(halflit_scene* scene);
 
