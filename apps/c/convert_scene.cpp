@@ -186,6 +186,7 @@ halflit_light to_c(const Light& from) {
     put(from.direction_ws, light.direction);
     light.range = from.range;
     light.source_radius = from.source_radius;
+    light.shadow_radius = from.shadow_radius;
     light.inner_cone_rad = from.inner_cone_rad;
     light.outer_cone_rad = from.outer_cone_rad;
     light.cone_power = from.cone_power;
@@ -204,6 +205,7 @@ Result<Light> light(const halflit_light* given) {
     light.direction_ws = vec3(read->direction);
     light.range = read->range;
     light.source_radius = read->source_radius;
+    light.shadow_radius = read->shadow_radius;
     light.inner_cone_rad = read->inner_cone_rad;
     light.outer_cone_rad = read->outer_cone_rad;
     light.cone_power = read->cone_power;

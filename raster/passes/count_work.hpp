@@ -28,7 +28,8 @@ inline void count_lights(WorkCounts& work, const shading::MaterialPlan& plan, sh
     if ((plan.stages & kStageLights) == 0) return;
     for (int i = 0; i < lights.count; ++i) {
         work.light_lanes[static_cast<std::size_t>(lights.lights[i].type)] += static_cast<std::uint64_t>(lanes);
-        if (lights.lights[i].shadow_map >= 0) work.shadow_lookup_lanes += static_cast<std::uint64_t>(lanes);
+        if (lights.lights[i].shadow_map >= 0)
+            work.shadow_lookup_lanes += static_cast<std::uint64_t>(lanes) * static_cast<std::uint64_t>(lights.lights[i].shadow_points);
     }
 }
 

@@ -86,8 +86,8 @@ static void hidden(const shading::ShadingPlan& frame, const shading::MaterialPla
     for (int lane = 0; lane < count; lane += kWidth) {
         TexelTaps taps;
         const V3 position = row3(block, shading::kPosX, lane), surface = normals(material, block, lane, taps).surface;
-        const HiddenShares share = hidden_share(frame.shadow_maps[light.shadow_map], looked_up(frame, block, lane), surface,
-                                                arrival(light, position).direction, fade, soft);
+        const HiddenShares share =
+            hidden_share(frame, light, looked_up(frame, block, lane), surface, arrival(light, position).direction, fade, soft);
         store(core + lane, share.hard);
         store(excess + lane, share.soft);
     }

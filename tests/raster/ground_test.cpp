@@ -69,8 +69,8 @@ Light sun_from(Vec3f travels, Vec3f color) {
 
 TEST_CASE("ground: the shadow of a box has the closed form's area, and its alpha is the share of the light that is hidden",
           "[raster][ground]") {
-    // Light falls at 45 degrees along +x. A box that floats at the height h throws the shadow of x from h - 0.5 to h + 1.5, of which the box
-    // hides -0.5 to 0.5 from above.
+    // Light falls at 45 degrees along +x. A box that floats at the height h throws the shadow of x from h - 0.5 to h + 1.5, of which the
+    // box hides -0.5 to 0.5 from above.
     struct Case {
         float height;
         double area;

@@ -269,7 +269,7 @@ typedef struct halflit_light {
     float source_radius;                   ///< point, spot: smaller distances count as this; 0: 1e-4
     float inner_cone_rad, outer_cone_rad;  ///< spot: full light up to the first angle from the axis, none from the second on
     float cone_power;                      ///< spot: factor cos(angle from the axis)^cone_power, 0 to 1e5
-    int32_t reserved;
+    float shadow_radius;                   ///< size for soft shadows. Directional: angle from middle to rim, radians; others: world units
 } halflit_light;
 HALFLIT_C_API int32_t halflit_light_init(halflit_light* light, size_t size);
 
@@ -361,6 +361,8 @@ typedef struct halflit_settings {
     int32_t tone_curve;                ///< HALFLIT_TONE: from light to codes; floats and `background` do without (none)
     int32_t sky_shadows;               ///< directions in which light from all around may be hidden, 16 to 1024; 0: it never is (0)
     int32_t anisotropy;                ///< largest ratio of a texture's footprint that is filtered along its length, 1 to 16 (1)
+    int32_t soft_shadow_maps;          ///< points of a light with a shadow_radius, each with maps of half that side: 4 to 64 (16)
+    int32_t reserved;
 } halflit_settings;
 HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t size);
 
