@@ -44,6 +44,7 @@ int stride_of(int n) {
 
 std::vector<LightPlan> light_points(const LightPlan& light, int n) {
     std::vector<LightPlan> points(static_cast<std::size_t>(n), light);
+    if (n == 1) return points;
     const auto radius = static_cast<double>(light.shadow_radius);
     if (light.type == LightType::directional) {
         const Vec3d axis = unit(vector_of(light.to_light));
@@ -61,35 +62,49 @@ std::vector<LightPlan> light_points(const LightPlan& light, int n) {
     const int stride = stride_of(n);
     for (int k = 0; k < n; ++k) {
         const Vec3d direction = directions[static_cast<std::size_t>(k * stride % n)];
-        set(points[static_cast<std::size_t>(k)].position, vector_of(light.position) + direction * (radius * radius_of_share((k + 0.5) / n)));
+        set(points[static_cast<std::size_t>(k)].position,
+            vector_of(light.position) + direction * (radius * radius_of_share((k + 0.5) / n)));
     }
     return points;
 }
+
+namespace {
+
+/// Maps for `n` points of each light, one light after the other.
+Result<ShadowViews> plan_points(const std::vector<LightPlan>& lights, int n, const PreparedData& scene, const SeenVolume* seen,
+                                const Settings& settings) {
+    std::vector<LightPlan> points;
+    for (const LightPlan& light : lights) {
+        const std::vector<LightPlan> of_light = light_points(light, n);
+        points.insert(points.end(), of_light.begin(), of_light.end());
+    }
+    auto views = plan_shadow_views(points, scene, seen, settings);
+    if (views) views->map_of_light.resize(points.size(), -1);  // without shadows there are none
+    return views;
+}
+
+}  // namespace
 
 Result<ShadowViews> plan_light_shadows(std::vector<LightPlan>& lights, const PreparedData& scene, const SeenVolume* seen,
                                        const Settings& settings) {
     const auto has_size = [](const LightPlan& light) { return light.shadow_radius > 0.0f; };
     if (std::none_of(lights.begin(), lights.end(), has_size)) return plan_shadow_views(lights, scene, seen, settings);
     std::vector<LightPlan> sharp, soft;
-    const int n = settings.soft_shadow_maps;
-    for (LightPlan& light : lights) {
-        if (!has_size(light)) {
-            sharp.push_back(light);
-            continue;
-        }
-        const std::vector<LightPlan> points = light_points(light, n);
-        soft.insert(soft.end(), points.begin(), points.end());
-    }
+    for (const LightPlan& light : lights) (has_size(light) ? soft : sharp).push_back(light);
     auto out = plan_shadow_views(sharp, scene, seen, settings);
     if (!out) return out;
     Settings of_soft = settings;
     of_soft.shadow_size = std::max(64, settings.shadow_size / 2);
-    auto views = plan_shadow_views(soft, scene, seen, of_soft);
+    int n = settings.soft_shadow_maps;
+    auto views = plan_points(soft, n, scene, seen, of_soft);
+    while (!views && views.error().code == ErrorCode::limit && n > 1) views = plan_points(soft, n /= 2, scene, seen, of_soft);
     if (!views) return views;
-    views->map_of_light.resize(soft.size(), -1);  // without shadows there are none
+    if (n < settings.soft_shadow_maps)
+        views->warning = "soft shadows by " + std::to_string(n) + " maps a light instead of " + std::to_string(settings.soft_shadow_maps) +
+                         ", to stay within " + std::to_string(settings.shadow_memory_limit) + " bytes";
     out->map_of_light.resize(sharp.size(), -1);
     // Links the maps of each light, then gives each light its first one.
-    std::vector<std::int32_t> first(soft.size() / static_cast<std::size_t>(n), -1);
+    std::vector<std::int32_t> first(soft.size(), -1);
     for (std::size_t l = 0; l < first.size(); ++l) {
         std::int32_t last = -1;
         for (std::size_t k = 0; k < static_cast<std::size_t>(n); ++k) {

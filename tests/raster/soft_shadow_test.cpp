@@ -38,7 +38,8 @@ Model box_above_floor(double height, double half) {
         model.scene.meshes.push_back(std::move(mesh));
     };
     add(make_plane(6, 1), {0, 0, 0});
-    add(make_box({static_cast<float>(half), static_cast<float>(half), static_cast<float>(half)}), {0, static_cast<float>(height + half), 0});
+    add(make_box({static_cast<float>(half), static_cast<float>(half), static_cast<float>(half)}),
+        {0, static_cast<float>(height + half), 0});
     model.camera.orthographic = true;
     model.camera.half_height = static_cast<float>(kView);
     model.camera.world_from_camera = {{{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}, {0, 20, 0, 1}}};
@@ -233,6 +234,26 @@ TEST_CASE("soft shadows: what is wholly lit or wholly hidden keeps its bits, and
         CHECK(lit > kSize * kSize / 2);
         CHECK(dark > 100);
     }
+}
+
+TEST_CASE("soft shadows: a light has fewer points where their maps do not fit the limit of memory", "[raster][soft-shadows]") {
+    const Model model = box_above_floor(0.5, 0.5);
+    Scene scene = model.scene;
+    scene.lights = {directional(4)};
+    const auto prepared = PreparedScene::make(scene);
+    REQUIRE(prepared);
+    for (const auto& [bytes, points] : {std::pair{std::size_t{16} * 16384, 16}, {std::size_t{200000}, 8}, {std::size_t{20000}, 1}}) {
+        Settings settings = matt();
+        settings.shadow_memory_limit = bytes;
+        auto lights = shading::plan_lights(scene.lights);
+        const auto views = raster::plan_light_shadows(lights, prepared->data(), nullptr, settings);
+        REQUIRE(views);
+        CHECK(lights[0].shadow_points == points);
+        CHECK(views->maps.size() == static_cast<std::size_t>(points));
+        CHECK(views->warning.empty() == false);
+    }
+    shading::LightPlan middle = shading::plan_lights(scene.lights)[0];
+    CHECK(raster::light_points(middle, 1)[0].to_light[0] == middle.to_light[0]);
 }
 
 TEST_CASE("soft shadows: their number is checked, and each point that sees casters has a map", "[raster][soft-shadows]") {
