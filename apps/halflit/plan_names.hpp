@@ -23,7 +23,8 @@ inline constexpr std::string_view kStageNames[kStageCount] = {"base colour textu
                                                               "light at vertices or triangles",
                                                               "environment",
                                                               "transmission",
-                                                              "specular colour"};
+                                                              "specular colour",
+                                                              "clearcoat"};
 
 /// Indexed by LightType.
 inline constexpr std::string_view kLightTypeNames[] = {"directional", "point", "spot"};

@@ -20,6 +20,9 @@ constexpr double kHalfVectorError = 2.5e-7, kMirrorError = 1e-7;
 /// Relative error of the products and sums that follow.
 constexpr double kProductError = 1e-5;
 
+/// Largest slope of a coat's share of mirrored light, 0.04 + 0.96 (1 - N.V)^5.
+constexpr double kFresnelSlope = 4.8;
+
 constexpr double kAnyShare = 1e6;  // a relative error that costs 255 codes
 
 Factor factor_of(double error, double least) { return {error, error < least ? std::min(error / (least - error), kAnyShare) : kAnyShare}; }
@@ -202,6 +205,12 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
         if (inside.texture.data != nullptr) s.scattered = factor_of(inside.share * filtered(inside.texture, {0}), 1.0 - inside.share);
         s.least_albedo = 0.0;
     }
+    if (has(kStageClearcoat)) {
+        const Surface coat = coat_surface(plan, material, facts);
+        const double most = material.clearcoat.factor;
+        s.passed = factor_of(coat.base_color.absolute + most * kFresnelSlope * coat.cosine_error(), 1.0 - most);
+        s.least_albedo = 0.0;
+    }
     if (has(kStageEmissiveTexture))
         s.emissive = textured(material.emissive_texture, {0, 1, 2}, *std::max_element(material.emissive, material.emissive + 3));
     s.least_roughness = roughness;
@@ -230,6 +239,40 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
     return s;
 }
 
+MaterialPlan coat_as_metal(const MaterialPlan& material) {
+    const ClearcoatPlan& coat = material.clearcoat;
+    MaterialPlan metal;
+    metal.stages = material.stages & (kStageLights | kStageAmbient | kStageEnvironment | kStageSpecular | kStageOcclusionTexture);
+    metal.occlusion_texture = material.occlusion_texture, metal.occlusion_strength = material.occlusion_strength;
+    for (int c = 0; c < 3; ++c) metal.base_color[c] = coat.factor;
+    metal.metallic = 1.0f, metal.dielectric = 0.0f, metal.roughness = coat.roughness;
+    metal.lobe = material.lobe, metal.ggx = material.ggx;
+    metal.environment = material.environment, metal.reflection_lobes = 1;
+    metal.normal_texture = coat.normal_texture, metal.normal_scale = coat.normal_scale, metal.normal_roughness = coat.normal_roughness;
+    metal.metallic_roughness_texture = coat.roughness_texture;
+    if (coat.normal_texture.data != nullptr) metal.stages |= kStageNormalMap;
+    if (coat.roughness_texture.data != nullptr) metal.stages |= kStageMetallicRoughnessTexture;
+    return metal;
+}
+
+Surface coat_surface(const ShadingPlan& plan, const MaterialPlan& material, const SceneFacts& facts) {
+    Surface s = surface_of(plan, coat_as_metal(material), facts);
+    const ClearcoatPlan& coat = material.clearcoat;
+    const double most = coat.factor;
+    s.albedo = 0.0;               // a coat scatters nothing
+    s.matt = s.shiny = Factor{};  // the blue channel of its texture of roughness has no meaning
+    if (coat.texture.data != nullptr)
+        s.base_color = factor_of(most * filter_error(coat.texture, 0, facts.largest_uv), most * least_value(coat.texture, 0));
+    return s;
+}
+
+double coat_codes(const MaterialPlan& metal, const ShadingPlan& plan, const Surface& s, const Arriving& light,
+                  const ReflectionSteps* reflections, double exposure) {
+    double codes = rounding_codes(metal, plan, s, light, reflections, exposure);
+    if (!metal.ggx) codes += codes_of_absolute(s.reflectance * s.normalization * light.sum * kFresnelSlope * s.cosine_error());
+    return std::min(codes, 255.0);
+}
+
 Arriving arriving(const ShadingPlan& plan, double exposure, const SceneFacts& facts) {
     Arriving a;
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
@@ -254,7 +297,8 @@ double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, con
     const auto has = [&](Stage stage) { return (material.stages & stage) != 0; };
     const double n = material.lobe.power_minus_one + 1.0, scale = material.lobe.scale;
     double codes = codes_of_relative(kProductError + 1.5e-7 * (has(kStageLights) ? n + light.count : 0.0));
-    double matt = 0.0, shiny = 0.0;  // all light that the albedo reflects; that F0 reflects
+    double matt = 0.0, shiny = 0.0;                // all light that the albedo reflects; that F0 reflects
+    double mirrored_most = 0.0, highlights = 0.0;  // that is mirrored at most, of the surroundings and of lights
     if (has(kStageUnlit)) matt = exposure;
     if (has(kStageAmbient)) {
         Ambience diffuse, mirrored;
@@ -289,6 +333,7 @@ double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, con
         }
         matt += diffuse.most;
         shiny += mirrored.most;
+        mirrored_most = share * mirrored.most;
     }
     if (has(kStageLights)) {
         const double amplitude = s.albedo * scale * light.sum;
@@ -301,6 +346,7 @@ double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, con
     if (s.specular && material.ggx) {
         codes += ggx_codes(s, light.sum);
         shiny += s.reflectance * s.normalization * light.sum;
+        highlights = s.normalization * light.sum;
     } else if (s.specular && has(kStageLights)) {
         const double turning = plan.specular == SpecularModel::phong ? 2.0 : 1.0, strength = s.normalization * light.sum;
         const double constant = 4.0 * s.roughness.relative, linear = 3e-7 + constant;  // roughness^4, in exponent and norm
@@ -312,12 +358,15 @@ double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, con
         const double short_half = plan.specular == SpecularModel::blinn ? 0.61 * std::sqrt(s.exponent) * kHalfVectorError : 0.0;
         codes += codes_of_absolute(s.reflectance * strength * (short_half + s.cosine_error()));
         shiny += strength;
+        highlights = s.reflectance * strength;
     }
     codes += codes_of(s.base_color, matt + s.metallic * std::max(0.0, shiny - matt));
     codes += codes_of(s.scattered, s.albedo * matt);
     codes += codes_of(s.dielectric, s.albedo * matt + shiny);
     codes += codes_of(s.matt, s.albedo * matt) + codes_of(s.shiny, shiny);
     codes += codes_of(s.emissive, exposure);
+    const double glow = std::max({material.emissive[0], material.emissive[1], material.emissive[2]}) * exposure;
+    codes += codes_of(s.passed, s.albedo * matt + mirrored_most + highlights + glow);
     return std::min(codes, 255.0);
 }
 

@@ -23,12 +23,17 @@ struct Surface {
     Factor base_color, roughness, matt, shiny, occlusion, emissive;  ///< matt: 1 - metallic; shiny: F0, by the metallic texture's error
     Factor dielectric;                                               ///< F0 where not metallic, by textures of its own
     Factor scattered;                                                ///< share of the light that enters which does not pass through
+    Factor passed;                                                   ///< share of all light that a coat lets through
     bool specular;
 
     [[nodiscard]] double cosine_error() const;  ///< of N.L
 };
 
 [[nodiscard]] Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const SceneFacts& facts);
+
+/// A coat as a metal of the coat's roughness and normals, whose colour is the share that is coated; of materials with kStageClearcoat.
+[[nodiscard]] MaterialPlan coat_as_metal(const MaterialPlan& material);
+[[nodiscard]] Surface coat_surface(const ShadingPlan& plan, const MaterialPlan& material, const SceneFacts& facts);
 
 /// Upper bounds on the light that reaches a surface, in units of display white.
 struct Arriving {
@@ -46,5 +51,9 @@ struct Arriving {
 /// Codes that cannot be chosen: roundings, and the errors of textures. reflections: of the plan's map; null: there is none.
 [[nodiscard]] double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, const Surface& s, const Arriving& light,
                                     const ReflectionSteps* reflections, double exposure);
+
+/// The codes that roundings and textures of a coat cost; metal, s: coat_as_metal(), coat_surface().
+[[nodiscard]] double coat_codes(const MaterialPlan& metal, const ShadingPlan& plan, const Surface& s, const Arriving& light,
+                                const ReflectionSteps* reflections, double exposure);
 
 }  // namespace halflit::shading

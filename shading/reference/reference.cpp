@@ -174,16 +174,29 @@ double environment_share(double f0, double weight, double roughness, double n_do
     return f0 + (std::max((1.0 - roughness) * weight, f0) - f0) * std::pow(1.0 - std::clamp(n_dot_v, 0.0, 1.0), 5.0);
 }
 
-Vec3d shading_normal(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane) {
+/// The normal turned to the visible side, by the texture `map` with a factor on x and y, if it is used.
+Vec3d mapped_normal(const FrameInputs& frame, const Material& material, const TextureUse& map, float factor, SlotMask available,
+                    const FragmentBlock& block, int lane) {
     Vec3d normal = unit(row3(block, kNormalX, lane));
-    if (material.normal_texture.used() && (available & 4u) != 0) {
-        const Rgba c = material_texture(frame, material.normal_texture, available, block, lane, {0.5, 0.5, 1, 1});
+    if (map.used() && (available & 4u) != 0) {
+        const Rgba c = material_texture(frame, map, available, block, lane, {0.5, 0.5, 1, 1});
         const Vec3d tangent = unit(row3(block, kTangentX, lane));
         const Vec3d bitangent = scale(cross(normal, tangent), block.lane[kTangentW][lane]);
-        const double strength = material.normal_scale;
+        const double strength = factor;
         normal = unit(scale(tangent, (2 * c.r - 1) * strength) + scale(bitangent, (2 * c.g - 1) * strength) + scale(normal, 2 * c.b - 1));
     }
     return material.double_sided ? scale(normal, block.lane[kFacing][lane]) : normal;
+}
+
+/// A roughness that grows by what the normals of the texture `map` lost where it is minified.
+double rougher(const FrameInputs& frame, const TextureUse& map, float factor, double roughness, SlotMask available,
+               const FragmentBlock& block, int lane) {
+    const double lost = material_texture(frame, map, available, block, lane, {}).a;
+    const bool loses = map.used() && (available & 4u) != 0 && lost != 0.0 &&
+                       static_cast<std::size_t>(map.texture) < frame.textures.size() &&
+                       frame.textures[static_cast<std::size_t>(map.texture)].rule() == MipRule::normal;
+    if (!loses) return roughness;
+    return std::min(1.0, std::pow(std::pow(std::max(roughness, kHeldRoughness), 4.0) + std::pow(lost * double{factor}, 2.0), 0.25));
 }
 
 /// Value of a level of the environment's map towards a direction.
@@ -422,16 +435,8 @@ Surface surface_of(const FrameInputs& frame, const Material& material, SlotMask 
     const Rgba occlusion = material_texture(frame, material.occlusion_texture, available, block, lane, white);
     Surface surface{};
     surface.base = {base.r, base.g, base.b};
-    surface.normal = shading_normal(frame, material, available, block, lane);
-    surface.roughness = material.roughness * mr.g;
-    const Rgba bumps = material_texture(frame, material.normal_texture, available, block, lane, {});
-    const bool loses = material.normal_texture.used() && (available & 4u) != 0 && bumps.a != 0.0 &&
-                       static_cast<std::size_t>(material.normal_texture.texture) < frame.textures.size() &&
-                       frame.textures[static_cast<std::size_t>(material.normal_texture.texture)].rule() == MipRule::normal;
-    if (loses)
-        surface.roughness = std::min(
-            1.0,
-            std::pow(std::pow(std::max(surface.roughness, kHeldRoughness), 4.0) + std::pow(bumps.a * material.normal_scale, 2.0), 0.25));
+    surface.normal = mapped_normal(frame, material, material.normal_texture, material.normal_scale, available, block, lane);
+    surface.roughness = rougher(frame, material.normal_texture, material.normal_scale, material.roughness * mr.g, available, block, lane);
     surface.occlusion = 1.0 + double{material.occlusion_strength} * (occlusion.r - 1.0);
     const Vec3d position = row3(block, kPosX, lane);
     surface.to_eye = frame.orthographic ? scale(to_double(frame.view_direction_ws), -1) : unit(to_double(frame.eye_ws) - position);
@@ -455,6 +460,66 @@ Surface surface_of(const FrameInputs& frame, const Material& material, SlotMask 
     return surface;
 }
 
+/// A coat at a lane: the share that is coated, and its surface, of F0 0.04.
+struct Coat {
+    double share;
+    Surface surface;
+};
+Coat coat_of(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
+             const Surface& below) {
+    const Clearcoat& coat = material.clearcoat;
+    const Rgba white{1, 1, 1, 1};
+    Coat out{std::clamp(double{coat.factor}, 0.0, 1.0) * material_texture(frame, coat.texture, available, block, lane, white).r, below};
+    out.surface.normal = mapped_normal(frame, material, coat.normal_texture, coat.normal_scale, available, block, lane);
+    const double roughness =
+        std::clamp(double{coat.roughness}, 0.0, 1.0) * material_texture(frame, coat.roughness_texture, available, block, lane, white).g;
+    out.surface.roughness = rougher(frame, coat.normal_texture, coat.normal_scale, roughness, available, block, lane);
+    out.surface.metallic = 0, out.surface.weight = 1;
+    out.surface.f0 = {0.04, 0.04, 0.04};
+    return out;
+}
+
+bool has_coat(const FrameInputs& frame, const Material& material) {
+    return material.is_coated() && frame.options.specular != SpecularModel::none;
+}
+
+/// Schlick's share of light that a coat's surface mirrors towards the viewer.
+double coat_fresnel(const Coat& coat) {
+    return 0.04 + 0.96 * std::pow(1.0 - std::clamp(dot(coat.surface.normal, coat.surface.to_eye), 0.0, 1.0), 5.0);
+}
+
+/// Light that a coat adds where it covers all.
+Vec3d coat_light(const FrameInputs& frame, const Material& material, const Coat& coat, Vec3d position, const Surroundings& around) {
+    const Surface& surface = coat.surface;
+    const double fresnel = coat_fresnel(coat), n_dot_v = dot(surface.normal, surface.to_eye);
+    const double roughness = std::max(surface.roughness, kHeldRoughness), s = 2.0 / std::pow(roughness, 4.0) - 2.0;
+    Vec3d sum{};
+    for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+        const Arrival at = arrival(frame.lights[i], position);
+        const double seen = around.hidden.empty() ? 1.0 : 1.0 - around.hidden[i].hard, n_dot_l = dot(surface.normal, at.direction);
+        Vec3d highlight{};
+        if (frame.options.specular == SpecularModel::ggx) {
+            highlight = ggx_highlight(surface, at.direction);
+        } else if (n_dot_l > 0) {
+            const bool phong = frame.options.specular == SpecularModel::phong;
+            const Vec3d mirrored = scale(surface.normal, 2 * n_dot_l) - at.direction;
+            const double cosine = phong ? dot(surface.to_eye, unit(mirrored)) : dot(surface.normal, unit(at.direction + surface.to_eye));
+            const double factor = !frame.options.normalize_specular ? 1.0 : phong ? (s + 8) / 8 : (s * s + 10 * s + 32) / (8 * (s + 4));
+            const double value = cosine > 0 ? fresnel * factor * std::pow(std::min(cosine, 1.0), phong ? s / 4 : s) * n_dot_l : 0.0;
+            highlight = {value, value, value};
+        }
+        sum = sum + scale(to_double(frame.lights[i].color_linear) * highlight, at.attenuation * seen);
+    }
+    const double seen = std::min(sky_seen(frame, lobe_of(material, frame.options), surface, around).mirrored, surface.occlusion);
+    if (around.diffuse != nullptr) {
+        const Mirrored mirrored = mirrored_environment(*around.reflections, 1, surface);
+        const double share = (mirrored.a * 0.04 + mirrored.b) * (1.0 + 0.04 * (1.0 / (mirrored.a + mirrored.b) - 1.0));
+        return sum + scale(mirrored.radiance, share * seen);
+    }
+    const Vec3d reflection = scale(surface.normal, 2 * n_dot_v) - surface.to_eye;
+    return sum + scale(hemisphere(frame.ambient, reflection.y), environment_share(0.04, 1.0, roughness, n_dot_v) * seen);
+}
+
 }  // namespace
 
 Rgba shade(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
@@ -464,8 +529,13 @@ Rgba shade(const FrameInputs& frame, const Material& material, SlotMask availabl
     if (material.unlit) return {base.r, base.g, base.b, alpha};
     const Surface surface = surface_of(frame, material, available, block, lane);
     const Rgba glow = material_texture(frame, material.emissive_texture, available, block, lane, {1, 1, 1, 1});
-    const Vec3d color =
-        lit(frame, material, surface, row3(block, kPosX, lane), around) + to_double(material.emissive) * Vec3d{glow.r, glow.g, glow.b};
+    const Vec3d position = row3(block, kPosX, lane);
+    Vec3d color = lit(frame, material, surface, position, around) + to_double(material.emissive) * Vec3d{glow.r, glow.g, glow.b};
+    if (has_coat(frame, material)) {
+        const Coat coat = coat_of(frame, material, available, block, lane, surface);
+        color =
+            scale(color, 1.0 - coat.share * coat_fresnel(coat)) + scale(coat_light(frame, material, coat, position, around), coat.share);
+    }
     return {color.x, color.y, color.z, alpha};
 }
 
@@ -488,7 +558,11 @@ Vec3d kept(const FrameInputs& frame, const Material& material, SlotMask availabl
     const double thickness =
         double{inside.thickness} * material_texture(frame, inside.thickness_texture, available, block, lane, {1, 1, 1, 1}).g;
     const bool front = !material.double_sided || block.lane[kFacing][lane] > 0.0f;
-    const double share = transmitted(frame, material, available, block, lane) * (1 - mirrored) * (1 - surface.metallic);
+    double share = transmitted(frame, material, available, block, lane) * (1 - mirrored) * (1 - surface.metallic);
+    if (has_coat(frame, material)) {
+        const Coat coat = coat_of(frame, material, available, block, lane, surface);
+        share *= 1.0 - coat.share * coat_fresnel(coat);
+    }
     const auto channel = [&](double base, float color) {
         const double passed = front && inside.attenuation_distance > 0.0f && inside.thickness > 0.0f
                                   ? std::pow(double{color}, thickness / double{inside.attenuation_distance})

@@ -102,7 +102,8 @@ enum Stage : std::uint32_t {
     kStageEnvironment = 1u << 12,    ///< the ambient light is an environment's, in spherical harmonics
     kStageTransmission = 1u << 13,   ///< light from behind passes through the surface
     kStageSpecularColor = 1u << 14,  ///< where not metallic, F0 has a colour, a weight or textures of its own
-    kStageCount = 15
+    kStageClearcoat = 1u << 15,      ///< a coat above the surface mirrors
+    kStageCount = 16
 };
 
 }  // namespace halflit

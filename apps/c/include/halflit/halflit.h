@@ -173,12 +173,18 @@ typedef struct halflit_material {
     float thickness;             ///< way of that light inside, in world units, times the texture's
     float attenuation_distance;  ///< way after which white light has attenuation_color, in world units; 0: nothing is absorbed
     float attenuation_color[3];  ///< 0 to 1
-    halflit_texture_use transmission_texture;    ///< linear: red
-    halflit_texture_use thickness_texture;       ///< linear: green
-    float specular;                              ///< factor of what is mirrored where not metallic, 0 to 1
-    float specular_color[3];                     ///< factor of the light mirrored straight on there, from 0
-    halflit_texture_use specular_texture;        ///< linear: alpha, times specular
-    halflit_texture_use specular_color_texture;  ///< sRGB, times specular_color
+    halflit_texture_use transmission_texture;         ///< linear: red
+    halflit_texture_use thickness_texture;            ///< linear: green
+    float specular;                                   ///< factor of what is mirrored where not metallic, 0 to 1
+    float specular_color[3];                          ///< factor of the light mirrored straight on there, from 0
+    halflit_texture_use specular_texture;             ///< linear: alpha, times specular
+    halflit_texture_use specular_color_texture;       ///< sRGB, times specular_color
+    float clearcoat;                                  ///< share that is coated with varnish, 0 to 1, times the texture's
+    float clearcoat_roughness;                        ///< 0 to 1, times the texture's
+    float clearcoat_normal_scale;                     ///< factor on x and y of the coat's normal texture
+    halflit_texture_use clearcoat_texture;            ///< linear: red
+    halflit_texture_use clearcoat_roughness_texture;  ///< linear: green
+    halflit_texture_use clearcoat_normal_texture;     ///< linear, in tangent space
     int32_t reserved;
 } halflit_material;
 HALFLIT_C_API int32_t halflit_material_init(halflit_material* material, size_t size);
