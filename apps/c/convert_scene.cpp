@@ -136,6 +136,10 @@ halflit_material to_c(const Material& from) {
     material.clearcoat_texture = to_c(from.clearcoat.texture);
     material.clearcoat_roughness_texture = to_c(from.clearcoat.roughness_texture);
     material.clearcoat_normal_texture = to_c(from.clearcoat.normal_texture);
+    put(from.sheen.color, material.sheen_color);
+    material.sheen_roughness = from.sheen.roughness;
+    material.sheen_color_texture = to_c(from.sheen.color_texture);
+    material.sheen_roughness_texture = to_c(from.sheen.roughness_texture);
     return material;
 }
 
@@ -183,6 +187,10 @@ Result<Material> material(const halflit_material* given) {
     material.clearcoat.roughness_texture =
         texture_use(read->clearcoat_roughness_texture, "a value of clearcoat_roughness_texture", choices);
     material.clearcoat.normal_texture = texture_use(read->clearcoat_normal_texture, "a value of clearcoat_normal_texture", choices);
+    material.sheen.color = vec3(read->sheen_color);
+    material.sheen.roughness = read->sheen_roughness;
+    material.sheen.color_texture = texture_use(read->sheen_color_texture, "a value of sheen_color_texture", choices);
+    material.sheen.roughness_texture = texture_use(read->sheen_roughness_texture, "a value of sheen_roughness_texture", choices);
     if (!choices.result()) return tl::unexpected<Error>(choices.result().error());
     if (auto ok = check_lobe(material.lobe); !ok) return fail(ErrorCode::usage, "halflit_material: lobe: " + ok.error().message);
     return material;

@@ -24,7 +24,8 @@ inline constexpr std::string_view kStageNames[kStageCount] = {"base colour textu
                                                               "environment",
                                                               "transmission",
                                                               "specular colour",
-                                                              "clearcoat"};
+                                                              "clearcoat",
+                                                              "sheen"};
 
 /// Indexed by LightType.
 inline constexpr std::string_view kLightTypeNames[] = {"directional", "point", "spot"};

@@ -1,6 +1,7 @@
 #include "shading/budget/surface_bounds.hpp"
 
 #include "sh/power.hpp"
+#include "shading/budget/layer_bounds.hpp"
 #include "shading/budget/texture_bounds.hpp"
 #include "shading/model/code_bounds.hpp"
 #include "shading/model/reflection_tables.hpp"
@@ -20,17 +21,7 @@ constexpr double kHalfVectorError = 2.5e-7, kMirrorError = 1e-7;
 /// Relative error of the products and sums that follow.
 constexpr double kProductError = 1e-5;
 
-/// Largest slope of a coat's share of mirrored light, 0.04 + 0.96 (1 - N.V)^5.
-constexpr double kFresnelSlope = 4.8;
-
 constexpr double kAnyShare = 1e6;  // a relative error that costs 255 codes
-
-Factor factor_of(double error, double least) { return {error, error < least ? std::min(error / (least - error), kAnyShare) : kAnyShare}; }
-
-/// Codes that the factor's error costs: the light is the factor times at most `strength`.
-double codes_of(const Factor& factor, double strength) {
-    return std::min(codes_of_absolute(factor.absolute * strength), codes_of_relative(factor.relative));
-}
 
 /// Bound on an error of the excess f - x where x = N.L > 0, for an error of N.L and roundings: f is n / (1 + w) times as steep as x at
 /// most, for n < 1 times the power of t at x = 0.
@@ -141,6 +132,12 @@ double ggx_codes(const Surface& s, double light_sum) {
 
 }  // namespace
 
+Factor factor_of(double error, double least) { return {error, error < least ? std::min(error / (least - error), kAnyShare) : kAnyShare}; }
+
+double codes_of(const Factor& factor, double strength) {
+    return std::min(codes_of_absolute(factor.absolute * strength), codes_of_relative(factor.relative));
+}
+
 double Surface::cosine_error() const { return normal_error + (kCosineError - kNormalError); }
 
 Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const SceneFacts& facts) {
@@ -207,8 +204,11 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
     }
     if (has(kStageClearcoat)) {
         const Surface coat = coat_surface(plan, material, facts);
-        const double most = material.clearcoat.factor;
-        s.passed = factor_of(coat.base_color.absolute + most * kFresnelSlope * coat.cosine_error(), 1.0 - most);
+        s.passed = passed_by_coat(material, coat);
+        s.least_albedo = 0.0;
+    }
+    if (has(kStageSheen)) {
+        s.below_sheen = sheen_surface(material, s.normal_error, facts).left;
         s.least_albedo = 0.0;
     }
     if (has(kStageEmissiveTexture))
@@ -237,40 +237,6 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
         }
     }
     return s;
-}
-
-MaterialPlan coat_as_metal(const MaterialPlan& material) {
-    const ClearcoatPlan& coat = material.clearcoat;
-    MaterialPlan metal;
-    metal.stages = material.stages & (kStageLights | kStageAmbient | kStageEnvironment | kStageSpecular | kStageOcclusionTexture);
-    metal.occlusion_texture = material.occlusion_texture, metal.occlusion_strength = material.occlusion_strength;
-    for (int c = 0; c < 3; ++c) metal.base_color[c] = coat.factor;
-    metal.metallic = 1.0f, metal.dielectric = 0.0f, metal.roughness = coat.roughness;
-    metal.lobe = material.lobe, metal.ggx = material.ggx;
-    metal.environment = material.environment, metal.reflection_lobes = 1;
-    metal.normal_texture = coat.normal_texture, metal.normal_scale = coat.normal_scale, metal.normal_roughness = coat.normal_roughness;
-    metal.metallic_roughness_texture = coat.roughness_texture;
-    if (coat.normal_texture.data != nullptr) metal.stages |= kStageNormalMap;
-    if (coat.roughness_texture.data != nullptr) metal.stages |= kStageMetallicRoughnessTexture;
-    return metal;
-}
-
-Surface coat_surface(const ShadingPlan& plan, const MaterialPlan& material, const SceneFacts& facts) {
-    Surface s = surface_of(plan, coat_as_metal(material), facts);
-    const ClearcoatPlan& coat = material.clearcoat;
-    const double most = coat.factor;
-    s.albedo = 0.0;               // a coat scatters nothing
-    s.matt = s.shiny = Factor{};  // the blue channel of its texture of roughness has no meaning
-    if (coat.texture.data != nullptr)
-        s.base_color = factor_of(most * filter_error(coat.texture, 0, facts.largest_uv), most * least_value(coat.texture, 0));
-    return s;
-}
-
-double coat_codes(const MaterialPlan& metal, const ShadingPlan& plan, const Surface& s, const Arriving& light,
-                  const ReflectionSteps* reflections, double exposure) {
-    double codes = rounding_codes(metal, plan, s, light, reflections, exposure);
-    if (!metal.ggx) codes += codes_of_absolute(s.reflectance * s.normalization * light.sum * kFresnelSlope * s.cosine_error());
-    return std::min(codes, 255.0);
 }
 
 Arriving arriving(const ShadingPlan& plan, double exposure, const SceneFacts& facts) {
@@ -366,6 +332,7 @@ double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, con
     codes += codes_of(s.matt, s.albedo * matt) + codes_of(s.shiny, shiny);
     codes += codes_of(s.emissive, exposure);
     const double glow = std::max({material.emissive[0], material.emissive[1], material.emissive[2]}) * exposure;
+    codes += codes_of(s.below_sheen, s.albedo * matt + mirrored_most + highlights);
     codes += codes_of(s.passed, s.albedo * matt + mirrored_most + highlights + glow);
     return std::min(codes, 255.0);
 }

@@ -11,6 +11,11 @@ struct Factor {
     double absolute = 0, relative = 0;
 };
 
+/// `least`: of the factor.
+[[nodiscard]] Factor factor_of(double error, double least);
+/// Codes that the factor's error costs: the light is the factor times at most `strength`.
+[[nodiscard]] double codes_of(const Factor& factor, double strength);
+
 /// Upper bounds on what a surface reflects, and the errors of its inputs. Members for which there is no texture have no error.
 struct Surface {
     double albedo, reflectance;      ///< largest colour; largest F0
@@ -24,16 +29,13 @@ struct Surface {
     Factor dielectric;                                               ///< F0 where not metallic, by textures of its own
     Factor scattered;                                                ///< share of the light that enters which does not pass through
     Factor passed;                                                   ///< share of all light that a coat lets through
+    Factor below_sheen;                                              ///< share of the base's light that sheen leaves
     bool specular;
 
     [[nodiscard]] double cosine_error() const;  ///< of N.L
 };
 
 [[nodiscard]] Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const SceneFacts& facts);
-
-/// A coat as a metal of the coat's roughness and normals, whose colour is the share that is coated; of materials with kStageClearcoat.
-[[nodiscard]] MaterialPlan coat_as_metal(const MaterialPlan& material);
-[[nodiscard]] Surface coat_surface(const ShadingPlan& plan, const MaterialPlan& material, const SceneFacts& facts);
 
 /// Upper bounds on the light that reaches a surface, in units of display white.
 struct Arriving {
@@ -51,9 +53,5 @@ struct Arriving {
 /// Codes that cannot be chosen: roundings, and the errors of textures. reflections: of the plan's map; null: there is none.
 [[nodiscard]] double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, const Surface& s, const Arriving& light,
                                     const ReflectionSteps* reflections, double exposure);
-
-/// The codes that roundings and textures of a coat cost; metal, s: coat_as_metal(), coat_surface().
-[[nodiscard]] double coat_codes(const MaterialPlan& metal, const ShadingPlan& plan, const Surface& s, const Arriving& light,
-                                const ReflectionSteps* reflections, double exposure);
 
 }  // namespace halflit::shading

@@ -77,7 +77,8 @@ HALFLIT_INLINE V3 coat_highlights(const shading::ShadingPlan& frame, const shadi
     for (int lane = 0; lane < count; lane += kWidth) store3(rows.emitted, lane, load3(rows.emitted, lane) * load(rows.passed_coat + lane));
 }
 
-/// Takes what the coat mirrors from all light of the surface below. Sets the rows `layers` and `passed_coat`.
+/// Takes what the coat mirrors from all light of the surface below. Sets the rows `layers`, `passed_layers` and
+/// `passed_coat`.
 [[gnu::noinline]] static void add_clearcoat(const shading::ShadingPlan& frame, const shading::MaterialPlan& material,
                                             shading::LightList lights, const shading::FragmentBlock& block, int count, ShadeRows& rows) {
     const F none(0.0f), one(1.0f), f0(shading::kCoatReflectance);
@@ -113,7 +114,10 @@ HALFLIT_INLINE V3 coat_highlights(const shading::ShadingPlan& frame, const shadi
         }
         const F passed = one - coat.share * fresnel;
         dim_base(material, rows, lane, passed);
-        store3(rows.layers, lane, light * coat.share);
+        light = light * coat.share;
+        const bool sheen = has(material, kStageSheen);
+        store3(rows.layers, lane, sheen ? light + load3(rows.layers, lane) * passed : light);
+        store(rows.passed_layers + lane, sheen ? load(rows.passed_layers + lane) * passed : passed);
         store(rows.passed_coat + lane, passed);
     }
 }

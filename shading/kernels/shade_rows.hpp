@@ -27,6 +27,7 @@ struct alignas(64) ShadeRows {
     Row specular_weight;               ///< factor of what is mirrored at grazing views there; with kStageSpecularColor
     Row transmitted;                   ///< share of the light that enters the surface which passes through; of materials that transmit
     Row3 layers;                       ///< light of the layers above the base, which is added to the base's
+    Row passed_layers;                 ///< share of light from below that passes through all of them
     Row passed_coat;                   ///< share of the base's light that passes through a coat; with kStageClearcoat
     Row3 passed;                       ///< share of that light which is not absorbed
 };

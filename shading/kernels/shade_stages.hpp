@@ -11,6 +11,7 @@
 #include "shading/kernels/reflection_kernel.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 #include "shading/kernels/shade_rows.hpp"
+#include "shading/kernels/sheen_kernel.hpp"
 #include "shading/kernels/sky_shadow_kernel.hpp"
 #include "shading/kernels/specular_color_kernel.hpp"
 #include "shading/kernels/surface_kernel.hpp"
@@ -25,7 +26,7 @@ inline namespace HALFLIT_ISA_NAMESPACE {
 inline constexpr std::uint32_t kSurfaceStages = kStageLights | kStageAmbient | kStageTransmission | kStageClearcoat;
 
 /// Stages of layers above the base.
-inline constexpr std::uint32_t kLayerStages = kStageClearcoat;
+inline constexpr std::uint32_t kLayerStages = kStageClearcoat | kStageSheen;
 
 /// Base colour, emission and alpha; `needs_color` is false where only light is asked for.
 static void fetch_surfaces(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int count, bool needs_color,
@@ -188,6 +189,7 @@ HALFLIT_INLINE void add_light(const shading::ShadingPlan& frame, const shading::
         fetch_transmission(material, block, count, rows);
         dim_matt_light(material, count, rows);
     }
+    if (has(material, kStageSheen)) add_sheen(frame, material, lights, block, count, rows);
     if (has(material, kStageClearcoat)) add_clearcoat(frame, material, lights, block, count, rows);
 }
 

@@ -26,6 +26,8 @@ SlotMask slots_of(const MaterialPlan& plan, bool lit) {
         if (texture->data != nullptr) add(kStageTransmission, *texture);
     for (const TexturePlan* texture : {&plan.clearcoat.texture, &plan.clearcoat.roughness_texture, &plan.clearcoat.normal_texture})
         if (texture->data != nullptr) add(kStageClearcoat, *texture);
+    for (const TexturePlan* texture : {&plan.sheen.color_texture, &plan.sheen.roughness_texture})
+        if (texture->data != nullptr) add(kStageSheen, *texture);
     if (plan.clearcoat.normal_texture.data != nullptr) slots |= kTangentSlot;
     return slots;
 }
@@ -43,7 +45,9 @@ void number_taps(MaterialPlan& plan) {
                                      &plan.specular_color_texture,
                                      &plan.clearcoat.texture,
                                      &plan.clearcoat.roughness_texture,
-                                     &plan.clearcoat.normal_texture};
+                                     &plan.clearcoat.normal_texture,
+                                     &plan.sheen.color_texture,
+                                     &plan.sheen.roughness_texture};
     std::int32_t number = 0;
     for (TexturePlan* const& texture : textures) {
         const auto* const same = std::find_if(
@@ -156,6 +160,15 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
         use_texture(true, kStageClearcoat, coat.roughness_texture, plan.clearcoat.roughness_texture);
         use_texture((available & kTangentSlot) != 0, kStageClearcoat, coat.normal_texture, plan.clearcoat.normal_texture);
         plan.clearcoat.normal_roughness = loses_normals(plan.clearcoat.normal_texture);
+    }
+    if (lit && kinds.specular && material.has_sheen()) {
+        const Sheen& sheen = material.sheen;
+        plan.stages |= kStageSheen;
+        const float color[] = {sheen.color.x, sheen.color.y, sheen.color.z};
+        for (int c = 0; c < 3; ++c) plan.sheen.color[c] = clamp_or_low(color[c], 0.0f, 1.0f);
+        plan.sheen.roughness = clamp_or_low(sheen.roughness, 0.0f, 1.0f);
+        use_texture(true, kStageSheen, sheen.color_texture, plan.sheen.color_texture);
+        use_texture(true, kStageSheen, sheen.roughness_texture, plan.sheen.roughness_texture);
     }
     plan.normal_roughness = kinds.specular && loses_normals(plan.normal_texture);
     if (gradients) plan.stages |= kStageGradients;

@@ -45,6 +45,13 @@ struct ClearcoatPlan {
     TexturePlan texture, roughness_texture, normal_texture;
 };
 
+/// Sheen as planned; used with kStageSheen.
+struct SheenPlan {
+    float color[3] = {0, 0, 0};
+    float roughness = 0;
+    TexturePlan color_texture, roughness_texture;
+};
+
 struct MaterialPlan {
     std::uint32_t stages = 0;  ///< bits of Stage; a block runs only these
     SlotMask slots = 0;        ///< vertex slots that raster interpolates
@@ -79,6 +86,7 @@ struct MaterialPlan {
     TexturePlan specular_texture, specular_color_texture;
     TransmissionPlan transmission;
     ClearcoatPlan clearcoat;
+    SheenPlan sheen;
 };
 
 /// True if the roughness may differ from fragment to fragment.

@@ -3,6 +3,7 @@
 #include "sh/vec3d.hpp"
 #include "shading/model/constants.hpp"
 #include "shading/model/reflection_tables.hpp"
+#include "shading/model/sheen_table.hpp"
 #include "shading/model/srgb.hpp"
 
 #include <algorithm>
@@ -213,20 +214,27 @@ Vec3d map_value(const ReflectionMap& map, int level, Vec3d d) {
     return upper + scale(lower - upper, y - j);
 }
 
-/// Values of kReflectionShapes at a roughness and a cosine N.V.
-class MirrorTable {
+/// Mean radiance over a level's lobe about a direction of any length; 0 for the zero vector.
+Vec3d blurred(const ReflectionMap& map, Vec3d d, double level) {
+    if (!(dot(d, d) > 0)) return {};
+    const int fine = std::clamp(static_cast<int>(level), 0, kReflectionLevels - 2);
+    const Vec3d near = map_value(map, fine, d);
+    return near + scale(map_value(map, fine + 1, d) - near, level - fine);
+}
+
+/// Values between the nodes of a table at a roughness and a cosine N.V.
+class TableCell {
 public:
-    MirrorTable(double roughness, double n_dot_v) {
+    TableCell(double roughness, double n_dot_v) {
         constexpr int kLast = kReflectionNodes - 1;
         const double x = std::clamp(roughness, kHeldRoughness, 1.0) * kLast, held = std::clamp(n_dot_v, 0.0, 1.0),
                      y = 1.2 * held / (held + 0.2) * kLast;
         i_ = std::min(static_cast<int>(x), kLast - 1), j_ = std::min(static_cast<int>(y), kLast - 1);
         down_ = x - i_, right_ = y - j_;
     }
-    double operator()(float ReflectionShape::*member) const {
-        const auto node = [&](int down, int right) {
-            return double{kReflectionShapes[(i_ + down) * kReflectionNodes + j_ + right].*member};
-        };
+    template <class Shape>
+    [[nodiscard]] double value(const Shape* table, float Shape::*member) const {
+        const auto node = [&](int down, int right) { return double{table[(i_ + down) * kReflectionNodes + j_ + right].*member}; };
         const double left = node(0, 0) + down_ * (node(1, 0) - node(0, 0)), next = node(0, 1) + down_ * (node(1, 1) - node(0, 1));
         return left + right_ * (next - left);
     }
@@ -234,6 +242,12 @@ public:
 private:
     int i_, j_;
     double down_, right_;
+};
+
+class MirrorTable : TableCell {
+public:
+    using TableCell::TableCell;
+    double operator()(float ReflectionShape::*member) const { return value(kReflectionShapes, member); }
 };
 
 /// The environment as a rough mirror sees it: GGX's A and B, and the mean radiance over its lobes (shading/model/reflection_tables.hpp).
@@ -245,19 +259,15 @@ Mirrored mirrored_environment(const ReflectionMap& map, int lobes, const Surface
     const double n_dot_v = dot(surface.normal, surface.to_eye);
     const MirrorTable at(surface.roughness, n_dot_v);
     const Vec3d reflection = scale(surface.normal, 2 * n_dot_v) - surface.to_eye;
-    const auto blurred = [&](double turn, double level) {
-        const Vec3d d = reflection + scale(surface.normal - scale(reflection, n_dot_v), turn);
-        if (!(dot(d, d) > 0)) return Vec3d{};
-        const int fine = std::clamp(static_cast<int>(level), 0, kReflectionLevels - 2);
-        const Vec3d near = map_value(map, fine, d);
-        return near + scale(map_value(map, fine + 1, d) - near, level - fine);
+    const auto towards = [&](double turn, double level) {
+        return blurred(map, reflection + scale(surface.normal - scale(reflection, n_dot_v), turn), level);
     };
     Mirrored out{at(&ReflectionShape::a), at(&ReflectionShape::b), {}};
     if (lobes == 1) {
-        out.radiance = blurred(at(&ReflectionShape::turn0), at(&ReflectionShape::level0));
+        out.radiance = towards(at(&ReflectionShape::turn0), at(&ReflectionShape::level0));
     } else {
         const double turn = at(&ReflectionShape::turn1), spread = at(&ReflectionShape::spread), level = at(&ReflectionShape::level1);
-        out.radiance = scale(blurred(turn - spread, level) + blurred(turn + spread, level), 0.5);
+        out.radiance = scale(towards(turn - spread, level) + towards(turn + spread, level), 0.5);
     }
     return out;
 }
@@ -460,6 +470,55 @@ Surface surface_of(const FrameInputs& frame, const Material& material, SlotMask 
     return surface;
 }
 
+/// Sheen at a lane: light that it adds, and the share of the base's light that it leaves.
+struct Fibres {
+    Vec3d light;
+    double left;
+};
+Fibres sheen_of(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
+                const Surface& surface, const Surroundings& around) {
+    const Sheen& sheen = material.sheen;
+    const Rgba white{1, 1, 1, 1}, texture = material_texture(frame, sheen.color_texture, available, block, lane, white);
+    const auto held = [](float x) { return std::clamp(double{x}, 0.0, 1.0); };
+    const Vec3d color{held(sheen.color.x) * texture.r, held(sheen.color.y) * texture.g, held(sheen.color.z) * texture.b};
+    const double roughness =
+        std::max(kHeldRoughness, held(sheen.roughness) * material_texture(frame, sheen.roughness_texture, available, block, lane, white).a);
+    const double a = roughness * roughness, signed_n_dot_v = dot(surface.normal, surface.to_eye),
+                 n_dot_v = std::clamp(signed_n_dot_v, 0.0, 1.0);
+    const TableCell at(roughness, n_dot_v);
+    const auto shape = [&](float SheenShape::*member) { return at.value(kSheenShapes, member); };
+    const double table_albedo = shape(&SheenShape::albedo), albedo = std::min(table_albedo, 1.0);
+    Vec3d light{};
+    for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+        const Arrival from = arrival(frame.lights[i], row3(block, kPosX, lane));
+        const Vec3d both = from.direction + surface.to_eye, half = unit(both), sine = cross(surface.normal, half);
+        const double n_dot_l = dot(surface.normal, from.direction);
+        if (!(n_dot_l > 0) || !(dot(surface.normal, both) > double{kLeastHalfVector})) continue;
+        const double d = (2 + 1 / a) * std::pow(std::min(std::hypot(sine.x, sine.y, sine.z), 1.0), 1 / a) / 2;  // times pi
+        const double value = d / (4 * (n_dot_l + n_dot_v - n_dot_l * n_dot_v)) * n_dot_l / std::max(1.0, table_albedo);
+        const double seen = around.hidden.empty() ? 1.0 : 1.0 - around.hidden[i].hard;
+        light = light + scale(to_double(frame.lights[i].color_linear), value * from.attenuation * seen);
+    }
+    const Vec3d along = surface.to_eye - scale(surface.normal, signed_n_dot_v);
+    const Vec3d side = scale(along, 1 / std::sqrt(dot(along, along) + double{kSheenSoftSide}));
+    const double height = shape(&SheenShape::height), flat = std::sqrt(std::max(0.0, 1 - height * height));
+    const double turn = shape(&SheenShape::turn), across = std::sqrt(std::max(0.0, 1 - turn * turn));
+    const Vec3d up = scale(surface.normal, height), other = scale(cross(surface.normal, side), flat * across);
+    const Vec3d towards[] = {up + scale(side, flat), up + scale(side, flat * turn) + other, up + scale(side, flat * turn) - other};
+    Vec3d radiance{};
+    for (const Vec3d d : towards)
+        radiance = radiance + (around.diffuse != nullptr ? blurred(*around.reflections, d, shape(&SheenShape::level))
+                                                         : hemisphere(frame.ambient, d.y));
+    const Vec3d sky = sky_seen(frame, lobe_of(material, frame.options), surface, around).diffuse;
+    const Vec3d seen{std::min(sky.x, surface.occlusion), std::min(sky.y, surface.occlusion), std::min(sky.z, surface.occlusion)};
+    light = light + scale(radiance * seen, albedo / 3);
+    return {light * color, 1 - std::max({color.x, color.y, color.z}) * albedo};
+}
+
+bool has_sheen(const FrameInputs& frame, const Material& material) {
+    return material.has_sheen() && frame.options.specular != SpecularModel::none;
+}
+
 /// A coat at a lane: the share that is coated, and its surface, of F0 0.04.
 struct Coat {
     double share;
@@ -530,7 +589,12 @@ Rgba shade(const FrameInputs& frame, const Material& material, SlotMask availabl
     const Surface surface = surface_of(frame, material, available, block, lane);
     const Rgba glow = material_texture(frame, material.emissive_texture, available, block, lane, {1, 1, 1, 1});
     const Vec3d position = row3(block, kPosX, lane);
-    Vec3d color = lit(frame, material, surface, position, around) + to_double(material.emissive) * Vec3d{glow.r, glow.g, glow.b};
+    Vec3d color = lit(frame, material, surface, position, around);
+    if (has_sheen(frame, material)) {
+        const Fibres sheen = sheen_of(frame, material, available, block, lane, surface, around);
+        color = scale(color, sheen.left) + sheen.light;
+    }
+    color = color + to_double(material.emissive) * Vec3d{glow.r, glow.g, glow.b};
     if (has_coat(frame, material)) {
         const Coat coat = coat_of(frame, material, available, block, lane, surface);
         color =
@@ -559,6 +623,7 @@ Vec3d kept(const FrameInputs& frame, const Material& material, SlotMask availabl
         double{inside.thickness} * material_texture(frame, inside.thickness_texture, available, block, lane, {1, 1, 1, 1}).g;
     const bool front = !material.double_sided || block.lane[kFacing][lane] > 0.0f;
     double share = transmitted(frame, material, available, block, lane) * (1 - mirrored) * (1 - surface.metallic);
+    if (has_sheen(frame, material)) share *= sheen_of(frame, material, available, block, lane, surface, around).left;
     if (has_coat(frame, material)) {
         const Coat coat = coat_of(frame, material, available, block, lane, surface);
         share *= 1.0 - coat.share * coat_fresnel(coat);

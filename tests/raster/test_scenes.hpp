@@ -34,6 +34,9 @@ struct NamedScene {
 /// Bodies with coats: smooth, rough, in part, with normals of their own, above metal, emission and glass.
 [[nodiscard]] NamedScene coats_scene();
 
+/// Bodies with sheen: smooth, rough, coloured by textures, below coats, above metal and glass.
+[[nodiscard]] NamedScene fabrics_scene();
+
 /// All above, and the built-in demo scene.
 [[nodiscard]] std::vector<NamedScene> all_scenes();
 

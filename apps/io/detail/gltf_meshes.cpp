@@ -149,6 +149,8 @@ private:
             {&material.clearcoat.texture, "extensions.KHR_materials_clearcoat.clearcoatTexture"},
             {&material.clearcoat.roughness_texture, "extensions.KHR_materials_clearcoat.clearcoatRoughnessTexture"},
             {&material.clearcoat.normal_texture, "extensions.KHR_materials_clearcoat.clearcoatNormalTexture"},
+            {&material.sheen.color_texture, "extensions.KHR_materials_sheen.sheenColorTexture"},
+            {&material.sheen.roughness_texture, "extensions.KHR_materials_sheen.sheenRoughnessTexture"},
             {&material.transmission.texture, "extensions.KHR_materials_transmission.transmissionTexture"},
             {&material.transmission.thickness_texture, "extensions.KHR_materials_volume.thicknessTexture"}};
         for (const auto& [use, key] : places)

@@ -103,7 +103,8 @@ enum Stage : std::uint32_t {
     kStageTransmission = 1u << 13,   ///< light from behind passes through the surface
     kStageSpecularColor = 1u << 14,  ///< where not metallic, F0 has a colour, a weight or textures of its own
     kStageClearcoat = 1u << 15,      ///< a coat above the surface mirrors
-    kStageCount = 16
+    kStageSheen = 1u << 16,          ///< fibres above the surface glow at grazing views
+    kStageCount = 17
 };
 
 }  // namespace halflit

@@ -185,6 +185,10 @@ typedef struct halflit_material {
     halflit_texture_use clearcoat_texture;            ///< linear: red
     halflit_texture_use clearcoat_roughness_texture;  ///< linear: green
     halflit_texture_use clearcoat_normal_texture;     ///< linear, in tangent space
+    float sheen_color[3];                             ///< of fibres above the surface, 0 to 1, times the texture's; black: none
+    float sheen_roughness;                            ///< 0 to 1, times the texture's
+    halflit_texture_use sheen_color_texture;          ///< sRGB
+    halflit_texture_use sheen_roughness_texture;      ///< linear: alpha
     int32_t reserved;
 } halflit_material;
 HALFLIT_C_API int32_t halflit_material_init(halflit_material* material, size_t size);
