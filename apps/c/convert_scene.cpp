@@ -114,6 +114,7 @@ halflit_material to_c(const Material& from) {
     material.double_sided = from.double_sided;
     material.unlit = from.unlit;
     material.own_lobe = from.has_own_lobe;
+    material.shadow_catcher = from.shadow_catcher;
     material.lobe = to_c(from.lobe);
     material.base_color_texture = to_c(from.base_color_texture);
     material.metallic_roughness_texture = to_c(from.metallic_roughness_texture);
@@ -191,6 +192,7 @@ Result<Material> material(const halflit_material* given) {
     material.sheen.roughness = read->sheen_roughness;
     material.sheen.color_texture = texture_use(read->sheen_color_texture, "a value of sheen_color_texture", choices);
     material.sheen.roughness_texture = texture_use(read->sheen_roughness_texture, "a value of sheen_roughness_texture", choices);
+    material.shadow_catcher = read->shadow_catcher != 0;
     if (!choices.result()) return tl::unexpected<Error>(choices.result().error());
     if (auto ok = check_lobe(material.lobe); !ok) return fail(ErrorCode::usage, "halflit_material: lobe: " + ok.error().message);
     return material;

@@ -24,6 +24,7 @@ inline constexpr std::string_view kStageNames[kStageCount] = {"base colour textu
                                                               "environment",
                                                               "transmission",
                                                               "specular colour",
+                                                              "shadow catcher",
                                                               "clearcoat",
                                                               "sheen"};
 

@@ -215,6 +215,7 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
     job.warnings = job.source.warnings;
     turn_upright(job.scene(), options.up);
     replace_materials(job.scene(), options.classic);
+    if (options.ground) add_ground(job.scene(), scene_bounds(job.scene()));
 
     const Stopwatch preparing;
     auto prepared = PreparedScene::make(job.scene(), job.timed_execution());

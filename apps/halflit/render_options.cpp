@@ -136,6 +136,7 @@ FlagGroup camera_flags(RenderOptions& o) {
          {"--camera-position", "X,Y,Z", "Place the camera here", parsed(o.camera_position, parse_point)},
          {"--camera-target", "X,Y,Z", "Point that a placed camera looks at (default: the centre of the scene)",
           parsed(o.camera_target, parse_point)},
+         {"--ground", "", "Add a ground below the scene that is invisible but for the shadows on it", set_to(o.ground)},
          {"--up", form_of(kUpAxisNames),
           fmt::format("Axis of the model that points up (default {}). The scene is turned so that it becomes y; the coordinates of other "
                       "flags are those of the turned scene",

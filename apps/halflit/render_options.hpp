@@ -34,6 +34,7 @@ struct RenderOptions {
     bool fov_given = false;                               ///< --fov was given
     std::optional<Vec3d> camera_position, camera_target;  ///< in the file's world
     UpAxis up = UpAxis::y;
+    bool ground = false;  ///< add a ground that only takes shadow
 
     /// A camera of the flags, not of the file.
     [[nodiscard]] bool own_view() const { return whole_scene || fov_given || camera_position; }

@@ -1,7 +1,6 @@
 #include "shading/budget/layer_bounds.hpp"
 
 #include "shading/budget/texture_bounds.hpp"
-#include "shading/model/code_bounds.hpp"
 #include "shading/model/constants.hpp"
 #include "shading/model/sheen_table.hpp"
 
@@ -81,16 +80,16 @@ Factor passed_by_coat(const MaterialPlan& material, const Surface& coat) {
 
 namespace {
 
-double coat_codes(const MaterialPlan& metal, const ShadingPlan& plan, const Surface& s, const Arriving& light,
+double coat_codes(const CodeCosts& costs, const MaterialPlan& metal, const ShadingPlan& plan, const Surface& s, const Arriving& light,
                   const ReflectionSteps* reflections, double exposure) {
-    double codes = rounding_codes(metal, plan, s, light, reflections, exposure);
-    if (!metal.ggx) codes += codes_of_absolute(s.reflectance * s.normalization * light.sum * kFresnelSlope * s.cosine_error());
+    double codes = rounding_codes(costs, metal, plan, s, light, reflections, exposure);
+    if (!metal.ggx) codes += costs.absolute(s.reflectance * s.normalization * light.sum * kFresnelSlope * s.cosine_error());
     return std::min(codes, 255.0);
 }
 
 /// Light of the surroundings that sheen reflects; s: the base.
-double around_codes(const ShadingPlan& plan, const MaterialPlan& material, const SheenSurface& sheen, const Surface& s,
-                    const ReflectionSteps* reflections, double exposure, double& most) {
+double around_codes(const CodeCosts& costs, const ShadingPlan& plan, const MaterialPlan& material, const SheenSurface& sheen,
+                    const Surface& s, const ReflectionSteps* reflections, double exposure, double& most) {
     const SheenSlopes slopes = sheen_slopes(first_row(least_roughness(material.sheen)));
     // The viewer's side, x / sqrt(x^2 + 0.01) of x = V - (N.V) N, has a slope of at most 10. Directions are no shorter than their height.
     const double side = 10.0 * (2.0 * s.normal_error + 2e-7);
@@ -100,23 +99,23 @@ double around_codes(const ShadingPlan& plan, const MaterialPlan& material, const
     if ((material.stages & kStageEnvironment) == 0) {
         const Vec3f sky = plan.ambient.sky_linear, ground = plan.ambient.ground_linear;
         most = static_cast<double>(std::max({sky.x, sky.y, sky.z, ground.x, ground.y, ground.z})) * exposure;
-        codes += codes_of_absolute(sheen.color * angle * most);
+        codes += costs.absolute(sheen.color * angle * most);
     } else if (reflections != nullptr) {
         most = reflections->most * exposure;
         const int first = std::clamp(static_cast<int>(slopes.least_level) - 1, 0, kReflectionLevels - 1);
         double steps = 0.0, between = 0.0;
         for (int k = first; k < kReflectionLevels; ++k) steps = std::max(steps, reflections->angle[k].absolute);
         for (int k = first; k + 1 < kReflectionLevels; ++k) between = std::max(between, reflections->level[k].absolute);
-        codes += codes_of_absolute(sheen.color * exposure * (angle * steps + levels * between));
+        codes += costs.absolute(sheen.color * exposure * (angle * steps + levels * between));
     }
     if (!plan.sky.empty()) {
         const double sums = 2.4e-7 * (static_cast<double>(plan.sky.size()) + 8.0);
         const double slope = 8.0 * (static_cast<double>(material.lobe.power_minus_one) + 1.0);
-        codes += codes_of_absolute(sheen.color * (sums + slope * s.normal_error) * most);
+        codes += costs.absolute(sheen.color * (sums + slope * s.normal_error) * most);
     }
-    codes += codes_of_absolute(sheen.color * sheen.nodes * slopes.albedo * most);
+    codes += costs.absolute(sheen.color * sheen.nodes * slopes.albedo * most);
     most *= sheen.color;
-    return codes + codes_of(s.occlusion, most);
+    return codes + codes_of(costs, s.occlusion, most);
 }
 
 }  // namespace
@@ -143,8 +142,8 @@ SheenSurface sheen_surface(const MaterialPlan& material, double normal_error, co
     return out;
 }
 
-LayerCosts layer_costs(const ShadingPlan& plan, const MaterialPlan& material, const Surface& s, const Arriving& light,
-                       const ReflectionSteps* reflections, double exposure, const SceneFacts& facts) {
+LayerCosts layer_costs(const CodeCosts& costs, const ShadingPlan& plan, const MaterialPlan& material, const Surface& s,
+                       const Arriving& light, const ReflectionSteps* reflections, double exposure, const SceneFacts& facts) {
     LayerCosts out;
     if ((material.stages & kStageSheen) != 0) {
         const SheenSurface sheen = sheen_surface(material, s.normal_error, facts);
@@ -153,20 +152,20 @@ LayerCosts layer_costs(const ShadingPlan& plan, const MaterialPlan& material, co
         // D is A sin^(1/a), whose slope is at most A sqrt(1/a); |1/a ln sin| sin^(1/a) is at most 1/e. N.L + N.V is at least
         // kLeastHalfVector, and so is |L + V|.
         const double direction = s.cosine_error() + kSheenHalfError / double{kLeastHalfVector};
-        double codes = codes_of_relative(1e-5 + 1.5e-7 * light.count);
-        codes += codes_of_absolute(strength * (std::sqrt(sheen.exponent) * direction + s.cosine_error() / double{kLeastHalfVector}));
-        codes += codes_of_relative(std::exp(std::min(2.0 * sheen.roughness.relative + sheen.nodes * slopes.albedo, 13.0)) - 1.0);
-        codes += codes_of_absolute(strength * 0.74 * sheen.roughness.relative);
+        double codes = costs.relative(1e-5 + 1.5e-7 * light.count);
+        codes += costs.absolute(strength * (std::sqrt(sheen.exponent) * direction + s.cosine_error() / double{kLeastHalfVector}));
+        codes += costs.relative(std::exp(std::min(2.0 * sheen.roughness.relative + sheen.nodes * slopes.albedo, 13.0)) - 1.0);
+        codes += costs.absolute(strength * 0.74 * sheen.roughness.relative);
         double around = 0.0;
-        if ((material.stages & kStageAmbient) != 0) codes += around_codes(plan, material, sheen, s, reflections, exposure, around);
-        codes += codes_of(sheen.texture, strength + around);
-        codes += codes_of(s.passed, strength + around);
+        if ((material.stages & kStageAmbient) != 0) codes += around_codes(costs, plan, material, sheen, s, reflections, exposure, around);
+        codes += codes_of(costs, sheen.texture, strength + around);
+        codes += codes_of(costs, s.passed, strength + around);
         out.codes += codes;
         out.reflected += sheen.most;
     }
     if ((material.stages & kStageClearcoat) != 0) {
         const Surface coat = coat_surface(plan, material, facts);
-        out.codes += coat_codes(coat_as_metal(material), plan, coat, light, reflections, exposure);
+        out.codes += coat_codes(costs, coat_as_metal(material), plan, coat, light, reflections, exposure);
         out.reflected += coat.reflectance * coat.normalization;
     }
     out.codes = std::min(out.codes, 255.0);

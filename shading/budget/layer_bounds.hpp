@@ -27,7 +27,7 @@ struct LayerCosts {
     double reflected = 0;  ///< largest light reflected, per light of colour 1
 };
 /// s: the surface below; reflections: of the plan's map; null: there is none.
-[[nodiscard]] LayerCosts layer_costs(const ShadingPlan& plan, const MaterialPlan& material, const Surface& s, const Arriving& light,
-                                     const ReflectionSteps* reflections, double exposure, const SceneFacts& facts);
+[[nodiscard]] LayerCosts layer_costs(const CodeCosts& costs, const ShadingPlan& plan, const MaterialPlan& material, const Surface& s,
+                                     const Arriving& light, const ReflectionSteps* reflections, double exposure, const SceneFacts& facts);
 
 }  // namespace halflit::shading

@@ -14,7 +14,7 @@ struct Factor {
 /// `least`: of the factor.
 [[nodiscard]] Factor factor_of(double error, double least);
 /// Codes that the factor's error costs: the light is the factor times at most `strength`.
-[[nodiscard]] double codes_of(const Factor& factor, double strength);
+[[nodiscard]] double codes_of(const CodeCosts& costs, const Factor& factor, double strength);
 
 /// Upper bounds on what a surface reflects, and the errors of its inputs. Members for which there is no texture have no error.
 struct Surface {
@@ -51,7 +51,7 @@ struct Arriving {
 [[nodiscard]] bool may_split(const ShadingPlan& plan, const MaterialPlan& material);
 
 /// Codes that cannot be chosen: roundings, and the errors of textures. reflections: of the plan's map; null: there is none.
-[[nodiscard]] double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, const Surface& s, const Arriving& light,
-                                    const ReflectionSteps* reflections, double exposure);
+[[nodiscard]] double rounding_codes(const CodeCosts& costs, const MaterialPlan& material, const ShadingPlan& plan, const Surface& s,
+                                    const Arriving& light, const ReflectionSteps* reflections, double exposure);
 
 }  // namespace halflit::shading

@@ -42,6 +42,10 @@ HALFLIT_INLINE void shade_block(const shading::ShadingPlan& frame, const shading
         store(block.alpha + lane, blended ? clamp(load(rows.alpha + lane), F(0.0f), F(1.0f)) : F(1.0f));
     }
     if (layered) lay_layers(rows, block, count);
+    if (has(material, kStageShadowCatcher))
+        catch_shadows(
+            frame, material, lights, rows, block,
+            count, [&](V3 normal) __attribute__((always_inline)) { return surroundings_at(frame, material, normal); });
     if (has(material, kStageTransmission)) {
         if (prelit) fetch_transmission(material, block, count, rows);
         keep_light_behind(material, rows, block, count, !prelit);
@@ -142,6 +146,12 @@ static void tone(ToneCurve curve, const float* const light[3], float exposure, f
         tone_block<ToneCurve::neutral>(light, exposure, display, count);
 }
 
+static int tone_samples(ToneCurve curve, const shading::SampleRows& in, int count, float* const sums[4]) {
+    if (curve == ToneCurve::reinhard) return toned_sums<ToneCurve::reinhard>(in, count, sums);
+    if (curve == ToneCurve::aces) return toned_sums<ToneCurve::aces>(in, count, sums);
+    return toned_sums<ToneCurve::neutral>(in, count, sums);
+}
+
 static void encode(const float* red, const float* green, const float* blue, const float* alpha, float exposure, std::uint32_t* rgba8,
                    int count) {
     encode_srgb8(red, green, blue, alpha, exposure, rgba8, count);
@@ -152,7 +162,7 @@ static void encode(const float* red, const float* green, const float* blue, cons
 namespace shading {
 #define HALFLIT_SHADE_KERNELS HALFLIT_CONCAT(shade_kernels_, HALFLIT_ISA)
 extern const ShadeKernels HALFLIT_SHADE_KERNELS;
-const ShadeKernels HALFLIT_SHADE_KERNELS = {shade,       light,   hidden,       measure_cell, fit_cells,
-                                            shade_alpha, surface, count_lights, tone,         encode};
+const ShadeKernels HALFLIT_SHADE_KERNELS = {shade,   light,        hidden, measure_cell, fit_cells, shade_alpha,
+                                            surface, count_lights, tone,   tone_samples, encode};
 }  // namespace shading
 }  // namespace halflit

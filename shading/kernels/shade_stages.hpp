@@ -11,6 +11,7 @@
 #include "shading/kernels/reflection_kernel.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 #include "shading/kernels/shade_rows.hpp"
+#include "shading/kernels/shadow_catcher_kernel.hpp"
 #include "shading/kernels/sheen_kernel.hpp"
 #include "shading/kernels/sky_shadow_kernel.hpp"
 #include "shading/kernels/specular_color_kernel.hpp"
@@ -112,16 +113,20 @@ static void add_lights(const shading::ShadingPlan& frame, const shading::Materia
         rows);
 }
 
+/// Light of the surroundings through a material's lobe, hidden nowhere.
+HALFLIT_INLINE V3 surroundings_at(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, V3 normal) {
+    if (has(material, kStageEnvironment))
+        return surrounding_light(frame.environments[static_cast<std::size_t>(material.environment)], normal);
+    return hemisphere(frame.ambient, normal.y);
+}
+
 template <bool kSpecular>
 static void add_surroundings(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, int count, ShadeRows& rows) {
     const bool environment = has(material, kStageEnvironment);
     for (int lane = 0; lane < count; lane += kWidth) {
         const V3 normal = load3(rows.normal, lane);
         const F occlusion = frame.sky.empty() ? load(rows.occlusion + lane) : F(1.0f);
-        store3(rows.ambient, lane,
-               (environment ? surrounding_light(frame.environments[static_cast<std::size_t>(material.environment)], normal)
-                            : hemisphere(frame.ambient, normal.y)) *
-                   occlusion);
+        store3(rows.ambient, lane, surroundings_at(frame, material, normal) * occlusion);
         if constexpr (!kSpecular) continue;
         const V3 to_eye = load3(rows.to_eye, lane);
         const F n_dot_v = dot(normal, to_eye);

@@ -92,10 +92,26 @@ void plan_transmission(const Transmission& material, TransmissionPlan& plan) {
     }
 }
 
+/// Lit by lights and surroundings through its lobe, at each fragment, and nothing else.
+MaterialPlan plan_shadow_catcher(const Material& material, const LightKinds& kinds, const ShadingSettings& options) {
+    MaterialPlan plan;
+    plan.base_color[3] = material.base_color.w;
+    plan.metallic = 0.0f;
+    plan.alpha_mode = AlphaMode::blend;
+    plan.double_sided = material.double_sided;
+    plan.lobe = plan_lobe(lobe_of(material, options), plan.specular_tier);
+    plan.stages = kStageShadowCatcher;
+    if (kinds.lights) plan.stages |= kStageLights;
+    if (kinds.ambient) plan.stages |= kStageAmbient;
+    plan.slots = slots_of(plan, true);
+    return plan;
+}
+
 }  // namespace
 
 MaterialPlan plan_material(const Material& material, std::span<const Texture> textures, SlotMask available, const LightKinds& kinds,
                            const ShadingSettings& options) {
+    if (material.shadow_catcher) return plan_shadow_catcher(material, kinds, options);
     MaterialPlan plan;
     plan.base_color[0] = material.base_color.x, plan.base_color[1] = material.base_color.y;
     plan.base_color[2] = material.base_color.z, plan.base_color[3] = material.base_color.w;

@@ -227,8 +227,9 @@ class TableCell {
 public:
     TableCell(double roughness, double n_dot_v) {
         constexpr int kLast = kReflectionNodes - 1;
-        const double x = std::clamp(roughness, kHeldRoughness, 1.0) * kLast, held = std::clamp(n_dot_v, 0.0, 1.0),
-                     y = 1.2 * held / (held + 0.2) * kLast;
+        const double rough = roughness > kHeldRoughness ? std::min(roughness, 1.0) : kHeldRoughness;  // NaN too
+        const double held = n_dot_v > 0.0 ? std::min(n_dot_v, 1.0) : 0.0;
+        const double x = rough * kLast, y = 1.2 * held / (held + 0.2) * kLast;
         i_ = std::min(static_cast<int>(x), kLast - 1), j_ = std::min(static_cast<int>(y), kLast - 1);
         down_ = x - i_, right_ = y - j_;
     }
@@ -579,6 +580,28 @@ Vec3d coat_light(const FrameInputs& frame, const Material& material, const Coat&
     return sum + scale(hemisphere(frame.ambient, reflection.y), environment_share(0.04, 1.0, roughness, n_dot_v) * seen);
 }
 
+/// Share of the matt light, by luminance, that shadows hide.
+double hidden_light(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
+                    const Surroundings& around) {
+    FrameInputs matt = frame;
+    matt.options.specular = SpecularModel::none;
+    Material white;
+    white.lobe = material.lobe;
+    white.has_own_lobe = material.has_own_lobe;
+    white.double_sided = material.double_sided;
+    Surroundings open = around;
+    open.hidden = {};
+    open.sky = {};
+    open.hidden_sky = {};
+    const Surface surface = surface_of(matt, white, available & kBaseSlots, block, lane);
+    const auto luminance = [&](const Surroundings& light) {
+        const Vec3d c = lit(matt, white, surface, row3(block, kPosX, lane), light);
+        return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
+    };
+    const double all = luminance(open);
+    return all > 0 ? std::clamp(1 - luminance(around) / all, 0.0, 1.0) : 0.0;
+}
+
 }  // namespace
 
 Rgba shade(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
@@ -586,6 +609,8 @@ Rgba shade(const FrameInputs& frame, const Material& material, SlotMask availabl
     const Rgba base = base_color(frame, material, available, block, lane);
     const double alpha = alpha_of(material, base.a);
     if (material.unlit) return {base.r, base.g, base.b, alpha};
+    if (material.shadow_catcher)
+        return {0, 0, 0, hidden_light(frame, material, available, block, lane, around) * std::clamp(base.a, 0.0, 1.0)};
     const Surface surface = surface_of(frame, material, available, block, lane);
     const Rgba glow = material_texture(frame, material.emissive_texture, available, block, lane, {1, 1, 1, 1});
     const Vec3d position = row3(block, kPosX, lane);

@@ -65,6 +65,9 @@ struct Material {
     bool unlit = false;                        ///< colour is base_color (times texture and vertex colour), no light
     Lobe lobe;                                 ///< diffuse lobe
     bool has_own_lobe = false;                 ///< the file chose the lobe; a setting for all materials does not replace it
+    /// Invisible but for the shadows on it: black, with the share of its light that is hidden as alpha. Takes matt light by its lobe alone,
+    /// has no textures, casts no shadow, and belongs to no bounds that views are framed by.
+    bool shadow_catcher = false;
 
     float specular = 1;             ///< KHR_materials_specular: factor of what is mirrored where not metallic, in [0, 1]
     Vec3f specular_color{1, 1, 1};  ///< linear, from 0: factor of F0 there, which is at most 1
@@ -76,13 +79,15 @@ struct Material {
         return specular != 1.0f || specular_color != Vec3f{1, 1, 1} || specular_texture.used() || specular_color_texture.used();
     }
     /// True if there is a coat that may be seen.
-    [[nodiscard]] bool is_coated() const { return clearcoat.factor > 0.0f && !unlit; }
+    [[nodiscard]] bool is_coated() const { return clearcoat.factor > 0.0f && !unlit && !shadow_catcher; }
     /// True if there is sheen that may be seen.
-    [[nodiscard]] bool has_sheen() const { return (sheen.color.x > 0.0f || sheen.color.y > 0.0f || sheen.color.z > 0.0f) && !unlit; }
+    [[nodiscard]] bool has_sheen() const {
+        return (sheen.color.x > 0.0f || sheen.color.y > 0.0f || sheen.color.z > 0.0f) && !unlit && !shadow_catcher;
+    }
     /// True if light passes through.
-    [[nodiscard]] bool transmits() const { return transmission.share > 0.0f && !unlit; }
+    [[nodiscard]] bool transmits() const { return transmission.share > 0.0f && !unlit && !shadow_catcher; }
     /// True if the surface is drawn over what is behind it.
-    [[nodiscard]] bool is_layer() const { return alpha_mode == AlphaMode::blend || transmits(); }
+    [[nodiscard]] bool is_layer() const { return alpha_mode == AlphaMode::blend || transmits() || shadow_catcher; }
 
     TextureUse base_color_texture;          ///< sRGB, alpha linear
     TextureUse metallic_roughness_texture;  ///< linear: G roughness, B metallic

@@ -173,23 +173,23 @@ typedef struct halflit_material {
     float thickness;             ///< way of that light inside, in world units, times the texture's
     float attenuation_distance;  ///< way after which white light has attenuation_color, in world units; 0: nothing is absorbed
     float attenuation_color[3];  ///< 0 to 1
-    halflit_texture_use transmission_texture;         ///< linear: red
-    halflit_texture_use thickness_texture;            ///< linear: green
-    float specular;                                   ///< factor of what is mirrored where not metallic, 0 to 1
-    float specular_color[3];                          ///< factor of the light mirrored straight on there, from 0
-    halflit_texture_use specular_texture;             ///< linear: alpha, times specular
-    halflit_texture_use specular_color_texture;       ///< sRGB, times specular_color
-    float clearcoat;                                  ///< share that is coated with varnish, 0 to 1, times the texture's
-    float clearcoat_roughness;                        ///< 0 to 1, times the texture's
-    float clearcoat_normal_scale;                     ///< factor on x and y of the coat's normal texture
-    halflit_texture_use clearcoat_texture;            ///< linear: red
+    halflit_texture_use transmission_texture;    ///< linear: red
+    halflit_texture_use thickness_texture;       ///< linear: green
+    float specular;                              ///< factor of what is mirrored where not metallic, 0 to 1
+    float specular_color[3];                     ///< factor of the light mirrored straight on there, from 0
+    halflit_texture_use specular_texture;        ///< linear: alpha, times specular
+    halflit_texture_use specular_color_texture;  ///< sRGB, times specular_color
+    int32_t shadow_catcher;                      ///< invisible but for the shadows on it, which are black with the hidden share as alpha
+    float clearcoat;                             ///< share that is coated with varnish, 0 to 1, times the texture's
+    float clearcoat_roughness;                   ///< 0 to 1, times the texture's
+    float clearcoat_normal_scale;                ///< factor on x and y of the coat's normal texture
+    halflit_texture_use clearcoat_texture;       ///< linear: red
     halflit_texture_use clearcoat_roughness_texture;  ///< linear: green
     halflit_texture_use clearcoat_normal_texture;     ///< linear, in tangent space
     float sheen_color[3];                             ///< of fibres above the surface, 0 to 1, times the texture's; black: none
     float sheen_roughness;                            ///< 0 to 1, times the texture's
     halflit_texture_use sheen_color_texture;          ///< sRGB
     halflit_texture_use sheen_roughness_texture;      ///< linear: alpha
-    int32_t reserved;
 } halflit_material;
 HALFLIT_C_API int32_t halflit_material_init(halflit_material* material, size_t size);
 
@@ -296,6 +296,9 @@ HALFLIT_C_API int32_t halflit_scene_add_default_lights(halflit_scene* scene, con
 /// If the scene has no light of any kind, puts it into the built-in studio: an environment of soft boxes, turned with the camera about the
 /// vertical, and a key light over the viewer's left shoulder. halflit_auto_setup does the same.
 HALFLIT_C_API int32_t halflit_scene_add_studio(halflit_scene* scene, const halflit_camera* camera);
+/// Adds a ground that is invisible but for the shadows on it: a horizontal square below the lowest point of all that is drawn. Views are
+/// framed as without it. instance: its index, may be null.
+HALFLIT_C_API int32_t halflit_scene_add_ground(halflit_scene* scene, int32_t* instance);
 /// Removes the lights, the ambient light and the environment.
 HALFLIT_C_API int32_t halflit_scene_clear_lights(halflit_scene* scene);
 
