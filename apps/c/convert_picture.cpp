@@ -15,7 +15,7 @@ constexpr bool ends_with(std::size_t offset, Last T::*) {
 #define HALFLIT_ENDS_WITH(type, member) static_assert(ends_with(offsetof(type, member), &type::member))
 HALFLIT_ENDS_WITH(halflit_load_options, reserved);
 HALFLIT_ENDS_WITH(halflit_counts, reserved);
-HALFLIT_ENDS_WITH(halflit_material, shadow_catcher);
+HALFLIT_ENDS_WITH(halflit_material, sheen_roughness_texture);
 HALFLIT_ENDS_WITH(halflit_mesh, reserved);
 HALFLIT_ENDS_WITH(halflit_light, shadow_radius);
 HALFLIT_ENDS_WITH(halflit_environment_options, reserved);

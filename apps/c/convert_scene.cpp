@@ -131,6 +131,16 @@ halflit_material to_c(const Material& from) {
     put(from.specular_color, material.specular_color);
     material.specular_texture = to_c(from.specular_texture);
     material.specular_color_texture = to_c(from.specular_color_texture);
+    material.clearcoat = from.clearcoat.factor;
+    material.clearcoat_roughness = from.clearcoat.roughness;
+    material.clearcoat_normal_scale = from.clearcoat.normal_scale;
+    material.clearcoat_texture = to_c(from.clearcoat.texture);
+    material.clearcoat_roughness_texture = to_c(from.clearcoat.roughness_texture);
+    material.clearcoat_normal_texture = to_c(from.clearcoat.normal_texture);
+    put(from.sheen.color, material.sheen_color);
+    material.sheen_roughness = from.sheen.roughness;
+    material.sheen_color_texture = to_c(from.sheen.color_texture);
+    material.sheen_roughness_texture = to_c(from.sheen.roughness_texture);
     return material;
 }
 
@@ -171,6 +181,17 @@ Result<Material> material(const halflit_material* given) {
     material.specular_texture = texture_use(read->specular_texture, "a value of specular_texture", choices);
     material.specular_color_texture = texture_use(read->specular_color_texture, "a value of specular_color_texture", choices);
     material.transmission.thickness_texture = texture_use(read->thickness_texture, "a value of thickness_texture", choices);
+    material.clearcoat.factor = read->clearcoat;
+    material.clearcoat.roughness = read->clearcoat_roughness;
+    material.clearcoat.normal_scale = read->clearcoat_normal_scale;
+    material.clearcoat.texture = texture_use(read->clearcoat_texture, "a value of clearcoat_texture", choices);
+    material.clearcoat.roughness_texture =
+        texture_use(read->clearcoat_roughness_texture, "a value of clearcoat_roughness_texture", choices);
+    material.clearcoat.normal_texture = texture_use(read->clearcoat_normal_texture, "a value of clearcoat_normal_texture", choices);
+    material.sheen.color = vec3(read->sheen_color);
+    material.sheen.roughness = read->sheen_roughness;
+    material.sheen.color_texture = texture_use(read->sheen_color_texture, "a value of sheen_color_texture", choices);
+    material.sheen.roughness_texture = texture_use(read->sheen_roughness_texture, "a value of sheen_roughness_texture", choices);
     material.shadow_catcher = read->shadow_catcher != 0;
     if (!choices.result()) return tl::unexpected<Error>(choices.result().error());
     if (auto ok = check_lobe(material.lobe); !ok) return fail(ErrorCode::usage, "halflit_material: lobe: " + ok.error().message);

@@ -24,7 +24,9 @@ inline constexpr std::string_view kStageNames[kStageCount] = {"base colour textu
                                                               "environment",
                                                               "transmission",
                                                               "specular colour",
-                                                              "shadow catcher"};
+                                                              "shadow catcher",
+                                                              "clearcoat",
+                                                              "sheen"};
 
 /// Indexed by LightType.
 inline constexpr std::string_view kLightTypeNames[] = {"directional", "point", "spot"};

@@ -8,7 +8,8 @@ namespace halflit::raster {
 
 /// Stages that ShadeKernels::light runs if light is not evaluated at fragments.
 inline constexpr std::uint32_t kLightStages = kStageNormalMap | kStageMetallicRoughnessTexture | kStageOcclusionTexture | kStageLights |
-                                              kStageSpecular | kStageAmbient | kStageEnvironment | kStageSpecularColor;
+                                              kStageSpecular | kStageAmbient | kStageEnvironment | kStageSpecularColor | kStageClearcoat |
+                                              kStageSheen;
 /// Stages that ShadeKernels::alpha runs.
 inline constexpr std::uint32_t kAlphaStages = kStageBaseColorTexture | kStageVertexColor | kStageGradients;
 

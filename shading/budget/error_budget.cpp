@@ -1,6 +1,7 @@
 #include "shading/budget/error_budget.hpp"
 
 #include "sh/power.hpp"
+#include "shading/budget/layer_bounds.hpp"
 #include "shading/budget/power_fit.hpp"
 #include "shading/budget/surface_bounds.hpp"
 #include "shading/model/scalar.hpp"
@@ -71,7 +72,7 @@ bool may_use_cells(const ShadingPlan& plan, const MaterialPlan& material, const 
     const auto casts_none = [](const LightPlan& light) { return light.shadow_map < 0; };
     const double n = static_cast<double>(material.lobe.power_minus_one) + 1.0;
     if (material.ggx || !has(kStageLights) || has(kStageNormalMap) || material.alpha_mode == AlphaMode::blend || has(kStageTransmission) ||
-        !(n >= 1.0 && n <= 3.0))
+        has(kStageClearcoat) || has(kStageSheen) || !(n >= 1.0 && n <= 3.0))
         return false;
     if (s.albedo <= 0.0) return false;
     return std::count_if(plan.lights.begin(), plan.lights.end(), casts_none) >= kLeastCellLights;
@@ -169,10 +170,13 @@ void spend_error_budget(ShadingPlan& plan, double budget_codes, const CodeCosts&
     for (const MaterialPlan& material : plan.materials) {
         const Surface& s = surfaces.emplace_back(surface_of(plan, material, facts));
         rounding.push_back(rounding_codes(costs, material, plan, s, light, reflections ? &*reflections : nullptr, exposure));
+        const LayerCosts layers = layer_costs(costs, plan, material, s, light, reflections ? &*reflections : nullptr, exposure, facts);
+        rounding.back() = std::min(rounding.back() + layers.codes, 255.0);
         fixed.push_back(rounding.back() + environment_codes(costs, plan, material, s, exposure));
         if (!facts.drawn[rounding.size() - 1] || (material.stages & kStageShadowCatcher) != 0) continue;
         poorest = std::min(poorest, budget_codes - fixed.back());
-        most_reflected = std::max(most_reflected, s.albedo * material.lobe.scale + (s.specular ? s.reflectance * s.normalization : 0.0));
+        most_reflected = std::max(most_reflected,
+                                  s.albedo * material.lobe.scale + (s.specular ? s.reflectance * s.normalization : 0.0) + layers.reflected);
     }
     double cutoff_codes = 0.0;
     if (light.local > 0 && poorest > 0.0 && most_reflected > 0.0) {

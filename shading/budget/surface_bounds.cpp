@@ -1,6 +1,7 @@
 #include "shading/budget/surface_bounds.hpp"
 
 #include "sh/power.hpp"
+#include "shading/budget/layer_bounds.hpp"
 #include "shading/budget/texture_bounds.hpp"
 #include "shading/model/reflection_tables.hpp"
 #include "shading/model/scalar.hpp"
@@ -20,13 +21,6 @@ constexpr double kHalfVectorError = 2.5e-7, kMirrorError = 1e-7;
 constexpr double kProductError = 1e-5;
 
 constexpr double kAnyShare = 1e6;  // a relative error that costs 255 codes
-
-Factor factor_of(double error, double least) { return {error, error < least ? std::min(error / (least - error), kAnyShare) : kAnyShare}; }
-
-/// Codes that the factor's error costs: the light is the factor times at most `strength`.
-double codes_of(const CodeCosts& costs, const Factor& factor, double strength) {
-    return std::min(costs.absolute(factor.absolute * strength), costs.relative(factor.relative));
-}
 
 /// Bound on an error of the excess f - x where x = N.L > 0, for an error of N.L and roundings: f is n / (1 + w) times as steep as x at
 /// most, for n < 1 times the power of t at x = 0.
@@ -137,6 +131,12 @@ double ggx_codes(const CodeCosts& costs, const Surface& s, double light_sum) {
 
 }  // namespace
 
+Factor factor_of(double error, double least) { return {error, error < least ? std::min(error / (least - error), kAnyShare) : kAnyShare}; }
+
+double codes_of(const CodeCosts& costs, const Factor& factor, double strength) {
+    return std::min(costs.absolute(factor.absolute * strength), costs.relative(factor.relative));
+}
+
 double Surface::cosine_error() const { return normal_error + (kCosineError - kNormalError); }
 
 Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const SceneFacts& facts) {
@@ -201,6 +201,15 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
         if (inside.texture.data != nullptr) s.scattered = factor_of(inside.share * filtered(inside.texture, {0}), 1.0 - inside.share);
         s.least_albedo = 0.0;
     }
+    if (has(kStageClearcoat)) {
+        const Surface coat = coat_surface(plan, material, facts);
+        s.passed = passed_by_coat(material, coat);
+        s.least_albedo = 0.0;
+    }
+    if (has(kStageSheen)) {
+        s.below_sheen = sheen_surface(material, s.normal_error, facts).left;
+        s.least_albedo = 0.0;
+    }
     if (has(kStageEmissiveTexture))
         s.emissive = textured(material.emissive_texture, {0, 1, 2}, *std::max_element(material.emissive, material.emissive + 3));
     s.least_roughness = roughness;
@@ -253,7 +262,8 @@ double rounding_codes(const CodeCosts& costs, const MaterialPlan& material, cons
     const auto has = [&](Stage stage) { return (material.stages & stage) != 0; };
     const double n = material.lobe.power_minus_one + 1.0, scale = material.lobe.scale;
     double codes = costs.relative(kProductError + 1.5e-7 * (has(kStageLights) ? n + light.count : 0.0));
-    double matt = 0.0, shiny = 0.0;  // all light that the albedo reflects; that F0 reflects
+    double matt = 0.0, shiny = 0.0;                // all light that the albedo reflects; that F0 reflects
+    double mirrored_most = 0.0, highlights = 0.0;  // that is mirrored at most, of the surroundings and of lights
     if (has(kStageUnlit)) matt = exposure;
     if (has(kStageAmbient)) {
         Ambience diffuse, mirrored;
@@ -288,6 +298,7 @@ double rounding_codes(const CodeCosts& costs, const MaterialPlan& material, cons
         }
         matt += diffuse.most;
         shiny += mirrored.most;
+        mirrored_most = share * mirrored.most;
     }
     if (has(kStageLights)) {
         const double amplitude = s.albedo * scale * light.sum;
@@ -300,6 +311,7 @@ double rounding_codes(const CodeCosts& costs, const MaterialPlan& material, cons
     if (s.specular && material.ggx) {
         codes += ggx_codes(costs, s, light.sum);
         shiny += s.reflectance * s.normalization * light.sum;
+        highlights = s.normalization * light.sum;
     } else if (s.specular && has(kStageLights)) {
         const double turning = plan.specular == SpecularModel::phong ? 2.0 : 1.0, strength = s.normalization * light.sum;
         const double constant = 4.0 * s.roughness.relative, linear = 3e-7 + constant;  // roughness^4, in exponent and norm
@@ -311,12 +323,16 @@ double rounding_codes(const CodeCosts& costs, const MaterialPlan& material, cons
         const double short_half = plan.specular == SpecularModel::blinn ? 0.61 * std::sqrt(s.exponent) * kHalfVectorError : 0.0;
         codes += costs.absolute(s.reflectance * strength * (short_half + s.cosine_error()));
         shiny += strength;
+        highlights = s.reflectance * strength;
     }
     codes += codes_of(costs, s.base_color, matt + s.metallic * std::max(0.0, shiny - matt));
     codes += codes_of(costs, s.scattered, s.albedo * matt);
     codes += codes_of(costs, s.dielectric, s.albedo * matt + shiny);
     codes += codes_of(costs, s.matt, s.albedo * matt) + codes_of(costs, s.shiny, shiny);
     codes += codes_of(costs, s.emissive, exposure);
+    const double glow = std::max({material.emissive[0], material.emissive[1], material.emissive[2]}) * exposure;
+    codes += codes_of(costs, s.below_sheen, s.albedo * matt + mirrored_most + highlights);
+    codes += codes_of(costs, s.passed, s.albedo * matt + mirrored_most + highlights + glow);
     return std::min(codes, 255.0);
 }
 

@@ -54,6 +54,12 @@ HALFLIT_INLINE LocalLight arrival(const shading::LightPlan& light, V3 position) 
     return at;
 }
 
+/// Point at which a fragment's shadows are looked up.
+HALFLIT_INLINE V3 looked_up(const shading::ShadingPlan& frame, const shading::FragmentBlock& block, int lane) {
+    const V3 position = row3(block, shading::kPosX, lane);
+    return frame.shadow_offset ? position + row3(block, shading::kShadowX, lane) : position;
+}
+
 /// Data of a fragment that shadows need.
 struct ShadowReceiver {
     const shading::ShadingPlan& frame;

@@ -8,6 +8,13 @@
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
+/// Adds the layers above the base to the block's colours.
+[[gnu::noinline]] static void lay_layers(const ShadeRows& rows, shading::FragmentBlock& block, int count) {
+    float* const colors[] = {block.red, block.green, block.blue};
+    for (int c = 0; c < 3; ++c)
+        for (int lane = 0; lane < count; lane += kWidth) store(colors[c] + lane, load(colors[c] + lane) + load(rows.layers[c] + lane));
+}
+
 template <bool kSpecular>
 HALFLIT_INLINE void shade_block(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, shading::LightList lights,
                                 shading::FragmentBlock& block, int count) {
@@ -15,6 +22,8 @@ HALFLIT_INLINE void shade_block(const shading::ShadingPlan& frame, const shading
     fetch_surfaces(material, block, count, true, rows);
     const bool prelit = has(material, kStagePrelit), lit = (material.stages & kSurfaceStages) != 0;
     if (lit && !prelit) add_light<kSpecular>(frame, material, lights, block, count, rows);
+    const bool layered = kSpecular && (material.stages & kLayerStages) != 0;
+    if (layered && has(material, kStageClearcoat)) dim_emission(rows, count);
     for (int lane = 0; lane < count; lane += kWidth) {
         V3 color = load3(rows.base, lane);
         if (!has(material, kStageUnlit)) {
@@ -32,6 +41,7 @@ HALFLIT_INLINE void shade_block(const shading::ShadingPlan& frame, const shading
         const bool blended = material.alpha_mode == AlphaMode::blend;
         store(block.alpha + lane, blended ? clamp(load(rows.alpha + lane), F(0.0f), F(1.0f)) : F(1.0f));
     }
+    if (layered) lay_layers(rows, block, count);
     if (has(material, kStageShadowCatcher))
         catch_shadows(
             frame, material, lights, rows, block,
@@ -52,8 +62,9 @@ HALFLIT_INLINE void light_block(const shading::ShadingPlan& frame, const shading
     add_light<kSpecular>(frame, material, lights, block, count, rows);
     for (int lane = 0; lane < count; lane += kWidth) {
         const F none(0.0f), full(1.0f);
-        const V3 offset = reflected<kSpecular>(material, rows, lane, {none, none, none});
+        V3 offset = reflected<kSpecular>(material, rows, lane, {none, none, none});
         const V3 factor = reflected<kSpecular>(material, rows, lane, {full, full, full}) - offset;
+        if (kSpecular && (material.stages & kLayerStages) != 0) offset = offset + load3(rows.layers, lane);
         store(&block.lane[shading::kPosX][lane], factor.x);
         store(&block.lane[shading::kPosY][lane], factor.y);
         store(&block.lane[shading::kPosZ][lane], factor.z);

@@ -111,7 +111,9 @@ enum Stage : std::uint32_t {
     kStageTransmission = 1u << 13,   ///< light from behind passes through the surface
     kStageSpecularColor = 1u << 14,  ///< where not metallic, F0 has a colour, a weight or textures of its own
     kStageShadowCatcher = 1u << 15,  ///< alpha is the share of light that is hidden; nothing else is seen
-    kStageCount = 16
+    kStageClearcoat = 1u << 16,      ///< a coat above the surface mirrors
+    kStageSheen = 1u << 17,          ///< fibres above the surface glow at grazing views
+    kStageCount = 18
 };
 
 }  // namespace halflit

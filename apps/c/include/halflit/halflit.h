@@ -180,6 +180,16 @@ typedef struct halflit_material {
     halflit_texture_use specular_texture;        ///< linear: alpha, times specular
     halflit_texture_use specular_color_texture;  ///< sRGB, times specular_color
     int32_t shadow_catcher;                      ///< invisible but for the shadows on it, which are black with the hidden share as alpha
+    float clearcoat;                             ///< share that is coated with varnish, 0 to 1, times the texture's
+    float clearcoat_roughness;                   ///< 0 to 1, times the texture's
+    float clearcoat_normal_scale;                ///< factor on x and y of the coat's normal texture
+    halflit_texture_use clearcoat_texture;       ///< linear: red
+    halflit_texture_use clearcoat_roughness_texture;  ///< linear: green
+    halflit_texture_use clearcoat_normal_texture;     ///< linear, in tangent space
+    float sheen_color[3];                             ///< of fibres above the surface, 0 to 1, times the texture's; black: none
+    float sheen_roughness;                            ///< 0 to 1, times the texture's
+    halflit_texture_use sheen_color_texture;          ///< sRGB
+    halflit_texture_use sheen_roughness_texture;      ///< linear: alpha
 } halflit_material;
 HALFLIT_C_API int32_t halflit_material_init(halflit_material* material, size_t size);
 
