@@ -3,6 +3,7 @@
 #include "raster/detail/guarded.hpp"
 #include "raster/detail/view_math.hpp"
 #include "raster/scene/surface_distance.hpp"
+#include "raster/view/soft_shadows.hpp"
 #include "shading/light_cell.hpp"
 #include "shading/sky_lights.hpp"
 
@@ -173,13 +174,13 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, 
     if (!prepared.up_to_date()) return fail(ErrorCode::usage, "the last update of the scene failed; no frame is drawn until one succeeds");
     const Scene& scene = prepared.scene();
     const ShadingSettings options = effective(settings.shading);
-    const std::vector<LightPlan> lights = shading::plan_lights(scene.lights);
+    std::vector<LightPlan> lights = shading::plan_lights(scene.lights);
 
     FramePlan plan;
     plan.options = options;
     plan.picture = make_view(camera, width, height, settings.region, tile_size, settings.samples);
     const std::optional<SeenVolume> seen = looked_up_where_seen(prepared, camera, options, settings, plan.picture);
-    auto shadows = plan_shadow_views(lights, prepared, seen ? &*seen : nullptr, settings);
+    auto shadows = plan_light_shadows(lights, prepared, seen ? &*seen : nullptr, settings);
     if (!shadows) return tl::unexpected<Error>(shadows.error());
     auto sky = plan_sky(prepared, settings, *shadows);
     if (!sky) return tl::unexpected<Error>(sky.error());

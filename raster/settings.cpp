@@ -24,6 +24,8 @@ Result<void> check_settings(const Settings& settings, int width, int height) {
         return fail(ErrorCode::usage, "shadow size: " + std::to_string(side) + ", expected a power of two from 64 to 4096");
     if (!(settings.shadow_fade >= 0.0f && settings.shadow_fade < 3e38f))
         return fail(ErrorCode::usage, "shadow fade: expected a distance, or 0");
+    if (settings.soft_shadow_maps < 4 || settings.soft_shadow_maps > 64)
+        return fail(ErrorCode::usage, "soft shadow maps: " + std::to_string(settings.soft_shadow_maps) + ", expected 4 to 64");
     if (settings.sky_shadows != 0 &&
         (settings.sky_shadows < shading::kLeastSkyDirections || settings.sky_shadows > shading::kMostSkyDirections))
         return fail(ErrorCode::usage, "sky shadows: " + std::to_string(settings.sky_shadows) + ", expected 0, or 16 to 1024 directions");

@@ -46,8 +46,10 @@ void plan_environments(const PlanInputs& inputs, PlanMemory& memory, ShadingPlan
     order.fixed = inputs.options.environment_bands;
     order.tolerance = inputs.options.environment_tolerance;
     order.exposure = inputs.exposure;
-    if (inputs.options.max_error_codes > 0.0)
-        order.codes = inputs.options.max_error_codes / tone_growth(inputs.tone_curve) * kBudgetShares.each_environment();
+    if (inputs.options.max_error_codes > 0.0) {
+        order.codes = inputs.options.max_error_codes * kBudgetShares.each_environment();
+        order.costs = CodeCosts(tone_growth(inputs.tone_curve));
+    }
     memory.environments.use(inputs.environment);
     const bool split_shadows = inputs.shadows.mode == ShadowMode::soft_split && !plan.shadow_maps.empty();
     EnvironmentPlanner planner(memory.environments, order, plan.environments);
@@ -100,18 +102,6 @@ void plan_highlights(ShadingPlan& plan, PowerFits& fits) {
     }
 }
 
-/// Spends the part of the budget that the tone curve leaves to the light, and gives the bounds as they are after the curve.
-void spend_toned_budget(const PlanInputs& inputs, PowerFits& fits, ShadingPlan& plan) {
-    const double budget = inputs.options.max_error_codes, growth = tone_growth(inputs.tone_curve);
-    spend_error_budget(plan, budget / growth, inputs.exposure, *inputs.facts, fits);
-    ErrorBound& error = plan.error;
-    for (double* const codes : {&error.rounding, &error.lobes, &error.specular, &error.environment, &error.cells, &error.left_out})
-        *codes = std::min(*codes * growth, 255.0);
-    error.codes = std::min(error.codes * growth, error.within ? budget : 255.0);
-    error.budget = budget;
-    error.tone_growth = growth;
-}
-
 }  // namespace
 
 Result<void> check_options(const ShadingSettings& options) {
@@ -160,7 +150,8 @@ ShadingPlan plan_shading(const PlanInputs& inputs, PlanMemory& memory) {
     plan_environments(inputs, memory, plan);
     HALFLIT_ASSERT((options.max_error_codes > 0.0) == (inputs.facts != nullptr));
     if (inputs.facts != nullptr)
-        spend_toned_budget(inputs, memory.fits, plan);
+        spend_error_budget(plan, options.max_error_codes, CodeCosts(tone_growth(inputs.tone_curve)), inputs.exposure, *inputs.facts,
+                           memory.fits);
     else if (options.accuracy == Accuracy::exact)
         plan_highlights(plan, memory.fits);
     return plan;

@@ -16,12 +16,12 @@ constexpr bool ends_with(std::size_t offset, Last T::*) {
 HALFLIT_ENDS_WITH(halflit_load_options, time_s);
 HALFLIT_ENDS_WITH(halflit_animation, channels);
 HALFLIT_ENDS_WITH(halflit_counts, animations);
-HALFLIT_ENDS_WITH(halflit_material, reserved);
+HALFLIT_ENDS_WITH(halflit_material, sheen_roughness_texture);
 HALFLIT_ENDS_WITH(halflit_mesh, reserved);
-HALFLIT_ENDS_WITH(halflit_light, reserved);
+HALFLIT_ENDS_WITH(halflit_light, shadow_radius);
 HALFLIT_ENDS_WITH(halflit_environment_options, reserved);
 HALFLIT_ENDS_WITH(halflit_camera, reserved);
-HALFLIT_ENDS_WITH(halflit_settings, anisotropy);
+HALFLIT_ENDS_WITH(halflit_settings, reserved);
 HALFLIT_ENDS_WITH(halflit_execution, memory_limit);
 HALFLIT_ENDS_WITH(halflit_target, coverage_row_bytes);
 HALFLIT_ENDS_WITH(halflit_report, reserved);
@@ -100,6 +100,7 @@ halflit_settings to_c(const Settings& from) {
     settings.tone_curve = static_cast<std::int32_t>(from.tone_curve);
     settings.sky_shadows = from.sky_shadows;
     settings.anisotropy = from.shading.anisotropy;
+    settings.soft_shadow_maps = from.soft_shadow_maps;
     return settings;
 }
 
@@ -118,6 +119,7 @@ Result<Settings> settings(const halflit_settings* given) {
     settings.shadow_fade = read->shadow_fade;
     settings.shadow_terminator_offset = read->shadow_terminator_offset != 0;
     settings.sky_shadows = read->sky_shadows;
+    settings.soft_shadow_maps = read->soft_shadow_maps;
     ShadingSettings& shading = settings.shading;
     if (read->override_lobe != 0) shading.lobe = lobe(read->lobe);
     shading.normalize_specular = read->normalize_specular != 0;

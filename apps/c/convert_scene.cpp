@@ -119,6 +119,7 @@ halflit_material to_c(const Material& from) {
     material.double_sided = from.double_sided;
     material.unlit = from.unlit;
     material.own_lobe = from.has_own_lobe;
+    material.shadow_catcher = from.shadow_catcher;
     material.lobe = to_c(from.lobe);
     material.base_color_texture = to_c(from.base_color_texture);
     material.metallic_roughness_texture = to_c(from.metallic_roughness_texture);
@@ -135,6 +136,16 @@ halflit_material to_c(const Material& from) {
     put(from.specular_color, material.specular_color);
     material.specular_texture = to_c(from.specular_texture);
     material.specular_color_texture = to_c(from.specular_color_texture);
+    material.clearcoat = from.clearcoat.factor;
+    material.clearcoat_roughness = from.clearcoat.roughness;
+    material.clearcoat_normal_scale = from.clearcoat.normal_scale;
+    material.clearcoat_texture = to_c(from.clearcoat.texture);
+    material.clearcoat_roughness_texture = to_c(from.clearcoat.roughness_texture);
+    material.clearcoat_normal_texture = to_c(from.clearcoat.normal_texture);
+    put(from.sheen.color, material.sheen_color);
+    material.sheen_roughness = from.sheen.roughness;
+    material.sheen_color_texture = to_c(from.sheen.color_texture);
+    material.sheen_roughness_texture = to_c(from.sheen.roughness_texture);
     return material;
 }
 
@@ -175,6 +186,18 @@ Result<Material> material(const halflit_material* given) {
     material.specular_texture = texture_use(read->specular_texture, "a value of specular_texture", choices);
     material.specular_color_texture = texture_use(read->specular_color_texture, "a value of specular_color_texture", choices);
     material.transmission.thickness_texture = texture_use(read->thickness_texture, "a value of thickness_texture", choices);
+    material.clearcoat.factor = read->clearcoat;
+    material.clearcoat.roughness = read->clearcoat_roughness;
+    material.clearcoat.normal_scale = read->clearcoat_normal_scale;
+    material.clearcoat.texture = texture_use(read->clearcoat_texture, "a value of clearcoat_texture", choices);
+    material.clearcoat.roughness_texture =
+        texture_use(read->clearcoat_roughness_texture, "a value of clearcoat_roughness_texture", choices);
+    material.clearcoat.normal_texture = texture_use(read->clearcoat_normal_texture, "a value of clearcoat_normal_texture", choices);
+    material.sheen.color = vec3(read->sheen_color);
+    material.sheen.roughness = read->sheen_roughness;
+    material.sheen.color_texture = texture_use(read->sheen_color_texture, "a value of sheen_color_texture", choices);
+    material.sheen.roughness_texture = texture_use(read->sheen_roughness_texture, "a value of sheen_roughness_texture", choices);
+    material.shadow_catcher = read->shadow_catcher != 0;
     if (!choices.result()) return tl::unexpected<Error>(choices.result().error());
     if (auto ok = check_lobe(material.lobe); !ok) return fail(ErrorCode::usage, "halflit_material: lobe: " + ok.error().message);
     return material;
@@ -189,6 +212,7 @@ halflit_light to_c(const Light& from) {
     put(from.direction_ws, light.direction);
     light.range = from.range;
     light.source_radius = from.source_radius;
+    light.shadow_radius = from.shadow_radius;
     light.inner_cone_rad = from.inner_cone_rad;
     light.outer_cone_rad = from.outer_cone_rad;
     light.cone_power = from.cone_power;
@@ -207,6 +231,7 @@ Result<Light> light(const halflit_light* given) {
     light.direction_ws = vec3(read->direction);
     light.range = read->range;
     light.source_radius = read->source_radius;
+    light.shadow_radius = read->shadow_radius;
     light.inner_cone_rad = read->inner_cone_rad;
     light.outer_cone_rad = read->outer_cone_rad;
     light.cone_power = read->cone_power;

@@ -220,6 +220,15 @@ int32_t halflit_scene_add_instance(halflit_scene* scene, int32_t mesh, const flo
     });
 }
 
+int32_t halflit_scene_add_ground(halflit_scene* scene, int32_t* instance) {
+    return changing(__func__, scene, {}, [&]() -> Result<void> {
+        scene->changes.structure();
+        add_ground(scene->scene, scene_bounds(scene->scene));
+        tell_last(scene->scene.instances, instance);
+        return {};
+    });
+}
+
 int32_t halflit_scene_set_instance(halflit_scene* scene, int32_t index, const float world_from_object[16]) {
     return changing(__func__, scene, {{world_from_object, "world_from_object"}}, [&]() -> Result<void> {
         const auto at = check_index(index, scene->scene.instances.size(), "instance");

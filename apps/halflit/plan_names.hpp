@@ -23,7 +23,10 @@ inline constexpr std::string_view kStageNames[kStageCount] = {"base colour textu
                                                               "light at vertices or triangles",
                                                               "environment",
                                                               "transmission",
-                                                              "specular colour"};
+                                                              "specular colour",
+                                                              "shadow catcher",
+                                                              "clearcoat",
+                                                              "sheen"};
 
 /// Indexed by LightType.
 inline constexpr std::string_view kLightTypeNames[] = {"directional", "point", "spot"};

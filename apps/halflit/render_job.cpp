@@ -125,6 +125,11 @@ Result<void> choose_setup(RenderJob& job, const RenderOptions& options, const st
     for (const GivenLight& given : options.lights) scene.lights.push_back(given.light);
     const std::size_t given = scene.lights.size();
     const AutoSetup setup = auto_setup(scene, job.prepared->bounds(), job.width, job.height, choice);
+    for (Light& light : scene.lights) {
+        if (light.shadow_radius > 0.0f) continue;
+        const bool sun = light.type == LightType::directional;
+        light.shadow_radius = sun ? static_cast<float>(static_cast<double>(options.sun_size_deg) * (kPi / 180.0)) : options.lamp_size;
+    }
     if (options.settings.background_environment && scene.environment == nullptr)
         return fail(ErrorCode::usage, "--background: environment needs --env");
     job.camera = setup.camera;
@@ -151,11 +156,13 @@ RenderOptions in_drawn_world(RenderOptions options, const SceneSource& source) {
     if (options.camera_position) options.camera_position = placed(*options.camera_position);
     if (options.camera_target) options.camera_target = placed(*options.camera_target);
     options.settings.shadow_fade = times(options.settings.shadow_fade, source.scale);
+    options.lamp_size = times(options.lamp_size, source.scale);
     for (auto& [light, position] : options.lights) {
         if (light.type == LightType::directional) continue;
         light.position_ws = to_float(placed(position));
         light.range = times(light.range, source.scale);
         light.source_radius = times(light.source_radius, source.scale);
+        light.shadow_radius = times(light.shadow_radius, source.scale);
         Vec3f& color = light.color_linear;  // falls with the squared distance
         const double brighter = source.scale * source.scale;
         color = {times(color.x, brighter), times(color.y, brighter), times(color.z, brighter)};
@@ -223,6 +230,7 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
         job.choices.push_back(pose_choice(*animation, job.source.animation, job.pose_time_s));
     turn_upright(job.scene(), options.up);
     replace_materials(job.scene(), options.classic);
+    if (options.ground) add_ground(job.scene(), scene_bounds(job.scene()));
 
     const Stopwatch preparing;
     auto prepared = PreparedScene::make(job.scene(), job.timed_execution());

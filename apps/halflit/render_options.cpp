@@ -136,6 +136,7 @@ FlagGroup camera_flags(RenderOptions& o) {
          {"--camera-position", "X,Y,Z", "Place the camera here", parsed(o.camera_position, parse_point)},
          {"--camera-target", "X,Y,Z", "Point that a placed camera looks at (default: the centre of the scene)",
           parsed(o.camera_target, parse_point)},
+         {"--ground", "", "Add a ground below the scene that is invisible but for the shadows on it", set_to(o.ground)},
          {"--up", form_of(kUpAxisNames),
           fmt::format("Axis of the model that points up (default {}). The scene is turned so that it becomes y; the coordinates of other "
                       "flags are those of the turned scene",
@@ -177,7 +178,7 @@ FlagGroup light_flags(RenderOptions& o) {
         {{.names = "--light",
           .form = "TYPE:KEY=VALUE:...",
           .help = "Add a light, as directional:dir=-1,-2,-1:color=#fff:intensity=1; also point (pos, range, radius) and spot (pos, dir, "
-                  "cone=IN,OUT, power)",
+                  "cone=IN,OUT, power); size makes shadows soft",
           .read = [&o](const std::string& text) { return read_light(o.lights, text); },
           .repeated = true},
          {"--no-scene-lights", "", "Leave out the scene's own lights and ambient light", set_to(o.scene_lights, false)},
@@ -236,6 +237,19 @@ FlagGroup shadow_flags(RenderOptions& o) {
               [&o, read = choice(s.shadow_size, {64, 128, 256, 512, 1024, 2048, 4096})](const std::string& text) {
                   o.shadow_size_given = true;
                   return read(text);
+              }},
+             {"--sun-size", "DEG",
+              "Soft shadows: angle from the middle to the rim of directional lights, the studio's too, 0 to 40 (default 0; the sun: 0.27)",
+              number(o.sun_size_deg, 0.0f, 40.0f)},
+             {"--lamp-size", "R", "Soft shadows: radius of lamps, in the scene's units (default 0)", number(o.lamp_size, 0.0f, 1e9f)},
+             {"--soft-shadow-maps", "N",
+              fmt::format("Points of a light that has a size, each with a shadow map of half the side, 4 to 64 (default {})",
+                          s.soft_shadow_maps),
+              [&s](const std::string& text) -> Result<void> {
+                  const auto n = parse_int(text, 4, 64);
+                  if (!n) return tl::unexpected(n.error());
+                  s.soft_shadow_maps = static_cast<int>(*n);
+                  return {};
               }},
              {"--shadow-fade", "D",
               "soft-split: distance to the blocker from which on no wrapped light is left (default: from object size and wrap)",

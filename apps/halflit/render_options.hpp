@@ -34,6 +34,7 @@ struct RenderOptions {
     bool fov_given = false;                               ///< --fov was given
     std::optional<Vec3d> camera_position, camera_target;  ///< in the file's world
     UpAxis up = UpAxis::y;
+    bool ground = false;  ///< add a ground that only takes shadow
 
     /// A camera of the flags, not of the file.
     [[nodiscard]] bool own_view() const { return whole_scene || fov_given || camera_position; }
@@ -42,7 +43,8 @@ struct RenderOptions {
     io::LobeParameters lobe;
     ClassicMaterial classic;
     std::optional<Vec3f> ambient_linear;
-    std::vector<GivenLight> lights;  ///< in the file's world
+    std::vector<GivenLight> lights;               ///< in the file's world
+    float sun_size_deg = 0.0f, lamp_size = 0.0f;  ///< of lights without a size of their own; the latter in the file's world
     bool scene_lights = true;
     std::string environment;                 ///< a file or "sky"; empty: none, or the studio
     StudioUse studio = StudioUse::for_dark;  ///< if there is no other environment

@@ -82,7 +82,11 @@ Json error_bound_json(const ErrorBound& error) {
     const std::pair<const char*, double> parts[] = {{"rounding", error.rounding}, {"lobes", error.lobes},
                                                     {"specular", error.specular}, {"environment", error.environment},
                                                     {"cells", error.cells},       {"left_out", error.left_out}};
-    Json json{{"budget_codes", error.budget}, {"bound_codes", error.codes}, {"within", error.within}, {"tone_growth", error.tone_growth}};
+    const ErrorGrowth& growth = error.tone_growth;
+    Json json{{"budget_codes", error.budget},
+              {"bound_codes", error.codes},
+              {"within", error.within},
+              {"tone_growth", {{"absolute", growth.absolute}, {"relative", growth.relative}, {"other", growth.other}}}};
     auto largest = std::max_element(std::begin(parts), std::end(parts), [](const auto& a, const auto& b) { return a.second < b.second; });
     json["largest_part"] = largest->first;
     for (const auto& [name, codes] : parts) json["parts"][name] = codes;

@@ -93,6 +93,13 @@ Result<void> set_light_key(GivenLight& given, float& intensity, std::string_view
     if (key == "pos" && placed) return store(given.position, parse_point(value));
     if (key == "range" && placed) return store(light.range, parse_float(value, 0.0f, kMax));
     if (key == "radius" && placed) return store(light.source_radius, parse_float(value, 0.0f, kMax));
+    if (key == "size" && placed) return store(light.shadow_radius, parse_float(value, 0.0f, kMax));
+    if (key == "size") {
+        const auto degrees = parse_float(value, 0.0f, 40.0f);
+        if (!degrees) return tl::unexpected(degrees.error());
+        light.shadow_radius = static_cast<float>(static_cast<double>(*degrees) * (kPi / 180.0));
+        return {};
+    }
     if (key == "cone" && light.type == LightType::spot) return set_cone(light, value);
     if (key == "power" && light.type == LightType::spot) return store(light.cone_power, parse_float(value, 0.0f, shading::kMaxConePower));
     if (key == "intensity") return store(intensity, parse_float(value, 0.0f, 1e9f));
@@ -102,9 +109,9 @@ Result<void> set_light_key(GivenLight& given, float& intensity, std::string_view
         light.color_linear = {color->x, color->y, color->z};
         return {};
     }
-    const std::string_view keys = light.type == LightType::directional ? "dir, color, intensity"
-                                  : light.type == LightType::point     ? "pos, color, intensity, range, radius"
-                                                                       : "pos, dir, cone, power, color, intensity, range, radius";
+    const std::string_view keys = light.type == LightType::directional ? "dir, color, intensity, size"
+                                  : light.type == LightType::point     ? "pos, color, intensity, range, radius, size"
+                                                                       : "pos, dir, cone, power, color, intensity, range, radius, size";
     return expected(fmt::format("one of {}", keys), key);
 }
 

@@ -53,6 +53,7 @@ struct GivenLight {
 ///     intensity=N    factor; 1 makes a white surface that faces the light white: anywhere (directional), at distance 1 (point, spot)
 ///     range=N        point, spot: nothing beyond (default: no limit)
 ///     radius=N       point, spot: radius of the source; attenuation treats smaller distances as N
+///     size=N         soft shadows: radius of the source, world units; directional: angle from its middle to its rim, degrees (default 0)
 ///     cone=OUT or cone=IN,OUT   spot: half angles in degrees, full light within IN (default 0), none from OUT (default 45)
 ///     power=N        spot: factor cos(angle to the axis)^N, 0 to 1e5 (default 0)
 [[nodiscard]] Result<GivenLight> parse_light(std::string_view text);

@@ -8,7 +8,8 @@ namespace halflit::raster {
 
 /// Stages that ShadeKernels::light runs if light is not evaluated at fragments.
 inline constexpr std::uint32_t kLightStages = kStageNormalMap | kStageMetallicRoughnessTexture | kStageOcclusionTexture | kStageLights |
-                                              kStageSpecular | kStageAmbient | kStageEnvironment | kStageSpecularColor;
+                                              kStageSpecular | kStageAmbient | kStageEnvironment | kStageSpecularColor | kStageClearcoat |
+                                              kStageSheen;
 /// Stages that ShadeKernels::alpha runs.
 inline constexpr std::uint32_t kAlphaStages = kStageBaseColorTexture | kStageVertexColor | kStageGradients;
 
@@ -28,7 +29,8 @@ inline void count_lights(WorkCounts& work, const shading::MaterialPlan& plan, sh
     if ((plan.stages & kStageLights) == 0) return;
     for (int i = 0; i < lights.count; ++i) {
         work.light_lanes[static_cast<std::size_t>(lights.lights[i].type)] += static_cast<std::uint64_t>(lanes);
-        if (lights.lights[i].shadow_map >= 0) work.shadow_lookup_lanes += static_cast<std::uint64_t>(lanes);
+        if (lights.lights[i].shadow_map >= 0)
+            work.shadow_lookup_lanes += static_cast<std::uint64_t>(lanes) * static_cast<std::uint64_t>(lights.lights[i].shadow_points);
     }
 }
 

@@ -83,7 +83,8 @@ private:
     void cover_backing(int at, unsigned samples, float alpha);  ///< lays a fragment over it; at: of the pixel in the tile's buffers
     void cover_backing(int at, unsigned samples, float alpha, Vec4f keep);  ///< of a layer, in frames where light passes through some
     /// Adds what `count` pixels from `at` on show of sample s: display light times alpha, and alpha.
-    void add_toned_sample(int s, int at, int count, float (&sum)[4][kTileStride]);
+    void add_toned_samples(int at, int count, float* const sums[4]);
+    void add_toned_sample(int s, int at, int count, float* const sums[4]);
     [[nodiscard]] float* sample_color(int s) { return scratch_.color.data() + static_cast<std::size_t>(s) * 4 * kTilePixels; }
 
     const PicturePass& pass_;

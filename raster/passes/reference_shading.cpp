@@ -25,7 +25,11 @@ Result<void> ReferenceShading::build(const PreparedData& prepared, const shading
     if (scene.environment != nullptr)
         for (std::size_t i = 0; i < scene.environment->suns.size(); ++i) {
             // The last one that is equal: set_environment() adds suns at the end.
-            const auto found = std::find(scene.lights.rbegin(), scene.lights.rend(), scene.environment->suns[i]);
+            const auto is_sun = [&](Light light) {
+                light.shadow_radius = scene.environment->suns[i].shadow_radius;  // a sun may be given a size
+                return light == scene.environment->suns[i];
+            };
+            const auto found = std::find_if(scene.lights.rbegin(), scene.lights.rend(), is_sun);
             if (found != scene.lights.rend())
                 suns_[static_cast<std::size_t>(scene.lights.rend() - found - 1)] = &scene.environment->sun_shapes[i];
         }

@@ -163,7 +163,8 @@ void PictureTile::resolve() {
         if (!output.codes) continue;
         if (toned_) {
             float sums[4][kTileStride] = {};
-            for (int s = 0; s < samples_; ++s) add_toned_sample(s, at, count, sums);
+            float* const rows[4] = {sums[0], sums[1], sums[2], sums[3]};
+            add_toned_samples(at, count, rows);
             for (int x = 0; x < count; ++x) {
                 const float sum[4] = {sums[0][x], sums[1][x], sums[2][x], sums[3][x]};
                 set(x, resolved(sum, weight));

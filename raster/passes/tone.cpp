@@ -7,6 +7,12 @@
 #include <algorithm>
 
 namespace halflit::raster {
+namespace {
+
+/// Pixels that are toned together where not all is opaque.
+constexpr int kTonedLanes = 16;
+
+}  // namespace
 
 void PictureTile::tone(const float* const light[3], float exposure, float* const display[3], int count) const {
     if (pass_.reference == nullptr) {
@@ -51,8 +57,29 @@ void PictureTile::cover_backing(int at, unsigned samples, float alpha, Vec4f kee
     }
 }
 
-void PictureTile::add_toned_sample(int s, int at, int count, float (&sum)[4][kTileStride]) {
-    alignas(64) float light[3][kTileStride] = {}, front[kTileStride];
+/// Opaque and empty samples by a kernel; a vector of pixels among which there is anything else, one sample after the other.
+void PictureTile::add_toned_samples(int at, int count, float* const sums[4]) {
+    const bool by_kernel = !transmits_ && pass_.reference == nullptr;
+    const Vec4f back = background_sample();
+    for (int x = 0; x < count;) {
+        float* const rest[4] = {sums[0] + x, sums[1] + x, sums[2] + x, sums[3] + x};
+        int done = 0;
+        if (by_kernel) {
+            const shading::SampleRows rows{
+                sample_color(0) + 4 * (at + x),  4 * kTilePixels, scratch_.backing.data() + at + x, kTilePixels, samples_,
+                {back.x, back.y, back.z, back.w}};
+            done = pass_.view.shade.tone_samples(plan_.tone_curve, rows, count - x, rest);
+        }
+        if (done == 0) {
+            done = std::min(kTonedLanes, count - x);
+            for (int s = 0; s < samples_; ++s) add_toned_sample(s, at + x, done, rest);
+        }
+        x += done;
+    }
+}
+
+void PictureTile::add_toned_sample(int s, int at, int count, float* const sums[4]) {
+    alignas(64) float light[3][kTonedLanes] = {}, front[kTonedLanes];
     const Vec4f back = background_sample();
     const float* const color = sample_color(s) + 4 * at;
     const float* const backing = scratch_.backing.data() + s * kTilePixels + at;
@@ -86,18 +113,18 @@ void PictureTile::add_toned_sample(int s, int at, int count, float (&sum)[4][kTi
     tone(rows, 1.0f, rows, count);
     if (plain) {
         for (int x = 0; x < count; ++x) {
-            for (int i = 0; i < 3; ++i) sum[i][x] += light[i][x];
-            sum[3][x] += 1.0f;
+            for (int i = 0; i < 3; ++i) sums[i][x] += light[i][x];
+            sums[3][x] += 1.0f;
         }
         return;
     }
     for (int x = 0; x < count; ++x) {
         // An infinite background must not make a NaN where it is hidden.
         const float red = share_of[0][x], green = share_of[1][x], blue = share_of[2][x];
-        sum[0][x] += light[0][x] * front[x] + (red > 0.0f ? back.x * red : 0.0f);
-        sum[1][x] += light[1][x] * front[x] + (green > 0.0f ? back.y * green : 0.0f);
-        sum[2][x] += light[2][x] * front[x] + (blue > 0.0f ? back.z * blue : 0.0f);
-        sum[3][x] += color[4 * x + 3];
+        sums[0][x] += light[0][x] * front[x] + (red > 0.0f ? back.x * red : 0.0f);
+        sums[1][x] += light[1][x] * front[x] + (green > 0.0f ? back.y * green : 0.0f);
+        sums[2][x] += light[2][x] * front[x] + (blue > 0.0f ? back.z * blue : 0.0f);
+        sums[3][x] += color[4 * x + 3];
     }
 }
 

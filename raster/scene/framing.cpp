@@ -3,6 +3,7 @@
 #include "halflit/scene.hpp"
 #include "raster/detail/view_math.hpp"
 #include "raster/scene/placed_box.hpp"
+#include "raster/scene/shadow_catcher.hpp"
 #include "raster/scene/used_vertices.hpp"
 #include "sh/arc.hpp"
 #include "sh/mat4.hpp"
@@ -160,6 +161,7 @@ Camera frame_scene(const Scene& scene, const Bounds& bounds, float aspect, const
     std::vector<std::optional<FramedVertices>> used(scene.meshes.size());
     for (const Instance& instance : scene.instances) {
         if (instance.mesh < 0 || static_cast<std::size_t>(instance.mesh) >= scene.meshes.size()) continue;
+        if (raster::catches_shadows(scene, instance)) continue;
         const auto m = static_cast<std::size_t>(instance.mesh);
         const Mesh& mesh = scene.meshes[m];
         if (!used[m]) used[m] = framed_vertices(mesh);

@@ -3,6 +3,7 @@
 #include "raster/detail/executor.hpp"
 #include "raster/detail/guarded.hpp"
 #include "raster/scene/placed_box.hpp"
+#include "raster/scene/shadow_catcher.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -105,6 +106,7 @@ bool PreparedData::note_coverage() {
 
 void PreparedData::collect() {
     bounds_ = {};
+    framed_bounds_ = {};
     triangle_count_ = 0;
     available_slots_.assign(scene_->materials.size() + 1, shading::kBaseSlots);
     drawn_materials_.assign(scene_->materials.size() + 1, false);
@@ -120,6 +122,7 @@ void PreparedData::collect() {
         bounds_.include(instance_bounds_[i]);
         triangle_count_ += mesh.indices.size() / 3;
         const std::size_t material = material_of(mesh);
+        if (!catches_shadows(*scene_, scene_->instances[i])) framed_bounds_.include(instance_bounds_[i]);
         drawn_materials_[material] = true;
         const Bounds& box = instance_bounds_[i];
         if (!box.empty) object_radii_[material] = std::max(object_radii_[material], static_cast<double>(box.radius()) / kRootOfThree);

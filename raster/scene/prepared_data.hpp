@@ -39,6 +39,8 @@ public:
     [[nodiscard]] bool up_to_date() const { return up_to_date_; }
     /// World-space box of everything drawn; the same as scene_bounds.
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }
+    /// Without shadow catchers: what a view shows.
+    [[nodiscard]] const Bounds& framed_bounds() const { return framed_bounds_; }
     [[nodiscard]] const PreparedMesh& mesh(int index) const { return meshes_[static_cast<std::size_t>(index)]; }
     /// World-space box of each instance.
     [[nodiscard]] std::span<const Bounds> instance_bounds() const { return instance_bounds_; }
@@ -85,6 +87,7 @@ private:
     bool up_to_date_ = true;
     std::vector<PreparedMesh> meshes_;
     std::vector<Bounds> instance_bounds_;
+    Bounds framed_bounds_;
     Bounds bounds_;
     ShadowCasters shadow_casters_;
     std::uint64_t triangle_count_ = 0;

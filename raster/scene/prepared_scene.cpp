@@ -23,7 +23,7 @@ Result<void> PreparedScene::update(const SceneChanges& changes, const Execution&
 
 const Scene& PreparedScene::scene() const { return data_->scene(); }
 
-const Bounds& PreparedScene::bounds() const { return data_->bounds(); }
+const Bounds& PreparedScene::bounds() const { return data_->framed_bounds(); }
 
 std::uint64_t PreparedScene::triangle_count() const { return data_->triangle_count(); }
 

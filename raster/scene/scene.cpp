@@ -1,4 +1,7 @@
 #include "halflit/scene.hpp"
+
+#include "halflit/shapes.hpp"
+#include "raster/scene/shadow_catcher.hpp"
 #include "raster/scene/used_vertices.hpp"
 #include "sh/mat4.hpp"
 
@@ -12,6 +15,7 @@ Bounds scene_bounds(const Scene& scene) {
     std::vector<std::vector<bool>> used(scene.meshes.size());
     for (const Instance& instance : scene.instances) {
         if (instance.mesh < 0 || static_cast<std::size_t>(instance.mesh) >= scene.meshes.size()) continue;
+        if (raster::catches_shadows(scene, instance)) continue;
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
         std::vector<bool>& mask = used[static_cast<std::size_t>(instance.mesh)];
         if (mask.empty()) mask = raster::used_vertices(mesh);
@@ -47,6 +51,27 @@ void add_default_lights(Scene& scene, const Camera& camera) {
     scene.lights.push_back(key_light(camera, {0.84f, 0.82f, 0.78f}));
     scene.ambient.sky_linear = {0.23f, 0.25f, 0.28f};
     scene.ambient.ground_linear = {0.13f, 0.12f, 0.105f};
+}
+
+void add_ground(Scene& scene, const Bounds& bounds) {
+    constexpr float kReach = 10.0f, kBelow = 1e-4f;  // of the bounds' radius
+    Material material;
+    material.name = "ground";
+    material.metallic = 0.0f;
+    material.shadow_catcher = true;
+    material.has_own_lobe = true;
+    const float radius = bounds.empty ? 0.0f : bounds.radius();
+    Mesh mesh = make_plane(radius > 0.0f ? kReach * radius : 1.0f, 1);
+    mesh.material = static_cast<int>(scene.materials.size());
+    Instance instance;
+    instance.mesh = static_cast<int>(scene.meshes.size());
+    if (!bounds.empty) {
+        const Vec3f middle = bounds.center();
+        instance.world_from_object.c[3] = {middle.x, bounds.min.y - kBelow * radius, middle.z, 1.0f};
+    }
+    scene.materials.push_back(std::move(material));
+    scene.meshes.push_back(std::move(mesh));
+    scene.instances.push_back(instance);
 }
 
 void set_environment(Scene& scene, std::shared_ptr<const Environment> environment) {

@@ -1,6 +1,7 @@
 #include "raster/scene/shadow_casters.hpp"
 
 #include "raster/detail/view_math.hpp"
+#include "raster/scene/shadow_catcher.hpp"
 #include "sh/mat4.hpp"
 
 #include <algorithm>
@@ -70,7 +71,7 @@ ShadowCasters collect_shadow_casters(const Scene& scene, std::span<const Prepare
         for (std::size_t i = 0; i < scene.instances.size(); ++i) {
             const Instance& instance = scene.instances[i];
             const PreparedMesh& mesh = meshes[static_cast<std::size_t>(instance.mesh)];
-            if (boxes[i].empty || mesh.cluster_count() == 0) continue;
+            if (boxes[i].empty || mesh.cluster_count() == 0 || catches_shadows(scene, instance)) continue;
             AxisMap map;
             f(instance, mesh.faces, boxes[i], !mesh.faces.flats.empty && find_axes(instance.world_from_object, map) ? &map : nullptr);
         }

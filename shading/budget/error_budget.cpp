@@ -1,9 +1,9 @@
 #include "shading/budget/error_budget.hpp"
 
 #include "sh/power.hpp"
+#include "shading/budget/layer_bounds.hpp"
 #include "shading/budget/power_fit.hpp"
 #include "shading/budget/surface_bounds.hpp"
-#include "shading/model/code_bounds.hpp"
 #include "shading/model/scalar.hpp"
 
 #include <algorithm>
@@ -17,26 +17,26 @@ namespace {
 constexpr int kLeastCellLights = 8;
 
 /// `amplitude`: strength of lights that shadows may split; 0: none.
-double lobe_tier_codes(const LobePlan& lobe, PowTier tier, double amplitude) {
+double lobe_tier_codes(const CodeCosts& costs, const LobePlan& lobe, PowTier tier, double amplitude) {
     if (lobe.path != LobePath::general || lobe.power_minus_one >= kSharpPowerMinusOne || tier == PowTier::exact) return 0.0;
     const PowErrors errors = pow_errors(tier);
     const double a = std::fabs(static_cast<double>(lobe.power_minus_one));
     const double relative = 0.5 * kLn2 * a * errors.log2 + errors.exp2 + 4e-6;
-    return codes_of_relative(relative) + codes_of_absolute(amplitude * relative);
+    return costs.relative(relative) + costs.absolute(amplitude * relative);
 }
 
-double specular_tier_codes(const Surface& s, const Arriving& light, PowTier tier) {
+double specular_tier_codes(const CodeCosts& costs, const Surface& s, const Arriving& light, PowTier tier) {
     if (!s.specular || tier == PowTier::exact) return 0.0;
     const PowErrors errors = pow_errors(tier);
-    return codes_of_specular(s.reflectance * s.normalization * light.largest, light.count, errors.exp2, errors.log2, 0.0);
+    return costs.specular(s.reflectance * s.normalization * light.largest, light.count, errors.exp2, errors.log2, 0.0);
 }
 
-double environment_codes(const ShadingPlan& plan, const MaterialPlan& material, const Surface& s, double exposure) {
+double environment_codes(const CodeCosts& costs, const ShadingPlan& plan, const MaterialPlan& material, const Surface& s, double exposure) {
     double codes = 0.0;
     if (material.environment >= 0) {
         const EnvironmentPlan& environment = plan.environments[static_cast<std::size_t>(material.environment)];
         // Suns may shine where there is no other light.
-        codes += environment.bound_codes + codes_of_absolute(s.albedo * environment.sun_bound * exposure);
+        codes += environment.bound_codes + costs.absolute(s.albedo * environment.sun_bound * exposure);
     }
     return codes;
 }
@@ -49,18 +49,19 @@ PowTier cheapest_tier(double budget, const Codes& codes) {
 }
 
 /// Chooses the cheapest method for t^n within `budget` codes. Returns the codes that it costs.
-double spend_on_lobe(MaterialPlan& material, bool split, const Surface& s, const Arriving& light, double budget, PowerFits& fits) {
+double spend_on_lobe(const CodeCosts& costs, MaterialPlan& material, bool split, const Surface& s, const Arriving& light, double budget,
+                     PowerFits& fits) {
     LobePlan& lobe = material.lobe;
     if (lobe.path != LobePath::general || lobe.power_minus_one >= kSharpPowerMinusOne) return 0.0;
     const double amplitude = s.albedo * static_cast<double>(lobe.scale) * light.sum;
     const LobeFit& fit =
         fits.lobe(static_cast<double>(lobe.power_minus_one) + 1.0, amplitude, split ? static_cast<double>(lobe.wrap) : 0.0);
-    if (fit.codes <= budget) {
+    if (const double curve_codes = costs.other(fit.codes); curve_codes <= budget) {
         lobe.path = LobePath::curve;
         std::copy_n(fit.c, kLobeCurveTerms, lobe.curve);
-        return fit.codes;
+        return curve_codes;
     }
-    const auto codes = [&](PowTier tier) { return lobe_tier_codes(lobe, tier, split ? amplitude : 0.0); };
+    const auto codes = [&](PowTier tier) { return lobe_tier_codes(costs, lobe, tier, split ? amplitude : 0.0); };
     lobe.tier = cheapest_tier(budget, codes);
     return codes(lobe.tier);
 }
@@ -71,16 +72,16 @@ bool may_use_cells(const ShadingPlan& plan, const MaterialPlan& material, const 
     const auto casts_none = [](const LightPlan& light) { return light.shadow_map < 0; };
     const double n = static_cast<double>(material.lobe.power_minus_one) + 1.0;
     if (material.ggx || !has(kStageLights) || has(kStageNormalMap) || material.alpha_mode == AlphaMode::blend || has(kStageTransmission) ||
-        !(n >= 1.0 && n <= 3.0))
+        has(kStageClearcoat) || has(kStageSheen) || !(n >= 1.0 && n <= 3.0))
         return false;
     if (s.albedo <= 0.0) return false;
     return std::count_if(plan.lights.begin(), plan.lights.end(), casts_none) >= kLeastCellLights;
 }
 
 /// Lets the light of a material be fitted over cells, within `budget` codes. Returns the codes that it costs.
-double spend_on_cells(MaterialPlan& material, const Surface& s, double exposure, double budget) {
+double spend_on_cells(const CodeCosts& costs, MaterialPlan& material, const Surface& s, double exposure, double budget) {
     CellTolerance& cells = material.cells;
-    const double r = kBudgetShares.cells_relative * budget / kSlopeAtWhite, scale = material.lobe.scale;
+    const double r = kBudgetShares.cells_relative * budget / costs.at_white(), scale = material.lobe.scale;
     const auto at_most_1e30 = [](double x) { return static_cast<float>(std::min(1e30, x)); };
     double absolute_codes = (1.0 - kBudgetShares.cells_relative) * budget;
     if (s.specular) {
@@ -91,13 +92,13 @@ double spend_on_cells(MaterialPlan& material, const Surface& s, double exposure,
             cells.absolute_specular = 3e38f;
         } else {
             absolute_codes *= 0.5;
-            cells.absolute_specular = at_most_1e30(0.999 * absolute_codes / (kSlopeAtBlack * exposure * s.reflectance));
+            cells.absolute_specular = at_most_1e30(0.999 * absolute_codes / (costs.at_black() * exposure * s.reflectance));
         }
         cells.half_exponent = static_cast<float>(0.5 * specular_exponent(material.roughness));
         cells.peak = static_cast<float>(1.001 * s.normalization);
     }
     cells.relative = static_cast<float>(0.999 * r / (1.0 + r));  // the drawn light may be the smaller one
-    cells.absolute = at_most_1e30(0.999 * absolute_codes / (kSlopeAtBlack * exposure * s.albedo * scale));
+    cells.absolute = at_most_1e30(0.999 * absolute_codes / (costs.at_black() * exposure * s.albedo * scale));
     return budget;
 }
 
@@ -108,16 +109,16 @@ bool specular_ends(const ShadingPlan& plan, const Surface& s, double largest, do
 }
 
 /// Chooses the cheapest method for highlights within `budget` codes. Adds the codes that it costs to the bound.
-void spend_on_specular(const ShadingPlan& plan, MaterialPlan& material, const Surface& s, const Arriving& light, double exposure,
-                       double budget, PowerFits& fits, ErrorBound& bound) {
+void spend_on_specular(const CodeCosts& costs, const ShadingPlan& plan, MaterialPlan& material, const Surface& s, const Arriving& light,
+                       double exposure, double budget, PowerFits& fits, ErrorBound& bound) {
     // Highlights below this, before the reflectance, can be left out at a cost of `codes` codes.
-    const auto threshold_of = [&](double codes) { return codes / (kSlopeAtBlack * exposure * s.reflectance * light.count); };
+    const auto threshold_of = [&](double codes) { return codes / (costs.at_black() * exposure * s.reflectance * light.count); };
     if (!roughness_varies(material)) {
         const double half_exponent = s.exponent * (plan.specular == SpecularModel::phong ? 0.125 : 0.5);
         const double share = threshold_of(kBudgetShares.specular_cut * budget) / (light.largest / exposure * s.normalization);
         for (const int terms : {SpecularCurve::kFewTerms, SpecularCurve::kMostTerms}) {
             const SpecularFit& fit = fits.specular(half_exponent, share < 1.0 ? power_of(share, 1.0 / half_exponent) : 1.0, terms);
-            const double codes = fit.codes(s.reflectance * s.normalization * light.largest, light.count);
+            const double codes = costs.other(fit.codes(s.reflectance * s.normalization * light.largest, light.count));
             if (codes > kBudgetShares.specular_curve * budget) continue;
             material.specular_curve = fit.curve;
             bound.specular = codes;
@@ -126,8 +127,8 @@ void spend_on_specular(const ShadingPlan& plan, MaterialPlan& material, const Su
         }
     }
     material.specular_tier =
-        cheapest_tier(kBudgetShares.specular_power * budget, [&](PowTier tier) { return specular_tier_codes(s, light, tier); });
-    bound.specular = specular_tier_codes(s, light, material.specular_tier);
+        cheapest_tier(kBudgetShares.specular_power * budget, [&](PowTier tier) { return specular_tier_codes(costs, s, light, tier); });
+    bound.specular = specular_tier_codes(costs, s, light, material.specular_tier);
     const double spent = kBudgetShares.specular_left_out * (budget - bound.specular), threshold = threshold_of(spent);
     if (specular_ends(plan, s, light.largest / exposure, threshold)) {
         material.specular_threshold = static_cast<float>(std::min(1e30, threshold));
@@ -154,7 +155,8 @@ double cutoff_squared(const LightPlan& light, double least) {
 
 }  // namespace
 
-void spend_error_budget(ShadingPlan& plan, double budget_codes, double exposure, const SceneFacts& facts, PowerFits& fits) {
+void spend_error_budget(ShadingPlan& plan, double budget_codes, const CodeCosts& costs, double exposure, const SceneFacts& facts,
+                        PowerFits& fits) {
     HALFLIT_ASSERT(facts.light_attenuation.size() == plan.lights.size());
     const Arriving light = arriving(plan, exposure, facts);
     ErrorBound worst;
@@ -167,15 +169,18 @@ void spend_error_budget(ShadingPlan& plan, double budget_codes, double exposure,
     double poorest = budget_codes, most_reflected = 0.0;
     for (const MaterialPlan& material : plan.materials) {
         const Surface& s = surfaces.emplace_back(surface_of(plan, material, facts));
-        rounding.push_back(rounding_codes(material, plan, s, light, reflections ? &*reflections : nullptr, exposure));
-        fixed.push_back(rounding.back() + environment_codes(plan, material, s, exposure));
-        if (!facts.drawn[rounding.size() - 1]) continue;
+        rounding.push_back(rounding_codes(costs, material, plan, s, light, reflections ? &*reflections : nullptr, exposure));
+        const LayerCosts layers = layer_costs(costs, plan, material, s, light, reflections ? &*reflections : nullptr, exposure, facts);
+        rounding.back() = std::min(rounding.back() + layers.codes, 255.0);
+        fixed.push_back(rounding.back() + environment_codes(costs, plan, material, s, exposure));
+        if (!facts.drawn[rounding.size() - 1] || (material.stages & kStageShadowCatcher) != 0) continue;
         poorest = std::min(poorest, budget_codes - fixed.back());
-        most_reflected = std::max(most_reflected, s.albedo * material.lobe.scale + (s.specular ? s.reflectance * s.normalization : 0.0));
+        most_reflected = std::max(most_reflected,
+                                  s.albedo * material.lobe.scale + (s.specular ? s.reflectance * s.normalization : 0.0) + layers.reflected);
     }
     double cutoff_codes = 0.0;
     if (light.local > 0 && poorest > 0.0 && most_reflected > 0.0) {
-        const double codes = kBudgetShares.cutoff * poorest, least = codes / (kSlopeAtBlack * exposure * most_reflected * light.local);
+        const double codes = kBudgetShares.cutoff * poorest, least = codes / (costs.at_black() * exposure * most_reflected * light.local);
         for (std::size_t i = 0; i < plan.lights.size(); ++i) {
             LightPlan& one = plan.lights[i];
             if (one.type == LightType::directional) continue;
@@ -187,8 +192,8 @@ void spend_error_budget(ShadingPlan& plan, double budget_codes, double exposure,
     }
 
     for (std::size_t i = 0; i < plan.materials.size(); ++i) {
-        if (!facts.drawn[i]) continue;
         MaterialPlan& material = plan.materials[i];
+        if (!facts.drawn[i] || (material.stages & kStageShadowCatcher) != 0) continue;
         const Surface& s = surfaces[i];
         ErrorBound bound;
         bound.rounding = rounding[i];
@@ -196,19 +201,21 @@ void spend_error_budget(ShadingPlan& plan, double budget_codes, double exposure,
         bound.left_out = cutoff_codes;
         double left = budget_codes - fixed[i] - cutoff_codes;
         if (left > 0.0) {
-            bound.lobes = spend_on_lobe(material, may_split(plan, material), s, light, kBudgetShares.lobe * left, fits);
+            bound.lobes = spend_on_lobe(costs, material, may_split(plan, material), s, light, kBudgetShares.lobe * left, fits);
             left -= bound.lobes;
             const double of_cells = may_use_cells(plan, material, s) ? kBudgetShares.cells * left : 0.0;
             if (s.specular && light.count > 0 && !material.ggx)
-                spend_on_specular(plan, material, s, light, exposure, left - of_cells, fits, bound);
+                spend_on_specular(costs, plan, material, s, light, exposure, left - of_cells, fits, bound);
             left -= bound.specular + (bound.left_out - cutoff_codes);
-            if (of_cells > 0.0 && left > 0.0) bound.cells = spend_on_cells(material, s, exposure, kBudgetShares.cells_of_rest * left);
+            if (of_cells > 0.0 && left > 0.0)
+                bound.cells = spend_on_cells(costs, material, s, exposure, kBudgetShares.cells_of_rest * left);
         }
         bound.codes = bound.rounding + bound.lobes + bound.specular + bound.environment + bound.cells + bound.left_out;
         if (bound.codes > worst.codes) worst = bound;
     }
     worst.codes = std::min(worst.codes, 255.0);
     worst.budget = budget_codes;
+    worst.tone_growth = costs.growth();
     worst.within = worst.codes <= budget_codes;
     plan.error = worst;
 }

@@ -3,6 +3,7 @@
 
 #include "shading/budget/power_fit.hpp"
 #include "shading/budget/shares.hpp"
+#include "shading/model/code_costs.hpp"
 #include "shading/plan/plan.hpp"
 
 #include <vector>
@@ -19,8 +20,10 @@ struct SceneFacts {
 };
 
 /// Chooses the cheapest polynomials, cutoff radii and thresholds whose bounds, with those of float32 and of the bands, stay below
-/// `budget_codes` for each material. Writes plan.error. Shadows and the visible surfaces of a pixel are taken as given. Light that is
-/// computed once a vertex or a triangle has no bound. Fits are looked up in `fits`, and added there where missing.
-void spend_error_budget(ShadingPlan& plan, double budget_codes, double exposure, const SceneFacts& facts, PowerFits& fits);
+/// `budget_codes` for each material, after the tone curve of `costs`. Writes plan.error. Shadows and the visible surfaces of a pixel are
+/// taken as given. Light that is computed once a vertex or a triangle has no bound. Fits are looked up in `fits`, and added there where
+/// missing.
+void spend_error_budget(ShadingPlan& plan, double budget_codes, const CodeCosts& costs, double exposure, const SceneFacts& facts,
+                        PowerFits& fits);
 
 }  // namespace halflit::shading

@@ -1,8 +1,8 @@
 #include "shading/budget/surface_bounds.hpp"
 
 #include "sh/power.hpp"
+#include "shading/budget/layer_bounds.hpp"
 #include "shading/budget/texture_bounds.hpp"
-#include "shading/model/code_bounds.hpp"
 #include "shading/model/reflection_tables.hpp"
 #include "shading/model/scalar.hpp"
 
@@ -21,13 +21,6 @@ constexpr double kHalfVectorError = 2.5e-7, kMirrorError = 1e-7;
 constexpr double kProductError = 1e-5;
 
 constexpr double kAnyShare = 1e6;  // a relative error that costs 255 codes
-
-Factor factor_of(double error, double least) { return {error, error < least ? std::min(error / (least - error), kAnyShare) : kAnyShare}; }
-
-/// Codes that the factor's error costs: the light is the factor times at most `strength`.
-double codes_of(const Factor& factor, double strength) {
-    return std::min(codes_of_absolute(factor.absolute * strength), codes_of_relative(factor.relative));
-}
 
 /// Bound on an error of the excess f - x where x = N.L > 0, for an error of N.L and roundings: f is n / (1 + w) times as steep as x at
 /// most, for n < 1 times the power of t at x = 0.
@@ -81,7 +74,7 @@ ShapeSlopes shape_slopes() {
 }
 
 /// Codes of reflections' roundings, and of errors of normals and roughness: what a surface looks at is a little off in direction and width.
-double reflection_codes(const ReflectionSteps& steps, const Surface& s, double mirror_error, double exposure) {
+double reflection_codes(const CodeCosts& costs, const ReflectionSteps& steps, const Surface& s, double mirror_error, double exposure) {
     constexpr double kNodes = kReflectionNodes - 1, kMostTurn = 4.0, kSteepest = 6.0;  // of the table's column over N.V
     static const ShapeSlopes slopes = shape_slopes();
     const double nodes = kNodes * (s.roughness.absolute + kSteepest * s.cosine_error()) + 1e-5;
@@ -101,9 +94,9 @@ double reflection_codes(const ReflectionSteps& steps, const Surface& s, double m
         between_relative = std::max(between_relative, levels * steps.level[k].relative);
     }
     const double share = std::max(1.0, s.reflectance) * exposure;
-    return std::min(codes_of_absolute(share * absolute), codes_of_relative(relative)) +
-           std::min(codes_of_absolute(share * between), codes_of_relative(between_relative)) +
-           codes_of_absolute(nodes * slopes.share * steps.most * share);
+    return std::min(costs.absolute(share * absolute), costs.relative(relative)) +
+           std::min(costs.absolute(share * between), costs.relative(between_relative)) +
+           costs.absolute(nodes * slopes.share * steps.most * share);
 }
 
 double held_alpha(double roughness) { return std::max(roughness, double{kMinRoughness}) * std::max(roughness, double{kMinRoughness}); }
@@ -125,18 +118,24 @@ double most_bounced() {
 }
 
 /// Codes of GGX's highlights (DERIVATION.md). N.(L + V) is at least kLeastHalfVector, and so are N.L + N.V and |L + V|.
-double ggx_codes(const Surface& s, double light_sum) {
+double ggx_codes(const CodeCosts& costs, const Surface& s, double light_sum) {
     static const ShapeSlopes slopes = shape_slopes();
     const double a = held_alpha(s.least_roughness), least = kLeastHalfVector, strength = s.reflectance * s.normalization * light_sum;
     const double direction = s.cosine_error() + kHalfVectorError / least;
     const double bounced = 24.0 * (s.roughness.absolute + 6.0 * s.cosine_error()) * slopes.share * most_bounced();
     const double of_roughness = 6.0 * s.roughness.relative;
     constexpr double kSchlickError = 1.5e-6;
-    return codes_of_relative(std::exp(std::min(2.0 / a * direction + of_roughness + bounced, 13.0)) - 1.0) +
-           codes_of_absolute(strength * s.cosine_error() / least) + codes_of_absolute(strength * kSchlickError);
+    return costs.relative(std::exp(std::min(2.0 / a * direction + of_roughness + bounced, 13.0)) - 1.0) +
+           costs.absolute(strength * s.cosine_error() / least) + costs.absolute(strength * kSchlickError);
 }
 
 }  // namespace
+
+Factor factor_of(double error, double least) { return {error, error < least ? std::min(error / (least - error), kAnyShare) : kAnyShare}; }
+
+double codes_of(const CodeCosts& costs, const Factor& factor, double strength) {
+    return std::min(costs.absolute(factor.absolute * strength), costs.relative(factor.relative));
+}
 
 double Surface::cosine_error() const { return normal_error + (kCosineError - kNormalError); }
 
@@ -202,6 +201,15 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
         if (inside.texture.data != nullptr) s.scattered = factor_of(inside.share * filtered(inside.texture, {0}), 1.0 - inside.share);
         s.least_albedo = 0.0;
     }
+    if (has(kStageClearcoat)) {
+        const Surface coat = coat_surface(plan, material, facts);
+        s.passed = passed_by_coat(material, coat);
+        s.least_albedo = 0.0;
+    }
+    if (has(kStageSheen)) {
+        s.below_sheen = sheen_surface(material, s.normal_error, facts).left;
+        s.least_albedo = 0.0;
+    }
     if (has(kStageEmissiveTexture))
         s.emissive = textured(material.emissive_texture, {0, 1, 2}, *std::max_element(material.emissive, material.emissive + 3));
     s.least_roughness = roughness;
@@ -249,12 +257,13 @@ bool may_split(const ShadingPlan& plan, const MaterialPlan& material) {
     return plan.shadow_mode == ShadowMode::soft_split && material.shadow_fade_scale > 0.0f && (material.stages & kStageLights) != 0;
 }
 
-double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, const Surface& s, const Arriving& light,
-                      const ReflectionSteps* reflections, double exposure) {
+double rounding_codes(const CodeCosts& costs, const MaterialPlan& material, const ShadingPlan& plan, const Surface& s,
+                      const Arriving& light, const ReflectionSteps* reflections, double exposure) {
     const auto has = [&](Stage stage) { return (material.stages & stage) != 0; };
     const double n = material.lobe.power_minus_one + 1.0, scale = material.lobe.scale;
-    double codes = codes_of_relative(kProductError + 1.5e-7 * (has(kStageLights) ? n + light.count : 0.0));
-    double matt = 0.0, shiny = 0.0;  // all light that the albedo reflects; that F0 reflects
+    double codes = costs.relative(kProductError + 1.5e-7 * (has(kStageLights) ? n + light.count : 0.0));
+    double matt = 0.0, shiny = 0.0;                // all light that the albedo reflects; that F0 reflects
+    double mirrored_most = 0.0, highlights = 0.0;  // that is mirrored at most, of the surroundings and of lights
     if (has(kStageUnlit)) matt = exposure;
     if (has(kStageAmbient)) {
         Ambience diffuse, mirrored;
@@ -266,7 +275,7 @@ double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, con
             diffuse = ambience(material.environment, s.normal_error);
             if (s.specular && reflections != nullptr) {
                 mirrored.most = reflections->most * exposure;
-                codes += reflection_codes(*reflections, s, mirror_error, exposure);
+                codes += reflection_codes(costs, *reflections, s, mirror_error, exposure);
             }
         } else {
             const Vec3f sky = plan.ambient.sky_linear, ground = plan.ambient.ground_linear;
@@ -276,48 +285,54 @@ double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, con
         }
         // The mirrored share is at most 1 or F0, and falls with the roughness and with N.V, no faster than 1 and 5.
         const double share = std::max(1.0, s.reflectance);
-        codes += codes_of_absolute(s.albedo * diffuse.error);
-        codes += codes_of_absolute(share * mirrored.error + (s.roughness.absolute + 5.0 * s.cosine_error()) * mirrored.most);
-        codes += codes_of(s.occlusion, s.albedo * diffuse.most + share * mirrored.most);
+        codes += costs.absolute(s.albedo * diffuse.error);
+        codes += costs.absolute(share * mirrored.error + (s.roughness.absolute + 5.0 * s.cosine_error()) * mirrored.most);
+        codes += codes_of(costs, s.occlusion, s.albedo * diffuse.most + share * mirrored.most);
         if (!plan.sky.empty()) {
             // Shares of sums over the sky: rounding, and weights that change with the normal, no faster than a lobe's slope, or twice the
             // inverse width of the narrowest focus, by a factor of the lights in reach.
             const double sums = 2.4e-7 * (static_cast<double>(plan.sky.size()) + 8.0);
             const double slope = 8.0 * (static_cast<double>(material.lobe.power_minus_one) + 1.0);
-            codes += codes_of_absolute(s.albedo * (sums + slope * s.normal_error) * diffuse.most);
-            codes += codes_of_absolute(share * (sums + 16.0 / (1.0 - static_cast<double>(plan.sky_focus)) * mirror_error) * mirrored.most);
+            codes += costs.absolute(s.albedo * (sums + slope * s.normal_error) * diffuse.most);
+            codes += costs.absolute(share * (sums + 16.0 / (1.0 - static_cast<double>(plan.sky_focus)) * mirror_error) * mirrored.most);
         }
         matt += diffuse.most;
         shiny += mirrored.most;
+        mirrored_most = share * mirrored.most;
     }
     if (has(kStageLights)) {
         const double amplitude = s.albedo * scale * light.sum;
-        codes += codes_of_edge(amplitude, n, s.cosine_error() / (1.0 + material.lobe.wrap));
-        if (may_split(plan, material)) codes += codes_of_absolute(amplitude * excess_error(material.lobe, s.cosine_error()));
-        if (light.local > 0) codes += codes_of_edge(amplitude, 1.0, 3e-7);  // the end of the range
-        if (light.cone_error > 0) codes += codes_of_edge(amplitude, 2.0, light.cone_error);
+        codes += costs.edge(amplitude, n, s.cosine_error() / (1.0 + material.lobe.wrap));
+        if (may_split(plan, material)) codes += costs.absolute(amplitude * excess_error(material.lobe, s.cosine_error()));
+        if (light.local > 0) codes += costs.edge(amplitude, 1.0, 3e-7);  // the end of the range
+        if (light.cone_error > 0) codes += costs.edge(amplitude, 2.0, light.cone_error);
         matt += light.sum * scale;
     }
     if (s.specular && material.ggx) {
-        codes += ggx_codes(s, light.sum);
+        codes += ggx_codes(costs, s, light.sum);
         shiny += s.reflectance * s.normalization * light.sum;
+        highlights = s.normalization * light.sum;
     } else if (s.specular && has(kStageLights)) {
         const double turning = plan.specular == SpecularModel::phong ? 2.0 : 1.0, strength = s.normalization * light.sum;
         const double constant = 4.0 * s.roughness.relative, linear = 3e-7 + constant;  // roughness^4, in exponent and norm
-        codes += codes_of_specular(s.reflectance * s.normalization * light.largest, light.count, constant, linear,
-                                   turning * std::sqrt(2.0 * s.exponent) * s.cosine_error());
+        codes += costs.specular(s.reflectance * s.normalization * light.largest, light.count, constant, linear,
+                                turning * std::sqrt(2.0 * s.exponent) * s.cosine_error());
         // Opposite a light at a grazing angle H = L + V is short, and its direction is off by kHalfVectorError / |H|. With N.V >= 0 the
         // highlight is no brighter than |H| of its peak there, and d/dx cos^s x <= 0.61 sqrt(s), so |H| cancels. N.L, a factor of the
         // highlight, is small there too, so its own error is absolute.
         const double short_half = plan.specular == SpecularModel::blinn ? 0.61 * std::sqrt(s.exponent) * kHalfVectorError : 0.0;
-        codes += codes_of_absolute(s.reflectance * strength * (short_half + s.cosine_error()));
+        codes += costs.absolute(s.reflectance * strength * (short_half + s.cosine_error()));
         shiny += strength;
+        highlights = s.reflectance * strength;
     }
-    codes += codes_of(s.base_color, matt + s.metallic * std::max(0.0, shiny - matt));
-    codes += codes_of(s.scattered, s.albedo * matt);
-    codes += codes_of(s.dielectric, s.albedo * matt + shiny);
-    codes += codes_of(s.matt, s.albedo * matt) + codes_of(s.shiny, shiny);
-    codes += codes_of(s.emissive, exposure);
+    codes += codes_of(costs, s.base_color, matt + s.metallic * std::max(0.0, shiny - matt));
+    codes += codes_of(costs, s.scattered, s.albedo * matt);
+    codes += codes_of(costs, s.dielectric, s.albedo * matt + shiny);
+    codes += codes_of(costs, s.matt, s.albedo * matt) + codes_of(costs, s.shiny, shiny);
+    codes += codes_of(costs, s.emissive, exposure);
+    const double glow = std::max({material.emissive[0], material.emissive[1], material.emissive[2]}) * exposure;
+    codes += codes_of(costs, s.below_sheen, s.albedo * matt + mirrored_most + highlights);
+    codes += codes_of(costs, s.passed, s.albedo * matt + mirrored_most + highlights + glow);
     return std::min(codes, 255.0);
 }
 

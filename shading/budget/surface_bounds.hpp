@@ -11,6 +11,11 @@ struct Factor {
     double absolute = 0, relative = 0;
 };
 
+/// `least`: of the factor.
+[[nodiscard]] Factor factor_of(double error, double least);
+/// Codes that the factor's error costs: the light is the factor times at most `strength`.
+[[nodiscard]] double codes_of(const CodeCosts& costs, const Factor& factor, double strength);
+
 /// Upper bounds on what a surface reflects, and the errors of its inputs. Members for which there is no texture have no error.
 struct Surface {
     double albedo, reflectance;      ///< largest colour; largest F0
@@ -23,6 +28,8 @@ struct Surface {
     Factor base_color, roughness, matt, shiny, occlusion, emissive;  ///< matt: 1 - metallic; shiny: F0, by the metallic texture's error
     Factor dielectric;                                               ///< F0 where not metallic, by textures of its own
     Factor scattered;                                                ///< share of the light that enters which does not pass through
+    Factor passed;                                                   ///< share of all light that a coat lets through
+    Factor below_sheen;                                              ///< share of the base's light that sheen leaves
     bool specular;
 
     [[nodiscard]] double cosine_error() const;  ///< of N.L
@@ -44,7 +51,7 @@ struct Arriving {
 [[nodiscard]] bool may_split(const ShadingPlan& plan, const MaterialPlan& material);
 
 /// Codes that cannot be chosen: roundings, and the errors of textures. reflections: of the plan's map; null: there is none.
-[[nodiscard]] double rounding_codes(const MaterialPlan& material, const ShadingPlan& plan, const Surface& s, const Arriving& light,
-                                    const ReflectionSteps* reflections, double exposure);
+[[nodiscard]] double rounding_codes(const CodeCosts& costs, const MaterialPlan& material, const ShadingPlan& plan, const Surface& s,
+                                    const Arriving& light, const ReflectionSteps* reflections, double exposure);
 
 }  // namespace halflit::shading

@@ -1,6 +1,8 @@
-// Environment light at a normal: spherical harmonics of 1 to 10 bands, as polynomials in its components.
+// Light from all around at a normal: two colours, or an environment as spherical harmonics of 1 to 10 bands, as polynomials in the normal's
+// components.
 #pragma once
 
+#include "halflit/light.hpp"
 #include "shading/kernels/vector.hpp"
 #include "shading/plan/environment_plan.hpp"
 
@@ -8,6 +10,14 @@ namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
 HALFLIT_INLINE V3 mad(V3 a, F b, V3 c) { return {mad(a.x, b, c.x), mad(a.y, b, c.y), mad(a.z, b, c.z)}; }
+HALFLIT_INLINE V3 lerp(V3 a, V3 b, F weight) { return a + (b - a) * weight; }
+
+/// Sky and ground light that reaches a surface; `up` is the y component of the surface's direction.
+HALFLIT_INLINE V3 hemisphere(const Ambient& ambient, F up) {
+    const V3 ground = broadcast(ambient.ground_linear);
+    return lerp(ground, broadcast(ambient.sky_linear), F(0.5f) * (F(1.0f) + up));
+}
+
 HALFLIT_INLINE V3 three(const float* v) { return {F(v[0]), F(v[1]), F(v[2])}; }
 
 /// Evaluates EnvironmentPlan::newton. Values below 0, where the series rings, become 0.

@@ -54,6 +54,12 @@ HALFLIT_INLINE LocalLight arrival(const shading::LightPlan& light, V3 position) 
     return at;
 }
 
+/// Point at which a fragment's shadows are looked up.
+HALFLIT_INLINE V3 looked_up(const shading::ShadingPlan& frame, const shading::FragmentBlock& block, int lane) {
+    const V3 position = row3(block, shading::kPosX, lane);
+    return frame.shadow_offset ? position + row3(block, shading::kShadowX, lane) : position;
+}
+
 /// Data of a fragment that shadows need.
 struct ShadowReceiver {
     const shading::ShadingPlan& frame;
@@ -73,8 +79,8 @@ HALFLIT_INLINE void cast_shadow(const ShadowReceiver& receiver, const shading::L
     if (!any(lit)) return;  // nothing to hide
     const bool split = receiver.frame.shadow_mode == ShadowMode::soft_split;
     const bool soft = split && receiver.fade.scale > 0.0f;
-    const HiddenShares hidden = hidden_share(receiver.frame.shadow_maps[light.shadow_map], receiver.position, receiver.surface_normal,
-                                             direction, receiver.fade, soft);
+    const HiddenShares hidden =
+        hidden_share(receiver.frame, light, receiver.position, receiver.surface_normal, direction, receiver.fade, soft);
     const F core = split ? vmin(diffuse, vmax(n_dot_l, F(0.0f))) : diffuse;
     const F excess = diffuse - core;
     diffuse = (diffuse - hidden.hard * core) - hidden.soft * excess;

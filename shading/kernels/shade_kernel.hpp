@@ -8,6 +8,13 @@
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
+/// Adds the layers above the base to the block's colours.
+[[gnu::noinline]] static void lay_layers(const ShadeRows& rows, shading::FragmentBlock& block, int count) {
+    float* const colors[] = {block.red, block.green, block.blue};
+    for (int c = 0; c < 3; ++c)
+        for (int lane = 0; lane < count; lane += kWidth) store(colors[c] + lane, load(colors[c] + lane) + load(rows.layers[c] + lane));
+}
+
 template <bool kSpecular>
 HALFLIT_INLINE void shade_block(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, shading::LightList lights,
                                 shading::FragmentBlock& block, int count) {
@@ -15,6 +22,8 @@ HALFLIT_INLINE void shade_block(const shading::ShadingPlan& frame, const shading
     fetch_surfaces(material, block, count, true, rows);
     const bool prelit = has(material, kStagePrelit), lit = (material.stages & kSurfaceStages) != 0;
     if (lit && !prelit) add_light<kSpecular>(frame, material, lights, block, count, rows);
+    const bool layered = kSpecular && (material.stages & kLayerStages) != 0;
+    if (layered && has(material, kStageClearcoat)) dim_emission(rows, count);
     for (int lane = 0; lane < count; lane += kWidth) {
         V3 color = load3(rows.base, lane);
         if (!has(material, kStageUnlit)) {
@@ -32,6 +41,11 @@ HALFLIT_INLINE void shade_block(const shading::ShadingPlan& frame, const shading
         const bool blended = material.alpha_mode == AlphaMode::blend;
         store(block.alpha + lane, blended ? clamp(load(rows.alpha + lane), F(0.0f), F(1.0f)) : F(1.0f));
     }
+    if (layered) lay_layers(rows, block, count);
+    if (has(material, kStageShadowCatcher))
+        catch_shadows(
+            frame, material, lights, rows, block,
+            count, [&](V3 normal) __attribute__((always_inline)) { return surroundings_at(frame, material, normal); });
     if (has(material, kStageTransmission)) {
         if (prelit) fetch_transmission(material, block, count, rows);
         keep_light_behind(material, rows, block, count, !prelit);
@@ -48,8 +62,9 @@ HALFLIT_INLINE void light_block(const shading::ShadingPlan& frame, const shading
     add_light<kSpecular>(frame, material, lights, block, count, rows);
     for (int lane = 0; lane < count; lane += kWidth) {
         const F none(0.0f), full(1.0f);
-        const V3 offset = reflected<kSpecular>(material, rows, lane, {none, none, none});
+        V3 offset = reflected<kSpecular>(material, rows, lane, {none, none, none});
         const V3 factor = reflected<kSpecular>(material, rows, lane, {full, full, full}) - offset;
+        if (kSpecular && (material.stages & kLayerStages) != 0) offset = offset + load3(rows.layers, lane);
         store(&block.lane[shading::kPosX][lane], factor.x);
         store(&block.lane[shading::kPosY][lane], factor.y);
         store(&block.lane[shading::kPosZ][lane], factor.z);
@@ -82,8 +97,8 @@ static void hidden(const shading::ShadingPlan& frame, const shading::MaterialPla
     for (int lane = 0; lane < count; lane += kWidth) {
         TexelTaps taps;
         const V3 position = row3(block, shading::kPosX, lane), surface = normals(material, block, lane, taps).surface;
-        const HiddenShares share = hidden_share(frame.shadow_maps[light.shadow_map], looked_up(frame, block, lane), surface,
-                                                arrival(light, position).direction, fade, soft);
+        const HiddenShares share =
+            hidden_share(frame, light, looked_up(frame, block, lane), surface, arrival(light, position).direction, fade, soft);
         store(core + lane, share.hard);
         store(excess + lane, share.soft);
     }
@@ -131,6 +146,12 @@ static void tone(ToneCurve curve, const float* const light[3], float exposure, f
         tone_block<ToneCurve::neutral>(light, exposure, display, count);
 }
 
+static int tone_samples(ToneCurve curve, const shading::SampleRows& in, int count, float* const sums[4]) {
+    if (curve == ToneCurve::reinhard) return toned_sums<ToneCurve::reinhard>(in, count, sums);
+    if (curve == ToneCurve::aces) return toned_sums<ToneCurve::aces>(in, count, sums);
+    return toned_sums<ToneCurve::neutral>(in, count, sums);
+}
+
 static void encode(const float* red, const float* green, const float* blue, const float* alpha, float exposure, std::uint32_t* rgba8,
                    int count) {
     encode_srgb8(red, green, blue, alpha, exposure, rgba8, count);
@@ -141,7 +162,7 @@ static void encode(const float* red, const float* green, const float* blue, cons
 namespace shading {
 #define HALFLIT_SHADE_KERNELS HALFLIT_CONCAT(shade_kernels_, HALFLIT_ISA)
 extern const ShadeKernels HALFLIT_SHADE_KERNELS;
-const ShadeKernels HALFLIT_SHADE_KERNELS = {shade,       light,   hidden,       measure_cell, fit_cells,
-                                            shade_alpha, surface, count_lights, tone,         encode};
+const ShadeKernels HALFLIT_SHADE_KERNELS = {shade,   light,        hidden, measure_cell, fit_cells, shade_alpha,
+                                            surface, count_lights, tone,   tone_samples, encode};
 }  // namespace shading
 }  // namespace halflit

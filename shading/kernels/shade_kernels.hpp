@@ -6,6 +6,7 @@
 #include "shading/light_cell.hpp"
 #include "shading/plan/plan.hpp"
 
+#include <cstddef>
 #include <cstdint>
 
 namespace halflit::shading {
@@ -17,6 +18,16 @@ struct LightList {
     const LightCell* cell = nullptr;  ///< further light, fitted for the cell that the block is; may be null
 };
 [[nodiscard]] inline LightList all_lights(const ShadingPlan& frame) { return {frame.lights.data(), static_cast<int>(frame.lights.size())}; }
+
+/// The samples of a row of pixels before a tone curve.
+struct SampleRows {
+    const float* color;           ///< light, alpha; sample s of pixel i is the four floats from color + s color_stride + 4 i on
+    std::ptrdiff_t color_stride;  ///< floats
+    const float* backing;         ///< share of the background colour; sample s of pixel i: backing[s backing_stride + i]
+    std::ptrdiff_t backing_stride;
+    int samples;
+    float background[4];  ///< what an empty sample holds, which no curve changes
+};
 
 struct ShadeKernels {
     /// Runs the stages of `material` over lanes [0, count) of the block, and writes red, green, blue, alpha there.
@@ -54,6 +65,10 @@ struct ShadeKernels {
     /// Applies a tone curve other than none to `count` colours, light (red, green, blue) times `exposure`. Writes display light in [0, 1].
     /// NaN counts as 0, infinity as white. All arrays are padded to a multiple of 16 lanes; `display` may be `light`.
     void (*tone)(ToneCurve curve, const float* const light[3], float exposure, float* const display[3], int count);
+
+    /// Tones each sample of a row of pixels, and writes the sums over the samples of a pixel to sums[0..3]: red, green, blue, alpha. Goes
+    /// on in whole vectors of pixels while each sample is opaque or empty. Returns the number of pixels done.
+    int (*tone_samples)(ToneCurve curve, const SampleRows& in, int count, float* const sums[4]);
 
     /// Encodes `count` linear colours, times `exposure` and clamped to [0, 1], as 8-bit sRGB codes, packed R | G << 8 | B << 16 | A << 24.
     /// A is the linear alpha in 8 bits. All are rounded to nearest; NaN gives 0. All arrays are padded to a multiple of 16 lanes.

@@ -3,6 +3,7 @@
 
 #include "shading/fragment_block.hpp"
 #include "shading/kernels/vector.hpp"
+#include "shading/plan/material_plan.hpp"
 
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
@@ -25,6 +26,9 @@ struct alignas(64) ShadeRows {
     Row3 dielectric;                   ///< F0 where not metallic; with kStageSpecularColor
     Row specular_weight;               ///< factor of what is mirrored at grazing views there; with kStageSpecularColor
     Row transmitted;                   ///< share of the light that enters the surface which passes through; of materials that transmit
+    Row3 layers;                       ///< light of the layers above the base, which is added to the base's
+    Row passed_layers;                 ///< share of light from below that passes through all of them
+    Row passed_coat;                   ///< share of the base's light that passes through a coat; with kStageClearcoat
     Row3 passed;                       ///< share of that light which is not absorbed
 };
 HALFLIT_INLINE V3 load3(const ShadeRows::Row3& rows, int lane) {
@@ -34,6 +38,20 @@ HALFLIT_INLINE void store3(ShadeRows::Row3& rows, int lane, V3 v) {
     store(rows[0] + lane, v.x);
     store(rows[1] + lane, v.y);
     store(rows[2] + lane, v.z);
+}
+
+/// Takes a share from the light that reaches the base at a lane: what it reflects is linear in these rows.
+HALFLIT_INLINE void dim_base(const shading::MaterialPlan& material, ShadeRows& rows, int lane, F left) {
+    const auto dim = [&](ShadeRows::Row3 & light) __attribute__((always_inline)) { store3(light, lane, load3(light, lane) * left); };
+    if ((material.stages & kStageLights) != 0) {
+        dim(rows.diffuse);
+        dim(rows.specular);
+        if (material.ggx) dim(rows.specular_grazing);
+    }
+    if ((material.stages & kStageAmbient) != 0) {
+        dim(rows.ambient);
+        dim(rows.mirrored);
+    }
 }
 
 }  // namespace HALFLIT_ISA_NAMESPACE

@@ -4,12 +4,15 @@
 #pragma once
 
 #include "shading/kernels/cell_kernel.hpp"
+#include "shading/kernels/clearcoat_kernel.hpp"
 #include "shading/kernels/environment_kernel.hpp"
 #include "shading/kernels/ggx_kernel.hpp"
 #include "shading/kernels/highlight_sums.hpp"
 #include "shading/kernels/reflection_kernel.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 #include "shading/kernels/shade_rows.hpp"
+#include "shading/kernels/shadow_catcher_kernel.hpp"
+#include "shading/kernels/sheen_kernel.hpp"
 #include "shading/kernels/sky_shadow_kernel.hpp"
 #include "shading/kernels/specular_color_kernel.hpp"
 #include "shading/kernels/surface_kernel.hpp"
@@ -20,22 +23,11 @@
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
-HALFLIT_INLINE V3 lerp(V3 a, V3 b, F weight) { return a + (b - a) * weight; }
-
-/// Sky and ground light that reaches a surface; `up` is the y component of the surface's direction.
-HALFLIT_INLINE V3 hemisphere(const Ambient& ambient, F up) {
-    const V3 ground = broadcast(ambient.ground_linear);
-    return lerp(ground, broadcast(ambient.sky_linear), F(0.5f) * (F(1.0f) + up));
-}
-
-/// Point at which a fragment's shadows are looked up.
-HALFLIT_INLINE V3 looked_up(const shading::ShadingPlan& frame, const shading::FragmentBlock& block, int lane) {
-    const V3 position = row3(block, shading::kPosX, lane);
-    return frame.shadow_offset ? position + row3(block, shading::kShadowX, lane) : position;
-}
-
 /// Stages that need a surface's direction and its metallic and rough parts.
-inline constexpr std::uint32_t kSurfaceStages = kStageLights | kStageAmbient | kStageTransmission;
+inline constexpr std::uint32_t kSurfaceStages = kStageLights | kStageAmbient | kStageTransmission | kStageClearcoat;
+
+/// Stages of layers above the base.
+inline constexpr std::uint32_t kLayerStages = kStageClearcoat | kStageSheen;
 
 /// Base colour, emission and alpha; `needs_color` is false where only light is asked for.
 static void fetch_surfaces(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int count, bool needs_color,
@@ -121,16 +113,20 @@ static void add_lights(const shading::ShadingPlan& frame, const shading::Materia
         rows);
 }
 
+/// Light of the surroundings through a material's lobe, hidden nowhere.
+HALFLIT_INLINE V3 surroundings_at(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, V3 normal) {
+    if (has(material, kStageEnvironment))
+        return surrounding_light(frame.environments[static_cast<std::size_t>(material.environment)], normal);
+    return hemisphere(frame.ambient, normal.y);
+}
+
 template <bool kSpecular>
 static void add_surroundings(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, int count, ShadeRows& rows) {
     const bool environment = has(material, kStageEnvironment);
     for (int lane = 0; lane < count; lane += kWidth) {
         const V3 normal = load3(rows.normal, lane);
         const F occlusion = frame.sky.empty() ? load(rows.occlusion + lane) : F(1.0f);
-        store3(rows.ambient, lane,
-               (environment ? surrounding_light(frame.environments[static_cast<std::size_t>(material.environment)], normal)
-                            : hemisphere(frame.ambient, normal.y)) *
-                   occlusion);
+        store3(rows.ambient, lane, surroundings_at(frame, material, normal) * occlusion);
         if constexpr (!kSpecular) continue;
         const V3 to_eye = load3(rows.to_eye, lane);
         const F n_dot_v = dot(normal, to_eye);
@@ -198,6 +194,8 @@ HALFLIT_INLINE void add_light(const shading::ShadingPlan& frame, const shading::
         fetch_transmission(material, block, count, rows);
         dim_matt_light(material, count, rows);
     }
+    if (has(material, kStageSheen)) add_sheen(frame, material, lights, block, count, rows);
+    if (has(material, kStageClearcoat)) add_clearcoat(frame, material, lights, block, count, rows);
 }
 
 /// Light that a surface of this base colour reflects to the eye.

@@ -175,5 +175,21 @@ HALFLIT_INLINE HiddenShares hidden_share(const shading::ShadowMapPlan& map, V3 p
     return hidden;
 }
 
+/// Hidden shares of a light that may have a size: the means over its points. A point without a map is seen.
+HALFLIT_INLINE HiddenShares hidden_share(const shading::ShadingPlan& frame, const shading::LightPlan& light, V3 position, V3 normal,
+                                         V3 to_light, ShadowFade fade, bool soft) {
+    const shading::ShadowMapPlan* map = &frame.shadow_maps[static_cast<std::size_t>(light.shadow_map)];
+    HiddenShares sum{F(0.0f), F(0.0f)};
+    for (;;) {
+        const HiddenShares one = hidden_share(*map, position, normal, to_light, fade, soft);
+        if (light.shadow_points == 1) return one;
+        sum = {sum.hard + one.hard, sum.soft + one.soft};
+        if (map->next == 0) break;
+        map += map->next;
+    }
+    const F points(static_cast<float>(light.shadow_points));
+    return {vdiv(sum.hard, points), vdiv(sum.soft, points)};
+}
+
 }  // namespace HALFLIT_ISA_NAMESPACE
 }  // namespace halflit

@@ -23,6 +23,16 @@ HALFLIT_INLINE Sample base_color(const shading::MaterialPlan& material, const sh
     return color;
 }
 
+/// A unit normal turned by a texel of a normal map, about the tangent at a lane.
+HALFLIT_INLINE V3 mapped_normal(const shading::FragmentBlock& block, int lane, V3 normal, V3 texel, float scale) {
+    const V3 tangent = normalize_any(row3(block, shading::kTangentX, lane));
+    const V3 bitangent = cross(normal, tangent) * row(block, shading::kTangentW, lane);
+    const F x = mad(F(2.0f), texel.x, F(-1.0f)) * F(scale);
+    const F y = mad(F(2.0f), texel.y, F(-1.0f)) * F(scale);
+    const F z = mad(F(2.0f), texel.z, F(-1.0f));
+    return normalize((tangent * x + bitangent * y) + normal * z);
+}
+
 /// Unit normals, turned to the visible side: `surface` without the normal map, `shading` with it.
 struct Normals {
     V3 surface, shading;
@@ -31,14 +41,7 @@ struct Normals {
 HALFLIT_INLINE Normals normals(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane, V3 texel) {
     V3 surface = normalize_any(row3(block, shading::kNormalX, lane));
     V3 normal = surface;
-    if (has(material, kStageNormalMap)) {
-        const V3 tangent = normalize_any(row3(block, shading::kTangentX, lane));
-        const V3 bitangent = cross(normal, tangent) * row(block, shading::kTangentW, lane);
-        const F x = mad(F(2.0f), texel.x, F(-1.0f)) * F(material.normal_scale);
-        const F y = mad(F(2.0f), texel.y, F(-1.0f)) * F(material.normal_scale);
-        const F z = mad(F(2.0f), texel.z, F(-1.0f));
-        normal = normalize((tangent * x + bitangent * y) + normal * z);
-    }
+    if (has(material, kStageNormalMap)) normal = mapped_normal(block, lane, normal, texel, material.normal_scale);
     if (material.double_sided) {
         const F facing = row(block, shading::kFacing, lane);
         surface = surface * facing;

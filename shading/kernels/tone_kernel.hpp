@@ -1,6 +1,7 @@
 // Tone curves: light after exposure to display light.
 #pragma once
 
+#include "shading/kernels/simd_records.hpp"
 #include "shading/kernels/vector.hpp"
 #include "shading/model/tone.hpp"
 
@@ -55,6 +56,40 @@ static void tone_block(const float* const light[3], float exposure, float* const
         store(display[1] + i, vmin(out.y, full));
         store(display[2] + i, vmin(out.z, full));
     }
+}
+
+/// See ShadeKernels::tone_samples.
+template <ToneCurve kCurve>
+static int toned_sums(const shading::SampleRows& in, int count, float* const sums[4]) {
+    const F none(0.0f), full(1.0f), most(shading::kMostTonedLight);
+    const V3 back{F(in.background[0]), F(in.background[1]), F(in.background[2])};
+    const F back_alpha(in.background[3]);
+    int i = 0;
+    for (; i + kWidth <= count; i += kWidth) {
+        V3 sum{none, none, none};
+        F alpha_sum = none;
+        for (int s = 0; s < in.samples; ++s) {
+            V3 light;
+            F alpha;
+            load4(in.color + s * in.color_stride + 4 * i, light.x, light.y, light.z, alpha);
+            const F share = load(in.backing + s * in.backing_stride + i);
+            const M opaque = (alpha == full) & (share == none);
+            const M empty = ((share == full) & (alpha == back_alpha)) & ((light.x == back.x) & (light.y == back.y) & (light.z == back.z));
+            if (!all(opaque | empty)) return i;
+            V3 out = back;
+            if (any(opaque)) {
+                out = toned<kCurve>({clamp(light.x, none, most), clamp(light.y, none, most), clamp(light.z, none, most)});
+                out = {sel(empty, back.x, vmin(out.x, full)), sel(empty, back.y, vmin(out.y, full)), sel(empty, back.z, vmin(out.z, full))};
+            }
+            sum = sum + out;
+            alpha_sum = alpha_sum + alpha;
+        }
+        store(sums[0] + i, sum.x);
+        store(sums[1] + i, sum.y);
+        store(sums[2] + i, sum.z);
+        store(sums[3] + i, alpha_sum);
+    }
+    return i;
 }
 
 }  // namespace HALFLIT_ISA_NAMESPACE

@@ -72,6 +72,7 @@ HALFLIT_INLINE F mirrored_back(const shading::MaterialPlan& material, const Shad
             const F metallic = seen ? load(rows.metallic + lane) : reflectance(material, block, lane, taps).metallic;
             share = share * ((full - mirrored_back(material, rows, lane, seen)) * (full - metallic));
         }
+        if (seen && (has(material, kStageClearcoat) || has(material, kStageSheen))) share = share * load(rows.passed_layers + lane);
         const V3 keep = (load3(rows.base, lane) * load3(rows.passed, lane)) * (alpha * share);
         const F beside = full - alpha;
         store(block.keep[0] + lane, clamp(beside + keep.x, none, full));

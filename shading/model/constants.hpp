@@ -7,6 +7,8 @@ namespace halflit::shading {
 inline constexpr float kMinRoughness = 0.07f;
 /// GGX gives no highlight where N.(L + V) is less: both are within 0.06 degrees of the surface, where the half vector has few digits left.
 inline constexpr float kLeastHalfVector = 1e-3f;
+/// F0 of a coat: an index of refraction of 1.5.
+inline constexpr float kCoatReflectance = 0.04f;
 /// Least distance to a lamp; smaller ones count as this, whatever the lamp's radius.
 inline constexpr float kMinSourceRadius = 1e-4f;
 /// The largest power of the cosine to a spot's axis.

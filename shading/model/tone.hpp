@@ -17,21 +17,23 @@ inline constexpr double kNeutralF90 = 0.04, kNeutralStart = 0.8 - kNeutralF90, k
 /// Light above this counts as this. The kernels' products stay finite.
 inline constexpr float kMostTonedLight = 1e18f;
 
-/// Upper bound on the growth of errors by the curve, at least 1: where each channel of the light is off by at most b codes without the
-/// curve, each channel is off by at most this times b codes with it. The code of light above 1 is continued by its slope there, as
-/// 255 + 112.1 ln v. Proof: budget/DERIVATION.md.
-[[nodiscard]] constexpr double tone_growth(ToneCurve curve) {
+/// Upper bounds on the growth of errors by the curve. Proof: budget/DERIVATION.md.
+/// absolute: where each channel of the light is off by at most d, each toned channel is off by at most this times d.
+/// relative: where each channel is off by at most a factor 1 + r, each code is off by at most this times 112.1 ln(1 + r).
+/// other: where each channel of the light is off by at most b codes without the curve, each code is off by at most this times b. The code
+/// of light above 1 is continued by its slope there, as 255 + 112.1 ln v.
+[[nodiscard]] constexpr ErrorGrowth tone_growth(ToneCurve curve) {
     switch (curve) {
         case ToneCurve::none:
             break;
         case ToneCurve::reinhard:
-            return 2.02;
+            return {.absolute = 2.0, .relative = 2.0, .other = 2.02};
         case ToneCurve::aces:
-            return 1.6;
+            return {.absolute = 1.81, .relative = 0.66, .other = 1.6};
         case ToneCurve::neutral:
-            return 6.2;
+            return {.absolute = 2.07, .relative = 2.02, .other = 6.2};
     }
-    return 1.0;
+    return {};
 }
 
 }  // namespace halflit::shading

@@ -30,14 +30,4 @@ struct EnvironmentPlan {
 /// few bits, so that z - node is exact where it is small. The last one is used by the planner only.
 inline constexpr float kNodes[sh::kMaxBands] = {0.0f, 0.5f, -0.75f, 1.0f, -1.0f, 0.8125f, -0.4375f, -0.90625f, 0.9375f, 0.234375f};
 
-/// Choice of the number of bands.
-struct EnvironmentOrder {
-    int fixed = 0;                   ///< 1..10, or 0: the smallest whose bound is within the tolerance
-    double tolerance = 1.0 / 510.0;  ///< relative to display white, in linear light: half an 8-bit code
-    double exposure = 1.0;           ///< display white is 1 / exposure
-    double codes = 0.0;              ///< if above 0, largest error in 8-bit sRGB codes, instead of the tolerance
-    bool split_shadows = false;      ///< shadows may leave the excess of a lobe over its core
-    bool operator==(const EnvironmentOrder&) const = default;
-};
-
 }  // namespace halflit::shading

@@ -38,9 +38,10 @@ std::array<double, sh::kMaxBands> newton_form_about_nodes(const float* coefficie
 std::array<double, sh::kMaxBands> bounds_in_codes(const Environment& environment, const sh::WrapLobe& lobe, const sh::OrderBounds& bounds,
                                                   const EnvironmentOrder& order) {
     constexpr int kRows = 64, kColumns = 128;
-    // The light has degree 9, and every direction is within 0.035 rad of a grid point. So its minimum is below the grid's by at most half
-    // of 81 times 0.035^2, 0.05, of its largest value.
-    constexpr double kBetweenPoints = 0.05;
+    // The light has degree 9, and lies within half its range of its middle, so its second derivative along a great circle is at most 81
+    // times half the range (Bernstein). Every direction is within 0.035 rad of a grid point. So minimum and maximum are beyond the grid's
+    // by at most 0.0249 of the range, and the range is at most 1 / (1 - 0.0498) times the grid's.
+    constexpr double kBetweenPoints = 0.0263;
     const sh::PreconvolvedSh light = sh::convolve(environment.radiance, sh::zonal_bands(lobe), sh::kMaxBands);
     double least[3] = {1e300, 1e300, 1e300}, most[3] = {0, 0, 0};
     for (int row = 0; row < kRows; ++row) {
@@ -60,11 +61,15 @@ std::array<double, sh::kMaxBands> bounds_in_codes(const Environment& environment
     for (std::size_t n = 0; n < sh::kMaxBands; ++n) {
         const Vec3d bound = bounds.by_order[n];
         const double b[3] = {bound.x, bound.y, bound.z}, r[3] = {rest.x, rest.y, rest.z};
+        double absolute = 0.0, relative = 0.0, either = 0.0;  // codes, each for the worst channel; a tone curve mixes channels
         for (int c = 0; c < 3; ++c) {
-            const double floor = least[c] - kBetweenPoints * most[c] - r[c];
-            const double relative = floor > b[c] ? codes_of_relative(b[c] / (floor - b[c])) : 255.0;
-            codes[n] = std::max(codes[n], std::min(codes_of_absolute(b[c] * order.exposure), relative));
+            const double floor = least[c] - kBetweenPoints * (most[c] - least[c]) - r[c], d = b[c] * order.exposure;
+            const double share = floor > b[c] ? b[c] / (floor - b[c]) : 1e6;
+            absolute = std::max(absolute, order.costs.absolute(d));
+            relative = std::max(relative, order.costs.relative(share));
+            either = std::max(either, std::min(codes_of_absolute(d), codes_of_relative(share)));
         }
+        codes[n] = std::min({absolute, relative, order.costs.other(either)});
     }
     return codes;
 }
@@ -143,7 +148,7 @@ EnvironmentPlan plan_environment(const Environment& environment, const sh::WrapL
     plan.bound_codes = codes[static_cast<std::size_t>(plan.bands - 1)];
     plan.sun_bound = sun_bound(environment, lobe, order.split_shadows);
     plan.bound += plan.sun_bound;
-    plan.within = plan.within && (order.codes > 0 ? codes_of_absolute(plan.sun_bound * order.exposure) <= order.codes
+    plan.within = plan.within && (order.codes > 0 ? order.costs.absolute(plan.sun_bound * order.exposure) <= order.codes
                                                   : plan.bound * order.exposure <= order.tolerance);
     const sh::PreconvolvedSh product = sh::convolve(environment.radiance, sh::zonal_bands(lobe), plan.bands);
     // Y_0 is 1 / (2 sqrt(pi)), so the integral of the radiance over pi is its first coefficient times 2 / sqrt(pi).

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shading/environment.hpp"
+#include "shading/model/code_costs.hpp"
 #include "shading/plan/environment_plan.hpp"
 #include "shading/reflection_map.hpp"
 
@@ -10,6 +11,17 @@
 #include <vector>
 
 namespace halflit::shading {
+
+/// Choice of the number of bands.
+struct EnvironmentOrder {
+    int fixed = 0;                   ///< 1..10, or 0: the smallest whose bound is within the tolerance
+    double tolerance = 1.0 / 510.0;  ///< relative to display white, in linear light: half an 8-bit code
+    double exposure = 1.0;           ///< display white is 1 / exposure
+    double codes = 0.0;              ///< if above 0, largest error in 8-bit sRGB codes, instead of the tolerance
+    CodeCosts costs{};               ///< of errors in codes
+    bool split_shadows = false;      ///< shadows may leave the excess of a lobe over its core
+    bool operator==(const EnvironmentOrder&) const = default;
+};
 
 /// Plans one lobe: bands by the stable recurrence (sh/zonal.hpp), order by the bound (sh/order.hpp).
 [[nodiscard]] EnvironmentPlan plan_environment(const Environment& environment, const sh::WrapLobe& lobe, const EnvironmentOrder& order);

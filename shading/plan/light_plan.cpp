@@ -40,6 +40,7 @@ LightPlan plan_light(const Light& light) {
     plan.cone_cutoff = static_cast<float>(cutoff);
     plan.cone_scale = static_cast<float>(1.0 / std::max(width, 1e-30));  // inner = outer: a step
     plan.brightness = std::max({light.color_linear.x, light.color_linear.y, light.color_linear.z});
+    plan.shadow_radius = clamp_or_low(light.shadow_radius, 0.0f, light.type == LightType::directional ? kMaxLightAngle : 1e9f);
     plan.half_cone_power = 0.5f * clamp_or_low(light.cone_power, 0.0f, kMaxConePower);
     return plan;
 }
@@ -64,6 +65,7 @@ void plan_as_parallel_if_far(const Light& light, LightPlan& plan) {
         if (plan.half_cone_power > 0.0f) attenuation *= power_of(1.0 - off, 2.0 * static_cast<double>(plan.half_cone_power));
     }
     plan.type = LightType::directional;
+    plan.shadow_radius = 0.0f;
     plan.to_light[0] = static_cast<float>(to_light.x), plan.to_light[1] = static_cast<float>(to_light.y);
     plan.to_light[2] = static_cast<float>(to_light.z);
     const auto arriving = [&](float channel) {

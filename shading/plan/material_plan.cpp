@@ -24,6 +24,11 @@ SlotMask slots_of(const MaterialPlan& plan, bool lit) {
         if (texture->data != nullptr) add(kStageSpecularColor, *texture);
     for (const TexturePlan* texture : {&plan.transmission.texture, &plan.transmission.thickness_texture})
         if (texture->data != nullptr) add(kStageTransmission, *texture);
+    for (const TexturePlan* texture : {&plan.clearcoat.texture, &plan.clearcoat.roughness_texture, &plan.clearcoat.normal_texture})
+        if (texture->data != nullptr) add(kStageClearcoat, *texture);
+    for (const TexturePlan* texture : {&plan.sheen.color_texture, &plan.sheen.roughness_texture})
+        if (texture->data != nullptr) add(kStageSheen, *texture);
+    if (plan.clearcoat.normal_texture.data != nullptr) slots |= kTangentSlot;
     return slots;
 }
 
@@ -37,7 +42,12 @@ void number_taps(MaterialPlan& plan) {
                                      &plan.transmission.texture,
                                      &plan.transmission.thickness_texture,
                                      &plan.specular_texture,
-                                     &plan.specular_color_texture};
+                                     &plan.specular_color_texture,
+                                     &plan.clearcoat.texture,
+                                     &plan.clearcoat.roughness_texture,
+                                     &plan.clearcoat.normal_texture,
+                                     &plan.sheen.color_texture,
+                                     &plan.sheen.roughness_texture};
     std::int32_t number = 0;
     for (TexturePlan* const& texture : textures) {
         const auto* const same = std::find_if(
@@ -60,6 +70,12 @@ void plan_specular_color(const Material& material, MaterialPlan& plan) {
     plan.refracted = 1.0f - plan.dielectric;
 }
 
+/// True if the levels of a texture of normals keep what they lose as roughness.
+bool loses_normals(const TexturePlan& normals) {
+    return normals.data != nullptr && normals.source->rule() == MipRule::normal && normals.mip != MipFilter::none &&
+           normals.level_count > 1;
+}
+
 /// Plans what is not a texture: Beer's law over the thickness, colour^(thickness / distance).
 void plan_transmission(const Transmission& material, TransmissionPlan& plan) {
     plan.share = clamp_or_low(material.share, 0.0f, 1.0f);
@@ -76,10 +92,26 @@ void plan_transmission(const Transmission& material, TransmissionPlan& plan) {
     }
 }
 
+/// Lit by lights and surroundings through its lobe, at each fragment, and nothing else.
+MaterialPlan plan_shadow_catcher(const Material& material, const LightKinds& kinds, const ShadingSettings& options) {
+    MaterialPlan plan;
+    plan.base_color[3] = material.base_color.w;
+    plan.metallic = 0.0f;
+    plan.alpha_mode = AlphaMode::blend;
+    plan.double_sided = material.double_sided;
+    plan.lobe = plan_lobe(lobe_of(material, options), plan.specular_tier);
+    plan.stages = kStageShadowCatcher;
+    if (kinds.lights) plan.stages |= kStageLights;
+    if (kinds.ambient) plan.stages |= kStageAmbient;
+    plan.slots = slots_of(plan, true);
+    return plan;
+}
+
 }  // namespace
 
 MaterialPlan plan_material(const Material& material, std::span<const Texture> textures, SlotMask available, const LightKinds& kinds,
                            const ShadingSettings& options) {
+    if (material.shadow_catcher) return plan_shadow_catcher(material, kinds, options);
     MaterialPlan plan;
     plan.base_color[0] = material.base_color.x, plan.base_color[1] = material.base_color.y;
     plan.base_color[2] = material.base_color.z, plan.base_color[3] = material.base_color.w;
@@ -94,7 +126,8 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
     plan.alpha_cutoff = material.alpha_cutoff;
     plan.lobe = plan_lobe(lobe_of(material, options), plan.specular_tier);
 
-    const bool lit = (!material.unlit && (kinds.lights || kinds.ambient)) || material.transmits();
+    const bool coated = material.is_coated() && kinds.specular;
+    const bool lit = (!material.unlit && (kinds.lights || kinds.ambient)) || material.transmits() || (coated && !zero(material.emissive));
     plan.double_sided = material.double_sided && lit;
     if (material.unlit) plan.stages |= kStageUnlit;
     if (lit && kinds.lights) plan.stages |= kStageLights;
@@ -133,9 +166,27 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
         use_texture(absorbed[0] + absorbed[1] + absorbed[2] > 0.0f, kStageTransmission, material.transmission.thickness_texture,
                     plan.transmission.thickness_texture);
     }
-    const TexturePlan& normals = plan.normal_texture;
-    plan.normal_roughness = kinds.specular && normals.data != nullptr && normals.source->rule() == MipRule::normal &&
-                            normals.mip != MipFilter::none && normals.level_count > 1;
+    if (lit && coated) {
+        const Clearcoat& coat = material.clearcoat;
+        plan.stages |= kStageClearcoat;
+        plan.clearcoat.factor = clamp_or_low(coat.factor, 0.0f, 1.0f);
+        plan.clearcoat.roughness = clamp_or_low(coat.roughness, 0.0f, 1.0f);
+        plan.clearcoat.normal_scale = coat.normal_scale;
+        use_texture(true, kStageClearcoat, coat.texture, plan.clearcoat.texture);
+        use_texture(true, kStageClearcoat, coat.roughness_texture, plan.clearcoat.roughness_texture);
+        use_texture((available & kTangentSlot) != 0, kStageClearcoat, coat.normal_texture, plan.clearcoat.normal_texture);
+        plan.clearcoat.normal_roughness = loses_normals(plan.clearcoat.normal_texture);
+    }
+    if (lit && kinds.specular && material.has_sheen()) {
+        const Sheen& sheen = material.sheen;
+        plan.stages |= kStageSheen;
+        const float color[] = {sheen.color.x, sheen.color.y, sheen.color.z};
+        for (int c = 0; c < 3; ++c) plan.sheen.color[c] = clamp_or_low(color[c], 0.0f, 1.0f);
+        plan.sheen.roughness = clamp_or_low(sheen.roughness, 0.0f, 1.0f);
+        use_texture(true, kStageSheen, sheen.color_texture, plan.sheen.color_texture);
+        use_texture(true, kStageSheen, sheen.roughness_texture, plan.sheen.roughness_texture);
+    }
+    plan.normal_roughness = kinds.specular && loses_normals(plan.normal_texture);
     if (gradients) plan.stages |= kStageGradients;
     if (base_color_seen && (available & kColorSlot) != 0) plan.stages |= kStageVertexColor;
     plan.occlusion_is_metallic_roughness = (plan.stages & kStageOcclusionTexture) != 0 &&

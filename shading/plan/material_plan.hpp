@@ -38,6 +38,20 @@ struct TransmissionPlan {
     TexturePlan texture, thickness_texture;
 };
 
+/// A coat as planned; used with kStageClearcoat.
+struct ClearcoatPlan {
+    float factor = 0, roughness = 0, normal_scale = 1;
+    bool normal_roughness = false;  ///< as MaterialPlan's, of the coat's own normal texture
+    TexturePlan texture, roughness_texture, normal_texture;
+};
+
+/// Sheen as planned; used with kStageSheen.
+struct SheenPlan {
+    float color[3] = {0, 0, 0};
+    float roughness = 0;
+    TexturePlan color_texture, roughness_texture;
+};
+
 struct MaterialPlan {
     std::uint32_t stages = 0;  ///< bits of Stage; a block runs only these
     SlotMask slots = 0;        ///< vertex slots that raster interpolates
@@ -71,6 +85,8 @@ struct MaterialPlan {
     TexturePlan base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;
     TexturePlan specular_texture, specular_color_texture;
     TransmissionPlan transmission;
+    ClearcoatPlan clearcoat;
+    SheenPlan sheen;
 };
 
 /// True if the roughness may differ from fragment to fragment.

@@ -48,6 +48,7 @@ struct ShadowMapPlan {
     /// Number of coarser maps of the same light that follow in the list, of the same size and kind, orthographic; their texels follow this
     /// map's. A receiver is looked up in the first one that holds all that the filter reads.
     std::int32_t coarser = 0;
+    std::int32_t next = 0;  ///< number of maps from here to that of the light's next point; 0: there is none
 };
 
 inline constexpr float kNoBlocker = 3e38f;

@@ -3,6 +3,7 @@
 #include "sh/vec3d.hpp"
 #include "shading/model/constants.hpp"
 #include "shading/model/reflection_tables.hpp"
+#include "shading/model/sheen_table.hpp"
 #include "shading/model/srgb.hpp"
 
 #include <algorithm>
@@ -174,16 +175,29 @@ double environment_share(double f0, double weight, double roughness, double n_do
     return f0 + (std::max((1.0 - roughness) * weight, f0) - f0) * std::pow(1.0 - std::clamp(n_dot_v, 0.0, 1.0), 5.0);
 }
 
-Vec3d shading_normal(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane) {
+/// The normal turned to the visible side, by the texture `map` with a factor on x and y, if it is used.
+Vec3d mapped_normal(const FrameInputs& frame, const Material& material, const TextureUse& map, float factor, SlotMask available,
+                    const FragmentBlock& block, int lane) {
     Vec3d normal = unit(row3(block, kNormalX, lane));
-    if (material.normal_texture.used() && (available & 4u) != 0) {
-        const Rgba c = material_texture(frame, material.normal_texture, available, block, lane, {0.5, 0.5, 1, 1});
+    if (map.used() && (available & 4u) != 0) {
+        const Rgba c = material_texture(frame, map, available, block, lane, {0.5, 0.5, 1, 1});
         const Vec3d tangent = unit(row3(block, kTangentX, lane));
         const Vec3d bitangent = scale(cross(normal, tangent), block.lane[kTangentW][lane]);
-        const double strength = material.normal_scale;
+        const double strength = factor;
         normal = unit(scale(tangent, (2 * c.r - 1) * strength) + scale(bitangent, (2 * c.g - 1) * strength) + scale(normal, 2 * c.b - 1));
     }
     return material.double_sided ? scale(normal, block.lane[kFacing][lane]) : normal;
+}
+
+/// A roughness that grows by what the normals of the texture `map` lost where it is minified.
+double rougher(const FrameInputs& frame, const TextureUse& map, float factor, double roughness, SlotMask available,
+               const FragmentBlock& block, int lane) {
+    const double lost = material_texture(frame, map, available, block, lane, {}).a;
+    const bool loses = map.used() && (available & 4u) != 0 && lost != 0.0 &&
+                       static_cast<std::size_t>(map.texture) < frame.textures.size() &&
+                       frame.textures[static_cast<std::size_t>(map.texture)].rule() == MipRule::normal;
+    if (!loses) return roughness;
+    return std::min(1.0, std::pow(std::pow(std::max(roughness, kHeldRoughness), 4.0) + std::pow(lost * double{factor}, 2.0), 0.25));
 }
 
 /// Value of a level of the environment's map towards a direction.
@@ -200,20 +214,28 @@ Vec3d map_value(const ReflectionMap& map, int level, Vec3d d) {
     return upper + scale(lower - upper, y - j);
 }
 
-/// Values of kReflectionShapes at a roughness and a cosine N.V.
-class MirrorTable {
+/// Mean radiance over a level's lobe about a direction of any length; 0 for the zero vector.
+Vec3d blurred(const ReflectionMap& map, Vec3d d, double level) {
+    if (!(dot(d, d) > 0)) return {};
+    const int fine = std::clamp(static_cast<int>(level), 0, kReflectionLevels - 2);
+    const Vec3d near = map_value(map, fine, d);
+    return near + scale(map_value(map, fine + 1, d) - near, level - fine);
+}
+
+/// Values between the nodes of a table at a roughness and a cosine N.V.
+class TableCell {
 public:
-    MirrorTable(double roughness, double n_dot_v) {
+    TableCell(double roughness, double n_dot_v) {
         constexpr int kLast = kReflectionNodes - 1;
-        const double x = std::clamp(roughness, kHeldRoughness, 1.0) * kLast, held = std::clamp(n_dot_v, 0.0, 1.0),
-                     y = 1.2 * held / (held + 0.2) * kLast;
+        const double rough = roughness > kHeldRoughness ? std::min(roughness, 1.0) : kHeldRoughness;  // NaN too
+        const double held = n_dot_v > 0.0 ? std::min(n_dot_v, 1.0) : 0.0;
+        const double x = rough * kLast, y = 1.2 * held / (held + 0.2) * kLast;
         i_ = std::min(static_cast<int>(x), kLast - 1), j_ = std::min(static_cast<int>(y), kLast - 1);
         down_ = x - i_, right_ = y - j_;
     }
-    double operator()(float ReflectionShape::*member) const {
-        const auto node = [&](int down, int right) {
-            return double{kReflectionShapes[(i_ + down) * kReflectionNodes + j_ + right].*member};
-        };
+    template <class Shape>
+    [[nodiscard]] double value(const Shape* table, float Shape::*member) const {
+        const auto node = [&](int down, int right) { return double{table[(i_ + down) * kReflectionNodes + j_ + right].*member}; };
         const double left = node(0, 0) + down_ * (node(1, 0) - node(0, 0)), next = node(0, 1) + down_ * (node(1, 1) - node(0, 1));
         return left + right_ * (next - left);
     }
@@ -221,6 +243,12 @@ public:
 private:
     int i_, j_;
     double down_, right_;
+};
+
+class MirrorTable : TableCell {
+public:
+    using TableCell::TableCell;
+    double operator()(float ReflectionShape::*member) const { return value(kReflectionShapes, member); }
 };
 
 /// The environment as a rough mirror sees it: GGX's A and B, and the mean radiance over its lobes (shading/model/reflection_tables.hpp).
@@ -232,19 +260,15 @@ Mirrored mirrored_environment(const ReflectionMap& map, int lobes, const Surface
     const double n_dot_v = dot(surface.normal, surface.to_eye);
     const MirrorTable at(surface.roughness, n_dot_v);
     const Vec3d reflection = scale(surface.normal, 2 * n_dot_v) - surface.to_eye;
-    const auto blurred = [&](double turn, double level) {
-        const Vec3d d = reflection + scale(surface.normal - scale(reflection, n_dot_v), turn);
-        if (!(dot(d, d) > 0)) return Vec3d{};
-        const int fine = std::clamp(static_cast<int>(level), 0, kReflectionLevels - 2);
-        const Vec3d near = map_value(map, fine, d);
-        return near + scale(map_value(map, fine + 1, d) - near, level - fine);
+    const auto towards = [&](double turn, double level) {
+        return blurred(map, reflection + scale(surface.normal - scale(reflection, n_dot_v), turn), level);
     };
     Mirrored out{at(&ReflectionShape::a), at(&ReflectionShape::b), {}};
     if (lobes == 1) {
-        out.radiance = blurred(at(&ReflectionShape::turn0), at(&ReflectionShape::level0));
+        out.radiance = towards(at(&ReflectionShape::turn0), at(&ReflectionShape::level0));
     } else {
         const double turn = at(&ReflectionShape::turn1), spread = at(&ReflectionShape::spread), level = at(&ReflectionShape::level1);
-        out.radiance = scale(blurred(turn - spread, level) + blurred(turn + spread, level), 0.5);
+        out.radiance = scale(towards(turn - spread, level) + towards(turn + spread, level), 0.5);
     }
     return out;
 }
@@ -422,16 +446,8 @@ Surface surface_of(const FrameInputs& frame, const Material& material, SlotMask 
     const Rgba occlusion = material_texture(frame, material.occlusion_texture, available, block, lane, white);
     Surface surface{};
     surface.base = {base.r, base.g, base.b};
-    surface.normal = shading_normal(frame, material, available, block, lane);
-    surface.roughness = material.roughness * mr.g;
-    const Rgba bumps = material_texture(frame, material.normal_texture, available, block, lane, {});
-    const bool loses = material.normal_texture.used() && (available & 4u) != 0 && bumps.a != 0.0 &&
-                       static_cast<std::size_t>(material.normal_texture.texture) < frame.textures.size() &&
-                       frame.textures[static_cast<std::size_t>(material.normal_texture.texture)].rule() == MipRule::normal;
-    if (loses)
-        surface.roughness = std::min(
-            1.0,
-            std::pow(std::pow(std::max(surface.roughness, kHeldRoughness), 4.0) + std::pow(bumps.a * material.normal_scale, 2.0), 0.25));
+    surface.normal = mapped_normal(frame, material, material.normal_texture, material.normal_scale, available, block, lane);
+    surface.roughness = rougher(frame, material.normal_texture, material.normal_scale, material.roughness * mr.g, available, block, lane);
     surface.occlusion = 1.0 + double{material.occlusion_strength} * (occlusion.r - 1.0);
     const Vec3d position = row3(block, kPosX, lane);
     surface.to_eye = frame.orthographic ? scale(to_double(frame.view_direction_ws), -1) : unit(to_double(frame.eye_ws) - position);
@@ -455,6 +471,137 @@ Surface surface_of(const FrameInputs& frame, const Material& material, SlotMask 
     return surface;
 }
 
+/// Sheen at a lane: light that it adds, and the share of the base's light that it leaves.
+struct Fibres {
+    Vec3d light;
+    double left;
+};
+Fibres sheen_of(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
+                const Surface& surface, const Surroundings& around) {
+    const Sheen& sheen = material.sheen;
+    const Rgba white{1, 1, 1, 1}, texture = material_texture(frame, sheen.color_texture, available, block, lane, white);
+    const auto held = [](float x) { return std::clamp(double{x}, 0.0, 1.0); };
+    const Vec3d color{held(sheen.color.x) * texture.r, held(sheen.color.y) * texture.g, held(sheen.color.z) * texture.b};
+    const double roughness =
+        std::max(kHeldRoughness, held(sheen.roughness) * material_texture(frame, sheen.roughness_texture, available, block, lane, white).a);
+    const double a = roughness * roughness, signed_n_dot_v = dot(surface.normal, surface.to_eye),
+                 n_dot_v = std::clamp(signed_n_dot_v, 0.0, 1.0);
+    const TableCell at(roughness, n_dot_v);
+    const auto shape = [&](float SheenShape::*member) { return at.value(kSheenShapes, member); };
+    const double table_albedo = shape(&SheenShape::albedo), albedo = std::min(table_albedo, 1.0);
+    Vec3d light{};
+    for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+        const Arrival from = arrival(frame.lights[i], row3(block, kPosX, lane));
+        const Vec3d both = from.direction + surface.to_eye, half = unit(both), sine = cross(surface.normal, half);
+        const double n_dot_l = dot(surface.normal, from.direction);
+        if (!(n_dot_l > 0) || !(dot(surface.normal, both) > double{kLeastHalfVector})) continue;
+        const double d = (2 + 1 / a) * std::pow(std::min(std::hypot(sine.x, sine.y, sine.z), 1.0), 1 / a) / 2;  // times pi
+        const double value = d / (4 * (n_dot_l + n_dot_v - n_dot_l * n_dot_v)) * n_dot_l / std::max(1.0, table_albedo);
+        const double seen = around.hidden.empty() ? 1.0 : 1.0 - around.hidden[i].hard;
+        light = light + scale(to_double(frame.lights[i].color_linear), value * from.attenuation * seen);
+    }
+    const Vec3d along = surface.to_eye - scale(surface.normal, signed_n_dot_v);
+    const Vec3d side = scale(along, 1 / std::sqrt(dot(along, along) + double{kSheenSoftSide}));
+    const double height = shape(&SheenShape::height), flat = std::sqrt(std::max(0.0, 1 - height * height));
+    const double turn = shape(&SheenShape::turn), across = std::sqrt(std::max(0.0, 1 - turn * turn));
+    const Vec3d up = scale(surface.normal, height), other = scale(cross(surface.normal, side), flat * across);
+    const Vec3d towards[] = {up + scale(side, flat), up + scale(side, flat * turn) + other, up + scale(side, flat * turn) - other};
+    Vec3d radiance{};
+    for (const Vec3d d : towards)
+        radiance = radiance + (around.diffuse != nullptr ? blurred(*around.reflections, d, shape(&SheenShape::level))
+                                                         : hemisphere(frame.ambient, d.y));
+    const Vec3d sky = sky_seen(frame, lobe_of(material, frame.options), surface, around).diffuse;
+    const Vec3d seen{std::min(sky.x, surface.occlusion), std::min(sky.y, surface.occlusion), std::min(sky.z, surface.occlusion)};
+    light = light + scale(radiance * seen, albedo / 3);
+    return {light * color, 1 - std::max({color.x, color.y, color.z}) * albedo};
+}
+
+bool has_sheen(const FrameInputs& frame, const Material& material) {
+    return material.has_sheen() && frame.options.specular != SpecularModel::none;
+}
+
+/// A coat at a lane: the share that is coated, and its surface, of F0 0.04.
+struct Coat {
+    double share;
+    Surface surface;
+};
+Coat coat_of(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
+             const Surface& below) {
+    const Clearcoat& coat = material.clearcoat;
+    const Rgba white{1, 1, 1, 1};
+    Coat out{std::clamp(double{coat.factor}, 0.0, 1.0) * material_texture(frame, coat.texture, available, block, lane, white).r, below};
+    out.surface.normal = mapped_normal(frame, material, coat.normal_texture, coat.normal_scale, available, block, lane);
+    const double roughness =
+        std::clamp(double{coat.roughness}, 0.0, 1.0) * material_texture(frame, coat.roughness_texture, available, block, lane, white).g;
+    out.surface.roughness = rougher(frame, coat.normal_texture, coat.normal_scale, roughness, available, block, lane);
+    out.surface.metallic = 0, out.surface.weight = 1;
+    out.surface.f0 = {0.04, 0.04, 0.04};
+    return out;
+}
+
+bool has_coat(const FrameInputs& frame, const Material& material) {
+    return material.is_coated() && frame.options.specular != SpecularModel::none;
+}
+
+/// Schlick's share of light that a coat's surface mirrors towards the viewer.
+double coat_fresnel(const Coat& coat) {
+    return 0.04 + 0.96 * std::pow(1.0 - std::clamp(dot(coat.surface.normal, coat.surface.to_eye), 0.0, 1.0), 5.0);
+}
+
+/// Light that a coat adds where it covers all.
+Vec3d coat_light(const FrameInputs& frame, const Material& material, const Coat& coat, Vec3d position, const Surroundings& around) {
+    const Surface& surface = coat.surface;
+    const double fresnel = coat_fresnel(coat), n_dot_v = dot(surface.normal, surface.to_eye);
+    const double roughness = std::max(surface.roughness, kHeldRoughness), s = 2.0 / std::pow(roughness, 4.0) - 2.0;
+    Vec3d sum{};
+    for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+        const Arrival at = arrival(frame.lights[i], position);
+        const double seen = around.hidden.empty() ? 1.0 : 1.0 - around.hidden[i].hard, n_dot_l = dot(surface.normal, at.direction);
+        Vec3d highlight{};
+        if (frame.options.specular == SpecularModel::ggx) {
+            highlight = ggx_highlight(surface, at.direction);
+        } else if (n_dot_l > 0) {
+            const bool phong = frame.options.specular == SpecularModel::phong;
+            const Vec3d mirrored = scale(surface.normal, 2 * n_dot_l) - at.direction;
+            const double cosine = phong ? dot(surface.to_eye, unit(mirrored)) : dot(surface.normal, unit(at.direction + surface.to_eye));
+            const double factor = !frame.options.normalize_specular ? 1.0 : phong ? (s + 8) / 8 : (s * s + 10 * s + 32) / (8 * (s + 4));
+            const double value = cosine > 0 ? fresnel * factor * std::pow(std::min(cosine, 1.0), phong ? s / 4 : s) * n_dot_l : 0.0;
+            highlight = {value, value, value};
+        }
+        sum = sum + scale(to_double(frame.lights[i].color_linear) * highlight, at.attenuation * seen);
+    }
+    const double seen = std::min(sky_seen(frame, lobe_of(material, frame.options), surface, around).mirrored, surface.occlusion);
+    if (around.diffuse != nullptr) {
+        const Mirrored mirrored = mirrored_environment(*around.reflections, 1, surface);
+        const double share = (mirrored.a * 0.04 + mirrored.b) * (1.0 + 0.04 * (1.0 / (mirrored.a + mirrored.b) - 1.0));
+        return sum + scale(mirrored.radiance, share * seen);
+    }
+    const Vec3d reflection = scale(surface.normal, 2 * n_dot_v) - surface.to_eye;
+    return sum + scale(hemisphere(frame.ambient, reflection.y), environment_share(0.04, 1.0, roughness, n_dot_v) * seen);
+}
+
+/// Share of the matt light, by luminance, that shadows hide.
+double hidden_light(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
+                    const Surroundings& around) {
+    FrameInputs matt = frame;
+    matt.options.specular = SpecularModel::none;
+    Material white;
+    white.lobe = material.lobe;
+    white.has_own_lobe = material.has_own_lobe;
+    white.double_sided = material.double_sided;
+    Surroundings open = around;
+    open.hidden = {};
+    open.sky = {};
+    open.hidden_sky = {};
+    const Surface surface = surface_of(matt, white, available & kBaseSlots, block, lane);
+    const auto luminance = [&](const Surroundings& light) {
+        const Vec3d c = lit(matt, white, surface, row3(block, kPosX, lane), light);
+        return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
+    };
+    const double all = luminance(open);
+    return all > 0 ? std::clamp(1 - luminance(around) / all, 0.0, 1.0) : 0.0;
+}
+
 }  // namespace
 
 Rgba shade(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
@@ -462,10 +609,22 @@ Rgba shade(const FrameInputs& frame, const Material& material, SlotMask availabl
     const Rgba base = base_color(frame, material, available, block, lane);
     const double alpha = alpha_of(material, base.a);
     if (material.unlit) return {base.r, base.g, base.b, alpha};
+    if (material.shadow_catcher)
+        return {0, 0, 0, hidden_light(frame, material, available, block, lane, around) * std::clamp(base.a, 0.0, 1.0)};
     const Surface surface = surface_of(frame, material, available, block, lane);
     const Rgba glow = material_texture(frame, material.emissive_texture, available, block, lane, {1, 1, 1, 1});
-    const Vec3d color =
-        lit(frame, material, surface, row3(block, kPosX, lane), around) + to_double(material.emissive) * Vec3d{glow.r, glow.g, glow.b};
+    const Vec3d position = row3(block, kPosX, lane);
+    Vec3d color = lit(frame, material, surface, position, around);
+    if (has_sheen(frame, material)) {
+        const Fibres sheen = sheen_of(frame, material, available, block, lane, surface, around);
+        color = scale(color, sheen.left) + sheen.light;
+    }
+    color = color + to_double(material.emissive) * Vec3d{glow.r, glow.g, glow.b};
+    if (has_coat(frame, material)) {
+        const Coat coat = coat_of(frame, material, available, block, lane, surface);
+        color =
+            scale(color, 1.0 - coat.share * coat_fresnel(coat)) + scale(coat_light(frame, material, coat, position, around), coat.share);
+    }
     return {color.x, color.y, color.z, alpha};
 }
 
@@ -488,7 +647,12 @@ Vec3d kept(const FrameInputs& frame, const Material& material, SlotMask availabl
     const double thickness =
         double{inside.thickness} * material_texture(frame, inside.thickness_texture, available, block, lane, {1, 1, 1, 1}).g;
     const bool front = !material.double_sided || block.lane[kFacing][lane] > 0.0f;
-    const double share = transmitted(frame, material, available, block, lane) * (1 - mirrored) * (1 - surface.metallic);
+    double share = transmitted(frame, material, available, block, lane) * (1 - mirrored) * (1 - surface.metallic);
+    if (has_sheen(frame, material)) share *= sheen_of(frame, material, available, block, lane, surface, around).left;
+    if (has_coat(frame, material)) {
+        const Coat coat = coat_of(frame, material, available, block, lane, surface);
+        share *= 1.0 - coat.share * coat_fresnel(coat);
+    }
     const auto channel = [&](double base, float color) {
         const double passed = front && inside.attenuation_distance > 0.0f && inside.thickness > 0.0f
                                   ? std::pow(double{color}, thickness / double{inside.attenuation_distance})

@@ -505,6 +505,12 @@ static void test_changes(void) {
     after = draw_cube(renderer, &cube);
     CHECK(after != before && after == draw_cube(NULL, &fresh));
     CHECK_FAILS(halflit_scene_add_studio(fresh.scene, NULL), HALFLIT_ERROR_USAGE, "camera is null");
+    CHECK_OK(halflit_scene_add_ground(cube.scene, &i));
+    CHECK_OK(halflit_scene_add_ground(fresh.scene, NULL));
+    CHECK(i == 2);
+    before = after;
+    after = draw_cube(renderer, &cube);
+    CHECK(after != before && after == draw_cube(NULL, &fresh));
 
     // Nothing changed: nothing is prepared, which takes far less than a millisecond.
     CHECK_OK(halflit_render(renderer, cube.scene, &cube.camera, &cube.settings, &target, &report));

@@ -95,6 +95,13 @@ for name, key, good, bad in [("transmission", "transmissionFactor", [0, 0.5, 1],
                              ("volume", "attenuationDistance", [1e-3, 1e6], [0, -1, "1"]),
                              ("specular", "specularFactor", [0, 1], [-1, 2, "1"]),
                              ("specular", "specularColorFactor", [[0, 1, 7]], [[0, 1], [-1, 1, 1], 5]),
+                             ("clearcoat", "clearcoatFactor", [0, 0.5, 1], [-1, 2, "1", None]),
+                             ("clearcoat", "clearcoatRoughnessFactor", [0, 1], [-1, 2, "1"]),
+                             ("clearcoat", "clearcoatTexture", [{"index": 0}], [{"index": 99}, {}, 5]),
+                             ("clearcoat", "clearcoatNormalTexture", [{"index": 0, "scale": -3}], [{"index": 0, "scale": "1"}, 5]),
+                             ("sheen", "sheenColorFactor", [[0, 0.5, 1]], [[0, 1], [0, 1, 2], [-1, 0, 0], 5]),
+                             ("sheen", "sheenRoughnessFactor", [0, 1], [-1, 2, "1"]),
+                             ("sheen", "sheenColorTexture", [{"index": 0}], [{"index": 99}, {}, 5]),
                              ("pbrSpecularGlossiness", "diffuseFactor", [[0, 0.5, 1, 1]], [[0, 1, 1], [0, 1, 2, 1], 5]),
                              ("pbrSpecularGlossiness", "specularFactor", [[0, 0.5, 1]], [[0, 1], [0, 1, 2], 5]),
                              ("pbrSpecularGlossiness", "glossinessFactor", [0, 1], [-1, 2, "1"]),
@@ -110,7 +117,7 @@ values("KHR_texture_transform", T, [{}], [5, []])
 
 # ---- extensions that are not drawn are said, once --------------------------------------------------------------------------------------
 SIMPLE = "KHR_materials_"
-for name in [SIMPLE + n for n in ("clearcoat", "sheen", "anisotropy", "iridescence",
+for name in [SIMPLE + n for n in ("anisotropy", "iridescence",
                                   "variants", "dispersion",
                                   "diffuse_transmission")] + [
         "KHR_draco_mesh_compression", "EXT_meshopt_compression", "EXT_mesh_gpu_instancing", "KHR_texture_basisu", "EXT_texture_webp",

@@ -56,6 +56,78 @@ TEST_CASE("materials: transmission and absorption are read", "[io]") {
     CHECK(material_of(with_material("")).transmission.share == 0.0f);
 }
 
+constexpr const char* kUsesClearcoat = R"(,"extensionsUsed":["KHR_materials_clearcoat"])";
+
+TEST_CASE("materials: clearcoat is read, and a normal texture of its own gets tangents", "[io]") {
+    const Bytes one = plain_png(1, 1, 9, 9, 9),
+                file = with_material(R"("extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":0.75,"clearcoatRoughnessFactor":0.25,)"
+                                     R"("clearcoatTexture":{"index":0},"clearcoatRoughnessTexture":{"index":0,"texCoord":1},)"
+                                     R"("clearcoatNormalTexture":{"index":0,"scale":0.5}}})",
+                                     {one}, "", kUsesClearcoat);
+    const LoadedScene loaded = load_ok(file);
+    const Clearcoat coat = loaded.scene.materials.at(0).clearcoat;
+    CHECK(coat.factor == 0.75f);
+    CHECK(coat.roughness == 0.25f);
+    CHECK(coat.normal_scale == 0.5f);
+    CHECK(coat.texture.used());
+    CHECK(coat.roughness_texture.uv_set == 1);
+    REQUIRE(coat.normal_texture.used());
+    CHECK(loaded.scene.textures.at(static_cast<std::size_t>(coat.normal_texture.texture)).rule() == MipRule::normal);
+    CHECK(loaded.scene.meshes.at(0).tangents.size() == 3);
+    INFO((loaded.warnings.empty() ? "" : loaded.warnings[0]));
+    CHECK(loaded.warnings.empty());
+    CHECK(material_of(with_material("")).clearcoat.factor == 0.0f);
+}
+
+TEST_CASE("materials: hostile values of clearcoat are refused, or held in range with a warning", "[io]") {
+    const auto coated = [](const std::string& members) {
+        return with_material(R"("extensions":{"KHR_materials_clearcoat":{)" + members + "}}", {}, "", kUsesClearcoat);
+    };
+    for (const char* wrong : {R"("clearcoatFactor":"1")", R"("clearcoatFactor":null)", R"("clearcoatTexture":{"index":7})",
+                              R"("clearcoatTexture":5)", R"("clearcoatNormalTexture":{"index":-1})"}) {
+        INFO(wrong);
+        CHECK(!load(coated(wrong)));
+    }
+    for (const char* odd :
+         {R"("clearcoatFactor":-3)", R"("clearcoatFactor":1e30)", R"("clearcoatFactor":1,"clearcoatRoughnessFactor":9)"}) {
+        const LoadedScene loaded = load_ok(coated(odd));
+        const Clearcoat coat = loaded.scene.materials.at(0).clearcoat;
+        INFO(odd);
+        CHECK(!loaded.warnings.empty());
+        CHECK((coat.factor >= 0.0f && coat.factor <= 1.0f && coat.roughness >= 0.0f && coat.roughness <= 1.0f));
+    }
+}
+
+TEST_CASE("materials: sheen is read, and its hostile values are refused or held in range with a warning", "[io]") {
+    const auto sheen = [](const std::string& members) {
+        return with_material(R"("extensions":{"KHR_materials_sheen":{)" + members + "}}", {plain_png(1, 1, 9, 9, 9)}, "",
+                             R"(,"extensionsUsed":["KHR_materials_sheen"])");
+    };
+    const LoadedScene loaded =
+        load_ok(sheen(R"("sheenColorFactor":[0.25,0.5,1],"sheenRoughnessFactor":0.75,"sheenColorTexture":{"index":0},)"
+                      R"("sheenRoughnessTexture":{"index":0,"texCoord":1})"));
+    CHECK(loaded.warnings.empty());
+    const Sheen s = loaded.scene.materials.at(0).sheen;
+    CHECK(s.color == Vec3f{0.25f, 0.5f, 1});
+    CHECK(s.roughness == 0.75f);
+    REQUIRE((s.color_texture.used() && s.roughness_texture.used()));
+    CHECK(s.color_texture.texture != s.roughness_texture.texture);  // sRGB, and linear
+    CHECK(s.roughness_texture.uv_set == 1);
+    CHECK(!material_of(with_material("")).has_sheen());
+    for (const char* wrong : {R"("sheenColorFactor":1)", R"("sheenColorFactor":[1,1])", R"("sheenRoughnessFactor":"1")",
+                              R"("sheenColorTexture":{"index":7})"}) {
+        INFO(wrong);
+        CHECK(!load(sheen(wrong)));
+    }
+    for (const char* odd : {R"("sheenColorFactor":[-1,2,1e30])", R"("sheenColorFactor":[1,1,1],"sheenRoughnessFactor":-9)"}) {
+        const LoadedScene held = load_ok(sheen(odd));
+        const Sheen got = held.scene.materials.at(0).sheen;
+        INFO(odd);
+        CHECK(!held.warnings.empty());
+        CHECK((got.color.x >= 0.0f && got.color.y <= 1.0f && got.color.z <= 1.0f && got.roughness >= 0.0f));
+    }
+}
+
 TEST_CASE("materials: thickness is taken to world space by the scale of the first instance", "[io]") {
     io::detail::file::File file;
     file.extended.emplace_back().thickness_factor = 0.5;

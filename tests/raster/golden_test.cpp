@@ -24,6 +24,7 @@ struct Variant {
     Settings settings;
     bool environment = false;
     bool studio = false;  ///< instead of the scene's lights
+    bool ground = false;
 };
 
 std::vector<Variant> variants() {
@@ -60,6 +61,10 @@ std::vector<Variant> variants() {
     all.back().studio = true;
     add("sky-shadows").sky_shadows = 32;
     all.back().environment = true;
+    add("ground").sky_shadows = 16;
+    all.back().settings.background_linear = {0, 0, 0, 0};
+    all.back().studio = true;
+    all.back().ground = true;
     return all;
 }
 
@@ -93,6 +98,7 @@ std::string hashes(const test::NamedScene& named, const Variant& variant) {
         scene.lights.clear();
         add_studio(scene, named.camera);
     }
+    if (variant.ground) add_ground(scene, scene_bounds(scene));
     std::vector<std::uint8_t> rgba8(std::size_t{4} * kWidth * kHeight);
     std::vector<float> linear(rgba8.size());
     Settings settings = variant.settings;

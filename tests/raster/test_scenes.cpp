@@ -247,6 +247,102 @@ NamedScene many_lights_scene() {
     return out;
 }
 
+NamedScene coats_scene() {
+    NamedScene out{"coats", {}, camera_at({0.6f, 1.8f, 4.2f}, {0, 0.1f, 0}, 0.75f, 0.05f)};
+    Scene& s = out.scene;
+    add_lights(s);
+    const int bumps = add_texture(s, 48, 48, ColorSpace::linear, 12, true), patches = add_texture(s, 32, 32, ColorSpace::linear, 13, false);
+    Mesh ball = make_sphere(0.55f, 28, 16);
+    generate_tangents(ball, 0);
+    const auto place = [&](Material material, float x, float z) {
+        add(s, ball, add_material(s, std::move(material)), translation({x, 0, z}));
+    };
+
+    Material lacquer;
+    lacquer.base_color = {0.5f, 0.02f, 0.03f, 1};
+    lacquer.metallic = 0;
+    lacquer.roughness = 0.7f;
+    lacquer.clearcoat.factor = 1;
+    place(lacquer, -1.3f, 0.3f);
+    // A rough metal with bumps below a smooth coat.
+    Material flakes = lacquer;
+    flakes.base_color = {0.1f, 0.3f, 0.6f, 1};
+    flakes.metallic = 0.8f;
+    flakes.normal_texture.texture = bumps;
+    place(flakes, 0, 0.5f);
+    Material peel = lacquer;
+    peel.base_color = {0.1f, 0.4f, 0.15f, 1};
+    peel.clearcoat.roughness = 0.3f;
+    peel.clearcoat.normal_texture.texture = bumps;
+    peel.clearcoat.normal_scale = 0.4f;
+    peel.clearcoat.roughness_texture.texture = peel.clearcoat.texture.texture = patches;
+    place(peel, 1.3f, 0.3f);
+    Material lamp = lacquer;
+    lamp.base_color = {0.1f, 0.1f, 0.1f, 1};
+    lamp.emissive = {0.5f, 0.4f, 0.1f};
+    lamp.clearcoat.factor = 0.6f;
+    lamp.clearcoat.roughness = 1;
+    lamp.double_sided = true;
+    place(lamp, -0.7f, -0.9f);
+    Material glass = lacquer;
+    glass.base_color = {0.6f, 0.8f, 0.9f, 1};
+    glass.transmission.share = 0.8f;
+    glass.clearcoat.roughness = 0.2f;
+    place(glass, 0.7f, 1.2f);
+    Material floor = lacquer;
+    floor.base_color = {0.4f, 0.3f, 0.2f, 1};
+    floor.clearcoat.factor = 0.5f;
+    floor.clearcoat.roughness = 0.5f;
+    add(s, make_plane(7, 3), add_material(s, floor), translation({0, -0.55f, 0}));
+    return out;
+}
+
+NamedScene fabrics_scene() {
+    NamedScene out{"fabrics", {}, camera_at({-0.5f, 1.6f, 4.2f}, {0, 0.1f, 0}, 0.75f, 0.05f)};
+    Scene& s = out.scene;
+    add_lights(s);
+    const int weave = add_texture(s, 32, 32, ColorSpace::srgb, 22, false), bumps = add_texture(s, 48, 48, ColorSpace::linear, 23, true);
+    Mesh ball = make_sphere(0.55f, 28, 16);
+    generate_tangents(ball, 0);
+    const auto place = [&](Material material, float x, float z) {
+        add(s, ball, add_material(s, std::move(material)), translation({x, 0, z}));
+    };
+
+    Material velvet;
+    velvet.base_color = {0.2f, 0.01f, 0.05f, 1};
+    velvet.metallic = 0;
+    velvet.sheen = {{0.9f, 0.3f, 0.4f}, 0.3f, {}, {}};
+    place(velvet, -1.3f, 0.3f);
+    Material wool = velvet;
+    wool.base_color = {0.3f, 0.3f, 0.25f, 1};
+    wool.sheen = {{1, 1, 1}, 1, {}, {}};
+    wool.sheen.color_texture.texture = wool.sheen.roughness_texture.texture = weave;
+    wool.normal_texture.texture = bumps;
+    place(wool, 0, 0.5f);
+    Material dust = velvet;
+    dust.base_color = {0.8f, 0.5f, 0.2f, 1};
+    dust.metallic = 1;
+    dust.roughness = 0.3f;
+    dust.sheen = {{0.3f, 0.3f, 0.5f}, 0, {}, {}};
+    place(dust, 1.3f, 0.3f);
+    Material lacquered = velvet;
+    lacquered.clearcoat.factor = 0.7f;
+    lacquered.clearcoat.roughness = 0.15f;
+    lacquered.emissive = {0, 0.1f, 0};
+    lacquered.double_sided = true;
+    place(lacquered, -0.7f, -0.9f);
+    Material gauze = velvet;
+    gauze.base_color = {0.7f, 0.8f, 0.9f, 1};
+    gauze.transmission.share = 0.7f;
+    gauze.sheen.roughness = 0.6f;
+    place(gauze, 0.7f, 1.2f);
+    Material carpet = velvet;
+    carpet.base_color = {0.1f, 0.12f, 0.3f, 1};
+    carpet.sheen = {{0.3f, 0.3f, 0.8f}, 0.7f, {}, {}};
+    add(s, make_plane(7, 3), add_material(s, carpet), translation({0, -0.55f, 0}));
+    return out;
+}
+
 std::vector<NamedScene> all_scenes() {
     std::vector<NamedScene> scenes;
     Scene demo = demo_scene();
@@ -257,6 +353,8 @@ std::vector<NamedScene> all_scenes() {
     scenes.push_back(layers_scene());
     scenes.push_back(rough_scene());
     scenes.push_back(many_lights_scene());
+    scenes.push_back(coats_scene());
+    scenes.push_back(fabrics_scene());
     return scenes;
 }
 

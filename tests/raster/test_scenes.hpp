@@ -31,7 +31,13 @@ struct NamedScene {
 /// Some fifty small lights, each of which reaches a few tiles, and some that reach all.
 [[nodiscard]] NamedScene many_lights_scene();
 
-/// The five above, and the built-in demo scene.
+/// Bodies with coats: smooth, rough, in part, with normals of their own, above metal, emission and glass.
+[[nodiscard]] NamedScene coats_scene();
+
+/// Bodies with sheen: smooth, rough, coloured by textures, below coats, above metal and glass.
+[[nodiscard]] NamedScene fabrics_scene();
+
+/// All above, and the built-in demo scene.
 [[nodiscard]] std::vector<NamedScene> all_scenes();
 
 }  // namespace halflit::raster::test

@@ -98,6 +98,19 @@ inline Material make_material(FloatMaker& make) {
             if (make.below(2) == 0) *use = make_use(make);
     }
     if (make.below(3) == 0) {
+        Clearcoat& coat = material.clearcoat;
+        coat.factor = make.below(3) == 0 ? 1.0f : make.ordinary(0, 1), coat.roughness = make.ordinary(0, 1);
+        coat.normal_scale = make.ordinary(0, 2);
+        for (TextureUse* use : {&coat.texture, &coat.roughness_texture, &coat.normal_texture})
+            if (make.below(2) == 0) *use = make_use(make);
+    }
+    if (make.below(3) == 0) {
+        Sheen& sheen = material.sheen;
+        sheen.color = {make.ordinary(0, 1), make.ordinary(0, 1), make.below(2) == 0 ? 1.0f : 0.0f}, sheen.roughness = make.ordinary(0, 1);
+        for (TextureUse* use : {&sheen.color_texture, &sheen.roughness_texture})
+            if (make.below(2) == 0) *use = make_use(make);
+    }
+    if (make.below(3) == 0) {
         Transmission& inside = material.transmission;
         inside.share = make.ordinary(0, 1);
         if (make.below(2) == 0) inside.thickness = make.ordinary(0, 2), inside.attenuation_distance = make.ordinary(0, 2);

@@ -155,6 +155,11 @@ struct MaterialExtensions {
     double specular_factor = 1;  ///< KHR_materials_specular
     std::vector<double> specular_color_factor;
     TexturePlace specular_texture, specular_color_texture;
+    double clearcoat_factor = 0, clearcoat_roughness_factor = 0;  ///< KHR_materials_clearcoat
+    TexturePlace clearcoat_texture, clearcoat_roughness_texture, clearcoat_normal_texture;
+    std::vector<double> sheen_color_factor;  ///< KHR_materials_sheen; 3, or empty
+    double sheen_roughness_factor = 0;
+    TexturePlace sheen_color_texture, sheen_roughness_texture;
     bool specular_glossiness = false;  ///< KHR_materials_pbrSpecularGlossiness, which replaces the metallic-roughness parameters
     std::vector<double> diffuse_factor, glossy_specular_factor;  ///< 4 and 3, or empty
     double glossiness_factor = 1;

@@ -101,6 +101,13 @@ bool set_factors(const file::Material& source, const file::MaterialExtensions& m
     changed |= put(material.specular, clamp01(more.specular_factor));
     const auto specular = [&](std::size_t c) { return static_cast<float>(std::max(0.0, number_at(more.specular_color_factor, c, 1.0))); };
     changed |= put(material.specular_color, {specular(0), specular(1), specular(2)});
+    Clearcoat& coat = material.clearcoat;
+    changed |= put(coat.factor, clamp01(more.clearcoat_factor));
+    changed |= put(coat.roughness, clamp01(more.clearcoat_roughness_factor));
+    changed |= put(coat.normal_scale, static_cast<float>(std::clamp(more.clearcoat_normal_texture.scale, -kMostScale, kMostScale)));
+    const auto sheen = [&](std::size_t c) { return clamp01(number_at(more.sheen_color_factor, c, 0.0)); };
+    changed |= put(material.sheen.color, {sheen(0), sheen(1), sheen(2)});
+    changed |= put(material.sheen.roughness, clamp01(more.sheen_roughness_factor));
     return changed;
 }
 
@@ -156,6 +163,13 @@ public:
             material.emissive_texture = use(source.emissive_texture, "emissiveTexture", ColorSpace::srgb);
             material.normal_texture = use(source.normal_texture, "normalTexture", ColorSpace::linear, MipRule::normal);
             material.occlusion_texture = use(source.occlusion_texture, "occlusionTexture", ColorSpace::linear);
+            if (material.has_sheen()) {
+                constexpr const char* kWhere = "extensions.KHR_materials_sheen.";
+                material.sheen.color_texture = use(more.sheen_color_texture, fmt::format("{}sheenColorTexture", kWhere), ColorSpace::srgb);
+                material.sheen.roughness_texture =
+                    use(more.sheen_roughness_texture, fmt::format("{}sheenRoughnessTexture", kWhere), ColorSpace::linear);
+            }
+            if (material.is_coated()) read_coat(more, material.clearcoat);
             material.transmission.texture =
                 use(more.transmission_texture, "extensions.KHR_materials_transmission.transmissionTexture", ColorSpace::linear);
             material.transmission.thickness_texture =
@@ -165,6 +179,15 @@ public:
     }
 
 private:
+    void read_coat(const file::MaterialExtensions& source, Clearcoat& coat) {
+        constexpr const char* kWhere = "extensions.KHR_materials_clearcoat.";
+        coat.texture = use(source.clearcoat_texture, fmt::format("{}clearcoatTexture", kWhere), ColorSpace::linear);
+        coat.roughness_texture =
+            use(source.clearcoat_roughness_texture, fmt::format("{}clearcoatRoughnessTexture", kWhere), ColorSpace::linear);
+        coat.normal_texture =
+            use(source.clearcoat_normal_texture, fmt::format("{}clearcoatNormalTexture", kWhere), ColorSpace::linear, MipRule::normal);
+    }
+
     TextureUse use(const file::TexturePlace& info, std::string_view key, ColorSpace space, MipRule rule = MipRule::equal) {
         TextureUse use;
         if (info.index < 0) return use;

@@ -161,7 +161,8 @@ private:
         if (mesh.material < 0) return;
         check_texture_coordinates(read);
         if (!mesh.tangents.empty()) return;
-        const TextureUse& normal_map = scene_.materials[static_cast<std::size_t>(mesh.material)].normal_texture;
+        const Material& material = scene_.materials[static_cast<std::size_t>(mesh.material)];
+        const TextureUse& normal_map = material.normal_texture.used() ? material.normal_texture : material.clearcoat.normal_texture;
         if (!normal_map.used()) return;
         if ((normal_map.uv_set == 1 ? mesh.uv1 : mesh.uv0).empty()) return;
         document_.geometry.take(corners * 16);
@@ -179,14 +180,20 @@ private:
             {&material.emissive_texture, "emissiveTexture"},
             {&material.specular_texture, "extensions.KHR_materials_specular.specularTexture"},
             {&material.specular_color_texture, "extensions.KHR_materials_specular.specularColorTexture"},
+            {&material.clearcoat.texture, "extensions.KHR_materials_clearcoat.clearcoatTexture"},
+            {&material.clearcoat.roughness_texture, "extensions.KHR_materials_clearcoat.clearcoatRoughnessTexture"},
+            {&material.clearcoat.normal_texture, "extensions.KHR_materials_clearcoat.clearcoatNormalTexture"},
+            {&material.sheen.color_texture, "extensions.KHR_materials_sheen.sheenColorTexture"},
+            {&material.sheen.roughness_texture, "extensions.KHR_materials_sheen.sheenRoughnessTexture"},
             {&material.transmission.texture, "extensions.KHR_materials_transmission.transmissionTexture"},
             {&material.transmission.thickness_texture, "extensions.KHR_materials_volume.thicknessTexture"}};
         for (const auto& [use, key] : places)
             if (use->used() && (use->uv_set == 1 ? read.source.mesh.uv1 : read.source.mesh.uv0).empty() && !document_.warnings_are_full())
-                document_.warn(
-                    fmt::format("materials[{}].{}: {} has no TEXCOORD_{}, {}", read.source.mesh.material, key, read.where, use->uv_set,
-                                use == &material.normal_texture && read.source.mesh.tangents.empty() ? "drawn without it"
-                                                                                                     : "drawn with the colour at (0, 0)"));
+                document_.warn(fmt::format(
+                    "materials[{}].{}: {} has no TEXCOORD_{}, {}", read.source.mesh.material, key, read.where, use->uv_set,
+                    (use == &material.normal_texture || use == &material.clearcoat.normal_texture) && read.source.mesh.tangents.empty()
+                        ? "drawn without it"
+                        : "drawn with the colour at (0, 0)"));
     }
 
     Document& document_;

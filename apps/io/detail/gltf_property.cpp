@@ -123,6 +123,14 @@ constexpr Property kProperties[] = {
      of_extension<&file::MaterialExtensions::specular_factor>},
     {kMaterials, "/extensions/KHR_materials_specular/specularColorFactor", Part::material, 3,
      color_of_extension<&file::MaterialExtensions::specular_color_factor>},
+    {kMaterials, "/extensions/KHR_materials_clearcoat/clearcoatFactor", Part::material, 1,
+     of_extension<&file::MaterialExtensions::clearcoat_factor>},
+    {kMaterials, "/extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor", Part::material, 1,
+     of_extension<&file::MaterialExtensions::clearcoat_roughness_factor>},
+    {kMaterials, "/extensions/KHR_materials_sheen/sheenColorFactor", Part::material, 3,
+     color_of_extension<&file::MaterialExtensions::sheen_color_factor>},
+    {kMaterials, "/extensions/KHR_materials_sheen/sheenRoughnessFactor", Part::material, 1,
+     of_extension<&file::MaterialExtensions::sheen_roughness_factor>},
 };
 
 /// A place where a material names a texture.

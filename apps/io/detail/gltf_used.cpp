@@ -93,7 +93,8 @@ private:
         for (const file::TexturePlace* place :
              {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.occlusion_texture, &m.emissive_texture,
               &more.transmission_texture, &more.thickness_texture, &more.specular_texture, &more.specular_color_texture,
-              &more.diffuse_texture, &more.specular_glossiness_texture})
+              &more.clearcoat_texture, &more.clearcoat_roughness_texture, &more.clearcoat_normal_texture, &more.sheen_color_texture,
+              &more.sheen_roughness_texture, &more.diffuse_texture, &more.specular_glossiness_texture})
             texture(place->index);
     }
 

@@ -17,12 +17,11 @@ namespace halflit::io::detail {
 namespace {
 
 /// Extensions that a file may require. Their values are read; for quantised data, the reading of accessors covers it.
-constexpr std::string_view kSupportedExtensions[] = {"KHR_lights_punctual",        "KHR_materials_unlit",
-                                                     "KHR_texture_transform",      "KHR_materials_emissive_strength",
-                                                     "KHR_materials_ior",          "KHR_mesh_quantization",
-                                                     "KHR_materials_transmission", "KHR_materials_volume",
-                                                     "KHR_materials_specular",     "KHR_materials_pbrSpecularGlossiness",
-                                                     "KHR_animation_pointer",      "KHR_node_visibility"};
+constexpr std::string_view kSupportedExtensions[] = {
+    "KHR_lights_punctual",    "KHR_materials_unlit",     "KHR_texture_transform",      "KHR_materials_emissive_strength",
+    "KHR_materials_ior",      "KHR_mesh_quantization",   "KHR_materials_transmission", "KHR_materials_volume",
+    "KHR_materials_specular", "KHR_materials_clearcoat", "KHR_materials_sheen",        "KHR_materials_pbrSpecularGlossiness",
+    "KHR_animation_pointer",  "KHR_node_visibility"};
 
 /// "2.0" as {2, 0}.
 std::optional<std::pair<int, int>> parse_version(std::string_view text) {
@@ -54,11 +53,9 @@ constexpr LeftOut kLeftOut[] = {
     {"EXT_texture_webp", "the pictures of other formats are drawn"},
     {"KHR_draco_mesh_compression", "the data without compression are drawn"},
     {"KHR_materials_anisotropy", "highlights are drawn round"},
-    {"KHR_materials_clearcoat", "the coat is left out"},
     {"KHR_materials_diffuse_transmission", "light does not pass through"},
     {"KHR_materials_dispersion", "light is not split"},
     {"KHR_materials_iridescence", "the thin film is left out"},
-    {"KHR_materials_sheen", "the sheen is left out"},
     {"KHR_materials_variants", "the materials without a variant are drawn"},
     {"KHR_texture_basisu", "the pictures of other formats are drawn"},
     {"KHR_xmp_json_ld", "nothing is left out of the picture"},

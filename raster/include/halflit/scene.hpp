@@ -30,7 +30,7 @@ struct Scene {
     std::vector<Camera> cameras;  ///< views to choose from; none is in use by itself
 };
 
-/// World-space bounds of everything drawn. Vertices that are not finite are left out.
+/// World-space bounds of everything drawn but shadow catchers. Vertices that are not finite are left out.
 [[nodiscard]] HALFLIT_API Bounds scene_bounds(const Scene& scene);
 
 /// Adds light to a scene that has none: a key light over the viewer's left shoulder, and ambient light from sky and ground.
@@ -47,6 +47,10 @@ HALFLIT_API void add_default_lights(Scene& scene, const Camera& camera);
 
 /// Adds light to a scene that has none: the studio, and a key light from its main soft box that casts shadows. Exposure 1.
 HALFLIT_API void add_studio(Scene& scene, const Camera& camera, double turn_rad = 0.0);
+
+/// Adds a ground that is invisible but for the shadows on it (Material::shadow_catcher): a horizontal square below the lowest point of the
+/// bounds, ten of their radii to each side. Views are framed as without it. bounds: scene_bounds(scene).
+HALFLIT_API void add_ground(Scene& scene, const Bounds& bounds);
 
 /// Lights the scene by an environment: sets it, removes the ambient light, and adds its suns to the scene's lights. The suns of the
 /// environment before, if there was one, are removed. Null: no environment.

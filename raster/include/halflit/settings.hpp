@@ -34,6 +34,8 @@ struct Settings {
     ShadowMode shadows = ShadowMode::soft_split;
     int shadow_size = 2048;  ///< texels on a side of a shadow map, a power of two from 64 to 4096; a cube's faces have half
     std::size_t shadow_memory_limit = std::size_t{256} << 20;  ///< bytes; shadow maps are halved in size until all fit
+    /// Points of a light that has a shadow_radius, each with maps of half that side: 4 to 64.
+    int soft_shadow_maps = 16;
     /// soft_split: distance to the blocker from which on wrapped light is 0, world units; 0: from object size and wrap.
     float shadow_fade = 0.0f;
     /// Directions in which it is looked up how much of the surroundings a surface sees, by shadow maps of 256 texels: 16 to 1024; 0: light

@@ -15,6 +15,9 @@ enum class LightType : std::uint8_t {
     spot          ///< a point light inside a cone
 };
 
+/// Largest shadow_radius of a directional light; larger ones count as this.
+inline constexpr float kMaxLightAngle = 0.7f;
+
 /// A source of light. Members that its type does not name are ignored.
 struct Light {
     LightType type = LightType::directional;  ///< decides which members count
@@ -26,6 +29,9 @@ struct Light {
     float inner_cone_rad = 0.0f;              ///< spot: full intensity up to this angle from the axis
     float outer_cone_rad = 0.785398163f;      ///< spot: zero from this angle on, pi/4 by default
     float cone_power = 0.0f;                  ///< spot: factor cos(angle to the axis)^cone_power, [CMSC]; 0 to 1e5; 0: the cone alone
+    /// Size of the source, which makes its shadows soft and changes nothing else. Directional: the angle from its middle to its rim,
+    /// radians, up to kMaxLightAngle (the sun's is 0.00465). Point, spot: radius of a ball, world units. 0: a point, with sharp shadows.
+    float shadow_radius = 0.0f;
     friend bool operator==(const Light&, const Light&) = default;
 };
 

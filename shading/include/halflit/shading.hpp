@@ -14,20 +14,28 @@ enum class Accuracy : std::uint8_t {
     exact       ///< float32, elementary functions within about 2 ulp
 };
 
+/// Factors by which a tone curve may enlarge the codes that an error of light costs.
+struct ErrorGrowth {
+    double absolute = 1;  ///< of an error of a fixed size
+    double relative = 1;  ///< of an error that is a share of the light
+    double other = 1;     ///< of all other errors
+    friend bool operator==(const ErrorGrowth&, const ErrorGrowth&) = default;
+};
+
 /// Bound on the error of a frame in 8-bit sRGB codes: 255 times the encoded value, before it is rounded to a whole code, of a pixel that
 /// one surface fills. `codes` is the sum of the parts below it, or 255 if that is less, for the material where that sum is
 /// largest.
 struct ErrorBound {
-    double budget = 0;       ///< codes asked for; 0: no budget, and nothing below is known
-    double codes = 0;        ///< the bound
-    bool within = true;      ///< codes <= budget; if not, rounding and bands alone exceed it for some material, which is computed exactly
-    double rounding = 0;     ///< float32 itself, and texture filters
-    double lobes = 0;        ///< shorter polynomials for t^n, or curves
-    double specular = 0;     ///< shorter polynomials for cos^s, or curves
-    double environment = 0;  ///< bands left out
-    double cells = 0;        ///< light fitted over cells of 8 x 8 pixels
-    double left_out = 0;     ///< lights beyond their cutoff radius, and highlights too weak to see
-    double tone_growth = 1;  ///< factor by which the tone curve may enlarge errors; all numbers above are those after the curve
+    double budget = 0;        ///< codes asked for; 0: no budget, and nothing below is known
+    double codes = 0;         ///< the bound
+    bool within = true;       ///< codes <= budget; if not, rounding and bands alone exceed it for some material, which is computed exactly
+    double rounding = 0;      ///< float32 itself, and texture filters
+    double lobes = 0;         ///< shorter polynomials for t^n, or curves
+    double specular = 0;      ///< shorter polynomials for cos^s, or curves
+    double environment = 0;   ///< bands left out
+    double cells = 0;         ///< light fitted over cells of 8 x 8 pixels
+    double left_out = 0;      ///< lights beyond their cutoff radius, and highlights too weak to see
+    ErrorGrowth tone_growth;  ///< factors by which the tone curve may enlarge errors; all numbers above are those after the curve
 };
 
 /// Effect of a shadow on light through a lobe f that reaches past the terminator, where x = N.L = 0. V is the visibility by the shadow map.
@@ -102,7 +110,10 @@ enum Stage : std::uint32_t {
     kStageEnvironment = 1u << 12,    ///< the ambient light is an environment's, in spherical harmonics
     kStageTransmission = 1u << 13,   ///< light from behind passes through the surface
     kStageSpecularColor = 1u << 14,  ///< where not metallic, F0 has a colour, a weight or textures of its own
-    kStageCount = 15
+    kStageShadowCatcher = 1u << 15,  ///< alpha is the share of light that is hidden; nothing else is seen
+    kStageClearcoat = 1u << 16,      ///< a coat above the surface mirrors
+    kStageSheen = 1u << 17,          ///< fibres above the surface glow at grazing views
+    kStageCount = 18
 };
 
 }  // namespace halflit

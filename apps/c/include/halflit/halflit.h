@@ -197,7 +197,17 @@ typedef struct halflit_material {
     float specular_color[3];                     ///< factor of the light mirrored straight on there, from 0
     halflit_texture_use specular_texture;        ///< linear: alpha, times specular
     halflit_texture_use specular_color_texture;  ///< sRGB, times specular_color
-    int32_t reserved;
+    int32_t shadow_catcher;                      ///< invisible but for the shadows on it, which are black with the hidden share as alpha
+    float clearcoat;                             ///< share that is coated with varnish, 0 to 1, times the texture's
+    float clearcoat_roughness;                   ///< 0 to 1, times the texture's
+    float clearcoat_normal_scale;                ///< factor on x and y of the coat's normal texture
+    halflit_texture_use clearcoat_texture;       ///< linear: red
+    halflit_texture_use clearcoat_roughness_texture;  ///< linear: green
+    halflit_texture_use clearcoat_normal_texture;     ///< linear, in tangent space
+    float sheen_color[3];                             ///< of fibres above the surface, 0 to 1, times the texture's; black: none
+    float sheen_roughness;                            ///< 0 to 1, times the texture's
+    halflit_texture_use sheen_color_texture;          ///< sRGB
+    halflit_texture_use sheen_roughness_texture;      ///< linear: alpha
 } halflit_material;
 HALFLIT_C_API int32_t halflit_material_init(halflit_material* material, size_t size);
 
@@ -287,7 +297,7 @@ typedef struct halflit_light {
     float source_radius;                   ///< point, spot: smaller distances count as this; 0: 1e-4
     float inner_cone_rad, outer_cone_rad;  ///< spot: full light up to the first angle from the axis, none from the second on
     float cone_power;                      ///< spot: factor cos(angle from the axis)^cone_power, 0 to 1e5
-    int32_t reserved;
+    float shadow_radius;                   ///< size for soft shadows. Directional: angle from middle to rim, radians; others: world units
 } halflit_light;
 HALFLIT_C_API int32_t halflit_light_init(halflit_light* light, size_t size);
 
@@ -304,6 +314,9 @@ HALFLIT_C_API int32_t halflit_scene_add_default_lights(halflit_scene* scene, con
 /// If the scene has no light of any kind, puts it into the built-in studio: an environment of soft boxes, turned with the camera about the
 /// vertical, and a key light over the viewer's left shoulder. halflit_auto_setup does the same.
 HALFLIT_C_API int32_t halflit_scene_add_studio(halflit_scene* scene, const halflit_camera* camera);
+/// Adds a ground that is invisible but for the shadows on it: a horizontal square below the lowest point of all that is drawn. Views are
+/// framed as without it. instance: its index, may be null.
+HALFLIT_C_API int32_t halflit_scene_add_ground(halflit_scene* scene, int32_t* instance);
 /// Removes the lights, the ambient light and the environment.
 HALFLIT_C_API int32_t halflit_scene_clear_lights(halflit_scene* scene);
 
@@ -376,6 +389,8 @@ typedef struct halflit_settings {
     int32_t tone_curve;                ///< HALFLIT_TONE: from light to codes; floats and `background` do without (none)
     int32_t sky_shadows;               ///< directions in which light from all around may be hidden, 16 to 1024; 0: it never is (0)
     int32_t anisotropy;                ///< largest ratio of a texture's footprint that is filtered along its length, 1 to 16 (1)
+    int32_t soft_shadow_maps;          ///< points of a light with a shadow_radius, each with maps of half that side: 4 to 64 (16)
+    int32_t reserved;
 } halflit_settings;
 HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t size);
 
