@@ -13,7 +13,8 @@ namespace {
 struct Parts {
     std::vector<float> times{0, 1, 2};
     std::vector<float> values{0, 0, 0, 1, 1, 1, 2, 2, 2};
-    std::string target = R"("node":0,"path":"translation")", interpolation = "LINEAR", type = "VEC3", samplers, second;
+    std::string target = R"("node":0,"path":"translation")", interpolation = "LINEAR", type = "VEC3";
+    std::string samplers{}, second{};
 };
 
 /// A triangle with one animation; accessor 0 is the triangle, 1 the times, 2 the values.
