@@ -215,7 +215,8 @@ TEST_CASE("sheen: light of an environment is near the integral, and nearer than 
     Random random(5);
     std::string table;
     // Measured: 0.108, 0.059, 0.033, 0.033 and 0.034, and 0.231, 0.184, 0.164, 0.088 and 0.053 with Lambert's lobe.
-    for (const auto& [roughness, most] : {std::pair{0.15, 0.12}, {0.3, 0.065}, {0.5, 0.036}, {0.7, 0.036}, {1.0, 0.037}}) {
+    for (const auto& row : {std::pair{0.15, 0.12}, {0.3, 0.065}, {0.5, 0.036}, {0.7, 0.036}, {1.0, 0.037}}) {
+        const double roughness = row.first, most = row.second;
         double squares = 0, lambert_squares = 0, worst = 0;
         int compared = 0;
         for (const Sky& sky : skies) {
