@@ -57,6 +57,8 @@ halflit_load_options to_c(const LoadOptions& from) {
     options.max_jpeg_scans = from.limits.max_jpeg_scans;
     options.lenient = from.lenient;
     options.threads = from.threads;
+    options.turn_upright = from.turn_upright;
+    options.crease_deg = from.crease_deg;
     return options;
 }
 
@@ -73,6 +75,8 @@ Result<LoadOptions> load_options(const halflit_load_options* given) {
     }
     options.lenient = read->lenient != 0;
     options.threads = read->threads;
+    options.turn_upright = read->turn_upright != 0;
+    options.crease_deg = read->crease_deg;
     options.limits.max_file_bytes = read->max_file_bytes;
     options.limits.max_total_bytes = read->max_total_bytes;
     options.limits.max_json_tokens = read->max_json_tokens;

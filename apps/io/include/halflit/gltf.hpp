@@ -49,10 +49,16 @@ struct LoadOptions {
     /// it. LoadedScene::origin and scale say what was done. pose() places nodes in the file's own world, so a host that poses such a scene
     /// leaves this off.
     bool recentre = false;
+    /// Turns STL and 3MF files, whose z points up by custom, so that y does.
+    bool turn_upright = true;
+    /// STL, PLY, OBJ and 3MF: where the file has no normals, the surface is smooth across edges whose triangles' normals differ by at most
+    /// this, degrees in [0, 180].
+    float crease_deg = 30.0f;
 };
 
 /// Contents of the file, drawn or not.
 struct SceneInfo {
+    std::string format;              ///< "glTF", "GLB", "STL", "PLY", "OBJ" or "3MF"
     std::string version, generator;  ///< asset.version and asset.generator
     /// @{
     /// Number in the file.
