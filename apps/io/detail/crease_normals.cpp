@@ -50,6 +50,9 @@ struct HalfEdge {
     std::uint32_t is_upward;  ///< from low to high
 };
 
+/// Of normals that count as equal: the triangles of a flat polygon share a normal. An angle of 0.08 degrees.
+constexpr double kFlatCosine = 1.0 - 1e-6;
+
 constexpr std::uint32_t following(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 
 class NormalMaker {
@@ -113,9 +116,10 @@ private:
     /// Two corners at which half-edges of the same edge start.
     void join(std::uint32_t a, std::uint32_t b) {
         const std::uint32_t group = smoothing(a / 3);
-        if (group != smoothing(b / 3) || group == 0) return;
+        if (group != smoothing(b / 3)) return;
         const Vec3d &x = unit_[a / 3], &y = unit_[b / 3];
-        if (group == Soup::kByCrease && !(x != Vec3d{} && y != Vec3d{} && dot(x, y) >= least_cosine_)) return;
+        const double least = group == 0 ? kFlatCosine : least_cosine_;
+        if ((group == 0 || group == Soup::kByCrease) && !(x != Vec3d{} && y != Vec3d{} && dot(x, y) >= least)) return;
         sets_.join(a, following(b));
         sets_.join(following(a), b);
     }

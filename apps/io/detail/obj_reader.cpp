@@ -25,9 +25,12 @@ public:
 
     /// mtllib: one name, which may have blanks in it, or several.
     void add(std::string_view names) {
-        if (read(names, names.find_first_of(" \t") != std::string_view::npos)) return;
+        if (names.find_first_of(" \t") == std::string_view::npos) return void(read(names, false));
+        if (read(names, true)) return;
+        bool any = false;
         Words words(names);
-        for (std::string_view name = words.next(); !name.empty(); name = words.next()) read(name, false);
+        for (std::string_view name = words.next(); !name.empty(); name = words.next()) any = read(name, true) || any;
+        if (!any) read(names, false);
     }
     /// The scene's material; -1: none of that name.
     int find(const std::string& name) {
@@ -51,14 +54,13 @@ private:
     /// Reads a library; false where it cannot be read, of which it warns unless `quietly`.
     bool read(std::string_view name, bool quietly) {
         Document& document = builder_.document();
-        if (!quietly) builder_.add_file(name);
+        builder_.add_file(name);
         const auto bytes = document.folder.read(ModelBuilder::file_name(name), document.options.limits.max_file_bytes);
         const std::string shown = "mtllib " + printable(name, 120);
         if (!bytes) {
             if (!quietly) document.warn(fmt::format("{}: {}; its materials are drawn in grey", shown, bytes.error().message));
             return false;
         }
-        if (quietly) builder_.add_file(name);
         document.encoded_images.take(bytes->size());
         const std::size_t first = materials_.size();
         read_mtl({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, shown, builder_, materials_);
