@@ -342,8 +342,9 @@ Result<std::optional<Lobe>> chosen_lobe(const RenderOptions& o) {
 
 Positional scene_argument(RenderOptions& o, bool required) {
     return {.name = "SCENE",
-            .help = "A .glb, .gltf, .stl, .ply, .obj or .3mf file, - for standard input, or a built-in scene: demo, sphere:N (N triangles), "
-                    "lights:N (N lamps)",
+            .help =
+                "A .glb, .gltf, .stl, .ply, .obj or .3mf file, - for standard input, or a built-in scene: demo, sphere:N (N triangles), "
+                "lights:N (N lamps)",
             .read = read_text(o.scene),
             .required = required,
             .form = "FILE"};

@@ -64,10 +64,8 @@ Result<LoadedScene> load_model_bytes(std::span<const std::byte> bytes, const std
             return failed(ErrorCode::limit, fmt::format("has {} bytes, the limit is {}", bytes.size(), options.limits.max_file_bytes));
         const std::optional<ModelFormat> format = find_model_format(bytes);
         // The glTF reader says what is wrong with a file that is nothing at all.
-        if (!format && !bytes.empty())
-            return failed(ErrorCode::bad_input, "is no model: expected glTF, GLB, STL, PLY, OBJ or 3MF");
-        if (!format || *format == ModelFormat::gltf || *format == ModelFormat::glb)
-            return load_gltf_bytes(bytes, name, base_dir, options);
+        if (!format && !bytes.empty()) return failed(ErrorCode::bad_input, "is no model: expected glTF, GLB, STL, PLY, OBJ or 3MF");
+        if (!format || *format == ModelFormat::gltf || *format == ModelFormat::glb) return load_gltf_bytes(bytes, name, base_dir, options);
         try {
             if (options.threads < 0) return failed(ErrorCode::usage, fmt::format("threads is {}, expected at least 0", options.threads));
             return read(*format, bytes, base_dir, options);

@@ -16,8 +16,9 @@ namespace {
 /// Flips bits, replaces bytes, cuts, removes and repeats pieces, and replaces numbers.
 void damage(Bytes& file, std::mt19937& random) {
     const auto below = [&](std::size_t n) { return n == 0 ? 0 : static_cast<std::size_t>(random() % n); };
-    static const char* const kNumbers[] = {"-1",  "0",    "1",     "-0", "4294967295", "2147483648", "18446744073709551616", "1e39",
-                                           "nan", "-inf", "1e-60", "7",  "99999999",   "0.5",        "/",                    "x"};
+    static const char* const kNumbers[] = {"-1",   "0",   "1",    "-0",    "4294967295", "2147483648", "18446744073709551616",
+                                           "1e39", "nan", "-inf", "1e-60", "7",          "99999999",   "0.5",
+                                           "/",    "x"};
     if (file.empty()) return;
     const auto at = [&](std::size_t i) { return file.begin() + static_cast<std::ptrdiff_t>(i); };
     const std::size_t from = below(file.size());

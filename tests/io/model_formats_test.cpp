@@ -197,7 +197,8 @@ TEST_CASE("STL: colours of VisCAM and Magics are read from the attribute", "[io]
     const Polyhedron object = letter();
     const std::uint16_t red_low = 31, red_high = 31 << 10;
     const auto first_color = [&](const std::string& title, std::uint16_t attribute) {
-        const LoadedScene loaded = load_any_ok(stl_binary_of(object, title, std::vector<std::uint16_t>(object.triangles.size(), attribute)));
+        const LoadedScene loaded =
+            load_any_ok(stl_binary_of(object, title, std::vector<std::uint16_t>(object.triangles.size(), attribute)));
         const Mesh& mesh = loaded.scene.meshes.at(0);
         return mesh.colors.empty() ? Vec4f{-1, -1, -1, -1} : mesh.colors[0];
     };
@@ -244,7 +245,8 @@ TEST_CASE("PLY: triangle strips turn every second triangle", "[io]") {
 }
 
 TEST_CASE("PLY: a point cloud is refused by name", "[io]") {
-    const std::string file = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n";
+    const std::string file =
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n";
     CHECK(error_of(to_bytes(file)).find("it is a point cloud") != std::string::npos);
     CHECK(error_of(to_bytes("v 0 0 0\nv 1 0 0\np 1 2\n")).find("it has vertices but no faces") != std::string::npos);
 }
@@ -321,7 +323,9 @@ TEST_CASE("3MF: components, transforms, units and colours are read", "[io]") {
     CHECK(std::abs(bounds.max.y - 68 * 0.0254f) < 1e-5f);
     CHECK(std::abs(bounds.min.z - -40 * 0.0254f) < 1e-5f);
     REQUIRE(loaded.scene.meshes.size() == 2);  // opaque, and the triangle that is not
-    const auto has = [](const Mesh& mesh, Vec4f color) { return std::find(mesh.colors.begin(), mesh.colors.end(), color) != mesh.colors.end(); };
+    const auto has = [](const Mesh& mesh, Vec4f color) {
+        return std::find(mesh.colors.begin(), mesh.colors.end(), color) != mesh.colors.end();
+    };
     CHECK(has(loaded.scene.meshes[0], {0, 1, 0, 1}));
     CHECK(has(loaded.scene.meshes[0], {1, 0, 0, 1}));
     CHECK(loaded.scene.meshes[1].indices.size() == 3);

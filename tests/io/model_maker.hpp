@@ -97,8 +97,8 @@ enum class PlyKind { text, little, big };
 
 inline Bytes ply_of(const Polyhedron& p, PlyKind kind) {
     const char* const names[] = {"ascii", "binary_little_endian", "binary_big_endian"};
-    std::string header = std::string("ply\nformat ") + names[static_cast<int>(kind)] +
-                         " 1.0\ncomment made by a test\nelement vertex " + std::to_string(p.points.size()) +
+    std::string header = std::string("ply\nformat ") + names[static_cast<int>(kind)] + " 1.0\ncomment made by a test\nelement vertex " +
+                         std::to_string(p.points.size()) +
                          "\nproperty float x\nproperty float y\nproperty double z\nproperty uchar ignored\nelement face " +
                          std::to_string(p.polygons.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
     Bytes out = to_bytes(header);

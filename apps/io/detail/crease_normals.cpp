@@ -134,7 +134,8 @@ private:
 }  // namespace
 
 void add_crease_normals(const Document& document, Soup& soup, const std::vector<std::uint32_t>& place_of, double crease_deg) {
-    if (soup.normal_of.size() == soup.position_of.size() && std::find(soup.normal_of.begin(), soup.normal_of.end(), kNone) == soup.normal_of.end())
+    if (soup.normal_of.size() == soup.position_of.size() &&
+        std::find(soup.normal_of.begin(), soup.normal_of.end(), kNone) == soup.normal_of.end())
         return;
     document.check_time();
     NormalMaker maker(soup, place_of, crease_deg);

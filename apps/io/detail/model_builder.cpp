@@ -127,10 +127,12 @@ std::vector<PartMesh> ModelBuilder::add_meshes(Soup&& soup, std::span<const std:
         document_->geometry.take(sizeof(Mesh) + mesh.name.size());
         if (mesh.material >= 0) {
             const Material& material = scene.materials[static_cast<std::size_t>(mesh.material)];
-            if (mesh.uv0.empty() && (material.base_color_texture.used() || material.normal_texture.used() || material.emissive_texture.used()))
-                document_->warn(fmt::format("material \"{}\": the surface has no texture coordinates, its textures are drawn with the colour at "
-                                            "(0, 0)",
-                                            printable(material.name, 80)));
+            if (mesh.uv0.empty() &&
+                (material.base_color_texture.used() || material.normal_texture.used() || material.emissive_texture.used()))
+                document_->warn(
+                    fmt::format("material \"{}\": the surface has no texture coordinates, its textures are drawn with the colour at "
+                                "(0, 0)",
+                                printable(material.name, 80)));
             if (material.normal_texture.used() && !mesh.uv0.empty()) {
                 document_->geometry.take(std::uint64_t{mesh.indices.size()} * 16);
                 generate_tangents(mesh, 0);
@@ -177,7 +179,8 @@ LoadedScene ModelBuilder::finish(const ModelFrame& frame) {
     NodeTree tree;
     for (std::size_t n = 0; n < loaded_.nodes.size(); ++n) {
         const Affine world = n == 0 ? root : root * local_[n];
-        for (const int i : loaded_.nodes[n].instances) loaded_.scene.instances[static_cast<std::size_t>(i)].world_from_object = to_mat4(world);
+        for (const int i : loaded_.nodes[n].instances)
+            loaded_.scene.instances[static_cast<std::size_t>(i)].world_from_object = to_mat4(world);
         tree.parent.push_back(loaded_.nodes[n].parent);
         tree.drawn.push_back(static_cast<int>(n));
         tree.world_from_node.push_back(world);

@@ -15,9 +15,9 @@ namespace {
 
 /// Statements with which an OBJ file may begin.
 bool is_obj_statement(std::string_view word) {
-    static constexpr std::array kWords{"v",      "vn",     "vt",  "vp", "f",  "fo",        "l",         "p",     "o",        "g",  "s",
-                                       "mtllib", "usemtl", "mg",  "lod", "cstype", "deg", "bevel", "c_interp", "d_interp", "shadow_obj",
-                                       "maplib", "usemap", "call"};
+    static constexpr std::array kWords{"v",   "vn",    "vt",       "vp",       "f",          "fo",     "l",      "p",
+                                       "o",   "g",     "s",        "mtllib",   "usemtl",     "mg",     "lod",    "cstype",
+                                       "deg", "bevel", "c_interp", "d_interp", "shadow_obj", "maplib", "usemap", "call"};
     return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
 }
 

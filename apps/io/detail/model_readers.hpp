@@ -12,7 +12,6 @@
 
 namespace halflit::io::detail {
 
-
 /// True if the length is exactly what the number of triangles of a binary STL file takes.
 [[nodiscard]] bool fits_binary_stl(std::span<const std::byte> bytes);
 /// True if an STL file is binary: its length is what its number of triangles takes, or it does not begin as text.
@@ -29,6 +28,5 @@ namespace halflit::io::detail {
                                                     const LoadOptions& options);
 /// Fails (usage) where the library was built without libzip or expat.
 [[nodiscard]] LoadedScene read_three_mf(std::span<const std::byte> bytes, const LoadOptions& options);
-
 
 }  // namespace halflit::io::detail

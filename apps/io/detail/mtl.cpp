@@ -134,7 +134,8 @@ public:
         }
         set_normal_map(m);
         if (!from_.not_drawn.empty())
-            builder_.document().warn(fmt::format("material \"{}\": not drawn: {}", printable(m.name, 80), fmt::join(from_.not_drawn, ", ")));
+            builder_.document().warn(
+                fmt::format("material \"{}\": not drawn: {}", printable(m.name, 80), fmt::join(from_.not_drawn, ", ")));
         return builder_.add_material(m);
     }
 

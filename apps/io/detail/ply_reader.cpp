@@ -37,9 +37,11 @@ public:
     /// Refuses a number of elements that the file cannot hold.
     void check_count(const PlyElement& element) const {
         std::size_t least = 0;  // bytes
-        for (const PlyProperty& p : element.properties) least += format_ == PlyFormat::ascii ? 1 : size_of(p.is_list ? p.count_type : p.type);
+        for (const PlyProperty& p : element.properties)
+            least += format_ == PlyFormat::ascii ? 1 : size_of(p.is_list ? p.count_type : p.type);
         if (least > 0 && element.count > text_.size() / least)
-            refuse("", fmt::format("{} elements \"{}\" do not fit into the file: it was cut off", element.count, printable(element.name, 40)));
+            refuse("",
+                   fmt::format("{} elements \"{}\" do not fit into the file: it was cut off", element.count, printable(element.name, 40)));
     }
     [[nodiscard]] std::string where() const { return format_ == PlyFormat::ascii ? fmt::format("line {}", line_ + 1) : ""; }
 
@@ -110,11 +112,28 @@ Slot slot_of(std::string_view name, bool is_list) {
         std::string_view name;
         Slot slot;
     };
-    static constexpr Name kScalars[] = {
-        {"x", px},         {"y", py},         {"z", pz},           {"nx", nx},          {"ny", ny},           {"nz", nz},
-        {"s", tu},         {"t", tv},         {"u", tu},           {"v", tv},           {"texture_u", tu},    {"texture_v", tv},
-        {"r", red},        {"g", green},      {"b", blue},         {"red", red},        {"green", green},     {"blue", blue},
-        {"diffuse_red", red}, {"diffuse_green", green}, {"diffuse_blue", blue}, {"texnumber", texnumber}};
+    static constexpr Name kScalars[] = {{"x", px},
+                                        {"y", py},
+                                        {"z", pz},
+                                        {"nx", nx},
+                                        {"ny", ny},
+                                        {"nz", nz},
+                                        {"s", tu},
+                                        {"t", tv},
+                                        {"u", tu},
+                                        {"v", tv},
+                                        {"texture_u", tu},
+                                        {"texture_v", tv},
+                                        {"r", red},
+                                        {"g", green},
+                                        {"b", blue},
+                                        {"red", red},
+                                        {"green", green},
+                                        {"blue", blue},
+                                        {"diffuse_red", red},
+                                        {"diffuse_green", green},
+                                        {"diffuse_blue", blue},
+                                        {"texnumber", texnumber}};
     static constexpr Name kLists[] = {{"vertex_indices", indices}, {"vertex_index", indices}, {"texcoord", texcoord}};
     for (const Name& known : is_list ? std::span<const Name>(kLists) : std::span<const Name>(kScalars))
         if (known.name == name) return known.slot;
@@ -214,7 +233,8 @@ private:
         if (!layout.has[px] || !layout.has[py] || !layout.has[pz]) refuse("element vertex", "expected the properties x, y and z");
         const bool has_normal = layout.has[nx] && layout.has[ny] && layout.has[nz], has_color = layout.has_color();
         vertex_has_uv_ = layout.has[tu] && layout.has[tv];
-        if (element.count >= kNone) refuse("element vertex", fmt::format("{} vertices, the limit is {}", element.count, kNone), ErrorCode::limit);
+        if (element.count >= kNone)
+            refuse("element vertex", fmt::format("{} vertices, the limit is {}", element.count, kNone), ErrorCode::limit);
         builder_.take_entries<Vec3f>(element.count * (1 + (has_normal ? 1 : 0) + (vertex_has_uv_ ? 1 : 0) + (has_color ? 2 : 0)));
         Row row{};
         for (std::uint64_t i = 0; i < element.count; ++i) {

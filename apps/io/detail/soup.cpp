@@ -22,9 +22,8 @@ std::vector<std::uint32_t> find_places(const std::vector<Vec3f>& positions) {
     std::vector<Key> keys;
     keys.reserve(positions.size());
     for (const Vec3f& p : positions) keys.push_back({bits(p.x), bits(p.y), bits(p.z), static_cast<std::uint32_t>(keys.size())});
-    std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
-        return std::tie(a.x, a.y, a.z, a.index) < std::tie(b.x, b.y, b.z, b.index);
-    });
+    std::sort(keys.begin(), keys.end(),
+              [](const Key& a, const Key& b) { return std::tie(a.x, a.y, a.z, a.index) < std::tie(b.x, b.y, b.z, b.index); });
     std::vector<std::uint32_t> place(positions.size());
     for (std::size_t i = 0; i < keys.size(); ++i) {
         const bool same = i > 0 && keys[i].x == keys[i - 1].x && keys[i].y == keys[i - 1].y && keys[i].z == keys[i - 1].z;

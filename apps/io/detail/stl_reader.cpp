@@ -53,8 +53,9 @@ private:
         }
     }
     [[noreturn]] void refuse_word(std::string_view found, std::string_view expected) const {
-        refuse(fmt::format("line {}", lines_.number()), found.empty() ? fmt::format("expected {}, the file ends: it was cut off", expected)
-                                                                      : fmt::format("expected {}, found \"{}\"", expected, printable(found, 40)));
+        refuse(fmt::format("line {}", lines_.number()), found.empty()
+                                                            ? fmt::format("expected {}, the file ends: it was cut off", expected)
+                                                            : fmt::format("expected {}, found \"{}\"", expected, printable(found, 40)));
     }
     void expect(const char* small) {
         const std::string_view word = next();
@@ -129,11 +130,13 @@ private:
 };
 
 Soup read_binary(std::span<const std::byte> bytes, ModelBuilder& builder, bool& has_colors) {
-    if (bytes.size() < kHeader) refuse("", fmt::format("a binary STL file has at least {} bytes, found {}: it was cut off", kHeader, bytes.size()));
+    if (bytes.size() < kHeader)
+        refuse("", fmt::format("a binary STL file has at least {} bytes, found {}: it was cut off", kHeader, bytes.size()));
     const std::uint64_t count = u32_at(bytes, 80), expected = kHeader + kRecord * count;
     if (bytes.size() < expected)
         refuse("", fmt::format("{} triangles take {} bytes, found {}: it was cut off", count, expected, bytes.size()));
-    if (bytes.size() > expected) builder.document().warn(fmt::format("{} bytes after the last triangle are ignored", bytes.size() - expected));
+    if (bytes.size() > expected)
+        builder.document().warn(fmt::format("{} bytes after the last triangle are ignored", bytes.size() - expected));
     builder.take_triangles(count);
     builder.take_entries<Vec3f>(3 * count);
     const StlColors colors(as_text(bytes.first(80)));

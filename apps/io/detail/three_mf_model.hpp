@@ -17,10 +17,10 @@ namespace halflit::io::detail::three_mf {
 
 /// A resource that triangles take colours or a texture from.
 struct Properties {
-    bool is_texture = false;          ///< a texture2dgroup
-    std::vector<Vec4f> colors;        ///< linear
-    std::vector<Vec2f> uvs;           ///< v points down
-    std::uint32_t texture = 0;        ///< id of a texture2d
+    bool is_texture = false;    ///< a texture2dgroup
+    std::vector<Vec4f> colors;  ///< linear
+    std::vector<Vec2f> uvs;     ///< v points down
+    std::uint32_t texture = 0;  ///< id of a texture2d
 };
 
 struct Texture2d {

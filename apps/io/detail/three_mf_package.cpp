@@ -23,7 +23,8 @@ struct ThreeMfPackage::Archive {
         const bool no_memory = zip_error_code_zip(&error) == ZIP_ER_MEMORY;
         zip_error_fini(&error);
         if (zip == nullptr)
-            refuse("", fmt::format("the ZIP file of a 3MF model cannot be read: {}", text), no_memory ? ErrorCode::limit : ErrorCode::bad_input);
+            refuse("", fmt::format("the ZIP file of a 3MF model cannot be read: {}", text),
+                   no_memory ? ErrorCode::limit : ErrorCode::bad_input);
     }
     ~Archive() {
         if (zip != nullptr) zip_discard(zip);
@@ -73,7 +74,8 @@ std::optional<std::vector<std::byte>> ThreeMfPackage::read(const std::string& na
         if (got <= 0) break;
         unpacked_.take(static_cast<std::uint64_t>(got));
         if (bytes.size() > document_.options.limits.max_file_bytes)
-            refuse(where, fmt::format("has more than {} bytes, which is the limit", document_.options.limits.max_file_bytes), ErrorCode::limit);
+            refuse(where, fmt::format("has more than {} bytes, which is the limit", document_.options.limits.max_file_bytes),
+                   ErrorCode::limit);
     }
     return bytes;
 }

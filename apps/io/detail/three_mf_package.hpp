@@ -20,9 +20,9 @@ public:
     ThreeMfPackage(const ThreeMfPackage&) = delete;
     ThreeMfPackage& operator=(const ThreeMfPackage&) = delete;
 
-    /// A part's bytes; nothing if there is no such part. `name` may begin with a slash. Each part has at most LoadLimits::max_file_bytes, all
-    /// of them max_total_bytes, and no more than 64 MB and 200 bytes for each byte of the package: text of meshes is packed 4 to 30 times.
-    /// Throws LoadFailure above a limit, and for a part that cannot be unpacked.
+    /// A part's bytes; nothing if there is no such part. `name` may begin with a slash. Each part has at most LoadLimits::max_file_bytes,
+    /// all of them max_total_bytes, and no more than 64 MB and 200 bytes for each byte of the package: text of meshes is packed 4 to 30
+    /// times. Throws LoadFailure above a limit, and for a part that cannot be unpacked.
     [[nodiscard]] std::optional<std::vector<std::byte>> read(const std::string& name);
 
 private:

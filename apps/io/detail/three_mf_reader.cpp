@@ -1,5 +1,5 @@
-// 3MF: a ZIP file with models as XML. Read are meshes, components and build items with their transforms, the unit, base materials, groups of
-// colours and of texture coordinates, and the parts of the production extension.
+// 3MF: a ZIP file with models as XML. Read are meshes, components and build items with their transforms, the unit, base materials, groups
+// of colours and of texture coordinates, and the parts of the production extension.
 #include "apps/io/detail/model_builder.hpp"
 #include "apps/io/detail/model_readers.hpp"
 
@@ -178,13 +178,15 @@ private:
         Soup soup;
         soup.positions = std::move(object.vertices);
         std::vector<int> materials;
-        std::map<int, std::uint32_t> part_of;              // of a material
-        std::map<std::uint32_t, std::uint32_t> first_of;   // of a group: where its entries begin in the soup's list
+        std::map<int, std::uint32_t> part_of;             // of a material
+        std::map<std::uint32_t, std::uint32_t> first_of;  // of a group: where its entries begin in the soup's list
         std::size_t bad = 0;
         for (const Triangle& triangle : object.triangles) {
             const auto found = triangle.group == kNone ? part.model.properties.end() : part.model.properties.find(triangle.group);
             const Properties* properties = found == part.model.properties.end() ? nullptr : &found->second;
-            const std::size_t entries = properties == nullptr ? 0 : properties->is_texture ? properties->uvs.size() : properties->colors.size();
+            const std::size_t entries = properties == nullptr    ? 0
+                                        : properties->is_texture ? properties->uvs.size()
+                                                                 : properties->colors.size();
             const auto out_of = [](const std::array<std::uint32_t, 3>& list, std::size_t count) {
                 return std::any_of(list.begin(), list.end(), [&](std::uint32_t i) { return i >= count; });
             };

@@ -56,7 +56,8 @@ void XMLCALL end(void* user, const XML_Char* name) {
 void XMLCALL doctype(void* user, const XML_Char*, const XML_Char*, const XML_Char*, int) {
     auto& reading = *static_cast<Reading*>(user);
     reading.guarded([&] {
-        refuse(fmt::format("line {}", XML_GetCurrentLineNumber(reading.parser)), "has a document type declaration, which 3MF does not allow");
+        refuse(fmt::format("line {}", XML_GetCurrentLineNumber(reading.parser)),
+               "has a document type declaration, which 3MF does not allow");
     });
 }
 
@@ -64,7 +65,7 @@ void XMLCALL doctype(void* user, const XML_Char*, const XML_Char*, const XML_Cha
 
 void read_xml(std::span<const std::byte> text, const std::string& where, const Document& document, XmlSink& sink) {
     const std::unique_ptr<std::remove_pointer_t<XML_Parser>, decltype(&XML_ParserFree)> parser(XML_ParserCreateNS(nullptr, ' '),
-                                                                                                &XML_ParserFree);
+                                                                                               &XML_ParserFree);
     if (!parser) refuse(where, "out of memory", ErrorCode::limit);
     Reading reading{parser.get(), sink, nullptr};
     XML_SetUserData(parser.get(), &reading);

@@ -17,12 +17,12 @@ namespace halflit {
 
 /// Formats of models. Scenes of all of them have y up; see LoadOptions::turn_upright.
 enum class ModelFormat : std::uint8_t {
-    gltf,        ///< glTF 2.0 as text
-    glb,         ///< glTF 2.0 as GLB
-    stl,         ///< ASCII or binary; z up; no unit: as it is
-    ply,         ///< ASCII or binary; y up; no unit
-    obj,         ///< with the materials of .mtl files; y up; no unit
-    three_mf     ///< z up; in metres, by the file's unit. Needs libzip and expat
+    gltf,     ///< glTF 2.0 as text
+    glb,      ///< glTF 2.0 as GLB
+    stl,      ///< ASCII or binary; z up; no unit: as it is
+    ply,      ///< ASCII or binary; y up; no unit
+    obj,      ///< with the materials of .mtl files; y up; no unit
+    three_mf  ///< z up; in metres, by the file's unit. Needs libzip and expat
 };
 
 /// "glTF", "GLB", "STL", "PLY", "OBJ" or "3MF".
