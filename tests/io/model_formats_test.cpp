@@ -1,5 +1,6 @@
 // STL, PLY, OBJ and 3MF: the same object in each format gives the same picture, and each format's own rules.
 #include "tests/io/model_maker.hpp"
+#include "tests/io/png_maker.hpp"
 #include "tests/support/skip.hpp"
 
 #include "halflit/auto_setup.hpp"
@@ -116,6 +117,9 @@ TEST_CASE("models: load_model reads glTF as load_gltf does", "[io]") {
 
 TEST_CASE("models: what is no model is refused by name", "[io]") {
     CHECK(error_of(to_bytes("hello, world\n")).find("is no model: expected glTF, GLB, STL, PLY, OBJ or 3MF") != std::string::npos);
+    std::string picture = "\x89PNG\r\n";
+    for (int i = 0; i < 400; ++i) picture += static_cast<char>(i * 37 % 251);
+    CHECK(error_of(to_bytes(picture)).find("is no model") != std::string::npos);
     CHECK(error_of({}).find("no bytes at all") != std::string::npos);
 }
 
@@ -214,6 +218,9 @@ TEST_CASE("STL: a file that was cut off is refused, with the lengths", "[io]") {
     Bytes file = stl_binary_of(letter(), "solid title");
     file.pop_back();
     CHECK(error_of(file).find("20 triangles take 1084 bytes, found 1083: it was cut off") != std::string::npos);
+    Bytes longer = stl_binary_of(letter(), "a title");
+    append_u32(longer, 0);
+    CHECK(load_any_ok(longer).warnings.at(0) == "4 bytes after the last triangle are ignored");
     Bytes text = stl_text_of(letter());
     text.resize(text.size() / 2);
     CHECK(error_of(text).find("line ") != std::string::npos);
@@ -274,14 +281,27 @@ TEST_CASE("models: indices out of range are refused, or their faces left out whe
 TEST_CASE("OBJ: materials of an MTL file become halflit's", "[io]") {
     std::string name = (std::filesystem::temp_directory_path() / "halflit-test-XXXXXX").string();
     REQUIRE(::mkdtemp(name.data()) != nullptr);
+    PngSpec spec;
+    spec.width = spec.height = 2, spec.color_type = 2;
+    const auto write_picture = [&](const char* file, auto sample) {
+        const Bytes png = make_png(spec, sample);
+        std::ofstream(name + file, std::ios::binary)
+            .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+    };
+    write_picture("/wood.png", [](std::uint32_t x, std::uint32_t y, int c) { return 40 * x + 90 * y + static_cast<std::uint32_t>(c); });
+    write_picture("/heights.png", [](std::uint32_t x, std::uint32_t, int) { return 200 * x; });
+    write_picture("/bumps.png", [](std::uint32_t, std::uint32_t, int c) { return c == 2 ? 255u : 128u; });
     std::ofstream(name + "/two words.mtl") << "newmtl shiny\nKd 0.5 0.25 0.125\nKs 0.5 0.5 0.5\nNs 30\n"
                                               "newmtl metal\nKd 1 1 1\nPr 0.25\nPm 1\nNs 1000\n"
                                               "newmtl glass\nKd 0 0 1\nd 0.25\nKe 1 2 3\nKs 0 0 0\n"
-                                              "newmtl picture\nKd 0 0 0\nmap_Kd -s 2 3 1 -o 0.5 0.25 ../secret.png\n";
+                                              "newmtl secret\nmap_Kd ../secret.png\n"
+                                              "newmtl picture\nKd 0 0 0\nmap_Kd -s 2 3 1 -o 0.5 0.25 wood.png\nbump -bm 2 bumps.png\n"
+                                              "newmtl heights\nmap_Bump heights.png\n";
     const std::string points = "mtllib two words.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0.25\n";
     const auto load_with = [&](const std::string& rest) { return load_any(to_bytes(points + rest), {}, name); };
     const auto loaded = load_with("usemtl shiny\nf 1/1 2/1 3/1\nusemtl metal\nf 1 2 3\nusemtl glass\nf 1 2 3\nusemtl none\nf 1 2 3\n");
-    const auto refused = load_with("usemtl picture\nf 1 2 3\n");
+    const auto refused = load_with("usemtl secret\nf 1 2 3\n");
+    const auto textured = load_with("usemtl picture\nf 1/1 2/1 3/1\nusemtl heights\nf 1/1 2/1 3/1\n");
     std::filesystem::remove_all(name);
     REQUIRE(loaded);
     const auto& materials = loaded->scene.materials;
@@ -298,6 +318,16 @@ TEST_CASE("OBJ: materials of an MTL file become halflit's", "[io]") {
     CHECK(loaded->scene.meshes.at(0).uv0.at(0) == Vec2f{0, 0.75f});
     REQUIRE(loaded->warnings.size() == 1);
     CHECK(loaded->warnings[0] == "usemtl none: no material of this name was read; drawn in grey");
+    REQUIRE(textured);
+    const Material& picture = textured->scene.materials.at(0);
+    CHECK(picture.base_color == Vec4f{1, 1, 1, 1});
+    CHECK(picture.base_color_texture.row_u == Vec3f{2, 0, 0.5f});
+    CHECK(picture.base_color_texture.row_v == Vec3f{0, 3, -2.25f});  // 1 - (3 (1 - v) + 0.25)
+    CHECK(picture.normal_texture.used());
+    CHECK(picture.normal_scale == 2.0f);
+    CHECK_FALSE(textured->scene.materials.at(1).normal_texture.used());
+    REQUIRE(textured->warnings.size() == 1);
+    CHECK(textured->warnings[0].find("holds heights, expected a normal map") != std::string::npos);
     CHECK_FALSE(refused);  // outside of the model's folder
     const auto alone = load_any(to_bytes(points + "f 1 2 3\n"));
     REQUIRE(alone);  // a material file that is missing is warned of

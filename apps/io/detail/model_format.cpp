@@ -1,11 +1,14 @@
 #include "halflit/model.hpp"
 
 #include "apps/io/detail/glb_container.hpp"
+#include "apps/io/detail/little_endian.hpp"
 #include "apps/io/detail/model_readers.hpp"
 #include "apps/io/detail/model_text.hpp"
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
 
 namespace halflit {
 
@@ -32,6 +35,19 @@ std::string_view first_word(std::string_view text) {
     return {};
 }
 
+/// A binary STL file that was cut off, or has more behind its triangles: a number of triangles, and a first triangle, that may be meant.
+bool looks_like_binary_stl(std::span<const std::byte> bytes) {
+    constexpr std::size_t kTitle = 80, kFirst = 84, kRecord = 50;
+    if (bytes.size() < kFirst + kRecord) return false;
+    const std::uint32_t count = u32_at(bytes, kTitle);
+    if (count == 0 || count > 1u << 27) return false;
+    for (std::size_t i = 0; i < 12; ++i) {  // the normal, then three corners
+        const float value = std::bit_cast<float>(u32_at(bytes, kFirst + 4 * i)), size = value < 0 ? -value : value;
+        if (!(size <= (i < 3 ? 1.5f : 1e9f)) || (size > 0 && size < 1e-12f)) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 std::string_view model_format_name(ModelFormat format) {
@@ -50,10 +66,7 @@ std::optional<ModelFormat> find_model_format(std::span<const std::byte> bytes) {
     const bool says_solid = word.size() >= 5 && same_word(word.substr(0, 5), "solid");
     if (says_solid || fits_binary_stl(bytes)) return ModelFormat::stl;
     if (is_obj_statement(word)) return ModelFormat::obj;
-    // A binary STL file that was cut off, or has more behind its triangles: zero bytes, as in all numbers of it, and no text.
-    const std::string_view start = text.substr(0, 4096);
-    const bool is_text = start.find('\0') == std::string_view::npos;
-    if (!is_text && bytes.size() >= 84) return ModelFormat::stl;
+    if (looks_like_binary_stl(bytes)) return ModelFormat::stl;
     return std::nullopt;
 }
 
