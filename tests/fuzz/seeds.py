@@ -328,6 +328,41 @@ def models():
             'skinned': skinned(), 'lit': lit(), 'two_quads': two_quads()}
 
 
+# ---- other formats of models ----------------------------------------------------------------------------------------------
+
+def other_models():
+    """A pyramid in each format."""
+    points = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (1, 1, 2)]
+    faces = [(3, 2, 1, 0), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)]
+    triangles = [(face[0], face[i], face[i + 1]) for face in faces for i in range(1, len(face) - 1)]
+    facets = ''.join('facet normal 0 0 0\nouter loop\n' + ''.join('vertex %g %g %g\n' % points[i] for i in t) + 'endloop\nendfacet\n'
+                     for t in triangles)
+    binary = b''.join(struct.pack('<12fH', 0, 0, 0, *points[t[0]], *points[t[1]], *points[t[2]], 0x8000 + 999 * k)
+                      for k, t in enumerate(triangles))
+    header = ('ply\nformat {} 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n'
+              'property uchar green\nproperty uchar blue\nelement face 5\nproperty list uchar int vertex_indices\nend_header\n')
+    ply_text = header.format('ascii') + ''.join('%g %g %g 1 2 3\n' % p for p in points)
+    ply_text += ''.join('%d %s\n' % (len(face), ' '.join(map(str, face))) for face in faces)
+    plies = {}
+    for name, order in (('little', '<'), ('big', '>')):
+        plies['ply_' + name] = (header.format(f'binary_{name}_endian').encode() +
+                                b''.join(struct.pack(order + '3f3B', *p, 9, 8, 7) for p in points) +
+                                b''.join(struct.pack(f'{order}B{len(face)}i', len(face), *face) for face in faces))
+    obj = 'mtllib a.mtl\no pyramid\n' + ''.join('v %g %g %g 1 0 0\n' % p for p in points) + 'vt 0 1\nvn 0 0 1\nusemtl a\ns 1\n'
+    obj += ''.join('f %s\n' % ' '.join('%d/1/1' % (i + 1) for i in face) for face in faces) + 's off\nf -1 -2 -3\nl 1 2\n'
+    core = 'http://schemas.microsoft.com/3dmanufacturing/core/2015/02'
+    more = 'http://schemas.microsoft.com/3dmanufacturing/material/2015/02'
+    xml = (f'<model unit="inch" xmlns="{core}" xmlns:m="{more}"><resources><basematerials id="5"><base name="a" displaycolor="#FF0000"/>'
+           '</basematerials><m:colorgroup id="6"><m:color color="#00FF0080"/></m:colorgroup><object id="1" pid="5" pindex="0"><mesh><vertices>')
+    xml += ''.join('<vertex x="%g" y="%g" z="%g"/>' % p for p in points) + '</vertices><triangles>'
+    xml += ''.join('<triangle v1="%d" v2="%d" v3="%d" pid="6" p1="0"/>' % t for t in triangles) + '</triangles></mesh></object>'
+    xml += ('<object id="2"><components><component objectid="1"/><component objectid="1" transform="1 0 0 0 1 0 0 0 1 5 0 0"/></components>'
+            '</object></resources><build><item objectid="2"/></build></model>')
+    return {'stl_text': ('solid a\n' + facets + 'endsolid a\n').encode(),
+            'stl_binary': b'solid COLOR=1234'.ljust(80) + struct.pack('<I', len(triangles)) + binary,
+            'ply_text': ply_text.encode(), **plies, 'obj': obj.encode(), 'xml': xml.encode()}
+
+
 # ---- targets -------------------------------------------------------------------------------------------------------------
 
 def main():
@@ -339,6 +374,7 @@ def main():
         'gltf_text': {'empty': empty, 'spaces': json.dumps(json.loads(triangle().text()), indent=1).encode(),
                       **{name: model.text() for name, model in made.items()}},
         'glb': {name: model.glb() for name, model in made.items()},
+        'model': other_models(),
         'picture': pictures(),
         'hdr': environments(),
         'scene': {**{f'{name}_{i}': model.glb() + numbers.randbytes(FLAG_BYTES) for name, model in made.items() for i in range(2)},
