@@ -1,5 +1,6 @@
 #include "halflit/model.hpp"
 
+#include "apps/io/detail/gltf_animation.hpp"
 #include "apps/io/detail/load_failure.hpp"
 #include "apps/io/detail/model_readers.hpp"
 #include "apps/io/file_access.hpp"
@@ -9,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <exception>
 #include <new>
 
@@ -68,6 +70,9 @@ Result<LoadedScene> load_model_bytes(std::span<const std::byte> bytes, const std
         if (!format || *format == ModelFormat::gltf || *format == ModelFormat::glb) return load_gltf_bytes(bytes, name, base_dir, options);
         try {
             if (options.threads < 0) return failed(ErrorCode::usage, fmt::format("threads is {}, expected at least 0", options.threads));
+            if (!std::isfinite(options.time_s))
+                return failed(ErrorCode::usage, fmt::format("time_s is {}, expected a finite number", options.time_s));
+            (void)choose_animation({}, options.animation);  // none of these formats has any
             return read(*format, bytes, base_dir, options);
         } catch (const LoadFailure& failure) {
             return failed(failure.error.code, failure.error.message);

@@ -5,6 +5,7 @@
 #include "halflit/model.hpp"
 
 #include "tests/io/gltf_builder.hpp"
+#include "tests/support/catch.hpp"
 
 #include <libdeflate.h>
 
@@ -215,6 +216,14 @@ inline LoadedScene load_any_ok(const Bytes& bytes, const LoadOptions& options = 
     auto loaded = load_any(bytes, options, base_dir);
     if (!loaded) FAIL("refused: " << loaded.error().message);
     return *std::move(loaded);
+}
+
+/// The message of a file that must be refused.
+inline std::string refusal_of(const Bytes& file, ErrorCode code = ErrorCode::bad_input, const LoadOptions& options = {}) {
+    const auto loaded = load_any(file, options);
+    if (loaded) FAIL("was loaded");
+    CHECK(loaded.error().code == code);
+    return loaded.error().message;
 }
 
 }  // namespace halflit::test

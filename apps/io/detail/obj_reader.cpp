@@ -3,7 +3,7 @@
 #include "apps/io/detail/model_builder.hpp"
 #include "apps/io/detail/model_readers.hpp"
 #include "apps/io/detail/model_text.hpp"
-#include "apps/io/detail/mtl.hpp"
+#include "apps/io/detail/mtl_libraries.hpp"
 #include "apps/io/detail/polygon.hpp"
 #include "apps/io/text.hpp"
 
@@ -12,68 +12,10 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <unordered_map>
 
 namespace halflit::io::detail {
 
 namespace {
-
-/// Materials by their names. They are made, and their pictures read, when a face uses them.
-class MaterialLibrary {
-public:
-    explicit MaterialLibrary(ModelBuilder& builder) : builder_(builder) {}
-
-    /// mtllib: one name, which may have blanks in it, or several.
-    void add(std::string_view names) {
-        if (names.find_first_of(" \t") == std::string_view::npos) return void(read(names, false));
-        if (read(names, true)) return;
-        bool any = false;
-        Words words(names);
-        for (std::string_view name = words.next(); !name.empty(); name = words.next()) any = read(name, true) || any;
-        if (!any) read(names, false);
-    }
-    /// The scene's material; -1: none of that name.
-    int find(const std::string& name) {
-        const auto known = number_of_.find(name);
-        if (known == number_of_.end()) {
-            builder_.document().warn(fmt::format("usemtl {}: no material of this name was read; drawn in grey", printable(name, 80)));
-            return -1;
-        }
-        int& made = made_[known->second];
-        if (made < 0) made = make_material(materials_[known->second], builder_);
-        return made;
-    }
-    /// Notes the files of all materials.
-    void add_files() {
-        for (const MtlMaterial& m : materials_)
-            for (const MtlTexture* map : {&m.map_kd, &m.map_ke, &m.map_d, &m.bump, &m.norm})
-                if (!map->file.empty()) builder_.add_file(map->file);
-    }
-
-private:
-    /// Reads a library; false where it cannot be read, of which it warns unless `quietly`.
-    bool read(std::string_view name, bool quietly) {
-        Document& document = builder_.document();
-        builder_.add_file(name);
-        const auto bytes = document.folder.read(ModelBuilder::file_name(name), document.options.limits.max_file_bytes);
-        const std::string shown = "mtllib " + printable(name, 120);
-        if (!bytes) {
-            if (!quietly) document.warn(fmt::format("{}: {}; its materials are drawn in grey", shown, bytes.error().message));
-            return false;
-        }
-        document.encoded_images.take(bytes->size());
-        const std::size_t first = materials_.size();
-        read_mtl({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, shown, builder_, materials_);
-        made_.resize(materials_.size(), -1);
-        for (std::size_t i = first; i < materials_.size(); ++i) number_of_.try_emplace(materials_[i].name, i);
-        return true;
-    }
-
-    ModelBuilder& builder_;
-    std::vector<MtlMaterial> materials_;
-    std::vector<int> made_;
-    std::unordered_map<std::string, std::size_t> number_of_;
-};
 
 /// A corner of a face: numbers in the file's lists.
 struct Corner {
@@ -82,7 +24,7 @@ struct Corner {
 
 class ObjReader {
 public:
-    ObjReader(std::string_view text, ModelBuilder& builder) : lines_(text), builder_(builder), library_(builder) {}
+    ObjReader(std::string_view text, ModelBuilder& builder) : lines_(text), builder_(builder), libraries_(builder) {}
 
     void read() {
         std::string_view line;
@@ -124,9 +66,9 @@ public:
         std::string_view line;
         while (lines_.next(line)) {
             Words words(line);
-            if (words.next() == "mtllib") library_.add(words.rest());
+            if (words.next() == "mtllib") libraries_.add(words.rest());
         }
-        library_.add_files();
+        libraries_.add_files();
     }
 
 private:
@@ -155,7 +97,7 @@ private:
         }
         if (word == "f" || word == "fo") return read_face(words);
         if (word == "usemtl") return use_material(std::string(words.rest()));
-        if (word == "mtllib") return library_.add(words.rest());
+        if (word == "mtllib") return libraries_.add(words.rest());
         if (word == "o") {
             builder_.document().geometry.take(sizeof(std::string) + line.size());
             objects_.emplace_back(words.rest());
@@ -210,7 +152,7 @@ private:
     std::uint32_t current_part() {
         const bool has_colors = !soup_.colors.empty();
         if (part_ != kNone && parts_[part_].has_colors == has_colors) return part_;
-        if (!material_is_known_) material_ = has_material_name_ ? library_.find(material_name_) : -1;
+        if (!material_is_known_) material_ = has_material_name_ ? libraries_.find(material_name_) : -1;
         material_is_known_ = true;
         const auto object = static_cast<std::uint32_t>(objects_.size() - 1);
         const auto [entry, is_new] = part_at_.try_emplace({object, material_, has_colors}, static_cast<std::uint32_t>(parts_.size()));
@@ -280,7 +222,7 @@ private:
 
     Lines lines_;
     ModelBuilder& builder_;
-    MaterialLibrary library_;
+    MtlLibraries libraries_;
     Soup soup_;
     PolygonCutter cutter_;
     std::vector<std::string> objects_{""};

@@ -76,9 +76,9 @@ typedef struct halflit_load_options {
     /// Animation that poses the scene: its name, or else its index in the file; null or empty: the first one, if there is any; "none": the
     /// pose of the nodes.
     const char* animation;
-    double time_s;  ///< time of the pose, seconds; before an animation's first key and after its last one, these are drawn
-    int32_t turn_upright;               ///< turn STL and 3MF files, whose z points up, so that y does; by default on
-    float crease_deg;                   ///< STL, PLY, OBJ, 3MF without normals: smooth across edges up to this angle; by default 30
+    double time_s;         ///< time of the pose, seconds; before an animation's first key and after its last one, these are drawn
+    int32_t turn_upright;  ///< turn STL and 3MF files, whose z points up, so that y does; by default on
+    float crease_deg;      ///< STL, PLY, OBJ, 3MF without normals: smooth across edges up to this angle; by default 30
 } halflit_load_options;
 HALFLIT_C_API int32_t halflit_load_options_init(halflit_load_options* options, size_t size);
 
