@@ -66,6 +66,20 @@ Vec3d room(Vec3d d) {
     return mixed(below, above, smooth(0.5 + 10.0 * d.y)) * (1.0 - 0.45 * behind);
 }
 
+std::shared_ptr<const shading::ImageLight> make_studio_light(float level) {
+    EnvironmentImage image = studio_image();
+    for (float& value : image.rgb) value *= level;
+    const sh::Projection projection(shading::view_of(image));
+    return std::make_shared<const shading::ImageLight>(image.width, image.height, std::move(image.rgb), projection);
+}
+
+/// The studio's light is made once in a process: it takes longer than a small picture's drawing.
+std::shared_ptr<const shading::ImageLight> studio_light(float level) {
+    if (level != 1.0f) return make_studio_light(level);
+    static const auto light = make_studio_light(1.0f);
+    return light;
+}
+
 }  // namespace
 
 EnvironmentImage studio_image() {
@@ -94,11 +108,12 @@ std::shared_ptr<const Environment> studio_environment(const Camera& camera, doub
     const bool steep = !(dot(level_back, level_back) > 1e-6 * dot(level_up, level_up));
     const Vec3d viewer = steep ? level_up * (back.y > 0.0f ? -1.0 : 1.0) : level_back;
     const double turn = angle_of(viewer.x, viewer.z) + turn_rad;
-    EnvironmentImage image = studio_image();
-    for (float& value : image.rgb) value *= level;
-    auto made = std::make_shared<Environment>(
-        shading::make_environment(shading::view_of(image), {false, turn - turn == 0.0 ? turn : 0.0, true, true}));
-    made->calibrated = made->studio = true;
+    const auto light = studio_light(level);
+    auto made = std::make_shared<Environment>(shading::make_environment(light, turn - turn == 0.0 ? turn : 0.0));
+    const sh::EquirectView image = light->image();
+    made->rgb.assign(image.rgb.begin(), image.rgb.end());
+    made->width = image.width, made->height = image.height;
+    made->calibrated = made->studio = made->kept_light = true;
     return made;
 }
 
