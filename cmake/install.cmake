@@ -91,6 +91,10 @@ if(TARGET halflit)
     else()
         install(TARGETS halflit RUNTIME COMPONENT program)
     endif()
+    # File managers show models as their pictures.
+    install(FILES ${PROJECT_SOURCE_DIR}/cmake/desktop/halflit.thumbnailer DESTINATION ${CMAKE_INSTALL_DATADIR}/thumbnailers
+        COMPONENT program)
+    install(FILES ${PROJECT_SOURCE_DIR}/cmake/desktop/halflit.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages COMPONENT program)
     # Manual pages and completions come from the program's own tables, so it must run on this machine.
     if(NOT CMAKE_CROSSCOMPILING)
         set(pages ${PROJECT_BINARY_DIR}/pages)

@@ -31,7 +31,17 @@ Result<void> wait_for_input(const Stopwatch& waiting, double time_limit_s) {
     }
 }
 
-/// Reads standard input to its end. Fails above `max_bytes`, so that endless input is refused, and after the time limit; 0: none.
+Result<LoadedScene> load_file(const RenderOptions& options) {
+    LoadOptions load = options.load;
+    load.threads = options.execution.threads;
+    if (options.scene != "-") return load_model(options.scene, load);
+    const auto bytes = read_standard_input(options.load.limits.max_file_bytes, options.load.limits.time_limit_s);
+    if (!bytes) return tl::unexpected(bytes.error());
+    return load_model_bytes(*bytes, kStandardInput, "", load);
+}
+
+}  // namespace
+
 Result<std::vector<std::byte>> read_standard_input(std::size_t max_bytes, double time_limit_s) {
     if (::isatty(STDIN_FILENO) == 1) return fail(ErrorCode::usage, "standard input: expected a model, found a terminal");
     constexpr std::size_t kChunk = std::size_t{1} << 20;
@@ -50,17 +60,6 @@ Result<std::vector<std::byte>> read_standard_input(std::size_t max_bytes, double
         if (got < 0 && error != EINTR) return fail(ErrorCode::io, fmt::format("{}: {}", kStandardInput, io::errno_text(error)));
     }
 }
-
-Result<LoadedScene> load_file(const RenderOptions& options) {
-    LoadOptions load = options.load;
-    load.threads = options.execution.threads;
-    if (options.scene != "-") return load_model(options.scene, load);
-    const auto bytes = read_standard_input(options.load.limits.max_file_bytes, options.load.limits.time_limit_s);
-    if (!bytes) return tl::unexpected(bytes.error());
-    return load_model_bytes(*bytes, kStandardInput, "", load);
-}
-
-}  // namespace
 
 Result<SceneSource> load_scene(const RenderOptions& options) {
     const std::string name = options.scene.empty() ? "demo" : options.scene;
