@@ -55,7 +55,12 @@ Result<RenderReport> draw(RenderJob& job, Image& image, AovPlanes& planes, const
     }
     Target target = target_of(job, image);
     planes.add_to(target);
-    return drawer.renderer->render(*job.prepared, job.camera, job.settings, target, job.timed_execution());
+    const auto draw_by = [&](Renderer& renderer) {
+        return renderer.render(*job.prepared, job.camera, job.settings, target, job.timed_execution());
+    };
+    if (drawer.renderer != nullptr) return draw_by(*drawer.renderer);
+    Renderer renderer;
+    return draw_by(renderer);
 }
 
 /// No fragment was drawn, or all pixels have the same colour, within two codes: the background's.
