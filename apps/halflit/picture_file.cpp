@@ -144,7 +144,8 @@ Result<OutputFormat> PictureOptions::picture_format() const {
 std::string default_output(const std::string& scene, std::optional<OutputFormat> format) {
     const std::string stem = stem_of(scene);
     const bool file = !scene.empty() && scene != "-" && !stem.empty();
-    return (file ? stem.substr(0, stem.find(':')) : "halflit") + "." + std::string(kFormatNames[static_cast<std::size_t>(format.value_or(OutputFormat::png))]);
+    return (file ? stem.substr(0, stem.find(':')) : "halflit") + "." +
+           std::string(kFormatNames[static_cast<std::size_t>(format.value_or(OutputFormat::png))]);
 }
 
 Result<void> check_paths(const PictureOptions& options) {

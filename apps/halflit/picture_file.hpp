@@ -18,8 +18,8 @@ namespace halflit::cli {
 inline constexpr std::string_view kFormatNames[] = {"png", "bmp", "tga", "jpg", "hdr", "pfm", "exr"};
 
 struct PictureOptions : RenderOptions {
-    std::string output;  ///< empty: named after the scene
-    std::string report;  ///< empty: none
+    std::string output;                  ///< empty: named after the scene
+    std::string report;                  ///< empty: none
     std::optional<OutputFormat> format;  ///< none: the name's
     std::vector<Aov> aovs;
     bool blank_check = false;  ///< tell pictures in which nothing is seen

@@ -18,7 +18,8 @@ namespace halflit::raster {
 extern const std::uint32_t kStudioSizes[], kStudioFloats[];
 extern const std::uint64_t kStudioDoubles[];
 
-/// Calls on_size with each number that the others' count depends on, then on_float and on_double with the others. make_room: called between.
+/// Calls on_size with each number that the others' count depends on, then on_float and on_double with the others. make_room: called
+/// between.
 template <class Parts, class OnSize, class MakeRoom, class OnFloat, class OnDouble>
 void for_each_number(Parts& parts, const OnSize& on_size, const MakeRoom& make_room, const OnFloat& on_float, const OnDouble& on_double) {
     on_size(parts.width), on_size(parts.height), on_size(parts.radiance.bands);
