@@ -136,6 +136,7 @@ std::unique_ptr<Document> open_document(std::span<const std::byte> bytes, const 
     document->file = read_gltf_json(document->text, scan_limits(options), Budget("its objects", kFreeBytes + kBytesPerByte * text.size()),
                                     document->notes);
     check_extensions(*document);
+    choose_pictures(document->file);
     fill_info(*document);
     set_geometry_limit(*document);
     document->encoded_images = Budget("reading the pictures", options.limits.max_total_bytes);

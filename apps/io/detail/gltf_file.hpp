@@ -124,6 +124,7 @@ struct Sampler {
 
 struct Texture {
     int source = -1, sampler = -1;
+    int webp = -1, basisu = -1;  ///< images of EXT_texture_webp and KHR_texture_basisu
 };
 
 /// KHR_texture_transform

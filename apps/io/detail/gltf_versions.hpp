@@ -13,4 +13,8 @@ void check_versions(const file::File& file);
 /// does not list as used.
 void check_extensions(Document& document);
 
+/// Makes the picture of EXT_texture_webp a texture's source, in a build with libwebp. Elsewhere the texture keeps its other picture, if it
+/// has one.
+void choose_pictures(file::File& file);
+
 }  // namespace halflit::io::detail
