@@ -1,7 +1,9 @@
 #include "apps/io/detail/gltf_document.hpp"
 
 #include "apps/io/detail/glb_container.hpp"
+#include "apps/io/detail/gltf_draco.hpp"
 #include "apps/io/detail/gltf_json.hpp"
+#include "apps/io/detail/gltf_meshopt.hpp"
 #include "apps/io/detail/gltf_versions.hpp"
 #include "apps/io/detail/json_place.hpp"
 #include "apps/io/detail/uri.hpp"
@@ -91,10 +93,12 @@ void fill_info(Document& document) {
 
 JsonScanLimits scan_limits(const LoadOptions& options) { return {options.limits.max_json_depth, options.limits.max_json_tokens}; }
 
-/// The geometry that the file may have, by its size and that of the buffers read so far.
+/// The geometry that the file may have, by its size and that of the buffers read so far. Compressed bytes count twice: they hold as
+/// much as several others, and their decoded form is in memory too.
 void set_geometry_limit(Document& document) {
     std::uint64_t size = document.file_bytes;
     for (const auto& buffer : document.owned_buffers) size += buffer.size();
+    size += std::min(size, compressed_bytes(document) + draco_bytes(document));  // several views may have the same bytes
     document.geometry.set_limit(std::min(document.options.limits.max_geometry_bytes, kFreeBytes + kBytesPerByte * size));
 }
 
@@ -117,6 +121,7 @@ void Document::warn(std::string what) {
 
 const std::byte* Document::view_data(int buffer_view) const {
     const file::BufferView& view = file.buffer_views[static_cast<std::size_t>(buffer_view)];
+    if (view.decoded >= 0) return decoded[static_cast<std::size_t>(view.decoded)].data();
     return buffers[static_cast<std::size_t>(view.buffer)].data() + view.byte_offset;
 }
 
@@ -136,7 +141,7 @@ std::unique_ptr<Document> open_document(std::span<const std::byte> bytes, const 
     document->file = read_gltf_json(document->text, scan_limits(options), Budget("its objects", kFreeBytes + kBytesPerByte * text.size()),
                                     document->notes);
     check_extensions(*document);
-    choose_pictures(document->file);
+    choose_forms(document->file);
     fill_info(*document);
     set_geometry_limit(*document);
     document->encoded_images = Budget("reading the pictures", options.limits.max_total_bytes);
@@ -177,6 +182,8 @@ void load_buffers(Document& document) {
     fetch_buffers(document);
     check_buffer_views(document);
     set_geometry_limit(document);
+    decode_views(document);
+    decode_draco(document);
 }
 
 }  // namespace halflit::io::detail
