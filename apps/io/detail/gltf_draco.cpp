@@ -56,7 +56,7 @@ public:
 private:
     DracoMesh open(int view) {
         document_.check_time();
-        constexpr std::uint64_t kTables = 16 << 10;  // bytes that stand for the time that the tables of a small stream take
+        constexpr std::uint64_t kTables = 8 << 10;  // bytes that stand for the time that the tables of a small stream take
         document_.geometry.take(kTables);
         const std::uint64_t size = document_.file.buffer_views[static_cast<std::size_t>(view)].byte_length;
         DracoMesh mesh =
