@@ -65,21 +65,18 @@ Environment make_environment(const sh::EquirectView& image, const EnvironmentOpt
         environment.width = image.width;
         environment.height = image.height;
     }
-    const auto take = [&](const sh::Projection& projection) {
-        environment.radiance = sh::rotated(projection.radiance(), turn);
-        environment.grid = sh::BandGrid(projection);
+    const auto take = [&](std::vector<float> rgb, const sh::Projection& projection) {
+        environment.light = std::make_shared<ImageLight>(image.width, image.height, std::move(rgb), projection);
+        environment.radiance = sh::rotated(environment.light->radiance(), turn);
     };
-    environment.lit_width = image.width;
-    environment.lit_height = image.height;
+    const auto copy = [&] { return std::vector<float>(image.rgb.begin(), image.rgb.end()); };
     environment.rotate_rad = options.rotate_rad;
     environment.kept_light = options.keep_light;
     if (!options.extract_suns) {
-        environment.lit_rgb.assign(image.rgb.begin(), image.rgb.end());
-        take(whole);
+        take(copy(), whole);
         return environment;
     }
     sh::SunExtraction extraction = sh::extract_suns(image, whole);
-    take(extraction.residual);
     for (const sh::Sun& sun : extraction.suns) {
         const Vec3d towards = turn * sun.direction, color = sun.irradiance * (1.0 / kPi);
         Light light;
@@ -90,10 +87,16 @@ Environment make_environment(const sh::EquirectView& image, const EnvironmentOpt
         const sh::EquirectView rest{image.width, image.height, extraction.residual_rgb};
         environment.sun_shapes.push_back(shape_of(image, rest, sun, light, turn, options.keep_light));
     }
-    if (extraction.suns.empty())
-        environment.lit_rgb.assign(image.rgb.begin(), image.rgb.end());
-    else
-        environment.lit_rgb = std::move(extraction.residual_rgb);
+    take(extraction.suns.empty() ? copy() : std::move(extraction.residual_rgb), extraction.residual);
+    return environment;
+}
+
+Environment make_environment(std::shared_ptr<const ImageLight> light, double rotate_rad) {
+    Environment environment;
+    environment.id = next_id();
+    environment.radiance = sh::rotated(light->radiance(), sh::rotation_about_y(rotate_rad));
+    environment.light = std::move(light);
+    environment.rotate_rad = rotate_rad;
     return environment;
 }
 

@@ -3,9 +3,9 @@
 
 #include "halflit/environment.hpp"
 #include "sh/coefficients.hpp"
-#include "sh/order.hpp"
 #include "sh/project.hpp"
 #include "sh/rotate.hpp"
+#include "shading/image_light.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -35,7 +35,8 @@ struct Environment {
     /// make a new environment instead of editing this one.
     std::uint64_t id = 0;
     sh::RadianceSh radiance;  ///< turned by rotate_rad
-    sh::BandGrid grid;
+    /// Of the image without the suns and before any rotation; null: darkness.
+    std::shared_ptr<const shading::ImageLight> light;
     bool calibrated = false;           ///< as in EnvironmentImage
     std::vector<Light> suns;           ///< directional, colour premultiplied by 1/pi
     std::vector<SunShape> sun_shapes;  ///< of each of them
@@ -43,9 +44,6 @@ struct Environment {
     std::vector<float> rgb;
     int width = 0, height = 0;
     double rotate_rad = 0.0;
-    /// The image that the bands are made of, without the suns and before any rotation; reflections are made of it.
-    std::vector<float> lit_rgb;
-    int lit_width = 0, lit_height = 0;
     bool studio = false;      ///< it is the built-in studio
     bool kept_light = false;  ///< EnvironmentOptions::keep_light: the suns have their patches
 };
@@ -78,6 +76,9 @@ private:
 };
 
 [[nodiscard]] inline sh::EquirectView view_of(const EnvironmentImage& image) { return {image.width, image.height, image.rgb}; }
+
+/// An environment without suns, of a light that is there already.
+[[nodiscard]] Environment make_environment(std::shared_ptr<const ImageLight> light, double rotate_rad);
 
 /// The same as halflit::make_environment, for images that are known to be valid.
 [[nodiscard]] Environment make_environment(const sh::EquirectView& image, const EnvironmentOptions& options = {});

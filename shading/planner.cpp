@@ -63,7 +63,7 @@ void plan_environments(const PlanInputs& inputs, PlanMemory& memory, ShadingPlan
         if ((material.stages & kStageEnvironment) == 0 || (material.stages & kStageSpecular) == 0) continue;
         material.reflection_lobes = material.metallic > 0.0f || material.dielectric > kFaintReflectance ? 2 : 1;
         if (plan.reflections.rgba == nullptr && (inputs.drawn == nullptr || (*inputs.drawn)[i]))
-            plan.reflections = ReflectionPlan(memory.environments.reflections(inputs.for_each_row));
+            plan.reflections = memory.environments.reflections(inputs.for_each_row);
     }
 }
 

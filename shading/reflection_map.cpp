@@ -71,10 +71,9 @@ sh::EquirectView reduced(const sh::EquirectView& image, std::vector<float>& rgb)
     return out;
 }
 
-/// u: any multiple of a turn may be added; v in [0, 1].
+/// u, v in [0, 1].
 Value bilinear(const sh::EquirectView& image, double u, double v) {
-    const double turns = __builtin_floor(u), x = (u - turns) * image.width - 0.5,
-                 y = std::clamp(v * image.height - 0.5, 0.0, image.height - 1.0);
+    const double x = u * image.width - 0.5, y = std::clamp(v * image.height - 0.5, 0.0, image.height - 1.0);
     const int x0 = static_cast<int>(x + 1.0) - 1, y0 = static_cast<int>(y);
     const auto right = static_cast<float>(x - x0), down = static_cast<float>(y - y0);
     const auto pixel = [&](int i, int j) {
@@ -92,11 +91,10 @@ Value bilinear(const sh::EquirectView& image, double u, double v) {
     return out;
 }
 
-Globe sampled(const sh::EquirectView& image, double rotate_rad, int n, const ForEachRow& for_each_row) {
+Globe sampled(const sh::EquirectView& image, int n, const ForEachRow& for_each_row) {
     Globe out(n);
-    const double turned = rotate_rad / (2.0 * kPi);  // longitudes fall as sh::rotation_about_y turns
     for_each_row(n + 1, [&](int j) {
-        for (int i = 0; i < 2 * n; ++i) out.row(j)[i] = bilinear(image, i / (2.0 * n) + turned, j / static_cast<double>(n));
+        for (int i = 0; i < 2 * n; ++i) out.row(j)[i] = bilinear(image, i / (2.0 * n), j / static_cast<double>(n));
         out.close_row(j);
     });
     out.close_poles();
@@ -179,7 +177,7 @@ void write_sum(const View (&parts)[4], const float (&weights)[4], int n, Value* 
 
 }  // namespace
 
-ReflectionMap make_reflection_map(const sh::EquirectView& image, double rotate_rad, const ForEachRow& for_each_row) {
+ReflectionMap make_reflection_map(const sh::EquirectView& image, const ForEachRow& for_each_row) {
     constexpr int kBlurs = kReflectionLevels + 2;  // G_0 .. G_9
     std::vector<float> rgb;
     const sh::EquirectView source = reduced(image, rgb);
@@ -190,7 +188,7 @@ ReflectionMap make_reflection_map(const sh::EquirectView& image, double rotate_r
     const auto blurred_rows = [&](int k) { return k < 8 ? rows_of(k) : kLeastReflectionRows / 2; };
 
     std::vector<Globe> blurs;
-    blurs.push_back(sampled(source, rotate_rad, most, for_each_row));
+    blurs.push_back(sampled(source, most, for_each_row));
     for (int k = 0; k + 1 < kBlurs; ++k) {
         if ((kMostReflectionRows >> k) > most)  // the image has no details that this bump would blur
             blurs.push_back(blurs.back());

@@ -34,7 +34,7 @@ inline void in_turn(int count, const std::function<void(int)>& body) {
     for (int i = 0; i < count; ++i) body(i);
 }
 
-/// Blurs an image that is turned by rotate_rad about +y (EnvironmentOptions). Values above 1e30 count as that.
-[[nodiscard]] ReflectionMap make_reflection_map(const sh::EquirectView& image, double rotate_rad, const ForEachRow& for_each_row);
+/// Blurs an image. Values above 1e30 count as that.
+[[nodiscard]] ReflectionMap make_reflection_map(const sh::EquirectView& image, const ForEachRow& for_each_row);
 
 }  // namespace halflit::shading

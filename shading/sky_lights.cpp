@@ -75,7 +75,7 @@ std::vector<Light> sky_lights(int n, const Environment* environment, const Ambie
     sh::Rotation turn = sh::rotation_about_y(0.0);
     if (environment != nullptr) {
         turn = sh::rotation_about_y(environment->rotate_rad);
-        grid.add_image({environment->lit_width, environment->lit_height, environment->lit_rgb});
+        grid.add_image(environment->light->image());
     } else {
         // A Lambert lobe makes a + b y of the radiance a + 3/2 b y.
         const Vec3d sky = to_double(ambient.sky_linear), ground = to_double(ambient.ground_linear);

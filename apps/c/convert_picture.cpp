@@ -13,7 +13,7 @@ constexpr bool ends_with(std::size_t offset, Last T::*) {
     return offset + sizeof(Last) == sizeof(T);
 }
 #define HALFLIT_ENDS_WITH(type, member) static_assert(ends_with(offsetof(type, member), &type::member))
-HALFLIT_ENDS_WITH(halflit_load_options, time_s);
+HALFLIT_ENDS_WITH(halflit_load_options, crease_deg);
 HALFLIT_ENDS_WITH(halflit_animation, channels);
 HALFLIT_ENDS_WITH(halflit_counts, animations);
 HALFLIT_ENDS_WITH(halflit_material, sheen_roughness_texture);

@@ -59,6 +59,8 @@ halflit_load_options to_c(const LoadOptions& from) {
     options.threads = from.threads;
     options.keep_animations = from.keep_animations;
     options.time_s = from.time_s;
+    options.turn_upright = from.turn_upright;
+    options.crease_deg = from.crease_deg;
     return options;
 }
 
@@ -78,6 +80,8 @@ Result<LoadOptions> load_options(const halflit_load_options* given) {
     options.keep_animations = read->keep_animations != 0;
     if (read->animation != nullptr) options.animation = read->animation;
     options.time_s = read->time_s;
+    options.turn_upright = read->turn_upright != 0;
+    options.crease_deg = read->crease_deg;
     options.limits.max_file_bytes = read->max_file_bytes;
     options.limits.max_total_bytes = read->max_total_bytes;
     options.limits.max_json_tokens = read->max_json_tokens;

@@ -3,7 +3,7 @@
 #include "apps/c/scene_access.hpp"
 #include "apps/c/versioned.hpp"
 
-#include <halflit/gltf.hpp>
+#include <halflit/model.hpp>
 
 #include <limits>
 #include <memory>
@@ -59,7 +59,7 @@ int32_t halflit_scene_load(const char* path, const halflit_load_options* options
     return guarded(__func__, {{path, "path"}, {scene, "scene"}}, [&]() -> Result<void> {
         const auto how = load_options(options);
         if (!how) return tl::unexpected<Error>(how.error());
-        return hand_over(load_gltf(path, *how), scene);
+        return hand_over(load_model(path, *how), scene);
     });
 }
 
@@ -69,7 +69,7 @@ int32_t halflit_scene_load_memory(const void* bytes, size_t count, const char* n
         const auto how = load_options(options);
         if (!how) return tl::unexpected<Error>(how.error());
         const std::span<const std::byte> file(static_cast<const std::byte*>(bytes), count);
-        return hand_over(load_gltf_bytes(file, name, base_dir != nullptr ? base_dir : "", *how), scene);
+        return hand_over(load_model_bytes(file, name, base_dir != nullptr ? base_dir : "", *how), scene);
     });
 }
 

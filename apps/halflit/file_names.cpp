@@ -7,10 +7,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
 
 namespace halflit::cli {
@@ -60,7 +62,10 @@ bool same_file(const std::string& a, const std::string& b) {
     return std::filesystem::weakly_canonical(a, ignored) == std::filesystem::weakly_canonical(b, ignored);
 }
 
-bool is_model_name(std::string_view path) { return ends_with_any_case(path, ".glb") || ends_with_any_case(path, ".gltf"); }
+bool is_model_name(std::string_view path) {
+    constexpr std::string_view kEnds[] = {".glb", ".gltf", ".stl", ".ply", ".obj", ".3mf"};
+    return std::any_of(std::begin(kEnds), std::end(kEnds), [&](std::string_view end) { return ends_with_any_case(path, end); });
+}
 
 std::vector<std::string> files_beside(const std::string& path) {
     constexpr std::size_t kMostNames = 1000;

@@ -20,7 +20,7 @@ namespace halflit::cli {
 /// True if both are the same file, or would be if they were there.
 [[nodiscard]] bool same_file(const std::string& a, const std::string& b);
 
-/// True if the name ends in `.glb` or `.gltf`, in any case.
+/// True if the name ends in `.glb`, `.gltf`, `.stl`, `.ply`, `.obj` or `.3mf`, in any case.
 [[nodiscard]] bool is_model_name(std::string_view path);
 
 /// Paths of the files in the same folder, as they would be typed. Reads at most 1,000 names.

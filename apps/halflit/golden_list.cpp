@@ -193,9 +193,7 @@ Result<std::vector<std::string>> models_below(const std::string& folder) {
     for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
         const std::string name = it->path().filename().string();
         if (it->is_directory(error) && (name.starts_with('.') || name == "report")) it.disable_recursion_pending();
-        const std::string extension = it->path().extension().string();
-        if (it->is_regular_file(error) && (extension == ".glb" || extension == ".gltf"))
-            paths.push_back(it->path().lexically_relative(folder).generic_string());
+        if (it->is_regular_file(error) && is_model_name(name)) paths.push_back(it->path().lexically_relative(folder).generic_string());
     }
     if (error) return fail(ErrorCode::io, printable(folder) + ": " + error.message());
     // The upper ones first, so that they get the short names.
@@ -241,8 +239,7 @@ Result<void> make_golden_list(const std::string& folder) {
     const auto models = models_below(folder);
     if (!models) return tl::unexpected(models.error());
     const std::string path = path_in(folder, kListName);
-    if (models->empty())
-        return fail(ErrorCode::io, printable(path) + ": does not exist, and there is no .glb or .gltf file to make it from");
+    if (models->empty()) return fail(ErrorCode::io, printable(path) + ": does not exist, and there is no model to make it from");
     const std::vector<std::string> names = names_for(*models);
     Json list{{"schema", kSchema}, {"scenes", Json::array()}};
     for (std::size_t i = 0; i < names.size(); ++i)

@@ -38,7 +38,8 @@ struct GoldenList {
 /// Reads golden.json and hashes.txt, which may be missing. Errors name the file and the place in it.
 [[nodiscard]] Result<GoldenList> read_golden_list(const std::string& folder);
 
-/// Writes a golden.json with every .glb and .gltf file below the folder, except in hidden folders and those named report.
+/// Writes a golden.json with every model (by its name: .glb, .gltf, .stl, .ply, .obj, .3mf) below the folder, except in hidden folders and
+/// those named report.
 Result<void> make_golden_list(const std::string& folder);
 
 /// Writes hashes.txt, sorted by name.

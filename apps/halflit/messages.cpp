@@ -4,11 +4,13 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <utility>
 
 namespace halflit::cli {
 namespace {
 
 Verbosity chosen_verbosity = Verbosity::usual;
+thread_local std::string* held_lines = nullptr;
 
 constexpr std::string_view kRed = "\x1b[1;31m", kYellow = "\x1b[1;33m", kPlain = "\x1b[0m";
 
@@ -30,7 +32,10 @@ void print_line(std::string_view kind, std::string_view color, std::string_view 
         line += ": ";
     }
     line += printable(message) + "\n";
-    std::fwrite(line.data(), 1, line.size(), stderr);
+    if (held_lines != nullptr)
+        *held_lines += line;
+    else
+        std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
 }  // namespace
@@ -54,5 +59,9 @@ void print_note(std::string_view message) {
 void print_detail(std::string_view message) {
     if (chosen_verbosity == Verbosity::verbose) print_line("", "", message);
 }
+
+HeldMessages::HeldMessages() { held_lines = &lines_; }
+HeldMessages::~HeldMessages() { held_lines = nullptr; }
+std::string HeldMessages::take() { return std::move(lines_); }
 
 }  // namespace halflit::cli

@@ -32,4 +32,19 @@ void print_note(std::string_view message);
 /// The same, if verbose.
 void print_detail(std::string_view message);
 
+/// As long as it lives, messages of this thread are kept, not shown.
+class HeldMessages {
+public:
+    HeldMessages();
+    ~HeldMessages();
+    HeldMessages(const HeldMessages&) = delete;
+    HeldMessages& operator=(const HeldMessages&) = delete;
+
+    /// The lines so far, as they would have been shown.
+    [[nodiscard]] std::string take();
+
+private:
+    std::string lines_;
+};
+
 }  // namespace halflit::cli

@@ -138,10 +138,13 @@ FlagGroup camera_flags(RenderOptions& o) {
           parsed(o.camera_target, parse_point)},
          {"--ground", "", "Add a ground below the scene that is invisible but for the shadows on it", set_to(o.ground)},
          {"--up", form_of(kUpAxisNames),
-          fmt::format("Axis of the model that points up (default {}). The scene is turned so that it becomes y; the coordinates of other "
-                      "flags are those of the turned scene",
+          fmt::format("Axis of the model that points up (default {}, and z for STL and 3MF). The scene is turned so that it becomes y; the "
+                      "coordinates of other flags are those of the turned scene",
                       name_of(o.up, kUpAxisNames)),
-          [read = named(o.up, kUpAxisNames)](const std::string& text) { return read(plain_axis(text)); }}}};
+          [&o, read = named(o.up, kUpAxisNames)](const std::string& text) {
+              o.load.turn_upright = false;
+              return read(plain_axis(text));
+          }}}};
 }
 
 FlagGroup pose_flags(RenderOptions& o) {
@@ -306,6 +309,11 @@ FlagGroup surface_flags(RenderOptions& o) {
                       "--kd, --ks and --shininess makes all materials non-metallic",
                       kMaxShininess),
           number(o.classic.exponent, 0.0f, kMaxShininess)},
+         {"--crease", "DEG",
+          fmt::format("STL, PLY, OBJ and 3MF without normals: smooth across edges up to this angle between their triangles, 0 to 180 "
+                      "(default {})",
+                      o.load.crease_deg),
+          number(o.load.crease_deg, 0.0f, 180.0f)},
          {"--shading", form_of(kRateNames),
           fmt::format("Compute light once per triangle (flat), vertex (gouraud) or pixel (default {})", name_of(s.rate, kRateNames)),
           named(s.rate, kRateNames)}}};
@@ -361,7 +369,9 @@ Result<std::optional<Lobe>> chosen_lobe(const RenderOptions& o) {
 
 Positional scene_argument(RenderOptions& o, bool required) {
     return {.name = "SCENE",
-            .help = "A .glb or .gltf file, - for standard input, or a built-in scene: demo, sphere:N (N triangles), lights:N (N lamps)",
+            .help =
+                "A .glb, .gltf, .stl, .ply, .obj or .3mf file, - for standard input, or a built-in scene: demo, sphere:N (N triangles), "
+                "lights:N (N lamps)",
             .read = read_text(o.scene),
             .required = required,
             .form = "FILE"};

@@ -111,23 +111,36 @@ Json environment_use_json(const EnvironmentUse& use, const Settings& settings) {
             {"within", use.within}};
 }
 
-std::string to_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
-
-std::string picture_report(const std::string& output, const std::vector<AovFile>& beside, const RenderJob& job,
-                           const RenderReport& rendered, const Image& picture, double encode_ms) {
-    Json report = report_head("report");
-    report["output"] = output;
-    for (const AovFile& file : beside) report["aov"][std::string(kAovNames[static_cast<std::size_t>(file.aov)])] = file.path;
-    add_frame(report, job, rendered, picture);
-    report["encode_ms"] = encode_ms;
-    return to_text(report);
+std::string to_text(const Json& json, bool one_line) {
+    return json.dump(one_line ? -1 : 2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string error_report(int code, const std::string& message) {
+std::string picture_report(const PictureFile& file, const RenderJob& job, const RenderReport& rendered, const Image& picture,
+                           double encode_ms, bool one_line) {
+    Json report = report_head("report");
+    report["scene"] = job.source.name;
+    report["output"] = file.output;
+    for (const AovFile& aov : file.beside) report["aov"][std::string(kAovNames[static_cast<std::size_t>(aov.aov)])] = aov.path;
+    add_frame(report, job, rendered, picture);
+    if (file.blank) report["blank"] = true;
+    report["encode_ms"] = encode_ms;
+    return to_text(report, one_line);
+}
+
+std::string error_report(const std::string& scene, int code, const std::string& message, bool one_line) {
     Json report = report_head("report");
     report["status"] = "error";
+    report["scene"] = scene;
     report["error"] = {{"code", code}, {"message", message}};
-    return to_text(report);
+    return to_text(report, one_line);
+}
+
+std::string skipped_report(const std::string& scene, const std::string& output) {
+    Json report = report_head("report");
+    report["status"] = "skipped";
+    report["scene"] = scene;
+    report["output"] = output;
+    return to_text(report, true);
 }
 
 }  // namespace halflit::cli

@@ -2,7 +2,7 @@
 // includes <nlohmann/json.hpp>, which takes long to compile.
 #pragma once
 
-#include "apps/halflit/aov.hpp"
+#include "apps/halflit/picture_file.hpp"
 #include "apps/halflit/render_job.hpp"
 
 #include <nlohmann/json_fwd.hpp>
@@ -34,13 +34,15 @@ void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered,
 /// leaving out the others: in linear light before exposure, and as a fraction of display white.
 [[nodiscard]] Json environment_use_json(const EnvironmentUse& use, const Settings& settings);
 
-/// Text with a newline at the end. Bytes that are not UTF-8 are replaced.
-[[nodiscard]] std::string to_text(const Json& json);
+/// Text with a newline at the end, and no other if `one_line`. Bytes that are not UTF-8 are replaced.
+[[nodiscard]] std::string to_text(const Json& json, bool one_line = false);
 
-/// The report of a picture that was drawn and encoded.
-[[nodiscard]] std::string picture_report(const std::string& output, const std::vector<AovFile>& beside, const RenderJob& job,
-                                         const RenderReport& rendered, const Image& picture, double encode_ms);
-/// A report of render with {"status": "error", ..., "error": {"code": N, "message": "..."}}.
-[[nodiscard]] std::string error_report(int code, const std::string& message);
+/// The report of a picture that was drawn and encoded. one_line: as a line among others.
+[[nodiscard]] std::string picture_report(const PictureFile& file, const RenderJob& job, const RenderReport& rendered, const Image& picture,
+                                         double encode_ms, bool one_line);
+/// A report of render with {"status": "error", ..., "error": {"code": N, "message": "..."}}. scene: as in the command line.
+[[nodiscard]] std::string error_report(const std::string& scene, int code, const std::string& message, bool one_line = false);
+/// The line of a scene whose picture was there: {"status": "skipped", ...}.
+[[nodiscard]] std::string skipped_report(const std::string& scene, const std::string& output);
 
 }  // namespace halflit::cli

@@ -41,7 +41,8 @@ std::string_view name_of(AlphaMode mode) {
 }
 
 Json file_json(const SceneInfo& file) {
-    return {{"version", file.version},
+    return {{"format", file.format},
+            {"version", file.version},
             {"generator", file.generator},
             {"scenes", file.scenes},
             {"nodes", file.nodes},

@@ -4,6 +4,7 @@
 #include "apps/halflit/file_names.hpp"
 #include "apps/halflit/stopwatch.hpp"
 #include "apps/io/errno_text.hpp"
+#include "halflit/model.hpp"
 
 #include <fmt/core.h>
 
@@ -30,7 +31,17 @@ Result<void> wait_for_input(const Stopwatch& waiting, double time_limit_s) {
     }
 }
 
-/// Reads standard input to its end. Fails above `max_bytes`, so that endless input is refused, and after the time limit; 0: none.
+Result<LoadedScene> load_file(const RenderOptions& options) {
+    LoadOptions load = options.load;
+    load.threads = options.execution.threads;
+    if (options.scene != "-") return load_model(options.scene, load);
+    const auto bytes = read_standard_input(options.load.limits.max_file_bytes, options.load.limits.time_limit_s);
+    if (!bytes) return tl::unexpected(bytes.error());
+    return load_model_bytes(*bytes, kStandardInput, "", load);
+}
+
+}  // namespace
+
 Result<std::vector<std::byte>> read_standard_input(std::size_t max_bytes, double time_limit_s) {
     if (::isatty(STDIN_FILENO) == 1) return fail(ErrorCode::usage, "standard input: expected a model, found a terminal");
     constexpr std::size_t kChunk = std::size_t{1} << 20;
@@ -50,24 +61,13 @@ Result<std::vector<std::byte>> read_standard_input(std::size_t max_bytes, double
     }
 }
 
-Result<LoadedScene> load_model(const RenderOptions& options) {
-    LoadOptions load = options.load;
-    load.threads = options.execution.threads;
-    if (options.scene != "-") return load_gltf(options.scene, load);
-    const auto bytes = read_standard_input(options.load.limits.max_file_bytes, options.load.limits.time_limit_s);
-    if (!bytes) return tl::unexpected(bytes.error());
-    return load_gltf_bytes(*bytes, kStandardInput, "", load);
-}
-
-}  // namespace
-
 Result<SceneSource> load_scene(const RenderOptions& options) {
     const std::string name = options.scene.empty() ? "demo" : options.scene;
     auto built_in = built_in_scene(name);
     if (!built_in) return tl::unexpected(built_in.error());
     if (*built_in)
         return SceneSource{.name = name, .scene = std::make_unique<Scene>(std::move(**built_in)), .file = std::nullopt, .warnings = {}};
-    auto loaded = load_model(options);
+    auto loaded = load_file(options);
     if (!loaded && loaded.error().code == ErrorCode::io && name != "-")
         return fail(ErrorCode::io, loaded.error().message + did_you_mean_file(name, {"demo", "sphere:N", "lights:N"}));
     if (!loaded) return tl::unexpected(loaded.error());

@@ -31,6 +31,9 @@ struct SceneSource {
 /// True for what load_scene can be asked for: a built-in scene, standard input ("-"), a model's name or a file that is there.
 [[nodiscard]] bool is_scene(const std::string& name);
 
+/// Reads standard input to its end. Fails above `max_bytes`, so that endless input is refused, and after the time limit; 0: none.
+[[nodiscard]] Result<std::vector<std::byte>> read_standard_input(std::size_t max_bytes, double time_limit_s);
+
 /// "sky" is the built-in environment; anything else is a file.
 [[nodiscard]] Result<EnvironmentImage> find_environment(const std::string& name);
 

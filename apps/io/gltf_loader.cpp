@@ -95,22 +95,10 @@ LoadedScene build(std::span<const std::byte> bytes, const std::string& base_dir,
     return loaded;
 }
 
-/// The folder of a path, "." for a bare name.
-std::string folder_of(const std::string& path) {
-    const std::size_t slash = path.rfind('/');
-    if (slash == std::string::npos) return ".";
-    return slash == 0 ? "/" : path.substr(0, slash);
-}
-
 }  // namespace
 
-std::vector<std::string> io::files_named_by(const std::string& path, const LoadOptions& options) {
-    try {
-        const auto bytes = read_file(path, options.limits.max_file_bytes);
-        return bytes ? files_of(*open_document(*bytes, folder_of(path), options)) : std::vector<std::string>();
-    } catch (const LoadFailure&) {
-        return {};
-    }
+std::vector<std::string> io::files_of_gltf(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
+    return files_of(*open_document(bytes, base_dir, options));
 }
 
 Result<LoadedScene> load_gltf_bytes(std::span<const std::byte> bytes, const std::string& name, const std::string& base_dir,

@@ -3,6 +3,8 @@
 
 #include "halflit/gltf.hpp"
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,5 +13,11 @@ namespace halflit::io {
 /// Paths at which the files may lie that the model at `path` refers to, drawn or not, there or not. Reads the model alone; empty if it
 /// cannot be read. Throws std::bad_alloc.
 [[nodiscard]] std::vector<std::string> files_named_by(const std::string& path, const LoadOptions& options);
+/// The same of a glTF file's content. Throws LoadFailure.
+[[nodiscard]] std::vector<std::string> files_of_gltf(std::span<const std::byte> bytes, const std::string& base_dir,
+                                                     const LoadOptions& options);
+
+/// The folder of a path, "." for a bare name.
+[[nodiscard]] std::string folder_of(const std::string& path);
 
 }  // namespace halflit::io

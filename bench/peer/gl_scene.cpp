@@ -76,8 +76,8 @@ void upload_texture(const Texture& texture, TextureStorage storage, bool srgb) {
 
 /// Uploads the maps of reflections one below the other, as 16-bit floats, which every driver filters.
 void upload_reflections(unsigned program, const Environment& environment, GLint unit) {
-    const shading::ReflectionMap map = shading::make_reflection_map({environment.lit_width, environment.lit_height, environment.lit_rgb},
-                                                                    environment.rotate_rad, shading::in_turn);
+    const shading::ReflectionPlan plan(environment.light->reflections(shading::in_turn), environment.rotate_rad);
+    const shading::ReflectionMap& map = *plan.map;
     const int width = 2 * map.rows[0] + 1;
     float rows[shading::kReflectionLevels], first[shading::kReflectionLevels];
     int height = 0;
@@ -96,6 +96,7 @@ void upload_reflections(unsigned program, const Environment& environment, GLint 
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glUniform1i(glGetUniformLocation(program, "around_map"), unit);
+    glUniform1f(glGetUniformLocation(program, "around_turned"), plan.turned);
     glUniform1fv(glGetUniformLocation(program, "kRows"), shading::kReflectionLevels, rows);
     glUniform1fv(glGetUniformLocation(program, "kFirst"), shading::kReflectionLevels, first);
 }

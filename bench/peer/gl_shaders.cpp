@@ -53,6 +53,7 @@ uniform sampler2D base_color_texture;
 uniform sampler2D normal_texture;
 #endif
 uniform sampler2D around_map;
+uniform float around_turned;
 uniform vec3 lamp_position[LAMPS];
 uniform vec3 lamp_color[LAMPS];
 out vec4 color;
@@ -77,7 +78,7 @@ vec3 blurred(int level, vec2 at) {
     return texture(around_map, place / vec2(textureSize(around_map, 0))).rgb;
 }
 vec3 mirrored(vec3 d, float level) {
-    vec2 at = vec2(atan(d.x, -d.z) * 0.159154943 + 0.5, atan(length(d.xz), d.y) * 0.318309886);
+    vec2 at = vec2(fract(atan(d.x, -d.z) * 0.159154943 + 0.5 + around_turned), atan(length(d.xz), d.y) * 0.318309886);
     int fine = int(min(floor(level), LAST_LEVEL - 1.0));
     return mix(blurred(fine, at), blurred(fine + 1, at), level - float(fine));
 }

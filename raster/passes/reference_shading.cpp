@@ -69,7 +69,7 @@ void ReferenceShading::shade(const shading::ShadeKernels& kernels, const shading
     around.sky = plan.sky;
     around.sky_focus = static_cast<double>(plan.sky_focus);
     around.diffuse = diffuse_[index].get();
-    around.reflections = plan.reflections.map.get();
+    around.reflections = &plan.reflections;
     around.reflection_lobes = material_plan.reflection_lobes;
     // Rows of the block that the plan does not need hold what was there before.
     const shading::SlotMask filled = scene_->available_slots()[index] & material_plan.slots;

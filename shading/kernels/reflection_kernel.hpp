@@ -57,15 +57,15 @@ HALFLIT_INLINE F angle_of(F y, F x) {
     return sel(y < zero, vneg(half), half);
 }
 
-/// A direction as a point of a map (ReflectionMap), both coordinates in [0, 1].
+/// A direction as a point of a map (ReflectionMap), both coordinates in [0, 1]. turned: ReflectionPlan's.
 struct GlobePoint {
     F u, v;
 };
-HALFLIT_INLINE GlobePoint globe_point(V3 direction) {
+HALFLIT_INLINE GlobePoint globe_point(V3 direction, F turned) {
     const F turn(0.159154943f), one(1.0f), none(0.0f);
     const F across = vsqrt(direction.x * direction.x + direction.z * direction.z);
-    return {clamp(mad(angle_of(direction.x, vneg(direction.z)), turn, F(0.5f)), none, one),
-            clamp(angle_of(across, direction.y) * (turn + turn), none, one)};
+    const F u = mad(angle_of(direction.x, vneg(direction.z)), turn, F(0.5f)) + turned;
+    return {clamp(u - vfloor(u), none, one), clamp(angle_of(across, direction.y) * (turn + turn), none, one)};
 }
 
 /// The upper left of the four values about a point in a level, as a number of floats from the map's first one; from a row to the next; and
@@ -92,7 +92,7 @@ HALFLIT_INLINE Q map_value(const float* rgba, const MapTaps& taps, int lane) {
 
 /// Radiance from a direction of any length, blurred by the lobe of a level in [0, kReflectionLevels - 1].
 [[gnu::noinline]] static V3 blurred_radiance(const shading::ReflectionPlan& map, F x, F y, F z, F level) {
-    const GlobePoint at = globe_point({x, y, z});
+    const GlobePoint at = globe_point({x, y, z}, F(map.turned));
     const F low = clamp(vfloor(level), F(0.0f), F(shading::kReflectionLevels - 2));
     alignas(64) float between[kWidth];
     store(between, level - low);

@@ -126,7 +126,7 @@ void make_newton_form(EnvironmentPlan& plan) {
 }
 
 EnvironmentPlan plan_environment(const Environment& environment, const sh::WrapLobe& lobe, const EnvironmentOrder& order) {
-    const sh::OrderBounds bounds = environment.grid.order_bounds(sh::lobe_spectrum(lobe));
+    const sh::OrderBounds bounds = environment.light != nullptr ? environment.light->order_bounds(lobe) : sh::OrderBounds{};
     EnvironmentPlan plan;
     std::array<double, sh::kMaxBands> codes{};
     if (order.codes > 0) codes = bounds_in_codes(environment, lobe, bounds, order);
@@ -167,16 +167,10 @@ void EnvironmentPlans::use(std::shared_ptr<const Environment> environment) {
     ++frame_;
     if (!environment_.replace(std::move(environment))) return;
     entries_.clear();
-    reflections_ = nullptr;
 }
 
-std::shared_ptr<const ReflectionMap> EnvironmentPlans::reflections(const ForEachRow& for_each_row) {
-    if (reflections_ == nullptr) {
-        const Environment& source = *environment_;
-        reflections_ = std::make_shared<ReflectionMap>(
-            make_reflection_map({source.lit_width, source.lit_height, source.lit_rgb}, source.rotate_rad, for_each_row));
-    }
-    return reflections_;
+ReflectionPlan EnvironmentPlans::reflections(const ForEachRow& for_each_row) {
+    return {(*environment_).light->reflections(for_each_row), (*environment_).rotate_rad};
 }
 
 EnvironmentPlan EnvironmentPlans::plan(const sh::WrapLobe& lobe, const EnvironmentOrder& order) {

@@ -4,7 +4,7 @@
 #include "shading/environment.hpp"
 #include "shading/model/code_costs.hpp"
 #include "shading/plan/environment_plan.hpp"
-#include "shading/reflection_map.hpp"
+#include "shading/plan/reflection_plan.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -32,8 +32,8 @@ public:
     /// Begins a frame: sets the environment of the plans that follow. Plans of another environment are dropped.
     void use(std::shared_ptr<const Environment> environment);
     [[nodiscard]] EnvironmentPlan plan(const sh::WrapLobe& lobe, const EnvironmentOrder& order);
-    /// Made when it is first asked for.
-    [[nodiscard]] std::shared_ptr<const ReflectionMap> reflections(const ForEachRow& for_each_row);
+    /// Reflections of the frame's environment.
+    [[nodiscard]] ReflectionPlan reflections(const ForEachRow& for_each_row);
 
 private:
     struct Entry {
@@ -45,7 +45,6 @@ private:
     EnvironmentSlot environment_;
     std::uint64_t frame_ = 0;
     std::vector<Entry> entries_;  ///< of environment_
-    std::shared_ptr<const ReflectionMap> reflections_;
 };
 
 /// Makes `newton` from the series' coefficients.

@@ -1,6 +1,7 @@
 // Reflections of an environment as the kernels read them.
 #pragma once
 
+#include "sh/trig.hpp"
 #include "shading/reflection_map.hpp"
 
 #include <memory>
@@ -12,10 +13,14 @@ struct ReflectionPlan {
     const float* rgba = nullptr;  ///< null: nothing reflects an environment
     float rows[kReflectionLevels]{};
     std::int32_t first[kReflectionLevels]{};
+    float turned = 0;  ///< of the environment about +y (EnvironmentOptions): share of a full turn that a longitude grows by, in [0, 1]
     std::shared_ptr<const ReflectionMap> map;
 
     ReflectionPlan() = default;
-    explicit ReflectionPlan(std::shared_ptr<const ReflectionMap> source) : rgba(source->rgba.data()->data()), map(std::move(source)) {
+    ReflectionPlan(std::shared_ptr<const ReflectionMap> source, double rotate_rad)
+        : rgba(source->rgba.data()->data()), map(std::move(source)) {
+        const double turns = rotate_rad / (2.0 * kPi);  // longitudes fall as sh::rotation_about_y turns
+        turned = static_cast<float>(turns - __builtin_floor(turns));
         for (int k = 0; k < kReflectionLevels; ++k) {
             rows[k] = static_cast<float>(map->rows[k]);
             first[k] = map->first[k];

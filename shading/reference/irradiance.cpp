@@ -17,9 +17,9 @@ struct Patch {
 /// Cuts large pixels and merges small ones into about 512 x 256 patches. A pixel is a patch of constant radiance.
 std::vector<Patch> patches(const Environment& environment) {
     constexpr int kWidth = 512;  // columns; 256 for images that are no wider, whose patches are cut from constant pixels
-    const int width = environment.lit_width, height = environment.lit_height;
+    const sh::EquirectView image = environment.light->image();
+    const int width = image.width, height = image.height;
     const int step = std::max(1, width / kWidth), cuts = std::max(1, kWidth / 2 / width);
-    const sh::EquirectView image{width, height, environment.lit_rgb};
     const sh::Rotation turn = sh::rotation_about_y(environment.rotate_rad);
     const double columns = static_cast<double>(width) * cuts, rows = static_cast<double>(height) * cuts;
     std::vector<Patch> out;

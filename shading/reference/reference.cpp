@@ -201,9 +201,11 @@ double rougher(const FrameInputs& frame, const TextureUse& map, float factor, do
 }
 
 /// Value of a level of the environment's map towards a direction.
-Vec3d map_value(const ReflectionMap& map, int level, Vec3d d) {
+Vec3d map_value(const ReflectionPlan& reflections, int level, Vec3d d) {
+    const ReflectionMap& map = *reflections.map;
     const int rows = map.rows[level];
-    const double x = (std::atan2(d.x, -d.z) / kPi + 1) * rows, y = std::atan2(std::hypot(d.x, d.z), d.y) / kPi * rows;
+    const double u = std::atan2(d.x, -d.z) / (2 * kPi) + 0.5 + double{reflections.turned};
+    const double x = (u - std::floor(u)) * 2 * rows, y = std::atan2(std::hypot(d.x, d.z), d.y) / kPi * rows;
     const int i = std::clamp(static_cast<int>(x), 0, 2 * rows - 1), j = std::clamp(static_cast<int>(y), 0, rows - 1);
     const auto value = [&](int column, int row) {
         const std::array<float, 4>& at = map.rgba[static_cast<std::size_t>(map.first[level] + row * (2 * rows + 1) + column)];
@@ -215,7 +217,7 @@ Vec3d map_value(const ReflectionMap& map, int level, Vec3d d) {
 }
 
 /// Mean radiance over a level's lobe about a direction of any length; 0 for the zero vector.
-Vec3d blurred(const ReflectionMap& map, Vec3d d, double level) {
+Vec3d blurred(const ReflectionPlan& map, Vec3d d, double level) {
     if (!(dot(d, d) > 0)) return {};
     const int fine = std::clamp(static_cast<int>(level), 0, kReflectionLevels - 2);
     const Vec3d near = map_value(map, fine, d);
@@ -256,7 +258,7 @@ struct Mirrored {
     double a, b;
     Vec3d radiance;
 };
-Mirrored mirrored_environment(const ReflectionMap& map, int lobes, const Surface& surface) {
+Mirrored mirrored_environment(const ReflectionPlan& map, int lobes, const Surface& surface) {
     const double n_dot_v = dot(surface.normal, surface.to_eye);
     const MirrorTable at(surface.roughness, n_dot_v);
     const Vec3d reflection = scale(surface.normal, 2 * n_dot_v) - surface.to_eye;

@@ -8,8 +8,8 @@
 #include "shading/environment.hpp"
 #include "shading/fragment_block.hpp"
 #include "shading/plan/plan.hpp"
+#include "shading/plan/reflection_plan.hpp"
 #include "shading/reference/shadow.hpp"
-#include "shading/reflection_map.hpp"
 
 #include <span>
 
@@ -48,7 +48,7 @@ struct Surroundings {
     /// Environment light at a normal. Where it is given, it replaces the two-colour ambient light.
     const Irradiance* diffuse = nullptr;
     /// What the environment's reflections are taken from, and by how many lobes; where `diffuse` is given and highlights are on.
-    const ReflectionMap* reflections = nullptr;
+    const ReflectionPlan* reflections = nullptr;
     int reflection_lobes = 1;
     /// Sky shadows: the lights that stand for the surroundings, and their hidden shares; empty: there are none.
     std::span<const LightPlan> sky{};

@@ -655,7 +655,7 @@ static void test_loading(void) {
     fclose(file);
     CHECK_OK(halflit_scene_load(path, NULL, &from_file));
     CHECK_OK(halflit_load_options_init(&options, sizeof options));
-    CHECK(options.threads == 0);
+    CHECK(options.threads == 0 && options.turn_upright == 1 && options.crease_deg == 30);
     options.threads = -1;
     CHECK_FAILS(halflit_scene_load_memory(model, sizeof model - 1, "model", NULL, &options, &from_memory), HALFLIT_ERROR_USAGE,
                 "model: threads is -1, expected at least 0");

@@ -68,7 +68,8 @@ TEST_CASE("command line: several scenes go into a folder, and one that fails doe
     CHECK(std::filesystem::exists(folder.file("new/out/sphere.png")));
     CHECK(std::filesystem::exists(folder.file("new/out/lights.png")));
     CHECK(run({"sphere:500", "-o", "one/", "--size", "16"}, here).err == "halflit: wrote one/sphere.png\n");
-    CHECK(contains(run({"render", "sphere:12", "sphere:13", "-o", "new/"}, here).err, "another scene has the same picture"));
+    CHECK(contains(run({"render", "sphere:12", "sphere:13", "-o", "new/"}, here).err,
+                   "sphere:13: sphere:12 has the same picture new/sphere.png"));
 }
 
 TEST_CASE("command line: quiet leaves errors alone, verbose says what was chosen", "[cli]") {

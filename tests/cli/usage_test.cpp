@@ -28,7 +28,7 @@ TEST_CASE("usage: an invalid command line ends with 2 and says what was expected
         {{"render", "demo", "sphere:500"}, "unexpected argument sphere:500: several scenes need -o FOLDER/"},
         {{"render", "demo", "picture.gif"}, "unexpected argument picture.gif"},
         {{"render", "demo", "a.png", "-o", "b.png"}, "the picture is named by -o b.png"},
-        {{"render", "demo", "./demo", "-o", "out/", "--report", "r.json"}, "--report"},
+        {{"render", "demo", "./demo", "-o", "out/", "--report", "r.json"}, "./demo: demo has the same picture out/demo.png"},
         {{"render", "--camera-position", "1,2"}, "3 numbers"},
         {{"render", "--time", "soon"}, "--time"},
         {{"render", "--time", "nan"}, "seconds"},

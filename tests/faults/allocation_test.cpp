@@ -130,16 +130,22 @@ void fail_each(int threads, ShadowMode shadows, long stride, bool all_later) {
 
 }  // namespace
 
-TEST_CASE("faults: each failed allocation is a limit, leaks nothing and leaves the Renderer usable", "[faults]") {
-    fail_each(1, ShadowMode::off, 1, false);
-    fail_each(1, ShadowMode::soft_split, 1, false);
+TEST_CASE("faults: a failed allocation is a limit, leaks nothing and leaves the Renderer usable", "[faults]") {
+    fail_each(1, ShadowMode::off, 11, false);
+    fail_each(1, ShadowMode::soft_split, 7, false);
 }
 
-TEST_CASE("faults: with two threads each failed allocation is a limit too", "[faults]") {
-    fail_each(2, ShadowMode::off, 1, false);
-    fail_each(2, ShadowMode::soft_split, 1, false);
+TEST_CASE("faults: with two threads a failed allocation is a limit too", "[faults]") {
+    fail_each(2, ShadowMode::off, 11, false);
+    fail_each(2, ShadowMode::soft_split, 7, false);
 }
 
 TEST_CASE("faults: memory that ends for good is a limit, leaks nothing and leaves the Renderer usable", "[faults]") {
+    fail_each(1, ShadowMode::soft_split, 7, true);
+}
+
+TEST_CASE("faults: each of all allocations that fails is a limit, leaks nothing and leaves the Renderer usable", "[faults][deep]") {
+    for (const int threads : {1, 2})
+        for (const ShadowMode shadows : {ShadowMode::off, ShadowMode::soft_split}) fail_each(threads, shadows, 1, false);
     fail_each(1, ShadowMode::soft_split, 1, true);
 }

@@ -50,7 +50,7 @@ void run(View input) {
     check_environment(image, 1 + static_cast<int>(input.size() % sh::kMaxBands));
     const auto environment = make_environment(image, {true, static_cast<double>(input.back()), true, true});
     HALFLIT_PROMISE(environment.has_value() && std::isfinite(environment_level(**environment)));
-    const shading::ReflectionMap map = shading::make_reflection_map(shading::view_of(image), 0.0, shading::in_turn);
+    const shading::ReflectionMap map = shading::make_reflection_map(shading::view_of(image), shading::in_turn);
     for (const auto& rgba : map.rgba)
         for (const float value : rgba) HALFLIT_PROMISE(value >= 0.0f && value <= 1e31f);
 }

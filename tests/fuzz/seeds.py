@@ -107,6 +107,25 @@ def jpeg(width, height, components=1, progressive=False, restart=0, adobe=None):
     return file + b'\xff\xd9'
 
 
+# Streams of the encoders of libwebp, Draco and meshoptimizer: a picture of 4 x 3 pixels, and the two triangles of a square.
+WEBP = bytes.fromhex(
+    '524946463a000000574542505650384c2e0000002f038000105f20164cae19e48f1bc3505c814241da062c96d0ee24e81f080248146289659659669934a2ff81e90e')
+WEBP_LOSSY = bytes.fromhex(
+    '524946465600000057454250565038580a00000010000000030000020000414c50480d000000000f23374b5f73879bafc3d7eb005650382022000000b001009d012a'
+    '0400030002c04c259c0274010efe02ec00e27dfedc17991496e00000')
+DRACO = bytes.fromhex(
+    '445241434f02020101000000040200020000011fff011101ff00000100090300000201010100030301300110030024824a0400000000ff0000000000000000000000'
+    '000000000000803f08')
+DRACO_SEQUENTIAL = bytes.fromhex(
+    '445241434f02020100000002040100010202010301010009030000020001010003030130011003002882881100000000ff0000000000000000000000000000000000'
+    '803f08')
+MESHOPT_VERTICES = bytes.fromhex(
+    'a00000013f000000ffffff013f0000007e7d7e0000010c000000ff010c0000007e000000000000000000000000000000000000000000000000000000000000000000'
+    '000000')
+MESHOPT_TRIANGLES = bytes.fromhex('e0f010007687566778a9866589689801690000')
+MESHOPT_INDICES = bytes.fromhex('d000040400020800000000')
+
+
 def pictures():
     def palette(bits):
         return [(b'PLTE', bytes(range(3 * min(4, 1 << bits)))), (b'tRNS', bytes([0, 128]))]
@@ -132,6 +151,7 @@ def pictures():
     out['jpeg_cmyk'] = jpeg(9, 8, 4)
     out['jpeg_ycck'] = jpeg(9, 8, 4, adobe=2)
     out['jpeg_rgb'] = jpeg(9, 8, 3, adobe=0)
+    out.update(webp=WEBP, webp_lossy=WEBP_LOSSY)
     return out
 
 
@@ -323,9 +343,70 @@ def two_quads():
     return model
 
 
+def draco(stream):
+    model = Model()
+    model.json['accessors'] = [{'componentType': 5125, 'count': 6, 'type': 'SCALAR'}, {'componentType': 5126, 'count': 4, 'type': 'VEC3'}]
+    extension = {'bufferView': model.view(stream), 'attributes': {'POSITION': 0}}
+    model.primitive(attributes={'POSITION': 1}, indices=0, extensions={'KHR_draco_mesh_compression': extension})
+    model.json['extensionsUsed'] = ['KHR_draco_mesh_compression']
+    return model
+
+
+def meshopt(name, indices, mode):
+    model = Model()
+    for data, stride, count, kind in ((MESHOPT_VERTICES, 12, 4, 'ATTRIBUTES'), (indices, 4, 6, mode)):
+        view = model.json['bufferViews'][model.view(data)]
+        compressed = {'buffer': 0, 'byteOffset': view['byteOffset'], 'byteLength': len(data), 'byteStride': stride, 'count': count,
+                      'mode': kind, 'filter': 'NONE'}
+        view.update(byteOffset=0, byteLength=stride * count, extensions={name: compressed})
+    model.json['accessors'] = [{'bufferView': 0, 'componentType': 5126, 'count': 4, 'type': 'VEC3'},
+                               {'bufferView': 1, 'componentType': 5125, 'count': 6, 'type': 'SCALAR'}]
+    model.primitive(attributes={'POSITION': 0}, indices=1)
+    model.json['extensionsUsed'] = [name]
+    return model
+
+
 def models():
-    return {'triangle': triangle(), 'textured': textured(), 'unlit': textured(lit=False), 'jpeg': textured(jpeg(16, 16, 3)),
+    return {'webp': textured(WEBP), 'draco': draco(DRACO), 'draco_sequential': draco(DRACO_SEQUENTIAL),
+            'meshopt': meshopt('EXT_meshopt_compression', MESHOPT_TRIANGLES, 'TRIANGLES'),
+            'meshopt_khr': meshopt('KHR_meshopt_compression', MESHOPT_INDICES, 'INDICES'),
+            'triangle': triangle(), 'textured': textured(), 'unlit': textured(lit=False), 'jpeg': textured(jpeg(16, 16, 3)),
             'skinned': skinned(), 'lit': lit(), 'two_quads': two_quads()}
+
+
+# ---- other formats of models ----------------------------------------------------------------------------------------------
+
+def other_models():
+    """A pyramid in each format."""
+    points = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (1, 1, 2)]
+    faces = [(3, 2, 1, 0), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)]
+    triangles = [(face[0], face[i], face[i + 1]) for face in faces for i in range(1, len(face) - 1)]
+    facets = ''.join('facet normal 0 0 0\nouter loop\n' + ''.join('vertex %g %g %g\n' % points[i] for i in t) + 'endloop\nendfacet\n'
+                     for t in triangles)
+    binary = b''.join(struct.pack('<12fH', 0, 0, 0, *points[t[0]], *points[t[1]], *points[t[2]], 0x8000 + 999 * k)
+                      for k, t in enumerate(triangles))
+    header = ('ply\nformat {} 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n'
+              'property uchar green\nproperty uchar blue\nelement face 5\nproperty list uchar int vertex_indices\nend_header\n')
+    ply_text = header.format('ascii') + ''.join('%g %g %g 1 2 3\n' % p for p in points)
+    ply_text += ''.join('%d %s\n' % (len(face), ' '.join(map(str, face))) for face in faces)
+    plies = {}
+    for name, order in (('little', '<'), ('big', '>')):
+        plies['ply_' + name] = (header.format(f'binary_{name}_endian').encode() +
+                                b''.join(struct.pack(order + '3f3B', *p, 9, 8, 7) for p in points) +
+                                b''.join(struct.pack(f'{order}B{len(face)}i', len(face), *face) for face in faces))
+    obj = 'mtllib a.mtl\no pyramid\n' + ''.join('v %g %g %g 1 0 0\n' % p for p in points) + 'vt 0 1\nvn 0 0 1\nusemtl a\ns 1\n'
+    obj += ''.join('f %s\n' % ' '.join('%d/1/1' % (i + 1) for i in face) for face in faces) + 's off\nf -1 -2 -3\nl 1 2\n'
+    core = 'http://schemas.microsoft.com/3dmanufacturing/core/2015/02'
+    more = 'http://schemas.microsoft.com/3dmanufacturing/material/2015/02'
+    xml = (f'<model unit="inch" xmlns="{core}" xmlns:m="{more}"><resources><basematerials id="5"><base name="a" displaycolor="#FF0000"/>'
+           '</basematerials><m:colorgroup id="6"><m:color color="#00FF0080"/></m:colorgroup><object id="1" pid="5" pindex="0"><mesh><vertices>')
+    xml += ''.join('<vertex x="%g" y="%g" z="%g"/>' % p for p in points) + '</vertices><triangles>'
+    xml += ''.join('<triangle v1="%d" v2="%d" v3="%d" pid="6" p1="0"/>' % t for t in triangles) + '</triangles></mesh></object>'
+    xml += ('<object id="2"><components><component objectid="1"/><component objectid="1" transform="1 0 0 0 1 0 0 0 1 5 0 0"/></components>'
+            '</object></resources><build><item objectid="2"/></build></model>')
+    return {'stl_text': ('solid a\n' + facets + 'endsolid a\n').encode(),
+            'stl_binary': b'solid COLOR=1234'.ljust(80) + struct.pack('<I', len(triangles)) + binary,
+            'ply_text': ply_text.encode(), **plies, 'obj': obj.encode(), 'xml': xml.encode()}
 
 
 # ---- targets -------------------------------------------------------------------------------------------------------------
@@ -339,6 +420,7 @@ def main():
         'gltf_text': {'empty': empty, 'spaces': json.dumps(json.loads(triangle().text()), indent=1).encode(),
                       **{name: model.text() for name, model in made.items()}},
         'glb': {name: model.glb() for name, model in made.items()},
+        'model': other_models(),
         'picture': pictures(),
         'hdr': environments(),
         'scene': {**{f'{name}_{i}': model.glb() + numbers.randbytes(FLAG_BYTES) for name, model in made.items() for i in range(2)},

@@ -12,8 +12,8 @@
 namespace halflit::test {
 
 struct PictureDifference {
-    std::size_t drawn = 0;       ///< pixels that show the model
-    std::size_t above_one = 0;   ///< pixels that differ by more than one code
+    std::size_t drawn = 0;      ///< pixels that show the model
+    std::size_t above_one = 0;  ///< pixels that differ by more than one code
 };
 
 /// Draws both by the first one's view, lights and materials, 160 x 120 pixels.

@@ -16,7 +16,7 @@ using namespace halflit::raster;
 
 namespace {
 
-constexpr int kWidth = 96, kHeight = 96;
+constexpr int kWidth = 64, kHeight = 64;
 
 struct Picture {
     std::vector<float> linear = std::vector<float>(std::size_t{4} * kWidth * kHeight);
@@ -125,10 +125,10 @@ TEST_CASE("environment budget: a sun drawn as a directional light keeps to the b
 }
 
 TEST_CASE("environment: a zero normal gets the light that N.L = 0 gives for every direction", "[raster][environment]") {
-    const std::vector<float> rgb = sky(64, 0.3f, 0.0f, 0.0);
+    const std::vector<float> rgb = sky(32, 0.3f, 0.0f, 0.0);
     for (const Lobe lobe : {Lobe::lambert(), Lobe::half_lambert(), Lobe::sloan(0.3f)})
         for (const SpecularModel specular : {SpecularModel::none, SpecularModel::blinn}) {
-            Scene scene = lit_ball(rgb, 64, true, lobe);
+            Scene scene = lit_ball(rgb, 32, true, lobe);
             scene.meshes[0].normals.assign(scene.meshes[0].normals.size(), {0, 0, 0});
             Settings settings = plain();
             settings.shading.specular = specular;

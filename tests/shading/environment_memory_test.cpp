@@ -1,5 +1,6 @@
 // Memory that an environment holds: none by default, and of an image only what was asked for.
 #include "shading/environment.hpp"
+#include "shading/plan/environment_plans.hpp"
 
 #include "tests/support/catch.hpp"
 
@@ -38,9 +39,10 @@ TEST_CASE("environment: one that was not made holds no memory and is dark", "[sh
     const Environment none;
     CHECK(none.suns.capacity() == 0);
     CHECK(none.rgb.capacity() == 0);
-    CHECK(none.lit_rgb.capacity() == 0);
-    const sh::OrderBounds bounds = none.grid.order_bounds(sh::lobe_spectrum(sh::WrapLobe{}));
-    for (const Vec3d& bound : bounds.by_order) CHECK(bound == Vec3d{0, 0, 0});
+    CHECK(none.light == nullptr);
+    const shading::EnvironmentPlan plan = shading::plan_environment(none, sh::WrapLobe{}, {});
+    CHECK(plan.bound == 0);
+    for (const float coefficient : plan.red) CHECK(coefficient == 0);
     CHECK(sizeof(Environment) < 16'384);
 }
 
@@ -59,7 +61,7 @@ TEST_CASE("environment: made from a small image it holds the 5 MB grid of its ba
     if (!heap_bytes()) HALFLIT_SKIP("no count of the heap's bytes");
     constexpr std::int64_t kGrid = 24 * 96 * 192 * sizeof(Vec3f), kLittle = 64 << 10;
     const std::int64_t before = *heap_bytes();
-    std::optional<Environment> environment(of_image(32, 16));
+    auto environment = std::make_unique<Environment>(of_image(32, 16));
     const std::int64_t held = *heap_bytes() - before;
     environment.reset();
     INFO("held " << held);
@@ -72,9 +74,9 @@ TEST_CASE("environment: the image with its suns is kept only if it is asked for,
     const Environment neither = of_image(32, 16), image = of_image(32, 16, {.keep_image = true}),
                       light = of_image(32, 16, {.keep_light = true});
     CHECK(neither.rgb.capacity() == 0);
-    CHECK(neither.lit_rgb.size() == 3 * 32 * 16);
+    CHECK(neither.light->image().rgb.size() == 3 * 32 * 16);
     CHECK(image.rgb.size() == 3 * 32 * 16);
-    CHECK(image.lit_rgb.size() == 3 * 32 * 16);
+    CHECK(image.light->image().rgb.size() == 3 * 32 * 16);
     CHECK(light.rgb.capacity() == 0);
-    CHECK(light.lit_rgb.size() == 3 * 32 * 16);
+    CHECK(light.light->image().rgb.size() == 3 * 32 * 16);
 }

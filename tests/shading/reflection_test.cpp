@@ -207,7 +207,7 @@ TEST_CASE("reflections: each level of a map is the sky blurred by its lobe", "[s
     std::string table;
     double worst_share = 0;
     for (const Sky& sky : skies()) {
-        const ReflectionMap map = make_reflection_map(sky.view(), 0, in_turn);
+        const ReflectionMap map = make_reflection_map(sky.view(), in_turn);
         double most = 0;
         for (const float v : sky.rgb) most = std::max(most, static_cast<double>(v));
         for (int level = 0; level < kReflectionLevels; ++level) {

@@ -70,9 +70,10 @@ void check_buffer_views(Document& document) {
     }
 }
 
-void fill_info(Document& document) {
+void fill_info(Document& document, std::span<const std::byte> bytes) {
     SceneInfo& info = document.info;
     const file::File& file = document.file;
+    info.format = is_glb(bytes) ? "GLB" : "glTF";
     info.version = file.version;
     info.generator = printable(file.generator, 100);
     info.scenes = file.scenes.size();
@@ -93,16 +94,14 @@ void fill_info(Document& document) {
 
 JsonScanLimits scan_limits(const LoadOptions& options) { return {options.limits.max_json_depth, options.limits.max_json_tokens}; }
 
-/// The geometry that the file may have, by its size and that of the buffers read so far. Compressed bytes count twice: they hold as
-/// much as several others, and their decoded form is in memory too.
+}  // namespace
+
 void set_geometry_limit(Document& document) {
     std::uint64_t size = document.file_bytes;
     for (const auto& buffer : document.owned_buffers) size += buffer.size();
     size += std::min(size, compressed_bytes(document) + draco_bytes(document));  // several views may have the same bytes
     document.geometry.set_limit(std::min(document.options.limits.max_geometry_bytes, kFreeBytes + kBytesPerByte * size));
 }
-
-}  // namespace
 
 void Document::check_time() const {
     const double limit = options.limits.time_limit_s;
@@ -142,7 +141,7 @@ std::unique_ptr<Document> open_document(std::span<const std::byte> bytes, const 
                                     document->notes);
     check_extensions(*document);
     choose_forms(document->file);
-    fill_info(*document);
+    fill_info(*document, bytes);
     set_geometry_limit(*document);
     document->encoded_images = Budget("reading the pictures", options.limits.max_total_bytes);
     return document;

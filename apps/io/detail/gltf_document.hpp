@@ -52,6 +52,10 @@ struct Document {
     [[nodiscard]] const std::byte* view_data(int buffer_view) const;  ///< requires: check_buffer_views has run, and the view is used
 };
 
+/// Sets the geometry that the file may have, by its size and that of the buffers read so far.
+/// Compressed bytes count twice: they hold as much as several others, and their decoded form is in memory too.
+void set_geometry_limit(Document& document);
+
 /// Words of a warning of a fault that does not touch the picture.
 inline constexpr const char* kNothingUsesIt = "nothing that is drawn uses it";
 

@@ -137,6 +137,7 @@ struct Image {
     std::optional<std::string_view> uri;
     std::string_view mime_type;
     int buffer_view = -1;
+    std::string_view place;  ///< for messages; empty: its JSON path. Of other formats
 };
 
 struct Sampler {

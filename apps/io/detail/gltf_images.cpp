@@ -85,7 +85,8 @@ ImageStore::Job ImageStore::prepare(int image, ColorSpace space, MipRule rule, i
     document_.check_time();
     const file::Image& entry = document_.file.images[static_cast<std::size_t>(image)];
     const LoadLimits& limits = document_.options.limits;
-    std::string where = fmt::format("images[{}]", image);
+    std::string where = entry.place.empty() ? fmt::format("images[{}]", image) : std::string(entry.place);
+    const std::string at_uri = entry.place.empty() ? where + ".uri" : where;
     std::vector<std::byte> owned;
     std::span<const std::byte> bytes;
     if (entry.buffer_view >= 0 && entry.uri) refuse(where, "has both a uri and a bufferView, which exclude each other");
@@ -93,12 +94,12 @@ ImageStore::Job ImageStore::prepare(int image, ColorSpace space, MipRule rule, i
         const file::BufferView& view = document_.file.buffer_views[static_cast<std::size_t>(entry.buffer_view)];
         bytes = {document_.view_data(entry.buffer_view), static_cast<std::size_t>(view.byte_length)};
     } else if (entry.uri && is_data_uri(*entry.uri)) {
-        owned = take(decode_data_uri(*entry.uri, limits.max_file_bytes), where + ".uri");
+        owned = take(decode_data_uri(*entry.uri, limits.max_file_bytes), at_uri);
         bytes = owned;
     } else if (entry.uri) {
-        owned = take(document_.folder.read(take(decode_file_uri(*entry.uri), where + ".uri"), limits.max_file_bytes), where + ".uri");
+        owned = take(document_.folder.read(take(decode_file_uri(*entry.uri), at_uri), limits.max_file_bytes), at_uri);
         bytes = owned;
-        where += fmt::format(".uri: \"{}\"", printable(*entry.uri, 120));
+        if (entry.place.empty()) where = fmt::format("{}: \"{}\"", at_uri, printable(*entry.uri, 120));
     } else {
         refuse(where, "expected a uri or a bufferView, found neither");
     }

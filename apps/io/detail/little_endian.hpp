@@ -1,4 +1,4 @@
-// Little-endian numbers in the headers of BMP and TGA files.
+// Little-endian numbers in BMP, TGA and STL files.
 #pragma once
 
 #include <cstddef>

@@ -76,7 +76,9 @@ typedef struct halflit_load_options {
     /// Animation that poses the scene: its name, or else its index in the file; null or empty: the first one, if there is any; "none": the
     /// pose of the nodes.
     const char* animation;
-    double time_s;  ///< time of the pose, seconds; before an animation's first key and after its last one, these are drawn
+    double time_s;         ///< time of the pose, seconds; before an animation's first key and after its last one, these are drawn
+    int32_t turn_upright;  ///< turn STL and 3MF files, whose z points up, so that y does; by default on
+    float crease_deg;      ///< STL, PLY, OBJ, 3MF without normals: smooth across edges up to this angle; by default 30
 } halflit_load_options;
 HALFLIT_C_API int32_t halflit_load_options_init(halflit_load_options* options, size_t size);
 
@@ -100,7 +102,8 @@ typedef struct halflit_animation {
 
 /// Makes an empty scene.
 HALFLIT_C_API int32_t halflit_scene_create(halflit_scene** scene);
-/// Makes a scene of a .gltf or .glb file; files that it refers to are read from its folder. options may be null: the defaults.
+/// Makes a scene of a glTF, GLB, STL, PLY, OBJ or 3MF file, whose format is found by its content; files that it refers to are read from its
+/// folder. options may be null: the defaults.
 HALFLIT_C_API int32_t halflit_scene_load(const char* path, const halflit_load_options* options, halflit_scene** scene);
 /// The same from `count` bytes. name is for messages. base_dir is the folder of files that it refers to; if it is null, none is read.
 HALFLIT_C_API int32_t halflit_scene_load_memory(const void* bytes, size_t count, const char* name, const char* base_dir,

@@ -60,6 +60,11 @@ struct LoadOptions {
     /// Reads all animations and keeps what they need (LoadedScene::motion), so that pose_at() can pose the scene at other times. A fault of
     /// any of them refuses the file then.
     bool keep_animations = false;
+    /// Turns STL and 3MF files, whose z points up by custom, so that y does.
+    bool turn_upright = true;
+    /// STL, PLY, OBJ and 3MF: where the file has no normals, the surface is smooth across edges whose triangles' normals differ by at most
+    /// this, degrees in [0, 180].
+    float crease_deg = 30.0f;
 };
 
 /// An animation of a file.
@@ -75,6 +80,7 @@ class Motion;
 
 /// Contents of the file, drawn or not.
 struct SceneInfo {
+    std::string format;              ///< "glTF", "GLB", "STL", "PLY", "OBJ" or "3MF"
     std::string version, generator;  ///< asset.version and asset.generator
     /// @{
     /// Number in the file.

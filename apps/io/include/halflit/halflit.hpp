@@ -14,6 +14,7 @@
 #include "halflit/material.hpp"
 #include "halflit/math.hpp"
 #include "halflit/mesh.hpp"
+#include "halflit/model.hpp"
 #include "halflit/prepared_scene.hpp"
 #include "halflit/renderer.hpp"
 #include "halflit/report.hpp"

@@ -1,0 +1,59 @@
+// One scene's picture: drawn, encoded, and written with the files beside it.
+#pragma once
+
+#include "apps/halflit/aov.hpp"
+#include "apps/halflit/render_options.hpp"
+#include "halflit/image.hpp"
+#include "halflit/renderer.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace halflit::cli {
+
+/// Extensions of formats, indexed by OutputFormat.
+inline constexpr std::string_view kFormatNames[] = {"png", "bmp", "tga", "jpg", "hdr", "pfm", "exr"};
+
+struct PictureOptions : RenderOptions {
+    std::string output;                  ///< empty: named after the scene
+    std::string report;                  ///< empty: none
+    std::optional<OutputFormat> format;  ///< none: the name's
+    std::vector<Aov> aovs;
+    bool blank_check = false;  ///< tell pictures in which nothing is seen
+
+    /// The picture, and the files beside it.
+    [[nodiscard]] std::vector<std::string> pictures() const;
+    [[nodiscard]] Result<OutputFormat> picture_format() const;
+};
+
+/// The scene's name without folder and extension, and the format's extension, ".png" without one.
+[[nodiscard]] std::string default_output(const std::string& scene, std::optional<OutputFormat> format);
+
+/// Refuses output paths that would overwrite the scene, the environment or each other.
+[[nodiscard]] Result<void> check_paths(const PictureOptions& options);
+
+/// A picture that was drawn, and is not written yet.
+struct PictureFile {
+    std::string output;
+    std::vector<std::uint8_t> bytes;
+    std::vector<AovFile> beside;
+    std::string report;  ///< JSON, of one line where many pictures are drawn
+    bool blank = false;  ///< nothing is seen; false without PictureOptions::blank_check
+};
+
+/// Who draws, and how much of it is told.
+struct PictureDrawer {
+    Renderer* renderer = nullptr;  ///< null: one that is gone before the picture is encoded, with its memory
+    bool one_of_many = false;      ///< no progress line, and reports of one line
+};
+
+/// Draws and encodes. Warnings are printed. `options.report` is cleared where it would overwrite a file that the scene refers to.
+[[nodiscard]] Result<PictureFile> draw_picture(PictureOptions& options, const PictureDrawer& drawer = {});
+
+/// Writes the files beside the picture, then the picture.
+[[nodiscard]] Result<void> write_picture(const PictureFile& picture);
+
+}  // namespace halflit::cli

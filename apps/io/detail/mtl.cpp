@@ -1,0 +1,221 @@
+#include "apps/io/detail/mtl.hpp"
+
+#include "apps/io/detail/model_text.hpp"
+#include "apps/io/image_reader.hpp"
+#include "apps/io/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace halflit::io::detail {
+
+namespace {
+
+std::optional<double> next_number(Words& words) {
+    Words ahead = words;
+    const auto value = parse_real<double>(ahead.next());
+    if (value) words = ahead;
+    return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+/// "r g b", or "r" for three equal ones. "spectral" and "xyz" are not read.
+std::optional<std::array<double, 3>> read_color(Words words) {
+    const auto r = next_number(words);
+    if (!r) return std::nullopt;
+    const auto g = next_number(words), b = next_number(words);
+    return std::array{*r, g.value_or(*r), b.value_or(g.value_or(*r))};
+}
+
+/// The values of -o, -s or -t: one to three numbers, of which a picture uses two.
+void read_pair(Words& words, std::array<double, 2>& pair) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto value = next_number(words);
+        if (!value) return;
+        if (i < 2) pair[i] = std::clamp(*value, -1e6, 1e6);
+    }
+}
+
+MtlTexture read_texture(Words words) {
+    MtlTexture texture;
+    for (;;) {
+        Words option = words;
+        const std::string_view name = option.next();
+        std::array<double, 2> ignored{};
+        if (name == "-o") {
+            read_pair(option, texture.offset);
+        } else if (name == "-s") {
+            read_pair(option, texture.scale);
+        } else if (name == "-t") {
+            read_pair(option, ignored);
+        } else if (name == "-mm") {
+            option.next();
+            option.next();
+        } else if (name == "-bm") {
+            texture.bump = std::clamp(next_number(option).value_or(1.0), -1e6, 1e6);
+        } else if (name == "-clamp") {
+            texture.clamp = same_word(option.next(), "on");
+        } else if (name == "-blendu" || name == "-blendv" || name == "-cc" || name == "-texres" || name == "-boost" || name == "-imfchan" ||
+                   name == "-type") {
+            option.next();
+        } else {
+            texture.file = words.rest();
+            return texture;
+        }
+        words = option;
+    }
+}
+
+/// A statement of a material.
+void read_statement(std::string_view word, Words words, MtlMaterial& m) {
+    const auto number = [&](std::optional<double>& value) {
+        if (const auto read = next_number(words)) value = *read;
+    };
+    const auto color = [&](std::optional<std::array<double, 3>>& value) {
+        if (const auto read = read_color(words)) value = *read;
+    };
+    if (same_word(word, "kd")) return color(m.kd);
+    if (same_word(word, "ks")) return color(m.ks);
+    if (same_word(word, "ke")) return color(m.ke);
+    if (same_word(word, "ns")) return number(m.ns);
+    if (same_word(word, "d")) {
+        if (words.rest().starts_with("-halo")) words.next();
+        return number(m.d);
+    }
+    if (same_word(word, "tr")) return number(m.tr);
+    if (same_word(word, "pr")) return number(m.pr);
+    if (same_word(word, "pm")) return number(m.pm);
+    if (same_word(word, "map_kd")) return void(m.map_kd = read_texture(words));
+    if (same_word(word, "map_ke")) return void(m.map_ke = read_texture(words));
+    if (same_word(word, "map_d")) return void(m.map_d = read_texture(words));
+    if (same_word(word, "map_bump") || same_word(word, "bump")) return void(m.bump = read_texture(words));
+    if (same_word(word, "norm") || same_word(word, "map_kn")) return void(m.norm = read_texture(words));
+    // Ka and map_Ka say how much of the light from around is returned, which the base colour does; illum is the model of a renderer.
+    if (same_word(word, "ka") || same_word(word, "map_ka") || same_word(word, "illum") || same_word(word, "ni") || same_word(word, "tf") ||
+        same_word(word, "sharpness"))
+        return;
+    if (m.not_drawn.size() < 8) m.not_drawn.push_back(printable(word, 20));
+}
+
+/// True if a picture has no colours: it holds heights, where a normal map is expected.
+bool is_grey(const std::vector<std::byte>& picture, const LoadLimits& limits) {
+    const auto image = decode_image(picture, {limits.max_texture_side, limits.max_texture_pixels, limits.max_jpeg_scans});
+    if (!image) return false;
+    for (std::size_t i = 0; i + 3 < image->rgba8.size(); i += 4) {
+        const int r = image->rgba8[i], g = image->rgba8[i + 1], b = image->rgba8[i + 2];
+        if (std::abs(r - g) > 8 || std::abs(g - b) > 8) return false;  // a JPEG's colours may differ a little
+    }
+    return true;
+}
+
+float factor(double value, double most = 1.0) { return static_cast<float>(std::clamp(value, 0.0, most)); }
+
+class MaterialOfMtl {
+public:
+    MaterialOfMtl(const MtlMaterial& from, ModelBuilder& builder) : from_(from), builder_(builder) {}
+
+    int make() {
+        Material m;
+        m.name = from_.name;
+        m.double_sided = true;
+        set_base_color(m);
+        const bool is_pbr = from_.pr || from_.pm;
+        m.metallic = factor(from_.pm.value_or(0.0));
+        m.roughness = 0.6f;
+        if (from_.ns) m.roughness = static_cast<float>(std::sqrt(std::sqrt(2.0 / (std::clamp(*from_.ns, 0.0, 1e6) + 2.0))));
+        if (from_.pr) m.roughness = factor(*from_.pr);
+        if (from_.ks && !is_pbr) set_specular(m, *from_.ks);
+        if (from_.ke) m.emissive = {factor((*from_.ke)[0], 1e6), factor((*from_.ke)[1], 1e6), factor((*from_.ke)[2], 1e6)};
+        if (!from_.map_ke.file.empty()) {
+            m.emissive_texture = use(from_.map_ke, "map_Ke", ColorSpace::srgb, MipRule::equal);
+            if (m.emissive == Vec3f{}) m.emissive = {1, 1, 1};
+        }
+        set_normal_map(m);
+        if (!from_.not_drawn.empty())
+            builder_.document().warn(
+                fmt::format("material \"{}\": not drawn: {}", printable(m.name, 80), fmt::join(from_.not_drawn, ", ")));
+        return builder_.add_material(m);
+    }
+
+private:
+    TextureUse use(const MtlTexture& texture, const char* key, ColorSpace space, MipRule rule) {
+        TextureUse use;
+        use.texture = builder_.texture(
+            texture.file, fmt::format("material \"{}\": {} {}", printable(from_.name, 80), key, printable(texture.file, 120)), space, rule);
+        // The file's v points up: v' = 1 - v. Its transform is scale * v + offset.
+        use.row_u = {static_cast<float>(texture.scale[0]), 0, static_cast<float>(texture.offset[0])};
+        use.row_v = {0, static_cast<float>(texture.scale[1]), static_cast<float>(1.0 - texture.scale[1] - texture.offset[1])};
+        if (texture.clamp) use.sampler.wrap_u = use.sampler.wrap_v = TextureWrap::clamp;
+        return use;
+    }
+
+    void set_base_color(Material& m) {
+        const bool has_map = !from_.map_kd.file.empty();
+        std::array<double, 3> kd = from_.kd.value_or(has_map ? std::array<double, 3>{1, 1, 1} : std::array<double, 3>{0.5, 0.5, 0.5});
+        if (has_map && kd == std::array<double, 3>{}) kd = {1, 1, 1};  // as writers mean it: the picture alone
+        const double alpha = from_.d ? *from_.d : 1.0 - from_.tr.value_or(0.0);
+        m.base_color = {factor(kd[0]), factor(kd[1]), factor(kd[2]), factor(alpha)};
+        const bool alpha_of_map = has_map && from_.map_d.file == from_.map_kd.file;
+        if (m.base_color.w < 1.0f || alpha_of_map) m.alpha_mode = AlphaMode::blend;
+        if (has_map)
+            m.base_color_texture =
+                use(from_.map_kd, "map_Kd", ColorSpace::srgb, m.alpha_mode == AlphaMode::blend ? MipRule::alpha : MipRule::equal);
+        if (!from_.map_d.file.empty() && !alpha_of_map)
+            builder_.document().warn(
+                fmt::format("material \"{}\": map_d is another picture than map_Kd, and is not drawn", printable(m.name, 80)));
+    }
+
+    static void set_specular(Material& m, const std::array<double, 3>& ks) {
+        if (ks[0] <= 0 && ks[1] <= 0 && ks[2] <= 0)
+            m.specular = 0;
+        else
+            m.specular_color = {factor(2 * ks[0], 25), factor(2 * ks[1], 25), factor(2 * ks[2], 25)};
+    }
+
+    void set_normal_map(Material& m) {
+        const bool is_norm = !from_.norm.file.empty();
+        const MtlTexture& map = is_norm ? from_.norm : from_.bump;
+        if (map.file.empty()) return;
+        Document& document = builder_.document();
+        if (!is_norm) {
+            const auto picture = document.folder.read(ModelBuilder::file_name(map.file), document.options.limits.max_file_bytes);
+            if (picture && is_grey(*picture, document.options.limits))
+                return document.warn(fmt::format("material \"{}\": {} holds heights, expected a normal map; drawn without it",
+                                                 printable(m.name, 80), printable(map.file, 120)));
+        }
+        m.normal_texture = use(map, is_norm ? "norm" : "map_Bump", ColorSpace::linear, MipRule::normal);
+        m.normal_scale = static_cast<float>(map.bump);
+    }
+
+    const MtlMaterial& from_;
+    ModelBuilder& builder_;
+};
+
+}  // namespace
+
+void read_mtl(std::string_view text, const std::string& name, ModelBuilder& builder, std::vector<MtlMaterial>& materials) {
+    Lines lines(text);
+    std::string_view line;
+    const std::size_t first = materials.size();
+    while (lines.next(line)) {
+        if (lines.number() % 4096 == 0) builder.document().check_time();
+        Words words(line);
+        const std::string_view word = words.next();
+        if (word.empty() || word[0] == '#') continue;
+        builder.document().geometry.take(line.size());
+        if (same_word(word, "newmtl")) {
+            builder.document().geometry.take(sizeof(MtlMaterial));
+            materials.emplace_back().name = words.rest();
+        } else if (materials.size() > first) {
+            read_statement(word, words, materials.back());
+        } else {
+            builder.document().warn(fmt::format("{}: line {}: expected newmtl, found \"{}\"", name, lines.number(), printable(word, 40)));
+        }
+    }
+}
+
+int make_material(const MtlMaterial& from, ModelBuilder& builder) { return MaterialOfMtl(from, builder).make(); }
+
+}  // namespace halflit::io::detail

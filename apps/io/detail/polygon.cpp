@@ -1,0 +1,112 @@
+#include "apps/io/detail/polygon.hpp"
+
+#include "apps/io/detail/load_failure.hpp"
+#include "sh/vec3d.hpp"
+
+#include <algorithm>
+
+namespace halflit::io::detail {
+
+namespace {
+
+/// Some ten seconds. A concave polygon of n corners takes at most n^2 tests, so this is one of 65,000 corners.
+constexpr std::uint64_t kMostTests = std::uint64_t{1} << 32;
+
+}  // namespace
+
+void PolygonCutter::flatten(std::span<const Vec3f> corners) {
+    Vec3d normal;  // Newell's sum, from the first corner on, so that a far polygon keeps its digits
+    const Vec3d origin = to_double(corners[0]);
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        normal = normal + cross(to_double(corners[i]) - origin, to_double(corners[(i + 1) % corners.size()]) - origin);
+    const Vec3d size = absolute(normal);
+    points_.clear();
+    for (const Vec3f& corner : corners) {
+        const Vec3d p = to_double(corner);
+        if (size.z >= size.x && size.z >= size.y)
+            points_.push_back({normal.z < 0 ? -p.x : p.x, p.y});
+        else if (size.x >= size.y)
+            points_.push_back({normal.x < 0 ? -p.y : p.y, p.z});
+        else
+            points_.push_back({normal.y < 0 ? -p.z : p.z, p.x});
+    }
+}
+
+namespace {
+
+/// Twice the signed area of a triangle, > 0 where it turns left.
+template <class Point>
+double area(const Point& a, const Point& b, const Point& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+}  // namespace
+
+bool PolygonCutter::is_convex() const {
+    const std::size_t n = points_.size();
+    int turns_down = 0;  // of the x direction; more than 2 in a polygon that winds around twice
+    for (std::size_t i = 0; i < n; ++i) {
+        const Point &a = points_[i], &b = points_[(i + 1) % n], &c = points_[(i + 2) % n];
+        if (!(area(a, b, c) > 0)) return false;  // with corners on an edge, a fan would have triangles without area
+        if ((b.x > a.x) != (c.x > b.x)) ++turns_down;
+    }
+    return turns_down <= 2;
+}
+
+bool PolygonCutter::is_ear(std::uint32_t before, std::uint32_t corner, std::uint32_t after) {
+    const Point &a = points_[before], &b = points_[corner], &c = points_[after];
+    ++tests_;
+    if (!(area(a, b, c) > 0)) return false;
+    const auto is = [](const Point& p, const Point& q) { return p.x == q.x && p.y == q.y; };
+    for (const std::uint32_t i : reflex_) {
+        if (cut_off_[i]) continue;
+        ++tests_;
+        const Point& p = points_[i];
+        if (is(p, a) || is(p, b) || is(p, c)) continue;
+        if (area(a, b, p) >= 0 && area(b, c, p) >= 0 && area(c, a, p) >= 0) return false;
+    }
+    return true;
+}
+
+void PolygonCutter::clip_ears(std::vector<std::uint32_t>& triangles) {
+    const auto n = static_cast<std::uint32_t>(points_.size());
+    next_.resize(n);
+    previous_.resize(n);
+    cut_off_.assign(n, false);
+    reflex_.clear();
+    for (std::uint32_t i = 0; i < n; ++i) {
+        next_[i] = (i + 1) % n;
+        previous_[i] = (i + n - 1) % n;
+        if (area(points_[previous_[i]], points_[i], points_[next_[i]]) <= 0) reflex_.push_back(i);  // the others stay convex
+    }
+    std::uint32_t corner = 1, without_ear = 0;
+    for (std::uint32_t left = n; left > 3;) {
+        if (tests_ > kMostTests) refuse("", "its concave polygons have too many corners to be cut into triangles", ErrorCode::limit);
+        const std::uint32_t before = previous_[corner], after = next_[corner];
+        if (without_ear < left && !is_ear(before, corner, after)) {
+            corner = after;
+            ++without_ear;
+            continue;
+        }
+        triangles.insert(triangles.end(), {before, corner, after});
+        cut_off_[corner] = true;
+        next_[before] = after;
+        previous_[after] = before;
+        corner = after;
+        without_ear = 0;
+        if (--left % 64 == 0) std::erase_if(reflex_, [&](std::uint32_t i) { return cut_off_[i]; });
+    }
+    triangles.insert(triangles.end(), {previous_[corner], corner, next_[corner]});
+}
+
+void PolygonCutter::cut(std::span<const Vec3f> corners, std::vector<std::uint32_t>& triangles) {
+    const auto n = static_cast<std::uint32_t>(corners.size());
+    if (n < 3) return;
+    if (n > 3) {
+        flatten(corners);
+        if (!is_convex()) return clip_ears(triangles);
+    }
+    for (std::uint32_t i = 1; i + 1 < n; ++i) triangles.insert(triangles.end(), {0u, i, i + 1});
+}
+
+}  // namespace halflit::io::detail

@@ -1,0 +1,99 @@
+#include "halflit/model.hpp"
+
+#include "apps/io/detail/gltf_animation.hpp"
+#include "apps/io/detail/load_failure.hpp"
+#include "apps/io/detail/model_readers.hpp"
+#include "apps/io/file_access.hpp"
+#include "apps/io/model_files.hpp"
+#include "apps/io/text.hpp"
+#include "shading/out_of_memory.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <exception>
+#include <new>
+
+namespace halflit {
+
+using namespace io::detail;
+using io::folder_of, io::printable, io::read_file;
+
+namespace {
+
+LoadedScene read(ModelFormat format, std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
+    switch (format) {
+        case ModelFormat::stl:
+            return read_stl(bytes, options);
+        case ModelFormat::ply:
+            return read_ply(bytes, base_dir, options);
+        case ModelFormat::obj:
+            return read_obj(bytes, base_dir, options);
+        default:
+            return read_three_mf(bytes, options);
+    }
+}
+
+}  // namespace
+
+std::string io::folder_of(const std::string& path) {
+    const std::size_t slash = path.rfind('/');
+    if (slash == std::string::npos) return ".";
+    return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+std::vector<std::string> io::files_named_by(const std::string& path, const LoadOptions& options) {
+    try {
+        const auto bytes = read_file(path, options.limits.max_file_bytes);
+        const auto format = bytes ? find_model_format(*bytes) : std::nullopt;
+        if (!format) return {};
+        if (*format == ModelFormat::gltf || *format == ModelFormat::glb) return io::files_of_gltf(*bytes, folder_of(path), options);
+        if (*format == ModelFormat::obj) return files_of_obj(*bytes, folder_of(path), options);
+        if (*format == ModelFormat::ply) return files_of_ply(*bytes, folder_of(path), options);
+        return {};
+    } catch (const LoadFailure&) {
+        return {};
+    }
+}
+
+Result<LoadedScene> load_model_bytes(std::span<const std::byte> bytes, const std::string& name, const std::string& base_dir,
+                                     const LoadOptions& options) {
+    const auto failed = [&](ErrorCode code, const std::string& message) {
+        return fail(code, fmt::format("{}: {}", printable(name), message));
+    };
+    try {
+        if (bytes.size() > options.limits.max_file_bytes)
+            return failed(ErrorCode::limit, fmt::format("has {} bytes, the limit is {}", bytes.size(), options.limits.max_file_bytes));
+        const std::optional<ModelFormat> format = find_model_format(bytes);
+        // The glTF reader says what is wrong with a file that is nothing at all.
+        if (!format && !bytes.empty()) return failed(ErrorCode::bad_input, "is no model: expected glTF, GLB, STL, PLY, OBJ or 3MF");
+        if (!format || *format == ModelFormat::gltf || *format == ModelFormat::glb) return load_gltf_bytes(bytes, name, base_dir, options);
+        try {
+            if (options.threads < 0) return failed(ErrorCode::usage, fmt::format("threads is {}, expected at least 0", options.threads));
+            if (!std::isfinite(options.time_s))
+                return failed(ErrorCode::usage, fmt::format("time_s is {}, expected a finite number", options.time_s));
+            (void)choose_animation({}, options.animation);  // none of these formats has any
+            return read(*format, bytes, base_dir, options);
+        } catch (const LoadFailure& failure) {
+            return failed(failure.error.code, failure.error.message);
+        } catch (const std::bad_alloc&) {
+            return failed(ErrorCode::limit, "out of memory");
+        } catch (const std::exception& error) {  // a decoder's, or the standard library's
+            return failed(ErrorCode::bad_input, printable(error.what()));
+        }
+    } catch (const std::bad_alloc&) {  // of the message
+        return fail(ErrorCode::limit, "out of memory");
+    }
+}
+
+Result<LoadedScene> load_model(const std::string& path, const LoadOptions& options) {
+    try {
+        const auto bytes = read_file(path, options.limits.max_file_bytes);
+        if (!bytes) return tl::unexpected(bytes.error());
+        return load_model_bytes(*bytes, path, folder_of(path), options);
+    } catch (const std::bad_alloc&) {
+        return fail_out_of_memory([&] { return fmt::format("{}: out of memory", printable(path)); });
+    }
+}
+
+}  // namespace halflit

@@ -1,0 +1,181 @@
+// STL, PLY, OBJ and 3MF: each format's own rules.
+#include "tests/io/model_maker.hpp"
+#include "tests/io/png_maker.hpp"
+#include "tests/support/skip.hpp"
+
+#include "tests/support/catch.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+using namespace halflit;
+using namespace halflit::test;
+
+TEST_CASE("STL: colours of VisCAM and Magics are read from the attribute", "[io]") {
+    const Polyhedron object = letter();
+    const std::uint16_t red_low = 31, red_high = 31 << 10;
+    const auto first_color = [&](const std::string& title, std::uint16_t attribute) {
+        const LoadedScene loaded =
+            load_any_ok(stl_binary_of(object, title, std::vector<std::uint16_t>(object.triangles.size(), attribute)));
+        const Mesh& mesh = loaded.scene.meshes.at(0);
+        return mesh.colors.empty() ? Vec4f{-1, -1, -1, -1} : mesh.colors[0];
+    };
+    CHECK(first_color("x", static_cast<std::uint16_t>(red_high | 0x8000)) == Vec4f{1, 0, 0, 1});
+    CHECK(first_color("x", red_high) == Vec4f{-1, -1, -1, -1});  // without bit 15 it is none
+    std::string title = "COLOR=";
+    title += {'\0', '\xff', '\0', '\xff'};
+    CHECK(first_color(title, red_low) == Vec4f{1, 0, 0, 1});
+    CHECK(first_color(title, 0x8000) == Vec4f{0, 1, 0, 1});  // the whole object's
+}
+
+TEST_CASE("STL: a file that was cut off is refused, with the lengths", "[io]") {
+    Bytes file = stl_binary_of(letter(), "solid title");
+    file.pop_back();
+    CHECK(refusal_of(file).find("20 triangles take 1084 bytes, found 1083: it was cut off") != std::string::npos);
+    Bytes longer = stl_binary_of(letter(), "a title");
+    append_u32(longer, 0);
+    CHECK(load_any_ok(longer).warnings.at(0) == "4 bytes after the last triangle are ignored");
+    Bytes text = stl_text_of(letter());
+    text.resize(text.size() / 2);
+    CHECK(refusal_of(text).find("line ") != std::string::npos);
+    text = stl_text_of(letter());
+    text.resize(text.size() - std::string("endsolid letter\n").size());
+    CHECK(load_any_ok(text).warnings.size() == 1);
+}
+
+TEST_CASE("PLY: colours, normals and texture coordinates of vertices are read", "[io]") {
+    const std::string file =
+        "ply\r\nformat ascii 1.0\r\nelement vertex 3\r\nproperty float x\r\nproperty float y\r\nproperty float z\r\nproperty float nx\r\n"
+        "property float ny\r\nproperty float nz\r\nproperty float s\r\nproperty float t\r\nproperty uchar red\r\nproperty uchar green\r\n"
+        "property uchar blue\r\nelement face 1\r\nproperty list uchar int vertex_index\r\nend_header\r\n"
+        "0 0 0 0 0 1 0 0 255 0 0\r\n1 0 0 0 1 0 1 0.25 0 255 0\r\n0 1 0 1 0 0 0 1 0 0 0\r\n3 0 1 2\r\n";
+    const Mesh mesh = load_any_ok(to_bytes(file)).scene.meshes.at(0);
+    CHECK(mesh.normals == std::vector<Vec3f>{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}});
+    CHECK(mesh.uv0 == std::vector<Vec2f>{{0, 1}, {1, 0.75f}, {0, 0}});
+    CHECK(mesh.colors == std::vector<Vec4f>{{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 0, 1}});
+}
+
+TEST_CASE("PLY: triangle strips turn every second triangle", "[io]") {
+    const std::string file =
+        "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+        "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+        "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n9 0 1 2 3 4 -1 2 0 1\n";
+    const Mesh mesh = load_any_ok(to_bytes(file)).scene.meshes.at(0);
+    REQUIRE(mesh.indices.size() == 12);
+    for (const Vec3f& normal : mesh.normals) CHECK(normal == Vec3f{0, 0, 1});
+}
+
+TEST_CASE("PLY: a point cloud is refused by name", "[io]") {
+    const std::string file =
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n";
+    CHECK(refusal_of(to_bytes(file)).find("it is a point cloud") != std::string::npos);
+    CHECK(refusal_of(to_bytes("v 0 0 0\nv 1 0 0\np 1 2\n")).find("it has vertices but no faces") != std::string::npos);
+}
+
+TEST_CASE("OBJ: materials of an MTL file become halflit's", "[io]") {
+    std::string name = (std::filesystem::temp_directory_path() / "halflit-test-XXXXXX").string();
+    REQUIRE(::mkdtemp(name.data()) != nullptr);
+    PngSpec spec;
+    spec.width = spec.height = 2, spec.color_type = 2;
+    const auto write_picture = [&](const char* file, auto sample) {
+        const Bytes png = make_png(spec, sample);
+        std::ofstream(name + file, std::ios::binary)
+            .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+    };
+    write_picture("/wood.png", [](std::uint32_t x, std::uint32_t y, int c) { return 40 * x + 90 * y + static_cast<std::uint32_t>(c); });
+    write_picture("/heights.png", [](std::uint32_t x, std::uint32_t, int) { return 200 * x; });
+    write_picture("/bumps.png", [](std::uint32_t, std::uint32_t, int c) { return c == 2 ? 255u : 128u; });
+    std::ofstream(name + "/two words.mtl") << "newmtl shiny\nKd 0.5 0.25 0.125\nKs 0.5 0.5 0.5\nNs 30\n"
+                                              "newmtl metal\nKd 1 1 1\nPr 0.25\nPm 1\nNs 1000\n"
+                                              "newmtl glass\nKd 0 0 1\nd 0.25\nKe 1 2 3\nKs 0 0 0\n"
+                                              "newmtl secret\nmap_Kd ../secret.png\n"
+                                              "newmtl picture\nKd 0 0 0\nmap_Kd -s 2 3 1 -o 0.5 0.25 wood.png\nbump -bm 2 bumps.png\n"
+                                              "newmtl heights\nmap_Bump heights.png\n";
+    const std::string points = "mtllib two words.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0.25\n";
+    const auto load_with = [&](const std::string& rest) { return load_any(to_bytes(points + rest), {}, name); };
+    const auto loaded = load_with("usemtl shiny\nf 1/1 2/1 3/1\nusemtl metal\nf 1 2 3\nusemtl glass\nf 1 2 3\nusemtl none\nf 1 2 3\n");
+    const auto refused = load_with("usemtl secret\nf 1 2 3\n");
+    const auto textured = load_with("usemtl picture\nf 1/1 2/1 3/1\nusemtl heights\nf 1/1 2/1 3/1\n");
+    std::filesystem::remove_all(name);
+    REQUIRE(loaded);
+    const auto& materials = loaded->scene.materials;
+    REQUIRE(materials.size() == 4);
+    CHECK(materials[0].base_color == Vec4f{0.5f, 0.25f, 0.125f, 1});
+    CHECK(materials[0].roughness == 0.5f);  // (2 / 32)^(1/4)
+    CHECK_FALSE(materials[0].has_specular_color());
+    CHECK(materials[1].roughness == 0.25f);
+    CHECK(materials[1].metallic == 1.0f);
+    CHECK(materials[2].alpha_mode == AlphaMode::blend);
+    CHECK(materials[2].base_color.w == 0.25f);
+    CHECK(materials[2].emissive == Vec3f{1, 2, 3});
+    CHECK(materials[2].specular == 0.0f);
+    CHECK(loaded->scene.meshes.at(0).uv0.at(0) == Vec2f{0, 0.75f});
+    REQUIRE(loaded->warnings.size() == 1);
+    CHECK(loaded->warnings[0] == "usemtl none: no material of this name was read; drawn in grey");
+    REQUIRE(textured);
+    const Material& picture = textured->scene.materials.at(0);
+    CHECK(picture.base_color == Vec4f{1, 1, 1, 1});
+    CHECK(picture.base_color_texture.row_u == Vec3f{2, 0, 0.5f});
+    CHECK(picture.base_color_texture.row_v == Vec3f{0, 3, -2.25f});  // 1 - (3 (1 - v) + 0.25)
+    CHECK(picture.normal_texture.used());
+    CHECK(picture.normal_scale == 2.0f);
+    CHECK_FALSE(textured->scene.materials.at(1).normal_texture.used());
+    REQUIRE(textured->warnings.size() == 1);
+    CHECK(textured->warnings[0].find("holds heights, expected a normal map") != std::string::npos);
+    CHECK_FALSE(refused);  // outside of the model's folder
+    const auto alone = load_any(to_bytes(points + "f 1 2 3\n"));
+    REQUIRE(alone);  // a material file that is missing is warned of
+    CHECK(alone->warnings.size() == 1);
+}
+
+TEST_CASE("3MF: components, transforms, units and colours are read", "[io]") {
+    if (!has_three_mf()) HALFLIT_SKIP("built without libzip or expat");
+    const std::string resources =
+        "<basematerials id=\"5\"><base name=\"a\" displaycolor=\"#FF0000\"/></basematerials>"
+        "<m:colorgroup id=\"6\"><m:color color=\"#00FF00\"/><m:color color=\"#0000FF80\"/></m:colorgroup>"
+        "<object id=\"1\" pid=\"5\" pindex=\"0\">" +
+        three_mf_mesh(letter(), 1.0f, {"pid=\"6\" p1=\"0\"", "pid=\"6\" p1=\"1\""}) +
+        "</object><object id=\"2\"><components><component objectid=\"1\"/>"
+        "<component objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 10 20 30\"/></components></object>";
+    const LoadedScene loaded =
+        load_any_ok(three_mf(three_mf_text("inch", resources, "<item objectid=\"2\" transform=\"2 0 0 0 2 0 0 0 2 0 0 0\"/>")));
+    CHECK(loaded.warnings.empty());
+    CHECK(loaded.info.triangles_drawn == 2 * letter().triangles.size());
+    const Bounds bounds = scene_bounds(loaded.scene);
+    // 2 (p + (10, 20, 30)) inches of z-up points in [0, 3] x [-1.5, 0] x [0, 4], turned
+    CHECK(std::abs(bounds.max.x - 26 * 0.0254f) < 1e-5f);
+    CHECK(std::abs(bounds.max.y - 68 * 0.0254f) < 1e-5f);
+    CHECK(std::abs(bounds.min.z - -40 * 0.0254f) < 1e-5f);
+    REQUIRE(loaded.scene.meshes.size() == 2);  // opaque, and the triangle that is not
+    const auto has = [](const Mesh& mesh, Vec4f color) {
+        return std::find(mesh.colors.begin(), mesh.colors.end(), color) != mesh.colors.end();
+    };
+    CHECK(has(loaded.scene.meshes[0], {0, 1, 0, 1}));
+    CHECK(has(loaded.scene.meshes[0], {1, 0, 0, 1}));
+    CHECK(loaded.scene.meshes[1].indices.size() == 3);
+    CHECK(loaded.scene.materials.at(static_cast<std::size_t>(loaded.scene.meshes[1].material)).alpha_mode == AlphaMode::blend);
+}
+
+TEST_CASE("3MF: bombs end at a limit", "[io]") {
+    if (!has_three_mf()) HALFLIT_SKIP("built without libzip or expat");
+    // Blanks: 128 MB in 130 kB.
+    Bytes blanks = to_bytes(three_mf_text("meter", "", ""));
+    blanks.resize(std::size_t{128} << 20, std::byte{' '});
+    CHECK(refusal_of(zip_of({{"3D/3dmodel.model", blanks}}, true), ErrorCode::limit).find("its unpacked parts") != std::string::npos);
+    // 2^60 copies of a mesh, and of nothing.
+    for (const bool empty : {false, true}) {
+        std::string objects = "<object id=\"1\">" + (empty ? std::string() : three_mf_mesh(letter())) + "</object>";
+        for (int i = 2; i <= 60; ++i) {
+            const std::string of = "<component objectid=\"" + std::to_string(i - 1) + "\"/>";
+            objects += "<object id=\"" + std::to_string(i) + "\"><components>" + of + of + "</components></object>";
+        }
+        const auto loaded = load_any(three_mf(three_mf_text("meter", objects, "<item objectid=\"60\"/>")));
+        CHECK(loaded.has_value() == empty);
+        if (!loaded) CHECK(loaded.error().code == ErrorCode::limit);
+    }
+    CHECK(refusal_of(three_mf("<!DOCTYPE a [<!ENTITY b \"c\">]>" + three_mf_text("meter", "", ""))).find("line 1") != std::string::npos);
+    const std::string own = "<object id=\"1\"><components><component objectid=\"1\"/></components></object>";
+    CHECK(refusal_of(three_mf(three_mf_text("meter", own, "<item objectid=\"1\"/>"))).find("component of itself") != std::string::npos);
+}

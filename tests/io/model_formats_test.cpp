@@ -1,0 +1,236 @@
+// STL, PLY, OBJ and 3MF: the same object in each format gives the same picture, and what all formats have in common.
+#include "tests/io/model_maker.hpp"
+#include "tests/io/png_maker.hpp"
+
+#include "halflit/auto_setup.hpp"
+#include "halflit/renderer.hpp"
+
+#include "tests/support/catch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+using namespace halflit;
+using namespace halflit::test;
+
+namespace {
+
+constexpr int kSize = 96;
+
+Material red() {
+    Material m;
+    m.base_color = {0.6f, 0.2f, 0.1f, 1};
+    m.metallic = 0;
+    m.roughness = 0.4f;
+    return m;
+}
+
+std::vector<std::uint8_t> draw(LoadedScene loaded) {
+    loaded.scene.materials = {red()};
+    for (Mesh& mesh : loaded.scene.meshes) mesh.material = 0;
+    const AutoSetup setup = auto_setup(loaded.scene, kSize, kSize);
+    std::vector<std::uint8_t> rgba(std::size_t{kSize} * kSize * 4);
+    REQUIRE(render(loaded.scene, setup.camera, setup.settings, {kSize, kSize, rgba.data()}));
+    return rgba;
+}
+
+int most_different(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+    int most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(int{a[i]} - int{b[i]}));
+    return most;
+}
+
+/// Triangles of a sphere of radius 1, with or without the two polar caps' degenerate ones.
+Polyhedron sphere(unsigned rings) {
+    Polyhedron p;
+    constexpr double pi = 3.14159265358979;
+    for (unsigned i = 0; i <= rings; ++i)
+        for (unsigned j = 0; j < 2 * rings; ++j) {
+            const double a = pi * i / rings, b = pi * j / rings;
+            const double s = i == 0 || i == rings ? 0.0 : std::sin(a);
+            p.points.push_back({static_cast<float>(s * std::cos(b)), static_cast<float>(s * std::sin(b)), static_cast<float>(std::cos(a))});
+        }
+    for (unsigned i = 0; i < rings; ++i)
+        for (unsigned j = 0; j < 2 * rings; ++j) {
+            const unsigned k = (j + 1) % (2 * rings), a = i * 2 * rings, b = a + 2 * rings;
+            p.triangles.push_back({a + j, b + j, b + k});
+            p.triangles.push_back({a + j, b + k, a + k});
+        }
+    return p;
+}
+
+double angle_deg(Vec3f a, Vec3f b) {
+    const double dot = double{a.x} * b.x + double{a.y} * b.y + double{a.z} * b.z;
+    const double sizes = std::sqrt((double{a.x} * a.x + double{a.y} * a.y + double{a.z} * a.z) *
+                                   (double{b.x} * b.x + double{b.y} * b.y + double{b.z} * b.z));
+    return std::acos(std::min(1.0, dot / sizes)) * 180 / 3.14159265358979;
+}
+
+}  // namespace
+
+TEST_CASE("models: one object in each format gives the picture of its glTF", "[io]") {
+    const Polyhedron object = letter();
+    const auto expected = draw(load_ok(gltf_of(object)));
+    CHECK(std::adjacent_find(expected.begin(), expected.end(), std::not_equal_to<>()) != expected.end());
+    std::vector<std::pair<std::string, Bytes>> files = {{"STL text", stl_text_of(object)},
+                                                        {"STL binary", stl_binary_of(object, "a title")},
+                                                        {"STL binary that begins with solid", stl_binary_of(object, "solid title")},
+                                                        {"PLY text", ply_of(object, PlyKind::text)},
+                                                        {"PLY little endian", ply_of(object, PlyKind::little)},
+                                                        {"PLY big endian", ply_of(object, PlyKind::big)},
+                                                        {"OBJ", obj_of(object)}};
+    if (has_three_mf()) {
+        const std::string items = "<item objectid=\"1\"/>";
+        const auto of_unit = [&](const char* unit, float scale) {
+            return three_mf(three_mf_text(unit, "<object id=\"1\">" + three_mf_mesh(object, scale) + "</object>", items));
+        };
+        files.emplace_back("3MF", of_unit("meter", 1.0f));
+        files.emplace_back("3MF in millimetres", of_unit("millimeter", 1000.0f));
+    }
+    for (const auto& [name, file] : files) {
+        INFO(name);
+        const LoadedScene loaded = load_any_ok(file);
+        CHECK(loaded.warnings.empty());
+        CHECK(name.starts_with(loaded.info.format));
+        CHECK(loaded.info.triangles_drawn == object.triangles.size());
+        CHECK(most_different(draw(loaded), expected) <= 1);
+    }
+}
+
+TEST_CASE("models: load_model reads glTF as load_gltf does", "[io]") {
+    const Bytes file = gltf_of(letter());
+    CHECK(load_any_ok(file).scene.meshes.at(0).positions == load_ok(file).scene.meshes.at(0).positions);
+    CHECK(load_any_ok(file).info.format == "GLB");
+    CHECK(find_model_format(to_bytes("  {\"asset\":{}}")) == ModelFormat::gltf);
+}
+
+TEST_CASE("models: what is no model is refused by name", "[io]") {
+    CHECK(refusal_of(to_bytes("hello, world\n")).find("is no model: expected glTF, GLB, STL, PLY, OBJ or 3MF") != std::string::npos);
+    std::string picture = "\x89PNG\r\n";
+    for (int i = 0; i < 400; ++i) picture += static_cast<char>(i * 37 % 251);
+    CHECK(refusal_of(to_bytes(picture)).find("is no model") != std::string::npos);
+    CHECK(refusal_of({}).find("no bytes at all") != std::string::npos);
+}
+
+TEST_CASE("models: an animation that no such file has is refused, and none is not", "[io]") {
+    const Bytes file = stl_binary_of(sphere(4), "a sphere");
+    LoadOptions options;
+    options.animation = "none";
+    CHECK(load_any(file, options));
+    options.animation = "walk";
+    CHECK(refusal_of(file, ErrorCode::usage, options).find("animation") != std::string::npos);
+    options.animation = "", options.time_s = std::numeric_limits<double>::infinity();
+    CHECK(refusal_of(file, ErrorCode::usage, options).find("time_s") != std::string::npos);
+}
+
+TEST_CASE("models: the up axis is turned unless the host turns it", "[io]") {
+    LoadOptions as_stored;
+    as_stored.turn_upright = false;
+    const Bytes file = stl_binary_of(letter(), "");
+    const Bounds upright = scene_bounds(load_any_ok(file).scene), stored = scene_bounds(load_any_ok(file, as_stored).scene);
+    CHECK(upright.max == Vec3f{3, 4, 1.5f});
+    CHECK(stored.max == Vec3f{3, 0, 4});
+    CHECK(stored.min == Vec3f{0, -1.5f, 0});
+}
+
+TEST_CASE("models: a sphere without normals is smooth, and flat with a crease of 0", "[io]") {
+    const Polyhedron ball = sphere(24);
+    const LoadedScene smooth = load_any_ok(stl_binary_of(ball, ""));
+    const Mesh& mesh = smooth.scene.meshes.at(0);
+    CHECK(mesh.positions.size() == 2 + 23 * 48);  // one vertex at each place
+    double worst = 0;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) worst = std::max(worst, angle_deg(mesh.positions[i], mesh.normals[i]));
+    CHECK(worst < 0.6);  // 0.48 degrees on the rings beside the poles, where triangles and halves of quads meet
+    LoadOptions sharp;
+    sharp.crease_deg = 0;
+    CHECK(load_any_ok(stl_binary_of(ball, ""), sharp).scene.meshes.at(0).positions.size() > 4 * mesh.positions.size());
+}
+
+TEST_CASE("models: edges above the crease angle are sharp", "[io]") {
+    LoadOptions options;
+    for (const float crease : {0.0f, 30.0f, 89.0f, 91.0f, 180.0f}) {
+        INFO(crease);
+        options.crease_deg = crease;
+        const Mesh mesh = load_any_ok(stl_binary_of(letter(), ""), options).scene.meshes.at(0);
+        CHECK(mesh.positions.size() == (crease > 90 ? 12u : 36u));  // of 12 places, 3 faces at each
+    }
+}
+
+TEST_CASE("models: smoothing groups of OBJ come before the crease angle", "[io]") {
+    const std::string points = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 -1\nv 1 1 -1\n", faces = "f 1 2 3 4\nf 2 5 6 3\n";
+    CHECK(load_any_ok(to_bytes(points + faces)).scene.meshes.at(0).positions.size() == 8);
+    CHECK(load_any_ok(to_bytes(points + "s 3\n" + faces)).scene.meshes.at(0).positions.size() == 6);
+    LoadOptions smooth;
+    smooth.crease_deg = 180;
+    CHECK(load_any_ok(to_bytes(points + faces), smooth).scene.meshes.at(0).positions.size() == 6);
+    CHECK(load_any_ok(to_bytes(points + "s off\n" + faces), smooth).scene.meshes.at(0).positions.size() == 8);
+}
+
+TEST_CASE("models: concave polygons are cut into triangles of the same area", "[io]") {
+    // A comb of 200 teeth, with corners on its long edge: signed area by the shoelace formula.
+    std::vector<Vec2f> outline;
+    for (int i = 0; i < 200; ++i) {
+        const auto x = static_cast<float>(i);
+        outline.insert(outline.end(), {{x, 1.0f + static_cast<float>(i % 7)}, {x + 0.5f, 0.5f}});
+    }
+    outline.push_back({200, 3});
+    for (int i = 200; i >= 0; i -= 50) outline.push_back({static_cast<float>(i), 0});
+    double area = 0;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const Vec2f a = outline[i], b = outline[(i + 1) % outline.size()];
+        area += 0.5 * (double{a.x} * b.y - double{b.x} * a.y);
+    }
+    std::string text, face = "f";
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        text += "v " + text_of(Vec3f{outline[i].x, 2, outline[i].y}) + "\n";
+        face.append(" ").append(std::to_string(i + 1));
+    }
+    const Mesh mesh = load_any_ok(to_bytes(text + face + "\n")).scene.meshes.at(0);
+    CHECK(mesh.indices.size() / 3 == outline.size() - 2);
+    double sum = 0;
+    for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
+        const Vec3f a = mesh.positions[mesh.indices[t]], b = mesh.positions[mesh.indices[t + 1]], c = mesh.positions[mesh.indices[t + 2]];
+        const double part = 0.5 * ((double{b.x} - a.x) * (double{c.z} - a.z) - (double{b.z} - a.z) * (double{c.x} - a.x));
+        CHECK(part * area > 0);  // all turn as the polygon does
+        sum += part;
+    }
+    CHECK(std::abs(sum - area) < 1e-9);
+}
+
+TEST_CASE("models: numbers do not depend on the locale, and wrong ones are refused with their line", "[io]") {
+    const Mesh mesh = load_any_ok(to_bytes("v +1.5e0 .25 -2.\nv 1e-60 1 0\nv 0 3 0\nf 1 2 3\n")).scene.meshes.at(0);
+    CHECK(mesh.positions.at(0) == Vec3f{1.5f, 0.25f, -2.0f});
+    CHECK(mesh.positions.at(1) == Vec3f{0, 1, 0});
+    CHECK(refusal_of(to_bytes("v 0 0 0\nv 1,5 0 0\n")).find("line 2: expected a number, found \"1,5\"") != std::string::npos);
+}
+
+TEST_CASE("models: indices out of range are refused, or their faces left out when lenient", "[io]") {
+    const Bytes obj = to_bytes("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n");
+    CHECK(refusal_of(obj).find("line 5: the index 4 is out of range") != std::string::npos);
+    Bytes ply = ply_of(letter(), PlyKind::text);
+    std::string text(reinterpret_cast<const char*>(ply.data()), ply.size());
+    ply = to_bytes(replaced(text, "6 6 7 8", "6 6 77 8"));
+    CHECK(refusal_of(ply).find("a face has the vertex 77, but there are 12") != std::string::npos);
+    LoadOptions lenient;
+    lenient.lenient = true;
+    CHECK(load_any_ok(obj, lenient).info.triangles_drawn == 1);
+    CHECK(load_any_ok(ply, lenient).info.triangles_drawn == letter().triangles.size() - 4);
+}
+
+TEST_CASE("models: limits hold for each format", "[io]") {
+    LoadOptions small;
+    small.limits.max_geometry_bytes = 2000;
+    const Polyhedron object = letter();
+    std::vector<Bytes> files = {stl_text_of(object), stl_binary_of(object, ""), ply_of(object, PlyKind::little), obj_of(object)};
+    if (has_three_mf())
+        files.push_back(
+            three_mf(three_mf_text("meter", "<object id=\"1\">" + three_mf_mesh(object) + "</object>", "<item objectid=\"1\"/>")));
+    for (const Bytes& file : files) {
+        CHECK(refusal_of(file, ErrorCode::limit, small).find("the geometry") != std::string::npos);
+        LoadOptions shorter;
+        shorter.limits.max_file_bytes = 100;
+        CHECK(refusal_of(file, ErrorCode::limit, shorter).find("bytes, the limit is 100") != std::string::npos);
+    }
+}
