@@ -101,6 +101,8 @@ halflit_settings to_c(const Settings& from) {
     settings.sky_shadows = from.sky_shadows;
     settings.anisotropy = from.shading.anisotropy;
     settings.soft_shadow_maps = from.soft_shadow_maps;
+    settings.point_size = from.point_size;
+    settings.line_width = from.line_width;
     return settings;
 }
 
@@ -120,6 +122,8 @@ Result<Settings> settings(const halflit_settings* given) {
     settings.shadow_terminator_offset = read->shadow_terminator_offset != 0;
     settings.sky_shadows = read->sky_shadows;
     settings.soft_shadow_maps = read->soft_shadow_maps;
+    settings.point_size = read->point_size;
+    settings.line_width = read->line_width;
     ShadingSettings& shading = settings.shading;
     if (read->override_lobe != 0) shading.lobe = lobe(read->lobe);
     shading.normalize_specular = read->normalize_specular != 0;

@@ -195,6 +195,13 @@ inline void put_attribute(F f, V value) {
     f.append(f.file.meshes.back().primitives.back().attributes, {f.key, static_cast<int>(value.number)});
 }
 
+inline void add_variant_material(F f, V) { f.append(f.file.meshes.back().primitives.back().variants); }
+
+template <auto Member>
+void put_variant_material(F f, V value) {
+    assign(f, f.file.meshes.back().primitives.back().variants.back().*Member, value);
+}
+
 inline void add_morph_target(F f, V) {
     ++f.file.morph_targets;
     f.append(f.file.meshes.back().primitives.back().targets);
