@@ -135,6 +135,7 @@ Settings usual_settings() {
     Settings settings;
     settings.samples = 4;
     settings.tone_curve = ToneCurve::neutral;
+    settings.shading.anisotropy = 4;
     settings.background_linear = {linear(0x3a), linear(0x3f), linear(0x47), 1.0f};
     return settings;
 }

@@ -55,7 +55,12 @@ Result<RenderReport> draw(RenderJob& job, Image& image, AovPlanes& planes, const
     }
     Target target = target_of(job, image);
     planes.add_to(target);
-    return drawer.renderer->render(*job.prepared, job.camera, job.settings, target, job.timed_execution());
+    const auto draw_by = [&](Renderer& renderer) {
+        return renderer.render(*job.prepared, job.camera, job.settings, target, job.timed_execution());
+    };
+    if (drawer.renderer != nullptr) return draw_by(*drawer.renderer);
+    Renderer renderer;
+    return draw_by(renderer);
 }
 
 /// No fragment was drawn, or all pixels have the same colour, within two codes: the background's.
@@ -139,7 +144,8 @@ Result<OutputFormat> PictureOptions::picture_format() const {
 std::string default_output(const std::string& scene, std::optional<OutputFormat> format) {
     const std::string stem = stem_of(scene);
     const bool file = !scene.empty() && scene != "-" && !stem.empty();
-    return (file ? stem.substr(0, stem.find(':')) : "halflit") + "." + std::string(kFormatNames[static_cast<std::size_t>(format.value_or(OutputFormat::png))]);
+    return (file ? stem.substr(0, stem.find(':')) : "halflit") + "." +
+           std::string(kFormatNames[static_cast<std::size_t>(format.value_or(OutputFormat::png))]);
 }
 
 Result<void> check_paths(const PictureOptions& options) {

@@ -18,8 +18,8 @@ namespace halflit::cli {
 inline constexpr std::string_view kFormatNames[] = {"png", "bmp", "tga", "jpg", "hdr", "pfm", "exr"};
 
 struct PictureOptions : RenderOptions {
-    std::string output;  ///< empty: named after the scene
-    std::string report;  ///< empty: none
+    std::string output;                  ///< empty: named after the scene
+    std::string report;                  ///< empty: none
     std::optional<OutputFormat> format;  ///< none: the name's
     std::vector<Aov> aovs;
     bool blank_check = false;  ///< tell pictures in which nothing is seen
@@ -46,12 +46,12 @@ struct PictureFile {
 
 /// Who draws, and how much of it is told.
 struct PictureDrawer {
-    Renderer* renderer;
-    bool one_of_many = false;  ///< no progress line, and reports of one line
+    Renderer* renderer = nullptr;  ///< null: one that is gone before the picture is encoded, with its memory
+    bool one_of_many = false;      ///< no progress line, and reports of one line
 };
 
 /// Draws and encodes. Warnings are printed. `options.report` is cleared where it would overwrite a file that the scene refers to.
-[[nodiscard]] Result<PictureFile> draw_picture(PictureOptions& options, const PictureDrawer& drawer);
+[[nodiscard]] Result<PictureFile> draw_picture(PictureOptions& options, const PictureDrawer& drawer = {});
 
 /// Writes the files beside the picture, then the picture.
 [[nodiscard]] Result<void> write_picture(const PictureFile& picture);

@@ -39,8 +39,7 @@ Result<int> render_scene(PictureOptions options, const std::string& scene) {
             (void)write_text(path, error_report(scene, 128 + signal, "interrupted by signal " + std::to_string(signal)));
         });
     if (options.max_memory_bytes == 0) prepare_heap();
-    Renderer renderer;
-    Result<PictureFile> done = draw_picture(options, {&renderer});
+    Result<PictureFile> done = draw_picture(options);
     if (done)
         if (const auto written = write_picture(*done); !written) done = tl::unexpected(written.error());
     const std::string report = done ? done->report : error_report(scene, static_cast<int>(done.error().code), done.error().message);

@@ -139,7 +139,7 @@ private:
 
     /// Refuses pictures that would overwrite a scene, or a file which one of the scenes refers to, there or not. Counts the scenes' bytes.
     Result<void> spare_inputs() {
-        std::map<FileId, std::string> there;          // pictures, and the report
+        std::map<FileId, std::string> there;           // pictures, and the report
         std::map<std::string, std::string> not_there;  // by their whole paths
         const auto add = [&](const std::string& path) {
             if (path.empty() || path == "-") return;
@@ -328,9 +328,8 @@ Result<std::string> picture_name(const std::string& output, std::optional<Output
         else if (word == "folder")
             name += io::folder_of(scene);
         else
-            return fail(ErrorCode::usage,
-                        fmt::format("-o {}: expected {{stem}}, {{folder}}, {{index}} or {{index:04}}, found {}", output,
-                                    output.substr(at, end == std::string::npos ? end : end + 1 - at)));
+            return fail(ErrorCode::usage, fmt::format("-o {}: expected {{stem}}, {{folder}}, {{index}} or {{index:04}}, found {}", output,
+                                                      output.substr(at, end == std::string::npos ? end : end + 1 - at)));
         at = end;
     }
     return name;

@@ -9,9 +9,9 @@
 namespace halflit::cli {
 
 struct ManyOptions {
-    PictureOptions each;               ///< its output: a folder that ends in '/', or a pattern (see picture_name); its report: JSON lines
-    std::vector<std::string> scenes;   ///< at least one
-    bool skip_existing = false;        ///< leave pictures alone that are there
+    PictureOptions each;              ///< its output: a folder that ends in '/', or a pattern (see picture_name); its report: JSON lines
+    std::vector<std::string> scenes;  ///< at least one
+    bool skip_existing = false;       ///< leave pictures alone that are there
 };
 
 /// True for an output that names a picture for each scene: "{stem}.png".

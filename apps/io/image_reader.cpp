@@ -17,18 +17,21 @@ bool starts_with(std::span<const std::byte> file, std::span<const std::uint8_t> 
                                                       [](std::uint8_t a, std::byte b) { return a == static_cast<std::uint8_t>(b); });
 }
 
+constexpr const char* kExpected = "PNG, JPEG or WebP";
+
 Result<ImageFormat> format_of(std::span<const std::byte> file) {
     static constexpr std::uint8_t kPng[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'}, kJpeg[] = {0xFF, 0xD8, 0xFF};
-    static constexpr std::uint8_t kRiff[] = {'R', 'I', 'F', 'F'}, kKtx2[] = {0xAB, 'K', 'T', 'X', ' ', '2', '0'},
-                                  kGif[] = {'G', 'I', 'F', '8'};
+    static constexpr std::uint8_t kRiff[] = {'R', 'I', 'F', 'F'}, kWebp[] = {'W', 'E', 'B', 'P'},
+                                  kKtx2[] = {0xAB, 'K', 'T', 'X', ' ', '2', '0'}, kGif[] = {'G', 'I', 'F', '8'};
     if (starts_with(file, kPng)) return ImageFormat::png;
     if (starts_with(file, kJpeg)) return ImageFormat::jpeg;
-    const char* other = starts_with(file, kRiff) ? "WebP" : starts_with(file, kKtx2) ? "KTX2" : starts_with(file, kGif) ? "GIF" : nullptr;
-    if (other != nullptr) return fail(ErrorCode::bad_input, fmt::format("expected a PNG or JPEG picture, found {}", other));
-    if (file.empty()) return fail(ErrorCode::bad_input, "expected a PNG or JPEG picture, found nothing");
+    if (starts_with(file, kRiff) && file.size() >= 12 && starts_with(file.subspan(8), kWebp)) return ImageFormat::webp;
+    const char* other = starts_with(file, kKtx2) ? "KTX2" : starts_with(file, kGif) ? "GIF" : nullptr;
+    if (other != nullptr) return fail(ErrorCode::bad_input, fmt::format("expected a {} picture, found {}", kExpected, other));
+    if (file.empty()) return fail(ErrorCode::bad_input, fmt::format("expected a {} picture, found nothing", kExpected));
     std::string bytes;
     for (const std::byte b : file.first(std::min<std::size_t>(file.size(), 4))) bytes += fmt::format(" {:02x}", static_cast<unsigned>(b));
-    return fail(ErrorCode::bad_input, fmt::format("expected a PNG or JPEG picture, found bytes{}", bytes));
+    return fail(ErrorCode::bad_input, fmt::format("expected a {} picture, found bytes{}", kExpected, bytes));
 }
 
 }  // namespace
@@ -56,12 +59,14 @@ void RowSink::add_indexed_row(std::span<const std::uint8_t> indices, const Palet
 Result<ImageHeader> read_image_header(std::span<const std::byte> file, const ImageLimits& limits) {
     const auto format = format_of(file);
     if (!format) return tl::unexpected(format.error());
+    if (*format == ImageFormat::webp) return detail::read_webp_header(file, limits);
     return *format == ImageFormat::png ? detail::read_png_header(file, limits) : detail::read_jpeg_header(file, limits);
 }
 
 Result<DecodedImage> decode_image(std::span<const std::byte> file, const ImageLimits& limits, bool keep_16_bits) {
     const auto format = format_of(file);
     if (!format) return tl::unexpected(format.error());
+    if (*format == ImageFormat::webp) return detail::decode_webp(file, limits);
     return *format == ImageFormat::png ? detail::decode_png(file, limits, keep_16_bits) : detail::decode_jpeg(file, limits);
 }
 

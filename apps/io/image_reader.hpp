@@ -1,4 +1,4 @@
-// Decoding of PNG and JPEG pictures in memory. Limits are checked on the header, before pixels are decoded.
+// Decoding of PNG, JPEG and WebP pictures in memory. Limits are checked on the header, before pixels are decoded.
 #pragma once
 
 #include "halflit/error.hpp"
@@ -17,7 +17,10 @@ struct ImageLimits {
     int max_jpeg_scans = 64;  ///< each scan of a progressive JPEG costs a pass over the picture
 };
 
-enum class ImageFormat : std::uint8_t { png, jpeg };
+enum class ImageFormat : std::uint8_t { png, jpeg, webp };
+
+/// True if the library was built with libwebp. Without it, WebP pictures are refused by name.
+[[nodiscard]] bool has_webp();
 
 struct ImageHeader {
     ImageFormat format = ImageFormat::png;

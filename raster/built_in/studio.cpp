@@ -1,104 +1,30 @@
-// A photographer's studio: a dim room with a bright horizon, soft boxes, and a floor that returns some light. Directions in it are those of
-// a viewer who looks along -z.
 #include "halflit/scene.hpp"
 
-#include "sh/arc.hpp"
-#include "sh/equirect.hpp"
+#include "raster/built_in/studio_light.hpp"
 #include "sh/trig.hpp"
 #include "shading/environment.hpp"
-
-#include <algorithm>
-#include <array>
 
 namespace halflit {
 namespace {
 
-constexpr int kStudioRows = 64;
-
-/// 0 below 0, 1 above 1, smooth between them.
-double smooth(double t) {
-    const double x = std::clamp(t, 0.0, 1.0);
-    return x * x * (3.0 - 2.0 * x);
-}
-
-Vec3d mixed(Vec3d a, Vec3d b, double t) { return a + (b - a) * t; }
-
-/// A rectangle of light far away, upright, with soft edges.
-class SoftBox {
-public:
-    /// azimuth: from behind the viewer to the right. Width and height: angles.
-    SoftBox(double azimuth_deg, double elevation_deg, double width_deg, double height_deg, Vec3d radiance) : radiance_(radiance) {
-        constexpr double kDegree = kPi / 180.0;
-        const SinCos turn = sin_cos(azimuth_deg * kDegree), rise = sin_cos(elevation_deg * kDegree);
-        towards_ = {turn.sin * rise.cos, rise.sin, turn.cos * rise.cos};
-        right_ = {turn.cos, 0.0, -turn.sin};
-        up_ = cross(towards_, right_);
-        const auto reach = [](double angle_deg) {
-            const SinCos half = sin_cos(0.5 * angle_deg * kDegree);
-            return half.cos / half.sin;
-        };
-        per_width_ = reach(width_deg);
-        per_height_ = reach(height_deg);
-    }
-    [[nodiscard]] Vec3d light(Vec3d d) const {
-        constexpr double kEdge = 0.5;  // of the half width
-        const double along = dot(d, towards_);
-        if (!(along > 1e-3)) return {};
-        const auto inside = [&](double across, double per_side) {
-            return smooth((1.0 - (across < 0.0 ? -across : across) / along * per_side) / kEdge);
-        };
-        return radiance_ * (inside(dot(d, right_), per_width_) * inside(dot(d, up_), per_height_));
-    }
-
-private:
-    Vec3d towards_, right_, up_, radiance_;
-    double per_width_, per_height_;  ///< 1 / tan of half the angle
-};
-
-/// Walls, ceiling and floor.
-Vec3d room(Vec3d d) {
-    const Vec3d horizon{0.251, 0.256, 0.263}, wall{0.164, 0.171, 0.184}, ceiling{0.097, 0.103, 0.116};
-    const Vec3d near_floor{0.193, 0.186, 0.176}, floor{0.097, 0.092, 0.087};
-    const Vec3d above = mixed(mixed(horizon, wall, smooth(d.y / 0.35)), ceiling, smooth((d.y - 0.3) / 0.7));
-    const Vec3d below = mixed(near_floor, floor, smooth(d.y / -0.8));
-    // The room is darker behind the viewer: mirrors that face him get contrast.
-    const double behind = smooth((d.z - 0.1) / 0.9) * smooth(0.5 + 3.0 * d.y);
-    return mixed(below, above, smooth(0.5 + 10.0 * d.y)) * (1.0 - 0.45 * behind);
-}
-
-std::shared_ptr<const shading::ImageLight> make_studio_light(float level) {
-    EnvironmentImage image = studio_image();
-    for (float& value : image.rgb) value *= level;
-    const sh::Projection projection(shading::view_of(image));
-    return std::make_shared<const shading::ImageLight>(image.width, image.height, std::move(image.rgb), projection);
-}
-
-/// The studio's light is made once in a process: it takes longer than a small picture's drawing.
-std::shared_ptr<const shading::ImageLight> studio_light(float level) {
-    if (level != 1.0f) return make_studio_light(level);
-    static const auto light = make_studio_light(1.0f);
+/// Made once in a process.
+std::shared_ptr<const shading::ImageLight> studio_light() {
+    static const auto light = std::make_shared<const shading::ImageLight>(raster::studio_parts());
     return light;
 }
 
-}  // namespace
-
-EnvironmentImage studio_image() {
-    const std::array<SoftBox, 5> boxes{SoftBox{-50, 40, 54, 44, {2.2, 2.13, 2.0}},      // the main one, to the left above the viewer
-                                       SoftBox{75, 22, 44, 80, {0.84, 0.88, 0.97}},     // a tall one fills the right side
-                                       SoftBox{150, 38, 76, 34, {1.25, 1.29, 1.38}},    // behind the model: edges
-                                       SoftBox{-125, 15, 30, 90, {1.04, 1.01, 0.98}},   // a strip behind it to the left
-                                       SoftBox{0, 85, 70, 70, {0.575, 0.575, 0.575}}};  // overhead
-    EnvironmentImage image{2 * kStudioRows, kStudioRows, {}, true};
-    image.rgb.reserve(static_cast<std::size_t>(6) * kStudioRows * kStudioRows);
-    for (int y = 0; y < kStudioRows; ++y)
-        for (int x = 0; x < 2 * kStudioRows; ++x) {
-            const Vec3d d = sh::equirect_direction((x + 0.5) / (2 * kStudioRows), (y + 0.5) / kStudioRows);
-            Vec3d sum = room(d);
-            for (const SoftBox& box : boxes) sum = sum + box.light(d);
-            for (const double channel : {sum.x, sum.y, sum.z}) image.rgb.push_back(static_cast<float>(channel));
-        }
-    return image;
+std::shared_ptr<const shading::ImageLight> scaled_studio_light(float level) {
+    shading::ImageLightParts parts = raster::studio_parts();
+    for (float& value : parts.rgb) value *= level;
+    for (Vec3d& coefficient : parts.radiance.c) coefficient = coefficient * static_cast<double>(level);
+    for (auto& [lobe, bounds] : parts.bounds)
+        for (Vec3d& bound : bounds.by_order) bound = bound * static_cast<double>(level);
+    for (auto& value : parts.reflections.rgba)
+        for (float& channel : value) channel *= level;
+    return std::make_shared<const shading::ImageLight>(std::move(parts));
 }
+
+}  // namespace
 
 std::shared_ptr<const Environment> studio_environment(const Camera& camera, double turn_rad, float level) {
     // The way from the scene to the viewer; of a camera that looks straight down or up, the lower edge of its picture.
@@ -108,7 +34,7 @@ std::shared_ptr<const Environment> studio_environment(const Camera& camera, doub
     const bool steep = !(dot(level_back, level_back) > 1e-6 * dot(level_up, level_up));
     const Vec3d viewer = steep ? level_up * (back.y > 0.0f ? -1.0 : 1.0) : level_back;
     const double turn = angle_of(viewer.x, viewer.z) + turn_rad;
-    const auto light = studio_light(level);
+    const auto light = level == 1.0f ? studio_light() : scaled_studio_light(level);
     auto made = std::make_shared<Environment>(shading::make_environment(light, turn - turn == 0.0 ? turn : 0.0));
     const sh::EquirectView image = light->image();
     made->rgb.assign(image.rgb.begin(), image.rgb.end());

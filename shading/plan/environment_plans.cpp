@@ -126,8 +126,7 @@ void make_newton_form(EnvironmentPlan& plan) {
 }
 
 EnvironmentPlan plan_environment(const Environment& environment, const sh::WrapLobe& lobe, const EnvironmentOrder& order) {
-    const sh::OrderBounds bounds =
-        environment.light != nullptr ? environment.light->order_bounds(sh::lobe_spectrum(lobe)) : sh::OrderBounds{};
+    const sh::OrderBounds bounds = environment.light != nullptr ? environment.light->order_bounds(lobe) : sh::OrderBounds{};
     EnvironmentPlan plan;
     std::array<double, sh::kMaxBands> codes{};
     if (order.codes > 0) codes = bounds_in_codes(environment, lobe, bounds, order);

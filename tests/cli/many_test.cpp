@@ -60,8 +60,7 @@ TEST_CASE("many: each scene has the picture that it has alone, and reports come 
         CHECK(lines[i]["status"] == (i == 17 ? "error" : "ok"));
         const std::string digits = std::to_string(1000 + i).substr(1), picture = folder.file("new/" + name + "-" + digits + ".png");
         CHECK(std::filesystem::exists(picture) == (i != 17));
-        if (i % 13 == 0)
-            CHECK(contents(picture) == run({"render", name + ".gltf", "--size", "24x16", "-o", "-"}, here).out);
+        if (i % 13 == 0) CHECK(contents(picture) == run({"render", name + ".gltf", "--size", "24x16", "-o", "-"}, here).out);
     }
     // Large pictures, which all threads draw, among small ones.
     const Outcome large = run({"render", "sphere:500", "m1.gltf", "lights:3", "--size", "2048x1024", "--out-dir", "large", "-q"}, here);
@@ -86,7 +85,9 @@ TEST_CASE("many: scenes are read from a list, and pictures that are there can be
     CHECK(contents(folder.file("out/sphere.png")) == "mine");
     CHECK(contents(folder.file("out/lights.png")) == lights);
     // A list from standard input; without --skip-existing all is drawn anew.
-    CHECK(run({"render", "--files-from", "-", "-o", "out/", "--size", "16", "-q"}, {.input = "sphere:500\n", .folder = folder.path()}).code == 0);
+    CHECK(
+        run({"render", "--files-from", "-", "-o", "out/", "--size", "16", "-q"}, {.input = "sphere:500\n", .folder = folder.path()}).code ==
+        0);
     CHECK(contents(folder.file("out/sphere.png")) == sphere);
 }
 
@@ -103,7 +104,8 @@ TEST_CASE("many: pictures in which nothing is seen are named", "[cli][many]") {
     CHECK_FALSE(lines[0].contains("blank"));
     CHECK(lines[1]["blank"] == true);
     CHECK(run({"seen.gltf", "--size", "16", "-o", "a.png", "--blank-check"}, here).code == 0);
-    CHECK(run({"seen.gltf", "--size", "16", "-o", "a.png", "--blank-check", "--camera-position", "9,9,9", "--camera-target", "20,20,20"}, here)
+    CHECK(run({"seen.gltf", "--size", "16", "-o", "a.png", "--blank-check", "--camera-position", "9,9,9", "--camera-target", "20,20,20"},
+              here)
               .code == 1);
     CHECK(run({"empty.gltf", "--size", "16", "-o", "a.png"}, here).code == 0);
 }
@@ -137,7 +139,10 @@ TEST_CASE("many: file managers' thumbnailers get a PNG of any name", "[cli][many
     std::istringstream line(entry.substr(at, entry.find('\n', at) - at));
     std::vector<std::string> words;
     for (std::string word; line >> word;)
-        words.push_back(word == "%i" ? folder.file("a model.gltf") : word == "%o" ? folder.file("thumbnail.X7a") : word == "%s" ? "48" : word);
+        words.push_back(word == "%i"   ? folder.file("a model.gltf")
+                        : word == "%o" ? folder.file("thumbnail.X7a")
+                        : word == "%s" ? "48"
+                                       : word);
     const Outcome outcome = run(words);
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);

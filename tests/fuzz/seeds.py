@@ -107,6 +107,25 @@ def jpeg(width, height, components=1, progressive=False, restart=0, adobe=None):
     return file + b'\xff\xd9'
 
 
+# Streams of the encoders of libwebp, Draco and meshoptimizer: a picture of 4 x 3 pixels, and the two triangles of a square.
+WEBP = bytes.fromhex(
+    '524946463a000000574542505650384c2e0000002f038000105f20164cae19e48f1bc3505c814241da062c96d0ee24e81f080248146289659659669934a2ff81e90e')
+WEBP_LOSSY = bytes.fromhex(
+    '524946465600000057454250565038580a00000010000000030000020000414c50480d000000000f23374b5f73879bafc3d7eb005650382022000000b001009d012a'
+    '0400030002c04c259c0274010efe02ec00e27dfedc17991496e00000')
+DRACO = bytes.fromhex(
+    '445241434f02020101000000040200020000011fff011101ff00000100090300000201010100030301300110030024824a0400000000ff0000000000000000000000'
+    '000000000000803f08')
+DRACO_SEQUENTIAL = bytes.fromhex(
+    '445241434f02020100000002040100010202010301010009030000020001010003030130011003002882881100000000ff0000000000000000000000000000000000'
+    '803f08')
+MESHOPT_VERTICES = bytes.fromhex(
+    'a00000013f000000ffffff013f0000007e7d7e0000010c000000ff010c0000007e000000000000000000000000000000000000000000000000000000000000000000'
+    '000000')
+MESHOPT_TRIANGLES = bytes.fromhex('e0f010007687566778a9866589689801690000')
+MESHOPT_INDICES = bytes.fromhex('d000040400020800000000')
+
+
 def pictures():
     def palette(bits):
         return [(b'PLTE', bytes(range(3 * min(4, 1 << bits)))), (b'tRNS', bytes([0, 128]))]
@@ -132,6 +151,7 @@ def pictures():
     out['jpeg_cmyk'] = jpeg(9, 8, 4)
     out['jpeg_ycck'] = jpeg(9, 8, 4, adobe=2)
     out['jpeg_rgb'] = jpeg(9, 8, 3, adobe=0)
+    out.update(webp=WEBP, webp_lossy=WEBP_LOSSY)
     return out
 
 
@@ -323,8 +343,34 @@ def two_quads():
     return model
 
 
+def draco(stream):
+    model = Model()
+    model.json['accessors'] = [{'componentType': 5125, 'count': 6, 'type': 'SCALAR'}, {'componentType': 5126, 'count': 4, 'type': 'VEC3'}]
+    extension = {'bufferView': model.view(stream), 'attributes': {'POSITION': 0}}
+    model.primitive(attributes={'POSITION': 1}, indices=0, extensions={'KHR_draco_mesh_compression': extension})
+    model.json['extensionsUsed'] = ['KHR_draco_mesh_compression']
+    return model
+
+
+def meshopt(name, indices, mode):
+    model = Model()
+    for data, stride, count, kind in ((MESHOPT_VERTICES, 12, 4, 'ATTRIBUTES'), (indices, 4, 6, mode)):
+        view = model.json['bufferViews'][model.view(data)]
+        compressed = {'buffer': 0, 'byteOffset': view['byteOffset'], 'byteLength': len(data), 'byteStride': stride, 'count': count,
+                      'mode': kind, 'filter': 'NONE'}
+        view.update(byteOffset=0, byteLength=stride * count, extensions={name: compressed})
+    model.json['accessors'] = [{'bufferView': 0, 'componentType': 5126, 'count': 4, 'type': 'VEC3'},
+                               {'bufferView': 1, 'componentType': 5125, 'count': 6, 'type': 'SCALAR'}]
+    model.primitive(attributes={'POSITION': 0}, indices=1)
+    model.json['extensionsUsed'] = [name]
+    return model
+
+
 def models():
-    return {'triangle': triangle(), 'textured': textured(), 'unlit': textured(lit=False), 'jpeg': textured(jpeg(16, 16, 3)),
+    return {'webp': textured(WEBP), 'draco': draco(DRACO), 'draco_sequential': draco(DRACO_SEQUENTIAL),
+            'meshopt': meshopt('EXT_meshopt_compression', MESHOPT_TRIANGLES, 'TRIANGLES'),
+            'meshopt_khr': meshopt('KHR_meshopt_compression', MESHOPT_INDICES, 'INDICES'),
+            'triangle': triangle(), 'textured': textured(), 'unlit': textured(lit=False), 'jpeg': textured(jpeg(16, 16, 3)),
             'skinned': skinned(), 'lit': lit(), 'two_quads': two_quads()}
 
 

@@ -293,6 +293,7 @@ TEST_CASE("jpeg: cut files, too many scans and wrong sizes are refused", "[io]")
 
 TEST_CASE("image reader: other formats are refused by name", "[io]") {
     CHECK(decode_image(to_bytes("RIFF....WEBPVP8 ")).error().message.find("WebP") != std::string::npos);
+    CHECK(decode_image(to_bytes("\xABKTX 20\xBB")).error().message.find("found KTX2") != std::string::npos);
     CHECK(decode_image({}).error().code == ErrorCode::bad_input);
     CHECK(decode_image(to_bytes("hello")).error().message.find("68 65 6c 6c") != std::string::npos);
 }

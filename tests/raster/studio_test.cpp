@@ -2,11 +2,15 @@
 #include "halflit/renderer.hpp"
 #include "halflit/scene.hpp"
 #include "halflit/shapes.hpp"
+#include "raster/built_in/studio_light.hpp"
 #include "sh/equirect.hpp"
+#include "shading/environment.hpp"
 
 #include "tests/support/catch.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
 using namespace halflit;
@@ -49,6 +53,38 @@ std::vector<float> sphere_seen_from(Vec3f eye) {
 }
 
 }  // namespace
+
+TEST_CASE("studio: its light has the bits that the code computes, whether or not the build made them", "[raster][studio]") {
+    shading::ImageLightParts made = raster::studio_parts();
+    const shading::ImageLightParts computed = raster::computed_studio_parts();
+    CHECK(made.width == computed.width);
+    CHECK(made.rgb == computed.rgb);
+    CHECK(made.radiance.bands == computed.radiance.bands);
+    CHECK(made.radiance.c == computed.radiance.c);
+    CHECK(made.reflections.rgba == computed.reflections.rgba);
+    CHECK(std::equal(std::begin(made.reflections.first), std::end(made.reflections.first), std::begin(computed.reflections.first)));
+    REQUIRE(made.bounds.size() == 3);
+    // Bounds of other lobes are computed from the image.
+    const EnvironmentImage image = studio_image();
+    const shading::ImageLight of_image(image.width, image.height, image.rgb, sh::Projection(shading::view_of(image)));
+    const shading::ImageLight of_parts(std::move(made));
+    for (const sh::WrapLobe lobe : {sh::WrapLobe{0.0, 1.0, 1.0}, {1.0, 1.0, 1.0}, {1.0, 2.0, 1.0}, {0.4, 1.7, 0.9}})
+        CHECK(of_parts.order_bounds(lobe).by_order == of_image.order_bounds(lobe).by_order);
+}
+
+TEST_CASE("studio: a share of it is its light times that share", "[raster][studio]") {
+    const auto whole = studio_environment(seen_from({1, 2, 5})), half = studio_environment(seen_from({1, 2, 5}), 0, 0.5f);
+    for (std::size_t i = 0; i < whole->radiance.c.size(); ++i) CHECK(half->radiance.c[i] == whole->radiance.c[i] * 0.5);
+    CHECK(half->light->image().rgb[100] == 0.5f * whole->light->image().rgb[100]);
+    const sh::WrapLobe lambert{0.0, 1.0, 1.0}, other{0.4, 1.7, 0.9};
+    for (const sh::WrapLobe& lobe : {lambert, other})
+        for (std::size_t i = 0; i < 10; ++i) {
+            const double of_half = half->light->order_bounds(lobe).by_order[i].x, of_whole = whole->light->order_bounds(lobe).by_order[i].x;
+            CHECK(of_half == Approx(0.5 * of_whole).epsilon(1e-6));
+        }
+    const auto map = half->light->reflections(shading::in_turn), full = whole->light->reflections(shading::in_turn);
+    for (std::size_t i = 0; i < map->rgba.size(); i += 97) CHECK(map->rgba[i][1] == 0.5f * full->rgba[i][1]);
+}
 
 TEST_CASE("studio: white surfaces reflect what its header says, brightest upwards and darkest downwards", "[raster][studio]") {
     const EnvironmentImage image = studio_image();

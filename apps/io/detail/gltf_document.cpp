@@ -1,7 +1,9 @@
 #include "apps/io/detail/gltf_document.hpp"
 
 #include "apps/io/detail/glb_container.hpp"
+#include "apps/io/detail/gltf_draco.hpp"
 #include "apps/io/detail/gltf_json.hpp"
+#include "apps/io/detail/gltf_meshopt.hpp"
 #include "apps/io/detail/gltf_versions.hpp"
 #include "apps/io/detail/json_place.hpp"
 #include "apps/io/detail/uri.hpp"
@@ -97,6 +99,7 @@ JsonScanLimits scan_limits(const LoadOptions& options) { return {options.limits.
 void set_geometry_limit(Document& document) {
     std::uint64_t size = document.file_bytes;
     for (const auto& buffer : document.owned_buffers) size += buffer.size();
+    size += std::min(size, compressed_bytes(document) + draco_bytes(document));  // several views may have the same bytes
     document.geometry.set_limit(std::min(document.options.limits.max_geometry_bytes, kFreeBytes + kBytesPerByte * size));
 }
 
@@ -117,6 +120,7 @@ void Document::warn(std::string what) {
 
 const std::byte* Document::view_data(int buffer_view) const {
     const file::BufferView& view = file.buffer_views[static_cast<std::size_t>(buffer_view)];
+    if (view.decoded >= 0) return decoded[static_cast<std::size_t>(view.decoded)].data();
     return buffers[static_cast<std::size_t>(view.buffer)].data() + view.byte_offset;
 }
 
@@ -136,6 +140,7 @@ std::unique_ptr<Document> open_document(std::span<const std::byte> bytes, const 
     document->file = read_gltf_json(document->text, scan_limits(options), Budget("its objects", kFreeBytes + kBytesPerByte * text.size()),
                                     document->notes);
     check_extensions(*document);
+    choose_forms(document->file);
     fill_info(*document, bytes);
     set_geometry_limit(*document);
     document->encoded_images = Budget("reading the pictures", options.limits.max_total_bytes);
@@ -176,6 +181,8 @@ void load_buffers(Document& document) {
     fetch_buffers(document);
     check_buffer_views(document);
     set_geometry_limit(document);
+    decode_views(document);
+    decode_draco(document);
 }
 
 }  // namespace halflit::io::detail

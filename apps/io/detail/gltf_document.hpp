@@ -32,6 +32,7 @@ struct Document {
     Used used;                                        ///< what the drawn nodes use; empty until settle() has run
     std::vector<std::span<const std::byte>> buffers;  ///< byteLength bytes each; those that nothing drawn uses are empty
     std::vector<std::vector<std::byte>> owned_buffers;
+    std::vector<std::vector<std::byte>> decoded;  ///< bytes of the bufferViews that were compressed
     std::vector<std::string> warnings;
     std::size_t warnings_left_out = 0;
     SceneInfo info;
@@ -54,6 +55,7 @@ struct Document {
 };
 
 /// Sets the geometry that the file may have, by its size and that of the buffers read so far.
+/// Compressed bytes count twice: they hold as much as several others, and their decoded form is in memory too.
 void set_geometry_limit(Document& document);
 
 /// Words of a warning of a fault that does not touch the picture.
@@ -66,7 +68,7 @@ std::unique_ptr<Document> open_document(std::span<const std::byte> bytes, const 
 /// parents: of all nodes, -1 for none.
 void settle(Document& document, std::span<const int> drawn_nodes, std::span<const int> parents);
 
-/// Fetches the buffers that are used, and checks the bufferViews. Throws LoadFailure.
+/// Fetches the buffers that are used, checks the bufferViews, and decodes what is compressed. Throws LoadFailure.
 void load_buffers(Document& document);
 
 }  // namespace halflit::io::detail

@@ -27,6 +27,20 @@ struct BufferView {
     int buffer = -1;
     int byte_stride = 0;  ///< 0: packed
     std::uint64_t byte_offset = 0, byte_length = 0;
+    int compressed = -1;  ///< into File::compressed_views; -1: the view's own bytes are read
+    int decoded = -1;     ///< into Document::decoded, once it is there
+};
+
+enum class CompressionMode : std::uint8_t { attributes, triangles, indices };
+enum class CompressionFilter : std::uint8_t { none, octahedral, quaternion, exponential, color };
+
+/// EXT_meshopt_compression or KHR_meshopt_compression of a bufferView.
+struct CompressedView {
+    int buffer = -1, byte_stride = 0;  ///< byte_stride: of the decoded elements
+    std::uint64_t byte_offset = 0, byte_length = 0;
+    std::uint64_t count = 0;  ///< decoded elements
+    CompressionMode mode = CompressionMode::attributes;
+    CompressionFilter filter = CompressionFilter::none;
 };
 
 struct Sparse {
@@ -42,6 +56,7 @@ struct Accessor {
     int sparse = -1;     ///< into File::sparse
     std::uint64_t byte_offset = 0, count = 0;
     bool normalized = false;
+    int stands_for = -1;        ///< the accessor of the file in whose place this one was decoded; -1: itself
     std::optional<double> max;  ///< the first number of `max`: of key times, the last one
 };
 
@@ -63,6 +78,13 @@ struct Primitive {
     std::vector<VariantMaterial> variants;
     int indices = -1, material = -1;
     int mode = static_cast<int>(Mode::triangles);
+    int draco = -1;  ///< into File::draco; -1: none
+};
+
+/// KHR_draco_mesh_compression of a primitive.
+struct Draco {
+    int buffer_view = -1;
+    Attributes attributes;  ///< unique ids within the stream, by attribute name
 };
 
 struct Mesh {
@@ -132,6 +154,7 @@ struct Sampler {
 
 struct Texture {
     int source = -1, sampler = -1;
+    int webp = -1, basisu = -1;  ///< images of EXT_texture_webp and KHR_texture_basisu
 };
 
 /// KHR_texture_transform
@@ -217,9 +240,11 @@ struct File {
     std::vector<std::string_view> extensions_used, extensions_required;
     std::vector<Buffer> buffers;
     std::vector<BufferView> buffer_views;
+    std::vector<CompressedView> compressed_views;
     std::vector<Accessor> accessors;
     std::vector<Sparse> sparse;
     std::vector<Mesh> meshes;
+    std::vector<Draco> draco;
     std::vector<Node> nodes;
     std::vector<Transform> transforms;
     std::vector<Attributes> instancings;  ///< EXT_mesh_gpu_instancing

@@ -60,6 +60,18 @@ struct TextureRows : RowSink {
     }
 };
 
+std::string_view mime_type_of(ImageFormat format) {
+    switch (format) {
+        case ImageFormat::png:
+            return "image/png";
+        case ImageFormat::jpeg:
+            return "image/jpeg";
+        case ImageFormat::webp:
+            break;
+    }
+    return "image/webp";
+}
+
 std::string identity(const file::Image& entry) {
     return entry.buffer_view >= 0 ? fmt::format("bufferView {}", entry.buffer_view) : std::string(entry.uri.value_or(""));
 }
@@ -95,7 +107,7 @@ ImageStore::Job ImageStore::prepare(int image, ColorSpace space, MipRule rule, i
 
     const ImageLimits image_limits{limits.max_texture_side, limits.max_texture_pixels, limits.max_jpeg_scans};
     const ImageHeader header = take(read_image_header(bytes, image_limits), where);
-    const std::string_view type = header.format == ImageFormat::png ? "image/png" : "image/jpeg";
+    const std::string_view type = mime_type_of(header.format);
     if (!entry.mime_type.empty() && entry.mime_type != type)
         document_.warn(fmt::format("images[{}].mimeType: is \"{}\", but the picture is {}", image, printable(entry.mime_type, 40), type));
     if (texture_bytes(header) > texture_memory_.left())

@@ -193,7 +193,9 @@ private:
         if (info.index < 0) return use;
         const file::Texture& texture = document_.file.textures[static_cast<std::size_t>(info.index)];
         if (texture.source < 0) {
-            document_.warn(fmt::format("textures[{}]: has no source picture that can be read, left out", info.index));
+            document_.warn(fmt::format("textures[{}]: {}, left out", info.index,
+                                       texture.basisu >= 0 ? "its picture is KTX2 (KHR_texture_basisu), which is not supported"
+                                                           : "has no source picture that can be read"));
             return use;
         }
         int uv_set = info.tex_coord;

@@ -170,6 +170,36 @@ inline void put_byte_stride(F f, V value) {
     f.file.buffer_views.back().byte_stride = stride;
 }
 
+inline void begin_compressed(F f, V) {
+    f.append(f.file.compressed_views);
+    f.file.buffer_views.back().compressed = static_cast<int>(f.file.compressed_views.size() - 1);
+}
+
+template <auto Member>
+void put_compressed(F f, V value) {
+    assign(f, f.file.compressed_views.back().*Member, value);
+}
+
+inline void put_compression_mode(F f, V value) {
+    file::CompressionMode& mode = f.file.compressed_views.back().mode;
+    if (value.text == "ATTRIBUTES")
+        mode = file::CompressionMode::attributes;
+    else if (value.text == "TRIANGLES")
+        mode = file::CompressionMode::triangles;
+    else if (value.text == "INDICES")
+        mode = file::CompressionMode::indices;
+    else
+        fault(value, fmt::format("expected ATTRIBUTES, TRIANGLES or INDICES, found \"{}\"", printable(value.text, 40)));
+}
+
+inline void put_compression_filter(F f, V value) {
+    static constexpr std::string_view kFilters[] = {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"};
+    const auto* found = std::find(std::begin(kFilters), std::end(kFilters), value.text);
+    if (found == std::end(kFilters))
+        fault(value, fmt::format("expected NONE, OCTAHEDRAL, QUATERNION, EXPONENTIAL or COLOR, found \"{}\"", printable(value.text, 40)));
+    f.file.compressed_views.back().filter = static_cast<file::CompressionFilter>(found - std::begin(kFilters));
+}
+
 inline void put_accessor_type(F f, V value) {
     static constexpr std::pair<std::string_view, int> kTypes[] = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4},
                                                                   {"MAT2", 4},   {"MAT3", 9}, {"MAT4", 16}};
@@ -201,6 +231,15 @@ template <auto Member>
 void put_variant_material(F f, V value) {
     assign(f, f.file.meshes.back().primitives.back().variants.back().*Member, value);
 }
+
+inline void begin_draco(F f, V) {
+    f.append(f.file.draco);
+    f.file.meshes.back().primitives.back().draco = static_cast<int>(f.file.draco.size() - 1);
+}
+
+inline void put_draco_view(F f, V value) { assign(f, f.file.draco.back().buffer_view, value); }
+
+inline void put_draco_attribute(F f, V value) { f.append(f.file.draco.back().attributes, {f.key, static_cast<int>(value.number)}); }
 
 inline void add_morph_target(F f, V) {
     ++f.file.morph_targets;

@@ -82,13 +82,19 @@ private:
         skinned_[index] = true;
         for (const file::Primitive& primitive : mesh.primitives)
             for (const auto& [name, value] : primitive.attributes)
-                if (file::is_of_skin(name)) accessor(value);
+                if (file::is_of_skin(name)) accessor(value, !is_in_draco(primitive, name));
+    }
+
+    /// True if the attribute's data are decoded, so that those of its accessor are not read.
+    [[nodiscard]] bool is_in_draco(const file::Primitive& primitive, std::string_view attribute) const {
+        return primitive.draco >= 0 && file::find(file_.draco[static_cast<std::size_t>(primitive.draco)].attributes, attribute) >= 0;
     }
 
     void follow(const file::Primitive& primitive) {
         for (const auto& [name, value] : primitive.attributes)
-            if (file::is_drawn(name)) accessor(value);
-        accessor(primitive.indices);
+            if (file::is_drawn(name)) accessor(value, !is_in_draco(primitive, name));
+        accessor(primitive.indices, primitive.draco < 0);
+        if (primitive.draco >= 0) view(file_.draco[static_cast<std::size_t>(primitive.draco)].buffer_view);
         if (!mark(Target::materials, primitive.material)) return;
         const file::Material& m = file_.materials[static_cast<std::size_t>(primitive.material)];
         const file::MaterialExtensions& more = file_.extensions_of(m);
@@ -114,8 +120,10 @@ private:
         }
     }
 
-    void accessor(int index) {
-        if (!mark(Target::accessors, index)) return;
+    /// with_data: what the accessor's bufferViews hold is read too.
+    void accessor(int index, bool with_data = true) {
+        mark(Target::accessors, index);
+        if (!with_data || index < 0 || static_cast<std::size_t>(index) >= file_.accessors.size()) return;
         const file::Accessor& entry = file_.accessors[static_cast<std::size_t>(index)];
         view(entry.buffer_view);
         if (entry.sparse < 0) return;
@@ -124,7 +132,10 @@ private:
     }
 
     void view(int index) {
-        if (mark(Target::buffer_views, index)) mark(Target::buffers, file_.buffer_views[static_cast<std::size_t>(index)].buffer);
+        if (!mark(Target::buffer_views, index)) return;
+        const file::BufferView& entry = file_.buffer_views[static_cast<std::size_t>(index)];
+        mark(Target::buffers,
+             entry.compressed < 0 ? entry.buffer : file_.compressed_views[static_cast<std::size_t>(entry.compressed)].buffer);
     }
 
     void texture(int index) {

@@ -21,6 +21,13 @@ public:
     /// Takes an element out.
     void drop(Target target, std::size_t element) { of_[static_cast<std::size_t>(target)][element] = false; }
 
+    /// Adds an element behind the file's own.
+    void add(Target target, std::size_t element) {
+        std::vector<bool>& list = of_[static_cast<std::size_t>(target)];
+        if (list.size() <= element) list.resize(element + 1);
+        list[element] = true;
+    }
+
 private:
     friend class UseFinder;
     std::array<std::vector<bool>, kTargets> of_;

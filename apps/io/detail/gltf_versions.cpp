@@ -1,6 +1,9 @@
 #include "apps/io/detail/gltf_versions.hpp"
 
+#include "apps/io/detail/draco_mesh.hpp"
+#include "apps/io/detail/gltf_meshopt.hpp"
 #include "apps/io/detail/load_failure.hpp"
+#include "apps/io/image_reader.hpp"
 #include "apps/io/text.hpp"
 
 #include <fmt/format.h>
@@ -34,7 +37,26 @@ std::optional<std::pair<int, int>> parse_version(std::string_view text) {
     return v;
 }
 
+/// An extension that needs a library, which a build may lack.
+struct Decoder {
+    std::string_view extension;
+    const char* library;
+    bool (*is_there)();
+};
+constexpr Decoder kDecoders[] = {
+    {"EXT_meshopt_compression", "meshoptimizer", has_meshopt},
+    {"EXT_texture_webp", "libwebp", has_webp},
+    {"KHR_draco_mesh_compression", "Draco", has_draco},
+    {"KHR_meshopt_compression", "meshoptimizer", has_meshopt},
+};
+
+const Decoder* decoder_of(std::string_view name) {
+    const auto* found = std::find_if(std::begin(kDecoders), std::end(kDecoders), [&](const Decoder& d) { return d.extension == name; });
+    return found == std::end(kDecoders) ? nullptr : found;
+}
+
 bool is_supported(std::string_view name) {
+    if (const Decoder* decoder = decoder_of(name)) return decoder->is_there();
     return std::find(std::begin(kSupportedExtensions), std::end(kSupportedExtensions), name) != std::end(kSupportedExtensions);
 }
 
@@ -51,6 +73,7 @@ constexpr LeftOut kLeftOut[] = {
     {"EXT_texture_avif", "the pictures of other formats are drawn"},
     {"EXT_texture_webp", "the pictures of other formats are drawn"},
     {"KHR_draco_mesh_compression", "the data without compression are drawn"},
+    {"KHR_meshopt_compression", "the data without compression are drawn"},
     {"KHR_materials_anisotropy", "highlights are drawn round"},
     {"KHR_materials_diffuse_transmission", "light does not pass through"},
     {"KHR_materials_dispersion", "light is not split"},
@@ -62,6 +85,17 @@ constexpr LeftOut kLeftOut[] = {
 };
 
 }  // namespace
+
+void choose_forms(file::File& file) {
+    if (has_webp())
+        for (file::Texture& texture : file.textures)
+            if (texture.webp >= 0) texture.source = texture.webp;
+    if (!has_meshopt())
+        for (file::BufferView& view : file.buffer_views) view.compressed = -1;
+    if (!has_draco())
+        for (file::Mesh& mesh : file.meshes)
+            for (file::Primitive& primitive : mesh.primitives) primitive.draco = -1;
+}
 
 void check_versions(const file::File& file) {
     const auto version = parse_version(file.version);
@@ -75,9 +109,10 @@ void check_versions(const file::File& file) {
     if (version->first != 2) refuse("asset.version", fmt::format("expected glTF 2, found \"{}\"", printable(file.version, 20)));
     for (const std::string_view name : file.extensions_required) {
         if (is_supported(name)) continue;
-        const char* hint = name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression"
-                               ? " (compressed geometry; save the model without it)"
-                               : "";
+        std::string hint;
+        if (const Decoder* decoder = decoder_of(name))
+            hint = fmt::format(": it needs the library {}, which this build lacks", decoder->library);
+        if (name == "KHR_texture_basisu") hint = " (KTX2 pictures; save the model with PNG, JPEG or WebP)";
         refuse("extensionsRequired", fmt::format("\"{}\" is not supported{}", printable(name, 80), hint));
     }
 }

@@ -11,6 +11,9 @@ Result<DecodedImage> decode_png(std::span<const std::byte> file, const ImageLimi
 Result<bool> decode_png_rows(std::span<const std::byte> file, const ImageLimits& limits, bool keep_16_bits, RowSink& sink);
 Result<ImageHeader> read_jpeg_header(std::span<const std::byte> file, const ImageLimits& limits);
 Result<DecodedImage> decode_jpeg(std::span<const std::byte> file, const ImageLimits& limits);
+/// Fails (bad_input) for a build without libwebp, and for animations.
+Result<ImageHeader> read_webp_header(std::span<const std::byte> file, const ImageLimits& limits);
+Result<DecodedImage> decode_webp(std::span<const std::byte> file, const ImageLimits& limits);
 Result<DecodedImage> decode_bmp(std::span<const std::byte> file, const ImageLimits& limits);
 Result<DecodedImage> decode_tga(std::span<const std::byte> file, const ImageLimits& limits);
 

@@ -37,7 +37,8 @@ struct AutoSetup {
     bool framed = false;  ///< the camera is a view of the whole scene
 };
 
-/// Four samples, the dark grey background #3a3f47, the neutral tone curve, and otherwise the defaults.
+/// Four samples, the dark grey background #3a3f47, the neutral tone curve, textures filtered along footprints up to four times as long as
+/// wide, and otherwise the defaults.
 [[nodiscard]] HALFLIT_API Settings usual_settings();
 
 /// Chooses camera, lights, ambient light and exposure for a picture of width x height pixels. Adds to the scene the light that it lacks:

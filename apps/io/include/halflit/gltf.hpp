@@ -29,7 +29,8 @@ struct LoadLimits {
     std::size_t max_texture_pixels = std::size_t{64} << 20;  ///< one texture
     int max_jpeg_scans = 64;                                 ///< passes over the picture of a progressive JPEG, which bound its time
     /// All vertices, indices and instances together. A small file gets less: 32 MiB plus 96 bytes for each byte of the file. No real model
-    /// needs more, and a crafted one cannot become many times larger than its file. The JSON objects have the same limit.
+    /// needs more, and a crafted one cannot become many times larger than its file. Compressed data (meshopt, Draco) count twice. The JSON
+    /// objects have the same limit.
     std::uint64_t max_geometry_bytes = std::uint64_t{16} << 30;
     std::size_t max_lights = 1024;  ///< lights of the drawn nodes
     double time_limit_s = 0.0;      ///< wall clock, checked between the parts of the file; 0: no limit
@@ -43,7 +44,7 @@ struct LoadOptions {
     std::vector<std::string> allow_external;
     LoadLimits limits;  ///< on memory and time
     /// Threads that decode textures, this one included; 0: one for each processor. The result is the same. While it decodes, a thread holds
-    /// up to 64 MB, or a whole JPEG picture, beside the texture.
+    /// up to 64 MB, or a whole JPEG or WebP picture, beside the texture.
     int threads = 0;
     /// Moves a scene to the origin if it lies farther from it than 1024 times its radius, and scales it by a power of two if its radius is
     /// below 2^-10 or above 2^30, so that float32 keeps its shape and the least distance of lamps (Light::source_radius) is small beside
