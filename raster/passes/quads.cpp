@@ -95,12 +95,12 @@ bool clip_line(const double (&clip)[2][4], const View& view, ClippedLine& out) {
         else
             from = t > from ? t : from;
     };
-    plane([](const double (&c)[4]) { return c[3] - c[2]; });
-    plane([](const double (&c)[4]) { return c[3] - 1e-300; });
-    plane([&](const double (&c)[4]) { return static_cast<double>(v.guard_x) * c[3] - c[0]; });
-    plane([&](const double (&c)[4]) { return static_cast<double>(v.guard_x) * c[3] + c[0]; });
-    plane([&](const double (&c)[4]) { return static_cast<double>(v.guard_y) * c[3] - c[1]; });
-    plane([&](const double (&c)[4]) { return static_cast<double>(v.guard_y) * c[3] + c[1]; });
+    plane([](const double(&c)[4]) { return c[3] - c[2]; });
+    plane([](const double(&c)[4]) { return c[3] - 1e-300; });
+    plane([&](const double(&c)[4]) { return static_cast<double>(v.guard_x) * c[3] - c[0]; });
+    plane([&](const double(&c)[4]) { return static_cast<double>(v.guard_x) * c[3] + c[0]; });
+    plane([&](const double(&c)[4]) { return static_cast<double>(v.guard_y) * c[3] - c[1]; });
+    plane([&](const double(&c)[4]) { return static_cast<double>(v.guard_y) * c[3] + c[1]; });
     if (!(from < to)) return false;
     ScreenVertex end[2];
     out.weight[0] = from;
@@ -112,7 +112,8 @@ bool clip_line(const double (&clip)[2][4], const View& view, ClippedLine& out) {
         end[k] = project(at, v);
         // A rounding may leave a cut end just outside.
         const auto limit = [](std::int32_t x, float half) {
-            const auto middle = static_cast<std::int32_t>(half * 256.0f), most = middle + 256 * kGuardBandPx, least = middle - 256 * kGuardBandPx;
+            const auto middle = static_cast<std::int32_t>(half * 256.0f), most = middle + 256 * kGuardBandPx,
+                       least = middle - 256 * kGuardBandPx;
             return x < least ? least : x > most ? most : x;
         };
         end[k].x = limit(end[k].x, v.half_width);

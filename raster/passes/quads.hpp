@@ -17,8 +17,8 @@ namespace halflit::raster {
     return topology == Topology::lines ? view.line_width : topology == Topology::points ? view.point_size : 0;
 }
 
-/// Transforms vertices [args.begin, args.end) of a draw of lines or points, and writes their quads to args.screen and args.outcodes: those of
-/// the draw's first quad. args.begin: a multiple of kVertexGroup.
+/// Transforms vertices [args.begin, args.end) of a draw of lines or points, and writes their quads to args.screen and args.outcodes: those
+/// of the draw's first quad. args.begin: a multiple of kVertexGroup.
 void transform_quads(const RasterKernels& kernels, const TransformArgs& args, const Draw& draw, const View& view);
 
 /// Indices of the triangles of kQuadsAtOnce quads, relative to the first of their vertices.

@@ -131,7 +131,8 @@ FramedVertices framed_vertices(const Mesh& mesh, bool& whole) {
             if (finite(mesh.positions[v])) visit(box_at(mesh.positions[v]), std::uint64_t{1});
     };
     // A position may be that of several vertices, one for each triangle at a corner.
-    const std::uint64_t positions = std::max<std::uint64_t>(1, finite_count / kStrayShare), most = std::max<std::uint64_t>(finite_count / 3, 1);
+    const std::uint64_t positions = std::max<std::uint64_t>(1, finite_count / kStrayShare),
+                        most = std::max<std::uint64_t>(finite_count / 3, 1);
     const auto box = closest_box(each, std::min(most, 64 * positions));
     if (!box) return out;
     std::set<std::tuple<float, float, float>> strays;

@@ -1,5 +1,6 @@
-// The part of a scene that a view of the whole is fitted to. A ground that is much larger than all that stands on it, and a few vertices far
-// away from all others, are left out: what the scene is about would be some pixels in a wide plane. The rule depends on the geometry alone:
+// The part of a scene that a view of the whole is fitted to. A ground that is much larger than all that stands on it, and a few vertices
+// far away from all others, are left out: what the scene is about would be some pixels in a wide plane. The rule depends on the geometry
+// alone:
 //
 // - Of a mesh, vertices outside of a box are left out if they have at most max(1, n / 1000) different positions of n, at least 8, and the
 //   box's radius is below 1/16 of the mesh's.

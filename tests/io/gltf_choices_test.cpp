@@ -31,8 +31,8 @@ Bytes two_scenes() {
 
 Bytes with_variants() {
     TriangleFile file;
-    file.primitive =
-        R"(,"material":0,"extensions":{"KHR_materials_variants":{"mappings":[{"material":1,"variants":[0,2]},{"material":2,"variants":[1]}]}})";
+    file.primitive = R"(,"material":0,"extensions":{"KHR_materials_variants":{"mappings":[{"material":1,"variants":[0,2]},)"
+                     R"({"material":2,"variants":[1]}]}})";
     file.rest = R"(,"extensionsUsed":["KHR_materials_variants"],"extensions":{"KHR_materials_variants":{"variants":[{"name":"beach"},)"
                 R"({"name":"street"},{"name":"night"}]}},"materials":[{"name":"a"},{"name":"b"},{"name":"c"}])";
     return file.file();
@@ -146,8 +146,8 @@ TEST_CASE("instancing: each instance lies where float64 puts it", "[io]") {
         const int of_t = file.add(translations, members), of_s = file.add(scales, members);
         const int of_q = file.add(rotations, fmt::format(R"("componentType":{},"count":50,"type":"VEC4"{})", component,
                                                          component == 5126 ? "" : R"(,"normalized":true)"));
-        const LoadedScene loaded = load_ok(
-            glb(instanced(file.json(), fmt::format(R"("TRANSLATION":{},"ROTATION":{},"SCALE":{})", of_t, of_q, of_s)), file.bin));
+        const LoadedScene loaded =
+            load_ok(glb(instanced(file.json(), fmt::format(R"("TRANSLATION":{},"ROTATION":{},"SCALE":{})", of_t, of_q, of_s)), file.bin));
         CHECK(loaded.warnings.empty());
         REQUIRE(loaded.scene.instances.size() == kCount);
         CHECK(loaded.scene.meshes.size() == 1);

@@ -104,7 +104,8 @@ Scene crowd() {
     for (int i = 0; i < 40; ++i) {
         scene.meshes.push_back(points_at({{0, 0, 0}}));
         scene.meshes.back().material = 0;
-        scene.instances.push_back({7 + i, translation({1.02f * std::sin(static_cast<float>(i)), 1.02f * std::cos(static_cast<float>(i)), 0})});
+        scene.instances.push_back(
+            {7 + i, translation({1.02f * std::sin(static_cast<float>(i)), 1.02f * std::cos(static_cast<float>(i)), 0})});
     }
     Light sun;
     sun.direction_ws = {-0.3f, -1, -0.5f};
@@ -129,7 +130,8 @@ TEST_CASE("points: a square covers the pixel centres inside, with those on its u
         Settings settings = plain(1);
         settings.point_size = size;
         INFO("size " << size << " at " << x << ", " << y << " from the upper left corner");
-        const auto linear = linear_of(scene_of(points_at({{static_cast<float>(x), static_cast<float>(kSize - y), 0}})), pixel_camera(), settings);
+        const auto linear =
+            linear_of(scene_of(points_at({{static_cast<float>(x), static_cast<float>(kSize - y), 0}})), pixel_camera(), settings);
         // An odd number of 1/256 pixels has its middle half a step off.
         const double low_x = x - std::floor(128.0 * double{size}) / 256, low_y = y - std::floor(128.0 * double{size}) / 256;
         int wrong = 0, inside_count = 0;
@@ -147,7 +149,9 @@ TEST_CASE("points: a square covers the pixel centres inside, with those on its u
 
 TEST_CASE("points and lines: samples share in their area", "[raster][points]") {
     std::mt19937 random(2);
-    const auto at = [&](int least, int most) { return static_cast<float>(least + static_cast<double>(random() % 10000) / 10000 * (most - least)); };
+    const auto at = [&](int least, int most) {
+        return static_cast<float>(least + static_cast<double>(random() % 10000) / 10000 * (most - least));
+    };
     const auto total = [](const std::vector<float>& linear) {
         double sum = 0;
         for (int j = 0; j < kSize; ++j)
@@ -200,8 +204,8 @@ TEST_CASE("lines: a rectangle of their width, without caps, covers the pixel cen
 }
 
 TEST_CASE("lines: colours along a line are perspective correct, and depth hides what lies behind", "[raster][lines]") {
-    // From (-1, 0, -1) to (3, 0, -5), seen from the origin with a field of 90 degrees: at the picture's u in [-1, 1], x = u d, where d is the
-    // depth. On the line, x = -1 + 4 t and d = 1 + 4 t, so t = (1 + u) / (4 (1 - u)).
+    // From (-1, 0, -1) to (3, 0, -5), seen from the origin with a field of 90 degrees: at the picture's u in [-1, 1], x = u d, where d is
+    // the depth. On the line, x = -1 + 4 t and d = 1 + 4 t, so t = (1 + u) / (4 (1 - u)).
     Mesh line = lines_at({{-1, 0, -1}, {3, 0, -5}});
     line.colors = {{0, 0, 0, 1}, {1, 1, 1, 1}};
     Scene scene = scene_of(line);
@@ -303,8 +307,8 @@ TEST_CASE("points and lines: indices that share vertices draw as vertices of the
     Mesh shared = lines_at({{-1, -1, 0}, {1, -0.5f, 0}, {0.2f, 1, -0.5f}, {9, 9, 9}});
     shared.colors = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}, {1, 1, 1, 1}};
     shared.indices = {0, 1, 1, 2, 2, 0};
-    Mesh own = lines_at({shared.positions[0], shared.positions[1], shared.positions[1], shared.positions[2], shared.positions[2],
-                         shared.positions[0]});
+    Mesh own = lines_at(
+        {shared.positions[0], shared.positions[1], shared.positions[1], shared.positions[2], shared.positions[2], shared.positions[0]});
     own.colors = {shared.colors[0], shared.colors[1], shared.colors[1], shared.colors[2], shared.colors[2], shared.colors[0]};
     Settings settings = plain(4);
     settings.line_width = 6;

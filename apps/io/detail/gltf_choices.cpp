@@ -77,9 +77,10 @@ void choose_variant(Document& document) {
             for (const file::VariantMaterial& mapping : primitive.variants)
                 for (const int variant : mapping.variants) {
                     if (static_cast<std::size_t>(variant) >= names.size() && !document.warnings_are_full())
-                        document.warn(fmt::format("meshes[{}].primitives[{}].extensions.KHR_materials_variants: variant {}, but the file "
-                                                  "has {}; ignored",
-                                                  m, p, variant, names.size()));
+                        document.warn(
+                            fmt::format("meshes[{}].primitives[{}].extensions.KHR_materials_variants: variant {}, but the file "
+                                        "has {}; ignored",
+                                        m, p, variant, names.size()));
                     if (variant == chosen) primitive.material = mapping.material;
                 }
         }

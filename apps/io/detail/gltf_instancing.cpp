@@ -41,8 +41,8 @@ InstancePlaces read_instance_places(Document& document, PrimitiveReader& reader,
     const std::string list = fmt::format("nodes[{}].extensions.EXT_mesh_gpu_instancing.attributes", node);
     InstancePlaces places;
     std::optional<std::size_t> count;
-    for (const auto& [rule, to] :
-         {std::pair{&kPlaceTranslation, &places.translation}, std::pair{&kPlaceRotation, &places.rotation}, std::pair{&kPlaceScale, &places.scale}}) {
+    for (const auto& [rule, to] : {std::pair{&kPlaceTranslation, &places.translation}, std::pair{&kPlaceRotation, &places.rotation},
+                                   std::pair{&kPlaceScale, &places.scale}}) {
         *to = reader.attribute(list, attributes, *rule, count);
         if (*to != nullptr) count = (*to)->count();
     }
