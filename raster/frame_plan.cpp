@@ -139,6 +139,13 @@ Region whole_cells(const Region& region, int width, int height) {
     return {x, y, std::min(up(region.x + region.width), width) - x, std::min(up(region.y + region.height), height) - y};
 }
 
+View picture_view(const Camera& camera, int width, int height, const Region& region, int tile_size, const Settings& settings) {
+    View view = make_view(camera, width, height, region, tile_size, settings.samples);
+    view.point_size = static_cast<int>(__builtin_lrintf(settings.point_size * 256.0f));
+    view.line_width = static_cast<int>(__builtin_lrintf(settings.line_width * 256.0f));
+    return view;
+}
+
 /// What the picture sees, if shadows are looked up there alone. Light at corners or centres of triangles reads them anywhere, and so do
 /// look-ups that are moved onto the smooth surface, by up to a triangle's size.
 std::optional<SeenVolume> looked_up_where_seen(const PreparedData& scene, const Camera& camera, const ShadingSettings& options,
@@ -178,7 +185,7 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, 
 
     FramePlan plan;
     plan.options = options;
-    plan.picture = make_view(camera, width, height, settings.region, tile_size, settings.samples);
+    plan.picture = picture_view(camera, width, height, settings.region, tile_size, settings);
     const std::optional<SeenVolume> seen = looked_up_where_seen(prepared, camera, options, settings, plan.picture);
     auto shadows = plan_light_shadows(lights, prepared, seen ? &*seen : nullptr, settings);
     if (!shadows) return tl::unexpected<Error>(shadows.error());
@@ -215,7 +222,7 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, 
         memory.shading);
     plan.written = plan.picture.region;
     plan.cells = uses_cells(plan.shading);
-    if (plan.cells) plan.picture = make_view(camera, width, height, whole_cells(plan.written, width, height), tile_size, settings.samples);
+    if (plan.cells) plan.picture = picture_view(camera, width, height, whole_cells(plan.written, width, height), tile_size, settings);
     if (!plan.shadow_views.empty()) plan.casters = plan_casters(prepared, options);
     plan.light_culler = LightCuller(plan.shading.lights);
     if (settings.background_environment) {

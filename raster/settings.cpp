@@ -19,6 +19,9 @@ Result<void> check_settings(const Settings& settings, int width, int height) {
     if (settings.samples != 1 && settings.samples != 4 && settings.samples != 8 && settings.samples != 16)
         return fail(ErrorCode::usage, "samples: " + std::to_string(settings.samples) + ", expected 1, 4, 8 or 16");
     if (!(settings.exposure > 0.0f && settings.exposure < 3e38f)) return fail(ErrorCode::usage, "the exposure is not a positive number");
+    const auto in_range = [](float pixels) { return pixels >= 0.0625f && pixels <= 256.0f; };
+    if (!in_range(settings.point_size)) return fail(ErrorCode::usage, "point size: expected 1/16 to 256 pixels");
+    if (!in_range(settings.line_width)) return fail(ErrorCode::usage, "line width: expected 1/16 to 256 pixels");
     const int side = settings.shadow_size;
     if (side < 64 || side > 4096 || (side & (side - 1)) != 0)
         return fail(ErrorCode::usage, "shadow size: " + std::to_string(side) + ", expected a power of two from 64 to 4096");

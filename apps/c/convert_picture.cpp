@@ -13,21 +13,22 @@ constexpr bool ends_with(std::size_t offset, Last T::*) {
     return offset + sizeof(Last) == sizeof(T);
 }
 #define HALFLIT_ENDS_WITH(type, member) static_assert(ends_with(offsetof(type, member), &type::member))
-HALFLIT_ENDS_WITH(halflit_load_options, crease_deg);
+HALFLIT_ENDS_WITH(halflit_load_options, variant);
 HALFLIT_ENDS_WITH(halflit_animation, channels);
 HALFLIT_ENDS_WITH(halflit_counts, animations);
 HALFLIT_ENDS_WITH(halflit_material, sheen_roughness_texture);
-HALFLIT_ENDS_WITH(halflit_mesh, reserved);
+HALFLIT_ENDS_WITH(halflit_mesh, topology);
 HALFLIT_ENDS_WITH(halflit_light, shadow_radius);
 HALFLIT_ENDS_WITH(halflit_environment_options, reserved);
 HALFLIT_ENDS_WITH(halflit_camera, reserved);
-HALFLIT_ENDS_WITH(halflit_settings, reserved);
+HALFLIT_ENDS_WITH(halflit_settings, line_width);
 HALFLIT_ENDS_WITH(halflit_execution, memory_limit);
 HALFLIT_ENDS_WITH(halflit_target, coverage_row_bytes);
 HALFLIT_ENDS_WITH(halflit_report, reserved);
 #undef HALFLIT_ENDS_WITH
 
 // The constants are the numbers of the enumerations.
+static_assert(HALFLIT_TOPOLOGY_LINES == static_cast<int>(Topology::lines) && HALFLIT_TOPOLOGY_POINTS == static_cast<int>(Topology::points));
 static_assert(HALFLIT_ERROR_USAGE == static_cast<int>(ErrorCode::usage) &&
               HALFLIT_ERROR_CANCELLED == static_cast<int>(ErrorCode::cancelled));
 static_assert(HALFLIT_COLOR_LINEAR == static_cast<int>(ColorSpace::linear) && HALFLIT_ALPHA_BLEND == static_cast<int>(AlphaMode::blend));
@@ -101,6 +102,8 @@ halflit_settings to_c(const Settings& from) {
     settings.sky_shadows = from.sky_shadows;
     settings.anisotropy = from.shading.anisotropy;
     settings.soft_shadow_maps = from.soft_shadow_maps;
+    settings.point_size = from.point_size;
+    settings.line_width = from.line_width;
     return settings;
 }
 
@@ -120,6 +123,8 @@ Result<Settings> settings(const halflit_settings* given) {
     settings.shadow_terminator_offset = read->shadow_terminator_offset != 0;
     settings.sky_shadows = read->sky_shadows;
     settings.soft_shadow_maps = read->soft_shadow_maps;
+    settings.point_size = read->point_size;
+    settings.line_width = read->line_width;
     ShadingSettings& shading = settings.shading;
     if (read->override_lobe != 0) shading.lobe = lobe(read->lobe);
     shading.normalize_specular = read->normalize_specular != 0;

@@ -79,6 +79,8 @@ Result<LoadOptions> load_options(const halflit_load_options* given) {
     options.threads = read->threads;
     options.keep_animations = read->keep_animations != 0;
     if (read->animation != nullptr) options.animation = read->animation;
+    if (read->scene != nullptr) options.scene = read->scene;
+    if (read->variant != nullptr) options.variant = read->variant;
     options.time_s = read->time_s;
     options.turn_upright = read->turn_upright != 0;
     options.crease_deg = read->crease_deg;

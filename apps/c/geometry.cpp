@@ -59,7 +59,13 @@ Result<Mesh> make_mesh(const Scene& scene, const halflit_mesh* pointer) {
     if (count > 0x7fffffffu || given->index_count > std::size_t{3} << 28)
         return faulty(ErrorCode::limit, "more than 2^31 vertices or 2^28 triangles");
     const std::size_t corners = given->indices != nullptr ? given->index_count : count;
-    if (corners % 3 != 0) return faulty(ErrorCode::bad_input, std::to_string(corners) + " corners, expected 3 for each triangle");
+    Topology topology{};
+    Choices choices("halflit_mesh");
+    choices.read(given->topology, Topology::points, "topology", topology);
+    if (!choices.result()) return tl::unexpected<Error>(choices.result().error());
+    if (const std::size_t each = corners_of(topology); corners % each != 0)
+        return faulty(ErrorCode::bad_input, std::to_string(corners) + " corners, expected " + std::to_string(each) + " for each " +
+                                                (topology == Topology::triangles ? "triangle" : "line"));
     if (given->material != -1)
         if (const auto at = check_index(given->material, scene.materials.size(), "halflit_mesh: material"); !at)
             return tl::unexpected<Error>(at.error());
@@ -72,6 +78,7 @@ Result<Mesh> make_mesh(const Scene& scene, const halflit_mesh* pointer) {
     mesh.uv1 = copied<Vec2f>(given->uv1, count);
     mesh.colors = copied<Vec4f>(given->colors, count);
     mesh.material = given->material;
+    mesh.topology = topology;
     mesh.indices.resize(corners);
     if (given->indices == nullptr) {
         std::iota(mesh.indices.begin(), mesh.indices.end(), 0u);

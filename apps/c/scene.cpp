@@ -27,7 +27,7 @@ Result<void> hand_over(Result<LoadedScene> loaded, halflit_scene** scene) {
 
 std::uint64_t triangle_count(const Scene& scene) {
     std::uint64_t count = 0;
-    for (const Instance& instance : scene.instances) count += scene.meshes[static_cast<std::size_t>(instance.mesh)].indices.size() / 3;
+    for (const Instance& instance : scene.instances) count += triangles_of(scene.meshes[static_cast<std::size_t>(instance.mesh)]);
     return count;
 }
 

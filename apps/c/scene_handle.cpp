@@ -31,6 +31,7 @@ std::optional<Mesh> completed(const Scene& scene, const Mesh& mesh) {
     const Material& material = mesh.material >= 0 ? scene.materials[static_cast<std::size_t>(mesh.material)] : no_material;
     const TextureUse& normal_map = material.normal_texture;
     const bool has_uv = !(normal_map.uv_set == 0 ? mesh.uv0 : mesh.uv1).empty();
+    if (mesh.topology != Topology::triangles) return {};
     const bool needs_normals = mesh.normals.empty() && !material.unlit;
     // Flat normals remove the tangents, which belong to other normals.
     const bool needs_tangents = (mesh.tangents.empty() || needs_normals) && !material.unlit && normal_map.used() && has_uv;

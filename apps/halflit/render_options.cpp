@@ -86,6 +86,10 @@ FlagGroup picture_flags(RenderOptions& o, PictureSize usual) {
          {"--region", "X,Y,W,H", "Draw and write only this part of the picture", parsed(s.region, parse_region)},
          {"--samples", "1|4|8|16", fmt::format("Samples per pixel, which smooth edges (default {})", s.samples),
           choice(s.samples, {1, 4, 8, 16})},
+         {"--point-size", "PX", fmt::format("Side of points in pixels, 1/16 to 256 (default {})", s.point_size),
+          number(s.point_size, 0.0625f, 256.0f)},
+         {"--line-width", "PX", fmt::format("Width of lines in pixels, 1/16 to 256 (default {})", s.line_width),
+          number(s.line_width, 0.0625f, 256.0f)},
          {"--background", "COLOR|environment",
           fmt::format("transparent, #rgb, #rrggbb, #rrggbbaa or a name (default {}); environment: the image of --env", kUsualBackground),
           [&s](const std::string& text) { return read_background(s, text); }},
@@ -154,6 +158,18 @@ FlagGroup pose_flags(RenderOptions& o) {
           [&o](const std::string& text) -> Result<void> {
               if (text.empty()) return fail(ErrorCode::usage, "expected a name, an index or none, found ''");
               o.load.animation = text;
+              return {};
+          }},
+         {"--scene", "INDEX|NAME", "Scene of the file (default: the one that the file names, or the first)",
+          [&o](const std::string& text) -> Result<void> {
+              if (text.empty()) return fail(ErrorCode::usage, "expected a name or an index, found ''");
+              o.load.scene = text;
+              return {};
+          }},
+         {"--variant", "NAME", "Variant of the file's materials (default: the materials without a variant)",
+          [&o](const std::string& text) -> Result<void> {
+              if (text.empty()) return fail(ErrorCode::usage, "expected a name, found ''");
+              o.load.variant = text;
               return {};
           }},
          {"--time", "SECONDS", "Time in the animation (default 0); before its first key and after its last one, these are drawn",

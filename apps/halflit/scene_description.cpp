@@ -45,6 +45,9 @@ Json file_json(const SceneInfo& file) {
             {"version", file.version},
             {"generator", file.generator},
             {"scenes", file.scenes},
+            {"scene_names", file.scene_names},
+            {"scene", file.scene < 0 ? Json() : Json(file.scene)},
+            {"variants", file.variants},
             {"nodes", file.nodes},
             {"meshes", file.meshes},
             {"primitives", file.primitives},
@@ -62,18 +65,30 @@ Json file_json(const SceneInfo& file) {
 }
 
 Json counts_json(const Scene& scene) {
-    std::uint64_t vertices = 0, stored = 0, drawn = 0, closed = 0;
+    std::uint64_t vertices = 0, stored = 0, drawn = 0, closed = 0, lines = 0, points = 0;
     for (const Mesh& mesh : scene.meshes) {
         closed += raster::is_closed(mesh) ? 1 : 0;
         vertices += mesh.positions.size();
-        stored += mesh.indices.size() / 3;
+        stored += triangles_of(mesh);
     }
-    for (const Instance& instance : scene.instances) drawn += scene.meshes[static_cast<std::size_t>(instance.mesh)].indices.size() / 3;
-    return {{"meshes", scene.meshes.size()},       {"closed_meshes", closed},
-            {"instances", scene.instances.size()}, {"materials", scene.materials.size()},
-            {"textures", scene.textures.size()},   {"cameras", scene.cameras.size()},
-            {"lights", scene.lights.size()},       {"vertices", vertices},
-            {"triangles_stored", stored},          {"triangles_drawn", drawn}};
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        drawn += triangles_of(mesh);
+        if (mesh.topology == Topology::lines) lines += mesh.indices.size() / 2;
+        if (mesh.topology == Topology::points) points += mesh.indices.size();
+    }
+    return {{"meshes", scene.meshes.size()},
+            {"closed_meshes", closed},
+            {"instances", scene.instances.size()},
+            {"materials", scene.materials.size()},
+            {"textures", scene.textures.size()},
+            {"cameras", scene.cameras.size()},
+            {"lights", scene.lights.size()},
+            {"vertices", vertices},
+            {"triangles_stored", stored},
+            {"triangles_drawn", drawn},
+            {"lines_drawn", lines},
+            {"points_drawn", points}};
 }
 
 Json lights_json(const Scene& scene) {

@@ -2,6 +2,7 @@
 
 #include "apps/io/detail/gltf_accessor.hpp"
 #include "apps/io/detail/gltf_animation.hpp"
+#include "apps/io/detail/gltf_choices.hpp"
 #include "apps/io/detail/gltf_document.hpp"
 #include "apps/io/detail/gltf_glossiness.hpp"
 #include "apps/io/detail/gltf_images.hpp"
@@ -51,6 +52,8 @@ std::vector<std::string> files_of(const Document& document) {
 LoadedScene build(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
     const std::unique_ptr<Document> document = open_document(bytes, base_dir, options);
     document->check_time();
+    choose_scene(*document);
+    choose_variant(*document);
     NodeTree tree = walk_nodes(*document);
     find_animations(*document);
     mark_below(tree, document->animations.hides);
@@ -86,6 +89,13 @@ LoadedScene build(std::span<const std::byte> bytes, const std::string& base_dir,
     }
     images.finish();
     convert_specular_glossiness(*document, loaded.scene);
+    for (const int original : document->unlit_copies) {
+        std::vector<Material>& materials = loaded.scene.materials;
+        Material copy = original < 0 ? Material{} : materials[static_cast<std::size_t>(original)];
+        copy.unlit = true;
+        if (motion && original >= 0) motion->add_copy(original, static_cast<int>(materials.size()));
+        materials.push_back(std::move(copy));
+    }
     loaded.scene.calibrated = loaded.scene.lights.empty();
     if (loaded.scene.instances.empty()) document->warn("the model has nothing to draw");
     if (document->warnings_left_out > 0) document->warnings.push_back(fmt::format("and {} further warnings", document->warnings_left_out));

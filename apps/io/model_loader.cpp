@@ -1,6 +1,7 @@
 #include "halflit/model.hpp"
 
 #include "apps/io/detail/gltf_animation.hpp"
+#include "apps/io/detail/gltf_choices.hpp"
 #include "apps/io/detail/load_failure.hpp"
 #include "apps/io/detail/model_readers.hpp"
 #include "apps/io/file_access.hpp"
@@ -73,6 +74,7 @@ Result<LoadedScene> load_model_bytes(std::span<const std::byte> bytes, const std
             if (!std::isfinite(options.time_s))
                 return failed(ErrorCode::usage, fmt::format("time_s is {}, expected a finite number", options.time_s));
             (void)choose_animation({}, options.animation);  // none of these formats has any
+            refuse_choices(options);
             return read(*format, bytes, base_dir, options);
         } catch (const LoadFailure& failure) {
             return failed(failure.error.code, failure.error.message);

@@ -28,6 +28,9 @@ Result<void> check_nodes(std::span<const Node> nodes, const Scene& scene) {
         if (!within(node.parent, nodes.size())) return failed(i, "parent", node.parent, nodes.size());
         if (!within(node.camera, scene.cameras.size())) return failed(i, "camera", node.camera, scene.cameras.size());
         if (!within(node.light, scene.lights.size())) return failed(i, "light", node.light, scene.lights.size());
+        if (!node.node_from_instance.empty() && node.node_from_instance.size() != node.instances.size())
+            return fail(ErrorCode::usage, fmt::format("pose: node {}: {} transforms of instances, expected {}", i,
+                                                      node.node_from_instance.size(), node.instances.size()));
         for (const int instance : node.instances)
             if (instance < 0 || !within(instance, scene.instances.size())) return failed(i, "instance", instance, scene.instances.size());
     }
@@ -75,9 +78,11 @@ Result<SceneChanges> pose(std::span<const Node> nodes, Scene& scene) {
         SceneChanges changes;
         for (std::size_t i = 0; i < nodes.size(); ++i) {
             const Affine& place_ws = (*world)[i];
-            for (const int index : nodes[i].instances) {
-                const auto instance = static_cast<std::size_t>(index);
-                if (replace(scene.instances[instance].world_from_object, to_mat4(place_ws))) changes.moved_instances.push_back(instance);
+            const std::vector<NodeTransform>& placings = nodes[i].node_from_instance;
+            for (std::size_t k = 0; k < nodes[i].instances.size(); ++k) {
+                const auto instance = static_cast<std::size_t>(nodes[i].instances[k]);
+                const Affine placed = placings.empty() ? place_ws : place_ws * to_affine(placings[k]);
+                if (replace(scene.instances[instance].world_from_object, to_mat4(placed))) changes.moved_instances.push_back(instance);
             }
             if (nodes[i].camera >= 0) scene.cameras[static_cast<std::size_t>(nodes[i].camera)].world_from_camera = rigid_part(place_ws);
             if (nodes[i].light >= 0) {

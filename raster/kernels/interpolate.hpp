@@ -65,13 +65,13 @@ struct VertexRecords {
 };
 
 HALFLIT_INLINE VertexRecords vertex_records_of(const InterpolateArgs& args, std::uint32_t id, const TriangleRecord& record) {
-    const float* base = args.draws[record.draw_and_back >> 1].base;
+    const DrawRecords draw = args.draws[record.draw_and_back >> 1];
     VertexRecords out;
     for (int k = 0; k < 3; ++k) {
         const std::uint32_t v = record.vertex[k];
         out.v[k] = (v & kClipVertex) ? args.clip_records[id >> args.triangles.local_bits] +
                                            static_cast<std::int64_t>(v & ~kClipVertex) * shading::kVertexFloats
-                                     : base + static_cast<std::int64_t>(v) * args.stride;
+                                     : draw.of(v, args.stride);
     }
     return out;
 }

@@ -154,9 +154,13 @@ struct TriangleTable {
     int local_bits;
 };
 
-/// Vertex records of a draw: that of vertex v starts at base + v * stride.
+/// Vertex records of a draw: that of the view's vertex v starts at base + (v >> shift) * stride.
 struct DrawRecords {
     const float* base;
+    int shift = 0;  ///< lines: 1, points: 2, because the corners of a quad share records
+    [[nodiscard]] HALFLIT_INLINE const float* of(std::uint32_t vertex, std::int64_t stride) const {
+        return base + static_cast<std::int64_t>(vertex >> shift) * stride;
+    }
 };
 
 struct InterpolateArgs {

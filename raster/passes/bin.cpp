@@ -1,6 +1,7 @@
 // The bin pass: triangle set-up and the tiles' triangle lists. Drops back faces, triangles without area, and triangles that touch no pixel
 // of the region. Clips the few that cross the near plane or leave the guard band. Each tile's list is in submission order.
 #include "raster/passes/clip.hpp"
+#include "raster/passes/quads.hpp"
 #include "raster/passes/tile_grid.hpp"
 #include "raster/passes/view_geometry.hpp"
 #include "raster/view/culling.hpp"
@@ -57,16 +58,18 @@ private:
     struct Source {
         const Draw& draw;
         std::uint32_t draw_index;
+        std::uint32_t first;  ///< added to `vertex`; of the quad's draw, otherwise 0
         const std::uint32_t* vertex;
         std::uint32_t triangle;  ///< number within the mesh
+
+        /// Index of a corner in the view's arrays.
+        [[nodiscard]] std::uint32_t corner(int k) const { return static_cast<std::uint32_t>(draw.vertex_base) + first + vertex[k]; }
     };
 
     void add_triangles(const TriangleRun& run) {
         const Draw& draw = in_.draws[run.draw];
         BinArgs args{};
         grid_.describe(args);
-        args.screen = in_.screen + draw.vertex_base;
-        args.outcodes = in_.outcodes + draw.vertex_base;
         args.mirrored = draw.mirrored;
         args.cull_back = draw.cull_back;
         const std::uint32_t* const indices = in_.scene.source_mesh(draw.mesh).indices.data();
@@ -74,11 +77,15 @@ private:
         for (std::uint32_t first = run.first; first < run.end; first += kBinnedAtOnce) {
             const int count = static_cast<int>(std::min<std::uint32_t>(run.end - first, kBinnedAtOnce));
             if ((since_check_ += count) >= kTrianglesBetweenChecks) count_memory();
-            in_.kernels.bin_triangles(args, indices + std::size_t{3} * first, count, binned);
+            // The four vertices of quad i begin at 4 i, its two triangles are 2 i and 2 i + 1.
+            const std::uint32_t first_vertex = draw.quads() ? 2 * first : 0;
+            const std::uint32_t* const index = draw.quads() ? quad_indices() : indices + std::size_t{3} * first;
+            args.screen = in_.screen + draw.vertex_base + first_vertex;
+            args.outcodes = in_.outcodes + draw.vertex_base + first_vertex;
+            in_.kernels.bin_triangles(args, index, count, binned);
             for (std::uint64_t left = binned.keep | binned.other; left != 0; left &= left - 1) {
                 const int i = std::countr_zero(left);
-                const std::uint32_t triangle = first + static_cast<std::uint32_t>(i);
-                const Source source{draw, run.draw, indices + std::size_t{3} * triangle, triangle};
+                const Source source{draw, run.draw, first_vertex, index + 3 * i, first + static_cast<std::uint32_t>(i)};
                 if ((binned.other >> i & 1) != 0)
                     add_other(source);
                 else
@@ -89,11 +96,12 @@ private:
 
     /// A triangle that the kernel left alone.
     void add_other(const Source& source) {
-        const auto base = static_cast<std::uint32_t>(source.draw.vertex_base);
-        const std::uint32_t v[3] = {base + source.vertex[0], base + source.vertex[1], base + source.vertex[2]};
+        const std::uint32_t v[3] = {source.corner(0), source.corner(1), source.corner(2)};
         const unsigned any = in_.outcodes[v[0]] | in_.outcodes[v[1]] | in_.outcodes[v[2]];
         if ((any & (kNear | kGuard | kNotFinite)) == 0) {
             add(v, in_.screen[v[0]], in_.screen[v[1]], in_.screen[v[2]], source);
+        } else if (source.draw.quads()) {
+            if (source.triangle % 2 == 0) add_odd_quad(any, source);
         } else if (any & kNotFinite) {
             ++chunk_.not_finite;
         } else {
@@ -102,19 +110,59 @@ private:
     }
 
     void add_binned(const Source& source, const BinnedTriangles& binned, int i) {
-        const auto base = static_cast<std::uint32_t>(source.draw.vertex_base);
         const bool swap = (binned.swap >> i & 1) != 0, back = (binned.back >> i & 1) != 0;
-        const std::uint32_t v[3] = {base + source.vertex[0], base + source.vertex[swap ? 2 : 1], base + source.vertex[swap ? 1 : 2]};
+        const std::uint32_t v[3] = {source.corner(0), source.corner(swap ? 2 : 1), source.corner(swap ? 1 : 2)};
         const TileGrid::Tiles tiles{binned.tile_x0[i], binned.tile_x1[i], binned.tile_y0[i], binned.tile_y1[i]};
         add_record(v, in_.screen[v[0]], in_.screen[v[1]], in_.screen[v[2]], back, tiles, source);
     }
 
+    /// Clip coordinates of a vertex of a draw's mesh.
+    [[nodiscard]] Vec4f clip_coordinates(const Draw& draw, std::uint32_t vertex) const {
+        const Mat4 m = multiply_in_double(in_.view.clip_from_world, in_.scene.scene().instances[draw.instance].world_from_object);
+        const Vec3f p = in_.scene.source_mesh(draw.mesh).positions[vertex];
+        return ((m.c[0] * p.x + m.c[1] * p.y) + m.c[2] * p.z) + m.c[3];
+    }
+
+    /// Both triangles of a line or point that needs clipping or is not finite. A point is not clipped: its middle lies before the near
+    /// plane or outside of the guard band.
+    void add_odd_quad(unsigned codes, const Source& source) {
+        if (codes & kNotFinite) {
+            chunk_.not_finite += 2;
+            return;
+        }
+        if (source.draw.topology != Topology::lines) return;
+        double clip[2][4];
+        for (std::uint32_t k = 0; k < 2; ++k) {
+            const Vec4f c = clip_coordinates(source.draw, source.triangle + k);
+            clip[k][0] = c.x, clip[k][1] = c.y, clip[k][2] = c.z, clip[k][3] = c.w;
+        }
+        ClippedLine line;
+        if (!clip_line(clip, in_.view, line)) return;
+        // Corners 0 and 1 are those of the line's first end, 2 and 3 those of its second one.
+        const std::uint32_t a = source.corner(0), b = source.corner(1);
+        const auto first = static_cast<std::uint32_t>(chunk_.clip_vertices.size());
+        const std::size_t records_before = chunk_.records.size();
+        for (int k = 0; k < 4; ++k) {
+            chunk_.clip_screen.push_back(line.corner[k]);
+            const auto weight = static_cast<float>(line.weight[k / 2]);
+            chunk_.clip_vertices.push_back({{a, b, b}, source.draw_index, {1.0f - weight, weight, 0.0f}});
+        }
+        for (std::uint32_t t = 0; t < 2; ++t) {
+            const std::uint32_t* const corner = quad_indices() + std::size_t{3} * t;
+            const std::uint32_t v[3] = {kClipVertex + first + corner[0], kClipVertex + first + corner[1], kClipVertex + first + corner[2]};
+            const Source piece{source.draw, source.draw_index, source.first, source.vertex + std::size_t{3} * t, source.triangle + t};
+            add(v, line.corner[corner[0]], line.corner[corner[1]], line.corner[corner[2]], piece);
+        }
+        if (chunk_.records.size() == records_before) {
+            chunk_.clip_vertices.resize(first);
+            chunk_.clip_screen.resize(first);
+        }
+    }
+
     void add_clipped(const std::uint32_t (&v)[3], unsigned codes, const Source& source) {
-        const Mat4 m = multiply_in_double(in_.view.clip_from_world, in_.scene.scene().instances[source.draw.instance].world_from_object);
         float clip[3][4];
         for (int k = 0; k < 3; ++k) {
-            const Vec3f p = in_.scene.source_mesh(source.draw.mesh).positions[source.vertex[k]];
-            const Vec4f c = ((m.c[0] * p.x + m.c[1] * p.y) + m.c[2] * p.z) + m.c[3];
+            const Vec4f c = clip_coordinates(source.draw, source.vertex[k]);
             clip[k][0] = c.x;
             clip[k][1] = c.y;
             clip[k][2] = c.z;
@@ -176,7 +224,8 @@ private:
         if (in_.numbered) chunk_.numbers.push_back(source.draw.triangle_base + source.triangle);
         for (int k = 0; k < 3; ++k) {
             // Stored only once: other tasks read the same lines.
-            const std::atomic_ref drawn(in_.groups_drawn[source.draw.group_base + source.vertex[k] / kVertexGroup]);
+            const std::uint32_t vertex = (source.first + source.vertex[k]) >> source.draw.vertex_shift();
+            const std::atomic_ref drawn(in_.groups_drawn[source.draw.group_base + vertex / kVertexGroup]);
             if (drawn.load(std::memory_order_relaxed) == 0) drawn.store(1, std::memory_order_relaxed);
         }
 

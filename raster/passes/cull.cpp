@@ -1,4 +1,5 @@
 // The cull pass: instances first, then the clusters of those that remain.
+#include "raster/passes/quads.hpp"
 #include "raster/passes/view_geometry.hpp"
 #include "raster/view/culling.hpp"
 #include "sh/mat4.hpp"
@@ -14,8 +15,11 @@ constexpr std::size_t kInstancesPerTask = 1024;
 constexpr std::int64_t kLeastClusters = 16, kMostChunks = 128;  ///< clusters in a chunk; chunks in a view
 constexpr std::int64_t kMostTileLists = 1 << 22;  ///< chunks times tiles of a view, for four chunks or more; an empty list takes 4 bytes
 
-Culler culler_of(const View& view, const Mat4& world_from_object, bool back_faces) {
-    return {view, multiply_in_double(view.clip_from_world, world_from_object), determinant3(world_from_object) < 0.0, back_faces};
+Culler culler_of(const View& view, const Mat4& world_from_object, bool back_faces, Topology topology) {
+    // Half of the diagonal of a point's square, or of a line's end, is less than its side.
+    const double margin_px = topology == Topology::triangles ? 0.0 : size_of(view, topology) / 256.0;
+    return {view, multiply_in_double(view.clip_from_world, world_from_object), determinant3(world_from_object) < 0.0, back_faces,
+            margin_px};
 }
 
 Culler::Verdict verdict_on(const Culler& culler, const Bounds& bounds) {
@@ -46,7 +50,7 @@ public:
 private:
     void cull(const Draw& draw, std::uint32_t number, std::size_t begin, std::size_t end) {
         const PreparedMesh& mesh = scene_.mesh(draw.mesh);
-        const Culler culler = culler_of(view_, scene_.scene().instances[draw.instance].world_from_object, draw.cull_back);
+        const Culler culler = culler_of(view_, scene_.scene().instances[draw.instance].world_from_object, draw.cull_back, draw.topology);
         const bool test_boxes = mesh.cluster_count() > 1 && verdict_on(culler, mesh.bounds) != Culler::Verdict::inside;
         for (std::size_t c = begin; c < end; ++c) {
             const Cluster& cluster = mesh.clusters[c];
@@ -59,8 +63,8 @@ private:
     }
 
     void keep(const Draw& draw, std::uint32_t number, std::size_t cluster) {
-        const IndexRange indices = indices_of_cluster(scene_.source_mesh(draw.mesh), cluster);
-        const auto first = static_cast<std::uint32_t>(indices.begin / 3), end = static_cast<std::uint32_t>(indices.end / 3);
+        const IndexRange triangles = triangles_of_cluster(scene_.source_mesh(draw.mesh), cluster);
+        const auto first = static_cast<std::uint32_t>(triangles.begin), end = static_cast<std::uint32_t>(triangles.end);
         if (!chunk_.runs.empty() && chunk_.runs.back().draw == number && chunk_.runs.back().end == first)
             chunk_.runs.back().end = end;
         else
@@ -88,8 +92,9 @@ void ViewGeometry::list_draws(Executor& executor) {
             const std::size_t begin = static_cast<std::size_t>(task) * kInstancesPerTask;
             for (std::size_t i = begin; i < std::min(begin + kInstancesPerTask, instances.size()); ++i) {
                 const PreparedMesh& mesh = scene_->mesh(instances[i].mesh);
-                seen[i] = !mesh.finite ||
-                          verdict_on(culler_of(view_, instances[i].world_from_object, false), mesh.bounds) != Culler::Verdict::outside;
+                seen[i] = !mesh.finite || verdict_on(culler_of(view_, instances[i].world_from_object, false,
+                                                               scene_->source_mesh(instances[i].mesh).topology),
+                                                     mesh.bounds) != Culler::Verdict::outside;
             }
         });
     }
@@ -99,25 +104,30 @@ void ViewGeometry::list_draws(Executor& executor) {
     std::int64_t triangle_base = 0;
     for (std::size_t i = 0; i < instances.size(); ++i) {
         const Mesh& mesh = scene_->source_mesh(instances[i].mesh);
-        const auto triangles = static_cast<std::int64_t>(mesh.indices.size() / 3);
+        const auto triangles = static_cast<std::int64_t>(raster::triangle_count(mesh));
         triangle_base += triangles;
+        if (mesh.topology != Topology::triangles) {
+            if (size_of(view_, mesh.topology) == 0) continue;
+            vertex_count_ = (vertex_count_ + 3) / 4 * 4;
+        }
         if (triangles == 0 || (seen != nullptr && seen[i] == 0)) continue;
         Draw& draw = draws_.emplace_back();
         draw.instance = static_cast<std::uint32_t>(i);
         draw.mesh = instances[i].mesh;
+        draw.topology = mesh.topology;
         draw.vertex_count = static_cast<std::int64_t>(mesh.positions.size());
         draw.material = static_cast<std::int32_t>(scene_->material_of(mesh));
         draw.vertex_base = vertex_count_;
         draw.group_base = group_count_;
         draw.cluster_base = cluster_count_;
         draw.triangle_base = triangle_base - triangles;
-        draw.mirrored = determinant3(instances[i].world_from_object) < 0.0;
+        draw.mirrored = !draw.quads() && determinant3(instances[i].world_from_object) < 0.0;
         const Material& material = scene_->material(scene_->material_of(mesh));
-        draw.cull_back = !material.double_sided;
+        draw.cull_back = !material.double_sided && !draw.quads();
         draw.alpha_mode = material.is_layer() ? AlphaMode::blend : material.alpha_mode;
         has_mode_[static_cast<std::size_t>(draw.alpha_mode)] = true;
         triangle_count_ += triangles;
-        vertex_count_ += draw.vertex_count;
+        vertex_count_ += draw.view_vertex_count();
         group_count_ += draw.group_count();
         cluster_count_ += static_cast<std::int64_t>(scene_->mesh(draw.mesh).cluster_count());
     }

@@ -38,7 +38,7 @@ const float* vertex_record(const TilePass& pass, std::uint32_t id, const Triangl
         return pass.records.clip_records()[pass.geometry.chunk_of(id)] +
                static_cast<std::size_t>(v & ~kClipVertex) * shading::kVertexFloats;
     const std::size_t draw = triangle.draw_and_back >> 1;
-    return pass.records.draws()[draw].base + static_cast<std::int64_t>(v) * pass.records.stride(draw);
+    return pass.records.draws()[draw].of(v, pass.records.stride(draw));
 }
 
 /// Loads a triangle into lane `l`: the mean of its vertices, with the normal of its plane on the viewer's side.

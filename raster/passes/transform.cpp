@@ -1,4 +1,5 @@
 // The transform pass: transforms to the window every vertex group that some cluster in view reads.
+#include "raster/passes/quads.hpp"
 #include "raster/passes/view_geometry.hpp"
 #include "raster/view/culling.hpp"
 
@@ -38,7 +39,10 @@ void ViewGeometry::transform(const RasterKernels& kernels, Executor& executor) {
                 }
                 args.begin = (first - draw->group_base) * kVertexGroup;
                 args.end = std::min((group - draw->group_base) * kVertexGroup, draw->vertex_count);
-                kernels.transform(args);
+                if (draw->quads())
+                    transform_quads(kernels, args, *draw, view_);
+                else
+                    kernels.transform(args);
             }
         }
     });

@@ -58,7 +58,10 @@ void VertexRecords::make(const ViewGeometry& geometry, std::span<const shading::
         size += draws[d].vertex_count * strides_[d];
     }
     float* records = records_.reserve(static_cast<std::size_t>(size), executor.stop());
-    for (std::size_t d = 0; d < draws.size(); ++d) draw_records_[d] = {records + record_bases_[d] - draws[d].vertex_base * strides_[d]};
+    for (std::size_t d = 0; d < draws.size(); ++d) {
+        const int shift = draws[d].vertex_shift();
+        draw_records_[d] = {records + record_bases_[d] - (draws[d].vertex_base >> shift) * strides_[d], shift};
+    }
 
     constexpr std::int64_t kGroupsPerTask = 64;
     const std::int64_t groups = draws.empty() ? 0 : draws.back().group_base + draws.back().group_count();
@@ -97,11 +100,11 @@ void VertexRecords::make_clip_records(const ViewGeometry& geometry, Executor& ex
         for (std::size_t k = 0; k < chunk.clip_vertices.size(); ++k) {
             const ClipVertex& v = chunk.clip_vertices[k];
             const std::int64_t stride = strides_[v.draw];
-            const float* base = draw_records_[v.draw].base;
+            const float* parent[3];
+            for (int c = 0; c < 3; ++c) parent[c] = draw_records_[v.draw].of(v.parent[c], stride);
             float* out = floats.data() + k * shading::kVertexFloats;
             for (std::int64_t j = 0; j < stride; ++j)
-                out[j] = (base[v.parent[0] * stride + j] * v.weight[0] + base[v.parent[1] * stride + j] * v.weight[1]) +
-                         base[v.parent[2] * stride + j] * v.weight[2];
+                out[j] = (parent[0][j] * v.weight[0] + parent[1][j] * v.weight[1]) + parent[2][j] * v.weight[2];
         }
         clip_records_[static_cast<std::size_t>(i)] = floats.data();
     });

@@ -24,14 +24,21 @@ struct Draw {
     std::uint32_t instance = 0;
     std::int32_t mesh = 0;           ///< a number, as the scene's arrays may be moved between frames
     std::int32_t material = 0;       ///< index as in PreparedData
-    std::int64_t vertex_base = 0;    ///< index of its first vertex in the view's arrays
+    std::int64_t vertex_base = 0;    ///< index of its first vertex in the view's arrays, a multiple of four for lines and points
     std::int64_t group_base = 0;     ///< index of its first vertex group
     std::int64_t cluster_base = 0;   ///< index of its first cluster, over all draws
     std::int64_t triangle_base = 0;  ///< number of its first triangle in submission order, over all instances of the scene
     bool mirrored = false, cull_back = true;
     AlphaMode alpha_mode = AlphaMode::opaque;  ///< blend for all layers (Material::is_layer)
 
-    std::int64_t vertex_count = 0;
+    Topology topology = Topology::triangles;
+
+    std::int64_t vertex_count = 0;  ///< of the mesh
+    [[nodiscard]] bool quads() const { return topology != Topology::triangles; }
+    /// Vertex of the mesh from one of the view's: their number >> this. A quad has four of the view's vertices and one or two of the
+    /// mesh's.
+    [[nodiscard]] int vertex_shift() const { return topology == Topology::triangles ? 0 : topology == Topology::lines ? 1 : 2; }
+    [[nodiscard]] std::int64_t view_vertex_count() const { return vertex_count << vertex_shift(); }
     [[nodiscard]] std::int64_t group_count() const { return (vertex_count + kVertexGroup - 1) / kVertexGroup; }
 };
 
@@ -105,12 +112,14 @@ public:
     [[nodiscard]] int one_material() const { return one_material_; }
     [[nodiscard]] int one_material(std::size_t chunk) const { return chunks_[chunk]->material; }
     [[nodiscard]] const Draw& draw_of(const TriangleRecord& record) const { return draws_[record.draw_and_back >> 1]; }
-    /// Number of a triangle in submission order, over all instances of the scene; of its mesh. Only if `numbered`.
+    /// Number of a triangle in submission order, over all instances of the scene; and of the triangle, line or point in its mesh. Only if
+    /// `numbered`.
     [[nodiscard]] std::int64_t submission_of(std::uint32_t id) const {
         return chunks_[chunk_of(id)]->numbers[id & ((1u << local_bits_) - 1u)];
     }
     [[nodiscard]] std::uint32_t triangle_of(std::uint32_t id) const {
-        return static_cast<std::uint32_t>(submission_of(id) - draw_of(record(id)).triangle_base);
+        const Draw& draw = draw_of(record(id));
+        return static_cast<std::uint32_t>((submission_of(id) - draw.triangle_base) >> (draw.quads() ? 1 : 0));
     }
     /// True only if no triangle touches the tile.
     [[nodiscard]] bool tile_is_empty(int tile) const;

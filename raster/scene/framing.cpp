@@ -2,15 +2,11 @@
 
 #include "halflit/scene.hpp"
 #include "raster/detail/view_math.hpp"
+#include "raster/scene/framed_part.hpp"
 #include "raster/scene/placed_box.hpp"
-#include "raster/scene/shadow_catcher.hpp"
-#include "raster/scene/used_vertices.hpp"
 #include "sh/arc.hpp"
 #include "sh/mat4.hpp"
 #include "sh/vec3d.hpp"
-
-#include <optional>
-#include <vector>
 
 namespace halflit {
 
@@ -110,23 +106,6 @@ private:
     double front_ = -1e300;  // coordinate of the nearest point along `back`
 };
 
-/// Vertices of a mesh's triangles.
-struct FramedVertices {
-    std::vector<std::uint32_t> vertices;
-    Bounds bounds;
-};
-
-FramedVertices framed_vertices(const Mesh& mesh) {
-    const std::vector<bool> used = used_vertices(mesh);
-    FramedVertices out;
-    for (std::uint32_t v = 0; v < used.size(); ++v) {
-        if (!used[v]) continue;
-        out.vertices.push_back(v);
-        out.bounds.add(mesh.positions[v]);
-    }
-    return out;
-}
-
 /// True if no vertex of the instance can change the fit, judged by its box. In scenes of many instances few are at the rim.
 bool is_seen_already(const ViewFit& fit, const FramedVertices& used, const Mat4& world_from_object, Vec3d center) {
     if (used.bounds.empty) return true;
@@ -154,19 +133,18 @@ Camera frame_scene(const Scene& scene, float aspect, const ViewSettings& view) {
 }
 
 Camera frame_scene(const Scene& scene, const Bounds& bounds, float aspect, const ViewSettings& view) {
-    const Box box = usable_box(bounds);
-    if (bounds.empty || !(bounds.radius() > 1e-5 * length(box.center)) || !(bounds.radius() < kMaxCoordinate))
-        return frame_bounds(bounds, aspect, view);
+    const FramedPart part = framed_part(scene);
+    const Bounds& framed = part.whole ? bounds : part.bounds;
+    const Box box = usable_box(framed);
+    if (framed.empty || !(framed.radius() > 1e-5 * length(box.center)) || !(framed.radius() < kMaxCoordinate))
+        return frame_bounds(framed, aspect, view);
     ViewFit fit(box.center, aspect, view);
-    std::vector<std::optional<FramedVertices>> used(scene.meshes.size());
-    for (const Instance& instance : scene.instances) {
-        if (instance.mesh < 0 || static_cast<std::size_t>(instance.mesh) >= scene.meshes.size()) continue;
-        if (raster::catches_shadows(scene, instance)) continue;
-        const auto m = static_cast<std::size_t>(instance.mesh);
-        const Mesh& mesh = scene.meshes[m];
-        if (!used[m]) used[m] = framed_vertices(mesh);
-        if (is_seen_already(fit, *used[m], instance.world_from_object, box.center)) continue;
-        for (const std::uint32_t v : used[m]->vertices) {
+    for (const int i : part.instances) {
+        const Instance& instance = scene.instances[static_cast<std::size_t>(i)];
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        const FramedVertices& vertices = part.meshes[static_cast<std::size_t>(instance.mesh)];
+        if (is_seen_already(fit, vertices, instance.world_from_object, box.center)) continue;
+        for (const std::uint32_t v : vertices.vertices) {
             const Vec3f p = transform_point(instance.world_from_object, mesh.positions[v]);
             if (finite(p)) fit.add(to_double(p) - box.center);
         }

@@ -29,6 +29,7 @@ Vec3f triangle_normal(Vec3f a, Vec3f b, Vec3f c) {
 }  // namespace
 
 void generate_flat_normals(Mesh& mesh) {
+    if (mesh.topology != Topology::triangles) return;
     unshare(mesh.positions, mesh.indices);
     unshare(mesh.uv0, mesh.indices);
     unshare(mesh.uv1, mesh.indices);

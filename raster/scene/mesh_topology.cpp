@@ -28,6 +28,7 @@ std::vector<std::uint32_t> places_of(const std::vector<Vec3f>& positions) {
 }  // namespace
 
 bool is_closed(const Mesh& mesh) {
+    if (mesh.topology != Topology::triangles) return false;
     for (const Vec3f& p : mesh.positions)
         if (!shading::finite(p)) return false;  // NaN cannot be sorted
     const std::vector<std::uint32_t> place = places_of(mesh.positions);

@@ -120,7 +120,7 @@ void PreparedData::collect() {
         const Mesh& mesh = source_mesh(scene_->instances[i].mesh);
         if (mesh.indices.empty()) continue;
         bounds_.include(instance_bounds_[i]);
-        triangle_count_ += mesh.indices.size() / 3;
+        triangle_count_ += raster::triangle_count(mesh);
         const std::size_t material = material_of(mesh);
         if (!catches_shadows(*scene_, scene_->instances[i])) framed_bounds_.include(instance_bounds_[i]);
         drawn_materials_[material] = true;

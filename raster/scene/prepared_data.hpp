@@ -33,7 +33,11 @@ public:
     [[nodiscard]] Result<void> update(const SceneChanges& changes, const Execution& execution = {});
 
     [[nodiscard]] const Scene& scene() const { return *scene_; }
-    [[nodiscard]] const Mesh& source_mesh(int index) const { return scene_->meshes[static_cast<std::size_t>(index)]; }
+    /// The scene's mesh, or PreparedMesh::unshared.
+    [[nodiscard]] const Mesh& source_mesh(int index) const {
+        const std::shared_ptr<const Mesh>& unshared = mesh(index).unshared;
+        return unshared ? *unshared : scene_->meshes[static_cast<std::size_t>(index)];
+    }
     [[nodiscard]] const SceneRevision& revision() const { return revision_; }
     /// False after an update that failed.
     [[nodiscard]] bool up_to_date() const { return up_to_date_; }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <numeric>
 
 namespace halflit::raster {
 namespace {
@@ -144,9 +145,87 @@ float largest_of(const std::vector<T>& values, float least, const Components& co
     return largest;
 }
 
+/// Sets what follows from the clusters.
+void sum_up_clusters(PreparedMesh& prepared) {
+    const std::size_t count = prepared.cluster_count();
+    prepared.superclusters.resize((count + kSuperclusterSize - 1) / kSuperclusterSize);
+    for (std::size_t c = 0; c < count; ++c) {
+        const Cluster& cluster = prepared.clusters[c];
+        prepared.finite &= cluster.finite;
+        if (cluster.min[0] > cluster.max[0]) continue;
+        Bounds& box = prepared.superclusters[c / kSuperclusterSize];
+        box.add(Vec3f{cluster.min[0], cluster.min[1], cluster.min[2]});
+        box.add(Vec3f{cluster.max[0], cluster.max[1], cluster.max[2]});
+    }
+    for (const Bounds& box : prepared.superclusters) prepared.bounds.include(box);
+}
+
+template <class T>
+std::vector<T> at_indices(const std::vector<T>& values, const std::vector<std::uint32_t>& indices) {
+    std::vector<T> spread;
+    if (values.empty()) return spread;
+    spread.reserve(indices.size());
+    for (const std::uint32_t index : indices) spread.push_back(values[index]);
+    return spread;
+}
+
+/// Copy of a mesh with vertices of its own for each primitive. Requires: indices in range.
+Mesh with_own_vertices(const Mesh& mesh) {
+    Mesh out;
+    out.topology = mesh.topology;
+    out.material = mesh.material;
+    out.positions = at_indices(mesh.positions, mesh.indices);
+    out.normals = at_indices(mesh.normals, mesh.indices);
+    out.tangents = at_indices(mesh.tangents, mesh.indices);
+    out.uv0 = at_indices(mesh.uv0, mesh.indices);
+    out.uv1 = at_indices(mesh.uv1, mesh.indices);
+    out.colors = at_indices(mesh.colors, mesh.indices);
+    out.indices.resize(mesh.indices.size());
+    std::iota(out.indices.begin(), out.indices.end(), 0u);
+    return out;
+}
+
+/// Clusters of lines or points. As vertex i belongs to primitive i / 2 or i, a cluster reads two vertex groups or one, in order. Returns
+/// false if an index is out of range.
+bool prepare_quads(const Mesh& mesh, PreparedMesh& prepared) {
+    bool in_order = mesh.indices.size() == mesh.positions.size();
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+        if (mesh.indices[i] >= mesh.positions.size()) return false;
+        in_order &= mesh.indices[i] == i;
+    }
+    if (!in_order) prepared.unshared = std::make_shared<const Mesh>(with_own_vertices(mesh));
+    const std::size_t count = (triangle_count(mesh) + kClusterTriangles - 1) / kClusterTriangles;
+    prepared.clusters.resize(count + 1);
+    for (std::size_t c = 0; c < count; ++c) {
+        Cluster& cluster = prepared.clusters[c];
+        cluster = {};
+        cluster.cone_sine = 2.0f;
+        cluster.cone_cosine = -1.0f;
+        cluster.finite = true;
+        cluster.first_group = static_cast<std::uint32_t>(prepared.vertex_groups.size());
+        const auto [begin, end] = indices_of_cluster(mesh, c);
+        Bounds box;
+        for (std::size_t i = begin; i < end; ++i) {
+            const Vec3f p = mesh.positions[mesh.indices[i]];
+            box.add(p);
+            cluster.finite &= finite(p);
+            if (i % kVertexGroup == 0) prepared.vertex_groups.push_back(static_cast<std::uint32_t>(i / kVertexGroup));
+        }
+        if (box.empty) box.min = {1, 1, 1}, box.max = {-1, -1, -1};
+        cluster.min[0] = box.min.x, cluster.min[1] = box.min.y, cluster.min[2] = box.min.z;
+        cluster.max[0] = box.max.x, cluster.max[1] = box.max.y, cluster.max[2] = box.max.z;
+    }
+    prepared.clusters[count] = {};
+    prepared.clusters[count].first_group = static_cast<std::uint32_t>(prepared.vertex_groups.size());
+    sum_up_clusters(prepared);
+    return true;
+}
+
 const char* what_is_wrong(const Mesh& mesh) {
     const std::size_t n = mesh.positions.size();
-    if (mesh.indices.size() % 3 != 0) return "the number of indices is not a multiple of three";
+    if (mesh.topology > Topology::points) return "topology: found a value that no name stands for";
+    if (mesh.topology == Topology::triangles && mesh.indices.size() % 3 != 0) return "the number of indices is not a multiple of three";
+    if (mesh.topology == Topology::lines && mesh.indices.size() % 2 != 0) return "the number of indices of lines is not a multiple of two";
     const auto fits = [n](std::size_t size) { return size == 0 || size == n; };
     if (!fits(mesh.normals.size()) || !fits(mesh.tangents.size()) || !fits(mesh.uv0.size()) || !fits(mesh.uv1.size()) ||
         !fits(mesh.colors.size()))
@@ -164,6 +243,10 @@ Result<PreparedMesh> prepare_mesh(const Mesh& mesh, Executor& executor) {
             largest_of(*set, prepared.largest_uv, [](Vec2f uv) { return static_cast<float>(std::max(magnitude(uv.x), magnitude(uv.y))); });
     prepared.largest_color = largest_of(mesh.colors, 1.0f, [](Vec4f c) { return std::max({c.x, c.y, c.z}); });
     if (mesh.indices.empty()) return prepared;
+    if (mesh.topology != Topology::triangles) {
+        if (!prepare_quads(mesh, prepared)) return fail(ErrorCode::bad_input, "an index is not below the number of vertices");
+        return prepared;
+    }
 
     const std::size_t count = (mesh.indices.size() / 3 + kClusterTriangles - 1) / kClusterTriangles;
     prepared.clusters.resize(count + 1);
@@ -191,16 +274,7 @@ Result<PreparedMesh> prepare_mesh(const Mesh& mesh, Executor& executor) {
     }
     prepared.clusters[count] = {};
     prepared.clusters[count].first_group = static_cast<std::uint32_t>(prepared.vertex_groups.size());
-    prepared.superclusters.resize((count + kSuperclusterSize - 1) / kSuperclusterSize);
-    for (std::size_t c = 0; c < count; ++c) {
-        const Cluster& cluster = prepared.clusters[c];
-        prepared.finite &= cluster.finite;
-        if (cluster.min[0] > cluster.max[0]) continue;
-        Bounds& box = prepared.superclusters[c / kSuperclusterSize];
-        box.add(Vec3f{cluster.min[0], cluster.min[1], cluster.min[2]});
-        box.add(Vec3f{cluster.max[0], cluster.max[1], cluster.max[2]});
-    }
-    for (const Bounds& box : prepared.superclusters) prepared.bounds.include(box);
+    sum_up_clusters(prepared);
     prepared.faces = find_flat_faces(mesh);
     return prepared;
 }

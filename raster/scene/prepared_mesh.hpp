@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,12 @@ class Executor;
 
 /// Triangles of a cluster: cluster c holds triangles [c * kClusterTriangles, (c + 1) * kClusterTriangles) of the mesh, in index order.
 inline constexpr std::uint32_t kClusterTriangles = 128;
+
+/// A line or point is two triangles. They count as triangles in all that follows, but for indices and vertices.
+[[nodiscard]] inline std::size_t triangle_count(const Mesh& mesh) {
+    const std::size_t primitives = mesh.indices.size() / corners_of(mesh.topology);
+    return mesh.topology == Topology::triangles ? primitives : 2 * primitives;
+}
 
 /// Vertices are transformed in groups of this many; a group belongs to one instance of one mesh.
 inline constexpr std::uint32_t kVertexGroup = 64;
@@ -45,6 +52,8 @@ struct PreparedMesh {
     float largest_color = 1;                   ///< the largest red, green or blue of the vertex colours, at least 1
     bool finite = true;                        ///< every used vertex is finite
     FlatFaces faces;                           ///< floors and walls, object space
+    /// Lines or points that share vertices, or have them in another order: the mesh with vertices of its own for each, whose index i is i.
+    std::shared_ptr<const Mesh> unshared;
 
     [[nodiscard]] std::size_t cluster_count() const { return clusters.empty() ? 0 : clusters.size() - 1; }
     [[nodiscard]] std::span<const std::uint32_t> groups_of(std::size_t cluster) const {
@@ -58,8 +67,15 @@ struct IndexRange {
     std::size_t begin, end;
 };
 [[nodiscard]] inline IndexRange indices_of_cluster(const Mesh& mesh, std::size_t cluster) {
-    const std::size_t begin = 3 * cluster * kClusterTriangles;
-    return {begin, std::min(begin + std::size_t{3} * kClusterTriangles, mesh.indices.size())};
+    const bool quads = mesh.topology != Topology::triangles;
+    const std::size_t size = corners_of(mesh.topology) * (quads ? kClusterTriangles / 2 : kClusterTriangles), begin = cluster * size;
+    return {begin, std::min(begin + size, mesh.indices.size())};
+}
+
+/// Triangles [begin, end) of a mesh.
+[[nodiscard]] inline IndexRange triangles_of_cluster(const Mesh& mesh, std::size_t cluster) {
+    const std::size_t begin = cluster * kClusterTriangles;
+    return {begin, std::min(begin + kClusterTriangles, triangle_count(mesh))};
 }
 
 /// Checks a mesh and cuts it into clusters. Fails for an index out of range and for arrays of different lengths.

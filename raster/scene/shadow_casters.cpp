@@ -72,6 +72,7 @@ ShadowCasters collect_shadow_casters(const Scene& scene, std::span<const Prepare
             const Instance& instance = scene.instances[i];
             const PreparedMesh& mesh = meshes[static_cast<std::size_t>(instance.mesh)];
             if (boxes[i].empty || mesh.cluster_count() == 0 || catches_shadows(scene, instance)) continue;
+            if (scene.meshes[static_cast<std::size_t>(instance.mesh)].topology != Topology::triangles) continue;
             AxisMap map;
             f(instance, mesh.faces, boxes[i], !mesh.faces.flats.empty && find_axes(instance.world_from_object, map) ? &map : nullptr);
         }

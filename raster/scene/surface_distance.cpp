@@ -110,8 +110,11 @@ private:
             const Vec3f p = transform_point(m, mesh.positions[index]);  // in float32, as it is drawn
             return Vec3d{p.x - point_.x, p.y - point_.y, p.z - point_.z};
         };
-        for (std::size_t i = begin; i < end; i += 3) {
-            const Vec3d a = vertex(mesh.indices[i]), b = vertex(mesh.indices[i + 1]), c = vertex(mesh.indices[i + 2]);
+        const std::size_t corners = corners_of(mesh.topology);
+        for (std::size_t i = begin; i < end; i += corners) {
+            // Lines and points are triangles with corners at one place.
+            const Vec3d a = vertex(mesh.indices[i]), b = vertex(mesh.indices[i + (corners > 1 ? 1 : 0)]),
+                        c = vertex(mesh.indices[i + corners - 1]);
             if (corners_distance(a, b, c) < nearest_) nearest_ = std::min(nearest_, triangle_distance(a, b, c));
         }
     }

@@ -269,6 +269,7 @@ private:
 }  // namespace
 
 void generate_tangents(Mesh& mesh, int uv_set) {
+    if (mesh.topology != Topology::triangles) return;
     const std::size_t count = mesh.positions.size();
     HALFLIT_ASSERT(mesh.normals.size() == count && (uv_set == 1 ? mesh.uv1 : mesh.uv0).size() == count);
     if (count == 0) return;

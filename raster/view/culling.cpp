@@ -33,7 +33,7 @@ Mat4 multiply_in_double(const Mat4& a, const Mat4& b) {
     return out;
 }
 
-Culler::Culler(const View& view, const Mat4& m, bool mirrored, bool back_faces)
+Culler::Culler(const View& view, const Mat4& m, bool mirrored, bool back_faces, double margin_px)
     : row_{{{m.c[0].x, m.c[1].x, m.c[2].x}, m.c[3].x},
            {{m.c[0].y, m.c[1].y, m.c[2].y}, m.c[3].y},
            {{m.c[0].z, m.c[1].z, m.c[2].z}, m.c[3].z},
@@ -44,20 +44,23 @@ Culler::Culler(const View& view, const Mat4& m, bool mirrored, bool back_faces)
       half_height_(view.viewport.half_height),
       side_(mirrored ? -1.0 : 1.0),
       back_faces_(back_faces) {
-    // Sides of the region in ndc, one pixel outside of what is drawn, but never outside the window.
+    // Sides of the region in ndc, one pixel outside of what is drawn, but never outside the window, but for the margin.
     const Region& r = view.region;
-    const auto ndc = [](int pixel, double half) { return pixel / half - 1.0; };
-    const double left = larger(-1.0, ndc(r.x - 1, half_width_)), right = -larger(-1.0, -ndc(r.x + r.width + 1, half_width_));
-    const double top = larger(-1.0, ndc(r.y - 1, half_height_)), bottom = -larger(-1.0, -ndc(r.y + r.height + 1, half_height_));
+    const auto ndc = [](double pixel, double half) { return pixel / half - 1.0; };
+    const double end_x = 1.0 + margin_px / half_width_, end_y = 1.0 + margin_px / half_height_;
+    const double left = larger(-end_x, ndc(r.x - 1 - margin_px, half_width_)),
+                 right = -larger(-end_x, -ndc(r.x + r.width + 1 + margin_px, half_width_));
+    const double top = larger(-end_y, ndc(r.y - 1 - margin_px, half_height_)),
+                 bottom = -larger(-end_y, -ndc(r.y + r.height + 1 + margin_px, half_height_));
     const auto plane = [&](int a, double factor_a, double factor_w) {
         Plane p{};
         const Row &row = row_[a], &w = row_[3];
         for (int k = 0; k < 3; ++k) {
             p.g[k] = factor_a * row.g[k] + factor_w * w.g[k];
-            p.size[k] = magnitude(row.g[k]) + magnitude(w.g[k]);
+            p.size[k] = magnitude(row.g[k]) + larger(1.0, magnitude(factor_w)) * magnitude(w.g[k]);
         }
         p.offset = factor_a * row.offset + factor_w * w.offset;
-        p.size_offset = magnitude(row.offset) + magnitude(w.offset);
+        p.size_offset = magnitude(row.offset) + larger(1.0, magnitude(factor_w)) * magnitude(w.offset);
         return p;
     };
     plane_[0] = plane(0, 1.0, -left);   // x >= left w

@@ -13,8 +13,9 @@ namespace halflit::raster {
 
 class Culler {
 public:
-    /// back_faces: true leaves out back faces. mirrored: the instance's transform has a negative determinant.
-    Culler(const View& view, const Mat4& clip_from_object, bool mirrored, bool back_faces);
+    /// back_faces: true leaves out back faces. mirrored: the instance's transform has a negative determinant. margin_px: how far outside of
+    /// its box an object is drawn, as lines and points are.
+    Culler(const View& view, const Mat4& clip_from_object, bool mirrored, bool back_faces, double margin_px = 0.0);
 
     enum class Verdict { outside, inside, crossing };
     /// Tests a box in object space. outside: the view sees nothing of it. inside: no plane of the view cuts it.

@@ -13,6 +13,8 @@ struct View {
     Region region;  ///< the pixels that are drawn: inside the window, never empty
     int tile_size = 64, tiles_x = 0, tiles_y = 0;
     SamplePattern samples;
+    /// Width of lines and side of points, in 1/256 pixel; 0: they are not drawn. Faces of shadow maps leave them out.
+    int line_width = 0, point_size = 0;
 
     [[nodiscard]] int tile_count() const { return tiles_x * tiles_y; }
     [[nodiscard]] TileRect tile_rect(int tile) const {

@@ -230,6 +230,11 @@ static void test_faulty_arguments(void) {
     CHECK_FAILS(halflit_scene_add_mesh(cube.scene, &mesh, NULL), HALFLIT_ERROR_BAD_INPUT, "index 8");
     mesh.index_count = 2;
     CHECK_FAILS(halflit_scene_add_mesh(cube.scene, &mesh, NULL), HALFLIT_ERROR_BAD_INPUT, "3 for each triangle");
+    mesh.topology = HALFLIT_TOPOLOGY_LINES;
+    mesh.index_count = 3;
+    CHECK_FAILS(halflit_scene_add_mesh(cube.scene, &mesh, NULL), HALFLIT_ERROR_BAD_INPUT, "2 for each line");
+    mesh.topology = 3;
+    CHECK_FAILS(halflit_scene_add_mesh(cube.scene, &mesh, NULL), HALFLIT_ERROR_USAGE, "topology is 3, expected 0 to 2");
     CHECK_FAILS(halflit_scene_set_vertices(cube.scene, cube.mesh, corners, NULL, 7), HALFLIT_ERROR_USAGE, "7 vertices, expected 8");
     CHECK_FAILS(halflit_scene_add_instance(cube.scene, 1, NULL, NULL), HALFLIT_ERROR_USAGE, "mesh 1, but the scene has 1");
     halflit_material_init(&material, sizeof material);
@@ -591,6 +596,54 @@ static void test_environments(void) {
     halflit_scene_destroy(cube.scene);
 }
 
+static void test_points_and_lines(void) {
+    Cube cube = make_cube();
+    const uint32_t edges[] = {0, 1, 1, 2, 2, 3, 3, 0};
+    uint64_t triangles, lines, wide, points;
+    halflit_counts counts;
+    halflit_mesh mesh;
+    triangles = draw_cube(NULL, &cube);
+    init_cube_mesh(&mesh, 0);
+    mesh.normals = NULL;
+    mesh.indices = edges;
+    mesh.index_count = 8;
+    mesh.topology = HALFLIT_TOPOLOGY_LINES;
+    CHECK_OK(halflit_scene_set_mesh(cube.scene, cube.mesh, &mesh));
+    lines = draw_cube(NULL, &cube);
+    cube.settings.line_width = 9;
+    wide = draw_cube(NULL, &cube);
+    mesh.indices = NULL;
+    mesh.index_count = 0;
+    mesh.topology = HALFLIT_TOPOLOGY_POINTS;
+    CHECK_OK(halflit_scene_set_mesh(cube.scene, cube.mesh, &mesh));
+    points = draw_cube(NULL, &cube);
+    CHECK(lines != 0 && wide != 0 && points != 0);
+    CHECK(lines != triangles && wide != lines && points != wide && points != triangles);
+    counts.size = sizeof counts;
+    CHECK_OK(halflit_scene_get_counts(cube.scene, &counts));
+    CHECK(counts.triangles == 0);
+    cube.settings.point_size = 0;
+    CHECK(draw_cube(NULL, &cube) == 0);
+    CHECK(strstr(halflit_last_error(), "point size") != NULL);
+    halflit_scene_destroy(cube.scene);
+}
+
+static void test_scenes_and_variants(void) {
+    halflit_scene* scene;
+    halflit_load_options options;
+    CHECK_OK(halflit_load_options_init(&options, sizeof options));
+    CHECK(options.scene == NULL && options.variant == NULL);
+    options.scene = "7";
+    CHECK_FAILS(halflit_scene_load_memory(model, sizeof model - 1, "model", NULL, &options, &scene), HALFLIT_ERROR_USAGE, "scene: ");
+    options.scene = "0";
+    options.variant = "red";
+    CHECK_FAILS(halflit_scene_load_memory(model, sizeof model - 1, "model", NULL, &options, &scene), HALFLIT_ERROR_USAGE,
+                "variant: the file has none");
+    options.variant = NULL;
+    CHECK_OK(halflit_scene_load_memory(model, sizeof model - 1, "model", NULL, &options, &scene));
+    halflit_scene_destroy(scene);
+}
+
 static void test_animations(void) {
     halflit_scene *posed, *loaded;
     halflit_load_options options;
@@ -668,7 +721,7 @@ static void test_loading(void) {
     CHECK(hash == draw(NULL, from_memory, &camera, &settings));
     counts.size = sizeof counts;
     CHECK_OK(halflit_scene_get_counts(from_file, &counts));
-    CHECK(counts.triangles == 1 && counts.meshes == 1 && counts.instances == 1 && counts.materials == 1 && counts.cameras == 0);
+    CHECK(counts.triangles == 1 && counts.meshes == 2 && counts.instances == 2 && counts.materials == 2 && counts.cameras == 0);
     CHECK(counts.warnings == 1);
     CHECK_OK(halflit_scene_get_warning(from_file, 0, &text));
     CHECK(text != NULL && strlen(text) > 5);
@@ -826,6 +879,8 @@ int main(void) {
     test_tangents_and_normals_follow_the_material();
     test_environments();
     test_loading();
+    test_points_and_lines();
+    test_scenes_and_variants();
     test_animations();
     test_cameras();
     test_execution();

@@ -51,3 +51,38 @@ TEST_CASE("animation flags: info lists the animations, and an unknown one is a w
     CHECK(wrong.err.find("animation: expected an index below 1, an animation's name or none, found 'walk'") != std::string::npos);
     CHECK(run({"render", "demo", "--time", "3", "--size", "16x9", "-o", folder.file("c.png")}).code == 0);
 }
+
+TEST_CASE("scene and variant flags: info lists both, and unknown ones are a wrong command line", "[cli]") {
+    const TemporaryFolder folder;
+    const std::string path = folder.file("two.glb");
+    TriangleFile file;
+    file.primitive = R"(,"material":0,"extensions":{"KHR_materials_variants":{"mappings":[{"material":1,"variants":[0]}]}})";
+    file.rest = R"(,"extensionsUsed":["KHR_materials_variants"],"extensions":{"KHR_materials_variants":{"variants":[{"name":"red"}]}},)"
+                R"("materials":[{},{"pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1]}}])";
+    const Bytes bytes =
+        glb(replaced(file.json(), R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}])",
+                     R"("scenes":[{"name":"one","nodes":[0]},{"nodes":[0,1]}],"nodes":[{"mesh":0},{"mesh":0,"translation":[3,0,0]}])"),
+            file.bin);
+    write_contents(path, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+    const auto info = nlohmann::json::parse(run({"info", path, "--json", "--scene", "1"}).out);
+    CHECK(info["file"]["scene_names"] == nlohmann::json{"one", ""});
+    CHECK(info["file"]["scene"] == 1);
+    CHECK(info["file"]["variants"] == nlohmann::json{"red"});
+    CHECK(info["drawn"]["instances"] == 2);
+    const auto hash = [&](const std::vector<std::string>& flags) {
+        std::vector<std::string> arguments{"render", path, "--size", "64x48", "-o", folder.file("a.png"), "--report", "-"};
+        arguments.insert(arguments.end(), flags.begin(), flags.end());
+        const Outcome outcome = run(arguments);
+        REQUIRE(outcome.code == 0);
+        return nlohmann::json::parse(outcome.out)["pixel_hash"];
+    };
+    const auto usual = hash({});
+    CHECK(hash({"--scene", "one"}) == usual);
+    CHECK(hash({"--scene", "1"}) != usual);
+    CHECK(hash({"--variant", "red"}) != usual);
+    for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--scene", "2"}, {"--variant", "blue"}}) {
+        const Outcome outcome = run({"render", path, wrong[0], wrong[1], "-o", folder.file("b.png")});
+        CHECK(outcome.code == 2);
+        CHECK(outcome.err.find(wrong[0] == "--scene" ? "'one'" : "'red'") != std::string::npos);
+    }
+}

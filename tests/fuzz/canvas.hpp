@@ -81,7 +81,8 @@ struct Canvas {
             HALFLIT_PROMISE(instance[i] <= scene.instances.size() && (instance[i] == 0) == (triangle[i] == 0));
             if (instance[i] == 0) continue;
             const int mesh = scene.instances[instance[i] - 1].mesh;
-            HALFLIT_PROMISE(triangle[i] <= scene.meshes[static_cast<std::size_t>(mesh)].indices.size() / 3);
+            const Mesh& shown = scene.meshes[static_cast<std::size_t>(mesh)];
+            HALFLIT_PROMISE(triangle[i] <= shown.indices.size() / corners_of(shown.topology));
         }
     }
 };

@@ -12,7 +12,7 @@ void check_mesh(const Mesh& mesh, const Scene& scene) {
     const std::size_t n = mesh.positions.size();
     const auto fits = [n](const auto& values) { return values.empty() || values.size() == n; };
     HALFLIT_PROMISE(fits(mesh.normals) && fits(mesh.tangents) && fits(mesh.uv0) && fits(mesh.uv1) && fits(mesh.colors));
-    HALFLIT_PROMISE(mesh.indices.size() % 3 == 0);
+    HALFLIT_PROMISE(mesh.indices.size() % corners_of(mesh.topology) == 0);
     for (const std::uint32_t index : mesh.indices) HALFLIT_PROMISE(index < n);
     HALFLIT_PROMISE(in_range(mesh.material, scene.materials.size()));
 }

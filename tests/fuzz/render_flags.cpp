@@ -82,6 +82,7 @@ Settings read_settings(Input& input, const RenderFlags& flags) {
     settings.shadow_terminator_offset = input.flag();
     if (input.one_in(8)) settings.shadow_fade = input.real();
     if (input.one_in(16)) settings.shadow_memory_limit = input.number<std::uint16_t>();
+    if (input.one_in(4)) settings.point_size = settings.line_width = input.pick(std::array{0.0625f, 1.0f, 7.3f, 256.0f});
     settings.sky_shadows = input.pick(std::array{0, 0, 0, 16, 33});
     return settings;
 }

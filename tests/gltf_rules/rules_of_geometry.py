@@ -19,9 +19,8 @@ pair("5.24", "attributes has a member", lambda s: None, lambda s: s.put("meshes[
      "meshes[1].primitives[0]")
 pair("3.7.2.1", "a primitive has POSITION", lambda s: None, lambda s: s.drop("meshes[1].primitives[0].attributes.POSITION"),
      "meshes[1].primitives[0]")
-for mode in (0, 1, 2, 3):
-    pair("3.7.2.1", "primitives of mode %d are said to be left out" % mode, lambda s: None, put(("meshes[1].primitives[0].mode", mode)),
-         "meshes[1].primitives[0].mode")
+pair("3.7.2.1", "lines have an even number of indices", lambda s: (s.put(P + ".mode", 1), indices(s, USHORT, [0, 1])) and None,
+     lambda s: (s.put(P + ".mode", 1), indices(s, USHORT, [0, 1, 2])) and None, P)
 pair("3.7.2.1", "a mesh that nothing draws is whole",
      lambda s: s.append("meshes", {"primitives": [{"attributes": {"POSITION": 0}}]}) and None,
      lambda s: s.append("meshes", {"primitives": [{"attributes": {"POSITION": 99}, "material": 77, "indices": 2}]}) and None, None)

@@ -67,10 +67,18 @@ TEST_CASE("PLY: triangle strips turn every second triangle", "[io]") {
     for (const Vec3f& normal : mesh.normals) CHECK(normal == Vec3f{0, 0, 1});
 }
 
-TEST_CASE("PLY: a point cloud is refused by name", "[io]") {
-    const std::string file =
-        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n";
-    CHECK(refusal_of(to_bytes(file)).find("it is a point cloud") != std::string::npos);
+TEST_CASE("PLY: vertices without faces are points, lit if they have normals", "[io]") {
+    const std::string colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+    const std::string normals = "property float nx\nproperty float ny\nproperty float nz\n";
+    const std::string start = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n";
+    const LoadedScene colored = load_any_ok(to_bytes(start + colors + "end_header\n0 0 0 255 0 0\n1 2 3 0 255 0\n"));
+    const Mesh& mesh = colored.scene.meshes.at(0);
+    CHECK(mesh.topology == Topology::points);
+    CHECK(mesh.indices == std::vector<std::uint32_t>{0, 1});
+    CHECK(mesh.colors.at(1) == Vec4f{0, 1, 0, 1});
+    CHECK(colored.scene.materials.at(static_cast<std::size_t>(mesh.material)).unlit);
+    const LoadedScene lit = load_any_ok(to_bytes(start + normals + "end_header\n0 0 0 0 0 1\n1 2 3 0 1 0\n"));
+    CHECK(!lit.scene.materials.at(static_cast<std::size_t>(lit.scene.meshes.at(0).material)).unlit);
     CHECK(refusal_of(to_bytes("v 0 0 0\nv 1 0 0\np 1 2\n")).find("it has vertices but no faces") != std::string::npos);
 }
 

@@ -51,16 +51,35 @@ TEST_CASE("gltf: lists, strips and fans become the triangles of the specificatio
     CHECK(triangles_of(5, {}, 0, 0) == Indices{0, 1, 2, 1, 3, 2, 2, 3, 4});
     CHECK(triangles_of(6, {}, 0, 0) == Indices{1, 2, 0, 2, 3, 0, 3, 4, 0});
     CHECK(triangles_of(5, bytes, 5121, 2).empty());
-    for (const int mode : {0, 1, 2, 3}) CHECK(triangles_of(mode, {}, 0, 0).empty());
 }
 
-TEST_CASE("gltf: points and lines are left out with one warning", "[io]") {
+TEST_CASE("gltf: points, and lists, strips and loops of lines become those of the specification", "[io]") {
+    Bytes bytes;
+    append<std::uint8_t>(bytes, {4, 0, 1, 2});
+    CHECK(triangles_of(0, bytes, 5121, 4) == Indices{4, 0, 1, 2});
+    CHECK(triangles_of(1, bytes, 5121, 4) == Indices{4, 0, 1, 2});
+    CHECK(triangles_of(2, bytes, 5121, 4) == Indices{4, 0, 0, 1, 1, 2, 2, 4});
+    CHECK(triangles_of(3, bytes, 5121, 4) == Indices{4, 0, 0, 1, 1, 2});
+    CHECK(triangles_of(0, {}, 0, 0) == Indices{0, 1, 2, 3, 4});
+    CHECK(triangles_of(3, {}, 0, 0) == Indices{0, 1, 1, 2, 2, 3, 3, 4});
+    CHECK(triangles_of(3, bytes, 5121, 1).empty());
+}
+
+TEST_CASE("gltf: points and lines without normals are not lit, and leave other users of their material lit", "[io]") {
     TriangleFile file;
     file.primitive = R"(,"mode":0},{"attributes":{"POSITION":0},"mode":3},{"attributes":{"POSITION":0})";
     const LoadedScene loaded = load_ok(file.file());
-    CHECK(loaded.scene.meshes.size() == 1);
+    REQUIRE(loaded.scene.meshes.size() == 3);
     CHECK(loaded.info.point_and_line_primitives == 2);
-    CHECK(loaded.warnings.size() == 1);
+    CHECK(loaded.info.triangles_drawn == 1);
+    CHECK(loaded.warnings.empty());
+    const Topology expected[] = {Topology::points, Topology::lines, Topology::triangles};
+    for (std::size_t m = 0; m < 3; ++m) {
+        const Mesh& mesh = loaded.scene.meshes[m];
+        CHECK(mesh.topology == expected[m]);
+        const bool unlit = mesh.material >= 0 && loaded.scene.materials.at(static_cast<std::size_t>(mesh.material)).unlit;
+        CHECK(unlit == (m < 2));
+    }
 }
 
 TEST_CASE("gltf: missing normals are flat and vertices are no longer shared", "[io]") {

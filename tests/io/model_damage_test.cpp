@@ -99,7 +99,10 @@ void check_sound(const LoadedScene& loaded) {
     for (const Mesh& mesh : loaded.scene.meshes) {
         const std::size_t n = mesh.positions.size();
         const auto fits = [n](const auto& values) { return values.empty() || values.size() == n; };
-        if (mesh.indices.size() % 3 != 0 || mesh.normals.size() != n || !fits(mesh.uv0) || !fits(mesh.colors)) FAIL("lengths differ");
+        const bool lit = mesh.topology == Topology::triangles;
+        if (mesh.indices.size() % corners_of(mesh.topology) != 0 || (lit ? mesh.normals.size() != n : !fits(mesh.normals)) ||
+            !fits(mesh.uv0) || !fits(mesh.colors))
+            FAIL("lengths differ");
         for (const std::uint32_t index : mesh.indices)
             if (index >= n) FAIL("index " << index << " of " << n);
         for (const Vec3f& p : mesh.positions)

@@ -293,6 +293,8 @@ TEST_CASE("execution: equal settings give equal pixels, whatever the execution",
     CHECK(differs([](Settings& s) { s.shadow_size = 128; }));
     CHECK(differs([](Settings& s) { s.shadow_memory_limit = 1; }));
     CHECK(differs([](Settings& s) { s.shadow_fade = 1; }));
+    CHECK(differs([](Settings& s) { s.point_size = 1; }));
+    CHECK(differs([](Settings& s) { s.line_width = 1; }));
     CHECK(differs([](Settings& s) { s.shadow_terminator_offset = true; }));
 }
 

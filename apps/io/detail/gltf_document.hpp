@@ -36,6 +36,8 @@ struct Document {
     std::vector<std::string> warnings;
     std::size_t warnings_left_out = 0;
     SceneInfo info;
+    /// Materials behind those of the file, without light, for points and lines without normals: copies of these, -1 being the default one.
+    std::vector<int> unlit_copies;
     std::uint64_t file_bytes = 0;  ///< of the model's own file
     Budget geometry{"the geometry", 0}, encoded_images;
 

@@ -20,9 +20,13 @@ Streams streams_of(const Document& document) {
     for (std::size_t m = 0; m < document.file.meshes.size(); ++m) {
         if (!document.used.has(Target::meshes, m)) continue;
         const auto& primitives = document.file.meshes[m].primitives;
-        for (std::size_t p = 0; p < primitives.size(); ++p)
-            if (primitives[p].draco >= 0 && file::draws_triangles(primitives[p]))
-                streams[document.file.draco[static_cast<std::size_t>(primitives[p].draco)].buffer_view].emplace_back(m, p);
+        for (std::size_t p = 0; p < primitives.size(); ++p) {
+            if (primitives[p].draco < 0) continue;
+            if (primitives[p].mode < static_cast<int>(file::Mode::triangles))
+                refuse(fmt::format("meshes[{}].primitives[{}].mode", m, p),
+                       fmt::format("expected triangles, which Draco compresses, found mode {}", primitives[p].mode));
+            streams[document.file.draco[static_cast<std::size_t>(primitives[p].draco)].buffer_view].emplace_back(m, p);
+        }
     }
     return streams;
 }

@@ -16,7 +16,7 @@
 
 namespace halflit::io::detail::file {
 
-enum class Mode : int { points = 0, triangles = 4, triangle_strip = 5, triangle_fan = 6 };
+enum class Mode : int { points = 0, lines = 1, line_loop = 2, line_strip = 3, triangles = 4, triangle_strip = 5, triangle_fan = 6 };
 
 struct Buffer {
     std::optional<std::string_view> uri;
@@ -66,9 +66,16 @@ using Attributes = std::vector<std::pair<std::string_view, int>>;
 [[nodiscard]] bool is_drawn(std::string_view attribute);                      ///< no set beyond those that the renderer has, no "_AGE"
 [[nodiscard]] bool is_of_skin(std::string_view attribute);                    ///< JOINTS_0, WEIGHTS_0, ...
 
+/// KHR_materials_variants: the material of a primitive in some variants.
+struct VariantMaterial {
+    int material = -1;
+    std::vector<int> variants;  ///< into File::variants
+};
+
 struct Primitive {
     Attributes attributes;
     std::vector<Attributes> targets;
+    std::vector<VariantMaterial> variants;
     int indices = -1, material = -1;
     int mode = static_cast<int>(Mode::triangles);
     int draco = -1;  ///< into File::draco; -1: none
@@ -79,8 +86,6 @@ struct Draco {
     int buffer_view = -1;
     Attributes attributes;  ///< unique ids within the stream, by attribute name
 };
-
-[[nodiscard]] inline bool draws_triangles(const Primitive& primitive) { return primitive.mode >= static_cast<int>(Mode::triangles); }
 
 struct Mesh {
     std::string_view name;
@@ -102,10 +107,11 @@ struct Transform {
 struct Node {
     std::string_view name;
     int mesh = -1, skin = -1, camera = -1, light = -1;
-    int transform = -1;  ///< into File::transforms; -1: none
-    Run children;        ///< entries of File::children
-    Run weights;         ///< entries of File::weights
-    double visible = 1;  ///< KHR_node_visibility; 0: hidden, with all below. A number, as animations write it
+    int transform = -1;   ///< into File::transforms; -1: none
+    int instancing = -1;  ///< into File::instancings; -1: none
+    Run children;         ///< entries of File::children
+    Run weights;          ///< entries of File::weights
+    double visible = 1;   ///< KHR_node_visibility; 0: hidden, with all below. A number, as animations write it
 };
 
 struct Skin {
@@ -131,6 +137,7 @@ struct Light {
     double intensity = 1, range = 0;  ///< range 0: infinite
     bool has_spot = false;
     double inner_cone_angle = 0, outer_cone_angle = 0.7853981634;
+    double size = 0;  ///< extras.halflit, this project's own: radius, or of a directional light the angle from middle to rim in degrees
 };
 
 struct Image {
@@ -205,6 +212,7 @@ struct Material {
 };
 
 struct Scene {
+    std::string_view name;
     std::vector<int> nodes;
 };
 
@@ -239,6 +247,7 @@ struct File {
     std::vector<Draco> draco;
     std::vector<Node> nodes;
     std::vector<Transform> transforms;
+    std::vector<Attributes> instancings;  ///< EXT_mesh_gpu_instancing
     std::vector<int> children;
     std::vector<double> weights;
     std::vector<Skin> skins;
@@ -251,6 +260,7 @@ struct File {
     std::vector<MaterialExtensions> extended;
     std::vector<Scene> scenes;
     std::vector<Animation> animations;
+    std::vector<std::string_view> variants;  ///< names of KHR_materials_variants
     int scene = -1;
     std::size_t primitives = 0, morph_targets = 0;
     std::deque<std::string> texts;  ///< strings that had escapes, decoded; all others point into the JSON text

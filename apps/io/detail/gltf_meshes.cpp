@@ -1,5 +1,6 @@
 #include "apps/io/detail/gltf_meshes.hpp"
 
+#include "apps/io/detail/gltf_instancing.hpp"
 #include "apps/io/detail/gltf_skin.hpp"
 #include "halflit/mesh.hpp"
 
@@ -30,10 +31,6 @@ public:
     void run() {
         for (const int node : tree_.drawn)
             if (document_.file.nodes[static_cast<std::size_t>(node)].mesh >= 0) place(static_cast<std::size_t>(node));
-        if (const std::size_t count = document_.info.point_and_line_primitives; count > 0)
-            document_.warn(count == 1 ? fmt::format("{}.mode: points and lines are not drawn", reader_.first_left_out())
-                                      : fmt::format("{}.mode: points and lines are not drawn, here and in {} more primitives",
-                                                    reader_.first_left_out(), count - 1));
     }
 
 private:
@@ -63,16 +60,41 @@ private:
             document_.warn(fmt::format("nodes[{}]: its transform is not finite, not drawn", index));
             if (motion_ == nullptr) return;  // it may be finite at another time
         }
-        document_.geometry.take(primitives.size() * (sizeof(Instance) + sizeof(int)));
+        if (node.instancing < 0) {
+            place(index, primitives, std::nullopt);
+            return;
+        }
+        const InstancePlaces places = read_instance_places(document_, reader_, index);
+        for (std::size_t i = 0; i < places.count; ++i) {
+            if (i % 4096 == 0) document_.check_time();
+            const Affine in_node = places.at(i);
+            if (!is_finite(world * in_node)) {
+                document_.warn(fmt::format("nodes[{}]: the transform of an instance is not finite, not drawn", index));
+                if (motion_ == nullptr) continue;
+            }
+            place(index, primitives, in_node);
+        }
+    }
+
+    void place(std::size_t index, const std::vector<Made>& primitives, const std::optional<Affine>& in_node) {
+        document_.geometry.take(primitives.size() * (sizeof(Instance) + sizeof(int) + (in_node ? sizeof(NodeTransform) : 0)));
+        const Affine& world = tree_.world_from_node[index];
         for (const auto& [mesh_of_scene, at_world] : primitives) {
-            if (!at_world) nodes_[index].instances.push_back(static_cast<int>(scene_.instances.size()));
-            Affine placed = world;
+            if (!at_world) {
+                nodes_[index].instances.push_back(static_cast<int>(scene_.instances.size()));
+                if (in_node) nodes_[index].node_from_instance.push_back(to_node_transform(*in_node));
+            }
+            Affine placed = in_node ? world * *in_node : world;
             if (at_world) placed = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, *at_world}};
-            if (motion_ != nullptr)
-                motion_->add(
-                    {.instance = static_cast<int>(scene_.instances.size()), .node = static_cast<int>(index), .at_world = at_world});
+            if (motion_ != nullptr) {
+                document_.geometry.take(sizeof(PlacedInstance));
+                motion_->add({.instance = static_cast<int>(scene_.instances.size()),
+                              .node = static_cast<int>(index),
+                              .at_world = at_world,
+                              .in_node = in_node});
+            }
             scene_.instances.push_back({mesh_of_scene, to_mat4(placed)});
-            document_.info.triangles_drawn += scene_.meshes[static_cast<std::size_t>(mesh_of_scene)].indices.size() / 3;
+            document_.info.triangles_drawn += triangles_of(scene_.meshes[static_cast<std::size_t>(mesh_of_scene)]);
         }
     }
 
@@ -125,7 +147,7 @@ private:
                                     document_.options.recentre ? std::nullopt : std::optional(Vec3d{}));
             if (is_hidden(node_index)) posed.mesh = without_triangles(posed.mesh);
             document_.info.vertices += posed.mesh.positions.size();
-            document_.info.triangles_stored += posed.mesh.indices.size() / 3;
+            document_.info.triangles_stored += triangles_of(posed.mesh);
             const int index = static_cast<int>(scene_.meshes.size());
             made.push_back({index, skinned ? std::optional(posed.place) : std::nullopt});
             scene_.meshes.push_back(std::move(posed.mesh));
@@ -154,6 +176,12 @@ private:
         MeshSource& source = read.source;
         const Mesh& mesh = source.mesh;
         const std::uint64_t corners = mesh.indices.size();
+        if (mesh.topology != Topology::triangles) {
+            if (mesh.material >= 0) check_texture_coordinates(read);
+            // Points and lines without normals are not lit (glTF 2.0, 3.7.2.1).
+            if (mesh.normals.empty()) source.mesh.material = unlit_copy(mesh.material);
+            return;
+        }
         source.flat_normals = mesh.normals.empty();
         if (source.flat_normals)
             document_.geometry.take(corners *
@@ -167,6 +195,15 @@ private:
         if ((normal_map.uv_set == 1 ? mesh.uv1 : mesh.uv0).empty()) return;
         document_.geometry.take(corners * 16);
         source.tangents_of = normal_map.uv_set;
+    }
+
+    /// Index of a material without light.
+    int unlit_copy(int material) {
+        if (material >= 0 && scene_.materials[static_cast<std::size_t>(material)].unlit) return material;
+        std::vector<int>& copies = document_.unlit_copies;
+        const auto [known, is_new] = unlit_copies_.try_emplace(material, static_cast<int>(scene_.materials.size() + copies.size()));
+        if (is_new) copies.push_back(material);
+        return known->second;
     }
 
     /// Warns of textures of the material for which the mesh has no coordinates.
@@ -205,6 +242,7 @@ private:
     PrimitiveReader reader_;
     std::map<Key, std::vector<Made>> made_;
     std::map<int, Skin> skins_;
+    std::map<int, int> unlit_copies_;
     std::vector<bool> mesh_checked_;
 };
 
@@ -217,7 +255,7 @@ std::vector<bool> find_used_materials(const Document& document, const NodeTree& 
         if (mesh < 0 || seen[static_cast<std::size_t>(mesh)]) continue;
         seen[static_cast<std::size_t>(mesh)] = true;
         for (const file::Primitive& primitive : document.file.meshes[static_cast<std::size_t>(mesh)].primitives)
-            if (primitive.material >= 0 && file::draws_triangles(primitive)) used[static_cast<std::size_t>(primitive.material)] = true;
+            if (primitive.material >= 0) used[static_cast<std::size_t>(primitive.material)] = true;
     }
     return used;
 }

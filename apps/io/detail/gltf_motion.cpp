@@ -28,6 +28,7 @@ Mesh without_triangles(const Mesh& mesh) {
     Mesh out;
     out.name = mesh.name;
     out.material = mesh.material;
+    out.topology = mesh.topology;
     return out;
 }
 
@@ -138,7 +139,8 @@ Result<void> Motion::check(const Scene& scene, std::span<const Node> nodes) cons
     if (scene.meshes.size() < meshes) return lacks("meshes", scene.meshes.size(), meshes);
     if (const std::size_t most = above(cameras_, second); scene.cameras.size() < most) return lacks("cameras", scene.cameras.size(), most);
     if (const std::size_t most = above(lights_, second); scene.lights.size() < most) return lacks("lights", scene.lights.size(), most);
-    if (scene.materials.size() < rest_.materials.size()) return lacks("materials", scene.materials.size(), rest_.materials.size());
+    if (const std::size_t most = std::max(rest_.materials.size(), above(copies_, second)); scene.materials.size() < most)
+        return lacks("materials", scene.materials.size(), most);
     for (const PlacedInstance& placed : placed_)
         if (const int mesh = scene.instances[static_cast<std::size_t>(placed.instance)].mesh;
             mesh < 0 || static_cast<std::size_t>(mesh) >= scene.meshes.size())
@@ -160,6 +162,9 @@ Result<SceneChanges> Motion::pose(const std::string& animation, double time_s, S
     SceneChanges changes;
     for (std::size_t i = 0; i < rest_.materials.size(); ++i)
         if (moved_materials_[i]) changes.materials |= set_material(file, i, scene.materials[i]);
+    for (const auto& [original, copy] : copies_)
+        if (moved_materials_[static_cast<std::size_t>(original)])
+            changes.materials |= set_material(file, static_cast<std::size_t>(original), scene.materials[static_cast<std::size_t>(copy)]);
     move_instances(file, tree, scene, changes);
     deform(file, tree, scene, changes);
     for (Affine& world : tree.world_from_node) world = drawn(world, origin_, scale_);
@@ -178,7 +183,8 @@ void Motion::move_instances(const file::File& file, const NodeTree& tree, Scene&
     std::vector<Mat4> in_file;  // as the file's world has them
     in_file.reserve(placed_.size());
     for (const PlacedInstance& placed : placed_) {
-        const Affine& world = tree.world_from_node[static_cast<std::size_t>(placed.node)];
+        Affine world = tree.world_from_node[static_cast<std::size_t>(placed.node)];
+        if (placed.in_node) world = world * *placed.in_node;
         in_file.push_back(placed.at_world ? translation_to(*placed.at_world) : to_mat4(world));
         Affine m = drawn(placed.at_world ? Affine{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, *placed.at_world}} : world, origin_, scale_);
         for (int k = 0; k < 3; ++k) m.c[k] = m.c[k] * (1.0 / placed.mesh_scale);

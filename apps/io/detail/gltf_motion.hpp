@@ -38,6 +38,7 @@ struct DeformedMesh {
 struct PlacedInstance {
     int instance = -1, node = -1;
     std::optional<Vec3d> at_world{};  ///< skinned: where it lies, without the node's transform
+    std::optional<Affine> in_node{};  ///< its transform to the node; empty: the identity
     double mesh_scale = 1.0;          ///< of its mesh's positions
 };
 
@@ -52,6 +53,8 @@ public:
 
     void add(io::detail::DeformedMesh mesh) { deformed_.push_back(std::move(mesh)); }
     void add(io::detail::PlacedInstance instance) { placed_.push_back(instance); }
+    /// A copy of a material of the file, whose factors follow it.
+    void add_copy(int material, int copy) { copies_.emplace_back(material, copy); }
     void add(int index, const io::detail::Skin& skin) { skins_.emplace(index, skin); }
     /// To be called when all else is loaded. mesh_scales: recentre()'s.
     void finish(const LoadedScene& loaded, std::vector<io::detail::Animation> animations, const std::vector<bool>& hides,
@@ -73,6 +76,7 @@ private:
     std::vector<io::detail::PlacedInstance> placed_;  // all instances of the file, in order
     std::map<int, io::detail::Skin> skins_;
     std::vector<std::pair<int, int>> cameras_, lights_;                 // node, and index in the scene
+    std::vector<std::pair<int, int>> copies_;                           // of materials: the original, and the copy
     std::vector<bool> hides_;                                           // by node: it is shown and hidden
     std::vector<bool> moved_materials_, moved_cameras_, moved_lights_;  // by number in the file
     std::size_t nodes_ = 0;

@@ -58,6 +58,8 @@ std::optional<Light> light_of(const file::Light& source, double scale) {
         return static_cast<float>(std::clamp(color, 0.0, 1e15) * std::clamp(intensity, 0.0, 1e15) / kPi);
     };
     light.color_linear = {channel(0), channel(1), channel(2)};
+    light.shadow_radius = light.type == LightType::directional ? static_cast<float>(std::clamp(source.size, 0.0, 40.0) * (kPi / 180))
+                                                               : static_cast<float>(std::clamp(source.size * scale, 0.0, 1e18));
     if (light.type != LightType::directional) light.range = static_cast<float>(std::clamp(source.range * scale, 0.0, 1e18));
     if (light.type == LightType::spot) {
         light.outer_cone_rad = static_cast<float>(std::clamp(source.outer_cone_angle, 0.0, kPi / 2));

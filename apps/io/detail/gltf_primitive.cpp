@@ -61,10 +61,24 @@ std::vector<Vec4f> read_vec4(const Accessor& accessor, std::span<const std::uint
     return out;
 }
 
-/// Converts strips and fans to triangles, all with the winding of the first (glTF 2.0, 3.7.2.1).
-std::vector<std::uint32_t> as_triangles(file::Mode mode, std::vector<std::uint32_t> run) {
-    if (mode == file::Mode::triangles) return run;
+Topology topology_of(file::Mode mode) {
+    using enum file::Mode;
+    return mode == points                                             ? Topology::points
+           : mode == lines || mode == line_loop || mode == line_strip ? Topology::lines
+                                                                      : Topology::triangles;
+}
+
+/// Converts strips and loops to lines, strips and fans to triangles, all with the winding of the first (glTF 2.0, 3.7.2.1).
+std::vector<std::uint32_t> as_list(file::Mode mode, std::vector<std::uint32_t> run) {
+    if (mode == file::Mode::triangles || mode == file::Mode::lines || mode == file::Mode::points) return run;
     std::vector<std::uint32_t> out;
+    if (topology_of(mode) == Topology::lines) {
+        if (run.size() < 2) return out;
+        out.reserve(2 * run.size());
+        for (std::size_t i = 0; i + 1 < run.size(); ++i) out.insert(out.end(), {run[i], run[i + 1]});
+        if (mode == file::Mode::line_loop) out.insert(out.end(), {run.back(), run.front()});
+        return out;
+    }
     if (run.size() < 3) return out;
     out.reserve(3 * (run.size() - 2));
     for (std::size_t i = 0; i + 2 < run.size(); ++i) {
@@ -120,8 +134,8 @@ void PrimitiveReader::warn_of_layout(const std::string& where, int index) {
             "bufferViews[{}].byteStride: is not there, but several vertex attributes share the bufferView; read as packed", view));
 }
 
-std::vector<std::uint32_t> PrimitiveReader::triangle_indices(const file::Primitive& primitive, const std::string& where,
-                                                             std::size_t vertex_count) {
+std::vector<std::uint32_t> PrimitiveReader::list_indices(const file::Primitive& primitive, const std::string& where,
+                                                         std::size_t vertex_count) {
     const Accessor* accessor = primitive.indices < 0 ? nullptr : &accessors_[static_cast<std::size_t>(primitive.indices)];
     const auto mode = static_cast<file::Mode>(primitive.mode);
     std::size_t count = vertex_count;
@@ -135,9 +149,12 @@ std::vector<std::uint32_t> PrimitiveReader::triangle_indices(const file::Primiti
         if (source.buffer_view >= 0 && document_.file.buffer_views[static_cast<std::size_t>(source.buffer_view)].byte_stride != 0)
             document_.warn(fmt::format("bufferViews[{}].byteStride: expected none for indices, read with it", source.buffer_view));
     }
-    const std::size_t most = mode == file::Mode::triangles ? kMaxIndices : kMaxIndices / 3;
+    const std::size_t corners = corners_of(topology_of(mode));
+    const char* const what = corners == 3 ? "triangles" : corners == 2 ? "lines" : "points";
+    const bool is_list = mode == file::Mode::triangles || mode == file::Mode::lines || mode == file::Mode::points;
+    const std::size_t most = is_list ? kMaxIndices : kMaxIndices / corners;
     if (count > most) refuse(where, fmt::format("{} indices, the limit is {}", count, most), ErrorCode::limit);
-    document_.geometry.take(std::uint64_t{count} * (mode == file::Mode::triangles ? 4 : 12));
+    document_.geometry.take(std::uint64_t{count} * (is_list ? 4 : 4 * corners));
 
     std::vector<std::uint32_t> run(count);
     if (accessor == nullptr) {
@@ -155,23 +172,24 @@ std::vector<std::uint32_t> PrimitiveReader::triangle_indices(const file::Primiti
             run[i] = 0xFFFFFFFFu;
         }
     }
-    if (mode == file::Mode::triangles && count % 3 != 0) {
-        if (!document_.options.lenient) refuse(where, fmt::format("{} indices, expected a multiple of 3", count));
-        document_.warn(fmt::format("{}: {} indices are not a multiple of 3, the last ones left out", where, count));
-        run.resize(count - count % 3);
+    if (is_list && count % corners != 0) {
+        if (!document_.options.lenient && corners == 3) refuse(where, fmt::format("{} indices, expected a multiple of {}", count, corners));
+        document_.warn(fmt::format("{}: {} indices are not a multiple of {}, the last ones left out", where, count, corners));
+        run.resize(count - count % corners);
     }
-    std::vector<std::uint32_t> triangles = as_triangles(mode, std::move(run));
+    std::vector<std::uint32_t> list = as_list(mode, std::move(run));
     if (document_.options.lenient) {
         std::size_t kept = 0;
-        for (std::size_t i = 0; i < triangles.size(); i += 3) {
-            const bool good = triangles[i] < vertex_count && triangles[i + 1] < vertex_count && triangles[i + 2] < vertex_count;
-            for (std::size_t c = 0; good && c < 3; ++c) triangles[kept++] = triangles[i + c];
+        for (std::size_t i = 0; i < list.size(); i += corners) {
+            bool good = true;
+            for (std::size_t c = 0; c < corners; ++c) good &= list[i + c] < vertex_count;
+            for (std::size_t c = 0; good && c < corners; ++c) list[kept++] = list[i + c];
         }
-        if (kept != triangles.size())
-            document_.warn(fmt::format("{}: {} triangles with indices out of range left out", where, (triangles.size() - kept) / 3));
-        triangles.resize(kept);
+        if (kept != list.size())
+            document_.warn(fmt::format("{}: {} {} with indices out of range left out", where, (list.size() - kept) / corners, what));
+        list.resize(kept);
     }
-    return triangles;
+    return list;
 }
 
 /// Returns the file's vertices that the mesh needs. If there are more vertices than indices, these are only the ones in use, and the
@@ -235,10 +253,8 @@ std::optional<ReadMesh> PrimitiveReader::read(std::size_t mesh_index, std::size_
     out.where = fmt::format("meshes[{}].primitives[{}]", mesh_index, primitive_index);
     if (primitive.mode > static_cast<int>(file::Mode::triangle_fan))
         refuse(out.where + ".mode", fmt::format("expected 0 to 6, found {}", primitive.mode));
-    if (!file::draws_triangles(primitive)) {
-        if (document_.info.point_and_line_primitives++ == 0) first_left_out_ = out.where;
-        return std::nullopt;
-    }
+    const Topology topology = topology_of(static_cast<file::Mode>(primitive.mode));
+    if (topology != Topology::triangles) ++document_.info.point_and_line_primitives;
     const std::string list = out.where + ".attributes";
     const Accessor* position = attribute(list, primitive.attributes, kPosition, std::nullopt);
     if (position == nullptr) {
@@ -256,9 +272,13 @@ std::optional<ReadMesh> PrimitiveReader::read(std::size_t mesh_index, std::size_
     Mesh& mesh = out.source.mesh;
     mesh.name = document_.file.meshes[mesh_index].name;
     mesh.material = primitive.material;
-    mesh.indices = triangle_indices(primitive, out.where, count);
+    mesh.topology = topology;
+    mesh.indices = list_indices(primitive, out.where, count);
     if (mesh.indices.empty()) {
-        document_.warn(fmt::format("{}: has no triangles", out.where));
+        document_.warn(fmt::format("{}: has no {}", out.where,
+                                   topology == Topology::triangles ? "triangles"
+                                   : topology == Topology::lines   ? "lines"
+                                                                   : "points"));
         return std::nullopt;
     }
     out.source_vertices = gather_vertices(mesh.indices, count);

@@ -1,4 +1,4 @@
-// One glTF primitive as a mesh: indices of any kind become triangles, attributes of any type become floats.
+// One glTF primitive as a mesh: indices of any kind become lists of triangles, lines or points, attributes of any type become floats.
 #pragma once
 
 #include "apps/io/detail/gltf_accessor.hpp"
@@ -31,7 +31,7 @@ class PrimitiveReader {
 public:
     PrimitiveReader(Document& document, const std::vector<Accessor>& accessors);
 
-    /// Reads a primitive; empty if there is nothing to draw (points, lines, no positions, no triangles). morph_weights: targets with the
+    /// Reads a primitive; empty if there is nothing to draw (no positions, no triangles). morph_weights: targets with the
     /// weight 0 are not read; it may be empty.
     std::optional<ReadMesh> read(std::size_t mesh, std::size_t primitive, std::span<const double> morph_weights);
 
@@ -40,18 +40,15 @@ public:
     [[nodiscard]] const Accessor* attribute(const std::string& list, const file::Attributes& attributes, const AttributeRule& rule,
                                             std::optional<std::size_t> count);
 
-    [[nodiscard]] const std::string& first_left_out() const { return first_left_out_; }  ///< the first primitive of points or lines
-
 private:
     void warn_of_layout(const std::string& where, int accessor);
-    std::vector<std::uint32_t> triangle_indices(const file::Primitive& primitive, const std::string& where, std::size_t vertex_count);
+    std::vector<std::uint32_t> list_indices(const file::Primitive& primitive, const std::string& where, std::size_t vertex_count);
     std::vector<std::uint32_t> gather_vertices(std::vector<std::uint32_t>& indices, std::size_t vertex_count);
     void read_targets(const file::Primitive& primitive, std::size_t vertex_count, std::span<const double> weights, ReadMesh& out);
 
     Document& document_;
     const std::vector<Accessor>& accessors_;
     bool quantized_ = false;
-    std::string first_left_out_;
     std::unordered_map<std::size_t, int> attribute_of_view_;  // the first accessor of vertices in each bufferView
     std::vector<std::uint32_t> new_number_, stamp_of_;        // indexed by the file's vertex; a number is valid if its stamp is stamp_
     std::uint32_t stamp_ = 0;

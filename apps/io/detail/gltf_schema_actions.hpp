@@ -225,6 +225,13 @@ inline void put_attribute(F f, V value) {
     f.append(f.file.meshes.back().primitives.back().attributes, {f.key, static_cast<int>(value.number)});
 }
 
+inline void add_variant_material(F f, V) { f.append(f.file.meshes.back().primitives.back().variants); }
+
+template <auto Member>
+void put_variant_material(F f, V value) {
+    assign(f, f.file.meshes.back().primitives.back().variants.back().*Member, value);
+}
+
 inline void begin_draco(F f, V) {
     f.append(f.file.draco);
     f.file.meshes.back().primitives.back().draco = static_cast<int>(f.file.draco.size() - 1);

@@ -50,6 +50,7 @@ constexpr SchemaRow kRows[] = {
     {"extensionsRequired/#", string, put_file<&File::extensions_required>},
     {"scene", index, put_file<&File::scene>, Target::scenes},
     {"scenes/#", object, add<&File::scenes>, Target::scenes},
+    mild({"scenes/#/name", string, put<&File::scenes, &file::Scene::name>}),
     {"scenes/#/nodes/#", index, put<&File::scenes, &file::Scene::nodes>, Target::nodes},
 
     {"animations/#", object, add<&File::animations>, Target::animations, end_animation},
@@ -121,6 +122,13 @@ constexpr SchemaRow kRows[] = {
     {"meshes/#/primitives/#/indices", index, put_primitive<&file::Primitive::indices>, Target::accessors},
     {"meshes/#/primitives/#/material", index, put_primitive<&file::Primitive::material>, Target::materials},
     {"meshes/#/primitives/#/mode", code, put_primitive<&file::Primitive::mode>},
+    {"meshes/#/primitives/#/extensions/KHR_materials_variants/mappings!", array},
+    {"meshes/#/primitives/#/extensions/KHR_materials_variants/mappings/#", object, add_variant_material},
+    {"meshes/#/primitives/#/extensions/KHR_materials_variants/mappings/#/material!", index,
+     put_variant_material<&file::VariantMaterial::material>, Target::materials},
+    {"meshes/#/primitives/#/extensions/KHR_materials_variants/mappings/#/variants!", array},
+    {"meshes/#/primitives/#/extensions/KHR_materials_variants/mappings/#/variants/#", code,
+     put_variant_material<&file::VariantMaterial::variants>},
     {"meshes/#/primitives/#/extensions/KHR_draco_mesh_compression", object, begin_draco},
     {"meshes/#/primitives/#/extensions/KHR_draco_mesh_compression/bufferView!", index, put_draco_view, Target::buffer_views},
     {"meshes/#/primitives/#/extensions/KHR_draco_mesh_compression/attributes!", object},
@@ -144,6 +152,14 @@ constexpr SchemaRow kRows[] = {
     {"nodes/#/scale/#", number, put_transform<&GltfFiller::scale>},
     {"nodes/#/weights/#", number, put_run<&File::weights, &file::Node::weights>},
     {"nodes/#/extensions/KHR_lights_punctual/light!", index, put<&File::nodes, &file::Node::light>, Target::lights},
+    {"nodes/#/extensions/EXT_mesh_gpu_instancing", object,
+     [](F f, V) {
+         f.append(f.file.instancings);
+         f.file.nodes.back().instancing = static_cast<int>(f.file.instancings.size() - 1);
+     }},
+    {"nodes/#/extensions/EXT_mesh_gpu_instancing/attributes!", object},
+    {"nodes/#/extensions/EXT_mesh_gpu_instancing/attributes/*", index,
+     [](F f, V v) { f.append(f.file.instancings.back(), {f.key, static_cast<int>(v.number)}); }, Target::accessors},
     {"nodes/#/extensions/KHR_node_visibility/visible", boolean, [](F f, V v) { f.file.nodes.back().visible = v.truth ? 1 : 0; }},
 
     {"skins/#", object, add<&File::skins>, Target::skins},
@@ -181,6 +197,14 @@ constexpr SchemaRow kRows[] = {
      }},
     within(0, kHalfPi, {"extensions/KHR_lights_punctual/lights/#/spot/innerConeAngle", number, put_light<&file::Light::inner_cone_angle>}),
     restricted({"extensions/KHR_lights_punctual/lights/#/spot/outerConeAngle", number, put_light<&file::Light::outer_cone_angle>}, kCone),
+
+    {"extensions/KHR_lights_punctual/lights/#/extras", open},
+    {.path = "extensions/KHR_lights_punctual/lights/#/extras/halflit", .rule = object, .closed = true},
+    at_least(0, {"extensions/KHR_lights_punctual/lights/#/extras/halflit/size", number, put_light<&file::Light::size>}),
+
+    {"extensions/KHR_materials_variants/variants!", array},
+    {"extensions/KHR_materials_variants/variants/#", object, [](F f, V) { f.append(f.file.variants); }},
+    {"extensions/KHR_materials_variants/variants/#/name!", string, [](F f, V v) { f.file.variants.back() = f.keep(v); }},
 
     {"images/#", object, add<&File::images>, Target::images},
     {"images/#/uri", string, put<&File::images, &file::Image::uri>},

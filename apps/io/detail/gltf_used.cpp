@@ -73,6 +73,9 @@ private:
             has_own_weights_[index] = true;
             follow_targets(index, mesh.weights);
         }
+        if (node.instancing >= 0)
+            for (const auto& [name, value] : file_.instancings[static_cast<std::size_t>(node.instancing)])
+                if (name == "TRANSLATION" || name == "ROTATION" || name == "SCALE") accessor(value);
         if (node.skin < 0) return;
         if (mark(Target::skins, node.skin)) accessor(file_.skins[static_cast<std::size_t>(node.skin)].inverse_bind_matrices);
         if (skinned_[index]) return;
@@ -88,7 +91,6 @@ private:
     }
 
     void follow(const file::Primitive& primitive) {
-        if (!file::draws_triangles(primitive)) return;
         for (const auto& [name, value] : primitive.attributes)
             if (file::is_drawn(name)) accessor(value, !is_in_draco(primitive, name));
         accessor(primitive.indices, primitive.draco < 0);

@@ -24,7 +24,7 @@ constexpr std::string_view kSupportedExtensions[] = {
     "KHR_lights_punctual",    "KHR_materials_unlit",     "KHR_texture_transform",      "KHR_materials_emissive_strength",
     "KHR_materials_ior",      "KHR_mesh_quantization",   "KHR_materials_transmission", "KHR_materials_volume",
     "KHR_materials_specular", "KHR_materials_clearcoat", "KHR_materials_sheen",        "KHR_materials_pbrSpecularGlossiness",
-    "KHR_animation_pointer",  "KHR_node_visibility"};
+    "KHR_animation_pointer",  "KHR_node_visibility",     "KHR_materials_variants",     "EXT_mesh_gpu_instancing"};
 
 /// "2.0" as {2, 0}.
 std::optional<std::pair<int, int>> parse_version(std::string_view text) {
@@ -68,7 +68,6 @@ struct LeftOut {
 /// Extensions whose data are ignored, and what the picture lacks for it.
 constexpr LeftOut kLeftOut[] = {
     {"EXT_lights_image_based", "its environment is left out"},
-    {"EXT_mesh_gpu_instancing", "its instances are left out"},
     {"EXT_mesh_manifold", "nothing is left out of the picture"},
     {"EXT_meshopt_compression", "the data without compression are drawn"},
     {"EXT_texture_avif", "the pictures of other formats are drawn"},
@@ -79,7 +78,6 @@ constexpr LeftOut kLeftOut[] = {
     {"KHR_materials_diffuse_transmission", "light does not pass through"},
     {"KHR_materials_dispersion", "light is not split"},
     {"KHR_materials_iridescence", "the thin film is left out"},
-    {"KHR_materials_variants", "the materials without a variant are drawn"},
     {"KHR_texture_basisu", "the pictures of other formats are drawn"},
     {"KHR_xmp_json_ld", "nothing is left out of the picture"},
     {"MSFT_lod", "the finest level is drawn"},

@@ -47,7 +47,11 @@ std::vector<Affine> instance_transforms(const NodeTree& tree, const LoadedScene&
     std::vector<Affine> out;
     for (const Instance& instance : loaded.scene.instances) out.push_back(to_affine(instance.world_from_object));
     for (std::size_t n = 0; n < loaded.nodes.size(); ++n)
-        for (const int i : loaded.nodes[n].instances) out[static_cast<std::size_t>(i)] = tree.world_from_node[n];
+        for (std::size_t k = 0; k < loaded.nodes[n].instances.size(); ++k) {
+            const std::vector<NodeTransform>& placings = loaded.nodes[n].node_from_instance;
+            const Affine& world = tree.world_from_node[n];
+            out[static_cast<std::size_t>(loaded.nodes[n].instances[k])] = placings.empty() ? world : world * to_affine(placings[k]);
+        }
     return out;
 }
 

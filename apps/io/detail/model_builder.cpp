@@ -138,12 +138,17 @@ std::vector<PartMesh> ModelBuilder::add_meshes(Soup&& soup, std::span<const std:
                 generate_tangents(mesh, 0);
             }
         }
-        document_->info.vertices += mesh.positions.size();
-        document_->info.triangles_stored += mesh.indices.size() / 3;
-        all.push_back({made.part, static_cast<int>(scene.meshes.size())});
-        scene.meshes.push_back(std::move(mesh));
+        all.push_back({made.part, add_mesh(std::move(mesh))});
     }
     return all;
+}
+
+int ModelBuilder::add_mesh(Mesh mesh) {
+    document_->info.vertices += mesh.positions.size();
+    document_->info.triangles_stored += triangles_of(mesh);
+    if (mesh.topology != Topology::triangles) ++document_->info.point_and_line_primitives;
+    loaded_.scene.meshes.push_back(std::move(mesh));
+    return static_cast<int>(loaded_.scene.meshes.size()) - 1;
 }
 
 void ModelBuilder::place_alone(Soup&& soup, std::span<const int> material_of) {
@@ -163,7 +168,7 @@ void ModelBuilder::place(std::span<const int> meshes, const std::string& name, c
     for (const int mesh : meshes) {
         node.instances.push_back(static_cast<int>(loaded_.scene.instances.size()));
         loaded_.scene.instances.push_back({mesh, {}});
-        document_->info.triangles_drawn += loaded_.scene.meshes[static_cast<std::size_t>(mesh)].indices.size() / 3;
+        document_->info.triangles_drawn += triangles_of(loaded_.scene.meshes[static_cast<std::size_t>(mesh)]);
     }
     loaded_.nodes.push_back(std::move(node));
     local_.push_back(root_from_node);

@@ -64,6 +64,8 @@ public:
 
     /// Makes the scene's meshes of a soup, in order. name_of, material_of: of each part.
     std::vector<PartMesh> add_meshes(Soup&& soup, std::span<const std::string> name_of, std::span<const int> material_of);
+    /// Adds a mesh that is complete. Returns its index.
+    int add_mesh(Mesh mesh);
     /// Adds and places the meshes of a soup that is one object.
     void place_alone(Soup&& soup, std::span<const int> material_of);
     /// Places meshes by a node under the root.

@@ -4,11 +4,13 @@
 #include "apps/io/detail/ply_values.hpp"
 #include "apps/io/detail/polygon.hpp"
 #include "apps/io/text.hpp"
+#include "shading/model/numbers.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 namespace halflit::io::detail {
 
@@ -80,8 +82,7 @@ public:
     void read() {
         const auto named = [](std::string_view name) { return [name](const PlyElement& e) { return e.name == name && e.count > 0; }; };
         const auto has = [&](std::string_view name) { return std::any_of(header_.elements.begin(), header_.elements.end(), named(name)); };
-        if (has("vertex") && !has("face") && !has("tristrips"))
-            refuse("", "it is a point cloud: it has vertices but no faces, and points are not drawn");
+        is_cloud_ = has("vertex") && !has("face") && !has("tristrips");
         for (const PlyElement& element : header_.elements) {
             if (element.properties.empty()) continue;
             values_.check_count(element);
@@ -94,6 +95,10 @@ public:
     }
 
     void finish() {
+        if (is_cloud_) {
+            finish_cloud();
+            return;
+        }
         std::vector<int> materials;
         const bool is_textured = !header_.textures.empty() && (vertex_has_uv_ || !soup_.uv_of.empty());
         if (is_textured) {
@@ -118,6 +123,36 @@ public:
 
 private:
     using Row = std::array<double, kSlots + 1>;
+
+    /// Vertices without faces are points. Those without normals are not lit.
+    void finish_cloud() {
+        Mesh mesh;
+        mesh.topology = Topology::points;
+        builder_.take_entries<std::uint32_t>(soup_.positions.size());
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < soup_.positions.size(); ++i) {
+            if (!shading::finite(soup_.positions[i])) continue;
+            soup_.positions[kept] = soup_.positions[i];
+            if (!soup_.normals.empty()) soup_.normals[kept] = soup_.normals[i];
+            if (!soup_.colors.empty()) soup_.colors[kept] = soup_.colors[i];
+            ++kept;
+        }
+        if (const std::size_t lost = soup_.positions.size() - kept; lost > 0)
+            builder_.document().warn(fmt::format("{} points with coordinates that are not finite are left out", lost));
+        soup_.positions.resize(kept);
+        if (!soup_.normals.empty()) soup_.normals.resize(kept);
+        if (!soup_.colors.empty()) soup_.colors.resize(kept);
+        if (kept == 0) return;
+        mesh.positions = std::move(soup_.positions);
+        mesh.normals = std::move(soup_.normals);
+        mesh.colors = std::move(soup_.colors);
+        mesh.indices.resize(mesh.positions.size());
+        std::iota(mesh.indices.begin(), mesh.indices.end(), 0u);
+        mesh.material = mesh.colors.empty() ? builder_.grey_material() : builder_.colored_material();
+        if (mesh.normals.empty()) builder_.loaded().scene.materials[static_cast<std::size_t>(mesh.material)].unlit = true;
+        const int index = builder_.add_mesh(std::move(mesh));
+        builder_.place({&index, 1}, "");
+    }
 
     /// Reads an element's values: scalars into `row`, known lists into lists_. Others are skipped.
     void read_row(const PlyElement& element, const Layout& layout, Row& row) {
@@ -251,6 +286,7 @@ private:
     std::vector<std::uint32_t> corners_, triangles_;
     std::vector<Vec3f> points_;
     std::size_t bad_indices_ = 0;
+    bool is_cloud_ = false;
 };
 
 }  // namespace

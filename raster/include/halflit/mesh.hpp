@@ -1,14 +1,25 @@
-// Triangles and their vertices, in object space. One mesh has one material (a glTF primitive becomes a mesh).
+// Triangles, lines or points and their vertices, in object space. One mesh has one material (a glTF primitive becomes a mesh).
 #pragma once
 
 #include "halflit/export.hpp"
 #include "halflit/math.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace halflit {
+
+/// Primitives that a mesh is made of. Lines and points are drawn as quads that face the screen: a line as a rectangle of
+/// Settings::line_width pixels around it, without caps, a point as a square of Settings::point_size pixels. They are seen from all sides,
+/// hide each other and triangles by depth, receive shadows and cast none.
+enum class Topology : std::uint8_t { triangles, lines, points };
+
+/// Entries of Mesh::indices for each primitive.
+[[nodiscard]] constexpr std::size_t corners_of(Topology topology) {
+    return topology == Topology::triangles ? 3 : topology == Topology::lines ? 2 : 1;
+}
 
 /// Counter-clockwise triangles are front faces. Attribute arrays are empty or as long as `positions`.
 struct Mesh {
@@ -19,9 +30,16 @@ struct Mesh {
     std::vector<Vec4f> tangents;   ///< xyz any length > 0, w = +1 or -1: bitangent = cross(normal, tangent) * w
     std::vector<Vec2f> uv0, uv1;   ///< v points down: v = 0 is the first row of the texture
     std::vector<Vec4f> colors;     ///< linear RGBA
-    std::vector<std::uint32_t> indices;  ///< three per triangle, each < positions.size()
+    std::vector<std::uint32_t> indices;  ///< three per triangle, two per line, one per point; each < positions.size()
     int material = -1;                   ///< index into Scene::materials; -1: the default material
+    /// Lit lines and points need normals as triangles do; those without should have an unlit material.
+    Topology topology = Topology::triangles;
 };
+
+/// Number of triangles; 0 for lines and points.
+[[nodiscard]] inline std::size_t triangles_of(const Mesh& mesh) {
+    return mesh.topology == Topology::triangles ? mesh.indices.size() / 3 : 0;
+}
 
 /// A mesh placed in the world.
 struct Instance {
@@ -43,7 +61,7 @@ struct Bounds {
 
 /// Gives each triangle three vertices of its own, with the triangle's normal; the counter-clockwise side is outside. No vertex is shared
 /// afterwards, and index i is i. Other attributes are copied. Tangents are removed, because they belong to other normals. A triangle that
-/// has no area or is not finite gets (0, 0, 1). Requires: indices in range.
+/// has no area or is not finite gets (0, 0, 1). Requires: indices in range. Lines and points are left as they are, here and below.
 HALFLIT_API void generate_flat_normals(Mesh& mesh);
 
 /// Fills mesh.tangents from positions, normals and a set of texture coordinates (0 or 1, v down); the mesh must have all three, and indices

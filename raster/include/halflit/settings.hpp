@@ -30,6 +30,8 @@ struct Settings {
     /// Applied to the light of each sample, after exposure and before codes. Target::linear and background_linear do without it.
     ToneCurve tone_curve = kDefaultToneCurve;
     ShadingSettings shading{};  ///< light and textures
+    float point_size = 2.0f;    ///< side of points, pixels, 1/16 to 256; rounded to 1/256
+    float line_width = 1.5f;    ///< width of lines, likewise
     /// Effect of shadows on wrapped light; off: no shadow maps are drawn.
     ShadowMode shadows = ShadowMode::soft_split;
     int shadow_size = 2048;  ///< texels on a side of a shadow map, a power of two from 64 to 4096; a cube's faces have half

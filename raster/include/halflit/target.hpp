@@ -36,7 +36,7 @@ struct Target {
     /// around. Normal maps do not count. 0 where nothing is, or where the mesh has no normals.
     float* normal = nullptr;
     std::uint32_t* instance = nullptr;  ///< index into Scene::instances, plus 1; 0 where nothing is
-    std::uint32_t* triangle = nullptr;  ///< number of the triangle in the instance's mesh, plus 1; 0 where nothing is
+    std::uint32_t* triangle = nullptr;  ///< number of the triangle, line or point in its mesh, plus 1; 0: nothing
     std::size_t depth_row_bytes = 0, normal_row_bytes = 0, instance_row_bytes = 0, triangle_row_bytes = 0;  ///< strides of these planes
 
     /// The triangle that the first sample shows, at the point where it is shaded: the pixel's centre, or a point of the triangle beside it

@@ -79,6 +79,8 @@ typedef struct halflit_load_options {
     double time_s;         ///< time of the pose, seconds; before an animation's first key and after its last one, these are drawn
     int32_t turn_upright;  ///< turn STL and 3MF files, whose z points up, so that y does; by default on
     float crease_deg;      ///< STL, PLY, OBJ, 3MF without normals: smooth across edges up to this angle; by default 30
+    const char* scene;     ///< scene of the file: its name, or else its index; null or empty: the one that the file names, or the first
+    const char* variant;   ///< variant of the file's materials, by name; null or empty: the materials without a variant
 } halflit_load_options;
 HALFLIT_C_API int32_t halflit_load_options_init(halflit_load_options* options, size_t size);
 
@@ -223,7 +225,11 @@ HALFLIT_C_API int32_t halflit_scene_set_material(halflit_scene* scene, int32_t i
 
 // ---- meshes and instances ----------------------------------------------------------------------------------------------
 
-/// Triangles. Counter-clockwise ones are front faces. Arrays but positions may be null; all have vertex_count elements.
+/// Primitives of a mesh. Lines and points are quads that face the screen; they receive shadows and cast none.
+enum { HALFLIT_TOPOLOGY_TRIANGLES = 0, HALFLIT_TOPOLOGY_LINES = 1, HALFLIT_TOPOLOGY_POINTS = 2 };
+
+/// Triangles, lines or points. Counter-clockwise triangles are front faces. Lines and points without normals should have an unlit material.
+/// Arrays but positions may be null; all have vertex_count elements.
 typedef struct halflit_mesh {
     size_t size;
     const char* name;         ///< may be null
@@ -233,11 +239,11 @@ typedef struct halflit_mesh {
     const float* uv0;         ///< 2 floats each; v points down: v = 0 is the first row of a texture
     const float* uv1;         ///< 2 floats each
     const float* colors;      ///< 4 floats each: linear, with alpha
-    const uint32_t* indices;  ///< 3 for each triangle; null: vertices 0 1 2, 3 4 5 and so on
+    const uint32_t* indices;  ///< 3 for each triangle, 2 for each line, 1 for each point; null: 0 1 2 3 and so on
     size_t vertex_count;      ///< elements of each array
-    size_t index_count;       ///< 3 for each triangle; 0 without indices
+    size_t index_count;       ///< elements of indices; 0 without
     int32_t material;         ///< index; -1: the default material, white and rough
-    int32_t reserved;
+    int32_t topology;         ///< HALFLIT_TOPOLOGY (triangles)
 } halflit_mesh;
 HALFLIT_C_API int32_t halflit_mesh_init(halflit_mesh* mesh, size_t size);
 
@@ -394,6 +400,8 @@ typedef struct halflit_settings {
     int32_t anisotropy;                ///< largest ratio of a texture's footprint that is filtered along its length, 1 to 16 (1)
     int32_t soft_shadow_maps;          ///< points of a light with a shadow_radius, each with maps of half that side: 4 to 64 (16)
     int32_t reserved;
+    float point_size;  ///< side of points, pixels, 1/16 to 256 (2)
+    float line_width;  ///< width of lines, likewise (1.5)
 } halflit_settings;
 HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t size);
 

@@ -51,6 +51,12 @@ struct LoadOptions {
     /// it. LoadedScene::origin and scale say what was done. pose() places nodes in the file's own world, so a host that poses such a scene
     /// leaves this off.
     bool recentre = false;
+    /// Scene of the file: its name, or else its index in the file; empty: the file's default scene, or else its first. One that the file
+    /// does not have is an error (usage).
+    std::string scene;
+    /// Variant of the file's materials (KHR_materials_variants), by name; empty: the materials without a variant. One that the file does
+    /// not have is an error (usage).
+    std::string variant;
     /// Animation that poses the scene: its name, or else its index in the file; empty: the first one, if the file has any; "none": the pose
     /// of the nodes, without animation. A name or an index that the file does not have is an error (usage).
     std::string animation;
@@ -88,10 +94,13 @@ struct SceneInfo {
                 lights = 0;
     std::size_t scenes = 0, morph_targets = 0;
     /// @}
-    std::size_t point_and_line_primitives = 0;  ///< primitives of the drawn nodes that are left out
+    std::size_t point_and_line_primitives = 0;  ///< primitives of the drawn nodes that are points or lines
     std::uint64_t triangles_stored = 0;         ///< triangles of the meshes that are drawn, each once
     std::uint64_t triangles_drawn = 0;          ///< triangles over all instances
     std::uint64_t vertices = 0;                 ///< vertices after splitting for flat normals and tangents
+    std::vector<std::string> scene_names;       ///< of all scenes in the file, by their numbers in it; may be empty
+    int scene = -1;                             ///< the scene that is drawn; -1: the file has none, all nodes are drawn
+    std::vector<std::string> variants;          ///< names of KHR_materials_variants
     std::vector<std::string> files;             ///< where files may lie that the model refers to, drawn or not, there or not
     /// Names, as the file lists them.
     std::vector<std::string> extensions_used;
@@ -116,12 +125,14 @@ struct Node {
     int parent = -1;                 ///< index into LoadedScene::nodes; -1: none
     NodeTransform parent_from_node;  ///< for pose()
     std::vector<int> instances;      ///< indices into Scene::instances, one for each primitive of its mesh; skinned ones are left out
-    int camera = -1, light = -1;     ///< indices into Scene::cameras and Scene::lights; -1: none
+    /// EXT_mesh_gpu_instancing: the transform of each of `instances` to the node; empty: all are the identity.
+    std::vector<NodeTransform> node_from_instance;
+    int camera = -1, light = -1;  ///< indices into Scene::cameras and Scene::lights; -1: none
 };
 
 /// A file's scene, its nodes, and the loader's warnings and counts.
 struct LoadedScene {
-    Scene scene;                            ///< the file's default scene, or else its first
+    Scene scene;                            ///< the scene that LoadOptions::scene chooses
     std::vector<Node> nodes;                ///< all nodes of the file, by their numbers in it, in the pose that was loaded
     std::vector<AnimationInfo> animations;  ///< all animations of the file, by their numbers in it
     int animation = -1;                     ///< the animation that poses the scene; -1: none

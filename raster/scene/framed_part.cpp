@@ -1,0 +1,240 @@
+#include "raster/scene/framed_part.hpp"
+
+#include "raster/detail/view_math.hpp"
+#include "raster/scene/placed_box.hpp"
+#include "raster/scene/shadow_catcher.hpp"
+#include "raster/scene/used_vertices.hpp"
+#include "sh/mat4.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <set>
+#include <tuple>
+
+namespace halflit::raster {
+namespace {
+
+constexpr double kLeastShare = 1.0 / 16.0;  ///< of the whole's radius, below which the rest is looked at closely
+constexpr std::size_t kStrayShare = 1000;   ///< one in so many vertices may be left out
+constexpr double kFlat = 0.01;              ///< height of a ground over its width
+constexpr int kBins = 256, kMostRounds = 8;
+
+/// A box in double; empty while low > high.
+struct WideBox {
+    double low[3] = {1e300, 1e300, 1e300}, high[3] = {-1e300, -1e300, -1e300};
+    void add(const WideBox& other) {
+        for (int k = 0; k < 3; ++k) {
+            low[k] = std::min(low[k], other.low[k]);
+            high[k] = std::max(high[k], other.high[k]);
+        }
+    }
+    [[nodiscard]] bool empty() const { return low[0] > high[0]; }
+    [[nodiscard]] double radius() const {
+        const double x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
+        return empty() ? 0.0 : 0.5 * __builtin_sqrt((x * x + y * y) + z * z);
+    }
+    [[nodiscard]] WideBox widened(double by) const {
+        WideBox out = *this;
+        for (int k = 0; k < 3; ++k) out.low[k] -= by, out.high[k] += by;
+        return out;
+    }
+    [[nodiscard]] bool holds(const WideBox& other) const {
+        bool inside = true;
+        for (int k = 0; k < 3; ++k) inside &= other.low[k] >= low[k] && other.high[k] <= high[k];
+        return inside;
+    }
+};
+
+WideBox box_at(Vec3f p) { return {{p.x, p.y, p.z}, {p.x, p.y, p.z}}; }
+
+/// Finds a box that holds all but a little of the weight, in which the items lie closely together. each(visit) calls visit(box, weight) for
+/// each item. Returns nothing if there is none below kLeastShare of the whole's radius. Outliers at very different distances need rounds: a
+/// bin of the farthest one's may hold all others.
+template <class Each>
+std::optional<WideBox> closest_box(const Each& each, std::uint64_t allowed) {
+    WideBox kept;
+    each([&](const WideBox& box, std::uint64_t) { kept.add(box); });
+    const double whole = kept.radius();
+    bool found = false;
+    for (int round = 0; round < kMostRounds; ++round) {
+        std::array<std::array<std::uint64_t, kBins>, 3> first{}, last{};
+        const auto bin = [&](double at, int k) {
+            const double width = kept.high[k] - kept.low[k];
+            return width > 0.0 ? std::clamp(static_cast<int>((at - kept.low[k]) / width * kBins), 0, kBins - 1) : 0;
+        };
+        std::uint64_t outside = 0;
+        each([&](const WideBox& box, std::uint64_t weight) {
+            if (!kept.holds(box)) {
+                outside += weight;
+                return;
+            }
+            for (int k = 0; k < 3; ++k) {
+                const auto axis = static_cast<std::size_t>(k);
+                first[axis][static_cast<std::size_t>(bin(box.low[k], k))] += weight;
+                last[axis][static_cast<std::size_t>(bin(box.high[k], k))] += weight;
+            }
+        });
+        if (outside > allowed) return std::nullopt;
+        const std::uint64_t left = allowed - outside;
+        WideBox trimmed;
+        for (int k = 0; k < 3; ++k) {
+            const auto axis = static_cast<std::size_t>(k);
+            const double step = (kept.high[k] - kept.low[k]) / kBins;
+            std::size_t low = 0, high = kBins - 1;
+            for (std::uint64_t sum = first[axis][0]; sum <= left && low + 1 < kBins; sum += first[axis][low]) ++low;
+            for (std::uint64_t sum = last[axis][kBins - 1]; sum <= left && high > 0; sum += last[axis][high]) --high;
+            trimmed.low[k] = low == 0 ? kept.low[k] : kept.low[k] + step * (static_cast<double>(low) - 1e-6);
+            trimmed.high[k] = high == kBins - 1 ? kept.high[k] : kept.low[k] + step * (static_cast<double>(high + 1) + 1e-6);
+            if (trimmed.low[k] > trimmed.high[k]) return found ? std::optional(kept) : std::nullopt;
+        }
+        std::uint64_t left_out = 0;
+        const auto around_items_in = [&](const WideBox& outer) {
+            WideBox box;
+            left_out = 0;
+            each([&](const WideBox& item, std::uint64_t weight) {
+                if (outer.holds(item))
+                    box.add(item);
+                else
+                    left_out += weight;
+            });
+            return box;
+        };
+        WideBox inside = around_items_in(trimmed);
+        if (inside.empty() || !(inside.radius() < kLeastShare * kept.radius())) break;
+        // Trimming cuts off what is outermost, stray or not. What lies near the box belongs to it.
+        for (int k = 0; k < kMostRounds; ++k) {
+            const WideBox grown = around_items_in(inside.widened(inside.radius()));
+            if (inside.holds(grown)) break;
+            inside = grown;
+        }
+        if (left_out > allowed || !(inside.radius() < kLeastShare * kept.radius())) break;
+        kept = inside;
+        found = true;
+    }
+    return found && kept.radius() < kLeastShare * whole ? std::optional(kept) : std::nullopt;
+}
+
+FramedVertices framed_vertices(const Mesh& mesh, bool& whole) {
+    const std::vector<bool> used = used_vertices(mesh);
+    FramedVertices out;
+    std::uint64_t finite_count = 0;
+    for (std::uint32_t v = 0; v < used.size(); ++v) {
+        if (!used[v]) continue;
+        out.vertices.push_back(v);
+        out.bounds.add(mesh.positions[v]);
+        finite_count += finite(mesh.positions[v]) ? 1 : 0;
+    }
+    if (finite_count < 8 || !(out.bounds.radius() > 0.0f)) return out;
+    const auto each = [&](const auto& visit) {
+        for (const std::uint32_t v : out.vertices)
+            if (finite(mesh.positions[v])) visit(box_at(mesh.positions[v]), std::uint64_t{1});
+    };
+    // A position may be that of several vertices, one for each triangle at a corner.
+    const std::uint64_t positions = std::max<std::uint64_t>(1, finite_count / kStrayShare),
+                        most = std::max<std::uint64_t>(finite_count / 3, 1);
+    const auto box = closest_box(each, std::min(most, 64 * positions));
+    if (!box) return out;
+    std::set<std::tuple<float, float, float>> strays;
+    FramedVertices kept;
+    for (const std::uint32_t v : out.vertices) {
+        const Vec3f p = mesh.positions[v];
+        if (finite(p) && !box->holds(box_at(p))) {
+            strays.emplace(p.x, p.y, p.z);
+            if (strays.size() > positions) return out;
+            continue;
+        }
+        kept.vertices.push_back(v);
+        kept.bounds.add(p);
+    }
+    whole = false;
+    return kept;
+}
+
+/// An instance: its box, the number of its vertices, and that of its triangles.
+struct Placed {
+    int instance;
+    WideBox box;
+    std::uint64_t vertices, triangles;
+};
+
+WideBox box_of(const std::vector<Placed>& placed, std::size_t without) {
+    WideBox box;
+    for (std::size_t i = 0; i < placed.size(); ++i)
+        if (i != without) box.add(placed[i].box);
+    return box;
+}
+
+bool is_ground(const Placed& ground, const WideBox& rest, std::uint64_t rest_triangles) {
+    const double width = std::max(ground.box.high[0] - ground.box.low[0], ground.box.high[2] - ground.box.low[2]);
+    return !rest.empty() && ground.box.high[1] - ground.box.low[1] <= kFlat * width && ground.triangles < rest_triangles &&
+           ground.box.high[1] <= 0.5 * (rest.low[1] + rest.high[1]);
+}
+
+/// Leaves out grounds, the largest first.
+void leave_out_grounds(std::vector<Placed>& placed) {
+    while (placed.size() > 1) {
+        const double whole = box_of(placed, placed.size()).radius();
+        std::size_t largest = 0;
+        std::uint64_t triangles = 0;
+        for (std::size_t i = 0; i < placed.size(); ++i) {
+            triangles += placed[i].triangles;
+            if (placed[i].box.radius() > placed[largest].box.radius()) largest = i;
+        }
+        const WideBox rest = box_of(placed, largest);
+        if (!(rest.radius() < kLeastShare * whole) || !is_ground(placed[largest], rest, triangles - placed[largest].triangles)) return;
+        placed.erase(placed.begin() + static_cast<std::ptrdiff_t>(largest));
+    }
+}
+
+void leave_out_strays(std::vector<Placed>& placed) {
+    std::uint64_t vertices = 0;
+    for (const Placed& one : placed) vertices += one.vertices;
+    if (placed.size() < 2 || vertices < 24) return;
+    const auto each = [&](const auto& visit) {
+        for (const Placed& one : placed) visit(one.box, one.vertices);
+    };
+    if (const auto box = closest_box(each, std::max<std::uint64_t>(3, vertices / kStrayShare)))
+        std::erase_if(placed, [&](const Placed& one) { return !box->holds(one.box); });
+}
+
+}  // namespace
+
+FramedPart framed_part(const Scene& scene) {
+    FramedPart part;
+    part.meshes.resize(scene.meshes.size());
+    std::vector<bool> read(scene.meshes.size(), false);
+    std::vector<Placed> placed;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        if (instance.mesh < 0 || static_cast<std::size_t>(instance.mesh) >= scene.meshes.size()) continue;
+        if (catches_shadows(scene, instance)) continue;
+        const auto m = static_cast<std::size_t>(instance.mesh);
+        if (!read[m]) part.meshes[m] = framed_vertices(scene.meshes[m], part.whole);
+        read[m] = true;
+        const Bounds& bounds = part.meshes[m].bounds;
+        if (bounds.empty) continue;
+        const PlacedBox box({bounds.min.x, bounds.min.y, bounds.min.z}, {bounds.max.x, bounds.max.y, bounds.max.z},
+                            instance.world_from_object);
+        Placed& one = placed.emplace_back(Placed{static_cast<int>(i), {}, part.meshes[m].vertices.size(), triangles_of(scene.meshes[m])});
+        for (int k = 0; k < 3; ++k) {
+            one.box.low[k] = box.low[k];
+            one.box.high[k] = box.high[k];
+        }
+    }
+    const std::size_t all = placed.size();
+    leave_out_strays(placed);
+    leave_out_grounds(placed);
+    part.whole &= placed.size() == all;
+    for (const Placed& one : placed) part.instances.push_back(one.instance);
+    if (part.whole) return part;
+    for (const Placed& one : placed) {
+        const Instance& instance = scene.instances[static_cast<std::size_t>(one.instance)];
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        for (const std::uint32_t v : part.meshes[static_cast<std::size_t>(instance.mesh)].vertices)
+            part.bounds.add(transform_point(instance.world_from_object, mesh.positions[v]));
+    }
+    return part;
+}
+
+}  // namespace halflit::raster
