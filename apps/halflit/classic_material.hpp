@@ -14,6 +14,8 @@ struct ClassicMaterial {
     std::optional<float> diffuse;   ///< kd in [0, 1], times the base colour
     std::optional<float> specular;  ///< ks in [0, 1]: F0
     std::optional<float> exponent;  ///< s of Blinn's (N.H)^s, in [0, kMaxShininess]; Phong's (R.V)^(s/4) has it too
+    /// Something is given.
+    [[nodiscard]] bool any() const { return diffuse || specular || exponent; }
 };
 
 /// Replaces what is given in all materials but unlit ones, and makes them non-metallic. Nothing given: changes nothing.

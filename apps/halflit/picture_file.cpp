@@ -22,21 +22,6 @@
 namespace halflit::cli {
 namespace {
 
-/// Refuses to overwrite a file that the scene refers to, such as a texture that has the picture's name. If the report would, it is not
-/// written at all: its path is cleared.
-Result<void> spare_inputs(PictureOptions& options, const RenderJob& job) {
-    if (!job.source.file) return {};
-    std::vector<std::string> paths = options.pictures();
-    paths.push_back(options.report);
-    for (const std::string& path : paths)
-        for (const std::string& input : job.source.file->files)
-            if (path != "-" && !path.empty() && same_file(path, input)) {
-                if (path == options.report) options.report.clear();
-                return fail(ErrorCode::io, path + ": the scene refers to it, and it is not overwritten");
-            }
-    return {};
-}
-
 /// These formats have no alpha.
 void warn_of_lost_transparency(const PictureOptions& options, OutputFormat format) {
     const Settings& settings = options.settings;
@@ -132,6 +117,19 @@ Result<PictureFile> drawn_and_encoded(PictureOptions& options, const PictureDraw
 }
 
 }  // namespace
+
+Result<void> spare_inputs(PictureOptions& options, const RenderJob& job) {
+    if (!job.source.file) return {};
+    std::vector<std::string> paths = options.pictures();
+    paths.push_back(options.report);
+    for (const std::string& path : paths)
+        for (const std::string& input : job.source.file->files)
+            if (path != "-" && !path.empty() && same_file(path, input)) {
+                if (path == options.report) options.report.clear();
+                return fail(ErrorCode::io, path + ": the scene refers to it, and it is not overwritten");
+            }
+    return {};
+}
 
 std::vector<std::string> PictureOptions::pictures() const {
     std::vector<std::string> paths{output};

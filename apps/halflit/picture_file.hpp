@@ -17,6 +17,8 @@ namespace halflit::cli {
 /// Extensions of formats, indexed by OutputFormat.
 inline constexpr std::string_view kFormatNames[] = {"png", "bmp", "tga", "jpg", "hdr", "pfm", "exr"};
 
+struct RenderJob;
+
 struct PictureOptions : RenderOptions {
     std::string output;                  ///< empty: named after the scene
     std::string report;                  ///< empty: none
@@ -40,8 +42,9 @@ struct PictureFile {
     std::string output;
     std::vector<std::uint8_t> bytes;
     std::vector<AovFile> beside;
-    std::string report;  ///< JSON, of one line where many pictures are drawn
-    bool blank = false;  ///< nothing is seen; false without PictureOptions::blank_check
+    std::string report;                   ///< JSON, of one line where many pictures are drawn
+    bool blank = false;                   ///< nothing is seen; false without PictureOptions::blank_check
+    std::optional<std::int64_t> frame{};  ///< its number in a moving picture
 };
 
 /// Who draws, and how much of it is told.
@@ -49,6 +52,10 @@ struct PictureDrawer {
     Renderer* renderer = nullptr;  ///< null: one that is gone before the picture is encoded, with its memory
     bool one_of_many = false;      ///< no progress line, and reports of one line
 };
+
+/// Refuses to overwrite a file that the scene refers to, such as a texture that has the picture's name. If the report would, it is not
+/// written at all: its path is cleared.
+[[nodiscard]] Result<void> spare_inputs(PictureOptions& options, const RenderJob& job);
 
 /// Draws and encodes. Warnings are printed. `options.report` is cleared where it would overwrite a file that the scene refers to.
 [[nodiscard]] Result<PictureFile> draw_picture(PictureOptions& options, const PictureDrawer& drawer = {});

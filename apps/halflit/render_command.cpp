@@ -5,6 +5,7 @@
 #include "apps/halflit/interrupt.hpp"
 #include "apps/halflit/messages.hpp"
 #include "apps/halflit/picture_file.hpp"
+#include "apps/halflit/render_film.hpp"
 #include "apps/halflit/render_many.hpp"
 #include "apps/halflit/run_report.hpp"
 #include "apps/halflit/scene_source.hpp"
@@ -78,13 +79,21 @@ Result<void> add_listed(const std::string& list, std::vector<std::string>& scene
     return {};
 }
 
+Result<int> run_film_command(RenderCommandOptions& options) {
+    if (options.words.size() > 1) return fail(ErrorCode::usage, "--frames and --turntable: expected one scene, found " + options.words[1]);
+    if (options.skip_existing) return fail(ErrorCode::usage, "--skip-existing: cannot be combined with --frames or --turntable");
+    options.scene = options.words.empty() ? "" : options.words[0];
+    if (is_folder(options.output) && !options.output.ends_with('/')) options.output += '/';
+    return render_film(options);
+}
+
 Result<int> run_render(RenderCommandOptions options) {
     std::vector<std::string>& words = options.words;
     if (!options.folder.empty()) {
         if (!options.output.empty()) return fail(ErrorCode::usage, "--out-dir: cannot be combined with -o");
         options.output = options.folder + "/";
     }
-    if (words.size() > 1 && is_picture_name(words.back())) {
+    if (words.size() > 1 && (is_picture_name(words.back()) || film::film_format_of(words.back()))) {
         if (!options.output.empty())
             return fail(ErrorCode::usage, "unexpected argument " + words.back() + ": the picture is named by -o " + options.output);
         options.output = words.back();
@@ -92,6 +101,10 @@ Result<int> run_render(RenderCommandOptions options) {
     }
     if (!options.list.empty())
         if (const auto added = add_listed(options.list, words); !added) return tl::unexpected(added.error());
+    if (options.film.wanted()) return run_film_command(options);
+    if (const auto checked = check_film_options(options.film, options.output); !checked) return tl::unexpected(checked.error());
+    if (film::film_format_of(options.output) && !options.format)
+        return fail(ErrorCode::usage, options.output + ": expected --frames or --turntable, which make many frames, or another extension");
     if (words.size() > 1 && !options.output.ends_with('/') && is_folder(options.output)) options.output += '/';
     const bool many = options.output.ends_with('/') || is_pattern(options.output);
     if (words.size() > 1 && !many)
@@ -124,6 +137,19 @@ Command render_command() {
     const auto options = std::make_shared<RenderCommandOptions>();
     RenderCommandOptions& o = *options;
     auto groups = render_flags(o, kRenderSize);
+    groups.push_back(
+        {"Moving pictures",
+         {{"--frames", "A-B[:STEP]",
+           "Draw these frames, into -o 'frame_{:04}.png' or one .gif, .apng or .webp file; without --turntable, the animation at N / FPS "
+           "seconds. A frame depends on its number alone",
+           parsed(o.film.frames, parse_frames)},
+          {"--fps", "F",
+           "Frames a second, as 24, 23.976 or 30000/1001 (default: 24; 12 for --turntable). With --turntable and --frames, the animation "
+           "runs too",
+           parsed(o.film.fps, parse_fps)},
+          {"--turntable", "N", "Turn the camera around the scene, once in N frames, and the studio with it (default frames: 0 to N - 1)",
+           read_int(o.film.turntable, 1, 100000)},
+          {"--dither", "", "GIF: mix its 256 colours by an ordered pattern", set_to(o.film.dither)}}});
     groups.push_back(
         {"Output",
          {{"-o,--output", "FILE",

@@ -1,5 +1,6 @@
 #include "apps/halflit/render_job.hpp"
 
+#include "apps/halflit/film_view.hpp"
 #include "apps/halflit/stopwatch.hpp"
 #include "apps/io/errno_text.hpp"
 #include "halflit/auto_setup.hpp"
@@ -69,8 +70,9 @@ Result<const Camera*> find_camera(const std::vector<Camera>& cameras, const std:
 /// given: the flags as they were given, for messages.
 Result<std::optional<Camera>> choose_view(RenderJob& job, const RenderOptions& options, const RenderOptions& given, PictureSize usual) {
     const std::vector<Camera>& cameras = job.scene().cameras;
-    const Camera* chosen = options.own_view() ? nullptr : choose_camera(job.scene(), job.prepared->bounds());
-    if (chosen == nullptr && !cameras.empty() && !options.own_view() && !options.camera)
+    const bool whole = options.own_view() || (options.film.turntable > 0 && !options.camera);  // a turntable goes around the scene
+    const Camera* chosen = whole ? nullptr : choose_camera(job.scene(), job.film.bounds);
+    if (chosen == nullptr && !cameras.empty() && !whole && !options.camera)
         job.warnings.push_back(
             "the file's camera shows the scene small or not at all: drawn from a view of the whole scene (--camera 0: by the file's)");
     if (options.camera) {
@@ -83,9 +85,15 @@ Result<std::optional<Camera>> choose_view(RenderJob& job, const RenderOptions& o
     job.height = size.height;
     if (const auto checked = check_size(size, options.settings.region); !checked) return tl::unexpected(checked.error());
     job.choices.push_back(camera_choice(chosen, given));
-    if (chosen != nullptr) return *chosen;
-    if (!options.camera_position) return std::nullopt;
-    const Bounds& bounds = job.prepared->bounds();
+    if (chosen != nullptr) {
+        job.film.file_camera = static_cast<int>(chosen - cameras.data());
+        return *chosen;
+    }
+    const Bounds& bounds = job.film.bounds;
+    if (!options.camera_position) {
+        const float aspect = static_cast<float>(job.width) / static_cast<float>(job.height);
+        return film_camera(job.scene(), bounds, options.film, aspect, options.view);
+    }
     const Vec3d target = options.camera_target.value_or(bounds.empty ? Vec3d{} : to_double(bounds.center()));
     return placed_camera(to_float(*options.camera_position), to_float(target), options.view.fov_y_deg, bounds);
 }
@@ -102,11 +110,27 @@ Result<void> add_environment(Scene& scene, const RenderOptions& options) {
     return {};
 }
 
+/// Gives a light the size that the flags say, unless it has one.
+void soften(Light& light, const Film& film) {
+    if (light.shadow_radius > 0.0f) return;
+    light.shadow_radius = light.type == LightType::directional ? film.sun_radius : film.lamp_radius;
+}
+
+/// Lights of the flags leave the other sides black, and metals nothing to mirror: a share of the studio, unless something else lights the
+/// scene from all around.
+void add_studio_share(Scene& scene, const Camera& camera, const AutoOptions& choice) {
+    constexpr float kStudioUnderLights = 0.15f;
+    const bool unlit_around = scene.environment == nullptr && scene.ambient.sky_linear == Vec3f{} && scene.ambient.ground_linear == Vec3f{};
+    if (unlit_around && choice.studio == StudioUse::for_dark)
+        set_environment(scene, studio_environment(camera, choice.studio_turn_rad, kStudioUnderLights));
+}
+
 /// Chooses camera, lights, ambient light and exposure: what the flags say, and auto_setup for the rest.
 Result<void> choose_setup(RenderJob& job, const RenderOptions& options, const std::optional<Camera>& camera) {
     Scene& scene = job.scene();
     AutoOptions choice;
     if (!options.scene_lights) {
+        job.film.left_out = std::move(scene.lights);
         scene.lights.clear();
         scene.ambient = {};
         scene.calibrated = true;
@@ -124,17 +148,21 @@ Result<void> choose_setup(RenderJob& job, const RenderOptions& options, const st
     choice.studio_turn_rad = static_cast<double>(options.environment_rotate_deg) * (kPi / 180.0);
     for (const GivenLight& given : options.lights) scene.lights.push_back(given.light);
     const std::size_t given = scene.lights.size();
-    const AutoSetup setup = auto_setup(scene, job.prepared->bounds(), job.width, job.height, choice);
-    // Lights of the flags leave the other sides black, and metals nothing to mirror.
-    constexpr float kStudioUnderLights = 0.15f;
-    const bool unlit_around = scene.environment == nullptr && scene.ambient.sky_linear == Vec3f{} && scene.ambient.ground_linear == Vec3f{};
-    if (!options.lights.empty() && unlit_around && choice.studio == StudioUse::for_dark)
-        set_environment(scene, studio_environment(setup.camera, choice.studio_turn_rad, kStudioUnderLights));
-    for (Light& light : scene.lights) {
-        if (light.shadow_radius > 0.0f) continue;
-        const bool sun = light.type == LightType::directional;
-        light.shadow_radius = sun ? static_cast<float>(static_cast<double>(options.sun_size_deg) * (kPi / 180.0)) : options.lamp_size;
+    Film& film = job.film;
+    film.sun_radius = static_cast<float>(static_cast<double>(options.sun_size_deg) * (kPi / 180.0));
+    film.lamp_radius = options.lamp_size;
+    for (Light& light : scene.lights) soften(light, film);
+    if (options.film.turntable > 0) {
+        film.light.lights = scene.lights;
+        film.light.ambient = scene.ambient;
+        film.light.environment = scene.environment;
+        film.light.calibrated = scene.calibrated;
+        film.choice = choice;
     }
+    const AutoSetup setup = auto_setup(scene, film.bounds, job.width, job.height, choice);
+    film.has_own_lights = !options.lights.empty();
+    if (film.has_own_lights) add_studio_share(scene, setup.camera, choice);
+    for (Light& light : scene.lights) soften(light, film);
     if (options.settings.background_environment && scene.environment == nullptr)
         return fail(ErrorCode::usage, "--background: environment needs --env");
     job.camera = setup.camera;
@@ -224,6 +252,7 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
     const Stopwatch loading;
     RenderOptions timed = options;
     timed.load.recentre = true;
+    timed.load.keep_animations = options.film.animates();
     timed.load.limits.time_limit_s = options.timeout_s;
     auto source = load_scene(timed);
     if (!source) return tl::unexpected(source.error());
@@ -235,14 +264,21 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
         job.choices.push_back(pose_choice(*animation, job.source.animation, job.pose_time_s));
     turn_upright(job.scene(), options.up);
     replace_materials(job.scene(), options.classic);
-    if (options.ground) add_ground(job.scene(), scene_bounds(job.scene()));
+    const bool moves = options.film.animates() && job.source.motion && job.animation() != nullptr;
+    if (moves) {
+        const auto swept = swept_bounds(job, options);
+        if (!swept) return tl::unexpected(swept.error());
+        job.film.bounds = *swept;
+    }
+    if (options.ground) add_ground(job.scene(), moves ? job.film.bounds : scene_bounds(job.scene()));
 
     const Stopwatch preparing;
     auto prepared = PreparedScene::make(job.scene(), job.timed_execution());
     if (!prepared) return tl::unexpected(prepared.error());
     job.prepared = std::move(*prepared);
     job.prepare_ms = preparing.ms();
-    const Bounds bounds = job.prepared->bounds();
+    if (!moves) job.film.bounds = job.prepared->bounds();
+    const Bounds& bounds = job.film.bounds;
     const bool loader_said_so = job.source.file && job.source.file->triangles_drawn == 0;
     if (bounds.empty && !loader_said_so) job.warnings.push_back("nothing to draw: no vertex has finite coordinates");
     const RenderOptions placed = in_drawn_world(options, job.source);
@@ -254,6 +290,26 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
         return tl::unexpected(updated.error());
     job.settings.region = options.settings.region.width > 0 ? options.settings.region : Region{0, 0, job.width, job.height};
     return job;
+}
+
+bool relight(RenderJob& job, const Camera& camera) {
+    const Film& film = job.film;
+    Scene& scene = job.scene();
+    const bool for_viewer = scene.environment != film.light.environment || scene.lights.size() > film.light.lights.size();
+    if (!for_viewer) return false;
+    Scene lit = film.light;
+    AutoOptions choice = film.choice;
+    choice.camera = camera;
+    choice.frame = false;
+    (void)auto_setup(lit, film.bounds, job.width, job.height, choice);
+    if (film.has_own_lights) add_studio_share(lit, camera, choice);
+    scene.ambient = lit.ambient;
+    scene.environment = lit.environment;
+    for (std::size_t i = film.light.lights.size(); i < lit.lights.size() && i < scene.lights.size(); ++i) {
+        scene.lights[i] = lit.lights[i];
+        soften(scene.lights[i], film);
+    }
+    return true;
 }
 
 Execution RenderJob::timed_execution() const {

@@ -4,6 +4,7 @@
 #include "apps/halflit/render_options.hpp"
 #include "apps/halflit/scene_source.hpp"
 #include "apps/halflit/stopwatch.hpp"
+#include "halflit/auto_setup.hpp"
 #include "halflit/error.hpp"
 #include "halflit/renderer.hpp"
 
@@ -12,6 +13,17 @@
 #include <vector>
 
 namespace halflit::cli {
+
+/// What decides each frame of a moving picture, and does not depend on which frames are drawn.
+struct Film {
+    Bounds bounds;                          ///< of all poses; of the scene, if it stands still
+    int file_camera = -1;                   ///< index into Scene::cameras of the view; -1: another
+    Scene light;                            ///< the scene's light before auto_setup, without anything to draw
+    AutoOptions choice;                     ///< of auto_setup
+    float sun_radius = 0, lamp_radius = 0;  ///< Light::shadow_radius of lights that have none
+    bool has_own_lights = false;            ///< of the flags (--light)
+    std::vector<Light> left_out;            ///< lights of the file that --no-scene-lights left out, which an animation moves
+};
 
 struct RenderJob {
     SceneSource source;                     ///< has the job's lights and ambient light
@@ -24,6 +36,7 @@ struct RenderJob {
     double pose_time_s = 0;  ///< of the animation, if there is one
     Stopwatch started;       ///< with the job's loading
     double timeout_s = 0.0;  ///< from then on; 0: none
+    Film film;               ///< what the frames of a moving picture share
     std::vector<std::string> warnings;
     std::vector<std::string> choices;  ///< what was chosen, one line each
 
@@ -40,6 +53,9 @@ struct RenderJob {
 /// `usual`: the picture size without --size; it is reduced to the aspect ratio of the file's camera. Errors that can be found without the
 /// scene are reported before it is loaded.
 [[nodiscard]] Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usual);
+
+/// Turns the light that was chosen for the viewer, such as the studio, with another camera. The exposure stays. False: there is none.
+bool relight(RenderJob& job, const Camera& camera);
 
 /// Allocates the region of the picture that is drawn: 8-bit codes, and linear floats if `linear`.
 [[nodiscard]] Image make_image(const RenderJob& job, bool linear);

@@ -173,7 +173,10 @@ FlagGroup pose_flags(RenderOptions& o) {
               return {};
           }},
          {"--time", "SECONDS", "Time in the animation (default 0); before its first key and after its last one, these are drawn",
-          parsed(o.load.time_s, parse_time)}}};
+          [&o](const std::string& text) {
+              o.film.time_held = true;
+              return assign(o.load.time_s, parse_time(text));
+          }}}};
 }
 
 Result<void> read_light(std::vector<GivenLight>& lights, const std::string& text) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/halflit/classic_material.hpp"
+#include "apps/halflit/film_options.hpp"
 #include "apps/halflit/flags.hpp"
 #include "apps/halflit/scene_view.hpp"
 #include "apps/halflit/values.hpp"
@@ -54,6 +55,7 @@ struct RenderOptions {
     std::optional<float> exposure;   ///< a factor; none: chosen from the lights
 
     LoadOptions load;
+    FilmOptions film;                  ///< of render alone
     double timeout_s = 0.0;            ///< for loading and drawing; 0: none
     std::size_t max_memory_bytes = 0;  ///< of the process; 0: no limit
 };

@@ -120,6 +120,7 @@ std::string picture_report(const PictureFile& file, const RenderJob& job, const 
     Json report = report_head("report");
     report["scene"] = job.source.name;
     report["output"] = file.output;
+    if (file.frame) report["frame"] = *file.frame;
     for (const AovFile& aov : file.beside) report["aov"][std::string(kAovNames[static_cast<std::size_t>(aov.aov)])] = aov.path;
     add_frame(report, job, rendered, picture);
     if (file.blank) report["blank"] = true;

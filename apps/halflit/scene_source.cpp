@@ -78,7 +78,8 @@ Result<SceneSource> load_scene(const RenderOptions& options) {
                        std::move(loaded->animations),
                        loaded->animation,
                        loaded->origin,
-                       loaded->scale};
+                       loaded->scale,
+                       std::move(loaded->motion)};
 }
 
 bool is_scene(const std::string& name) { return name == "-" || is_built_in_name(name) || is_model_name(name) || is_file(name); }

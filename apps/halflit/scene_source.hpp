@@ -23,6 +23,7 @@ struct SceneSource {
     int animation = -1;                       ///< the one that poses the scene; -1: none
     Vec3d origin{0, 0, 0};                    ///< a point p of the file is drawn at (p - origin) * scale
     double scale = 1.0;
+    std::shared_ptr<const Motion> motion{};  ///< for pose_at(); null without LoadOptions::keep_animations
 };
 
 /// An empty name is the demo scene. Built-in names come before files: a file called "demo" is given as "./demo".

@@ -1,0 +1,61 @@
+// Flags of moving pictures: which frames, how fast, and how the view turns.
+#pragma once
+
+#include "apps/film/film_writer.hpp"
+#include "halflit/error.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace halflit::cli {
+
+/// Numbers first, first + step, ... up to last.
+struct FrameRange {
+    std::int64_t first = 0, last = 0, step = 1;
+    [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>((last - first) / step + 1); }
+    [[nodiscard]] std::int64_t number(std::size_t i) const { return first + static_cast<std::int64_t>(i) * step; }
+};
+
+/// "A-B", "A-B:STEP" or "A": numbers from 0 to 9,999,999, A at most B, STEP from 1.
+[[nodiscard]] Result<FrameRange> parse_frames(std::string_view text);
+
+/// Frames a second, as a fraction: "24", "23.976" (at most three decimals), "30000/1001". From 0.001 to 1000.
+struct FrameRate {
+    std::int64_t frames = 24, seconds = 1;
+};
+[[nodiscard]] Result<FrameRate> parse_fps(std::string_view text);
+
+struct FilmOptions {
+    std::optional<FrameRange> frames;
+    std::optional<FrameRate> fps;
+    int turntable = 0;       ///< frames of one turn; 0: the view stands still
+    bool time_held = false;  ///< --time was given: the pose of that time in all frames
+    bool dither = false;     ///< GIF
+
+    /// Frames are asked for.
+    [[nodiscard]] bool wanted() const { return frames || turntable > 0; }
+    /// The animation runs. A turntable shows one pose unless it has a frame rate.
+    [[nodiscard]] bool animates() const { return !time_held && frames && (turntable == 0 || fps); }
+    /// --frames, or one turn.
+    [[nodiscard]] FrameRange range() const { return frames.value_or(FrameRange{0, turntable - 1, 1}); }
+    /// --fps, or 24 for an animation and 12 for a turntable.
+    [[nodiscard]] FrameRate rate() const { return fps.value_or(FrameRate{animates() ? 24 : 12, 1}); }
+    /// Seconds of the animation at a frame's number.
+    [[nodiscard]] double time_s(std::int64_t number) const {
+        return static_cast<double>(number * rate().seconds) / static_cast<double>(rate().frames);
+    }
+    /// Time that each frame is shown: that of all the frames which the range steps over.
+    [[nodiscard]] film::FrameTime frame_time() const { return {range().step * rate().seconds, rate().frames}; }
+};
+
+/// Refuses flags that contradict each other. output: of -o.
+[[nodiscard]] Result<void> check_film_options(const FilmOptions& options, const std::string& output);
+
+/// The file of a frame. In a pattern, {} and {frame} are its number, {:04} and {frame:04} with zeros in front; {stem} is the scene's name
+/// without folder and extension, {folder} its folder. Fails (usage) for other words in braces, and for a pattern without a number.
+[[nodiscard]] Result<std::string> frame_name(const std::string& pattern, const std::string& scene, std::int64_t number);
+
+}  // namespace halflit::cli

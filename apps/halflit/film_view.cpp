@@ -1,0 +1,152 @@
+#include "apps/halflit/film_view.hpp"
+
+#include "raster/scene/shadow_catcher.hpp"
+#include "sh/trig.hpp"
+#include "sh/vec3d.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace halflit::cli {
+namespace {
+
+/// Turns `up` from +y back to where it was.
+UpAxis inverse(UpAxis up) {
+    switch (up) {
+        case UpAxis::x:
+            return UpAxis::minus_x;
+        case UpAxis::minus_x:
+            return UpAxis::x;
+        case UpAxis::z:
+            return UpAxis::minus_z;
+        case UpAxis::minus_z:
+            return UpAxis::z;
+        default:
+            return up;
+    }
+}
+
+/// What a scene sweeps that turns around a vertical axis: discs on top of each other.
+class Profile {
+public:
+    explicit Profile(const Bounds& bounds)
+        : center_(to_double(bounds.center())), low_(bounds.min.y), height_(double{bounds.max.y} - double{bounds.min.y}) {}
+
+    void add(Vec3d p) {
+        const double x = p.x - center_.x, z = p.z - center_.z, place = height_ > 0.0 ? (p.y - low_) / height_ * kDiscs : 0.0;
+        if (!(x * x + z * z < 1e70) || !(place >= -1.0 && place <= kDiscs + 1.0)) return;  // not finite
+        double& squared = squared_[static_cast<std::size_t>(std::clamp(static_cast<int>(place), 0, kDiscs - 1))];
+        squared = std::max(squared, x * x + z * z);
+    }
+
+    /// Points around the discs, as a scene that can be framed.
+    [[nodiscard]] Scene scene() const {
+        Mesh mesh;
+        for (int disc = 0; disc < kDiscs; ++disc) {
+            const double squared = squared_[static_cast<std::size_t>(disc)];
+            if (squared < 0.0) continue;
+            // Points of a polygon around the circle.
+            const double radius = std::sqrt(squared) / sin_cos(kPi / kAround).cos;
+            for (int edge = 0; edge < 2; ++edge)
+                for (int i = 0; i < kAround; ++i) {
+                    const SinCos turn = sin_cos(2.0 * kPi * i / kAround);
+                    mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+                    mesh.positions.push_back(
+                        to_float({center_.x + radius * turn.sin, low_ + height_ * (disc + edge) / kDiscs, center_.z + radius * turn.cos}));
+                }
+        }
+        while (mesh.indices.size() % 3 != 0) mesh.indices.push_back(0);
+        Scene out;
+        out.meshes.push_back(std::move(mesh));
+        out.instances.push_back({});
+        return out;
+    }
+
+private:
+    static constexpr int kDiscs = 64, kAround = 64;
+    Vec3d center_;
+    double low_, height_;
+    std::array<double, kDiscs> squared_ = [] {
+        std::array<double, kDiscs> none{};
+        none.fill(-1.0);
+        return none;
+    }();
+};
+
+void add_vertices(const Scene& scene, Profile& profile) {
+    for (const Instance& instance : scene.instances) {
+        if (raster::catches_shadows(scene, instance)) continue;
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        const auto& c = instance.world_from_object.c;
+        const auto column = [](const Vec4f& v) { return Vec3d{v.x, v.y, v.z}; };
+        const Vec3d x = column(c[0]), y = column(c[1]), z = column(c[2]), origin = column(c[3]);
+        for (const std::uint32_t index : mesh.indices) {
+            const Vec3f p = mesh.positions[index];
+            profile.add(((x * double{p.x} + y * double{p.y}) + z * double{p.z}) + origin);
+        }
+    }
+}
+
+}  // namespace
+
+Result<SceneChanges> pose_job(RenderJob& job, const RenderOptions& options, double time_s) {
+    Scene& scene = job.scene();
+    // pose_at knows the file's scene: as it lay in the file, with its lights.
+    const bool left_out = !options.scene_lights && job.prepared;
+    if (left_out) std::swap(scene.lights, job.film.left_out);
+    turn_upright(scene, inverse(options.up));
+    auto changes = pose_at(*job.source.motion, options.load.animation, time_s, scene);
+    turn_upright(scene, options.up);
+    if (left_out) std::swap(scene.lights, job.film.left_out);
+    if (!changes) return changes;
+    if (left_out) changes->lights = false;
+    if (changes->materials && options.classic.any())
+        return fail(ErrorCode::usage, "--kd, --ks, --shininess: cannot be combined with an animation that changes materials");
+    return changes;
+}
+
+Result<Bounds> swept_bounds(RenderJob& job, const RenderOptions& options) {
+    constexpr int kSteps = 32;
+    Bounds bounds;
+    for (int step = kSteps; step >= 0; --step) {
+        const auto posed = pose_job(job, options, job.animation()->end_s * step / kSteps);
+        if (!posed) return tl::unexpected(posed.error());
+        bounds.include(scene_bounds(job.scene()));
+    }
+    return bounds;
+}
+
+std::optional<Camera> film_camera(const Scene& scene, const Bounds& bounds, const FilmOptions& film, float aspect,
+                                  const ViewSettings& view) {
+    if (!film.wanted() || bounds.empty || (film.turntable == 0 && !film.animates())) return std::nullopt;
+    if (film.turntable == 0) return frame_bounds(bounds, aspect, view);
+    Profile profile(bounds);
+    if (film.animates()) {
+        for (const float x : {bounds.min.x, bounds.max.x})
+            for (const float z : {bounds.min.z, bounds.max.z})
+                for (const float y : {bounds.min.y, bounds.max.y}) profile.add(to_double(Vec3f{x, y, z}));
+    } else {
+        add_vertices(scene, profile);
+    }
+    return frame_scene(profile.scene(), aspect, view);
+}
+
+Camera turned_camera(const Camera& camera, const Bounds& bounds, std::int64_t frame, int frames_of_turn) {
+    const auto part = static_cast<int>(frame % frames_of_turn);
+    if (part == 0) return camera;
+    const SinCos turn = sin_cos(2.0 * kPi * part / frames_of_turn);
+    const auto turned = [&](Vec3d v) { return Vec3d{v.x * turn.cos + v.z * turn.sin, v.y, v.z * turn.cos - v.x * turn.sin}; };
+    const Vec3d center = bounds.empty ? Vec3d{} : to_double(bounds.center());
+    Camera out = camera;
+    for (std::size_t i = 0; i < 4; ++i) {
+        Vec4f& column = out.world_from_camera.c[i];
+        const Vec3d around = i == 3 ? center : Vec3d{};
+        const Vec3f v = to_float(turned(Vec3d{column.x, column.y, column.z} - around) + around);
+        column = {v.x, v.y, v.z, column.w};
+    }
+    return out;
+}
+
+}  // namespace halflit::cli
