@@ -83,26 +83,26 @@ Result<int> run_diff(const DiffOptions& options) {
 Command diff_command() {
     const auto options = std::make_shared<DiffOptions>();
     DiffOptions& o = *options;
-    return {
-        "diff",
-        "Compare two pictures (PNG, JPEG, BMP, TGA, or HDR by its sRGB codes), or two folders of them; exit code 1 if they differ by more "
-        "than --max and --max-share allow",
-        {{.name = "A", .help = "The expected picture, or a folder", .read = read_text(o.a), .required = true, .form = "FILE"},
-         {.name = "B",
-          .help = "What to compare with it; files in folders are paired by their paths",
-          .read = read_text(o.b),
-          .required = true,
-          .form = "FILE"}},
-        {{"Flags",
-          {{"--max", "CODES", "Largest difference in any channel that still passes, 0 to 255 (default 0)",
-            read_int(o.tolerance.max_codes, 0, 255)},
-           {"--max-share", "SHARE", "Share of the pixels that may differ by more, such as 0.1% or 0.001 (default 0)",
-            [&o](const std::string& text) { return assign(o.tolerance.max_share, parse_share(text)); }},
-           {"--json", "", "Print one JSON object", set_to(o.json)},
-           {"-o,--output", "FILE|DIR",
-            "Write the absolute differences as a picture, stretched to the full range; for folders a folder of such pictures",
-            read_text(o.output)}}}},
-        [options] { return run_diff(*options); }};
+    return {"diff",
+            "Compare two pictures (PNG, JPEG, BMP, TGA, or HDR, PFM, EXR by their sRGB codes), or two folders of them; exit code 1 if they "
+            "differ by more "
+            "than --max and --max-share allow",
+            {{.name = "A", .help = "The expected picture, or a folder", .read = read_text(o.a), .required = true, .form = "FILE"},
+             {.name = "B",
+              .help = "What to compare with it; files in folders are paired by their paths",
+              .read = read_text(o.b),
+              .required = true,
+              .form = "FILE"}},
+            {{"Flags",
+              {{"--max", "CODES", "Largest difference in any channel that still passes, 0 to 255 (default 0)",
+                read_int(o.tolerance.max_codes, 0, 255)},
+               {"--max-share", "SHARE", "Share of the pixels that may differ by more, such as 0.1% or 0.001 (default 0)",
+                [&o](const std::string& text) { return assign(o.tolerance.max_share, parse_share(text)); }},
+               {"--json", "", "Print one JSON object", set_to(o.json)},
+               {"-o,--output", "FILE|DIR",
+                "Write the absolute differences as a picture, stretched to the full range; for folders a folder of such pictures",
+                read_text(o.output)}}}},
+            [options] { return run_diff(*options); }};
 }
 
 }  // namespace halflit::cli

@@ -111,6 +111,9 @@ Result<PictureFile> drawn_and_encoded(PictureOptions& options, const PictureDraw
     picture.output = options.output;
     picture.blank = options.blank_check && is_blank(image, *rendered);
     if (picture.blank) job->warnings.push_back(job->source.name + ": nothing is seen in its picture");
+    if (const ErrorBound& error = rendered->error; error.budget > 0.0 && !error.within)
+        job->warnings.push_back(fmt::format("--max-error {}: {} codes at most can be promised here; the report has the parts of this bound",
+                                            error.budget, error.codes));
     for (const auto& warnings : {job->warnings, rendered->warnings})
         for (const std::string& warning : warnings) print_warning(warning);
 

@@ -125,6 +125,11 @@ Result<void> choose_setup(RenderJob& job, const RenderOptions& options, const st
     for (const GivenLight& given : options.lights) scene.lights.push_back(given.light);
     const std::size_t given = scene.lights.size();
     const AutoSetup setup = auto_setup(scene, job.prepared->bounds(), job.width, job.height, choice);
+    // Lights of the flags leave the other sides black, and metals nothing to mirror.
+    constexpr float kStudioUnderLights = 0.15f;
+    const bool unlit_around = scene.environment == nullptr && scene.ambient.sky_linear == Vec3f{} && scene.ambient.ground_linear == Vec3f{};
+    if (!options.lights.empty() && unlit_around && choice.studio == StudioUse::for_dark)
+        set_environment(scene, studio_environment(setup.camera, choice.studio_turn_rad, kStudioUnderLights));
     for (Light& light : scene.lights) {
         if (light.shadow_radius > 0.0f) continue;
         const bool sun = light.type == LightType::directional;

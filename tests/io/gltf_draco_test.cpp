@@ -109,7 +109,8 @@ std::string accessor_members(const char* type, int component, std::size_t count,
 }
 
 std::string accessor(const char* type, int component, std::size_t count, const char* more = "") {
-    return "{" + accessor_members(type, component, count, more) + "}";
+    std::string text = accessor_members(type, component, count, more);
+    return text.insert(0, 1, '{').append(1, '}');
 }
 
 constexpr const char* kExtension =

@@ -142,7 +142,7 @@ HALFLIT_C_API int32_t halflit_scene_add_texture(halflit_scene* scene, const uint
 HALFLIT_C_API int32_t halflit_scene_set_texture(halflit_scene* scene, int32_t index, const uint8_t* rgba8, int32_t width, int32_t height,
                                                 size_t row_bytes, int32_t color);
 
-/// Meaning of alpha: none; drawn where it reaches alpha_cutoff; drawn over what is behind, in the order of instances and triangles.
+/// Meaning of alpha: none; drawn where it reaches alpha_cutoff; drawn over what is behind, by depth at each sample.
 enum { HALFLIT_ALPHA_OPAQUE = 0, HALFLIT_ALPHA_MASK = 1, HALFLIT_ALPHA_BLEND = 2 };
 /// Texture outside the coordinates 0 to 1: repeated, repeated with every other copy mirrored, or its edge continued.
 enum { HALFLIT_WRAP_REPEAT = 0, HALFLIT_WRAP_MIRROR = 1, HALFLIT_WRAP_CLAMP = 2 };
