@@ -1,5 +1,6 @@
 // Functions of halflit.h that add and change materials, textures, meshes and instances.
 #include "apps/c/convert.hpp"
+#include "apps/c/convert_parts.hpp"
 #include "apps/c/scene_access.hpp"
 #include "apps/c/versioned.hpp"
 

@@ -118,8 +118,8 @@ values("KHR_texture_transform", T, [{}], [5, []])
 # ---- extensions that are not drawn are said, once --------------------------------------------------------------------------------------
 SIMPLE = "KHR_materials_"
 for name in [SIMPLE + n for n in ("anisotropy", "iridescence",
-                                  "variants", "dispersion",
+                                  "dispersion",
                                   "diffuse_transmission")] + [
-        "EXT_mesh_gpu_instancing", "KHR_texture_basisu", "EXT_texture_avif",
+        "KHR_texture_basisu", "EXT_texture_avif",
         "MSFT_texture_dds", "KHR_xmp_json_ld", "EXT_lights_image_based", "MSFT_lod", "VENDOR_unheard_of"]:
     pair("3.12", name + " is said to be left out", lambda s: None, put(("extensionsUsed[3]", name)), name)
