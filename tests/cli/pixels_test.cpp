@@ -159,9 +159,9 @@ TEST_CASE("pixels: kd, ks and shininess are the numbers of the classic formula, 
 TEST_CASE("pixels: a lobe of wrap w lights the surface up to N.L = -w, and no further", "[cli]") {
     // Light from the right: N.L is about (x - 50) / 50 across the middle row.
     const auto red = [](const std::string& lobe, const std::string& wrap, int x) {
-        std::vector<std::string> scene = {
-            "sphere:5000", "--size", "101x101", "--no-scene-lights", "--light", "directional:dir=-1,0,0", "--specular",
-            "none",        "--lobe", lobe};
+        std::vector<std::string> scene = {"sphere:5000", "--size", "101x101", "--no-scene-lights",
+                                          "--env",       "none",   "--light", "directional:dir=-1,0,0",
+                                          "--specular",  "none",   "--lobe",  lobe};
         if (!wrap.empty()) scene.insert(scene.end(), {"--wrap", wrap});
         return read_picture(png(scene)).pixel(x, 50)[0];
     };
