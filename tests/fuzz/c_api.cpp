@@ -79,15 +79,17 @@ void Session::handles() {
             Sized<halflit_load_options> options(in_);
             (void)halflit_load_options_init(options.get(), options.size());
             options.damage(in_, offsetof(halflit_load_options, max_file_bytes));
-            static constexpr const char* kAnimations[] = {nullptr, "", "0", "none", "wave", "1"};
-            options.set(&halflit_load_options::animation, in_.pick(kAnimations));
+            static constexpr const char* kNames[] = {nullptr, "", "0", "none", "wave", "1"};
+            options.set(&halflit_load_options::animation, in_.pick(kNames));
+            options.set(&halflit_load_options::scene, in_.pick(kNames));
+            options.set(&halflit_load_options::variant, in_.pick(kNames));
             halflit_scene* loaded = nullptr;
             const Bytes bytes(in_.rest().begin(), in_.rest().begin() + static_cast<std::ptrdiff_t>(in_.rest().size() / 2));
             check(halflit_scene_load_memory(or_null(bytes.data()), bytes.size(), or_null("fuzz"), nullptr, or_null(options.get(), 2),
                                             &loaded));
             Sized<halflit_animation> animation(in_);
             check(halflit_scene_get_animation(loaded, index(), or_null(animation.get())));
-            check(halflit_scene_pose(loaded, in_.pick(kAnimations), static_cast<double>(in_.real())));
+            check(halflit_scene_pose(loaded, in_.pick(kNames), static_cast<double>(in_.real())));
             halflit_scene_destroy(loaded);
             return;
         }
