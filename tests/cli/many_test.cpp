@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include "tests/support/catch.hpp"
+#include "tests/support/skip.hpp"
 
 #include <filesystem>
 #include <sstream>
@@ -143,6 +144,9 @@ TEST_CASE("many: file managers' thumbnailers get a PNG of any name", "[cli][many
                         : word == "%o" ? folder.file("thumbnail.X7a")
                         : word == "%s" ? "48"
                                        : word);
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    HALFLIT_SKIP("sanitizers take terabytes of addresses");
+#endif
     const Outcome outcome = run(words);
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);

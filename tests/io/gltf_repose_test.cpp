@@ -70,7 +70,7 @@ void check_same(const Scene& a, const Scene& b) {
         CHECK(x.base_color_texture.row_v == y.base_color_texture.row_v);
     }
     REQUIRE(a.lights.size() == b.lights.size());
-    for (std::size_t i = 0; i < a.lights.size(); ++i) CHECK(same_bits(a.lights[i], b.lights[i]));
+    for (std::size_t i = 0; i < a.lights.size(); ++i) CHECK(a.lights[i] == b.lights[i]);  // bytes between its members mean nothing
     REQUIRE(a.cameras.size() == b.cameras.size());
     for (std::size_t i = 0; i < a.cameras.size(); ++i) {
         CHECK(same_bits(a.cameras[i].world_from_camera, b.cameras[i].world_from_camera));
