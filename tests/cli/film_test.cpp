@@ -267,7 +267,7 @@ TEST_CASE("frames: nothing of a turntable or of an animation touches the picture
     const std::string arm = arm_file(folder);
     draw(arm, {"--turntable", "8", "--background", "transparent", "-o", folder.file("t_{}.png")});
     draw(arm, {"--frames", "0-15", "--fps", "8", "--camera", "frame", "--background", "transparent", "-o", folder.file("a_{}.png")});
-    for (const std::string& name : {"t_0", "t_1", "t_7", "a_0", "a_7", "a_11", "a_15"}) {
+    for (const std::string name : {"t_0", "t_1", "t_7", "a_0", "a_7", "a_11", "a_15"}) {
         const Picture picture = read_picture(contents(folder.file(name + ".png")));
         int seen = 0;
         for (int y = 0; y < picture.height; ++y)
@@ -284,7 +284,7 @@ TEST_CASE("frames: nothing of a turntable or of an animation touches the picture
 
 TEST_CASE("frames: an APNG holds the frames, and its delays have the exact sum", "[cli][film]") {
     const TemporaryFolder folder;
-    for (const std::string& background : {"#123456", "transparent"}) {
+    for (const std::string background : {"#123456", "transparent"}) {
         const Strings look{"--turntable", "5", "--fps", "30000/1001", "--background", background};
         Strings files = look, film = look;
         files.insert(files.end(), {"-o", folder.file("f_{}.png")});
@@ -302,7 +302,7 @@ TEST_CASE("frames: an APNG holds the frames, and its delays have the exact sum",
 TEST_CASE("frames: a WebP holds the frames exactly, and its delays lose less than a millisecond", "[cli][film]") {
 #if HALFLIT_HAS_WEBP_FILMS
     const TemporaryFolder folder;
-    for (const std::string& background : {"#123456", "transparent"}) {
+    for (const std::string background : {"#123456", "transparent"}) {
         const Strings look{"--turntable", "7", "--fps", "24", "--background", background};
         Strings files = look, film = look;
         files.insert(files.end(), {"-o", folder.file("f_{}.png")});
@@ -331,7 +331,7 @@ TEST_CASE("frames: a WebP holds the frames exactly, and its delays lose less tha
 TEST_CASE("frames: a GIF is near the frames, and its delays lose less than a hundredth of a second in all", "[cli][film]") {
 #if HALFLIT_HAS_GIF
     const TemporaryFolder folder;
-    for (const std::string& background : {"#123456", "transparent"})
+    for (const std::string background : {"#123456", "transparent"})
         for (const bool dither : {false, true}) {
             const Strings look{"--turntable", "31", "--fps", "24", "--background", background};
             Strings files = look, film = look;
@@ -406,9 +406,9 @@ TEST_CASE("frames: wrong flags are told with what was expected", "[cli][film]") 
         CHECK(folder.names().empty());
         return outcome.err;
     };
-    for (const std::string& range : {"x", "-1", "5-2", "1-", "0-5:0", "0-5:", "3:2", "0-5:1:2", "1-2-3", "0-10000000"})
+    for (const std::string range : {"x", "-1", "5-2", "1-", "0-5:0", "0-5:", "3:2", "0-5:1:2", "1-2-3", "0-10000000"})
         CHECK(message({"--frames", range, "-o", "a_{}.png"}).find("--frames: expected A-B or A-B:STEP") != std::string::npos);
-    for (const std::string& fps : {"0", "-1", "x", "24.", "1.2345", "1/0", "24/x", "1001", "1/2000"})
+    for (const std::string fps : {"0", "-1", "x", "24.", "1.2345", "1/0", "24/x", "1001", "1/2000"})
         CHECK(message({"--frames", "0-1", "--fps", fps, "-o", "a_{}.png"}).find("--fps: expected frames a second") != std::string::npos);
     CHECK(message({"--frames", "0-1", "-o", "a.png"}).find("a place for the frame's number") != std::string::npos);
     CHECK(message({"--frames", "0-1", "-o", "a_{x}.png"}).find("found {x}") != std::string::npos);
