@@ -101,8 +101,8 @@ float light_scene(Scene& scene, const Bounds& bounds, const Camera& camera, cons
     const bool in_studio = scene.environment != nullptr && scene.environment->studio;
     const bool always = options.studio == StudioUse::always && !options.ambient_linear;
     if (scene.environment != nullptr && !in_studio && !always) return environment_exposure(*scene.environment);
-    const bool dark = scene.environment == nullptr && is_dark(scene.ambient);
-    if (scene.lights.empty() && dark && options.add_lights) {
+    const bool dark = scene.environment == nullptr && is_dark(scene.ambient), has_lights = !scene.lights.empty();
+    if (!has_lights && dark && options.add_lights) {
         scene.calibrated = true;
         if (options.studio == StudioUse::never || options.ambient_linear)
             add_default_lights(scene, camera);
@@ -118,10 +118,11 @@ float light_scene(Scene& scene, const Bounds& bounds, const Camera& camera, cons
         scene.ambient = {*options.ambient_linear, *options.ambient_linear};
     } else if (always) {
         if (scene.environment == nullptr || !scene.environment->studio) add_share(1.0f);
-    } else if (unknown_unit && dark && options.studio == StudioUse::for_dark) {
+    } else if (has_lights && dark &&
+               (options.studio == StudioUse::under_lights || (unknown_unit && options.studio == StudioUse::for_dark))) {
         const bool sun =
             std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) { return light.type == LightType::directional; });
-        add_share(sun ? kStudioUnderSun : kStudioUnderLamps);
+        add_share(sun || !unknown_unit ? kStudioUnderSun : kStudioUnderLamps);
     } else if (unknown_unit && dark) {
         scene.ambient = soft_ambient(scene, bounds);
     }

@@ -3,6 +3,8 @@
 #include "apps/halflit/spelling.hpp"
 #include "apps/io/errno_text.hpp"
 
+#include <fmt/format.h>
+
 #include <dirent.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -108,6 +110,35 @@ Result<void> check_writable(const std::string& path) {
 std::string stem_of(const std::string& path) {
     const std::string name = path.substr(folder_prefix(path).size());
     return name.substr(0, name.rfind('.'));
+}
+
+bool is_pattern(std::string_view name) { return name.find('{') != std::string_view::npos; }
+
+Result<std::string> fill_pattern(const std::string& pattern, std::string_view expected,
+                                 const std::function<std::optional<std::string>(std::string_view)>& text_of) {
+    std::string name;
+    for (std::size_t at = 0; at < pattern.size(); ++at) {
+        if (pattern[at] != '{') {
+            name += pattern[at];
+            continue;
+        }
+        const std::size_t end = pattern.find('}', at);
+        const auto text = end == std::string::npos ? std::nullopt : text_of(std::string_view(pattern).substr(at + 1, end - at - 1));
+        if (!text)
+            return fail(ErrorCode::usage, fmt::format("-o {}: expected {}, found {}", pattern, expected,
+                                                      pattern.substr(at, end == std::string::npos ? end : end + 1 - at)));
+        name += *text;
+        at = end;
+    }
+    return name;
+}
+
+std::optional<std::string> digits_for(std::string_view word, std::string_view name, std::int64_t number) {
+    if (!word.starts_with(name)) return std::nullopt;
+    word.remove_prefix(name.size());
+    if (word.empty()) return std::to_string(number);
+    if (word.size() != 3 || !word.starts_with(":0") || word[2] < '1' || word[2] > '9') return std::nullopt;
+    return fmt::format("{:0{}}", number, word[2] - '0');
 }
 
 std::string path_in(const std::string& folder, const std::string& name) {

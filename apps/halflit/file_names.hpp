@@ -3,6 +3,8 @@
 
 #include "halflit/error.hpp"
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +36,17 @@ namespace halflit::cli {
 
 /// The name without folder and extension: "duck" for "models/duck.glb".
 [[nodiscard]] std::string stem_of(const std::string& path);
+
+/// True for a name with words in braces, such as "{stem}.png".
+[[nodiscard]] bool is_pattern(std::string_view name);
+
+/// Replaces each word in braces by what `text_of` gives for it. Fails (usage) where that is nothing, with the word and `expected`, and for
+/// a brace without its end.
+[[nodiscard]] Result<std::string> fill_pattern(const std::string& pattern, std::string_view expected,
+                                               const std::function<std::optional<std::string>(std::string_view word)>& text_of);
+
+/// The digits of a number for the word `name` or, with zeros in front, `name:04`; nothing for another word.
+[[nodiscard]] std::optional<std::string> digits_for(std::string_view word, std::string_view name, std::int64_t number);
 
 /// The path of a file in the folder.
 [[nodiscard]] std::string path_in(const std::string& folder, const std::string& name);

@@ -14,15 +14,6 @@ namespace {
 
 constexpr std::int64_t kMostFrame = 9'999'999;
 
-/// The digits of a frame's number for the word in braces; none for another word.
-std::optional<std::string> number_text(std::string_view word, std::int64_t number) {
-    constexpr std::string_view kFrame = "frame";
-    if (word.starts_with(kFrame)) word.remove_prefix(kFrame.size());
-    if (word.empty()) return std::to_string(number);
-    if (word.size() != 3 || !word.starts_with(":0") || word[2] < '1' || word[2] > '9') return std::nullopt;
-    return fmt::format("{:0{}}", number, word[2] - '0');
-}
-
 }  // namespace
 
 Result<FrameRange> parse_frames(std::string_view text) {
@@ -91,28 +82,15 @@ Result<void> check_film_options(const FilmOptions& options, const std::string& o
 }
 
 Result<std::string> frame_name(const std::string& pattern, const std::string& scene, std::int64_t number) {
-    std::string name;
     bool numbered = false;
-    for (std::size_t at = 0; at < pattern.size(); ++at) {
-        if (pattern[at] != '{') {
-            name += pattern[at];
-            continue;
-        }
-        const std::size_t end = pattern.find('}', at);
-        const std::string word = pattern.substr(at + 1, end == std::string::npos ? end : end - at - 1);
-        if (end == std::string::npos) return fail(ErrorCode::usage, fmt::format("-o {}: expected }} after {{", pattern));
-        if (const auto digits = number_text(word, number))
-            name += *digits, numbered = true;
-        else if (word == "stem")
-            name += scene.empty() || scene == "-" ? "halflit" : stem_of(scene);
-        else if (word == "folder")
-            name += io::folder_of(scene);
-        else
-            return fail(ErrorCode::usage,
-                        fmt::format("-o {}: expected {{}}, {{:04}}, {{stem}} or {{folder}}, found {{{}}}", pattern, word));
-        at = end;
-    }
-    if (!numbered)
+    auto name = fill_pattern(pattern, "{}, {:04}, {stem} or {folder}", [&](std::string_view word) -> std::optional<std::string> {
+        if (word == "stem") return scene.empty() || scene == "-" ? "halflit" : stem_of(scene);
+        if (word == "folder") return io::folder_of(scene);
+        auto digits = digits_for(word, word.starts_with("frame") ? "frame" : "", number);
+        numbered |= digits.has_value();
+        return digits;
+    });
+    if (name && !numbered)
         return fail(ErrorCode::usage,
                     fmt::format("-o {}: expected a place for the frame's number, as frame_{{:04}}.png, or a .gif, .apng or "
                                 ".webp file",

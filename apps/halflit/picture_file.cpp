@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <new>
 #include <optional>
 #include <utility>
 
@@ -31,21 +30,16 @@ void warn_of_lost_transparency(const PictureOptions& options, OutputFormat forma
 }
 
 /// Shows the progress of a drawing that takes longer than half a second, unless it is one of many.
-Result<RenderReport> draw(RenderJob& job, Image& image, AovPlanes& planes, const PictureDrawer& drawer) {
+Result<RenderReport> draw(RenderJob& job, Image& image, AovPlanes& planes, bool one_of_many) {
     constexpr double kDelayMs = 500;
     std::optional<ProgressLine> line;
-    if (!drawer.one_of_many) {
+    if (!one_of_many) {
         line.emplace(false, kDelayMs);
         job.execution.progress = [&line](double share) { line->show(share); };
     }
     Target target = target_of(job, image);
     planes.add_to(target);
-    const auto draw_by = [&](Renderer& renderer) {
-        return renderer.render(*job.prepared, job.camera, job.settings, target, job.timed_execution());
-    };
-    if (drawer.renderer != nullptr) return draw_by(*drawer.renderer);
-    Renderer renderer;
-    return draw_by(renderer);
+    return Renderer().render(*job.prepared, job.camera, job.settings, target, job.timed_execution());
 }
 
 /// No fragment was drawn, or all pixels have the same colour, within two codes: the background's.
@@ -74,7 +68,7 @@ void print_choices(const RenderJob& job, const RenderReport& rendered, double en
                     job.load_ms, job.prepare_ms, ms.plan, ms.shadows, ms.cull, ms.transform, ms.bin, ms.tiles, encode_ms));
 }
 
-Result<PictureFile> drawn_and_encoded(PictureOptions& options, const PictureDrawer& drawer) {
+Result<PictureFile> drawn_and_encoded(PictureOptions& options, bool one_of_many) {
     if (is_folder(options.output))
         return fail(ErrorCode::io, options.output + ": " + io::errno_text(EISDIR) + " (-o " + options.output + "/ writes into it)");
     const auto format = options.picture_format();
@@ -90,7 +84,7 @@ Result<PictureFile> drawn_and_encoded(PictureOptions& options, const PictureDraw
     if (const auto checked = spare_inputs(options, *job); !checked) return tl::unexpected(checked.error());
     Image image = make_image(*job, is_linear(*format));
     AovPlanes planes(options.aovs, *job);
-    const auto rendered = draw(*job, image, planes, drawer);
+    const auto rendered = draw(*job, image, planes, one_of_many);
     if (!rendered) return fail(rendered.error().code, job->source.name + ": " + rendered.error().message);
     PictureFile picture;
     picture.output = options.output;
@@ -111,7 +105,7 @@ Result<PictureFile> drawn_and_encoded(PictureOptions& options, const PictureDraw
     picture.beside = std::move(*beside);
     const double encode_ms = encoding.ms();
     // Whatever can fail comes before the picture has its name.
-    picture.report = picture_report(picture, *job, *rendered, image, encode_ms, drawer.one_of_many);
+    picture.report = picture_report(picture, *job, *rendered, image, encode_ms, one_of_many);
     print_choices(*job, *rendered, encode_ms);
     return picture;
 }
@@ -149,6 +143,11 @@ std::string default_output(const std::string& scene, std::optional<OutputFormat>
            std::string(kFormatNames[static_cast<std::size_t>(format.value_or(OutputFormat::png))]);
 }
 
+Result<void> check_report(const std::string& path) {
+    if (is_free_or_begins_with(path, '{')) return {};
+    return fail(ErrorCode::usage, "--report: expected a new file or an earlier report, found '" + path + "', which is neither");
+}
+
 Result<void> check_paths(const PictureOptions& options) {
     if (!options.aovs.empty() && options.output == "-")
         return fail(ErrorCode::usage, "--aov: expected a picture with a name, which its files take, found -");
@@ -164,23 +163,11 @@ Result<void> check_paths(const PictureOptions& options) {
         if (!options.environment.empty() && same_file(path, options.environment))
             return fail(ErrorCode::io, path + ": is the environment itself and is not overwritten");
     }
-    if (!is_free_or_begins_with(options.report, '{'))
-        return fail(ErrorCode::usage,
-                    "--report: expected a new file or an earlier report, found '" + options.report + "', which is neither");
-    return {};
+    return check_report(options.report);
 }
 
-Result<PictureFile> draw_picture(PictureOptions& options, const PictureDrawer& drawer) {
-    constexpr const char* kOutOfMemory = "out of memory";  // in the libraries' messages too
-    Result<PictureFile> done = fail(ErrorCode::limit, kOutOfMemory);
-    try {
-        done = drawn_and_encoded(options, drawer);
-    } catch (const std::bad_alloc&) {
-        // Keeps the error.
-    }
-    if (!done && options.max_memory_bytes > 0 && done.error().message.find(kOutOfMemory) != std::string::npos)
-        return fail(done.error().code, fmt::format("{} (--max-memory {})", done.error().message, options.max_memory_bytes >> 20));
-    return done;
+Result<PictureFile> draw_picture(PictureOptions& options, bool one_of_many) {
+    return within_memory(options, [&] { return drawn_and_encoded(options, one_of_many); });
 }
 
 Result<void> write_picture(const PictureFile& picture) {

@@ -4,9 +4,9 @@
 #include "apps/halflit/aov.hpp"
 #include "apps/halflit/render_options.hpp"
 #include "halflit/image.hpp"
-#include "halflit/renderer.hpp"
 
 #include <cstdint>
+#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -34,6 +34,24 @@ struct PictureOptions : RenderOptions {
 /// The scene's name without folder and extension, and the format's extension, ".png" without one.
 [[nodiscard]] std::string default_output(const std::string& scene, std::optional<OutputFormat> format);
 
+/// Refuses a report that would replace a file which is no report.
+[[nodiscard]] Result<void> check_report(const std::string& path);
+
+/// Calls make(), which returns a Result; where memory ends, the message names --max-memory if it was given.
+template <class Make>
+[[nodiscard]] auto within_memory(const RenderOptions& options, const Make& make) {
+    constexpr const char* kOutOfMemory = "out of memory";  // in the libraries' messages too
+    decltype(make()) done = fail(ErrorCode::limit, kOutOfMemory);
+    try {
+        done = make();
+    } catch (const std::bad_alloc&) {
+        // Keeps the error.
+    }
+    if (!done && options.max_memory_bytes > 0 && done.error().message.find(kOutOfMemory) != std::string::npos)
+        done = fail(done.error().code, done.error().message + " (--max-memory " + std::to_string(options.max_memory_bytes >> 20) + ")");
+    return done;
+}
+
 /// Refuses output paths that would overwrite the scene, the environment or each other.
 [[nodiscard]] Result<void> check_paths(const PictureOptions& options);
 
@@ -47,18 +65,13 @@ struct PictureFile {
     std::optional<std::int64_t> frame{};  ///< its number in a moving picture
 };
 
-/// Who draws, and how much of it is told.
-struct PictureDrawer {
-    Renderer* renderer = nullptr;  ///< null: one that is gone before the picture is encoded, with its memory
-    bool one_of_many = false;      ///< no progress line, and reports of one line
-};
-
 /// Refuses to overwrite a file that the scene refers to, such as a texture that has the picture's name. If the report would, it is not
 /// written at all: its path is cleared.
 [[nodiscard]] Result<void> spare_inputs(PictureOptions& options, const RenderJob& job);
 
 /// Draws and encodes. Warnings are printed. `options.report` is cleared where it would overwrite a file that the scene refers to.
-[[nodiscard]] Result<PictureFile> draw_picture(PictureOptions& options, const PictureDrawer& drawer = {});
+/// one_of_many: no progress line, and a report of one line.
+[[nodiscard]] Result<PictureFile> draw_picture(PictureOptions& options, bool one_of_many = false);
 
 /// Writes the files beside the picture, then the picture.
 [[nodiscard]] Result<void> write_picture(const PictureFile& picture);

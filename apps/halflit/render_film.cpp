@@ -243,19 +243,6 @@ private:
     std::string report_;
 };
 
-Result<void> run_film(FilmRun& film, const PictureOptions& options) {
-    constexpr const char* kOutOfMemory = "out of memory";
-    Result<void> done = fail(ErrorCode::limit, kOutOfMemory);
-    try {
-        done = film.run();
-    } catch (const std::bad_alloc&) {
-        // Keeps the error.
-    }
-    if (!done && options.max_memory_bytes > 0 && done.error().message.find(kOutOfMemory) != std::string::npos)
-        return fail(done.error().code, fmt::format("{} (--max-memory {})", done.error().message, options.max_memory_bytes >> 20));
-    return done;
-}
-
 }  // namespace
 
 Result<int> render_film(PictureOptions options) {
@@ -263,16 +250,14 @@ Result<int> render_film(PictureOptions options) {
     if (!options.aovs.empty()) return fail(ErrorCode::usage, "--aov: cannot be combined with --frames or --turntable");
     if (options.blank_check) return fail(ErrorCode::usage, "--blank-check: cannot be combined with --frames or --turntable");
     io::begin_file_set();
-    if (!is_free_or_begins_with(options.report, '{'))
-        return fail(ErrorCode::usage,
-                    "--report: expected a new file or an earlier report, found '" + options.report + "', which is neither");
+    if (const auto checked = check_report(options.report); !checked) return tl::unexpected(checked.error());
     if (!options.report.empty())
         set_last_words([path = options.report, scene = options.scene](int signal) {
             (void)write_text(path, error_report(scene, 128 + signal, "interrupted by signal " + std::to_string(signal), true));
         });
     if (options.max_memory_bytes == 0) prepare_heap();
     FilmRun film(options);
-    const Result<void> done = run_film(film, options);
+    const Result<void> done = within_memory(options, [&] { return film.run(); });
     const bool may_report = !options.report.empty() && (done || done.error().code != ErrorCode::usage);
     if (may_report) {
         const std::string failure =

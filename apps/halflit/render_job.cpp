@@ -116,15 +116,6 @@ void soften(Light& light, const Film& film) {
     light.shadow_radius = light.type == LightType::directional ? film.sun_radius : film.lamp_radius;
 }
 
-/// Lights of the flags leave the other sides black, and metals nothing to mirror: a share of the studio, unless something else lights the
-/// scene from all around.
-void add_studio_share(Scene& scene, const Camera& camera, const AutoOptions& choice) {
-    constexpr float kStudioUnderLights = 0.15f;
-    const bool unlit_around = scene.environment == nullptr && scene.ambient.sky_linear == Vec3f{} && scene.ambient.ground_linear == Vec3f{};
-    if (unlit_around && choice.studio == StudioUse::for_dark)
-        set_environment(scene, studio_environment(camera, choice.studio_turn_rad, kStudioUnderLights));
-}
-
 /// Chooses camera, lights, ambient light and exposure: what the flags say, and auto_setup for the rest.
 Result<void> choose_setup(RenderJob& job, const RenderOptions& options, const std::optional<Camera>& camera) {
     Scene& scene = job.scene();
@@ -144,7 +135,8 @@ Result<void> choose_setup(RenderJob& job, const RenderOptions& options, const st
     choice.ambient_linear = options.ambient_linear;
     choice.exposure = options.exposure;
     choice.studio = options.studio;
-    if (options.ambient_linear && choice.studio == StudioUse::for_dark) choice.studio = StudioUse::never;
+    if (choice.studio == StudioUse::for_dark && !options.lights.empty()) choice.studio = StudioUse::under_lights;
+    if (options.ambient_linear && options.studio == StudioUse::for_dark) choice.studio = StudioUse::never;
     choice.studio_turn_rad = static_cast<double>(options.environment_rotate_deg) * (kPi / 180.0);
     for (const GivenLight& given : options.lights) scene.lights.push_back(given.light);
     const std::size_t given = scene.lights.size();
@@ -160,8 +152,6 @@ Result<void> choose_setup(RenderJob& job, const RenderOptions& options, const st
         film.choice = choice;
     }
     const AutoSetup setup = auto_setup(scene, film.bounds, job.width, job.height, choice);
-    film.has_own_lights = !options.lights.empty();
-    if (film.has_own_lights) add_studio_share(scene, setup.camera, choice);
     for (Light& light : scene.lights) soften(light, film);
     if (options.settings.background_environment && scene.environment == nullptr)
         return fail(ErrorCode::usage, "--background: environment needs --env");
@@ -302,7 +292,6 @@ bool relight(RenderJob& job, const Camera& camera) {
     choice.camera = camera;
     choice.frame = false;
     (void)auto_setup(lit, film.bounds, job.width, job.height, choice);
-    if (film.has_own_lights) add_studio_share(lit, camera, choice);
     scene.ambient = lit.ambient;
     scene.environment = lit.environment;
     for (std::size_t i = film.light.lights.size(); i < lit.lights.size() && i < scene.lights.size(); ++i) {

@@ -21,7 +21,6 @@ struct Film {
     Scene light;                            ///< the scene's light before auto_setup, without anything to draw
     AutoOptions choice;                     ///< of auto_setup
     float sun_radius = 0, lamp_radius = 0;  ///< Light::shadow_radius of lights that have none
-    bool has_own_lights = false;            ///< of the flags (--light)
     std::vector<Light> left_out;            ///< lights of the file that --no-scene-lights left out, which an animation moves
 };
 

@@ -90,8 +90,10 @@ public:
     Result<int> run() {
         if (const auto named = name_pictures(); !named) return tl::unexpected(named.error());
         if (const auto checked = spare_inputs(); !checked) return tl::unexpected(checked.error());
-        for (const PictureOptions& picture : pictures_)
-            if (const auto made = make_folder(io::folder_of(picture.output)); !made) return tl::unexpected(made.error());
+        std::set<std::string> folders;
+        for (const PictureOptions& picture : pictures_) folders.insert(io::folder_of(picture.output));
+        for (const std::string& folder : folders)
+            if (const auto made = make_folder(folder); !made) return tl::unexpected(made.error());
         if (const auto opened = open_report(); !opened) return tl::unexpected(opened.error());
         if (options_.each.max_memory_bytes == 0) prepare_heap();
         // Beyond those that draw, some wait until the system has their file on its disk.
@@ -175,8 +177,7 @@ private:
     Result<void> open_report() {
         const std::string& path = options_.each.report;
         if (path.empty()) return {};
-        if (!is_free_or_begins_with(path, '{'))
-            return fail(ErrorCode::usage, "--report: expected a new file or an earlier report, found '" + path + "', which is neither");
+        if (const auto checked = check_report(path); !checked) return checked;
         report_.reset(std::fopen(path == "-" ? "/dev/stdout" : path.c_str(), path == "-" ? "a" : "w"));
         if (report_ == nullptr) return fail(ErrorCode::io, path + ": " + io::errno_text(errno));
         return {};
@@ -223,9 +224,7 @@ private:
         permits_.take(threads);
         Result<PictureFile> picture = fail(ErrorCode::internal, "");
         try {
-            std::unique_ptr<Renderer> renderer = borrow();
-            picture = draw_picture(options, {renderer.get(), true});
-            give_back(std::move(renderer));
+            picture = draw_picture(options, true);
         } catch (...) {
             permits_.give_back(threads);
             throw;
@@ -243,23 +242,6 @@ private:
         const PictureOptions& options = pictures_[i];
         const PictureSize size = options.size.value_or(kRenderSize);
         return bytes_[i] > kLargeFile || std::int64_t{size.width} * size.height * options.settings.samples > kLargePicture;
-    }
-
-    /// Renderers are used again, with what they keep: the light of the studio takes longer to plan than a small picture to draw.
-    std::unique_ptr<Renderer> borrow() {
-        {
-            const std::scoped_lock lock(mutex_);
-            if (!renderers_.empty()) {
-                auto renderer = std::move(renderers_.back());
-                renderers_.pop_back();
-                return renderer;
-            }
-        }
-        return std::make_unique<Renderer>();
-    }
-    void give_back(std::unique_ptr<Renderer> renderer) {
-        const std::scoped_lock lock(mutex_);
-        renderers_.push_back(std::move(renderer));
     }
 
     /// Tells the outcomes that are next in order.
@@ -289,50 +271,23 @@ private:
     std::mutex mutex_;                   ///< guards all below
     std::size_t next_ = 0, told_ = 0;
     std::vector<std::optional<Outcome>> outcomes_;
-    std::vector<std::unique_ptr<Renderer>> renderers_;
     std::unique_ptr<std::FILE, CloseFile> report_;
     std::optional<int> report_error_;
     int code_ = 0;
     bool any_blank_ = false;
 };
 
-/// {index} or {index:04}: the digits of `index`, none for another word.
-std::optional<std::string> index_text(const std::string& word, std::size_t index) {
-    constexpr std::string_view kIndex = "index";
-    if (word == kIndex) return std::to_string(index);
-    if (!word.starts_with("index:0") || word.size() != 8 || word[7] < '1' || word[7] > '9') return std::nullopt;
-    return fmt::format("{:0{}}", index, word[7] - '0');
-}
-
 }  // namespace
-
-bool is_pattern(const std::string& output) { return output.find('{') != std::string::npos; }
 
 Result<std::string> picture_name(const std::string& output, std::optional<OutputFormat> format, const std::string& scene,
                                  std::size_t index) {
     const std::string usual = default_output(scene, format);
     if (!is_pattern(output)) return output + usual;
-    const std::string stem = stem_of(usual);
-    std::string name;
-    for (std::size_t at = 0; at < output.size(); ++at) {
-        if (output[at] != '{') {
-            name += output[at];
-            continue;
-        }
-        const std::size_t end = output.find('}', at);
-        const std::string word = output.substr(at + 1, end == std::string::npos ? end : end - at - 1);
-        if (const auto digits = index_text(word, index))
-            name += *digits;
-        else if (word == "stem")
-            name += stem;
-        else if (word == "folder")
-            name += io::folder_of(scene);
-        else
-            return fail(ErrorCode::usage, fmt::format("-o {}: expected {{stem}}, {{folder}}, {{index}} or {{index:04}}, found {}", output,
-                                                      output.substr(at, end == std::string::npos ? end : end + 1 - at)));
-        at = end;
-    }
-    return name;
+    return fill_pattern(output, "{stem}, {folder}, {index} or {index:04}", [&](std::string_view word) -> std::optional<std::string> {
+        if (word == "stem") return stem_of(usual);
+        if (word == "folder") return io::folder_of(scene);
+        return digits_for(word, "index", static_cast<std::int64_t>(index));
+    });
 }
 
 Result<int> render_many(const ManyOptions& options) { return Batch(options).run(); }

@@ -14,9 +14,6 @@ struct ManyOptions {
     bool skip_existing = false;       ///< leave pictures alone that are there
 };
 
-/// True for an output that names a picture for each scene: "{stem}.png".
-[[nodiscard]] bool is_pattern(const std::string& output);
-
 /// The picture of a scene. In a pattern, {stem} is the scene's name without folder and extension, {folder} its folder, and {index} its
 /// place among the scenes from 0 on, {index:04} with zeros in front. Fails (usage) for other words in braces.
 [[nodiscard]] Result<std::string> picture_name(const std::string& output, std::optional<OutputFormat> format, const std::string& scene,

@@ -20,7 +20,6 @@
 
 #include <fmt/format.h>
 
-#include <exception>
 #include <memory>
 #include <new>
 #include <set>
@@ -98,8 +97,7 @@ LoadedScene build(std::span<const std::byte> bytes, const std::string& base_dir,
     }
     loaded.scene.calibrated = loaded.scene.lights.empty();
     if (loaded.scene.instances.empty()) document->warn("the model has nothing to draw");
-    if (document->warnings_left_out > 0) document->warnings.push_back(fmt::format("and {} further warnings", document->warnings_left_out));
-    loaded.warnings = std::move(document->warnings);
+    loaded.warnings = document->take_warnings();
     loaded.info = std::move(document->info);
     loaded.info.files = files_of(*document);
     return loaded;
@@ -113,23 +111,10 @@ std::vector<std::string> io::files_of_gltf(std::span<const std::byte> bytes, con
 
 Result<LoadedScene> load_gltf_bytes(std::span<const std::byte> bytes, const std::string& name, const std::string& base_dir,
                                     const LoadOptions& options) {
-    const auto failed = [&](ErrorCode code, const std::string& message) {
-        return fail(code, fmt::format("{}: {}", printable(name), message));
-    };
-    try {
-        try {
-            if (options.threads < 0) return failed(ErrorCode::usage, fmt::format("threads is {}, expected at least 0", options.threads));
-            return build(bytes, base_dir, options);
-        } catch (const LoadFailure& failure) {
-            return failed(failure.error.code, failure.error.message);
-        } catch (const std::bad_alloc&) {
-            return failed(ErrorCode::limit, "out of memory");
-        } catch (const std::exception& error) {  // a decoder's, or the standard library's
-            return failed(ErrorCode::bad_input, printable(error.what()));
-        }
-    } catch (const std::bad_alloc&) {  // of the message
-        return fail(ErrorCode::limit, "out of memory");
-    }
+    return errors_of(name, [&]() -> Result<LoadedScene> {
+        check_threads(options);
+        return build(bytes, base_dir, options);
+    });
 }
 
 Result<LoadedScene> load_gltf(const std::string& path, const LoadOptions& options) {

@@ -1,6 +1,5 @@
 #include "halflit/model.hpp"
 
-#include "apps/io/detail/gltf_animation.hpp"
 #include "apps/io/detail/gltf_choices.hpp"
 #include "apps/io/detail/load_failure.hpp"
 #include "apps/io/detail/model_readers.hpp"
@@ -11,8 +10,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <exception>
 #include <new>
 
 namespace halflit {
@@ -59,33 +56,17 @@ std::vector<std::string> io::files_named_by(const std::string& path, const LoadO
 
 Result<LoadedScene> load_model_bytes(std::span<const std::byte> bytes, const std::string& name, const std::string& base_dir,
                                      const LoadOptions& options) {
-    const auto failed = [&](ErrorCode code, const std::string& message) {
-        return fail(code, fmt::format("{}: {}", printable(name), message));
-    };
-    try {
+    return errors_of(name, [&]() -> Result<LoadedScene> {
         if (bytes.size() > options.limits.max_file_bytes)
-            return failed(ErrorCode::limit, fmt::format("has {} bytes, the limit is {}", bytes.size(), options.limits.max_file_bytes));
+            refuse("", fmt::format("has {} bytes, the limit is {}", bytes.size(), options.limits.max_file_bytes), ErrorCode::limit);
         const std::optional<ModelFormat> format = find_model_format(bytes);
         // The glTF reader says what is wrong with a file that is nothing at all.
-        if (!format && !bytes.empty()) return failed(ErrorCode::bad_input, "is no model: expected glTF, GLB, STL, PLY, OBJ or 3MF");
+        if (!format && !bytes.empty()) refuse("", "is no model: expected glTF, GLB, STL, PLY, OBJ or 3MF");
         if (!format || *format == ModelFormat::gltf || *format == ModelFormat::glb) return load_gltf_bytes(bytes, name, base_dir, options);
-        try {
-            if (options.threads < 0) return failed(ErrorCode::usage, fmt::format("threads is {}, expected at least 0", options.threads));
-            if (!std::isfinite(options.time_s))
-                return failed(ErrorCode::usage, fmt::format("time_s is {}, expected a finite number", options.time_s));
-            (void)choose_animation({}, options.animation);  // none of these formats has any
-            refuse_choices(options);
-            return read(*format, bytes, base_dir, options);
-        } catch (const LoadFailure& failure) {
-            return failed(failure.error.code, failure.error.message);
-        } catch (const std::bad_alloc&) {
-            return failed(ErrorCode::limit, "out of memory");
-        } catch (const std::exception& error) {  // a decoder's, or the standard library's
-            return failed(ErrorCode::bad_input, printable(error.what()));
-        }
-    } catch (const std::bad_alloc&) {  // of the message
-        return fail(ErrorCode::limit, "out of memory");
-    }
+        check_threads(options);
+        refuse_choices(options);
+        return read(*format, bytes, base_dir, options);
+    });
 }
 
 Result<LoadedScene> load_model(const std::string& path, const LoadOptions& options) {

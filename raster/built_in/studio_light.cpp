@@ -11,8 +11,8 @@ shading::ImageLightParts computed_studio_parts() {
     const sh::BandGrid grid(projection);
     shading::ImageLightParts parts;
     parts.radiance = projection.radiance();
-    for (const sh::WrapLobe lobe : {sh::WrapLobe{0.0, 1.0, 1.0}, {1.0, 1.0, 1.0}, {1.0, 2.0, 1.0}})  // Lambert, half-Lambert, Valve
-        parts.bounds.emplace_back(lobe, grid.order_bounds(sh::lobe_spectrum(lobe)));
+    constexpr sh::WrapLobe kLobes[kStudioLobes] = {{0.0, 1.0, 1.0}, {1.0, 1.0, 1.0}, {1.0, 2.0, 1.0}};  // Lambert, half-Lambert, Valve
+    for (const sh::WrapLobe& lobe : kLobes) parts.bounds.emplace_back(lobe, grid.order_bounds(sh::lobe_spectrum(lobe)));
     parts.reflections = shading::make_reflection_map(shading::view_of(image), shading::in_turn);
     parts.width = image.width, parts.height = image.height;
     parts.rgb = std::move(image.rgb);

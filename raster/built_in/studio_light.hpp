@@ -4,11 +4,15 @@
 
 #include "shading/image_light.hpp"
 
+#include <cstddef>
 #include <cstdint>
 
 namespace halflit::raster {
 
-/// The light of studio_image(), with the bounds of three lobes.
+/// Lobes whose bounds the parts hold.
+inline constexpr std::size_t kStudioLobes = 3;
+
+/// The light of studio_image().
 [[nodiscard]] shading::ImageLightParts computed_studio_parts();
 
 /// The same bits, from the table where there is one.

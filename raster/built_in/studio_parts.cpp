@@ -7,7 +7,6 @@ namespace halflit::raster {
 #ifdef HALFLIT_STUDIO_TABLE
 
 shading::ImageLightParts studio_parts() {
-    constexpr std::size_t kLobes = 3;
     shading::ImageLightParts parts;
     const std::uint32_t *sizes = kStudioSizes, *floats = kStudioFloats;
     const std::uint64_t* doubles = kStudioDoubles;
@@ -18,7 +17,7 @@ shading::ImageLightParts studio_parts() {
             const std::int32_t rows = parts.reflections.rows[kLast];
             parts.rgb.resize(static_cast<std::size_t>(3 * parts.width * parts.height));
             parts.reflections.rgba.resize(static_cast<std::size_t>(parts.reflections.first[kLast] + (rows + 1) * (2 * rows + 1)));
-            parts.bounds.resize(kLobes);
+            parts.bounds.resize(kStudioLobes);
         },
         [&](float& value) { value = std::bit_cast<float>(*floats++); }, [&](double& value) { value = std::bit_cast<double>(*doubles++); });
     return parts;

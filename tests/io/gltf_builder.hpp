@@ -119,4 +119,12 @@ struct TriangleFile {
     int count = 0;
 };
 
+/// What a damaged file may be refused with: a fault or a limit, in one line.
+inline void check_refusal(const Error& error) {
+    if (error.code != ErrorCode::bad_input && error.code != ErrorCode::limit)
+        FAIL("code " << static_cast<int>(error.code) << ": " << error.message);
+    for (const char c : error.message)
+        if (static_cast<unsigned char>(c) < 0x20) FAIL("a control character in: " << error.message);
+}
+
 }  // namespace halflit::test

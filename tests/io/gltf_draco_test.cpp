@@ -12,19 +12,8 @@
 #include <set>
 
 #if HALFLIT_HAS_DRACO
-#if defined(__GNUC__)  // warnings of the library's headers
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wall"
-#pragma GCC diagnostic ignored "-Wextra"
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wpedantic"
-#endif
 #include <draco/compression/encode.h>
 #include <draco/mesh/mesh.h>
-#if defined(__GNUC__)
-#pragma GCC diagnostic pop
-#endif
 #endif
 
 using namespace halflit;

@@ -141,6 +141,33 @@ TEST_CASE("setup: lights of a file get an exposure that makes them 1, and a shar
     CHECK(own.environment == nullptr);
 }
 
+TEST_CASE("setup: lights whose unit is known get a share of the studio on request, and nothing otherwise", "[raster][setup]") {
+    Scene dark = box_scene();
+    static_cast<void>(auto_setup(dark, 200, 100));
+    const double whole = environment_level(*dark.environment);
+    for (const LightType type : {LightType::directional, LightType::point}) {
+        Scene scene = box_scene(), plain = box_scene();
+        scene.lights = {sun({0.5f, 0.5f, 0.5f})};
+        scene.lights[0].type = type, scene.lights[0].position_ws = {2, 0, 0};
+        plain.lights = scene.lights;
+        const AutoSetup setup = auto_setup(scene, 200, 100, {.studio = StudioUse::under_lights});
+        REQUIRE(scene.environment != nullptr);
+        CHECK(environment_level(*scene.environment) == Approx(0.15 * whole).epsilon(1e-5));
+        CHECK(setup.settings.exposure == 1.0f);
+        CHECK(scene.lights.size() == 1);
+        static_cast<void>(auto_setup(plain, 200, 100));
+        CHECK(plain.environment == nullptr);
+        // Ambient light that is there stays.
+        plain.ambient = {{1, 2, 3}, {0, 0, 0}};
+        static_cast<void>(auto_setup(plain, 200, 100, {.studio = StudioUse::under_lights}));
+        CHECK(plain.environment == nullptr);
+    }
+    Scene none = box_scene();
+    static_cast<void>(auto_setup(none, 200, 100, {.studio = StudioUse::under_lights}));
+    REQUIRE(none.environment != nullptr);
+    CHECK(environment_level(*none.environment) == Approx(whole).epsilon(1e-6));
+}
+
 TEST_CASE("setup: without the studio, lights of a file get soft ambient light", "[raster][setup]") {
     Scene scene = box_scene();
     scene.lights = {sun({300, 200, 100}), sun({50, 0, 0})};

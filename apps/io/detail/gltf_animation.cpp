@@ -1,5 +1,6 @@
 #include "apps/io/detail/gltf_animation.hpp"
 
+#include "apps/io/detail/gltf_choices.hpp"
 #include "apps/io/detail/gltf_placed.hpp"
 #include "apps/io/text.hpp"
 #include "shading/model/numbers.hpp"
@@ -7,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <set>
@@ -250,12 +250,7 @@ private:
 int choose_animation(const std::vector<std::string>& names, const std::string& wanted) {
     if (wanted == "none") return -1;
     if (wanted.empty()) return names.empty() ? -1 : 0;
-    if (const auto named = std::find(names.begin(), names.end(), wanted); named != names.end())
-        return static_cast<int>(named - names.begin());
-    int index = -1;
-    const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
-    if (error == std::errc{} && end == wanted.data() + wanted.size() && index >= 0 && static_cast<std::size_t>(index) < names.size())
-        return index;
+    if (const int index = name_or_index(names, wanted); index >= 0) return index;
     if (names.empty()) refuse("", fmt::format("animation: the file has none, expected '{}'", printable(wanted, 80)), ErrorCode::usage);
     refuse(
         "",
@@ -265,7 +260,7 @@ int choose_animation(const std::vector<std::string>& names, const std::string& w
 
 void find_animations(Document& document) {
     const LoadOptions& options = document.options;
-    if (!std::isfinite(options.time_s)) refuse("", fmt::format("time_s is {}, expected a finite number", options.time_s), ErrorCode::usage);
+    check_time(options);
     std::vector<std::string> names;
     document.geometry.take(document.file.animations.size() * sizeof(std::string));
     for (const file::Animation& animation : document.file.animations) names.emplace_back(animation.name);

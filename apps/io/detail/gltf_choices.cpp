@@ -1,11 +1,13 @@
 #include "apps/io/detail/gltf_choices.hpp"
 
+#include "apps/io/detail/gltf_animation.hpp"
 #include "apps/io/text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -23,18 +25,8 @@ std::string list_of(const std::vector<std::string>& names) {
     return list;
 }
 
-/// Position of a name; -1: not there.
-int find_name(const std::vector<std::string>& names, const std::string& wanted) {
-    const auto found = std::find(names.begin(), names.end(), wanted);
-    return found == names.end() ? -1 : static_cast<int>(found - names.begin());
-}
-
 int scene_index(const std::vector<std::string>& names, const std::string& wanted) {
-    if (const int named = find_name(names, wanted); named >= 0) return named;
-    int index = -1;
-    const char* const end = wanted.data() + wanted.size();
-    const auto [stop, error] = std::from_chars(wanted.data(), end, index);
-    if (error == std::errc{} && stop == end && index >= 0 && static_cast<std::size_t>(index) < names.size()) return index;
+    if (const int index = name_or_index(names, wanted); index >= 0) return index;
     if (names.empty()) refuse("", fmt::format("scene: the file has none, expected '{}'", printable(wanted, 80)), ErrorCode::usage);
     refuse("",
            fmt::format("scene: expected an index below {} or a scene's name ({}), found '{}'", names.size(), list_of(names),
@@ -43,12 +35,31 @@ int scene_index(const std::vector<std::string>& names, const std::string& wanted
 }
 
 int variant_index(const std::vector<std::string>& names, const std::string& wanted) {
-    if (const int named = find_name(names, wanted); named >= 0) return named;
+    if (const auto named = std::find(names.begin(), names.end(), wanted); named != names.end())
+        return static_cast<int>(named - names.begin());
     if (names.empty()) refuse("", fmt::format("variant: the file has none, expected '{}'", printable(wanted, 80)), ErrorCode::usage);
     refuse("", fmt::format("variant: expected one of {}, found '{}'", list_of(names), printable(wanted, 80)), ErrorCode::usage);
 }
 
 }  // namespace
+
+void check_threads(const LoadOptions& options) {
+    if (options.threads < 0) refuse("", fmt::format("threads is {}, expected at least 0", options.threads), ErrorCode::usage);
+}
+
+void check_time(const LoadOptions& options) {
+    if (!std::isfinite(options.time_s)) refuse("", fmt::format("time_s is {}, expected a finite number", options.time_s), ErrorCode::usage);
+}
+
+int name_or_index(const std::vector<std::string>& names, const std::string& wanted) {
+    if (const auto named = std::find(names.begin(), names.end(), wanted); named != names.end())
+        return static_cast<int>(named - names.begin());
+    int index = -1;
+    const char* const end = wanted.data() + wanted.size();
+    const auto [stop, error] = std::from_chars(wanted.data(), end, index);
+    const bool is_index = error == std::errc{} && stop == end && index >= 0 && static_cast<std::size_t>(index) < names.size();
+    return is_index ? index : -1;
+}
 
 void choose_scene(Document& document) {
     file::File& file = document.file;
@@ -87,6 +98,8 @@ void choose_variant(Document& document) {
 }
 
 void refuse_choices(const LoadOptions& options) {
+    check_time(options);
+    (void)choose_animation({}, options.animation);
     if (!options.scene.empty()) (void)scene_index({""}, options.scene);
     if (!options.variant.empty()) (void)variant_index({}, options.variant);
 }

@@ -1,7 +1,10 @@
-// Choices that a caller makes by name: the scene of a file, and the variant of its materials.
+// Choices that a caller makes for a file: its scene and the variant of its materials, by name, and what is wrong for any file.
 #pragma once
 
 #include "apps/io/detail/gltf_document.hpp"
+
+#include <string>
+#include <vector>
 
 namespace halflit::io::detail {
 
@@ -11,7 +14,16 @@ void choose_scene(Document& document);
 /// Gives each primitive the material of LoadOptions::variant. Throws LoadFailure (usage) for one that the file does not have.
 void choose_variant(Document& document);
 
-/// Refuses a choice for a file of another format, which has one scene without a name and no variants.
+/// @{
+/// Throws LoadFailure (usage) for a value that no file may be read with.
+void check_threads(const LoadOptions& options);
+void check_time(const LoadOptions& options);
+/// @}
+
+/// Position of a name or, if there is none, of an index; -1: neither.
+[[nodiscard]] int name_or_index(const std::vector<std::string>& names, const std::string& wanted);
+
+/// Refuses a choice for a file of another format, which has one scene without a name, no variants and no animations.
 void refuse_choices(const LoadOptions& options);
 
 }  // namespace halflit::io::detail

@@ -118,6 +118,11 @@ void Document::warn(std::string what) {
         ++warnings_left_out;
 }
 
+std::vector<std::string> Document::take_warnings() {
+    if (warnings_left_out > 0) warnings.push_back(fmt::format("and {} further warnings", warnings_left_out));
+    return std::move(warnings);
+}
+
 const std::byte* Document::view_data(int buffer_view) const {
     const file::BufferView& view = file.buffer_views[static_cast<std::size_t>(buffer_view)];
     if (view.decoded >= 0) return decoded[static_cast<std::size_t>(view.decoded)].data();

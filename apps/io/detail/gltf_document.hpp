@@ -50,6 +50,8 @@ struct Document {
     void check_time() const;
     /// Adds a warning; the first hundred different ones are kept.
     void warn(std::string what);
+    /// The warnings, the last of which counts those that are left out.
+    [[nodiscard]] std::vector<std::string> take_warnings();
     [[nodiscard]] bool warnings_are_full() const { return warnings_left_out > 0; }
     [[nodiscard]] const std::byte* view_data(int buffer_view) const;  ///< requires: check_buffer_views has run, and the view is used
 };

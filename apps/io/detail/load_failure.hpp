@@ -1,15 +1,19 @@
 // Failures of loading: a fault with its place in the model, or a limit reached.
 #pragma once
 
+#include "apps/io/text.hpp"
 #include "halflit/error.hpp"
 
 #include <cstdint>
+#include <exception>
+#include <new>
+#include <string>
 #include <string_view>
 #include <utility>
 
 namespace halflit::io::detail {
 
-/// Thrown inside this folder only; load_gltf_bytes returns its Error.
+/// Thrown inside this folder only; what reads a file returns its Error (errors_of).
 struct LoadFailure {
     Error error;
 };
@@ -26,6 +30,25 @@ T take(Result<T>&& result, std::string_view where) {
 
 inline void take(Result<void>&& result, std::string_view where) {
     if (!result) refuse(where, result.error().message, result.error().code);
+}
+
+/// Calls make(), which returns a Result, and gives its failures and exceptions as errors that begin with the file's name.
+template <class Make>
+auto errors_of(const std::string& name, const Make& make) -> decltype(make()) {
+    const auto failed = [&](ErrorCode code, const std::string& message) { return fail(code, printable(name) + ": " + message); };
+    try {
+        try {
+            return make();
+        } catch (const LoadFailure& failure) {
+            return failed(failure.error.code, failure.error.message);
+        } catch (const std::bad_alloc&) {
+            return failed(ErrorCode::limit, "out of memory");
+        } catch (const std::exception& error) {  // a decoder's, or the standard library's
+            return failed(ErrorCode::bad_input, printable(error.what()));
+        }
+    } catch (const std::bad_alloc&) {  // of the message
+        return fail(ErrorCode::limit, "out of memory");
+    }
 }
 
 /// Memory that a file may still use.

@@ -194,8 +194,6 @@ LoadedScene ModelBuilder::finish(const ModelFrame& frame) {
     images_->finish();
     if (left_out_ > 0) document_->warn(fmt::format("{} triangles with coordinates that are not finite are left out", left_out_));
     if (loaded_.scene.instances.empty()) document_->warn("the model has nothing to draw");
-    if (document_->warnings_left_out > 0)
-        document_->warnings.push_back(fmt::format("and {} further warnings", document_->warnings_left_out));
     SceneInfo& info = document_->info;
     info.meshes = info.primitives = loaded_.scene.meshes.size();
     info.nodes = loaded_.nodes.size();
@@ -205,7 +203,7 @@ LoadedScene ModelBuilder::finish(const ModelFrame& frame) {
     info.scenes = 1;
     std::sort(info.files.begin(), info.files.end());
     info.files.erase(std::unique(info.files.begin(), info.files.end()), info.files.end());
-    loaded_.warnings = std::move(document_->warnings);
+    loaded_.warnings = document_->take_warnings();
     loaded_.info = std::move(info);
     loaded_.scene.calibrated = true;
     return std::move(loaded_);

@@ -15,7 +15,9 @@ namespace halflit {
 enum class StudioUse : std::uint8_t {
     for_dark,  ///< where the scene has no light from all around
     always,    ///< always, in full, instead of the scene's ambient light and environment
-    never      ///< never: light from above and below takes its place
+    never,     ///< never: light from above and below takes its place
+    /// As for_dark, and 0.15 of it under lights whose unit is known too, which leave their far sides black and metals nothing to mirror.
+    under_lights
 };
 
 /// What the caller decides; the rest is chosen.
