@@ -10,6 +10,8 @@ namespace halflit::cli {
 [[nodiscard]] Command info_command();
 [[nodiscard]] Command diff_command();
 [[nodiscard]] Command sheet_command();
+[[nodiscard]] Command plan_command();
+[[nodiscard]] Command merge_command();
 [[nodiscard]] Command golden_command();
 [[nodiscard]] Command lobe_command();
 [[nodiscard]] Command env_command();

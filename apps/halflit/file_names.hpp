@@ -15,6 +15,9 @@ namespace halflit::cli {
 [[nodiscard]] bool is_file(const std::string& path);
 [[nodiscard]] bool is_folder(const std::string& path);
 
+/// True for a file that is not empty: files are written in one step, so it is whole.
+[[nodiscard]] bool is_there(const std::string& path);
+
 /// True if there is no file, or one that begins with this character, as an earlier output of the same kind does. Any other could be a file
 /// that a scene is read from, which is not known before the scene is loaded. "-" and the empty path are free.
 [[nodiscard]] bool is_free_or_begins_with(const std::string& path, char first);

@@ -68,6 +68,18 @@ void print_choices(const RenderJob& job, const RenderReport& rendered, double en
                     job.load_ms, job.prepare_ms, ms.plan, ms.shadows, ms.cull, ms.transform, ms.bin, ms.tiles, encode_ms));
 }
 
+/// Leaves the shard's rows in the region. Parts are joined by their colours alone, so transparent floats would lose their alpha.
+Result<void> take_part(const Shard& shard, OutputFormat format, Settings& settings) {
+    const Region whole = settings.region;
+    settings.region = shard.rows_of(whole);
+    if (settings.region.height == 0)
+        return fail(ErrorCode::usage, fmt::format("--shard {}/{}: expected at most {} shards, one for each row of the picture", shard.index,
+                                                  shard.count, whole.height));
+    if (is_linear(format) && settings.background_linear.w < 1.0f && !settings.background_environment)
+        return fail(ErrorCode::usage, "--shard: halflit merge joins no transparent floats; expected .png, .bmp or .tga");
+    return {};
+}
+
 Result<PictureFile> drawn_and_encoded(PictureOptions& options, bool one_of_many) {
     if (is_folder(options.output))
         return fail(ErrorCode::io, options.output + ": " + io::errno_text(EISDIR) + " (-o " + options.output + "/ writes into it)");
@@ -82,12 +94,20 @@ Result<PictureFile> drawn_and_encoded(PictureOptions& options, bool one_of_many)
     auto job = make_render_job(options, kRenderSize);
     if (!job) return tl::unexpected(job.error());
     if (const auto checked = spare_inputs(options, *job); !checked) return tl::unexpected(checked.error());
+    std::optional<Region> part_of;
+    if (options.shard && !one_of_many) {
+        part_of = job->settings.region;
+        if (const auto part = take_part(*options.shard, *format, job->settings); !part) return tl::unexpected(part.error());
+    }
     Image image = make_image(*job, is_linear(*format));
     AovPlanes planes(options.aovs, *job);
     const auto rendered = draw(*job, image, planes, one_of_many);
     if (!rendered) return fail(rendered.error().code, job->source.name + ": " + rendered.error().message);
     PictureFile picture;
     picture.output = options.output;
+    picture.part_of = part_of;
+    picture.shard = options.shard;
+    picture.place = options.place;
     picture.blank = options.blank_check && is_blank(image, *rendered);
     if (picture.blank) job->warnings.push_back(job->source.name + ": nothing is seen in its picture");
     if (const ErrorBound& error = rendered->error; error.budget > 0.0 && !error.within)
@@ -100,6 +120,7 @@ Result<PictureFile> drawn_and_encoded(PictureOptions& options, bool one_of_many)
     auto bytes = encode_image(image, *format);
     if (!bytes) return tl::unexpected(bytes.error());
     picture.bytes = std::move(*bytes);
+    picture.file_hash = pixel_hash(picture.bytes);
     auto beside = planes.encode(options.output, *job, options.up);
     if (!beside) return tl::unexpected(beside.error());
     picture.beside = std::move(*beside);

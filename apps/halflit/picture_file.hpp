@@ -3,6 +3,7 @@
 
 #include "apps/halflit/aov.hpp"
 #include "apps/halflit/render_options.hpp"
+#include "apps/halflit/shard.hpp"
 #include "halflit/image.hpp"
 
 #include <cstdint>
@@ -19,12 +20,19 @@ inline constexpr std::string_view kFormatNames[] = {"png", "bmp", "tga", "jpg", 
 
 struct RenderJob;
 
+/// One of several outputs of a run: the scene's place among the scenes.
+struct ScenePlace {
+    std::size_t index = 0, scenes = 1;
+};
+
 struct PictureOptions : RenderOptions {
     std::string output;                  ///< empty: named after the scene
     std::string report;                  ///< empty: none
     std::optional<OutputFormat> format;  ///< none: the name's
     std::vector<Aov> aovs;
-    bool blank_check = false;  ///< tell pictures in which nothing is seen
+    std::optional<Shard> shard;       ///< the part of the run; none: all of it
+    std::optional<ScenePlace> place;  ///< of many scenes
+    bool blank_check = false;         ///< tell pictures in which nothing is seen
 
     /// The picture, and the files beside it.
     [[nodiscard]] std::vector<std::string> pictures() const;
@@ -55,14 +63,26 @@ template <class Make>
 /// Refuses output paths that would overwrite the scene, the environment or each other.
 [[nodiscard]] Result<void> check_paths(const PictureOptions& options);
 
+/// One frame of a moving picture, and what a file of all its frames needs to know.
+struct FilmFrame {
+    std::int64_t number = 0;
+    FrameRange whole;
+    film::FrameTime time;
+    bool opaque = true;  ///< no pixel of any frame is transparent
+};
+
 /// A picture that was drawn, and is not written yet.
 struct PictureFile {
     std::string output;
     std::vector<std::uint8_t> bytes;
     std::vector<AovFile> beside;
-    std::string report;                   ///< JSON, of one line where many pictures are drawn
-    bool blank = false;                   ///< nothing is seen; false without PictureOptions::blank_check
-    std::optional<std::int64_t> frame{};  ///< its number in a moving picture
+    std::string report;                ///< JSON, of one line where many pictures are drawn
+    bool blank = false;                ///< nothing is seen; false without PictureOptions::blank_check
+    std::optional<FilmFrame> frame{};  ///< of a moving picture
+    std::optional<Region> part_of{};   ///< of a part of a picture: what all parts make together
+    std::optional<Shard> shard{};
+    std::optional<ScenePlace> place{};
+    std::uint64_t file_hash = 0;  ///< of the bytes in the file; 0: they are in no file of their own
 };
 
 /// Refuses to overwrite a file that the scene refers to, such as a texture that has the picture's name. If the report would, it is not

@@ -36,12 +36,23 @@ struct Drawn {
     double load_ms = 0, prepare_ms = 0, pose_time_s = 0;
 };
 
+struct Encoded {
+    double ms = 0;
+    std::uint64_t file_hash = 0;  ///< 0: no file of its own
+};
+
 class FilmRun {
 public:
-    explicit FilmRun(PictureOptions& options) : options_(options), range_(options.film.range()) {}
+    FilmRun(PictureOptions& options, bool skip_existing)
+        : options_(options), skip_existing_(skip_existing), whole_(options.film.range()), range_(whole_) {}
 
     Result<void> run() {
         if (const auto named = name_files(); !named) return named;
+        if (options_.shard) {
+            const auto mine = options_.shard->frames_of(whole_);
+            if (!mine) return nothing_to_draw();
+            range_ = *mine;
+        }
         if (const auto checked = check_paths_of_all(); !checked) return checked;
         auto job = make_render_job(options_, kRenderSize);
         if (!job) return tl::unexpected(job.error());
@@ -60,6 +71,12 @@ public:
     [[nodiscard]] const std::string& report() const { return report_; }
 
 private:
+    /// More shards than frames are no error, since a scheduler starts them all.
+    Result<void> nothing_to_draw() {
+        print_note(fmt::format("shard {} of {} has none of the {} frames", options_.shard->index, options_.shard->count, whole_.count()));
+        return {};
+    }
+
     /// The folder's files take the scene's name.
     Result<void> name_files() {
         std::string& output = options_.output;
@@ -71,13 +88,16 @@ private:
         film_format_ = film::film_format_of(output);
         if (film_format_ && options_.format)
             return fail(ErrorCode::usage, "--format: expected a pattern such as frame_{:04}.png as the output, found '" + output + "'");
+        if (film_format_ && skip_existing_)
+            return fail(ErrorCode::usage,
+                        "--skip-existing: expected a pattern such as frame_{:04}.png as the output, found '" + output + "'");
         if (!film_format_) {
             const auto format = options_.picture_format();
             if (!format) return tl::unexpected(format.error());
             format_ = *format;
         }
-        for (const std::size_t i : {std::size_t{0}, range_.count() - 1}) {
-            const auto name = film_format_ ? Result<std::string>(output) : frame_name(output, options_.scene, range_.number(i));
+        for (const std::int64_t number : {whole_.first, whole_.last}) {
+            const auto name = film_format_ ? Result<std::string>(output) : frame_name(output, options_.scene, number);
             if (!name) return tl::unexpected(name.error());
             if (is_folder(*name)) return fail(ErrorCode::io, *name + ": " + io::errno_text(EISDIR));
         }
@@ -122,13 +142,21 @@ private:
         const bool floats = !film_format_ && is_linear(format_);
         for (Image& picture : pictures_) picture = make_image(*job_, floats);
         if (!film_format_) return {};
-        const Settings& settings = job_->settings;
-        const bool opaque = settings.background_environment || settings.background_linear.w >= 1.0f;
         auto writer = film::make_film_writer(*film_format_, {pictures_[0].width, pictures_[0].height, range_.count(),
-                                                             options_.film.frame_time(), opaque, options_.film.dither});
+                                                             options_.film.frame_time(), is_opaque(), options_.film.dither});
         if (!writer) return fail(writer.error().code, options_.output + ": " + writer.error().message);
         writer_ = std::move(*writer);
         return {};
+    }
+
+    [[nodiscard]] bool is_opaque() const { return job_->settings.background_environment || job_->settings.background_linear.w >= 1.0f; }
+
+    [[nodiscard]] PictureFile file_at(std::size_t i) const {
+        PictureFile file;
+        file.output = file_of(i);
+        file.frame = FilmFrame{range_.number(i), whole_, options_.film.frame_time(), is_opaque()};
+        file.shard = options_.shard;
+        return file;
     }
 
     /// Brings the scene and the camera to a frame.
@@ -158,12 +186,12 @@ private:
         Camera camera = job_->camera;
         if (const auto moved = move_to(number, camera); !moved) return tl::unexpected(moved.error());
         Drawn drawn;
-        drawn.prepare_ms = preparing.ms() + (i == 0 ? job_->prepare_ms : 0.0);
-        drawn.load_ms = i == 0 ? job_->load_ms : 0.0;
+        const bool first = drawn_count_++ == 0;
+        drawn.prepare_ms = preparing.ms() + (first ? job_->prepare_ms : 0.0);
+        drawn.load_ms = first ? job_->load_ms : 0.0;
         drawn.pose_time_s = job_->pose_time_s;
-        drawn.file.output = file_of(i);
-        drawn.file.frame = number;
-        drawn.picture = &pictures_[i % pictures_.size()];
+        drawn.file = file_at(i);
+        drawn.picture = &pictures_[drawn_count_ % pictures_.size()];
         const auto rendered =
             renderer_.render(*job_->prepared, camera, job_->settings, target_of(*job_, *drawn.picture), job_->timed_execution());
         if (!rendered)
@@ -172,32 +200,34 @@ private:
         return drawn;
     }
 
-    /// On another thread than the drawing. Returns the milliseconds that it took.
-    Result<double> encode(const Drawn& drawn) {
+    /// On another thread than the drawing.
+    Result<Encoded> encode(const Drawn& drawn) {
         try {
             const Stopwatch encoding;
             if (writer_) {
                 if (const auto added = writer_->add(*drawn.picture); !added) return tl::unexpected(added.error());
-                return encoding.ms();
+                return Encoded{encoding.ms(), 0};
             }
             const auto bytes = encode_image(*drawn.picture, format_);
             if (!bytes) return tl::unexpected(bytes.error());
             const double ms = encoding.ms();
             if (const auto written = io::write_file(drawn.file.output, *bytes); !written) return tl::unexpected(written.error());
-            return ms;
+            return Encoded{ms, pixel_hash(*bytes)};
         } catch (const std::bad_alloc&) {
             return fail(ErrorCode::limit, "out of memory while encoding a frame");
         }
     }
 
     /// Waits for the frame that is being encoded, and reports it.
-    Result<void> settle(const Drawn& drawn, std::future<Result<double>>& encoding) {
-        const auto ms = encoding.get();
-        if (!ms) return tl::unexpected(ms.error());
+    Result<void> settle(Drawn& drawn, std::future<Result<Encoded>>& encoding) {
+        if (!encoding.valid()) return {};
+        const auto encoded = encoding.get();
+        if (!encoded) return tl::unexpected(encoded.error());
         if (options_.report.empty()) return {};
+        drawn.file.file_hash = encoded->file_hash;
         const auto now = std::array{job_->load_ms, job_->prepare_ms, job_->pose_time_s};
         job_->load_ms = drawn.load_ms, job_->prepare_ms = drawn.prepare_ms, job_->pose_time_s = drawn.pose_time_s;
-        report_ += picture_report(drawn.file, *job_, drawn.rendered, *drawn.picture, *ms, true);
+        report_ += picture_report(drawn.file, *job_, drawn.rendered, *drawn.picture, encoded->ms, true);
         job_->load_ms = now[0], job_->prepare_ms = now[1], job_->pose_time_s = now[2];
         return {};
     }
@@ -205,13 +235,17 @@ private:
     Result<void> draw_all() {
         ProgressLine line(false, 500.0);
         Drawn before;
-        std::future<Result<double>> encoding;  // waits for its thread where it is destroyed, so before what that reads
+        std::future<Result<Encoded>> encoding;  // waits for its thread where it is destroyed, so before what that reads
         for (std::size_t i = 0; i < range_.count(); ++i) {
-            auto next = draw(i);
-            if (encoding.valid())
+            if (skip_existing_ && is_there(file_of(i))) {
                 if (const auto settled = settle(before, encoding); !settled) return settled;
+                report_ += skipped_report(job_->source.name, file_at(i));
+                continue;
+            }
+            auto next = draw(i);
+            if (const auto settled = settle(before, encoding); !settled) return settled;
             if (!next) return tl::unexpected(next.error());
-            if (i == 0)
+            if (drawn_count_ == 1)
                 for (const std::string& warning : next->rendered.warnings) print_warning(warning);
             before = std::move(*next);
             encoding = std::async(std::launch::async, [this, &before] { return encode(before); });
@@ -222,7 +256,7 @@ private:
 
     Result<void> finish() {
         if (!writer_) {
-            print_note(fmt::format("wrote {} frames, {} to {}", range_.count(), file_of(0), file_of(range_.count() - 1)));
+            print_note(fmt::format("wrote {} frames, {} to {}", drawn_count_, file_of(0), file_of(range_.count() - 1)));
             return {};
         }
         const auto bytes = writer_->finish();
@@ -233,7 +267,9 @@ private:
     }
 
     PictureOptions& options_;
-    FrameRange range_;
+    bool skip_existing_;
+    FrameRange whole_, range_;     ///< all frames, and those of this shard
+    std::size_t drawn_count_ = 0;  ///< frames that were drawn
     RenderJob* job_ = nullptr;
     std::optional<film::FilmFormat> film_format_;
     OutputFormat format_ = OutputFormat::png;
@@ -245,7 +281,7 @@ private:
 
 }  // namespace
 
-Result<int> render_film(PictureOptions options) {
+Result<int> render_film(PictureOptions options, bool skip_existing) {
     if (const auto checked = check_film_options(options.film, options.output); !checked) return tl::unexpected(checked.error());
     if (!options.aovs.empty()) return fail(ErrorCode::usage, "--aov: cannot be combined with --frames or --turntable");
     if (options.blank_check) return fail(ErrorCode::usage, "--blank-check: cannot be combined with --frames or --turntable");
@@ -256,7 +292,7 @@ Result<int> render_film(PictureOptions options) {
             (void)write_text(path, error_report(scene, 128 + signal, "interrupted by signal " + std::to_string(signal), true));
         });
     if (options.max_memory_bytes == 0) prepare_heap();
-    FilmRun film(options);
+    FilmRun film(options, skip_existing);
     const Result<void> done = within_memory(options, [&] { return film.run(); });
     const bool may_report = !options.report.empty() && (done || done.error().code != ErrorCode::usage);
     if (may_report) {

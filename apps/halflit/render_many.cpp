@@ -85,7 +85,12 @@ struct Outcome {
 class Batch {
 public:
     explicit Batch(const ManyOptions& options)
-        : options_(options), threads_(thread_count(options)), permits_(threads_), outcomes_(options.scenes.size()) {}
+        : options_(options), threads_(thread_count(options)), permits_(threads_), outcomes_(options.scenes.size()) {
+        if (const auto& shard = options.each.shard) {
+            next_ = told_ = static_cast<std::size_t>(shard->index);
+            step_ = static_cast<std::size_t>(shard->count);
+        }
+    }
 
     Result<int> run() {
         if (const auto named = name_pictures(); !named) return tl::unexpected(named.error());
@@ -98,7 +103,7 @@ public:
         if (options_.each.max_memory_bytes == 0) prepare_heap();
         // Beyond those that draw, some wait until the system has their file on its disk.
         constexpr std::size_t kWriters = 8;
-        const std::size_t wanted = std::min(pictures_.size(), static_cast<std::size_t>(threads_) + kWriters);
+        const std::size_t wanted = std::min((pictures_.size() + step_ - 1) / step_, static_cast<std::size_t>(threads_) + kWriters);
         std::vector<std::thread> others;
         try {
             while (others.size() + 1 < wanted) others.emplace_back([this] { work(); });
@@ -125,6 +130,7 @@ private:
             PictureOptions& one = pictures_.emplace_back(options_.each);
             one.scene = scene;
             one.report.clear();
+            one.place = ScenePlace{i, options_.scenes.size()};
             auto name = picture_name(options_.each.output, options_.each.format, scene, i);
             if (!name) return tl::unexpected(name.error());
             one.output = std::move(*name);
@@ -188,8 +194,9 @@ private:
             std::size_t i = 0;
             {
                 const std::scoped_lock lock(mutex_);
-                if (next_ == pictures_.size()) return;
-                i = next_++;
+                if (next_ >= pictures_.size()) return;
+                i = next_;
+                next_ += step_;
             }
             Outcome outcome;
             {
@@ -215,9 +222,13 @@ private:
 
     Outcome draw(std::size_t i) {
         PictureOptions& options = pictures_[i];
-        if (options_.skip_existing && bytes_of(options.output) > 0) {
+        if (options_.skip_existing && is_there(options.output)) {
             print_detail(options.output + " is there and was left alone");
-            return {"", skipped_report(options.scene, options.output), 0, false};
+            PictureFile there;
+            there.output = options.output;
+            there.shard = options.shard;
+            there.place = options.place;
+            return {"", skipped_report(options.scene, there), 0, false};
         }
         const int threads = is_large(i) ? threads_ : 1;
         options.execution.threads = threads;
@@ -246,7 +257,7 @@ private:
 
     /// Tells the outcomes that are next in order.
     void tell() {
-        for (; told_ < outcomes_.size() && outcomes_[told_]; ++told_) {
+        for (; told_ < outcomes_.size() && outcomes_[told_]; told_ += step_) {
             Outcome& outcome = *outcomes_[told_];
             std::fwrite(outcome.messages.data(), 1, outcome.messages.size(), stderr);
             if (report_ != nullptr && !report_error_ &&
@@ -267,9 +278,9 @@ private:
     int threads_;
     Permits permits_;
     std::vector<PictureOptions> pictures_;
-    std::vector<std::uintmax_t> bytes_;  ///< of each scene, with the files that it refers to
-    std::mutex mutex_;                   ///< guards all below
-    std::size_t next_ = 0, told_ = 0;
+    std::vector<std::uintmax_t> bytes_;           ///< of each scene, with the files that it refers to
+    std::mutex mutex_;                            ///< guards all below
+    std::size_t next_ = 0, told_ = 0, step_ = 1;  ///< the shard's scenes are `step_` apart
     std::vector<std::optional<Outcome>> outcomes_;
     std::unique_ptr<std::FILE, CloseFile> report_;
     std::optional<int> report_error_;

@@ -34,6 +34,25 @@ Json work_json(const WorkCounts& work) {
             {"shadow_look_ups", work.shadow_lookup_lanes}};
 }
 
+Json numbers_of(const Region& region) { return {region.x, region.y, region.width, region.height}; }
+
+/// The output, and its place among the others of the run.
+void add_place(Json& report, const PictureFile& file) {
+    report["output"] = file.output;
+    if (file.shard) report["shard"] = {file.shard->index, file.shard->count};
+    if (file.frame) {
+        const auto& [number, whole, time, opaque] = *file.frame;
+        report["frame"] = number;
+        report["film"] = {{"first", whole.first},
+                          {"last", whole.last},
+                          {"step", whole.step},
+                          {"seconds_each", {time.numerator, time.denominator}},
+                          {"opaque", opaque}};
+    }
+    if (file.place) report["place"] = {{"index", file.place->index}, {"scenes", file.place->scenes}};
+    if (file.part_of) report["part_of"] = numbers_of(*file.part_of);
+}
+
 }  // namespace
 
 Json report_head(std::string_view kind) {
@@ -42,8 +61,7 @@ Json report_head(std::string_view kind) {
 
 void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered, const Image& picture) {
     report["size"] = {job.width, job.height};
-    const Region& region = job.settings.region;
-    report["region"] = {region.x, region.y, region.width, region.height};
+    report["region"] = numbers_of(job.settings.region);
     report["pixel_hash"] = fmt::format("{:016x}", pixel_hash(picture.rgba8));
     report["isa"] = isa_name(rendered.isa);
     report["threads"] = rendered.threads;
@@ -119,8 +137,8 @@ std::string picture_report(const PictureFile& file, const RenderJob& job, const 
                            double encode_ms, bool one_line) {
     Json report = report_head("report");
     report["scene"] = job.source.name;
-    report["output"] = file.output;
-    if (file.frame) report["frame"] = *file.frame;
+    add_place(report, file);
+    if (file.file_hash != 0) report["file_hash"] = fmt::format("{:016x}", file.file_hash);
     for (const AovFile& aov : file.beside) report["aov"][std::string(kAovNames[static_cast<std::size_t>(aov.aov)])] = aov.path;
     add_frame(report, job, rendered, picture);
     if (file.blank) report["blank"] = true;
@@ -136,11 +154,11 @@ std::string error_report(const std::string& scene, int code, const std::string& 
     return to_text(report, one_line);
 }
 
-std::string skipped_report(const std::string& scene, const std::string& output) {
+std::string skipped_report(const std::string& scene, const PictureFile& file) {
     Json report = report_head("report");
     report["status"] = "skipped";
     report["scene"] = scene;
-    report["output"] = output;
+    add_place(report, file);
     return to_text(report, true);
 }
 

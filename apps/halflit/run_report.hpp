@@ -42,7 +42,7 @@ void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered,
                                          double encode_ms, bool one_line);
 /// A report of render with {"status": "error", ..., "error": {"code": N, "message": "..."}}. scene: as in the command line.
 [[nodiscard]] std::string error_report(const std::string& scene, int code, const std::string& message, bool one_line = false);
-/// The line of a scene whose picture was there: {"status": "skipped", ...}.
-[[nodiscard]] std::string skipped_report(const std::string& scene, const std::string& output);
+/// The line of a picture that was there: {"status": "skipped", ...}. file: its output and place.
+[[nodiscard]] std::string skipped_report(const std::string& scene, const PictureFile& file);
 
 }  // namespace halflit::cli

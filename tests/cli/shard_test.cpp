@@ -1,0 +1,304 @@
+// Shards: parts of a run by processes of their own, killed and repeated, make what one process makes; merge finds what is missing or damaged.
+#include "tests/cli/program.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include "tests/support/catch.hpp"
+#include "tests/support/skip.hpp"
+
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+using namespace halflit::test;
+
+namespace {
+
+using Strings = std::vector<std::string>;
+using Variables = std::vector<std::pair<std::string, std::string>>;
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+Outcome run_in(const TemporaryFolder& folder, Strings arguments, const Variables& environment = {}) {
+    return run(arguments, {.environment = environment, .folder = folder.path()});
+}
+
+void run_well(const TemporaryFolder& folder, Strings arguments, const Variables& environment = {}) {
+    const Outcome outcome = run_in(folder, std::move(arguments), environment);
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+}
+
+Strings lines_of(const std::string& text) {
+    Strings lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
+const Strings kTurn{"render", "sphere:200", "--turntable", "7", "--size", "32x24", "--samples", "1"};
+
+Strings with(Strings words, const Strings& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+/// The command as sh reads it, with the program's path in front of the line's arguments.
+Outcome run_line(const TemporaryFolder& folder, const std::string& line) {
+    const std::string log = folder.file("shell.log");
+    const std::string command =
+        fmt::format("cd '{}' && PATH='{}':$PATH && {} >'{}' 2>&1", folder.path(),
+                    std::filesystem::path(HALFLIT_PROGRAM).parent_path().string(), line, log);
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(log), ""};
+}
+
+}  // namespace
+
+TEST_CASE("shards: frames by parts are those of one process, and merge makes the same film", "[cli][shard]") {
+    const TemporaryFolder folder;
+    run_well(folder, with(kTurn, {"-o", "whole/{:02}.png"}));
+    run_well(folder, with(kTurn, {"-o", "whole.apng"}));
+    // More shards than frames: the last ones have nothing to do.
+    for (int i = 0; i < 9; ++i)
+        run_well(folder, with(kTurn, {"-o", "parts/{:02}.png", "--report", "r.json", "--shard", fmt::format("{}/9", i)}));
+    for (int i = 0; i < 7; ++i) {
+        const std::string name = fmt::format("/{:02}.png", i);
+        CHECK(contents(folder.file("whole" + name)) == contents(folder.file("parts" + name)));
+    }
+    Strings merge{"merge"};
+    for (int i = 0; i < 9; ++i) merge.push_back(fmt::format("r.{}-of-9.json", i));
+    run_well(folder, merge);
+    run_well(folder, with(merge, {"-o", "parts.apng"}));
+    CHECK(contents(folder.file("whole.apng")) == contents(folder.file("parts.apng")));
+
+    SECTION("a shard that is missing is named") {
+        const Outcome outcome = run_in(folder, {"merge", "r.0-of-9.json", "r.2-of-9.json", "r.6-of-9.json"});
+        CHECK(outcome.code == 1);
+        CHECK(contains(outcome.err, "missing: frames 1, 3, 4, 5; they are in the shards 1, 3, 4, 5 of 9"));
+    }
+    SECTION("a damaged frame is named") {
+        std::string file = contents(folder.file("parts/03.png"));
+        file[file.size() / 2] ^= 1;
+        write_contents(folder.file("parts/03.png"), file);
+        const Outcome outcome = run_in(folder, merge);
+        CHECK(outcome.code == 1);
+        CHECK(contains(outcome.err, "parts/03.png: expected the file with the hash"));
+    }
+    SECTION("a frame that is not there is named") {
+        std::filesystem::remove(folder.file("parts/05.png"));
+        const Outcome outcome = run_in(folder, merge);
+        CHECK(outcome.code == 4);
+        CHECK(contains(outcome.err, "parts/05.png"));
+    }
+    SECTION("frames that are there can be left alone") {
+        std::filesystem::remove(folder.file("parts/04.png"));
+        write_contents(folder.file("parts/06.png"), "kept");
+        run_well(folder, with(kTurn, {"-o", "parts/{:02}.png", "--report", "all.json", "--skip-existing"}));
+        CHECK(contents(folder.file("whole/04.png")) == contents(folder.file("parts/04.png")));
+        CHECK(contents(folder.file("parts/06.png")) == "kept");
+        const Strings lines = lines_of(contents(folder.file("all.json")));
+        REQUIRE(lines.size() == 7);
+        for (std::size_t i = 0; i < 7; ++i) {
+            const auto line = nlohmann::json::parse(lines[i]);
+            CHECK(line["frame"] == i);
+            CHECK(line["status"] == (i == 4 ? "ok" : "skipped"));
+        }
+    }
+}
+
+TEST_CASE("shards: bands of one picture join to the picture, in every lossless format", "[cli][shard]") {
+    const TemporaryFolder folder;
+    const std::string format = GENERATE("png", "bmp", "tga", "hdr", "pfm", "exr");
+    const Strings picture{"render", "sphere:500", "--size", "50x37", "-o", "x." + format};
+    const Outcome whole = run_in(folder, picture);
+    if (format == "exr" && whole.code == 2) return;  // built without OpenEXR
+    REQUIRE(whole.code == 0);
+    for (int i = 0; i < 12; ++i) run_well(folder, with(picture, {"--shard", fmt::format("{}/12", i)}));
+    Strings merge{"merge"};
+    for (int i = 11; i >= 0; --i) merge.push_back(fmt::format("x.{:02}-of-12.json", i));
+    run_well(folder, with(merge, {"-o", "joined." + format}));
+    CHECK(contents(folder.file("x." + format)) == contents(folder.file("joined." + format)));
+    merge.pop_back();  // part 0
+    merge.erase(merge.begin() + 4);
+    const Outcome outcome = run_in(folder, merge);
+    CHECK(outcome.code == 1);
+    CHECK(contains(outcome.err, "missing: rows from 0 to 2"));
+}
+
+TEST_CASE("shards: parts of a region join to the region", "[cli][shard]") {
+    const TemporaryFolder folder;
+    const Strings picture{"render", "demo", "--size", "64x48", "--region", "10,5,40,30", "--background", "transparent", "-o", "x.png"};
+    run_well(folder, picture);
+    for (int i = 0; i < 4; ++i) run_well(folder, with(picture, {"--shard", fmt::format("{}/4", i)}));
+    run_well(folder, {"merge", "x.0-of-4.json", "x.1-of-4.json", "x.2-of-4.json", "x.3-of-4.json", "-o", "joined.png"});
+    CHECK(contents(folder.file("x.png")) == contents(folder.file("joined.png")));
+}
+
+TEST_CASE("shards: scenes are divided, and their numbers stay those of the whole list", "[cli][shard]") {
+    const TemporaryFolder folder;
+    const Strings scenes{"render", "sphere:12", "sphere:20", "sphere:30", "demo", "sphere:50", "--size", "16", "-o", "p/{index}.png"};
+    run_well(folder, scenes);
+    Strings whole;
+    for (int i = 0; i < 5; ++i) whole.push_back(contents(folder.file(fmt::format("p/{}.png", i))));
+    std::filesystem::remove_all(folder.file("p"));
+    for (int i = 0; i < 2; ++i) run_well(folder, with(scenes, {"--report", "r.json", "--shard", fmt::format("{}/2", i)}));
+    for (int i = 0; i < 5; ++i) CHECK(contents(folder.file(fmt::format("p/{}.png", i))) == whole[static_cast<std::size_t>(i)]);
+    run_well(folder, {"merge", "r.0-of-2.json", "r.1-of-2.json"});
+    const Outcome half = run_in(folder, {"merge", "r.1-of-2.json"});
+    CHECK(half.code == 1);
+    CHECK(contains(half.err, "missing: scenes 0, 2, 4; they are in the shards 0 of 2"));
+    const Outcome joined = run_in(folder, {"merge", "r.0-of-2.json", "r.1-of-2.json", "-o", "x.png"});
+    CHECK(joined.code == 2);
+}
+
+TEST_CASE("shards: a killed process leaves no half file, and its repetition makes the rest", "[cli][shard]") {
+    const TemporaryFolder folder;
+    const Strings turn{"render", "sphere:3000", "--turntable", "12", "--size", "160x120"};
+    const Strings film = with(turn, {"-o", "f/{:02}.png", "--report", "r.json"});
+    run_well(folder, with(turn, {"-o", "whole/{:02}.png"}));
+    for (int i = 0; i < 3; ++i) {
+        const Strings shard = with(film, {"--shard", fmt::format("{}/3", i)});
+        const std::string first = folder.file(fmt::format("f/{:02}.png", i));
+        (void)run(shard, {.folder = folder.path(), .signal = [&]() -> std::optional<int> {
+                              return std::filesystem::exists(first) ? std::optional(SIGKILL) : std::nullopt;
+                          }});
+        run_well(folder, with(shard, i == 1 ? Strings{"--skip-existing"} : Strings{}));
+    }
+    for (int i = 0; i < 12; ++i) {
+        const std::string name = fmt::format("/{:02}.png", i);
+        CHECK(contents(folder.file("whole" + name)) == contents(folder.file("f" + name)));
+    }
+    const Outcome merged = run_in(folder, {"merge", "r.0-of-3.json", "r.1-of-3.json", "r.2-of-3.json"});
+    INFO(merged.err);
+    CHECK(merged.code == 0);
+}
+
+TEST_CASE("shards: a scheduler's number of the task is the shard", "[cli][shard]") {
+    const TemporaryFolder folder;
+    struct Case {
+        Variables environment;
+        std::string shard;
+        std::string report;  ///< empty: refused
+    };
+    const auto [environment, shard, report] = GENERATE(Case{{{"SLURM_ARRAY_TASK_ID", "3"}}, "auto/8", "r.3-of-8.json"},
+                                                       Case{{{"SLURM_ARRAY_TASK_ID", "3"}, {"SLURM_ARRAY_TASK_COUNT", "8"}, {"SLURM_ARRAY_TASK_MAX", "7"}},
+                                                            "auto",
+                                                            "r.3-of-8.json"},
+                                                       // Three tasks of a larger array, submitted again.
+                                                       Case{{{"SLURM_ARRAY_TASK_ID", "1"}, {"SLURM_ARRAY_TASK_COUNT", "3"}, {"SLURM_ARRAY_TASK_MAX", "9"}},
+                                                            "auto",
+                                                            ""},
+                                                       Case{{{"JOB_COMPLETION_INDEX", "0"}}, "auto/8", "r.0-of-8.json"},
+                                                       Case{{{"JOB_COMPLETION_INDEX", "0"}}, "auto", ""},
+                                                       Case{{{"AWS_BATCH_JOB_ARRAY_INDEX", "9"}, {"AWS_BATCH_JOB_ARRAY_SIZE", "10"}}, "auto", "r.09-of-10.json"},
+                                                       Case{{{"PARALLEL_SEQ", "8"}}, "auto/8", "r.7-of-8.json"},
+                                                       Case{{{"PARALLEL_SEQ", "9"}}, "auto/8", ""},
+                                                       Case{{{"PARALLEL_SEQ", "1"}, {"SLURM_ARRAY_TASK_ID", "1"}}, "auto/8", ""},
+                                                       Case{{{"SLURM_ARRAY_TASK_ID", "8"}}, "auto/8", ""},
+                                                       Case{{{"SLURM_ARRAY_TASK_ID", "x"}}, "auto/8", ""},
+                                                       Case{{}, "auto/8", ""});
+    const Outcome outcome =
+        run_in(folder, with(kTurn, {"-o", "{:02}.png", "--report", "r.json", "--shard", shard}), environment);
+    INFO(outcome.err);
+    CHECK(outcome.code == (report.empty() ? 2 : 0));
+    if (!report.empty()) CHECK(std::filesystem::exists(folder.file(report)));
+}
+
+TEST_CASE("shards: what has no parts is refused", "[cli][shard]") {
+    const TemporaryFolder folder;
+    const Strings flags = GENERATE(Strings{"--shard", "3/3"}, Strings{"--shard", "-1/3"}, Strings{"--shard", "1"}, Strings{"--shard", "1/0"},
+                                   Strings{"--shard", "0/2", "-o", "x.gif", "--turntable", "4"}, Strings{"--shard", "0/2", "-o", "-"},
+                                   Strings{"--shard", "0/2", "-o", "x.jpg"}, Strings{"--shard", "0/2", "--report", "-"},
+                                   Strings{"--shard", "0/2", "--aov", "depth"}, Strings{"--shard", "0/99"},
+                                   Strings{"--shard", "0/2", "-o", "x.exr", "--background", "transparent"});
+    const Outcome outcome = run_in(folder, with({"render", "sphere:12", "--size", "8"}, flags));
+    INFO(outcome.err);
+    CHECK(outcome.code == 2);
+    for (const std::string& name : folder.names()) CHECK(name.ends_with(".json"));  // that of a fault found while drawing
+}
+
+TEST_CASE("merge: what is no report of one run is refused", "[cli][shard]") {
+    const TemporaryFolder folder;
+    run_well(folder, {"render", "sphere:12", "--size", "8", "--shard", "0/2", "-o", "a.png"});
+    run_well(folder, {"render", "sphere:12", "--size", "8x16", "--shard", "1/2", "-o", "b.png"});
+    CHECK(run_in(folder, {"merge", "a.0-of-2.json", "b.1-of-2.json"}).code == 2);
+    const std::string good = contents(folder.file("a.0-of-2.json"));
+    const std::string text = GENERATE_COPY(std::string("{}"), std::string("[]"), std::string("no"), std::string("{\"schema\":1}"),
+                                           std::string(R"({"schema":"halflit.report/1","status":"ok"})"), good.substr(0, good.size() / 2),
+                                           good + good.substr(0, 40), "{\"status\":\"ok\"}\n" + good);
+    write_contents(folder.file("bad.json"), text);
+    const Outcome outcome = run_in(folder, {"merge", "a.0-of-2.json", "bad.json"});
+    INFO(outcome.err);
+    CHECK(outcome.code == 3);
+    CHECK(contains(outcome.err, "bad.json"));
+}
+
+TEST_CASE("plan: the lines are commands that make the whole run", "[cli][shard]") {
+    const TemporaryFolder folder;
+    const std::string name = "it's $HOME.png";  // a shell must not read it
+    const Outcome plan = run_in(folder, {"plan", "--shards", "3", "--", "render", "sphere:100", "--size", "24", "-o", name});
+    INFO(plan.err);
+    REQUIRE(plan.code == 0);
+    const Strings lines = lines_of(plan.out);
+    REQUIRE(lines.size() == 3);
+    for (const std::string& line : lines) CHECK(run_line(folder, line).code == 0);
+    const std::size_t at = plan.err.find("halflit merge");
+    REQUIRE(at != std::string::npos);
+    const Outcome merged = run_line(folder, plan.err.substr(at, plan.err.find('\n', at) - at));
+    INFO(merged.out);
+    CHECK(merged.code == 0);
+    const std::string joined = contents(folder.file(name));
+    run_well(folder, {"render", "sphere:100", "--size", "24", "-o", name});
+    CHECK(contents(folder.file(name)) == joined);
+}
+
+TEST_CASE("plan: a scheduler's job holds the command", "[cli][shard]") {
+    const TemporaryFolder folder;
+    const auto plan_for = [&](const std::string& form) {
+        const Outcome outcome = run_in(folder, {"plan", "--for", form, "--", "render", "a b.glb", "--turntable", "36", "-o", "f{:02}.png"});
+        INFO(outcome.err);
+        REQUIRE(outcome.code == 0);
+        return outcome.out;
+    };
+    const std::string command = "halflit render 'a b.glb' --turntable 36 -o 'f{:02}.png' --report report.json --shard ";
+    CHECK(plan_for("slurm") == "#!/bin/sh\n#SBATCH --array=0-35\n#SBATCH --requeue\n" + command + "auto/36\n");
+    CHECK(plan_for("opencue") == command + "'#IFRAME#/36'\n");
+    CHECK(lines_of(plan_for("lines")).size() == 36);
+    const auto job = nlohmann::json::parse(plan_for("kubernetes"));
+    CHECK(job["spec"]["completions"] == 36);
+    CHECK(job["spec"]["completionMode"] == "Indexed");
+    const auto words = job["spec"]["template"]["spec"]["containers"][0]["command"].get<Strings>();
+    CHECK(words == Strings{"halflit", "render", "a b.glb", "--turntable", "36", "-o", "f{:02}.png", "--report", "report.json", "--shard", "auto/36"});
+}
+
+TEST_CASE("plan: a wrong command is told before it is started anywhere", "[cli][shard]") {
+    const TemporaryFolder folder;
+    const Strings words = GENERATE(Strings{"render", "demo", "--sise", "8"}, Strings{"render", "demo", "--turntable", "4", "-o", "x.gif"},
+                                   Strings{"render", "demo", "--shard", "0/2"}, Strings{"render", "--help"},
+                                   Strings{"render", "demo", "-o", "x.jpg"}, Strings{});
+    const Outcome outcome = run_in(folder, with({"plan", "--"}, words));
+    INFO(outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.out.empty());
+}
+
+TEST_CASE("plan: GNU parallel runs what it is given", "[cli][shard]") {
+    if (std::system("parallel --version >/dev/null 2>&1") != 0) HALFLIT_SKIP("GNU parallel is absent");
+    const TemporaryFolder folder;
+    run_well(folder, with(kTurn, {"-o", "whole/{:02}.png"}));
+    const std::string form = GENERATE("lines", "parallel");
+    const Outcome plan = run_in(folder, with({"plan", "--for", form, "--"}, with(kTurn, {"-o", "f {:02}.png"})));
+    REQUIRE(plan.code == 0);
+    write_contents(folder.file("plan.sh"), plan.out);
+    const Outcome ran = run_line(folder, form == "lines" ? "parallel <plan.sh" : "sh plan.sh");
+    INFO(ran.out);
+    CHECK(ran.code == 0);
+    for (int i = 0; i < 7; ++i)
+        CHECK(contents(folder.file(fmt::format("whole/{:02}.png", i))) == contents(folder.file(fmt::format("f {:02}.png", i))));
+}
