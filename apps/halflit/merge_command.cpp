@@ -90,14 +90,14 @@ Result<std::vector<std::uint8_t>> join_parts(const ReportedRun& run, const Merge
 
 Result<std::vector<std::uint8_t>> join_frames(const ReportedRun& run, const MergeOptions& options) {
     const auto format = film::film_format_of(options.output);
-    if (!format)
-        return fail(ErrorCode::usage, fmt::format("-o {}: expected a .gif, .apng or .webp file for frames", options.output));
+    if (!format) return fail(ErrorCode::usage, fmt::format("-o {}: expected a .gif, .apng or .webp file for frames", options.output));
     std::unique_ptr<film::FilmWriter> writer;
     const auto done = for_each_picture(run, true, [&](const ReportedPicture& frame, const Image& image) -> Result<void> {
         if (image.rgba8.empty()) return fail(ErrorCode::usage, frame.path + ": expected a picture of 8-bit codes, found floats");
         const FilmFrame& of = *frame.file.frame;
         if (!writer) {
-            auto made = film::make_film_writer(*format, {image.width, image.height, run.pictures.size(), of.time, of.opaque, options.dither});
+            auto made =
+                film::make_film_writer(*format, {image.width, image.height, run.pictures.size(), of.time, of.opaque, options.dither});
             if (!made) return tl::unexpected(made.error());
             writer = std::move(*made);
         }
@@ -148,7 +148,8 @@ Result<int> run_merge(const MergeOptions& options) {
     }
     const auto unknown = std::count_if(run->pictures.begin(), run->pictures.end(), [](const auto& p) { return p.file.file_hash == 0; });
     if (unknown > 0)
-        print_warning(fmt::format("{} of {} pictures were there before their run, so their hashes are not known", unknown, run->pictures.size()));
+        print_warning(
+            fmt::format("{} of {} pictures were there before their run, so their hashes are not known", unknown, run->pictures.size()));
     print_note(fmt::format("{}{} of {} are complete{}", options.output.empty() ? "" : "wrote " + options.output + ": ",
                            run->pictures.size(), run->pictures.size(), unknown == 0 ? " and have the hashes of their reports" : ""));
     return 0;
@@ -170,15 +171,16 @@ Command merge_command() {
                        .repeated = true,
                        .form = "FILE",
                        .usage = "REPORT..."};
-    return {"merge",
-            "Verify that the pictures of all shards are there and have the hashes of their reports, and join parts or frames; exit code 1 if "
-            "not",
-            {std::move(reports)},
-            {{"Flags",
-              {{"-o,--output", "FILE", "Join parts into a picture, or frames into one .gif, .apng or .webp file; without it, verify alone",
-                read_text(o.output)},
-               {"--dither", "", "GIF: mix its 256 colours by an ordered pattern", set_to(o.dither)}}}},
-            [options] { return run_merge(*options); }};
+    return {
+        "merge",
+        "Verify that the pictures of all shards are there and have the hashes of their reports, and join parts or frames; exit code 1 if "
+        "not",
+        {std::move(reports)},
+        {{"Flags",
+          {{"-o,--output", "FILE", "Join parts into a picture, or frames into one .gif, .apng or .webp file; without it, verify alone",
+            read_text(o.output)},
+           {"--dither", "", "GIF: mix its 256 colours by an ordered pattern", set_to(o.dither)}}}},
+        [options] { return run_merge(*options); }};
 }
 
 }  // namespace halflit::cli

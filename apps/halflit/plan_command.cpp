@@ -54,7 +54,8 @@ std::string command_of(const Divided& run, const std::string& shard) {
 
 /// The command that follows when all shards have ended.
 std::string merge_of(const Divided& run) {
-    const std::string name = Shard{0, run.shards}.name_of(run.report), first = fmt::format("{:0{}}-of", 0, std::to_string(run.shards).size());
+    const std::string name = Shard{0, run.shards}.name_of(run.report),
+                      first = fmt::format("{:0{}}-of", 0, std::to_string(run.shards).size());
     const std::size_t at = name.rfind(first + "-" + std::to_string(run.shards));
     std::string text = "halflit merge " + shell_word(name.substr(0, at)) + "*" + shell_word(name.substr(at + first.size() - 3));
     if (!run.join.empty()) text += " -o " + shell_word(run.join);
@@ -112,7 +113,10 @@ std::string kubernetes_text(const Divided& run) {
     Json words = Json::array({"halflit"});
     for (const std::string& word : run.words) words.push_back(word);
     words.insert(words.end(), {"--shard", fmt::format("auto/{}", run.shards)});
-    const Json container{{"name", "halflit"}, {"image", "halflit"}, {"command", words}, {"workingDir", "/work"},
+    const Json container{{"name", "halflit"},
+                         {"image", "halflit"},
+                         {"command", words},
+                         {"workingDir", "/work"},
                          {"volumeMounts", {{{"name", "work"}, {"mountPath", "/work"}}}}};
     const Json pod{{"restartPolicy", "OnFailure"},
                    {"containers", Json::array({container})},
@@ -133,7 +137,7 @@ std::string text_of(const Divided& run, std::string_view form) {
     if (form == "kubernetes") return kubernetes_text(run);
     if (form == "opencue") return command_of(run, fmt::format("#IFRAME#/{}", run.shards)) + "\n";
     if (form == "parallel")
-        return fmt::format("seq 0 {} | parallel --joblog halflit.log {}\n", run.shards - 1,
+        return fmt::format("seq 0 {} | parallel --retries 3 --joblog halflit.log {}\n", run.shards - 1,
                            shell_word(command_of(run, fmt::format("{{}}/{}", run.shards))));
     std::string text;
     for (std::int64_t i = 0; i < run.shards; ++i) text += command_of(run, fmt::format("{}/{}", i, run.shards)) + "\n";
@@ -175,8 +179,7 @@ Command plan_command() {
             "Divide a run of render among processes: print its commands, one a line, or the job of a scheduler",
             {std::move(words)},
             {{"Flags",
-              {{"--shards", "N",
-                "Number of parts (default: one for each frame or scene, at most 1000; 16 for one picture)",
+              {{"--shards", "N", "Number of parts (default: one for each frame or scene, at most 1000; 16 for one picture)",
                 read_int(o.shards, 1, static_cast<int>(kMostShards))},
                {"--for", "lines|parallel|slurm|kubernetes|opencue",
                 "Commands as lines, a pipe into GNU parallel, a batch script for sbatch, an indexed job for kubectl, or the command of an "

@@ -256,7 +256,9 @@ private:
 
     Result<void> finish() {
         if (!writer_) {
-            print_note(fmt::format("wrote {} frames, {} to {}", drawn_count_, file_of(0), file_of(range_.count() - 1)));
+            print_note(range_.count() == 1
+                           ? "wrote " + file_of(0)
+                           : fmt::format("wrote {} frames, {} to {}", drawn_count_, file_of(0), file_of(range_.count() - 1)));
             return {};
         }
         const auto bytes = writer_->finish();

@@ -27,8 +27,9 @@ Result<const Scheduler*> find_scheduler(const ReadVariable& variable) {
     for (const Scheduler& scheduler : kSchedulers) {
         if (variable(scheduler.task) == nullptr) continue;
         if (found != nullptr)
-            return fail(ErrorCode::usage, fmt::format("auto: expected one scheduler in the environment, found {} and {}; I/N names the shard",
-                                                      found->task, scheduler.task));
+            return fail(ErrorCode::usage,
+                        fmt::format("auto: expected one scheduler in the environment, found {} and {}; I/N names the shard", found->task,
+                                    scheduler.task));
         found = &scheduler;
     }
     if (found != nullptr) return found;

@@ -20,9 +20,7 @@ namespace {
 constexpr std::size_t kMostReportBytes = std::size_t{1} << 30;
 constexpr std::size_t kMostPictureBytes = std::size_t{4} << 30;
 
-Region region_of(const Json& json) {
-    return {json.at(0).get<int>(), json.at(1).get<int>(), json.at(2).get<int>(), json.at(3).get<int>()};
-}
+Region region_of(const Json& json) { return {json.at(0).get<int>(), json.at(1).get<int>(), json.at(2).get<int>(), json.at(3).get<int>()}; }
 
 FilmFrame frame_of(const Json& report) {
     const Json& film = report.at("film");
@@ -118,8 +116,7 @@ bool same_region(const Region& a, const Region& b) { return a.x == b.x && a.y ==
 bool belong_together(const ReportedPicture& a, const ReportedPicture& b) {
     const PictureFile &one = a.file, &other = b.file;
     if (kind_of(one) != kind_of(other) || a.epoch != b.epoch) return false;
-    if (one.part_of)
-        return same_region(*one.part_of, *other.part_of) && a.size.width == b.size.width && a.size.height == b.size.height;
+    if (one.part_of) return same_region(*one.part_of, *other.part_of) && a.size.width == b.size.width && a.size.height == b.size.height;
     if (one.frame) {
         const FrameRange &p = one.frame->whole, &q = other.frame->whole;
         return p.first == q.first && p.last == q.last && p.step == q.step && one.frame->time == other.frame->time;

@@ -1,4 +1,5 @@
-// Shards: parts of a run by processes of their own, killed and repeated, make what one process makes; merge finds what is missing or damaged.
+// Shards: parts of a run by processes of their own, killed and repeated, make what one process makes; merge finds what is missing or
+// damaged.
 #include "tests/cli/program.hpp"
 
 #include <fmt/format.h>
@@ -51,9 +52,8 @@ Strings with(Strings words, const Strings& more) {
 /// The command as sh reads it, with the program's path in front of the line's arguments.
 Outcome run_line(const TemporaryFolder& folder, const std::string& line) {
     const std::string log = folder.file("shell.log");
-    const std::string command =
-        fmt::format("cd '{}' && PATH='{}':$PATH && {} >'{}' 2>&1", folder.path(),
-                    std::filesystem::path(HALFLIT_PROGRAM).parent_path().string(), line, log);
+    const std::string command = fmt::format("cd '{}' && PATH='{}':$PATH && {} >'{}' 2>&1", folder.path(),
+                                            std::filesystem::path(HALFLIT_PROGRAM).parent_path().string(), line, log);
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(log), ""};
 }
@@ -186,25 +186,17 @@ TEST_CASE("shards: a scheduler's number of the task is the shard", "[cli][shard]
         std::string shard;
         std::string report;  ///< empty: refused
     };
-    const auto [environment, shard, report] = GENERATE(Case{{{"SLURM_ARRAY_TASK_ID", "3"}}, "auto/8", "r.3-of-8.json"},
-                                                       Case{{{"SLURM_ARRAY_TASK_ID", "3"}, {"SLURM_ARRAY_TASK_COUNT", "8"}, {"SLURM_ARRAY_TASK_MAX", "7"}},
-                                                            "auto",
-                                                            "r.3-of-8.json"},
-                                                       // Three tasks of a larger array, submitted again.
-                                                       Case{{{"SLURM_ARRAY_TASK_ID", "1"}, {"SLURM_ARRAY_TASK_COUNT", "3"}, {"SLURM_ARRAY_TASK_MAX", "9"}},
-                                                            "auto",
-                                                            ""},
-                                                       Case{{{"JOB_COMPLETION_INDEX", "0"}}, "auto/8", "r.0-of-8.json"},
-                                                       Case{{{"JOB_COMPLETION_INDEX", "0"}}, "auto", ""},
-                                                       Case{{{"AWS_BATCH_JOB_ARRAY_INDEX", "9"}, {"AWS_BATCH_JOB_ARRAY_SIZE", "10"}}, "auto", "r.09-of-10.json"},
-                                                       Case{{{"PARALLEL_SEQ", "8"}}, "auto/8", "r.7-of-8.json"},
-                                                       Case{{{"PARALLEL_SEQ", "9"}}, "auto/8", ""},
-                                                       Case{{{"PARALLEL_SEQ", "1"}, {"SLURM_ARRAY_TASK_ID", "1"}}, "auto/8", ""},
-                                                       Case{{{"SLURM_ARRAY_TASK_ID", "8"}}, "auto/8", ""},
-                                                       Case{{{"SLURM_ARRAY_TASK_ID", "x"}}, "auto/8", ""},
-                                                       Case{{}, "auto/8", ""});
-    const Outcome outcome =
-        run_in(folder, with(kTurn, {"-o", "{:02}.png", "--report", "r.json", "--shard", shard}), environment);
+    const auto [environment, shard, report] = GENERATE(
+        Case{{{"SLURM_ARRAY_TASK_ID", "3"}}, "auto/8", "r.3-of-8.json"},
+        Case{{{"SLURM_ARRAY_TASK_ID", "3"}, {"SLURM_ARRAY_TASK_COUNT", "8"}, {"SLURM_ARRAY_TASK_MAX", "7"}}, "auto", "r.3-of-8.json"},
+        // Three tasks of a larger array, submitted again.
+        Case{{{"SLURM_ARRAY_TASK_ID", "1"}, {"SLURM_ARRAY_TASK_COUNT", "3"}, {"SLURM_ARRAY_TASK_MAX", "9"}}, "auto", ""},
+        Case{{{"JOB_COMPLETION_INDEX", "0"}}, "auto/8", "r.0-of-8.json"}, Case{{{"JOB_COMPLETION_INDEX", "0"}}, "auto", ""},
+        Case{{{"AWS_BATCH_JOB_ARRAY_INDEX", "9"}, {"AWS_BATCH_JOB_ARRAY_SIZE", "10"}}, "auto", "r.09-of-10.json"},
+        Case{{{"PARALLEL_SEQ", "8"}}, "auto/8", "r.7-of-8.json"}, Case{{{"PARALLEL_SEQ", "9"}}, "auto/8", ""},
+        Case{{{"PARALLEL_SEQ", "1"}, {"SLURM_ARRAY_TASK_ID", "1"}}, "auto/8", ""}, Case{{{"SLURM_ARRAY_TASK_ID", "8"}}, "auto/8", ""},
+        Case{{{"SLURM_ARRAY_TASK_ID", "x"}}, "auto/8", ""}, Case{{}, "auto/8", ""});
+    const Outcome outcome = run_in(folder, with(kTurn, {"-o", "{:02}.png", "--report", "r.json", "--shard", shard}), environment);
     INFO(outcome.err);
     CHECK(outcome.code == (report.empty() ? 2 : 0));
     if (!report.empty()) CHECK(std::filesystem::exists(folder.file(report)));
@@ -212,11 +204,11 @@ TEST_CASE("shards: a scheduler's number of the task is the shard", "[cli][shard]
 
 TEST_CASE("shards: what has no parts is refused", "[cli][shard]") {
     const TemporaryFolder folder;
-    const Strings flags = GENERATE(Strings{"--shard", "3/3"}, Strings{"--shard", "-1/3"}, Strings{"--shard", "1"}, Strings{"--shard", "1/0"},
-                                   Strings{"--shard", "0/2", "-o", "x.gif", "--turntable", "4"}, Strings{"--shard", "0/2", "-o", "-"},
-                                   Strings{"--shard", "0/2", "-o", "x.jpg"}, Strings{"--shard", "0/2", "--report", "-"},
-                                   Strings{"--shard", "0/2", "--aov", "depth"}, Strings{"--shard", "0/99"},
-                                   Strings{"--shard", "0/2", "-o", "x.exr", "--background", "transparent"});
+    const Strings flags = GENERATE(Strings{"--shard", "3/3"}, Strings{"--shard", "-1/3"}, Strings{"--shard", "1"},
+                                   Strings{"--shard", "1/0"}, Strings{"--shard", "0/2", "-o", "x.gif", "--turntable", "4"},
+                                   Strings{"--shard", "0/2", "-o", "-"}, Strings{"--shard", "0/2", "-o", "x.jpg"},
+                                   Strings{"--shard", "0/2", "--report", "-"}, Strings{"--shard", "0/2", "--aov", "depth"},
+                                   Strings{"--shard", "0/99"}, Strings{"--shard", "0/2", "-o", "x.exr", "--background", "transparent"});
     const Outcome outcome = run_in(folder, with({"render", "sphere:12", "--size", "8"}, flags));
     INFO(outcome.err);
     CHECK(outcome.code == 2);
@@ -274,7 +266,8 @@ TEST_CASE("plan: a scheduler's job holds the command", "[cli][shard]") {
     CHECK(job["spec"]["completions"] == 36);
     CHECK(job["spec"]["completionMode"] == "Indexed");
     const auto words = job["spec"]["template"]["spec"]["containers"][0]["command"].get<Strings>();
-    CHECK(words == Strings{"halflit", "render", "a b.glb", "--turntable", "36", "-o", "f{:02}.png", "--report", "report.json", "--shard", "auto/36"});
+    CHECK(words == Strings{"halflit", "render", "a b.glb", "--turntable", "36", "-o", "f{:02}.png", "--report", "report.json", "--shard",
+                           "auto/36"});
 }
 
 TEST_CASE("plan: a wrong command is told before it is started anywhere", "[cli][shard]") {
