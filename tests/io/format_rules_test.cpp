@@ -138,6 +138,51 @@ TEST_CASE("OBJ: materials of an MTL file become halflit's", "[io]") {
     CHECK(alone->warnings.size() == 1);
 }
 
+TEST_CASE("OBJ: lines and points are drawn without light", "[io]") {
+    const auto loaded =
+        load_any_ok(to_bytes("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1e999 0 0\nvt 0 0\nf 1 2 3\nl 1 2 3\nl 3/1 1/1\nl 1 4\no cloud\np 3 2\n"));
+    const Scene& scene = loaded.scene;
+    REQUIRE(scene.meshes.size() == 3);
+    REQUIRE(scene.instances.size() == 3);
+    const auto mesh_of = [&](Topology topology) {
+        for (const Mesh& mesh : scene.meshes)
+            if (mesh.topology == topology) return mesh;
+        return Mesh{};
+    };
+    const Mesh lines = mesh_of(Topology::lines), points = mesh_of(Topology::points);
+    CHECK(lines.positions == std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    CHECK(lines.indices == std::vector<std::uint32_t>{0, 1, 1, 2, 2, 0});
+    CHECK(points.positions == std::vector<Vec3f>{{0, 1, 0}, {1, 0, 0}});
+    CHECK(points.indices == std::vector<std::uint32_t>{0, 1});
+    CHECK(scene.materials.at(static_cast<std::size_t>(lines.material)).unlit);
+    CHECK_FALSE(scene.materials.at(static_cast<std::size_t>(mesh_of(Topology::triangles).material)).unlit);
+    REQUIRE(loaded.warnings.size() == 1);
+    CHECK(loaded.warnings[0].find("1 lines or points with coordinates that are not finite") != std::string::npos);
+    CHECK(load_any(to_bytes("v 0 0 0\nv 1 0 0\nl 1 2\n")));
+    CHECK(refusal_of(to_bytes("v 0 0 0\nv 1 0 0\nl 1\n")).find("at least 2") != std::string::npos);
+}
+
+TEST_CASE("3MF: an extension that a file requires is known, or the file refused by its name", "[io]") {
+    if (!has_three_mf()) HALFLIT_SKIP("built without libzip or expat");
+    const auto requiring = [](const std::string& attributes) {
+        std::string text = three_mf_text("meter", "<object id=\"1\">" + three_mf_mesh(letter()) + "</object>", "<item objectid=\"1\"/>");
+        const std::size_t at = text.find("unit=");
+        REQUIRE(at != std::string::npos);
+        return three_mf(text.insert(at, attributes + " "));
+    };
+    const std::string lattice = "xmlns:b=\"http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02\"",
+                      production = "xmlns:p=\"http://schemas.microsoft.com/3dmanufacturing/production/2015/06\"";
+    CHECK(load_any(requiring(production + " requiredextensions=\"p\"")));
+    CHECK(load_any(requiring(lattice)));  // there, but not required
+    CHECK(
+        refusal_of(requiring(lattice + " " + production + " requiredextensions=\"p b\"")).find("beamlattice/2017/02\" is not supported") !=
+        std::string::npos);
+    CHECK(refusal_of(requiring("requiredextensions=\"x\"")).find("\"x\" is not supported") != std::string::npos);
+    LoadOptions lenient;
+    lenient.lenient = true;
+    CHECK(load_any(requiring(lattice + " requiredextensions=\"b\""), lenient));
+}
+
 TEST_CASE("3MF: components, transforms, units and colours are read", "[io]") {
     if (!has_three_mf()) HALFLIT_SKIP("built without libzip or expat");
     const std::string resources =

@@ -1,9 +1,10 @@
-// OBJ: polygons as text, with the materials of MTL files. Own code, as the library tinyobjloader rounds its numbers by pow() of the C
-// library, and has no limit on memory, time or the files that it opens.
+// OBJ: polygons, lines and points as text, with the materials of MTL files. Own code, as the library tinyobjloader rounds its numbers by
+// pow() of the C library, and has no limit on memory, time or the files that it opens.
 #include "apps/io/detail/model_builder.hpp"
 #include "apps/io/detail/model_readers.hpp"
 #include "apps/io/detail/model_text.hpp"
 #include "apps/io/detail/mtl_libraries.hpp"
+#include "apps/io/detail/obj_strokes.hpp"
 #include "apps/io/detail/polygon.hpp"
 #include "apps/io/text.hpp"
 
@@ -24,7 +25,7 @@ struct Corner {
 
 class ObjReader {
 public:
-    ObjReader(std::string_view text, ModelBuilder& builder) : lines_(text), builder_(builder), libraries_(builder) {}
+    ObjReader(std::string_view text, ModelBuilder& builder) : lines_(text), builder_(builder), libraries_(builder), strokes_(builder) {}
 
     void read() {
         std::string_view line;
@@ -41,11 +42,11 @@ public:
             }
             read_statement(line);
         }
-        if (soup_.position_of.empty() && !soup_.positions.empty())
-            refuse("", "it has vertices but no faces, and points and lines are not drawn");
-        if (lines_and_points_ > 0) builder_.document().warn(fmt::format("{} lines or points are not drawn", lines_and_points_));
+        if (soup_.position_of.empty() && strokes_.empty() && !soup_.positions.empty())
+            refuse("", "it has vertices but no faces, lines or points");
         if (free_form_ > 0) builder_.document().warn("curves and free-form surfaces are not drawn");
-        if (bad_faces_ > 0) builder_.document().warn(fmt::format("{} faces with indices out of range left out", bad_faces_));
+        if (bad_faces_ > 0)
+            builder_.document().warn(fmt::format("{} faces, lines or points with indices out of range left out", bad_faces_));
     }
 
     void finish() {
@@ -57,6 +58,8 @@ public:
             names.push_back(objects_[part.object]);
         }
         std::map<std::uint32_t, std::vector<int>> meshes_of;  // of an object
+        for (const PartMesh& made : strokes_.add_meshes(soup_.positions, soup_.colors, materials, names))
+            meshes_of[parts_[made.part].object].push_back(made.mesh);
         for (const PartMesh& made : builder_.add_meshes(std::move(soup_), names, materials))
             meshes_of[parts_[made.part].object].push_back(made.mesh);
         for (const auto& [object, meshes] : meshes_of) builder_.place(meshes, objects_[object]);
@@ -105,7 +108,8 @@ private:
             return;
         }
         if (word == "s") return read_smoothing(words.next());
-        if (word == "l" || word == "p") ++lines_and_points_;
+        if (word == "l") return read_stroke(words, Topology::lines);
+        if (word == "p") return read_stroke(words, Topology::points);
         if (word == "curv" || word == "curv2" || word == "surf") ++free_form_;
     }
 
@@ -192,6 +196,18 @@ private:
         return true;
     }
 
+    /// A polyline, or points.
+    void read_stroke(Words& words, Topology topology) {
+        std::vector<std::uint32_t> corners;
+        for (std::string_view word = words.next(); !word.empty() && word[0] != '#'; word = words.next()) {
+            Corner corner{};
+            if (!read_corner(word, corner)) return void(++bad_faces_);
+            corners.push_back(corner.position);
+        }
+        if (topology == Topology::lines && corners.size() < 2) refuse(where(), "a line has one corner, expected at least 2");
+        strokes_.add(current_part(), topology, corners);
+    }
+
     void read_face(Words& words) {
         face_.clear();
         points_.clear();
@@ -223,6 +239,7 @@ private:
     Lines lines_;
     ModelBuilder& builder_;
     MtlLibraries libraries_;
+    ObjStrokes strokes_;
     Soup soup_;
     PolygonCutter cutter_;
     std::vector<std::string> objects_{""};
@@ -235,7 +252,7 @@ private:
     std::vector<Corner> face_;
     std::vector<Vec3f> points_;
     std::vector<std::uint32_t> triangles_;
-    std::size_t lines_and_points_ = 0, free_form_ = 0, bad_faces_ = 0;
+    std::size_t free_form_ = 0, bad_faces_ = 0;
 };
 
 std::string_view text_of(std::span<const std::byte> bytes) {

@@ -8,6 +8,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <iterator>
+#include <map>
 
 namespace halflit::io::detail {
 
@@ -17,6 +20,9 @@ using namespace three_mf;
 
 constexpr std::string_view kCore = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02 ";
 constexpr std::string_view kMaterial = "http://schemas.microsoft.com/3dmanufacturing/material/2015/02 ";
+constexpr std::string_view kProduction = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06";
+/// Named groups of triangles; they say nothing about the picture.
+constexpr std::string_view kTriangleSets = "http://schemas.microsoft.com/3dmanufacturing/trianglesets/2021/07";
 constexpr std::string_view kProductionPath = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06 path";
 
 double metres_of(std::string_view unit) {
@@ -37,6 +43,10 @@ public:
         line_ = line;
         if (name.starts_with(kCore)) return begin_core(name.substr(kCore.size()), attributes);
         if (name.starts_with(kMaterial)) return begin_material(name.substr(kMaterial.size()), attributes);
+    }
+    void declare(std::string_view prefix, std::string_view name_space) override {
+        builder_.document().geometry.take(prefix.size() + name_space.size() + 128);
+        name_space_of_[std::string(prefix)] = name_space;
     }
     void end(std::string_view name) override {
         if (name == std::string(kCore) + "object") object_ = nullptr;
@@ -136,7 +146,22 @@ private:
         if (name == "compositematerials" || name == "multiproperties")
             builder_.document().warn(fmt::format("{}: {} are not drawn", part_, name));
     }
+    /// A file says which extensions are needed to understand it, by their prefixes.
+    void check_required(std::string_view prefixes) {
+        Words words(prefixes);
+        for (std::string_view prefix = words.next(); !prefix.empty(); prefix = words.next()) {
+            const auto found = name_space_of_.find(std::string(prefix));
+            const std::string_view name = found == name_space_of_.end() ? prefix : std::string_view(found->second);
+            const std::string_view read[] = {kCore.substr(0, kCore.size() - 1), kMaterial.substr(0, kMaterial.size() - 1), kProduction,
+                                             kTriangleSets};
+            if (std::find(std::begin(read), std::end(read), name) != std::end(read)) continue;
+            const std::string what = fmt::format("requiredextensions: \"{}\" is not supported", printable(name, 120));
+            if (!builder_.options().lenient) fault(what);
+            builder_.document().warn(fmt::format("{}: {}", part_, what));
+        }
+    }
     void begin_model(const XmlAttributes& attributes) {
+        check_required(attributes.get("requiredextensions"));
         if (const char* unit = attributes.find("unit")) {
             model_.metres = metres_of(unit);
             if (model_.metres == 0) fault(fmt::format("unit: \"{}\" is none that 3MF has", printable(unit, 40)));
@@ -184,6 +209,7 @@ private:
     std::string part_;
     ModelBuilder& builder_;
     Model model_;
+    std::map<std::string, std::string> name_space_of_;  ///< of a prefix
     std::size_t line_ = 0;
     Object* object_ = nullptr;
     Properties* properties_ = nullptr;

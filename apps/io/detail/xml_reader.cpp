@@ -53,6 +53,12 @@ void XMLCALL end(void* user, const XML_Char* name) {
     });
 }
 
+void XMLCALL declare(void* user, const XML_Char* prefix, const XML_Char* name_space) {
+    auto& reading = *static_cast<Reading*>(user);
+    const auto text = [](const XML_Char* given) { return given == nullptr ? std::string_view() : std::string_view(given); };
+    reading.guarded([&] { reading.sink.declare(text(prefix), text(name_space)); });
+}
+
 void XMLCALL doctype(void* user, const XML_Char*, const XML_Char*, const XML_Char*, int) {
     auto& reading = *static_cast<Reading*>(user);
     reading.guarded([&] {
@@ -70,6 +76,7 @@ void read_xml(std::span<const std::byte> text, const std::string& where, const D
     Reading reading{parser.get(), sink, nullptr};
     XML_SetUserData(parser.get(), &reading);
     XML_SetElementHandler(parser.get(), begin, end);
+    XML_SetStartNamespaceDeclHandler(parser.get(), declare);
     XML_SetStartDoctypeDeclHandler(parser.get(), doctype);
     constexpr std::size_t kChunk = std::size_t{1} << 20;
     for (std::size_t at = 0;;) {

@@ -36,6 +36,11 @@ public:
     /// name: "namespace local". line: where the element begins.
     virtual void begin(std::string_view name, const XmlAttributes& attributes, std::size_t line) = 0;
     virtual void end(std::string_view name) = 0;
+    /// A prefix of names, before the element that declares it begins.
+    virtual void declare(std::string_view prefix, std::string_view name_space) {
+        static_cast<void>(prefix);
+        static_cast<void>(name_space);
+    }
 };
 
 /// Reads a text. `where` is for messages. Throws LoadFailure, and what the sink throws.
