@@ -105,7 +105,7 @@ int ModelBuilder::texture(std::string_view name, std::string where, ColorSpace s
     return add_image(image, std::move(where), space, rule);
 }
 
-int ModelBuilder::texture(std::vector<std::byte> picture, std::string where, ColorSpace space) {
+int ModelBuilder::texture(std::vector<std::byte> picture, std::string where, ColorSpace space, MipRule rule) {
     file::BufferView view;
     view.buffer = static_cast<int>(document_->buffers.size());
     view.byte_length = picture.size();
@@ -114,7 +114,7 @@ int ModelBuilder::texture(std::vector<std::byte> picture, std::string where, Col
     document_->file.buffer_views.push_back(view);
     file::Image image;
     image.buffer_view = static_cast<int>(document_->file.buffer_views.size()) - 1;
-    return add_image(image, std::move(where), space, MipRule::equal);
+    return add_image(image, std::move(where), space, rule);
 }
 
 std::vector<PartMesh> ModelBuilder::add_meshes(Soup&& soup, std::span<const std::string> name_of, std::span<const int> material_of) {

@@ -56,7 +56,7 @@ public:
     /// A picture in a file, as the model writes its name; `where` is for messages. Index into the scene's textures.
     int texture(std::string_view name, std::string where, ColorSpace space, MipRule rule = MipRule::equal);
     /// A picture in memory.
-    int texture(std::vector<std::byte> picture, std::string where, ColorSpace space);
+    int texture(std::vector<std::byte> picture, std::string where, ColorSpace space, MipRule rule = MipRule::equal);
     /// The file's name, with slashes, and without the folders of another machine: "C:\art\wood.png" is wood.png.
     [[nodiscard]] static std::string file_name(std::string_view name);
     /// Notes a file that the model refers to, there or not.

@@ -1,14 +1,12 @@
 #include "apps/io/detail/mtl.hpp"
 
 #include "apps/io/detail/model_text.hpp"
-#include "apps/io/image_reader.hpp"
 #include "apps/io/text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace halflit::io::detail {
 
@@ -88,6 +86,9 @@ void read_statement(std::string_view word, Words words, MtlMaterial& m) {
     if (same_word(word, "pr")) return number(m.pr);
     if (same_word(word, "pm")) return number(m.pm);
     if (same_word(word, "map_kd")) return void(m.map_kd = read_texture(words));
+    if (same_word(word, "map_ks")) return void(m.map_ks = read_texture(words));
+    if (same_word(word, "map_pr")) return void(m.map_pr = read_texture(words));
+    if (same_word(word, "map_pm")) return void(m.map_pm = read_texture(words));
     if (same_word(word, "map_ke")) return void(m.map_ke = read_texture(words));
     if (same_word(word, "map_d")) return void(m.map_d = read_texture(words));
     if (same_word(word, "map_bump") || same_word(word, "bump")) return void(m.bump = read_texture(words));
@@ -99,34 +100,19 @@ void read_statement(std::string_view word, Words words, MtlMaterial& m) {
     if (m.not_drawn.size() < 8) m.not_drawn.push_back(printable(word, 20));
 }
 
-/// True if a picture has no colours: it holds heights, where a normal map is expected.
-bool is_grey(const std::vector<std::byte>& picture, const LoadLimits& limits) {
-    const auto image = decode_image(picture, {limits.max_texture_side, limits.max_texture_pixels, limits.max_jpeg_scans});
-    if (!image) return false;
-    for (std::size_t i = 0; i + 3 < image->rgba8.size(); i += 4) {
-        const int r = image->rgba8[i], g = image->rgba8[i + 1], b = image->rgba8[i + 2];
-        if (std::abs(r - g) > 8 || std::abs(g - b) > 8) return false;  // a JPEG's colours may differ a little
-    }
-    return true;
-}
-
 float factor(double value, double most = 1.0) { return static_cast<float>(std::clamp(value, 0.0, most)); }
 
 class MaterialOfMtl {
 public:
-    MaterialOfMtl(const MtlMaterial& from, ModelBuilder& builder) : from_(from), builder_(builder) {}
+    MaterialOfMtl(const MtlMaterial& from, ModelBuilder& builder, MtlPictures& pictures)
+        : from_(from), builder_(builder), pictures_(pictures) {}
 
     int make() {
         Material m;
         m.name = from_.name;
         m.double_sided = true;
         set_base_color(m);
-        const bool is_pbr = from_.pr || from_.pm;
-        m.metallic = factor(from_.pm.value_or(0.0));
-        m.roughness = 0.6f;
-        if (from_.ns) m.roughness = static_cast<float>(std::sqrt(std::sqrt(2.0 / (std::clamp(*from_.ns, 0.0, 1e6) + 2.0))));
-        if (from_.pr) m.roughness = factor(*from_.pr);
-        if (from_.ks && !is_pbr) set_specular(m, *from_.ks);
+        set_roughness(m);
         if (from_.ke) m.emissive = {factor((*from_.ke)[0], 1e6), factor((*from_.ke)[1], 1e6), factor((*from_.ke)[2], 1e6)};
         if (!from_.map_ke.file.empty()) {
             m.emissive_texture = use(from_.map_ke, "map_Ke", ColorSpace::srgb, MipRule::equal);
@@ -140,31 +126,67 @@ public:
     }
 
 private:
-    TextureUse use(const MtlTexture& texture, const char* key, ColorSpace space, MipRule rule) {
+    std::string where(const char* key, const std::string& file) const {
+        return fmt::format("material \"{}\": {} {}", printable(from_.name, 80), key, printable(file, 120));
+    }
+    /// A texture that lies as the material's map says.
+    static TextureUse placed(const MtlTexture& map, int texture) {
         TextureUse use;
-        use.texture = builder_.texture(
-            texture.file, fmt::format("material \"{}\": {} {}", printable(from_.name, 80), key, printable(texture.file, 120)), space, rule);
+        use.texture = texture;
         // The file's v points up: v' = 1 - v. Its transform is scale * v + offset.
-        use.row_u = {static_cast<float>(texture.scale[0]), 0, static_cast<float>(texture.offset[0])};
-        use.row_v = {0, static_cast<float>(texture.scale[1]), static_cast<float>(1.0 - texture.scale[1] - texture.offset[1])};
-        if (texture.clamp) use.sampler.wrap_u = use.sampler.wrap_v = TextureWrap::clamp;
+        use.row_u = {static_cast<float>(map.scale[0]), 0, static_cast<float>(map.offset[0])};
+        use.row_v = {0, static_cast<float>(map.scale[1]), static_cast<float>(1.0 - map.scale[1] - map.offset[1])};
+        if (map.clamp) use.sampler.wrap_u = use.sampler.wrap_v = TextureWrap::clamp;
         return use;
+    }
+    TextureUse use(const MtlTexture& map, const char* key, ColorSpace space, MipRule rule) {
+        return placed(map, pictures_.texture(map.file, where(key, map.file), space, rule));
+    }
+    /// Two maps become one texture, which lies as the first one.
+    void check_same_place(const MtlTexture& map, const MtlTexture& other, const char* keys) {
+        if (other.file.empty() || (map.scale == other.scale && map.offset == other.offset)) return;
+        builder_.document().warn(fmt::format("material \"{}\": {} lie differently; drawn as the first", printable(from_.name, 80), keys));
     }
 
     void set_base_color(Material& m) {
-        const bool has_map = !from_.map_kd.file.empty();
-        std::array<double, 3> kd = from_.kd.value_or(has_map ? std::array<double, 3>{1, 1, 1} : std::array<double, 3>{0.5, 0.5, 0.5});
-        if (has_map && kd == std::array<double, 3>{}) kd = {1, 1, 1};  // as writers mean it: the picture alone
+        const MtlTexture &color = from_.map_kd, &mask = from_.map_d;
+        const bool has_color = !color.file.empty(), has_mask = !mask.file.empty();
+        std::array<double, 3> kd = from_.kd.value_or(has_color ? std::array<double, 3>{1, 1, 1} : std::array<double, 3>{0.5, 0.5, 0.5});
+        if (has_color && kd == std::array<double, 3>{}) kd = {1, 1, 1};  // as writers mean it: the picture alone
         const double alpha = from_.d ? *from_.d : 1.0 - from_.tr.value_or(0.0);
         m.base_color = {factor(kd[0]), factor(kd[1]), factor(kd[2]), factor(alpha)};
-        const bool alpha_of_map = has_map && from_.map_d.file == from_.map_kd.file;
-        if (m.base_color.w < 1.0f || alpha_of_map) m.alpha_mode = AlphaMode::blend;
-        if (has_map)
+        if (m.base_color.w < 1.0f || has_mask) m.alpha_mode = AlphaMode::blend;
+        if (has_mask && mask.file != color.file) {
+            const MtlTexture& first = has_color ? color : mask;
+            check_same_place(first, mask, "map_Kd and map_d");
+            m.base_color_texture = placed(first, pictures_.with_alpha(color.file, mask.file, where("map_d", mask.file)));
+        } else if (has_color) {
             m.base_color_texture =
-                use(from_.map_kd, "map_Kd", ColorSpace::srgb, m.alpha_mode == AlphaMode::blend ? MipRule::alpha : MipRule::equal);
-        if (!from_.map_d.file.empty() && !alpha_of_map)
-            builder_.document().warn(
-                fmt::format("material \"{}\": map_d is another picture than map_Kd, and is not drawn", printable(m.name, 80)));
+                use(color, "map_Kd", ColorSpace::srgb, m.alpha_mode == AlphaMode::blend ? MipRule::alpha : MipRule::equal);
+        }
+    }
+
+    /// By Pr and Pm, which say more, or else by Ns and Ks.
+    void set_roughness(Material& m) {
+        const MtlTexture &roughness = from_.map_pr, &metal = from_.map_pm;
+        const bool has_roughness = !roughness.file.empty(), has_metal = !metal.file.empty();
+        m.metallic = factor(from_.pm.value_or(has_metal ? 1.0 : 0.0));
+        if (has_metal && m.metallic == 0.0f) m.metallic = 1.0f;  // as writers mean it: the picture alone
+        m.roughness = has_roughness ? 1.0f : 0.6f;
+        if (from_.ns && !has_roughness)
+            m.roughness = static_cast<float>(std::sqrt(std::sqrt(2.0 / (std::clamp(*from_.ns, 0.0, 1e6) + 2.0))));
+        if (from_.pr) m.roughness = factor(*from_.pr);
+        if (has_roughness && m.roughness == 0.0f) m.roughness = 1.0f;
+        if (has_roughness || has_metal) {
+            const MtlTexture& first = has_roughness ? roughness : metal;
+            check_same_place(first, metal, "map_Pr and map_Pm");
+            m.metallic_roughness_texture = placed(
+                first, pictures_.roughness_metal(roughness.file, metal.file, where(has_roughness ? "map_Pr" : "map_Pm", first.file)));
+        }
+        if (from_.pr || from_.pm || has_roughness || has_metal) return;
+        if (from_.ks) set_specular(m, *from_.ks);
+        if (!from_.map_ks.file.empty() && m.specular > 0.0f)
+            m.specular_color_texture = use(from_.map_ks, "map_Ks", ColorSpace::srgb, MipRule::equal);
     }
 
     static void set_specular(Material& m, const std::array<double, 3>& ks) {
@@ -178,19 +200,16 @@ private:
         const bool is_norm = !from_.norm.file.empty();
         const MtlTexture& map = is_norm ? from_.norm : from_.bump;
         if (map.file.empty()) return;
-        Document& document = builder_.document();
-        if (!is_norm) {
-            const auto picture = document.folder.read(ModelBuilder::file_name(map.file), document.options.limits.max_file_bytes);
-            if (picture && is_grey(*picture, document.options.limits))
-                return document.warn(fmt::format("material \"{}\": {} holds heights, expected a normal map; drawn without it",
-                                                 printable(m.name, 80), printable(map.file, 120)));
-        }
+        if (!is_norm && pictures_.is_grey(map.file))
+            return builder_.document().warn(fmt::format("material \"{}\": {} holds heights, expected a normal map; drawn without it",
+                                                        printable(m.name, 80), printable(map.file, 120)));
         m.normal_texture = use(map, is_norm ? "norm" : "map_Bump", ColorSpace::linear, MipRule::normal);
         m.normal_scale = static_cast<float>(map.bump);
     }
 
     const MtlMaterial& from_;
     ModelBuilder& builder_;
+    MtlPictures& pictures_;
 };
 
 }  // namespace
@@ -216,6 +235,8 @@ void read_mtl(std::string_view text, const std::string& name, ModelBuilder& buil
     }
 }
 
-int make_material(const MtlMaterial& from, ModelBuilder& builder) { return MaterialOfMtl(from, builder).make(); }
+int make_material(const MtlMaterial& from, ModelBuilder& builder, MtlPictures& pictures) {
+    return MaterialOfMtl(from, builder, pictures).make();
+}
 
 }  // namespace halflit::io::detail

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/io/detail/model_builder.hpp"
+#include "apps/io/detail/mtl_pictures.hpp"
 #include "halflit/material.hpp"
 
 #include <array>
@@ -24,7 +25,7 @@ struct MtlMaterial {
     std::string name;
     std::optional<std::array<double, 3>> kd, ks, ke;  ///< diffuse, mirrored, emitted
     std::optional<double> ns, d, tr, pr, pm;          ///< exponent, opacity, transparency, roughness, metalness
-    MtlTexture map_kd, map_ke, map_d, bump, norm;
+    MtlTexture map_kd, map_ks, map_ke, map_d, map_pr, map_pm, bump, norm;
     std::vector<std::string> not_drawn;  ///< statements that the picture lacks
 };
 
@@ -32,7 +33,8 @@ struct MtlMaterial {
 void read_mtl(std::string_view text, const std::string& name, ModelBuilder& builder, std::vector<MtlMaterial>& materials);
 
 /// Adds a material to the scene, and its textures. Kd and map_Kd are the base colour; Ns is an exponent of Blinn and Phong, whose lobe is
-/// as wide as that of the roughness (2 / (Ns + 2))^(1/4); Ks 0.5 is the reflectance 0.04; Pr and Pm, if there, replace Ns and Ks.
-[[nodiscard]] int make_material(const MtlMaterial& from, ModelBuilder& builder);
+/// as wide as that of the roughness (2 / (Ns + 2))^(1/4); Ks 0.5 is the reflectance 0.04; Pr, Pm and their maps, if there, replace Ns and
+/// Ks.
+[[nodiscard]] int make_material(const MtlMaterial& from, ModelBuilder& builder, MtlPictures& pictures);
 
 }  // namespace halflit::io::detail

@@ -17,7 +17,7 @@ namespace halflit::io::detail {
 /// Materials by their names. They are made, and their pictures read, when a face uses them.
 class MtlLibraries {
 public:
-    explicit MtlLibraries(ModelBuilder& builder) : builder_(builder) {}
+    explicit MtlLibraries(ModelBuilder& builder) : builder_(builder), pictures_(builder) {}
 
     /// mtllib: one name, which may have blanks in it, or several.
     void add(std::string_view names) {
@@ -36,13 +36,13 @@ public:
             return -1;
         }
         int& made = made_[known->second];
-        if (made < 0) made = make_material(materials_[known->second], builder_);
+        if (made < 0) made = make_material(materials_[known->second], builder_, pictures_);
         return made;
     }
     /// Notes the files of all materials.
     void add_files() {
         for (const MtlMaterial& m : materials_)
-            for (const MtlTexture* map : {&m.map_kd, &m.map_ke, &m.map_d, &m.bump, &m.norm})
+            for (const MtlTexture* map : {&m.map_kd, &m.map_ks, &m.map_ke, &m.map_d, &m.map_pr, &m.map_pm, &m.bump, &m.norm})
                 if (!map->file.empty()) builder_.add_file(map->file);
     }
 
@@ -66,6 +66,7 @@ private:
     }
 
     ModelBuilder& builder_;
+    MtlPictures pictures_;
     std::vector<MtlMaterial> materials_;
     std::vector<int> made_;
     std::unordered_map<std::string, std::size_t> number_of_;

@@ -22,8 +22,8 @@ public:
     void add(std::uint32_t part, Topology topology, std::span<const std::uint32_t> corners);
     [[nodiscard]] bool empty() const { return corners_of_.empty(); }
 
-    /// Adds the meshes. `positions` and `colors` (empty or shorter, filled up with white) are the file's; material_of, name_of: of each part.
-    /// Lines and points that are not finite are left out, with a warning.
+    /// Adds the meshes. `positions` and `colors` (empty or shorter, filled up with white) are the file's; material_of, name_of: of each
+    /// part. Lines and points that are not finite are left out, with a warning.
     std::vector<PartMesh> add_meshes(std::span<const Vec3f> positions, std::span<const Vec4f> colors, std::span<const int> material_of,
                                      std::span<const std::string> name_of);
 
