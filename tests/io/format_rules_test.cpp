@@ -79,7 +79,7 @@ TEST_CASE("PLY: vertices without faces are points, lit if they have normals", "[
     CHECK(colored.scene.materials.at(static_cast<std::size_t>(mesh.material)).unlit);
     const LoadedScene lit = load_any_ok(to_bytes(start + normals + "end_header\n0 0 0 0 0 1\n1 2 3 0 1 0\n"));
     CHECK(!lit.scene.materials.at(static_cast<std::size_t>(lit.scene.meshes.at(0).material)).unlit);
-    CHECK(refusal_of(to_bytes("v 0 0 0\nv 1 0 0\np 1 2\n")).find("it has vertices but no faces") != std::string::npos);
+    CHECK(refusal_of(to_bytes("v 0 0 0\nv 1 0 0\n")).find("it has vertices but no faces") != std::string::npos);
 }
 
 TEST_CASE("OBJ: materials of an MTL file become halflit's", "[io]") {
@@ -228,6 +228,10 @@ TEST_CASE("3MF: bombs end at a limit", "[io]") {
         CHECK(loaded.has_value() == empty);
         if (!loaded) CHECK(loaded.error().code == ErrorCode::limit);
     }
+    std::string items;
+    for (int i = 0; i < 300'000; ++i) items += "<item objectid=\"1\"/>";
+    const std::string one = "<object id=\"1\">" + three_mf_mesh(letter()) + "</object>";
+    CHECK_FALSE(load_any(three_mf(three_mf_text("meter", one, items))));
     CHECK(refusal_of(three_mf("<!DOCTYPE a [<!ENTITY b \"c\">]>" + three_mf_text("meter", "", ""))).find("line 1") != std::string::npos);
     const std::string own = "<object id=\"1\"><components><component objectid=\"1\"/></components></object>";
     CHECK(refusal_of(three_mf(three_mf_text("meter", own, "<item objectid=\"1\"/>"))).find("component of itself") != std::string::npos);

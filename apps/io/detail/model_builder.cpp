@@ -158,9 +158,12 @@ void ModelBuilder::place_alone(Soup&& soup, std::span<const int> material_of) {
     place(meshes, "");
 }
 
+/// What an instance takes until it is drawn, at most; files may place a mesh by few bytes.
+constexpr std::uint64_t kInstanceBytes = 4096;
+
 void ModelBuilder::place(std::span<const int> meshes, const std::string& name, const Affine& root_from_node) {
     if (meshes.empty()) return;
-    document_->geometry.take(sizeof(Node) + sizeof(Affine) + name.size() + meshes.size() * (sizeof(Instance) + sizeof(int)));
+    document_->geometry.take(sizeof(Node) + sizeof(Affine) + name.size() + meshes.size() * kInstanceBytes);
     Node node;
     node.name = name;
     node.parent = 0;

@@ -68,11 +68,18 @@ MtlTexture read_texture(Words words) {
 
 /// A statement of a material.
 void read_statement(std::string_view word, Words words, MtlMaterial& m) {
-    const auto number = [&](std::optional<double>& value) {
-        if (const auto read = next_number(words)) value = *read;
+    const auto not_drawn = [&] {
+        if (m.not_drawn.size() < 8) m.not_drawn.push_back(printable(word, 20));
     };
-    const auto color = [&](std::optional<std::array<double, 3>>& value) {
-        if (const auto read = read_color(words)) value = *read;
+    const auto set = [&](auto& value, const auto& read) {
+        if (!read) return not_drawn();  // "Kd spectral file.rfl", or no value
+        value = read;
+    };
+    const auto number = [&](std::optional<double>& value) { set(value, next_number(words)); };
+    const auto color = [&](std::optional<std::array<double, 3>>& value) { set(value, read_color(words)); };
+    const auto map = [&](MtlTexture& texture) {
+        texture = read_texture(words);
+        if (texture.file.empty()) not_drawn();
     };
     if (same_word(word, "kd")) return color(m.kd);
     if (same_word(word, "ks")) return color(m.ks);
@@ -85,19 +92,19 @@ void read_statement(std::string_view word, Words words, MtlMaterial& m) {
     if (same_word(word, "tr")) return number(m.tr);
     if (same_word(word, "pr")) return number(m.pr);
     if (same_word(word, "pm")) return number(m.pm);
-    if (same_word(word, "map_kd")) return void(m.map_kd = read_texture(words));
-    if (same_word(word, "map_ks")) return void(m.map_ks = read_texture(words));
-    if (same_word(word, "map_pr")) return void(m.map_pr = read_texture(words));
-    if (same_word(word, "map_pm")) return void(m.map_pm = read_texture(words));
-    if (same_word(word, "map_ke")) return void(m.map_ke = read_texture(words));
-    if (same_word(word, "map_d")) return void(m.map_d = read_texture(words));
-    if (same_word(word, "map_bump") || same_word(word, "bump")) return void(m.bump = read_texture(words));
-    if (same_word(word, "norm") || same_word(word, "map_kn")) return void(m.norm = read_texture(words));
+    if (same_word(word, "map_kd")) return map(m.map_kd);
+    if (same_word(word, "map_ks")) return map(m.map_ks);
+    if (same_word(word, "map_pr")) return map(m.map_pr);
+    if (same_word(word, "map_pm")) return map(m.map_pm);
+    if (same_word(word, "map_ke")) return map(m.map_ke);
+    if (same_word(word, "map_d")) return map(m.map_d);
+    if (same_word(word, "map_bump") || same_word(word, "bump")) return map(m.bump);
+    if (same_word(word, "norm") || same_word(word, "map_kn")) return map(m.norm);
     // Ka and map_Ka say how much of the light from around is returned, which the base colour does; illum is the model of a renderer.
     if (same_word(word, "ka") || same_word(word, "map_ka") || same_word(word, "illum") || same_word(word, "ni") || same_word(word, "tf") ||
         same_word(word, "sharpness"))
         return;
-    if (m.not_drawn.size() < 8) m.not_drawn.push_back(printable(word, 20));
+    not_drawn();
 }
 
 float factor(double value, double most = 1.0) { return static_cast<float>(std::clamp(value, 0.0, most)); }

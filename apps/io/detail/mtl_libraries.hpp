@@ -23,10 +23,16 @@ public:
     void add(std::string_view names) {
         if (names.find_first_of(" \t") == std::string_view::npos) return void(read(names, false));
         if (read(names, true)) return;
+        std::vector<std::string_view> missing;
         bool any = false;
         Words words(names);
-        for (std::string_view name = words.next(); !name.empty(); name = words.next()) any = read(name, true) || any;
-        if (!any) read(names, false);
+        for (std::string_view name = words.next(); !name.empty(); name = words.next()) {
+            const bool is_read = read(name, true);
+            any = any || is_read;
+            if (!is_read) missing.push_back(name);
+        }
+        if (!any) return void(read(names, false));
+        for (const std::string_view name : missing) read(name, false);
     }
     /// The scene's material; -1: none of that name.
     int find(const std::string& name) {

@@ -91,7 +91,13 @@ public:
             else
                 read_others(element);
         }
-        if (bad_indices_ > 0) builder_.document().warn(fmt::format("{} polygons with indices out of range left out", bad_indices_));
+        Document& document = builder_.document();
+        if (values_.has_more()) document.warn("there is more behind the last element, which is not drawn");
+        if (short_polygons_ > 0) document.warn(fmt::format("{} polygons of less than three corners left out", short_polygons_));
+        if (bad_texcoords_ > 0)
+            document.warn(fmt::format("{} polygons have a list texcoord of another length than twice their corners, and are drawn without",
+                                      bad_texcoords_));
+        if (bad_indices_ > 0) document.warn(fmt::format("{} polygons with indices out of range left out", bad_indices_));
     }
 
     void finish() {
@@ -202,6 +208,8 @@ private:
         const bool is_face = element.name == "face", is_strips = element.name == "tristrips";
         if ((is_face || is_strips) && !layout.has[indices])
             refuse(fmt::format("element {}", element.name), "expected a list vertex_indices");
+        if (!is_face && !is_strips && element.count > 0)
+            builder_.document().warn(fmt::format("{} elements \"{}\" are not drawn", element.count, printable(element.name, 40)));
         Row row{};
         for (std::uint64_t i = 0; i < element.count; ++i) {
             if (i % 65536 == 0) builder_.document().check_time();
@@ -215,7 +223,7 @@ private:
         std::size_t first = 0;
         std::vector<double> strip = std::move(polygon_);
         for (std::size_t i = 0; i <= strip.size(); ++i) {
-            if (i < strip.size() && strip[i] >= 0) continue;
+            if (i < strip.size() && strip[i] != -1) continue;
             for (std::size_t k = first; k + 2 < i; ++k) {
                 const bool turned = (k - first) % 2 == 1;
                 polygon_ = {strip[k], strip[turned ? k + 2 : k + 1], strip[turned ? k + 1 : k + 2]};
@@ -249,7 +257,7 @@ private:
             }
             corners_.push_back(static_cast<std::uint32_t>(index));
         }
-        if (corners_.size() < 3) return;
+        if (corners_.size() < 3) return void(++short_polygons_);
         points_.clear();
         for (const std::uint32_t corner : corners_) points_.push_back(soup_.positions[corner]);
         triangles_.clear();
@@ -258,6 +266,7 @@ private:
 
         const auto first_uv = static_cast<std::uint32_t>(soup_.uvs.size());
         const bool own_uvs = has_texcoords && !vertex_has_uv_ && texcoords_.size() == 2 * corners_.size();
+        if (has_texcoords && !vertex_has_uv_ && !own_uvs) ++bad_texcoords_;
         if (own_uvs) {
             builder_.take_entries<Vec2f>(corners_.size());
             for (std::size_t i = 0; i < corners_.size(); ++i)
@@ -285,7 +294,7 @@ private:
     std::vector<double> polygon_, texcoords_;
     std::vector<std::uint32_t> corners_, triangles_;
     std::vector<Vec3f> points_;
-    std::size_t bad_indices_ = 0;
+    std::size_t bad_indices_ = 0, short_polygons_ = 0, bad_texcoords_ = 0;
     bool is_cloud_ = false;
 };
 

@@ -42,6 +42,11 @@ public:
             refuse("",
                    fmt::format("{} elements \"{}\" do not fit into the file: it was cut off", element.count, printable(element.name, 40)));
     }
+    /// Something follows the last value, besides ends of lines.
+    [[nodiscard]] bool has_more() const {
+        const auto counts = [](char c) { return !is_blank(c) && !is_line_end(c); };
+        return std::any_of(text_.begin(), text_.end(), counts);
+    }
     [[nodiscard]] std::string where() const { return format_ == PlyFormat::ascii ? fmt::format("line {}", line_ + 1) : ""; }
 
 private:

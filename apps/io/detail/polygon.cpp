@@ -2,6 +2,7 @@
 
 #include "apps/io/detail/load_failure.hpp"
 #include "sh/vec3d.hpp"
+#include "shading/model/numbers.hpp"
 
 #include <algorithm>
 
@@ -9,8 +10,8 @@ namespace halflit::io::detail {
 
 namespace {
 
-/// Some ten seconds. A concave polygon of n corners takes at most n^2 tests, so this is one of 65,000 corners.
-constexpr std::uint64_t kMostTests = std::uint64_t{1} << 32;
+/// Some four seconds. A concave polygon of n corners takes at most n^2 tests, and few in common ones, whose ears are narrow.
+constexpr std::uint64_t kMostTests = std::uint64_t{1} << 30;
 
 }  // namespace
 
@@ -58,11 +59,13 @@ bool PolygonCutter::is_ear(std::uint32_t before, std::uint32_t corner, std::uint
     ++tests_;
     if (!(area(a, b, c) > 0)) return false;
     const auto is = [](const Point& p, const Point& q) { return p.x == q.x && p.y == q.y; };
-    for (const std::uint32_t i : reflex_) {
-        if (cut_off_[i]) continue;
+    const double left = std::min({a.x, b.x, c.x}), right = std::max({a.x, b.x, c.x});
+    const double low = std::min({a.y, b.y, c.y}), high = std::max({a.y, b.y, c.y});
+    const auto first = std::lower_bound(reflex_.begin(), reflex_.end(), left, [](const Reflex& r, double x) { return r.at.x < x; });
+    for (auto r = first; r != reflex_.end() && r->at.x <= right; ++r) {
         ++tests_;
-        const Point& p = points_[i];
-        if (is(p, a) || is(p, b) || is(p, c)) continue;
+        const Point& p = r->at;
+        if (p.y < low || p.y > high || cut_off_[r->corner] || is(p, a) || is(p, b) || is(p, c)) continue;
         if (area(a, b, p) >= 0 && area(b, c, p) >= 0 && area(c, a, p) >= 0) return false;
     }
     return true;
@@ -77,8 +80,9 @@ void PolygonCutter::clip_ears(std::vector<std::uint32_t>& triangles) {
     for (std::uint32_t i = 0; i < n; ++i) {
         next_[i] = (i + 1) % n;
         previous_[i] = (i + n - 1) % n;
-        if (area(points_[previous_[i]], points_[i], points_[next_[i]]) <= 0) reflex_.push_back(i);  // the others stay convex
+        if (area(points_[previous_[i]], points_[i], points_[next_[i]]) <= 0) reflex_.push_back({points_[i], i});  // the others stay convex
     }
+    std::sort(reflex_.begin(), reflex_.end(), [](const Reflex& a, const Reflex& b) { return a.at.x < b.at.x; });
     std::uint32_t corner = 1, without_ear = 0;
     for (std::uint32_t left = n; left > 3;) {
         if (tests_ > kMostTests) refuse("", "its concave polygons have too many corners to be cut into triangles", ErrorCode::limit);
@@ -94,7 +98,7 @@ void PolygonCutter::clip_ears(std::vector<std::uint32_t>& triangles) {
         previous_[after] = before;
         corner = after;
         without_ear = 0;
-        if (--left % 64 == 0) std::erase_if(reflex_, [&](std::uint32_t i) { return cut_off_[i]; });
+        if (--left % 64 == 0) std::erase_if(reflex_, [&](const Reflex& r) { return cut_off_[r.corner]; });
     }
     triangles.insert(triangles.end(), {previous_[corner], corner, next_[corner]});
 }
@@ -104,7 +108,8 @@ void PolygonCutter::cut(std::span<const Vec3f> corners, std::vector<std::uint32_
     if (n < 3) return;
     if (n > 3) {
         flatten(corners);
-        if (!is_convex()) return clip_ears(triangles);
+        const bool finite = std::all_of(corners.begin(), corners.end(), [](const Vec3f& p) { return shading::finite(p); });
+        if (finite && !is_convex()) return clip_ears(triangles);
     }
     for (std::uint32_t i = 1; i + 1 < n; ++i) triangles.insert(triangles.end(), {0u, i, i + 1});
 }

@@ -15,7 +15,8 @@ namespace halflit::io::detail {
 class PolygonCutter {
 public:
     /// Appends three numbers of corners for each triangle, in the polygon's direction of turning; n - 2 triangles. The polygon is looked at
-    /// along the coordinate axis nearest to its normal. Throws LoadFailure (limit) when all polygons together take too long.
+    /// along the coordinate axis nearest to its normal. One with a corner that is not finite is a fan, too. Throws LoadFailure (limit) when
+    /// all polygons together take too long.
     void cut(std::span<const Vec3f> corners, std::vector<std::uint32_t>& triangles);
 
 private:
@@ -28,7 +29,14 @@ private:
     [[nodiscard]] bool is_ear(std::uint32_t before, std::uint32_t corner, std::uint32_t after);
 
     std::vector<Point> points_;
-    std::vector<std::uint32_t> next_, previous_, reflex_;
+    /// A corner at which the polygon turns away.
+    struct Reflex {
+        Point at;
+        std::uint32_t corner;
+    };
+
+    std::vector<std::uint32_t> next_, previous_;
+    std::vector<Reflex> reflex_;  ///< by x
     std::vector<bool> cut_off_;
     std::uint64_t tests_ = 0;  ///< points that were looked for in triangles, of all polygons
 };

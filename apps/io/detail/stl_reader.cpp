@@ -17,7 +17,12 @@ namespace {
 
 constexpr std::size_t kHeader = 84, kRecord = 50;  // bytes: a title and the number of triangles, then one record for each
 
-std::string_view as_text(std::span<const std::byte> bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+/// Without a byte order mark.
+std::string_view as_text(std::span<const std::byte> bytes) {
+    std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    return text;
+}
 
 // ---- text --------------------------------------------------------------------------------------------------------------
 

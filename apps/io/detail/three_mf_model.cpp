@@ -43,6 +43,7 @@ public:
         line_ = line;
         if (name.starts_with(kCore)) return begin_core(name.substr(kCore.size()), attributes);
         if (name.starts_with(kMaterial)) return begin_material(name.substr(kMaterial.size()), attributes);
+        warn_of_others(name.substr(0, name.find(' ')));
     }
     void declare(std::string_view prefix, std::string_view name_space) override {
         builder_.document().geometry.take(prefix.size() + name_space.size() + 128);
@@ -143,8 +144,13 @@ private:
             properties_->uvs.push_back({real<float>(attributes, "u"), 1.0f - real<float>(attributes, "v")});
             return;
         }
-        if (name == "compositematerials" || name == "multiproperties")
-            builder_.document().warn(fmt::format("{}: {} are not drawn", part_, name));
+        if (name != "composite" && name != "multi") builder_.document().warn(fmt::format("{}: {} are not drawn", part_, name));
+    }
+    /// Elements of extensions that are not read; once for each.
+    void warn_of_others(std::string_view name_space) {
+        if (name_space == kTriangleSets || name_space == warned_of_) return;
+        warned_of_ = name_space;
+        builder_.document().warn(fmt::format("{}: elements of {} are not drawn", part_, printable(name_space, 120)));
     }
     /// A file says which extensions are needed to understand it, by their prefixes.
     void check_required(std::string_view prefixes) {
@@ -210,6 +216,7 @@ private:
     ModelBuilder& builder_;
     Model model_;
     std::map<std::string, std::string> name_space_of_;  ///< of a prefix
+    std::string warned_of_;
     std::size_t line_ = 0;
     Object* object_ = nullptr;
     Properties* properties_ = nullptr;

@@ -33,6 +33,7 @@ using namespace three_mf;
 
 constexpr const char* kUsualModel = "3D/3dmodel.model";
 constexpr int kMostDepth = 64;
+constexpr std::uint64_t kMostPacked = 32;  ///< bytes of a mesh's text for each byte in the package, at most
 
 /// Finds the model's name among the package's relations.
 class RelationReader : public XmlSink {
@@ -47,7 +48,8 @@ public:
 
 class ThreeMfReader {
 public:
-    ThreeMfReader(std::span<const std::byte> bytes, ModelBuilder& builder) : builder_(builder), package_(bytes, builder.document()) {}
+    ThreeMfReader(std::span<const std::byte> bytes, ModelBuilder& builder)
+        : builder_(builder), package_(bytes, builder.document()), packed_(bytes.size()) {}
 
     double read() {
         Part& root = part(root_name());
@@ -87,9 +89,10 @@ private:
         if (!is_new) return entry->second;
         const auto text = package_.read(name);
         if (!text) refuse(printable(name, 120), "is not in the ZIP file; is it a 3MF model?");
-        // The limit for geometry goes by what was unpacked.
+        // The limit for geometry goes by what was unpacked, as far as the text of a mesh can be packed.
         Document& document = builder_.document();
-        document.file_bytes += text->size();
+        unpacked_ += text->size();
+        document.file_bytes = packed_ + std::min(unpacked_, kMostPacked * packed_);
         set_geometry_limit(document);
         entry->second.name = name;
         entry->second.model = read_three_mf_model(*text, printable(name, 120), builder_);
@@ -181,9 +184,13 @@ private:
         std::map<int, std::uint32_t> part_of;             // of a material
         std::map<std::uint32_t, std::uint32_t> first_of;  // of a group: where its entries begin in the soup's list
         std::size_t bad = 0;
+        std::uint32_t lost = kNone;  // a group that is not there
         for (const Triangle& triangle : object.triangles) {
             const auto found = triangle.group == kNone ? part.model.properties.end() : part.model.properties.find(triangle.group);
             const Properties* properties = found == part.model.properties.end() ? nullptr : &found->second;
+            if (properties == nullptr && triangle.group != kNone && triangle.group != lost)
+                builder_.document().warn(fmt::format("{}: there is no group {} of colours; drawn in grey", where, triangle.group));
+            if (properties == nullptr) lost = triangle.group;
             const std::size_t entries = properties == nullptr    ? 0
                                         : properties->is_texture ? properties->uvs.size()
                                                                  : properties->colors.size();
@@ -225,6 +232,7 @@ private:
 
     ModelBuilder& builder_;
     ThreeMfPackage package_;
+    std::uint64_t packed_, unpacked_ = 0;  ///< bytes
     std::map<std::string, Part> parts_;
     int clear_ = -1;
 };
