@@ -90,6 +90,8 @@ int shadow_size_for(int width, int height) {
     return size;
 }
 
+bool gives_light(const Light& light) { return !(light.color_linear == Vec3f{}); }
+
 bool is_dark(const Ambient& ambient) { return ambient.sky_linear == Vec3f{} && ambient.ground_linear == Vec3f{}; }
 
 /// The studio's share of the light of a file, where white comes out as 1: the far sides of what a sun lights stay dark, but readable; lamps
@@ -101,7 +103,8 @@ float light_scene(Scene& scene, const Bounds& bounds, const Camera& camera, cons
     const bool in_studio = scene.environment != nullptr && scene.environment->studio;
     const bool always = options.studio == StudioUse::always && !options.ambient_linear;
     if (scene.environment != nullptr && !in_studio && !always) return environment_exposure(*scene.environment);
-    const bool dark = scene.environment == nullptr && is_dark(scene.ambient), has_lights = !scene.lights.empty();
+    const bool dark = scene.environment == nullptr && is_dark(scene.ambient);
+    const bool has_lights = std::any_of(scene.lights.begin(), scene.lights.end(), gives_light);
     if (!has_lights && dark && options.add_lights) {
         scene.calibrated = true;
         if (options.studio == StudioUse::never || options.ambient_linear)
@@ -109,7 +112,7 @@ float light_scene(Scene& scene, const Bounds& bounds, const Camera& camera, cons
         else
             add_studio(scene, camera, options.studio_turn_rad);
     }
-    const bool unknown_unit = !scene.calibrated && !scene.lights.empty();
+    const bool unknown_unit = !scene.calibrated && has_lights;
     const float exposure = unknown_unit ? auto_exposure(scene, bounds) : 1.0f;
     const auto add_share = [&](float share) {
         set_environment(scene, studio_environment(camera, options.studio_turn_rad, share / exposure));

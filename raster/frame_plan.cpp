@@ -155,18 +155,31 @@ std::optional<SeenVolume> looked_up_where_seen(const PreparedData& scene, const 
     return seen_volume(picture, depth_map(camera, aspect), scene.bounds());
 }
 
+constexpr int kSkyMapSize = 256;
+
+bool has_sky_shadows(const Scene& scene, const Settings& settings) {
+    const bool ambient = scene.environment != nullptr || !(scene.ambient.sky_linear == Vec3f{} && scene.ambient.ground_linear == Vec3f{});
+    return settings.sky_shadows > 0 && settings.shadows != ShadowMode::off && ambient;
+}
+
+/// The settings for the shadow maps of lights: sky shadows, if there are any, need a part of the memory, at most a half.
+Settings beside_sky(const Scene& scene, Settings settings) {
+    if (!has_sky_shadows(scene, settings)) return settings;
+    const std::size_t needed = static_cast<std::size_t>(settings.sky_shadows) * kSkyMapSize * kSkyMapSize * sizeof(float);
+    settings.shadow_memory_limit -= std::min(needed, settings.shadow_memory_limit / 2);
+    return settings;
+}
+
 /// Lights for sky shadows, with their maps, which are added to `shadows`. Light from all around reaches all of the scene, so its maps are
 /// not cut to what is seen.
 Result<std::vector<LightPlan>> plan_sky(const PreparedData& scene, const Settings& settings, ShadowViews& shadows) {
-    constexpr int kSkyMapSize = 256;
     const Scene& source = scene.scene();
-    const bool ambient =
-        source.environment != nullptr || !(source.ambient.sky_linear == Vec3f{} && source.ambient.ground_linear == Vec3f{});
-    if (settings.sky_shadows == 0 || settings.shadows == ShadowMode::off || !ambient) return std::vector<LightPlan>{};
+    if (!has_sky_shadows(source, settings)) return std::vector<LightPlan>{};
     std::vector<LightPlan> lights =
         shading::plan_lights(shading::sky_lights(settings.sky_shadows, source.environment.get(), source.ambient));
     Settings of_sky = settings;
     of_sky.shadow_size = std::min(settings.shadow_size, kSkyMapSize);
+    of_sky.shadow_memory_limit -= std::min(of_sky.shadow_memory_limit, shadows.texel_count * sizeof(float));
     auto views = plan_shadow_views(lights, scene, nullptr, of_sky);
     if (!views) return tl::unexpected<Error>(views.error());
     const std::vector<std::int32_t> maps = views->map_of_light;
@@ -187,7 +200,7 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, 
     plan.options = options;
     plan.picture = picture_view(camera, width, height, settings.region, tile_size, settings);
     const std::optional<SeenVolume> seen = looked_up_where_seen(prepared, camera, options, settings, plan.picture);
-    auto shadows = plan_light_shadows(lights, prepared, seen ? &*seen : nullptr, settings);
+    auto shadows = plan_light_shadows(lights, prepared, seen ? &*seen : nullptr, beside_sky(scene, settings));
     if (!shadows) return tl::unexpected<Error>(shadows.error());
     auto sky = plan_sky(prepared, settings, *shadows);
     if (!sky) return tl::unexpected<Error>(sky.error());

@@ -52,7 +52,44 @@ struct Globe {
     }
 };
 
-/// Halves an image, by means of squares of pixels, until it has at most kMostReflectionRows rows, or an odd number. `rgb`: its memory.
+/// Weights of `from` pixels in each of `to` larger ones along a side: pixel i of the result is the mean over [i, i + 1) * from / to.
+struct Overlap {
+    int first, count;      ///< pixels
+    double before, after;  ///< shares of the first and the last one that lie outside
+    [[nodiscard]] double weight(int k) const { return 1.0 - (k == 0 ? before : 0.0) - (k == count - 1 ? after : 0.0); }
+};
+Overlap overlap(int i, int from, int to) {
+    const double begin = static_cast<double>(std::int64_t{i} * from) / to, end = static_cast<double>((std::int64_t{i} + 1) * from) / to;
+    const int first = static_cast<int>(begin), last = std::min(static_cast<int>(end), from - 1);
+    const int count = end > last ? last - first + 1 : last - first;
+    return {first, count, begin - first, first + count - end};
+}
+
+/// An image of fewer pixels, each of which is the mean over its area.
+std::vector<float> shrunk(const sh::EquirectView& image, int width, int height) {
+    std::vector<float> out;
+    out.reserve(static_cast<std::size_t>(3) * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    for (int y = 0; y < height; ++y) {
+        const Overlap rows = overlap(y, image.height, height);
+        for (int x = 0; x < width; ++x) {
+            const Overlap columns = overlap(x, image.width, width);
+            double sum[3] = {}, area = 0;
+            for (int j = 0; j < rows.count; ++j)
+                for (int i = 0; i < columns.count; ++i) {
+                    const double weight = rows.weight(j) * columns.weight(i);
+                    const float* const pixel =
+                        image.rgb.data() + 3 * (static_cast<std::ptrdiff_t>(rows.first + j) * image.width + columns.first + i);
+                    for (std::size_t c = 0; c < 3; ++c) sum[c] = sum[c] + weight * static_cast<double>(pixel[c]);
+                    area = area + weight;
+                }
+            for (const double s : sum) out.push_back(static_cast<float>(s / area));
+        }
+    }
+    return out;
+}
+
+/// Halves an image, by means of squares of pixels, until it has at most kMostReflectionRows rows; from an odd size on, it is shrunk to them
+/// at once. `rgb`: its memory.
 sh::EquirectView reduced(const sh::EquirectView& image, std::vector<float>& rgb) {
     sh::EquirectView out = image;
     while (out.height > kMostReflectionRows && out.width % 2 == 0 && out.height % 2 == 0) {
@@ -67,6 +104,12 @@ sh::EquirectView reduced(const sh::EquirectView& image, std::vector<float>& rgb)
                     rgb[static_cast<std::size_t>((y * width + x) * 3 + c)] = 0.25f * ((at(0, 0) + at(0, 1)) + (at(1, 0) + at(1, 1)));
                 }
         out = {width, height, rgb};
+    }
+    if (out.height > kMostReflectionRows) {
+        const int width = std::min(out.width, 2 * kMostReflectionRows);
+        std::vector<float> smaller = shrunk(out, width, kMostReflectionRows);
+        rgb = std::move(smaller);
+        out = {width, kMostReflectionRows, rgb};
     }
     return out;
 }

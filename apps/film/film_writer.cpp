@@ -29,16 +29,19 @@ Result<void> check_film_format(std::string_view path, FilmFormat format) {
 }
 
 std::int64_t rounded_time(const FrameTime& frame_time, std::size_t i, std::int64_t units_per_s) {
-    const auto start = [&](std::int64_t frame) {
+    __extension__ using Wide = __int128;  // 10^7 frames of 10^9 seconds in milliseconds
+    const auto start = [&](Wide frame) {
         return (2 * frame * frame_time.numerator * units_per_s + frame_time.denominator) / (2 * frame_time.denominator);
     };
     const auto frame = static_cast<std::int64_t>(i);
-    return start(frame + 1) - start(frame);
+    return static_cast<std::int64_t>(start(frame + 1) - start(frame));
 }
 
 Result<std::unique_ptr<FilmWriter>> make_film_writer(FilmFormat format, const FilmSettings& settings) {
-    constexpr int kMostGif = 65535, kMostWebp = 16383;
+    constexpr int kMostGifFps = 50, kMostGif = 65535, kMostWebp = 16383;
     const int side = std::max(settings.width, settings.height);
+    if (format == FilmFormat::gif && settings.frame_time.denominator > kMostGifFps * settings.frame_time.numerator)
+        return fail(ErrorCode::usage, "GIF: expected at most 50 frames a second, as players show faster ones ten times slower");
     if (format == FilmFormat::gif && side > kMostGif) return fail(ErrorCode::limit, "GIF holds at most 65535 pixels a side");
     if (format == FilmFormat::webp && side > kMostWebp) return fail(ErrorCode::limit, "WebP holds at most 16383 pixels a side");
     if (const auto checked = check_film_format("", format); !checked) return tl::unexpected(checked.error());

@@ -107,7 +107,7 @@ Result<std::vector<std::uint8_t>> AovPlanes::encode_numbers(Aov aov) const {
     std::vector<std::uint16_t> values;
     values.reserve(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
     if (aov == Aov::coverage) {
-        // Shares are eighths: the product is exact, and each share has a number of its own.
+        // Shares are sixteenths: the product is exact, and each share has a number of its own.
         for (const float share : coverage_) values.push_back(static_cast<std::uint16_t>(share * 65535.0f + 0.5f));
     } else {
         const std::vector<std::uint32_t>& numbers = aov == Aov::id ? id_ : lights_;

@@ -23,6 +23,7 @@
 #include <future>
 #include <memory>
 #include <new>
+#include <system_error>
 #include <utility>
 
 namespace halflit::cli {
@@ -248,7 +249,12 @@ private:
             if (drawn_count_ == 1)
                 for (const std::string& warning : next->rendered.warnings) print_warning(warning);
             before = std::move(*next);
-            encoding = std::async(std::launch::async, [this, &before] { return encode(before); });
+            const auto encode_it = [this, &before] { return encode(before); };
+            try {
+                encoding = std::async(std::launch::async, encode_it);
+            } catch (const std::system_error&) {
+                encoding = std::async(std::launch::deferred, encode_it);  // no thread can be started: this one does it
+            }
             line.show(i + 1, range_.count());
         }
         return settle(before, encoding);
@@ -256,6 +262,7 @@ private:
 
     Result<void> finish() {
         if (!writer_) {
+            if (drawn_count_ == 0) return {};
             print_note(range_.count() == 1
                            ? "wrote " + file_of(0)
                            : fmt::format("wrote {} frames, {} to {}", drawn_count_, file_of(0), file_of(range_.count() - 1)));

@@ -159,8 +159,10 @@ private:
         for (const PictureOptions& picture : pictures_)
             for (const std::string& path : picture.pictures()) add(path);
         add(options_.each.report);
-        for (const PictureOptions& picture : pictures_) {
-            std::uintmax_t& bytes = bytes_.emplace_back(0);
+        bytes_.resize(pictures_.size());
+        for (std::size_t i = next_; i < pictures_.size(); i += step_) {  // other shards look at theirs
+            const PictureOptions& picture = pictures_[i];
+            std::uintmax_t& bytes = bytes_[i];
             if (!is_file(picture.scene)) continue;
             std::vector<std::string> inputs = io::files_named_by(picture.scene, picture.load);
             inputs.push_back(picture.scene);

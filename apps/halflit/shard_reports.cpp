@@ -18,6 +18,7 @@ namespace halflit::cli {
 namespace {
 
 constexpr std::size_t kMostReportBytes = std::size_t{1} << 30;
+constexpr std::size_t kMostPlaces = 10'000'000;  ///< frames or scenes of a run
 constexpr std::size_t kMostPictureBytes = std::size_t{4} << 30;
 
 Region region_of(const Json& json) { return {json.at(0).get<int>(), json.at(1).get<int>(), json.at(2).get<int>(), json.at(3).get<int>()}; }
@@ -30,11 +31,12 @@ FilmFrame frame_of(const Json& report) {
                     {seconds.at(0).get<std::int64_t>(), seconds.at(1).get<std::int64_t>()},
                     film.at("opaque").get<bool>()};
     const auto& [number, whole, time, opaque] = frame;
-    constexpr std::int64_t kMost = 1'000'000'000'000;
+    constexpr std::int64_t kMost = 1'000'000'000;
     const auto within = [](std::int64_t value, std::int64_t min) { return value >= min && value <= kMost; };
     if (!within(whole.first, 0) || !within(whole.last, whole.first) || !within(whole.step, 1) || !within(number, whole.first) ||
         !within(time.numerator, 1) || !within(time.denominator, 1))
         throw std::out_of_range("film");
+    if (whole.count() > kMostPlaces) throw std::out_of_range("film");
     return frame;
 }
 
@@ -49,6 +51,8 @@ ReportedPicture picture_of(const Json& report, const std::string& report_path) {
     if (report.contains("frame")) file.frame = frame_of(report);
     if (report.contains("place"))
         file.place = ScenePlace{report["place"].at("index").get<std::size_t>(), report["place"].at("scenes").get<std::size_t>()};
+    if (file.place && (file.place->scenes > kMostPlaces || file.place->index >= file.place->scenes)) throw std::out_of_range("place");
+    if (report.contains("scene")) picture.scene = report["scene"].get<std::string>();
     if (report.contains("part_of")) file.part_of = region_of(report["part_of"]);
     if (report.contains("file_hash")) file.file_hash = std::stoull(report["file_hash"].get<std::string>(), nullptr, 16);
     if (report.contains("pixel_hash")) {
@@ -116,7 +120,10 @@ bool same_region(const Region& a, const Region& b) { return a.x == b.x && a.y ==
 bool belong_together(const ReportedPicture& a, const ReportedPicture& b) {
     const PictureFile &one = a.file, &other = b.file;
     if (kind_of(one) != kind_of(other) || a.epoch != b.epoch) return false;
-    if (one.part_of) return same_region(*one.part_of, *other.part_of) && a.size.width == b.size.width && a.size.height == b.size.height;
+    const bool one_scene = one.part_of || one.frame;
+    if (one_scene && !a.scene.empty() && !b.scene.empty() && a.scene != b.scene) return false;
+    if (one_scene && a.size.width > 0 && b.size.width > 0 && (a.size.width != b.size.width || a.size.height != b.size.height)) return false;
+    if (one.part_of) return same_region(*one.part_of, *other.part_of);
     if (one.frame) {
         const FrameRange &p = one.frame->whole, &q = other.frame->whole;
         return p.first == q.first && p.last == q.last && p.step == q.step && one.frame->time == other.frame->time;
@@ -153,6 +160,12 @@ Result<ReportedRun> read_reports(const std::vector<std::string>& paths) {
         return place_of(a.file, a.region) < place_of(b.file, b.region);
     });
     run.kind = kind_of(run.pictures[0].file);
+    for (std::size_t i = 1; i < run.pictures.size(); ++i) {
+        const ReportedPicture &before = run.pictures[i - 1], &picture = run.pictures[i];
+        if (place_of(before.file, before.region) == place_of(picture.file, picture.region))
+            return fail(ErrorCode::usage, fmt::format("expected reports of one run, found {} and {}, which have the same place in it",
+                                                      before.file.output, picture.file.output));
+    }
     return run;
 }
 

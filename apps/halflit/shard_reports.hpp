@@ -17,6 +17,7 @@ struct ReportedPicture {
     PictureFile file;         ///< without bytes; file_hash 0: not known, since the picture was there already (--skip-existing)
     std::string path;         ///< where it is: its name in the report, or that name in the report's folder
     std::string pixel_hash;   ///< as in the report
+    std::string scene;        ///< as in the report; empty: it does not tell
     PictureSize size;         ///< of the whole picture
     Region region;            ///< what was drawn of it
     std::int64_t epoch = -1;  ///< of the pixels
@@ -30,7 +31,7 @@ struct ReportedRun {
 };
 
 /// Reads JSON objects and JSON lines. An output that is named twice counts once; a drawn one before a skipped one. Fails for files that are
-/// no reports (bad_input), and for reports of different runs (usage).
+/// no reports (bad_input), and for reports of different runs (usage): of other scenes, sizes or frames, or two pictures of one place.
 [[nodiscard]] Result<ReportedRun> read_reports(const std::vector<std::string>& paths);
 
 /// What the run lacks: nothing, or one line that names the first ones and the shards that draw them. Requires: a picture.

@@ -24,7 +24,7 @@ struct PfmHeader {
 
 bool is_pfm_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
-/// PfmWords of the header, each with the space behind it. Empty where the header ends too early.
+/// Words of the header, each with the space behind it. Empty where the header ends too early.
 class PfmWords {
 public:
     explicit PfmWords(std::span<const std::byte> file)

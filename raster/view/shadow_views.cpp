@@ -286,7 +286,8 @@ std::size_t append(ShadowViews& to, ShadowViews&& more) {
         to.views.push_back(std::move(view));
     }
     to.texel_count += more.texel_count;
-    if (to.warning.empty()) to.warning = std::move(more.warning);
+    if (!to.warning.empty() && !more.warning.empty()) to.warning += "; ";
+    to.warning += more.warning;
     return before;
 }
 

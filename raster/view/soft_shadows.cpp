@@ -91,9 +91,12 @@ Result<ShadowViews> plan_light_shadows(std::vector<LightPlan>& lights, const Pre
     if (std::none_of(lights.begin(), lights.end(), has_size)) return plan_shadow_views(lights, scene, seen, settings);
     std::vector<LightPlan> sharp, soft;
     for (const LightPlan& light : lights) (has_size(light) ? soft : sharp).push_back(light);
-    auto out = plan_shadow_views(sharp, scene, seen, settings);
+    Settings of_sharp = settings;
+    if (!sharp.empty()) of_sharp.shadow_memory_limit /= 2;
+    auto out = plan_shadow_views(sharp, scene, seen, of_sharp);
     if (!out) return out;
     Settings of_soft = settings;
+    of_soft.shadow_memory_limit -= std::min(of_soft.shadow_memory_limit, out->texel_count * sizeof(float));
     of_soft.shadow_size = std::max(64, settings.shadow_size / 2);
     int n = settings.soft_shadow_maps;
     auto views = plan_points(soft, n, scene, seen, of_soft);
@@ -101,7 +104,7 @@ Result<ShadowViews> plan_light_shadows(std::vector<LightPlan>& lights, const Pre
     if (!views) return views;
     if (n < settings.soft_shadow_maps)
         views->warning = "soft shadows by " + std::to_string(n) + " maps a light instead of " + std::to_string(settings.soft_shadow_maps) +
-                         ", to stay within " + std::to_string(settings.shadow_memory_limit) + " bytes";
+                         ", to stay within " + std::to_string(of_soft.shadow_memory_limit) + " bytes";
     out->map_of_light.resize(sharp.size(), -1);
     // Links the maps of each light, then gives each light its first one.
     std::vector<std::int32_t> first(soft.size(), -1);

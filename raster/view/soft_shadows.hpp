@@ -10,7 +10,8 @@ namespace halflit::raster {
 [[nodiscard]] std::vector<shading::LightPlan> light_points(const shading::LightPlan& light, int n);
 
 /// plan_shadow_views for all lights. A light with a size gets Settings::soft_shadow_maps maps of half the side, or cascades or cubes of
-/// them, chained by ShadowMapPlan::next, and fewer points where the maps do not fit the limit of memory. Sets LightPlan::shadow_points.
+/// them, chained by ShadowMapPlan::next, and fewer points where the maps do not fit the limit of memory, of which the maps of lights
+/// without size leave a half. Sets LightPlan::shadow_points.
 [[nodiscard]] Result<ShadowViews> plan_light_shadows(std::vector<shading::LightPlan>& lights, const PreparedData& scene,
                                                      const SeenVolume* seen, const Settings& settings);
 

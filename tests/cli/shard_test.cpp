@@ -231,6 +231,19 @@ TEST_CASE("merge: what is no report of one run is refused", "[cli][shard]") {
     CHECK(contains(outcome.err, "bad.json"));
 }
 
+TEST_CASE("merge: films of two scenes, or a frame twice, are refused", "[cli][shard]") {
+    const TemporaryFolder folder;
+    const auto film = [&](const char* scene, const std::string& name) {
+        run_well(folder, {"render", scene, "--turntable", "2", "--size", "8", "-o", name + "/{}.png", "--report", name + ".json"});
+    };
+    film("sphere:12", "a");
+    film("lights:1", "b");
+    film("sphere:12", "c");
+    CHECK(contains(run_in(folder, {"merge", "a.json", "b.json"}).err, "which are of two"));
+    CHECK(contains(run_in(folder, {"merge", "a.json", "c.json"}).err, "which have the same place in it"));
+    CHECK(run_in(folder, {"merge", "a.json", "a.json"}).code == 0);
+}
+
 TEST_CASE("plan: the lines are commands that make the whole run", "[cli][shard]") {
     const TemporaryFolder folder;
     const std::string name = "it's $HOME.png";  // a shell must not read it

@@ -138,6 +138,26 @@ TEST_CASE("OBJ: materials of an MTL file become halflit's", "[io]") {
     CHECK(alone->warnings.size() == 1);
 }
 
+TEST_CASE("OBJ: comments end a statement, and a backslash in them joins no line", "[io]") {
+    const auto loaded =
+        load_any_ok(to_bytes("v 0 0 0 # a b c\nv 1 0 0\n# C:\\art\\\nv 0 1 0 # C:\\art\\\nvt 0 0 # t\nv "
+                             "-0.00000000000000000000000000000000000000000000000000000001 0 1e-60\n"
+                             "f 1/1 2/1 3/1 # x\nf 1 2 \\\n4\n"));
+    REQUIRE(loaded.scene.meshes.size() == 1);
+    CHECK(loaded.scene.meshes[0].indices.size() == 6);
+    CHECK(loaded.warnings.empty());
+}
+
+TEST_CASE("PLY: faces may come before their vertices", "[io]") {
+    const auto loaded = load_any_ok(
+        to_bytes("ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\nelement edge 1\nproperty int vertex1\n"
+                 "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n3 0 1 2\n0\n0 0 0\n1 0 0\n0 1 0\n"));
+    REQUIRE(loaded.scene.meshes.size() == 1);
+    CHECK(loaded.scene.meshes[0].positions == std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    REQUIRE(loaded.warnings.size() == 1);
+    CHECK(loaded.warnings[0] == "1 elements \"edge\" are not drawn");
+}
+
 TEST_CASE("OBJ: lines and points are drawn without light", "[io]") {
     const auto loaded =
         load_any_ok(to_bytes("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1e999 0 0\nvt 0 0\nf 1 2 3\nl 1 2 3\nl 3/1 1/1\nl 1 4\no cloud\np 3 2\n"));

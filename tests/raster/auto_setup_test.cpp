@@ -98,6 +98,19 @@ TEST_CASE("setup: a scene without light gets the studio with a key light, and ex
     CHECK(same(scene.ambient, Ambient{}));
 }
 
+TEST_CASE("setup: lights that give no light count as none", "[raster][setup]") {
+    Scene scene = box_scene(), wanted = box_scene();
+    scene.lights = {sun({0, 0, 0})};
+    scene.calibrated = false;
+    const AutoSetup setup = auto_setup(scene, 200, 100);
+    add_studio(wanted, setup.camera);
+    REQUIRE(scene.lights.size() == 2);
+    CHECK(scene.lights[1] == wanted.lights[0]);
+    REQUIRE(scene.environment != nullptr);
+    CHECK(environment_level(*scene.environment) == environment_level(*wanted.environment));
+    CHECK(setup.settings.exposure == 1.0f);
+}
+
 TEST_CASE("setup: without the studio, a scene without light gets the default lights", "[raster][setup]") {
     Scene scene = box_scene(), wanted = box_scene();
     const AutoSetup setup = auto_setup(scene, 200, 100, {.studio = StudioUse::never});

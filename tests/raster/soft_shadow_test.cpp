@@ -2,6 +2,7 @@
 #include "halflit/renderer.hpp"
 #include "halflit/scene.hpp"
 #include "halflit/shapes.hpp"
+#include "raster/frame_plan.hpp"
 #include "raster/view/soft_shadows.hpp"
 
 #include "tests/raster/box_shadow.hpp"
@@ -254,6 +255,25 @@ TEST_CASE("soft shadows: a light has fewer points where their maps do not fit th
     }
     shading::LightPlan middle = shading::plan_lights(scene.lights)[0];
     CHECK(raster::light_points(middle, 1)[0].to_light[0] == middle.to_light[0]);
+}
+
+TEST_CASE("soft shadows: the maps of all lights and of the sky stay within the limit of memory together", "[raster][soft-shadows]") {
+    Scene scene = box_above_floor(0.5, 0.5).scene;
+    scene.ambient = {{1, 1, 1}, {1, 1, 1}};
+    scene.lights = {directional(4), lamp(LightType::point, 0.0f), lamp(LightType::spot, 0.4f), directional(0)};
+    const auto prepared = PreparedScene::make(scene);
+    REQUIRE(prepared);
+    for (const std::size_t limit : {std::size_t{64} << 20, std::size_t{8} << 20, std::size_t{4} << 20}) {
+        Settings settings = matt();
+        settings.sky_shadows = 64;
+        settings.shadow_memory_limit = limit;
+        const auto plan = raster::plan_frame(prepared->data(), Camera{}, settings, 64, 64);
+        REQUIRE(plan);
+        REQUIRE(plan->shadow_views.size() > 64);
+        std::size_t last = 0;  // texel with which the last map begins
+        for (const raster::ShadowView& view : plan->shadow_views) last = std::max(last, view.first_texel);
+        CHECK(last * sizeof(float) < limit);
+    }
 }
 
 TEST_CASE("soft shadows: their number is checked, and each point that sees casters has a map", "[raster][soft-shadows]") {

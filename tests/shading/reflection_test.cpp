@@ -246,6 +246,28 @@ TEST_CASE("reflections: each level of a map is the sky blurred by its lobe", "[s
     CHECK(worst_share < 0.04);  // at the edge of a panel that is 120 times as bright as the room
 }
 
+TEST_CASE("reflections: a single bright pixel keeps its light in images of any size", "[shading][environment]") {
+    Random random(5);
+    for (const auto& [width, height] : {std::pair{1022, 511}, {1026, 513}, {1999, 1333}, {1024, 1026}}) {
+        std::vector<float> rgb(static_cast<std::size_t>(3) * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+        const int x = random.index(width), y = height / 4 + random.index(height / 2);
+        for (std::size_t c = 0; c < 3; ++c)
+            rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) + c] = 1e5f;
+        const auto strip = [](int j, int rows) { return std::cos(kPi * j / rows) - std::cos(kPi * (j + 1) / rows); };
+        const double wanted = 1e5 * 2 * kPi / width * strip(y, height);
+        const ReflectionMap map = make_reflection_map({width, height, rgb}, in_turn);
+        const int n = map.rows[3];
+        double sum = 0;
+        for (int j = 1; j < n; ++j)
+            for (int i = 0; i < 2 * n; ++i)
+                sum +=
+                    static_cast<double>(map.rgba[static_cast<std::size_t>(map.first[3] + j * (2 * n + 1) + i)][1]) * std::sin(kPi * j / n);
+        sum *= kPi / n * (kPi / n);
+        INFO(width << " x " << height << ", pixel " << x << ", " << y);
+        CHECK(sum == Approx(wanted).epsilon(0.05));
+    }
+}
+
 TEST_CASE("reflections: errors against GGX are at most half those of the split sum", "[shading][environment]") {
     constexpr int kRings = 96;
     Random random(9);

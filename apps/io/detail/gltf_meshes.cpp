@@ -77,7 +77,9 @@ private:
     }
 
     void place(std::size_t index, const std::vector<Made>& primitives, const std::optional<Affine>& in_node) {
-        document_.geometry.take(primitives.size() * (sizeof(Instance) + sizeof(int) + (in_node ? sizeof(NodeTransform) : 0)));
+        // What an instance takes until it is drawn; a few bytes may ask for many.
+        constexpr std::uint64_t kBytesInNode = 1024;
+        document_.geometry.take(primitives.size() * (in_node ? kBytesInNode : sizeof(Instance) + sizeof(int)));
         const Affine& world = tree_.world_from_node[index];
         for (const auto& [mesh_of_scene, at_world] : primitives) {
             if (!at_world) {

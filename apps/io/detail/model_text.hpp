@@ -2,6 +2,7 @@
 // everywhere.
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cstddef>
 #include <limits>
@@ -23,6 +24,17 @@ namespace halflit::io::detail {
     return true;
 }
 
+/// Of a decimal number other than 0: the power of ten of its first digit, within a few millions.
+[[nodiscard]] inline long long exponent_of(std::string_view word) {
+    const std::size_t e = std::min(word.find_first_of("eE"), word.size()), first = std::min(word.find_first_of("123456789"), e);
+    const std::size_t point = std::min(word.find('.'), e);
+    long long exponent = 0;
+    for (std::size_t i = e + 1; i < word.size() && exponent < 1'000'000'000; ++i)
+        if (word[i] >= '0' && word[i] <= '9') exponent = 10 * exponent + (word[i] - '0');
+    if (e + 1 < word.size() && word[e + 1] == '-') exponent = -exponent;
+    return exponent + (point > first ? static_cast<long long>(point - first) - 1 : -static_cast<long long>(first - point));
+}
+
 /// The whole word as a number: decimal, with an optional sign and exponent, or inf and nan. Too small a number is 0, too large a one is
 /// infinite.
 template <class T>
@@ -33,10 +45,8 @@ template <class T>
     if (end != word.data() + word.size() || word.empty()) return std::nullopt;
     if (error == std::errc()) return value;
     if (error != std::errc::result_out_of_range) return std::nullopt;
-    const std::size_t e = word.find_first_of("eE");
-    const bool small = e != std::string_view::npos ? e + 1 < word.size() && word[e + 1] == '-' : word.find_first_of(".") <= 1;
-    if (small) return T{0};
-    return word[0] == '-' ? -std::numeric_limits<T>::infinity() : std::numeric_limits<T>::infinity();
+    const T sign = word[0] == '-' ? T{-1} : T{1};
+    return sign * (exponent_of(word) < 0 ? T{0} : std::numeric_limits<T>::infinity());
 }
 
 /// The whole word as a whole number.

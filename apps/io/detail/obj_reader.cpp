@@ -32,7 +32,7 @@ public:
         std::string joined;
         while (lines_.next(line)) {
             if (lines_.number() % 65536 == 0) builder_.document().check_time();
-            if (line.ends_with('\\')) {
+            if (without_comment(line).ends_with('\\')) {
                 joined.clear();
                 do {
                     joined.append(line.substr(0, line.size() - 1)).push_back(' ');
@@ -68,7 +68,7 @@ public:
     void add_files() {
         std::string_view line;
         while (lines_.next(line)) {
-            Words words(line);
+            Words words(without_comment(line));
             if (words.next() == "mtllib") libraries_.add(words.rest());
         }
         libraries_.add_files();
@@ -82,12 +82,18 @@ private:
         bool has_colors;
     };
 
+    /// Without a comment, which begins a word: "wood#1" is a name.
+    static std::string_view without_comment(std::string_view line) {
+        for (std::size_t at = line.find('#'); at != std::string_view::npos; at = line.find('#', at + 1))
+            if (at == 0 || is_blank(line[at - 1])) return line.substr(0, at);
+        return line;
+    }
     [[nodiscard]] std::string where() const { return fmt::format("line {}", lines_.number()); }
 
     void read_statement(std::string_view line) {
-        Words words(line);
+        Words words(without_comment(line));
         const std::string_view word = words.next();
-        if (word.empty() || word[0] == '#') return;
+        if (word.empty()) return;
         if (word == "v") return read_position(words);
         if (word == "vt") {
             const Vec3f uv = read_numbers(words, 1);
@@ -199,7 +205,7 @@ private:
     /// A polyline, or points.
     void read_stroke(Words& words, Topology topology) {
         std::vector<std::uint32_t> corners;
-        for (std::string_view word = words.next(); !word.empty() && word[0] != '#'; word = words.next()) {
+        for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
             Corner corner{};
             if (!read_corner(word, corner)) return void(++bad_faces_);
             corners.push_back(corner.position);
@@ -212,7 +218,7 @@ private:
         face_.clear();
         points_.clear();
         triangles_.clear();
-        for (std::string_view word = words.next(); !word.empty() && word[0] != '#'; word = words.next()) {
+        for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
             Corner corner{};
             if (!read_corner(word, corner)) return void(++bad_faces_);
             face_.push_back(corner);
@@ -241,7 +247,7 @@ private:
     MtlLibraries libraries_;
     ObjStrokes strokes_;
     Soup soup_;
-    PolygonCutter cutter_;
+    PolygonCutter cutter_{builder_.document()};
     std::vector<std::string> objects_{""};
     std::vector<Part> parts_;
     std::map<std::tuple<std::uint32_t, int, bool>, std::uint32_t> part_at_;

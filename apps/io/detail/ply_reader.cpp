@@ -83,13 +83,23 @@ public:
         const auto named = [](std::string_view name) { return [name](const PlyElement& e) { return e.name == name && e.count > 0; }; };
         const auto has = [&](std::string_view name) { return std::any_of(header_.elements.begin(), header_.elements.end(), named(name)); };
         is_cloud_ = has("vertex") && !has("face") && !has("tristrips");
-        for (const PlyElement& element : header_.elements) {
-            if (element.properties.empty()) continue;
-            values_.check_count(element);
-            if (element.name == "vertex" && soup_.positions.empty())
-                read_vertices(element);
+        // Faces may come before their vertices. Then these are read first.
+        const auto vertices = std::find_if(header_.elements.begin(), header_.elements.end(), named("vertex"));
+        const auto corners = std::find_if(header_.elements.begin(), header_.elements.end(),
+                                          [](const PlyElement& e) { return e.name == "face" || e.name == "tristrips"; });
+        if (vertices != header_.elements.end()) {
+            const PlyValues all = values_;
+            for (auto element = header_.elements.begin(); element != vertices; ++element) skip(*element);
+            values_.check_count(*vertices);
+            read_vertices(*vertices);
+            if (corners < vertices) values_ = all;
+        }
+        for (auto element = corners < vertices || vertices == header_.elements.end() ? header_.elements.begin() : vertices + 1;
+             element != header_.elements.end(); ++element) {
+            if (element == vertices)
+                skip(*element);
             else
-                read_others(element);
+                read_others(*element);
         }
         Document& document = builder_.document();
         if (values_.has_more()) document.warn("there is more behind the last element, which is not drawn");
@@ -203,7 +213,21 @@ private:
         vertex_has_color_ = has_color;
     }
 
+    /// Goes past an element, without looking at its values.
+    void skip(const PlyElement& element) {
+        if (element.properties.empty()) return;
+        values_.check_count(element);
+        const Layout layout(element);
+        Row row{};
+        for (std::uint64_t i = 0; i < element.count; ++i) {
+            if (i % 65536 == 0) builder_.document().check_time();
+            read_row(element, layout, row);
+        }
+    }
+
     void read_others(const PlyElement& element) {
+        if (element.properties.empty()) return;
+        values_.check_count(element);
         const Layout layout(element);
         const bool is_face = element.name == "face", is_strips = element.name == "tristrips";
         if ((is_face || is_strips) && !layout.has[indices])
@@ -289,7 +313,7 @@ private:
     PlyValues values_;
     ModelBuilder& builder_;
     Soup soup_;
-    PolygonCutter cutter_;
+    PolygonCutter cutter_{builder_.document()};
     bool vertex_has_normal_ = false, vertex_has_uv_ = false, vertex_has_color_ = false;
     std::vector<double> polygon_, texcoords_;
     std::vector<std::uint32_t> corners_, triangles_;

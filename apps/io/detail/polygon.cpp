@@ -85,6 +85,10 @@ void PolygonCutter::clip_ears(std::vector<std::uint32_t>& triangles) {
     std::sort(reflex_.begin(), reflex_.end(), [](const Reflex& a, const Reflex& b) { return a.at.x < b.at.x; });
     std::uint32_t corner = 1, without_ear = 0;
     for (std::uint32_t left = n; left > 3;) {
+        if (tests_ >= next_look_) {
+            document_.check_time();
+            next_look_ = tests_ + (std::uint64_t{1} << 22);
+        }
         if (tests_ > kMostTests) refuse("", "its concave polygons have too many corners to be cut into triangles", ErrorCode::limit);
         const std::uint32_t before = previous_[corner], after = next_[corner];
         if (without_ear < left && !is_ear(before, corner, after)) {

@@ -1,6 +1,7 @@
 // Polygons cut into triangles.
 #pragma once
 
+#include "apps/io/detail/gltf_document.hpp"
 #include "halflit/math.hpp"
 
 #include <cstdint>
@@ -14,6 +15,8 @@ namespace halflit::io::detail {
 /// corner in it. A polygon that crosses itself has no ear at some time; then the next corner is cut as it is.
 class PolygonCutter {
 public:
+    explicit PolygonCutter(const Document& document) : document_(document) {}
+
     /// Appends three numbers of corners for each triangle, in the polygon's direction of turning; n - 2 triangles. The polygon is looked at
     /// along the coordinate axis nearest to its normal. One with a corner that is not finite is a fan, too. Throws LoadFailure (limit) when
     /// all polygons together take too long.
@@ -38,7 +41,8 @@ private:
     std::vector<std::uint32_t> next_, previous_;
     std::vector<Reflex> reflex_;  ///< by x
     std::vector<bool> cut_off_;
-    std::uint64_t tests_ = 0;  ///< points that were looked for in triangles, of all polygons
+    const Document& document_;                 ///< its time
+    std::uint64_t tests_ = 0, next_look_ = 0;  ///< points that were looked for in triangles, of all polygons
 };
 
 }  // namespace halflit::io::detail
