@@ -79,8 +79,8 @@ Result<int> run_view(ViewOptions options) {
     auto job = make_render_job(options, kRenderSize);
     if (!job) return tl::unexpected(job.error());
     if (rehearsal.click && (rehearsal.click->x >= job->width || rehearsal.click->y >= job->height))
-        return fail(ErrorCode::usage, "--click: expected a pixel of the " + std::to_string(job->width) + "x" + std::to_string(job->height) +
-                                          " picture");
+        return fail(ErrorCode::usage,
+                    "--click: expected a pixel of the " + std::to_string(job->width) + "x" + std::to_string(job->height) + " picture");
     for (const std::string& warning : job->warnings) print_warning(warning);
     for (const std::string& choice : job->choices) print_detail(choice);
     const auto seen = viewer::run_viewer(std::move(*job), options, options.window);
@@ -118,18 +118,18 @@ Command view_command() {
     constexpr std::string_view kLeftOut[] = {"--region"};
     remove_flags(groups, kLeftOut);
     viewer::ViewerOptions& window = options->window;
-    groups.insert(
-        groups.begin(),
-        {"Window",
-         {{"--tab", "plan|report|pixel", "Text in the lower part of the panel at the start (default plan)",
-           [&window](const std::string& text) { return read_tab(window.tab, text); }},
-          {"--orbit", "N", "Without a person: turn once around the scene in N pictures, draw all samples, and end",
-           read_int(window.rehearsal.orbit_frames, 1, 1000000)},
-          {"--click", "X,Y", "Without a person: then click on this pixel, which tells its triangle, its lights and its error",
-           [&window](const std::string& text) { return read_click(window.rehearsal.click, text); }},
-          {"--screenshot", "FILE", "Without a person: at the end, write the window with its panel as a picture", read_text(window.screenshot)},
-          {"--report", "FILE", "Without a person: at the end, write times and the clicked pixel as JSON; - is standard output",
-           read_text(options->report)}}});
+    groups.insert(groups.begin(),
+                  {"Window",
+                   {{"--tab", "plan|report|pixel", "Text in the lower part of the panel at the start (default plan)",
+                     [&window](const std::string& text) { return read_tab(window.tab, text); }},
+                    {"--orbit", "N", "Without a person: turn once around the scene in N pictures, draw all samples, and end",
+                     read_int(window.rehearsal.orbit_frames, 1, 1000000)},
+                    {"--click", "X,Y", "Without a person: then click on this pixel, which tells its triangle, its lights and its error",
+                     [&window](const std::string& text) { return read_click(window.rehearsal.click, text); }},
+                    {"--screenshot", "FILE", "Without a person: at the end, write the window with its panel as a picture",
+                     read_text(window.screenshot)},
+                    {"--report", "FILE", "Without a person: at the end, write times and the clicked pixel as JSON; - is standard output",
+                     read_text(options->report)}}});
     return {"view",
             "Show a scene in a window: turn it, change light and lobes, click on pixels",
             {scene_argument(*options, false)},

@@ -93,7 +93,7 @@ DrawnFrame FrameWorker::answer(const FrameRequest& request) {
     if (done) return frame;
     frame.picture = {};
     frame.dropped = done.error().code == ErrorCode::cancelled;
-    if (!frame.dropped) frame.error = done.error().message;
+    if (!frame.dropped) frame.error = done.error();
     return frame;
 }
 
@@ -134,8 +134,7 @@ Result<void> FrameWorker::draw(const FrameRequest& request, DrawnFrame& frame) {
     const int all_samples = job_.settings.samples;
     job_.settings.samples = request.step.samples;
     frame.picture = cli::make_image(job_, false);
-    const auto rendered =
-        renderer_.render(*job_.prepared, job_.camera, job_.settings, cli::target_of(job_, frame.picture), job_.execution);
+    const auto rendered = renderer_.render(*job_.prepared, job_.camera, job_.settings, cli::target_of(job_, frame.picture), job_.execution);
     if (!rendered) return tl::unexpected(rendered.error());
     cli::Json report;
     cli::add_frame(report, job_, *rendered, frame.picture);

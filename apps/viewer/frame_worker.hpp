@@ -31,14 +31,14 @@ struct FrameRequest {
 
 struct DrawnFrame {
     DrawStep step;
-    Image picture;        ///< empty after an error, and where it was dropped
-    double draw_ms = 0;   ///< of the request, changes of the light included
-    bool dropped = false; ///< given up
-    std::string error;    ///< empty: none
-    std::string report;   ///< lines
-    std::string plan;     ///< lines; empty for quick pictures
-    std::optional<std::vector<LightControl>> lights;  ///< the scene has other lights than before
-    std::optional<PixelStory> story;
+    Image picture;         ///< empty after an error, and where it was dropped
+    double draw_ms = 0;    ///< of the request, changes of the light included
+    bool dropped = false;  ///< given up
+    std::optional<Error> error{};
+    std::string report;                                 ///< lines
+    std::string plan;                                   ///< lines; empty for quick pictures
+    std::optional<std::vector<LightControl>> lights{};  ///< the scene has other lights than before
+    std::optional<PixelStory> story{};
 };
 
 /// One request at a time. The job belongs to the thread.

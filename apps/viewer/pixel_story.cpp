@@ -66,8 +66,8 @@ private:
 /// Changes the scene's light; what it was comes back at the end.
 class LightSwitch {
 public:
-    explicit LightSwitch(cli::RenderJob& job) : job_(job), lights_(job.scene().lights), ambient_(job.scene().ambient),
-                                                environment_(job.scene().environment) {}
+    explicit LightSwitch(cli::RenderJob& job)
+        : job_(job), lights_(job.scene().lights), ambient_(job.scene().ambient), environment_(job.scene().environment) {}
     ~LightSwitch() { (void)set(lights_, true); }
     LightSwitch(const LightSwitch&) = delete;
     LightSwitch& operator=(const LightSwitch&) = delete;
@@ -213,7 +213,8 @@ Result<PixelStory> tell_pixel(cli::RenderJob& job, Renderer& renderer, int x, in
     story.reference_codes = codes_of(job.settings.tone_curve, truth);
     const Rgb3 codes = codes_of(job.settings.tone_curve, story.sum);
     for (std::size_t i = 0; i < 3; ++i)
-        story.error_codes[i] = codes[i] < story.reference_codes[i] ? story.reference_codes[i] - codes[i] : codes[i] - story.reference_codes[i];
+        story.error_codes[i] =
+            codes[i] < story.reference_codes[i] ? story.reference_codes[i] - codes[i] : codes[i] - story.reference_codes[i];
     probe.settings() = as_drawn;
     if (const auto told = tell_lights(job, probe, story); !told) return tl::unexpected(told.error());
     return story;

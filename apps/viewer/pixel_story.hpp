@@ -30,7 +30,7 @@ struct LightShare {
 struct PixelStory {
     int x = 0, y = 0;
     std::array<int, 4> codes{};  ///< red, green, blue, alpha, 0 to 255
-    bool hit = false;            ///< a surface that is not blended covers the first sample; otherwise nothing from here to `shares` is known
+    bool hit = false;  ///< a surface that is not blended covers the first sample; otherwise nothing from here to `shares` is known
     std::size_t instance = 0, mesh = 0, triangle = 0;  ///< the triangle, line or point is numbered in its mesh
     Topology topology = Topology::triangles;
     std::string mesh_name, material;
@@ -40,11 +40,11 @@ struct PixelStory {
     Rgb3 albedo{};
     double depth = 0, coverage = 0;
 
-    std::vector<LightShare> shares;  ///< the brightest first
-    std::size_t lights_left_out = 0; ///< lights that were not looked at, beyond kMostShares
-    Rgb3 around{};                   ///< ambient light or environment
-    Rgb3 emitted{};                  ///< emission, unlit colour and transparent layers without light
-    Rgb3 sum{};                      ///< of the pixel, before the tone curve
+    std::vector<LightShare> shares;   ///< the brightest first
+    std::size_t lights_left_out = 0;  ///< lights that were not looked at, beyond kMostShares
+    Rgb3 around{};                    ///< ambient light or environment
+    Rgb3 emitted{};                   ///< emission, unlit colour and transparent layers without light
+    Rgb3 sum{};                       ///< of the pixel, before the tone curve
 
     Rgb3 reference_codes{};  ///< not rounded, by --accuracy reference
     Rgb3 error_codes{};      ///< distance of the picture's codes from them, before rounding

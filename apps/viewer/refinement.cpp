@@ -33,7 +33,8 @@ void Refinement::began(const DrawStep&) { changed_ = false; }
 
 void Refinement::drawn(const DrawStep& step, double took_ms, bool dropped) {
     if (dropped) return;
-    if (step.samples == 1) adapt(step, took_ms);
+    if (step.samples == 1 && !first_) adapt(step, took_ms);
+    first_ = false;
     if (changed_) return;  // the picture is that of an earlier view
     shown_divisor_ = step.divisor;
     stage_ = step.final_one ? Stage::finished : step.divisor == 1 ? Stage::full_size : Stage::shown;

@@ -15,7 +15,8 @@ struct DrawStep {
 
 /// While the view moves, pictures have one sample a pixel. One that takes longer than the target halves the sides of the next ones, unless
 /// that was tried and gained less than a seventh: then the time is the geometry's. Sides are doubled again where four times the last time
-/// is below the target. At rest follow one sample at full size, if the last picture was smaller, and all samples.
+/// is below the target. The first picture of all does not count: it also makes what later ones use again. At rest follow one sample at full
+/// size, if the last picture was smaller, and all samples.
 class Refinement {
 public:
     static constexpr double kTargetMs = 60.0;
@@ -48,10 +49,11 @@ private:
     int all_samples_;
     Stage stage_ = Stage::quick;  ///< what the present view has: nothing, a quick picture, one of full size, all
     int shown_divisor_ = 1;
+    bool first_ = true;     ///< no picture is drawn yet
     bool changed_ = false;  ///< since the picture in the making was begun
     double moved_ms_ = -1e9;
     int divisor_ = 1;
-    double larger_ms_ = 0;      ///< time of the last picture before the sides were halved; 0: none
+    double larger_ms_ = 0;  ///< time of the last picture before the sides were halved; 0: none
     bool geometry_bound_ = false;
 };
 

@@ -10,7 +10,8 @@ RehearsalStep Rehearsal::next(const Situation& now) {
             stage_ = plan_.orbit_frames > 0 ? Stage::turning : Stage::resting;
             return {stage_ == Stage::turning ? Gesture::press : Gesture::none};
         case Stage::turning: {
-            if (dragged_ > 0 && !now.new_picture) return {};
+            // A motion of a few pixels may count as none: then no picture comes.
+            if (dragged_ > 0 && !now.new_picture && !now.finished) return {};
             if (dragged_ == 0) last_ms_ = now.now_ms;
             if (dragged_ == plan_.orbit_frames) {
                 stage_ = Stage::resting;

@@ -19,9 +19,9 @@ struct RehearsalPlan {
 /// The window's state, as the rehearsal sees it.
 struct Situation {
     double now_ms = 0;
-    bool new_picture = false;   ///< one was drawn since the last call
-    bool finished = false;      ///< all samples of the view are shown
-    bool story_shown = false;   ///< that of the last click
+    bool new_picture = false;  ///< one was drawn since the last call
+    bool finished = false;     ///< all samples of the view are shown
+    bool story_shown = false;  ///< that of the last click
 };
 
 enum class Gesture { none, press, drag, release, click, end };

@@ -67,9 +67,12 @@ Gui::Gui(const Sdl& sdl, SDL_Renderer* renderer) : sdl_(sdl), renderer_(renderer
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;  // nothing is written into the folder
     io.LogFilename = nullptr;
-    ImGui::GetStyle().WindowRounding = 0.0f;
-    ImGui::GetStyle().AntiAliasedFill = false;  // fewer triangles, which the processor draws
-    ImGui::GetStyle().AntiAliasedLines = false;
+    ImGuiStyle& style = ImGui::GetStyle();
+    style.WindowRounding = 0.0f;
+    style.FramePadding = {4.0f, 1.0f};
+    style.ItemSpacing = {6.0f, 3.0f};
+    style.AntiAliasedFill = false;  // fewer triangles, which the processor draws
+    style.AntiAliasedLines = false;
     map_keys(io);
     make_font_texture();
 }

@@ -11,6 +11,7 @@
 #include <array>
 #include <iterator>
 #include <span>
+#include <utility>
 
 namespace halflit::viewer {
 namespace {
@@ -139,6 +140,15 @@ void text_tab(const char* label, const std::string& text, bool front, Tab tab, T
     ImGui::EndTabItem();
 }
 
+/// A cross with an open middle.
+void mark_pixel(const PanelTexts& texts) {
+    ImDrawList& list = *ImGui::GetForegroundDrawList();
+    const ImVec2 at{static_cast<float>(texts.mark_x) + 0.5f, static_cast<float>(texts.mark_y) + 0.5f};
+    for (const auto& [color, wide] : {std::pair{IM_COL32(0, 0, 0, 255), 3.0f}, std::pair{IM_COL32(255, 220, 0, 255), 1.0f}})
+        for (const auto& [x, y] : {std::pair{1.0f, 0.0f}, {-1.0f, 0.0f}, {0.0f, 1.0f}, {0.0f, -1.0f}})
+            list.AddLine({at.x + 4.0f * x, at.y + 4.0f * y}, {at.x + 12.0f * x, at.y + 12.0f * y}, color, wide);
+}
+
 }  // namespace
 
 bool Panel::draw(const PanelTexts& texts, int left, int width, int height) {
@@ -181,6 +191,7 @@ bool Panel::draw(const PanelTexts& texts, int left, int width, int height) {
         ImGui::EndTabBar();
     }
     ImGui::End();
+    if (texts.marked) mark_pixel(texts);
     return changed;
 }
 

@@ -14,14 +14,16 @@ struct PanelTexts {
     std::string status;  ///< times of the picture
     std::string error;   ///< of the last picture; empty: none
     std::string plan, report, pixel;
+    bool marked = false;  ///< the pixel that is told about is in view
+    int mark_x = 0, mark_y = 0;
 };
 
 struct Panel {
-    Controls controls;          ///< as the hand left them
-    const Controls started;     ///< those of the flags
+    Controls controls;       ///< as the hand left them
+    const Controls started;  ///< those of the flags
     Tab tab = Tab::plan;
-    bool select_tab = true;     ///< bring `tab` to the front
-    bool reset_view = false;    ///< the button was pressed
+    bool select_tab = true;   ///< bring `tab` to the front
+    bool reset_view = false;  ///< the button was pressed
 
     /// Draws it into the window's right part. True if a control changed.
     bool draw(const PanelTexts& texts, int left, int width, int height);

@@ -13,7 +13,7 @@ Result<Sdl> load_sdl() {
         return fail(ErrorCode::usage, std::string("view: needs the library SDL2 (") + kLibrary + ", in Debian's package libsdl2-2.0-0)");
     Sdl sdl;
     const char* missing = nullptr;
-#define HALFLIT_SDL_LOAD(name)                                                        \
+#define HALFLIT_SDL_LOAD(name)                                                       \
     sdl.name = reinterpret_cast<decltype(sdl.name)>(::dlsym(library, "SDL_" #name)); \
     if (sdl.name == nullptr) missing = "SDL_" #name;
     HALFLIT_SDL_FUNCTIONS(HALFLIT_SDL_LOAD)

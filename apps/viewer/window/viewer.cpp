@@ -109,7 +109,7 @@ public:
         sdl_.StartTextInput();
         while (!ended_) turn_of_loop();
         worker_.reset();
-        if (!failure_.empty()) return fail(ErrorCode::internal, "view: " + failure_);
+        if (failure_) return fail(failure_->code, "view: " + failure_->message);
         summary_.width = picture_width_, summary_.height = picture_height_;
         summary_.frame_ms = rehearsal_.intervals();
         const std::size_t kept = summary_.frame_ms.size();
@@ -157,9 +157,15 @@ private:
         if (!frame) return;
         redraw_ = std::max(redraw_, 1);
         if (frame->lights) panel_.controls.lights = std::move(*frame->lights);
-        texts_.error = frame->error;
+        texts_.error = frame->error ? frame->error->message : "";
+        if (frame->error && how_.rehearsal.wanted) {
+            failure_ = frame->error;
+            ended_ = true;
+        }
         if (frame->story) {
             texts_.pixel = story_text(*frame->story);
+            texts_.marked = true;
+            texts_.mark_x = frame->story->x, texts_.mark_y = frame->story->y;
             panel_.tab = Tab::pixel;
             panel_.select_tab = true;
             redraw_ = 3;  // a tab comes to the front with the frame after the next one
@@ -167,17 +173,9 @@ private:
             story_shown_ = true;
             return;
         }
-        if (telling_) {  // the story failed
-            story_shown_ = true;
-            return;
-        }
+        if (telling_) return;  // without a story: that failed
         refinement_.drawn(frame->step, frame->draw_ms, frame->dropped);
-        if (!frame->error.empty()) {
-            failure_ = how_.rehearsal.wanted ? frame->error : "";
-            ended_ = ended_ || how_.rehearsal.wanted;
-            return;
-        }
-        if (frame->dropped) return;
+        if (frame->error || frame->dropped) return;
         if (summary_.first_picture_ms == 0.0) summary_.first_picture_ms = clock_.ms();
         if (refinement_.finished()) summary_.finished_ms = clock_.ms() - moved_ms_;
         if (rehearsal_.turning()) {
@@ -238,6 +236,7 @@ private:
     }
 
     void moved() {
+        texts_.marked = false;
         moved_ms_ = clock_.ms();
         refinement_.moved(moved_ms_);
         worker_->give_up();
@@ -373,18 +372,18 @@ private:
     std::unique_ptr<Gui> gui_;
 
     cli::Stopwatch clock_, since_present_, since_picture_;
-    double rate_ = 0;                ///< pictures a second
+    double rate_ = 0;  ///< pictures a second
     double moved_ms_ = 0;
     bool new_picture_ = false, telling_ = false, story_shown_ = false, ended_ = false, last_present_ = false;
-    int redraw_ = 2;                 ///< frames of the panel that are due
-    DrawStep shown_step_;            ///< of the picture in the window
+    int redraw_ = 2;       ///< frames of the panel that are due
+    DrawStep shown_step_;  ///< of the picture in the window
     double shown_ms_ = 0;
-    Uint8 held_ = 0;                 ///< button that was pressed on the picture
-    int wandered_ = 0;               ///< pixels since then
+    Uint8 held_ = 0;    ///< button that was pressed on the picture
+    int wandered_ = 0;  ///< pixels since then
     int pointer_x_ = 0;
     std::optional<FrameRequest::Pixel> clicked_;
-    int hand_x_ = 0, hand_y_ = 0;    ///< the rehearsal's
-    std::string failure_;
+    int hand_x_ = 0, hand_y_ = 0;  ///< the rehearsal's
+    std::optional<Error> failure_;
     Image screenshot_;
     ViewerSummary summary_;
     std::unique_ptr<FrameWorker> worker_;  ///< last: its thread calls wake()
