@@ -104,7 +104,8 @@ Result<void> add_environment(Scene& scene, const RenderOptions& options) {
     if (!image) return tl::unexpected(image.error());
     const auto environment =
         make_environment(*image, {options.environment_sun, static_cast<double>(options.environment_rotate_deg) * (kPi / 180.0),
-                                  options.settings.background_environment, options.settings.shading.accuracy == Accuracy::reference});
+                                  options.settings.background_environment,
+                                  options.may_want_reference || options.settings.shading.accuracy == Accuracy::reference});
     if (!environment) return tl::unexpected(environment.error());
     set_environment(scene, *environment);
     return {};

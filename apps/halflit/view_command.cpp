@@ -41,7 +41,7 @@ Json pixel_json(const viewer::PixelStory& story) {
     pixel["around"] = story.around;
     pixel["emitted"] = story.emitted;
     pixel["linear"] = story.sum;
-    pixel["error_codes"] = story.error_codes;
+    pixel["error_codes"] = story.no_reference.empty() ? Json(story.error_codes) : Json();
     return pixel;
 }
 
@@ -76,6 +76,7 @@ Result<int> run_view(ViewOptions options) {
     rehearsal.wanted = rehearsal.orbit_frames > 0 || rehearsal.click || !options.window.screenshot.empty() || !options.report.empty();
     if (options.max_memory_bytes == 0) prepare_heap();
     if (options.settings.region.width > 0) return fail(ErrorCode::usage, "--region: not in a window");
+    options.may_want_reference = true;  // the error of a pixel that is clicked on
     auto job = make_render_job(options, kRenderSize);
     if (!job) return tl::unexpected(job.error());
     if (rehearsal.click && (rehearsal.click->x >= job->width || rehearsal.click->y >= job->height))

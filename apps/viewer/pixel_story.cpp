@@ -209,12 +209,13 @@ Result<PixelStory> tell_pixel(cli::RenderJob& job, Renderer& renderer, int x, in
     probe.settings().shading.max_error_codes = 0.0;
     probe.settings().shading.accuracy = Accuracy::reference;
     Rgb3 truth{};
-    if (const auto reference = probe.draw(truth); !reference) return tl::unexpected(reference.error());
-    story.reference_codes = codes_of(job.settings.tone_curve, truth);
-    const Rgb3 codes = codes_of(job.settings.tone_curve, story.sum);
-    for (std::size_t i = 0; i < 3; ++i)
-        story.error_codes[i] =
-            codes[i] < story.reference_codes[i] ? story.reference_codes[i] - codes[i] : codes[i] - story.reference_codes[i];
+    if (const auto reference = probe.draw(truth)) {
+        story.reference_codes = codes_of(job.settings.tone_curve, truth);
+        const Rgb3 error = difference(codes_of(job.settings.tone_curve, story.sum), story.reference_codes);
+        for (std::size_t i = 0; i < 3; ++i) story.error_codes[i] = absolute(error[i]);
+    } else {
+        story.no_reference = reference.error().message;
+    }
     probe.settings() = as_drawn;
     if (const auto told = tell_lights(job, probe, story); !told) return tl::unexpected(told.error());
     return story;

@@ -43,9 +43,12 @@ std::string story_text(const PixelStory& story) {
     std::string text = fmt::format("pixel {}, {}: #{:02x}{:02x}{:02x}, alpha {}\n", story.x, story.y, story.codes[0], story.codes[1],
                                    story.codes[2], story.codes[3]);
     text += story.hit ? surface_text(story) : "no surface at the first sample: background or a transparent layer\n";
-    text += fmt::format("error against float64: {:.2g} {:.2g} {:.2g}\n  codes, of {:.2f} {:.2f} {:.2f}\n", story.error_codes[0],
-                        story.error_codes[1], story.error_codes[2], story.reference_codes[0], story.reference_codes[1],
-                        story.reference_codes[2]);
+    if (!story.no_reference.empty())
+        text += "error against float64: not known: " + cli::printable(story.no_reference) + "\n";
+    else
+        text += fmt::format("error against float64: {:.2g} {:.2g} {:.2g}\n  codes, of {:.2f} {:.2f} {:.2f}\n", story.error_codes[0],
+                            story.error_codes[1], story.error_codes[2], story.reference_codes[0], story.reference_codes[1],
+                            story.reference_codes[2]);
     if (story.bound_codes > 0.0) text += fmt::format("  promised for the frame: at most {:.3g}\n", story.bound_codes);
     text += "\nlinear light, after exposure\n";
     for (const LightShare& share : story.shares) text += share_text(share);

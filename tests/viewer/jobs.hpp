@@ -20,6 +20,7 @@ inline OpenedJob open_job(const std::string& scene, std::vector<std::string> fla
     auto options = cli::parse_render_flags(flags);
     REQUIRE(options);
     options->scene = scene;
+    options->may_want_reference = true;
     auto job = cli::make_render_job(*options, cli::kRenderSize);
     if (!job) FAIL(job.error().message);
     return {std::move(*options), std::move(*job)};

@@ -1,6 +1,6 @@
 #include "apps/viewer/orbit_camera.hpp"
 
-#include "sh/trig.hpp"
+#include "apps/halflit/scene_view.hpp"
 #include "tests/support/catch.hpp"
 
 #include <cmath>
@@ -27,6 +27,9 @@ double off_axis(const Camera& camera, Vec3d p) { return length(cross(p - column(
 
 const Vec3d kCenter{1, 0, 0};
 
+/// Looks at the centre.
+Camera centred() { return cli::placed_camera({7, 3, 9}, to_float(kCenter), 40.0f, box()); }
+
 }  // namespace
 
 TEST_CASE("orbit camera: without a motion it is the start camera, bit for bit", "[viewer]") {
@@ -43,7 +46,7 @@ TEST_CASE("orbit camera: without a motion it is the start camera, bit for bit", 
 }
 
 TEST_CASE("orbit camera: a turn keeps the centre in the middle and the distance", "[viewer]") {
-    const Camera start = frame_bounds(box(), 1.5f, {});
+    const Camera start = centred();
     OrbitCamera orbit(start, box());
     const double distance = orbit.distance(), off = off_axis(start, kCenter);
     for (int i = 0; i < 50; ++i) {
@@ -59,7 +62,7 @@ TEST_CASE("orbit camera: a turn keeps the centre in the middle and the distance"
 }
 
 TEST_CASE("orbit camera: a whole turn comes back, and a hand to the right moves the front to the right", "[viewer]") {
-    OrbitCamera orbit(frame_bounds(box(), 1.5f, {}), box());
+    OrbitCamera orbit(centred(), box());
     orbit.turn(0, 0);
     const Camera before = orbit.camera();
     orbit.turn(9, 0);
@@ -71,7 +74,7 @@ TEST_CASE("orbit camera: a whole turn comes back, and a hand to the right moves 
 }
 
 TEST_CASE("orbit camera: a pan moves the centre by the hand's pixels", "[viewer]") {
-    const Camera start = frame_bounds(box(), 1.0f, {});
+    const Camera start = centred();
     OrbitCamera orbit(start, box());
     constexpr int kHeight = 200;
     orbit.pan(20, 10, kHeight);

@@ -29,6 +29,7 @@ TEST_CASE("pixel story: the light of all sources adds up to the pixel", "[viewer
             const PixelStory story = story_of(opened, x, y);
             INFO(sky << " " << x << " " << y << "\n" << story_text(story));
             REQUIRE(story.hit);
+            CHECK(story.no_reference.empty());
             for (std::size_t c = 0; c < 3; ++c) {
                 double sum = story.around[c] + story.emitted[c];
                 for (const LightShare& share : story.shares) sum += share.linear[c];
