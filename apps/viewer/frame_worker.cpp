@@ -136,6 +136,7 @@ Result<void> FrameWorker::draw(const FrameRequest& request, DrawnFrame& frame) {
     frame.picture = cli::make_image(job_, false);
     const auto rendered = renderer_.render(*job_.prepared, job_.camera, job_.settings, cli::target_of(job_, frame.picture), job_.execution);
     if (!rendered) return tl::unexpected(rendered.error());
+    frame.size_ms = rendered->total_ms - rendered->ms.prepare - rendered->ms.plan - rendered->ms.shadows;
     cli::Json report;
     cli::add_frame(report, job_, *rendered, frame.picture);
     frame.report = cli::to_lines(report);

@@ -33,6 +33,7 @@ struct DrawnFrame {
     DrawStep step;
     Image picture;         ///< empty after an error, and where it was dropped
     double draw_ms = 0;    ///< of the request, changes of the light included
+    double size_ms = 0;    ///< the part of it that depends on the picture's size: without plan and shadow maps
     bool dropped = false;  ///< given up
     std::optional<Error> error{};
     std::string report;                                 ///< lines

@@ -47,9 +47,9 @@ struct PixelStory {
     Rgb3 sum{};                       ///< of the pixel, before the tone curve
 
     std::string no_reference;  ///< why the error is not known; empty: it is
-    Rgb3 reference_codes{};  ///< not rounded, by --accuracy reference
-    Rgb3 error_codes{};      ///< distance of the picture's codes from them, before rounding
-    double bound_codes = 0;  ///< the frame's promise; 0: none, as there is no error budget
+    Rgb3 reference_codes{};    ///< not rounded, by --accuracy reference
+    Rgb3 error_codes{};        ///< distance of the picture's codes from them, before rounding
+    double bound_codes = 0;    ///< the frame's promise; 0: none, as there is no error budget
 };
 
 /// Lights that are drawn alone to tell their share. The nearest to be bright come first.

@@ -15,7 +15,7 @@ struct DrawStep {
 
 /// While the view moves, pictures have one sample a pixel. One that takes longer than the target halves the sides of the next ones, unless
 /// that was tried and gained less than a seventh: then the time is the geometry's. Sides are doubled again where four times the last time
-/// is below the target. The first picture of all does not count: it also makes what later ones use again. At rest follow one sample at full
+/// is below the target. The first picture of all does not count, as it finds memory for the later ones. At rest follow one sample at full
 /// size, if the last picture was smaller, and all samples.
 class Refinement {
 public:
@@ -36,7 +36,7 @@ public:
     [[nodiscard]] std::optional<double> wait_ms(double now_ms) const;
     /// The step's picture of the present view was begun: motion from now on is another view.
     void began(const DrawStep& step);
-    /// It is done, and took this long. dropped: it was given up, as the view moved on.
+    /// It is done, and what depends on its size took this long. dropped: it was given up, as the view moved on.
     void drawn(const DrawStep& step, double took_ms, bool dropped);
 
     [[nodiscard]] int divisor() const { return divisor_; }

@@ -10,8 +10,12 @@ RehearsalStep Rehearsal::next(const Situation& now) {
             stage_ = plan_.orbit_frames > 0 ? Stage::turning : Stage::resting;
             return {stage_ == Stage::turning ? Gesture::press : Gesture::none};
         case Stage::turning: {
-            // A motion of a few pixels may count as none: then no picture comes.
-            if (dragged_ > 0 && !now.new_picture && !now.finished) return {};
+            if (dragged_ > 0 && !now.new_picture) {
+                if (!now.finished) return {};
+                // A first motion of a few pixels counts as none, as it may be a click's: no picture comes.
+                --expected_;
+                last_ms_ = now.now_ms;
+            }
             if (dragged_ == 0) last_ms_ = now.now_ms;
             if (dragged_ == plan_.orbit_frames) {
                 stage_ = Stage::resting;
@@ -35,7 +39,7 @@ RehearsalStep Rehearsal::next(const Situation& now) {
 }
 
 void Rehearsal::shown(double now_ms) {
-    if (dragged_ == 0 || intervals_.size() == static_cast<std::size_t>(plan_.orbit_frames)) return;
+    if (dragged_ == 0 || intervals_.size() >= static_cast<std::size_t>(expected_)) return;
     intervals_.push_back(now_ms - last_ms_);
     last_ms_ = now_ms;
 }

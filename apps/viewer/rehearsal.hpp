@@ -33,7 +33,7 @@ struct RehearsalStep {
 
 class Rehearsal {
 public:
-    Rehearsal(const RehearsalPlan& plan, int pixels_of_turn) : plan_(plan), pixels_of_turn_(pixels_of_turn) {}
+    Rehearsal(const RehearsalPlan& plan, int pixels_of_turn) : plan_(plan), pixels_of_turn_(pixels_of_turn), expected_(plan.orbit_frames) {}
 
     /// To be called after each picture that was drawn, and while nothing happens.
     [[nodiscard]] RehearsalStep next(const Situation& now);
@@ -49,6 +49,7 @@ private:
     enum class Stage { beginning, turning, resting, telling, ending };
     RehearsalPlan plan_;
     int pixels_of_turn_;
+    int expected_;  ///< pictures of the turn
     Stage stage_ = Stage::beginning;
     int dragged_ = 0;  ///< motions so far
     double last_ms_ = 0;

@@ -13,7 +13,8 @@ using namespace halflit::viewer;
 
 TEST_CASE("controls: untouched, they change neither settings nor lights", "[viewer]") {
     for (const std::vector<std::string>& flags :
-         {std::vector<std::string>{}, {"--lobe", "mcauley", "--wrap", "0.3", "--power", "2.5", "--specular", "phong"},
+         {std::vector<std::string>{},
+          {"--lobe", "mcauley", "--wrap", "0.3", "--power", "2.5", "--specular", "phong"},
           {"--env", "sky", "--sh-order", "4", "--shadows", "hard", "--sky-shadows", "16", "--tonemap", "aces", "--samples", "8"},
           {"--max-error", "0.5", "--specular-normalize", "off"}}) {
         const OpenedJob opened = open_job("demo", flags);

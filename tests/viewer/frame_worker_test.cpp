@@ -71,7 +71,8 @@ TEST_CASE("frame worker: another sky is that of its flag, and the first one come
         REQUIRE_FALSE(frame.error);
         REQUIRE(frame.lights);
         const OpenedJob flagged =
-            open_job("demo", sky == Sky::as_started ? std::vector<std::string>{} : std::vector<std::string>{"--env", kSkyNames[static_cast<std::size_t>(sky)]});
+            open_job("demo", sky == Sky::as_started ? std::vector<std::string>{}
+                                                    : std::vector<std::string>{"--env", kSkyNames[static_cast<std::size_t>(sky)]});
         CHECK(frame.picture.rgba8 == drawn(flagged.job).rgba8);
         CHECK(*frame.lights == light_controls(flagged.job.scene().lights));
         if (sky == Sky::as_started) CHECK(frame.picture.rgba8 == first.rgba8);

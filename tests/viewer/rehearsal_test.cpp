@@ -45,6 +45,19 @@ TEST_CASE("rehearsal: a turn is as many motions as pictures, and all its pixels"
     }
 }
 
+TEST_CASE("rehearsal: a first motion that counts as a click's has no picture and no time", "[viewer]") {
+    Rehearsal rehearsal(turn(3), 900);
+    CHECK(rehearsal.next(finished(0)).gesture == Gesture::press);
+    CHECK(rehearsal.next(finished(1)).gesture == Gesture::drag);
+    for (const double now : {50.0, 60.0}) {
+        CHECK(rehearsal.next({now, now > 50, now == 50, false}).gesture == Gesture::drag);
+        rehearsal.shown(now + 10);
+    }
+    CHECK(rehearsal.next({70, true, false, false}).gesture == Gesture::release);
+    rehearsal.shown(500);
+    CHECK(rehearsal.intervals().size() == 2);
+}
+
 TEST_CASE("rehearsal: it ends after the click's story, and never without a wish", "[viewer]") {
     RehearsalPlan plan = turn(0);
     plan.click = {3, 4};

@@ -54,8 +54,8 @@ TEST_CASE("window: an orbit is drawn, measured and shown with the panel", "[view
     const Picture window = read_picture(contents(folder.file("window.png")));
     REQUIRE(window.width > 320);
     REQUIRE(window.height == 240);
-    CHECK(colors(window, 0, 320) > 200);             // the shaded sphere
-    CHECK(colors(window, 320, window.width) > 10);   // the panel
+    CHECK(colors(window, 0, 320) > 200);                                   // the shaded sphere
+    CHECK(colors(window, 320, window.width) > 10);                         // the panel
     CHECK(window.pixel(2, 2) == std::vector<int>{0x3a, 0x3f, 0x47, 255});  // the usual background
 }
 

@@ -19,7 +19,8 @@ namespace halflit::viewer {
 namespace {
 
 constexpr int kPanelWidth = 400;
-constexpr int kClickReach = 3;  // pixels that a click may move
+constexpr int kClickReach = 3;        // pixels that a click may move
+constexpr Uint32 kHand = 0x68616e64;  // the mouse of a rehearsal
 
 /// Called at the end of the scope.
 template <class End>
@@ -134,7 +135,9 @@ private:
         take_result();
         rehearse();
         SDL_Event event;
-        while (sdl_.PollEvent(&event) != 0) handle(event);
+        // SDL may end a round of its queue before events that were pushed just now.
+        for (int round = 0; round < 2; ++round)
+            while (sdl_.PollEvent(&event) != 0) handle(event);
         ask();
         if (redraw_ > 0) present();
         summary_.worst_loop_ms = std::max(summary_.worst_loop_ms, busy.ms());
@@ -174,7 +177,7 @@ private:
             return;
         }
         if (telling_) return;  // without a story: that failed
-        refinement_.drawn(frame->step, frame->draw_ms, frame->dropped);
+        refinement_.drawn(frame->step, frame->size_ms, frame->dropped);
         if (frame->error || frame->dropped) return;
         if (summary_.first_picture_ms == 0.0) summary_.first_picture_ms = clock_.ms();
         if (refinement_.finished()) summary_.finished_ms = clock_.ms() - moved_ms_;
@@ -194,20 +197,23 @@ private:
         SDL_Event event{};
         event.type = type;
         if (type == SDL_MOUSEMOTION) {
+            event.motion.which = kHand;
             event.motion.x = hand_x_ += dx;
             event.motion.y = hand_y_;
             event.motion.xrel = dx;
             event.motion.state = SDL_BUTTON_LMASK;
         } else {
+            event.button.which = kHand;
             event.button.button = SDL_BUTTON_LEFT;
             event.button.x = hand_x_;
             event.button.y = hand_y_;
         }
-        sdl_.PushEvent(&event);
+        if (sdl_.PushEvent(&event) > 0) ++pushed_;
     }
 
     /// The rehearsal's motions go through SDL's queue, as a hand's.
     void rehearse() {
+        if (pushed_ > 0) return;  // the last motion is still in the queue
         const bool finished = refinement_.finished() && worker_->idle();
         const RehearsalStep step = rehearsal_.next({clock_.ms(), new_picture_, finished && redraw_ <= 1, story_shown_ && redraw_ == 0});
         switch (step.gesture) {
@@ -247,6 +253,9 @@ private:
         if (event.type == done_event_) return;
         redraw_ = std::max(redraw_, 2);  // a widget shows what an event did one frame later
         gui_->handle(event);
+        const bool moved_by_hand = event.type == SDL_MOUSEMOTION && event.motion.which == kHand;
+        const bool pressed_by_hand = (event.type == SDL_MOUSEBUTTONDOWN || event.type == SDL_MOUSEBUTTONUP) && event.button.which == kHand;
+        if (moved_by_hand || pressed_by_hand) --pushed_;
         switch (event.type) {
             case SDL_QUIT:
                 ended_ = true;
@@ -383,6 +392,7 @@ private:
     int pointer_x_ = 0;
     std::optional<FrameRequest::Pixel> clicked_;
     int hand_x_ = 0, hand_y_ = 0;  ///< the rehearsal's
+    int pushed_ = 0;               ///< its events in SDL's queue
     std::optional<Error> failure_;
     Image screenshot_;
     ViewerSummary summary_;
