@@ -39,7 +39,9 @@ struct SkyControls {
 
 struct Controls {
     bool own_lobes = true;  ///< materials keep the lobes of the scene
-    int model = 0;          ///< index into kNamedLobes
+    /// The lobe also replaces those of materials that chose their own, which no flag of render does.
+    bool over_own_lobes = false;
+    int model = 0;  ///< index into kNamedLobes
     Lobe lobe = Lobe::lambert();
     SpecularModel specular = SpecularModel::blinn;
     bool normalize_specular = true;

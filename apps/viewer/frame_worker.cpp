@@ -10,6 +10,15 @@
 #include <utility>
 
 namespace halflit::viewer {
+namespace {
+
+std::vector<bool> own_lobes_of(const Scene& scene) {
+    std::vector<bool> own;
+    for (const Material& material : scene.materials) own.push_back(material.has_own_lobe);
+    return own;
+}
+
+}  // namespace
 
 FrameWorker::FrameWorker(cli::RenderJob job, const cli::RenderOptions& options, std::function<void()> notify)
     : job_(std::move(job)),
@@ -17,6 +26,7 @@ FrameWorker::FrameWorker(cli::RenderJob job, const cli::RenderOptions& options, 
       notify_(std::move(notify)),
       start_camera_(job_.camera),
       start_settings_(job_.settings),
+      own_lobes_(own_lobes_of(job_.scene())),
       start_lights_(job_.scene().lights) {
     job_.timeout_s = 0.0;  // it was for loading
     job_.execution.cancelled = [this] { return given_up_.load(std::memory_order_relaxed); };
@@ -97,6 +107,19 @@ DrawnFrame FrameWorker::answer(const FrameRequest& request) {
     return frame;
 }
 
+Result<void> FrameWorker::apply_lobes(const Controls& controls) {
+    std::vector<Material>& materials = job_.scene().materials;
+    const bool over = controls.over_own_lobes && !controls.own_lobes;
+    bool changed = false;
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        const bool own = own_lobes_[i] && !over;
+        changed = changed || materials[i].has_own_lobe != own;
+        materials[i].has_own_lobe = own;
+    }
+    if (!changed) return {};
+    return job_.prepared->update({.materials = true}, job_.execution);
+}
+
 Result<void> FrameWorker::apply(const FrameRequest& request, DrawnFrame& frame) {
     const Controls& controls = request.controls;
     std::vector<Light>& lights = job_.scene().lights;
@@ -115,6 +138,7 @@ Result<void> FrameWorker::apply(const FrameRequest& request, DrawnFrame& frame) 
         lights = std::move(wanted);
         if (const auto updated = job_.prepared->update({.lights = true}, job_.execution); !updated) return updated;
     }
+    if (const auto applied = apply_lobes(now); !applied) return applied;
     job_.settings = settings_of(now, start_settings_);
     job_.camera = request.camera;
     const int divisor = request.pixel ? 1 : request.step.divisor;

@@ -65,6 +65,7 @@ public:
 private:
     void run();
     DrawnFrame answer(const FrameRequest& request);
+    Result<void> apply_lobes(const Controls& controls);
     Result<void> apply(const FrameRequest& request, DrawnFrame& frame);
     Result<void> draw(const FrameRequest& request, DrawnFrame& frame);
 
@@ -72,10 +73,11 @@ private:
     const cli::RenderOptions options_;
     const std::function<void()> notify_;
     const Camera start_camera_;
-    Settings start_settings_;          ///< with the exposure of the present sky
-    std::vector<Light> start_lights_;  ///< of the present sky, before the controls
-    SkyControls sky_;                  ///< the present one
-    Renderer renderer_, probe_;        ///< of pictures, and of single pixels
+    Settings start_settings_;            ///< with the exposure of the present sky
+    const std::vector<bool> own_lobes_;  ///< Material::has_own_lobe, as the scene says
+    std::vector<Light> start_lights_;    ///< of the present sky, before the controls
+    SkyControls sky_;                    ///< the present one
+    Renderer renderer_, probe_;          ///< of pictures, and of single pixels
 
     mutable std::mutex mutex_;
     std::condition_variable asked_;

@@ -38,7 +38,7 @@ struct ViewerSummary {
 
 /// True if this build has the window.
 [[nodiscard]] bool has_viewer();
-/// The libraries that this build lacks for it.
+/// Why it has none.
 [[nodiscard]] std::string missing_libraries();
 
 /// Opens the window and returns when it is closed, or when the rehearsal is over. The job is of the flags in `options`. Fails (usage)

@@ -95,6 +95,26 @@ TEST_CASE("frame worker: controls change the light and settings of the picture",
     CHECK(result_of(worker).picture.rgba8 == drawn(expected.job).rgba8);
 }
 
+TEST_CASE("frame worker: a lobe may replace those that materials chose", "[viewer]") {
+    Started started = start("demo", {});
+    const Image own = drawn(started.opened.job);
+    OpenedJob expected = open_job("demo", {"--lobe", "valve"});
+    for (Material& material : expected.job.scene().materials) material.has_own_lobe = false;
+    REQUIRE(expected.job.prepared->update({.materials = true}));
+    FrameWorker worker(std::move(started.opened.job), started.opened.options, ignore);
+    FrameRequest request = started.request;
+    choose_model(request.controls, 3);
+    request.controls.over_own_lobes = true;
+    worker.begin(request);
+    const Image all = result_of(worker).picture;
+    CHECK(all.rgba8 == drawn(expected.job).rgba8);
+    request.controls.over_own_lobes = false;
+    worker.begin(request);
+    CHECK(result_of(worker).picture.rgba8 != all.rgba8);
+    worker.begin(started.request);
+    CHECK(result_of(worker).picture.rgba8 == own.rgba8);
+}
+
 TEST_CASE("frame worker: settings that exclude each other are an error, and the next picture is drawn", "[viewer]") {
     Started started = start("sphere:2000", {"--shading", "flat"});
     FrameWorker worker(std::move(started.opened.job), started.opened.options, ignore);

@@ -45,8 +45,12 @@ bool choose_number(const char* label, int& value, std::span<const int> numbers, 
     return changed;
 }
 
-bool lobe_controls(Controls& c) {
+bool lobe_controls(Controls& c, bool has_own_lobes) {
     bool changed = ImGui::Checkbox("lobes of the scene", &c.own_lobes);
+    if (has_own_lobes) {
+        ImGui::SameLine();
+        changed |= ImGui::Checkbox("over own lobes", &c.over_own_lobes);
+    }
     const bool own = c.own_lobes;
     if (ImGui::BeginCombo("lobe", std::string(kNamedLobes[c.model].name).c_str())) {
         for (int i = 0; i < static_cast<int>(std::size(kNamedLobes)); ++i)
@@ -174,7 +178,7 @@ bool Panel::draw(const PanelTexts& texts, int left, int width, int height) {
     }
     ImGui::BeginChild("controls", {0.0f, static_cast<float>(height) * 0.52f});
     ImGui::PushItemWidth(static_cast<float>(width) * 0.5f);
-    if (header("Lobe", true)) changed |= lobe_controls(controls);
+    if (header("Lobe", true)) changed |= lobe_controls(controls, has_own_lobes);
     if (header("Highlights and shadows", true)) changed |= highlight_and_shadow_controls(controls);
     if (header("Sky", true)) changed |= sky_controls(controls);
     if (header("Lights", false)) changed |= each_light(controls);

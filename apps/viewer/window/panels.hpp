@@ -21,6 +21,7 @@ struct PanelTexts {
 struct Panel {
     Controls controls;       ///< as the hand left them
     const Controls started;  ///< those of the flags
+    bool has_own_lobes;      ///< some material of the scene chose its lobe
     Tab tab = Tab::plan;
     bool select_tab = true;   ///< bring `tab` to the front
     bool reset_view = false;  ///< the button was pressed

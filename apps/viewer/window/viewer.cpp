@@ -35,6 +35,10 @@ private:
     End end_;
 };
 
+bool has_own_lobes(const Scene& scene) {
+    return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) { return material.has_own_lobe; });
+}
+
 struct Window {
     const Sdl& sdl;
     SDL_Window* window = nullptr;
@@ -89,7 +93,7 @@ public:
           how_(how),
           window_(sdl),
           orbit_(job.camera, job.film.bounds),
-          panel_{controls_of(job), controls_of(job)},
+          panel_{controls_of(job), controls_of(job), has_own_lobes(job.scene())},
           refinement_(job.settings.samples),
           rehearsal_(how.rehearsal, static_cast<int>(OrbitCamera::kPixelsOfTurn)),
           done_event_(SDL_USEREVENT) {
