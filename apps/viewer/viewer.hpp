@@ -26,7 +26,6 @@ struct ViewerOptions {
 struct ViewerSummary {
     int width = 0, height = 0;                ///< of the picture at the end
     int window_width = 0, window_height = 0;  ///< with the panel
-    std::string driver;                       ///< that drew the window
     double first_picture_ms = 0;              ///< from the window's opening to its first picture
     double finished_ms = 0;                   ///< from the last motion to all samples
     std::vector<double> frame_ms;             ///< of a rehearsal's turn, from picture to picture

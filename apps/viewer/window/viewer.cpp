@@ -7,6 +7,7 @@
 #include "apps/viewer/window/gui.hpp"
 #include "apps/viewer/window/panels.hpp"
 #include "apps/viewer/window/sdl.hpp"
+#include "apps/viewer/window/surface.hpp"
 #include "halflit/image.hpp"
 
 #include <fmt/core.h>
@@ -39,53 +40,6 @@ bool has_own_lobes(const Scene& scene) {
     return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) { return material.has_own_lobe; });
 }
 
-struct Window {
-    const Sdl& sdl;
-    SDL_Window* window = nullptr;
-    SDL_Renderer* renderer = nullptr;
-    SDL_Texture* picture = nullptr;
-    int picture_width = 0, picture_height = 0;  ///< of the texture
-
-    explicit Window(const Sdl& loaded) : sdl(loaded) {}
-    ~Window() {
-        if (picture != nullptr) sdl.DestroyTexture(picture);
-        if (renderer != nullptr) sdl.DestroyRenderer(renderer);
-        if (window != nullptr) sdl.DestroyWindow(window);
-    }
-    Window(const Window&) = delete;
-    Window& operator=(const Window&) = delete;
-
-    [[nodiscard]] tl::unexpected<Error> failed(const char* what) const {
-        return fail(ErrorCode::usage, fmt::format("view: {}: {}", what, sdl.GetError()));
-    }
-
-    Result<void> open(const std::string& title, int width, int height) {
-        window = sdl.CreateWindow(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width, height, SDL_WINDOW_RESIZABLE);
-        if (window == nullptr) return failed("no window");
-        renderer = sdl.CreateRenderer(window, -1, 0);
-        if (renderer == nullptr) return failed("nothing draws into the window");
-        return {};
-    }
-
-    void show(const Image& image) {
-        if (picture == nullptr || picture_width != image.width || picture_height != image.height) {
-            if (picture != nullptr) sdl.DestroyTexture(picture);
-            picture = sdl.CreateTexture(renderer, SDL_PIXELFORMAT_RGBA32, SDL_TEXTUREACCESS_STREAMING, image.width, image.height);
-            picture_width = image.width, picture_height = image.height;
-            if (picture == nullptr) return;
-            sdl.SetTextureBlendMode(picture, SDL_BLENDMODE_NONE);
-        }
-        sdl.UpdateTexture(picture, nullptr, image.rgba8.data(), image.width * 4);
-    }
-
-    [[nodiscard]] Image screenshot(int width, int height) const {
-        Image image{width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4), {}};
-        sdl.RenderReadPixels(renderer, nullptr, SDL_PIXELFORMAT_RGBA32, image.rgba8.data(), width * 4);
-        for (std::size_t i = 3; i < image.rgba8.size(); i += 4) image.rgba8[i] = 255;  // a window is opaque
-        return image;
-    }
-};
-
 class Viewer {
 public:
     Viewer(const Sdl& sdl, cli::RenderJob job, const cli::RenderOptions& options, const ViewerOptions& how)
@@ -107,7 +61,6 @@ public:
     }
 
     Result<ViewerSummary> run() {
-        summary_.driver = "SDL";
         if (const auto opened = window_.open(title_, picture_width_ + kPanelWidth, picture_height_); !opened)
             return tl::unexpected(opened.error());
         gui_ = std::make_unique<Gui>(sdl_, window_.renderer);
@@ -373,7 +326,7 @@ private:
 
     const Sdl& sdl_;
     const ViewerOptions& how_;
-    Window window_;
+    Surface window_;
     OrbitCamera orbit_;
     Panel panel_;
     PanelTexts texts_;
