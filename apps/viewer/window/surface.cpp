@@ -13,9 +13,7 @@ Surface::~Surface() {
 }
 
 Result<void> Surface::open(const std::string& title, int width, int height) {
-    const auto failed = [this](const std::string& what) {
-        return fail(ErrorCode::usage, "view: " + what + ": " + sdl.GetError());
-    };
+    const auto failed = [this](const std::string& what) { return fail(ErrorCode::usage, "view: " + what + ": " + sdl.GetError()); };
     window = sdl.CreateWindow(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width, height, SDL_WINDOW_RESIZABLE);
     if (window == nullptr) return failed("no window");
     renderer = sdl.CreateRenderer(window, -1, 0);
