@@ -127,6 +127,7 @@ if(NOT PROJECT_IS_TOP_LEVEL)
     return()
 endif()
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS libexpected-dev)
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS libsdl2-2.0-0)  # loaded by halflit view alone
 set(CPACK_PACKAGE_NAME halflit)
 set(CPACK_PACKAGE_VENDOR "The halflit authors")
 set(CPACK_PACKAGE_CONTACT "The halflit authors")

@@ -81,7 +81,6 @@ constexpr std::pair<std::string_view, std::string_view> kSynonyms[] = {
     {"--camera-index", "--camera"},
     {"--jobs", "--threads"},
     {"convert", "render"},
-    {"view", "render"},
     {"draw", "render"},
     {"compare", "diff"},
     {"inspect", "info"},

@@ -6,6 +6,7 @@
 namespace halflit::cli {
 
 [[nodiscard]] Command render_command();
+[[nodiscard]] Command view_command();
 [[nodiscard]] Command bench_command();
 [[nodiscard]] Command info_command();
 [[nodiscard]] Command diff_command();

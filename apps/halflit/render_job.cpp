@@ -104,10 +104,21 @@ Result<void> add_environment(Scene& scene, const RenderOptions& options) {
     if (!image) return tl::unexpected(image.error());
     const auto environment =
         make_environment(*image, {options.environment_sun, static_cast<double>(options.environment_rotate_deg) * (kPi / 180.0),
-                                  options.settings.background_environment, options.settings.shading.accuracy == Accuracy::reference});
+                                  options.settings.background_environment,
+                                  options.may_want_reference || options.settings.shading.accuracy == Accuracy::reference});
     if (!environment) return tl::unexpected(environment.error());
     set_environment(scene, *environment);
     return {};
+}
+
+/// The scene's light, without anything to draw.
+Scene light_of(const Scene& scene) {
+    Scene light;
+    light.lights = scene.lights;
+    light.ambient = scene.ambient;
+    light.environment = scene.environment;
+    light.calibrated = scene.calibrated;
+    return light;
 }
 
 /// Gives a light the size that the flags say, unless it has one.
@@ -145,10 +156,7 @@ Result<void> choose_setup(RenderJob& job, const RenderOptions& options, const st
     film.lamp_radius = options.lamp_size;
     for (Light& light : scene.lights) soften(light, film);
     if (options.film.turntable > 0) {
-        film.light.lights = scene.lights;
-        film.light.ambient = scene.ambient;
-        film.light.environment = scene.environment;
-        film.light.calibrated = scene.calibrated;
+        film.light = light_of(scene);
         film.choice = choice;
     }
     const AutoSetup setup = auto_setup(scene, film.bounds, job.width, job.height, choice);
@@ -275,6 +283,7 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
     job.settings.shadow_fade = placed.settings.shadow_fade;
     const auto camera = choose_view(job, placed, options, usual);
     if (!camera) return tl::unexpected(camera.error());
+    job.own_light = light_of(job.scene());
     if (const auto set_up = choose_setup(job, placed, *camera); !set_up) return tl::unexpected(set_up.error());
     if (const auto updated = job.prepared->update({.lights = true}, job.timed_execution()); !updated)
         return tl::unexpected(updated.error());
@@ -299,6 +308,19 @@ bool relight(RenderJob& job, const Camera& camera) {
         soften(scene.lights[i], film);
     }
     return true;
+}
+
+Result<void> change_light(RenderJob& job, const RenderOptions& options) {
+    Scene& scene = job.scene();
+    scene.lights = job.own_light.lights;
+    scene.ambient = job.own_light.ambient;
+    scene.environment = job.own_light.environment;
+    scene.calibrated = job.own_light.calibrated;
+    const std::size_t choices = job.choices.size();
+    const auto set_up = choose_setup(job, in_drawn_world(options, job.source), job.camera);
+    job.choices.resize(std::min(choices, job.choices.size()));  // they were told for the start
+    if (!set_up) return set_up;
+    return job.prepared->update({.lights = true}, job.timed_execution());
 }
 
 Execution RenderJob::timed_execution() const {

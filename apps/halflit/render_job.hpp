@@ -36,6 +36,7 @@ struct RenderJob {
     Stopwatch started;       ///< with the job's loading
     double timeout_s = 0.0;  ///< from then on; 0: none
     Film film;               ///< what the frames of a moving picture share
+    Scene own_light;         ///< the scene's light before flags and auto_setup, without anything to draw
     std::vector<std::string> warnings;
     std::vector<std::string> choices;  ///< what was chosen, one line each
 
@@ -55,6 +56,9 @@ struct RenderJob {
 
 /// Turns the light that was chosen for the viewer, such as the studio, with another camera. The exposure stays. False: there is none.
 bool relight(RenderJob& job, const Camera& camera);
+
+/// Lights the scene anew, from its own light, by the flags' lights, environment and exposure. The camera stays; other flags do not count.
+[[nodiscard]] Result<void> change_light(RenderJob& job, const RenderOptions& options);
 
 /// Allocates the region of the picture that is drawn: 8-bit codes, and linear floats if `linear`.
 [[nodiscard]] Image make_image(const RenderJob& job, bool linear);

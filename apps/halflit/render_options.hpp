@@ -51,8 +51,9 @@ struct RenderOptions {
     StudioUse studio = StudioUse::for_dark;  ///< if there is no other environment
     bool environment_sun = true;
     float environment_rotate_deg = 0.0f;
-    bool shadow_size_given = false;  ///< false: chosen for the picture's size
-    std::optional<float> exposure;   ///< a factor; none: chosen from the lights
+    bool may_want_reference = false;  ///< the environment keeps what --accuracy reference needs, though the accuracy is another
+    bool shadow_size_given = false;   ///< false: chosen for the picture's size
+    std::optional<float> exposure;    ///< a factor; none: chosen from the lights
 
     LoadOptions load;
     FilmOptions film;                  ///< of render alone

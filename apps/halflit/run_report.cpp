@@ -1,5 +1,6 @@
 #include "apps/halflit/run_report.hpp"
 
+#include "apps/halflit/messages.hpp"
 #include "apps/halflit/plan_names.hpp"
 #include "halflit/version.hpp"
 
@@ -51,6 +52,26 @@ void add_place(Json& report, const PictureFile& file) {
     }
     if (file.place) report["place"] = {{"index", file.place->index}, {"scenes", file.place->scenes}};
     if (file.part_of) report["part_of"] = numbers_of(*file.part_of);
+}
+
+/// One line per value, nested values indented; lists of plain values on one line.
+void append_lines(std::string& text, const std::string& label, const Json& value, std::size_t depth) {
+    const std::string indent(2 * depth, ' ');
+    const bool plain_list = value.is_array() && (value.empty() || value[0].is_primitive());
+    if (plain_list) {
+        std::string list;
+        const auto shown = [](const Json& item) {
+            if (!item.is_string()) return item.dump();
+            return item.get<std::string>().empty() ? std::string("(no name)") : item.get<std::string>();
+        };
+        for (const Json& item : value) list += (list.empty() ? "" : ", ") + shown(item);
+        text += fmt::format("{}{}: {}\n", indent, label, list.empty() ? "none" : printable(list));
+    } else if (value.is_structured()) {
+        text += fmt::format("{}{}:\n", indent, label);
+        for (const auto& [key, item] : value.items()) append_lines(text, key, item, depth + 1);
+    } else {
+        text += fmt::format("{}{}: {}\n", indent, label, value.is_string() ? printable(value.get<std::string>()) : value.dump());
+    }
 }
 
 }  // namespace
@@ -131,6 +152,12 @@ Json environment_use_json(const EnvironmentUse& use, const Settings& settings) {
 
 std::string to_text(const Json& json, bool one_line) {
     return json.dump(one_line ? -1 : 2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string to_lines(const Json& json) {
+    std::string text;
+    for (const auto& [key, value] : json.items()) append_lines(text, key, value, 0);
+    return text;
 }
 
 std::string picture_report(const PictureFile& file, const RenderJob& job, const RenderReport& rendered, const Image& picture,

@@ -37,6 +37,9 @@ void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered,
 /// Text with a newline at the end, and no other if `one_line`. Bytes that are not UTF-8 are replaced.
 [[nodiscard]] std::string to_text(const Json& json, bool one_line = false);
 
+/// An object for people: one indented line for each value, with names escaped (see printable).
+[[nodiscard]] std::string to_lines(const Json& json);
+
 /// The report of a picture that was drawn and encoded. one_line: as a line among others.
 [[nodiscard]] std::string picture_report(const PictureFile& file, const RenderJob& job, const RenderReport& rendered, const Image& picture,
                                          double encode_ms, bool one_line);

@@ -1,6 +1,5 @@
 #include "apps/halflit/scene_description.hpp"
 
-#include "apps/halflit/messages.hpp"
 #include "apps/halflit/plan_names.hpp"
 #include "apps/halflit/run_report.hpp"
 #include "raster/frame_plan.hpp"
@@ -181,24 +180,17 @@ Json materials_json(const RenderJob& job, const shading::ShadingPlan& plan) {
     return materials;
 }
 
-/// One line per value, nested values indented; lists of plain values on one line.
-void append_lines(std::string& text, const std::string& label, const Json& value, std::size_t depth) {
-    const std::string indent(2 * depth, ' ');
-    const bool plain_list = value.is_array() && (value.empty() || value[0].is_primitive());
-    if (plain_list) {
-        std::string list;
-        const auto shown = [](const Json& item) {
-            if (!item.is_string()) return item.dump();
-            return item.get<std::string>().empty() ? std::string("(no name)") : item.get<std::string>();
-        };
-        for (const Json& item : value) list += (list.empty() ? "" : ", ") + shown(item);
-        text += fmt::format("{}{}: {}\n", indent, label, list.empty() ? "none" : printable(list));
-    } else if (value.is_structured()) {
-        text += fmt::format("{}{}:\n", indent, label);
-        for (const auto& [key, item] : value.items()) append_lines(text, key, item, depth + 1);
-    } else {
-        text += fmt::format("{}{}: {}\n", indent, label, value.is_string() ? printable(value.get<std::string>()) : value.dump());
-    }
+/// What the frame's plan decides.
+Result<Json> plan_json(const RenderJob& job) {
+    const auto frame = raster::plan_frame(job.prepared->data(), job.camera, job.settings, job.width, job.height);
+    if (!frame) return tl::unexpected(frame.error());
+    const shading::ShadingPlan& plan = frame->shading;
+    Json json;
+    if (plan.error.budget > 0.0) json["error_bound"] = error_bound_json(plan.error);
+    json["lights_computed"] = planned_lights_json(plan);
+    json["shadows"] = shadows_json(*frame, job.settings);
+    json["materials"] = materials_json(job, plan);
+    return json;
 }
 
 }  // namespace
@@ -223,22 +215,22 @@ Result<std::string> describe_scene(const RenderJob& job, bool json) {
     description["tone_curve"] = tone_curve_name(job.settings.tone_curve);
     description["lights"] = lights_json(scene);
     description["ambient"] = {{"sky", vector_json(scene.ambient.sky_linear)}, {"ground", vector_json(scene.ambient.ground_linear)}};
-    const auto frame = raster::plan_frame(job.prepared->data(), job.camera, job.settings, job.width, job.height);
-    if (!frame) return tl::unexpected(frame.error());
-    const shading::ShadingPlan& plan = frame->shading;
-    if (plan.error.budget > 0.0) description["error_bound"] = error_bound_json(plan.error);
-    description["lights_computed"] = planned_lights_json(plan);
-    description["shadows"] = shadows_json(*frame, job.settings);
-    description["materials"] = materials_json(job, plan);
+    const auto plan = plan_json(job);
+    if (!plan) return tl::unexpected(plan.error());
+    description.update(*plan);
     description["warnings"] = job.warnings;
     if (json) {
         Json report = report_head("info");
         report.update(description);
         return to_text(report);
     }
-    std::string text;
-    for (const auto& [key, value] : description.items()) append_lines(text, key, value, 0);
-    return text;
+    return to_lines(description);
+}
+
+Result<std::string> describe_plan(const RenderJob& job) {
+    const auto plan = plan_json(job);
+    if (!plan) return tl::unexpected(plan.error());
+    return to_lines(*plan);
 }
 
 }  // namespace halflit::cli

@@ -11,4 +11,7 @@ namespace halflit::cli {
 /// without. Text is one indented line for each value, with names escaped (see printable).
 [[nodiscard]] Result<std::string> describe_scene(const RenderJob& job, bool json);
 
+/// The plan's part of that, as text: lights, shadow maps, and the stages of each material.
+[[nodiscard]] Result<std::string> describe_plan(const RenderJob& job);
+
 }  // namespace halflit::cli

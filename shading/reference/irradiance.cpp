@@ -4,10 +4,17 @@
 #include "sh/zonal.hpp"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <mutex>
+#include <optional>
+#include <vector>
 
 namespace halflit::shading::reference {
-namespace {
+namespace irradiance {  // named, as a class of the header has members of these types
 
 /// A part of the image: its middle weighted by solid angle, and radiance times solid angle over pi.
 struct Patch {
@@ -76,30 +83,72 @@ std::array<double, 4> cubic(double t) {
     return {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2, -(t + 1) * t * (t - 2) / 2, (t + 1) * t * (t - 1) / 6};
 }
 
-}  // namespace
+}  // namespace irradiance
 
-DirectIrradiance::DirectIrradiance(const Environment& environment, const Lobe& lobe) {
-    const std::vector<Patch> pixels = patches(environment);
-    const LobeTable table(lobe);
-    for (const Patch& pixel : pixels) at_zero_normal_ = at_zero_normal_ + pixel.light * lobe_value(lobe, 0.0);
-    for (int face = 0; face < 6; ++face)
-        for (int j = 0; j < kNodes; ++j)
-            for (int i = 0; i < kNodes; ++i) {
-                // Nodes are at equal angles, so that the grid is about as fine in the corners as in the middle.
-                const Vec3d normal = direction_of(face, std::tan(kPi / 4 * (2.0 * (i - 1) / kCells - 1.0)),
-                                                  std::tan(kPi / 4 * (2.0 * (j - 1) / kCells - 1.0)));
-                Vec3d sum{};
-                for (const Patch& pixel : pixels) sum = sum + pixel.light * table.at(dot(pixel.direction, normal));
-                nodes_[static_cast<std::size_t>((face * kNodes + j) * kNodes + i)] = sum;
+using namespace irradiance;
+
+/// The sums at the nodes, each made once.
+class DirectIrradiance::Nodes {
+public:
+    Nodes(const Environment& environment, const Lobe& lobe) : environment_(environment), lobe_(lobe) {}
+
+    [[nodiscard]] const Vec3d& at(int face, int j, int i) {
+        const auto index = static_cast<std::size_t>((face * kNodes + j) * kNodes + i);
+        if (!ready_[index].load(std::memory_order_acquire)) {
+            const std::lock_guard lock(mutexes_[index % std::size(mutexes_)]);
+            if (!ready_[index].load(std::memory_order_relaxed)) {
+                sums_[index] = sum(face, j, i);
+                ready_[index].store(true, std::memory_order_release);
             }
-}
+        }
+        return sums_[index];
+    }
+
+    [[nodiscard]] const Vec3d& at_zero_normal() {
+        prepare();
+        return at_zero_normal_;
+    }
+
+private:
+    void prepare() {
+        const std::lock_guard lock(preparing_);
+        if (table_) return;
+        patches_ = patches(environment_);
+        for (const Patch& patch : patches_) at_zero_normal_ = at_zero_normal_ + patch.light * lobe_value(lobe_, 0.0);
+        table_.emplace(lobe_);
+    }
+
+    [[nodiscard]] Vec3d sum(int face, int j, int i) {
+        prepare();
+        // Nodes are at equal angles, so that the grid is about as fine in the corners as in the middle.
+        const Vec3d normal =
+            direction_of(face, std::tan(kPi / 4 * (2.0 * (i - 1) / kCells - 1.0)), std::tan(kPi / 4 * (2.0 * (j - 1) / kCells - 1.0)));
+        Vec3d total{};
+        for (const Patch& patch : patches_) total = total + patch.light * table_->at(dot(patch.direction, normal));
+        return total;
+    }
+
+    const Environment& environment_;
+    const Lobe lobe_;
+    std::mutex preparing_;
+    std::vector<Patch> patches_;
+    std::optional<LobeTable> table_;
+    Vec3d at_zero_normal_{};  ///< N.L is 0 for all light
+    std::mutex mutexes_[16];  ///< of the nodes, by their index
+    std::vector<Vec3d> sums_ = std::vector<Vec3d>(std::size_t{6} * kNodes * kNodes);
+    std::vector<std::atomic<bool>> ready_ = std::vector<std::atomic<bool>>(std::size_t{6} * kNodes * kNodes);
+};
+
+DirectIrradiance::DirectIrradiance(const Environment& environment, const Lobe& lobe) : nodes_(std::make_unique<Nodes>(environment, lobe)) {}
+
+DirectIrradiance::~DirectIrradiance() = default;
 
 Vec3d DirectIrradiance::at(Vec3d normal) const {
     const double d[3] = {normal.x, normal.y, normal.z};
     int axis = 0;
     for (int k = 1; k < 3; ++k)
         if (std::fabs(d[k]) > std::fabs(d[axis])) axis = k;
-    if (!(std::fabs(d[axis]) > 0)) return at_zero_normal_;
+    if (!(std::fabs(d[axis]) > 0)) return nodes_->at_zero_normal();
     const int face = 2 * axis + (d[axis] < 0 ? 1 : 0);
     const auto place = [&](double tangent) { return (std::atan(tangent / std::fabs(d[axis])) * (4.0 / kPi) + 1.0) * (0.5 * kCells); };
     const double u = place(d[(axis + 1) % 3]), v = place(d[(axis + 2) % 3]);
@@ -108,8 +157,7 @@ Vec3d DirectIrradiance::at(Vec3d normal) const {
     Vec3d sum{};
     for (int b = 0; b < 4; ++b)
         for (int a = 0; a < 4; ++a)
-            sum = sum + nodes_[static_cast<std::size_t>((face * kNodes + j + b) * kNodes + i + a)] *
-                            (wu[static_cast<std::size_t>(a)] * wv[static_cast<std::size_t>(b)]);
+            sum = sum + nodes_->at(face, j + b, i + a) * (wu[static_cast<std::size_t>(a)] * wv[static_cast<std::size_t>(b)]);
     return sum;
 }
 

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include "tests/support/catch.hpp"
+#include "tests/support/skip.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -242,4 +243,18 @@ TEST_CASE("schema: bench, info, diff, golden and trade have the keys that their 
 
     output_of({"trade", "sphere:100", "--quick", "--size", "16x9", "--frames", "1", "-o", folder.file("trade")});
     check_report("trade", contents(folder.file("trade/trade.json")));
+}
+
+TEST_CASE("schema: the report of view has the keys that its schema describes", "[cli][schema]") {
+    RunSettings settings;
+    settings.environment = {{"SDL_VIDEODRIVER", "dummy"}};
+    for (const std::vector<std::string>& how : {std::vector<std::string>{"--orbit", "3", "--click", "32,24"}, {"--click", "0,0"}}) {
+        std::vector<std::string> arguments{"view", "sphere:500", "--size", "64x48", "--report", "-"};
+        arguments.insert(arguments.end(), how.begin(), how.end());
+        const Outcome outcome = run(arguments, settings);
+        if (outcome.code == 2 && outcome.err.find("needs the librar") != std::string::npos) HALFLIT_SKIP(outcome.err);
+        INFO(outcome.err);
+        REQUIRE(outcome.code == 0);
+        check_report("view", outcome.out);
+    }
 }

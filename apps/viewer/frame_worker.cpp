@@ -1,0 +1,175 @@
+#include "apps/viewer/frame_worker.hpp"
+
+#include "apps/halflit/run_report.hpp"
+#include "apps/halflit/scene_description.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+namespace halflit::viewer {
+namespace {
+
+std::vector<bool> own_lobes_of(const Scene& scene) {
+    std::vector<bool> own;
+    for (const Material& material : scene.materials) own.push_back(material.has_own_lobe);
+    return own;
+}
+
+}  // namespace
+
+FrameWorker::FrameWorker(cli::RenderJob job, const cli::RenderOptions& options, std::function<void()> notify)
+    : job_(std::move(job)),
+      options_(options),
+      notify_(std::move(notify)),
+      start_camera_(job_.camera),
+      start_settings_(job_.settings),
+      own_lobes_(own_lobes_of(job_.scene())),
+      start_lights_(job_.scene().lights) {
+    job_.timeout_s = 0.0;  // it was for loading
+    job_.execution.cancelled = [this] { return given_up_.load(std::memory_order_relaxed); };
+    thread_ = std::thread([this] { run(); });
+}
+
+FrameWorker::~FrameWorker() {
+    {
+        const std::lock_guard lock(mutex_);
+        ending_ = true;
+        given_up_ = true;
+    }
+    asked_.notify_one();
+    thread_.join();
+}
+
+bool FrameWorker::idle() const {
+    const std::lock_guard lock(mutex_);
+    return !busy_ && !result_;
+}
+
+void FrameWorker::begin(FrameRequest request) {
+    {
+        const std::lock_guard lock(mutex_);
+        request_ = std::move(request);
+        busy_ = true;
+        given_up_ = false;
+    }
+    asked_.notify_one();
+}
+
+void FrameWorker::give_up() {
+    const std::lock_guard lock(mutex_);
+    const bool quick = request_ && (request_->pixel || request_->step.samples == 1);
+    if (busy_ && !quick) given_up_ = true;
+}
+
+std::optional<DrawnFrame> FrameWorker::take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(result_, std::nullopt);
+}
+
+void FrameWorker::run() {
+    for (;;) {
+        FrameRequest request;
+        {
+            std::unique_lock lock(mutex_);
+            asked_.wait(lock, [this] { return ending_ || (busy_ && !result_); });
+            if (ending_) return;
+            request = *request_;
+        }
+        DrawnFrame frame = answer(request);
+        {
+            const std::lock_guard lock(mutex_);
+            result_ = std::move(frame);
+            busy_ = false;
+        }
+        notify_();
+    }
+}
+
+DrawnFrame FrameWorker::answer(const FrameRequest& request) {
+    DrawnFrame frame;
+    frame.step = request.step;
+    const cli::Stopwatch watch;
+    Result<void> done;
+    try {
+        done = apply(request, frame);
+        if (done) done = draw(request, frame);
+    } catch (const std::bad_alloc&) {
+        done = fail(ErrorCode::limit, "out of memory");
+    }
+    frame.draw_ms = watch.ms();
+    if (done) return frame;
+    frame.picture = {};
+    frame.dropped = done.error().code == ErrorCode::cancelled;
+    if (!frame.dropped) frame.error = done.error();
+    return frame;
+}
+
+Result<void> FrameWorker::apply_lobes(const Controls& controls) {
+    std::vector<Material>& materials = job_.scene().materials;
+    const bool over = controls.over_own_lobes && !controls.own_lobes;
+    bool changed = false;
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        const bool own = own_lobes_[i] && !over;
+        changed = changed || materials[i].has_own_lobe != own;
+        materials[i].has_own_lobe = own;
+    }
+    if (!changed) return {};
+    return job_.prepared->update({.materials = true}, job_.execution);
+}
+
+Result<void> FrameWorker::apply(const FrameRequest& request, DrawnFrame& frame) {
+    const Controls& controls = request.controls;
+    std::vector<Light>& lights = job_.scene().lights;
+    if (!(controls.sky == sky_)) {
+        job_.camera = start_camera_;  // the studio stands as it did at the start
+        if (const auto changed = cli::change_light(job_, with_sky(options_, controls.sky)); !changed) return changed;
+        sky_ = controls.sky;
+        start_lights_ = lights;
+        start_settings_.exposure = job_.settings.exposure;
+        start_settings_.background_environment = options_.settings.background_environment && sky_.sky == Sky::as_started;
+        frame.lights = light_controls(lights);
+    }
+    Controls now = controls;
+    if (frame.lights) now.lights = *frame.lights;
+    if (std::vector<Light> wanted = lights_of(now, start_lights_); wanted != lights) {
+        lights = std::move(wanted);
+        if (const auto updated = job_.prepared->update({.lights = true}, job_.execution); !updated) return updated;
+    }
+    if (const auto applied = apply_lobes(now); !applied) return applied;
+    job_.settings = settings_of(now, start_settings_);
+    job_.camera = request.camera;
+    const int divisor = request.pixel ? 1 : request.step.divisor;
+    job_.width = std::max(1, request.width / divisor);
+    job_.height = std::max(1, request.height / divisor);
+    job_.settings.region = {0, 0, job_.width, job_.height};
+    return {};
+}
+
+Result<void> FrameWorker::draw(const FrameRequest& request, DrawnFrame& frame) {
+    if (request.pixel) {
+        auto story = tell_pixel(job_, probe_, request.pixel->x, request.pixel->y);
+        if (!story) return tl::unexpected(story.error());
+        frame.story = std::move(*story);
+        return {};
+    }
+    const int all_samples = job_.settings.samples;
+    job_.settings.samples = request.step.samples;
+    frame.picture = cli::make_image(job_, false);
+    const auto rendered = renderer_.render(*job_.prepared, job_.camera, job_.settings, cli::target_of(job_, frame.picture), job_.execution);
+    if (!rendered) return tl::unexpected(rendered.error());
+    frame.size_ms = rendered->total_ms - rendered->ms.prepare - rendered->ms.plan - rendered->ms.shadows;
+    cli::Json report;
+    cli::add_frame(report, job_, *rendered, frame.picture);
+    frame.report = cli::to_lines(report);
+    if (!request.step.final_one) return {};
+    job_.settings.samples = all_samples;
+    const auto plan = cli::describe_plan(job_);
+    if (!plan) return tl::unexpected(plan.error());
+    frame.plan = *plan;
+    return {};
+}
+
+}  // namespace halflit::viewer

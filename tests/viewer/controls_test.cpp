@@ -1,0 +1,92 @@
+#include "apps/viewer/controls.hpp"
+
+#include "apps/io/lobe_name.hpp"
+#include "sh/vec3d.hpp"
+#include "tests/viewer/jobs.hpp"
+
+#include <iterator>
+#include <sstream>
+
+using namespace halflit;
+using namespace halflit::test;
+using namespace halflit::viewer;
+
+TEST_CASE("controls: untouched, they change neither settings nor lights", "[viewer]") {
+    for (const std::vector<std::string>& flags :
+         {std::vector<std::string>{},
+          {"--lobe", "mcauley", "--wrap", "0.3", "--power", "2.5", "--specular", "phong"},
+          {"--env", "sky", "--sh-order", "4", "--shadows", "hard", "--sky-shadows", "16", "--tonemap", "aces", "--samples", "8"},
+          {"--max-error", "0.5", "--specular-normalize", "off"}}) {
+        const OpenedJob opened = open_job("demo", flags);
+        const Controls controls = controls_of(opened.job);
+        CHECK(settings_of(controls, opened.job.settings) == opened.job.settings);
+        CHECK(lights_of(controls, opened.job.scene().lights) == opened.job.scene().lights);
+        CHECK(as_flags(controls, controls).empty());
+    }
+}
+
+TEST_CASE("controls: a model is the lobe that --lobe gives", "[viewer]") {
+    Controls controls;
+    for (int i = 0; i < static_cast<int>(std::size(kNamedLobes)); ++i) {
+        choose_model(controls, i);
+        if (kNamedLobes[i].takes_wrap) choose_wrap(controls, 0.25f);
+        io::LobeParameters parameters;
+        if (kNamedLobes[i].takes_wrap) parameters.wrap = 0.25f;
+        INFO(kNamedLobes[i].name);
+        CHECK(controls.lobe == io::lobe_from_name(kNamedLobes[i].name, parameters).value());
+        CHECK_FALSE(controls.own_lobes);
+    }
+}
+
+TEST_CASE("controls: the power follows the wrap until a hand moves it", "[viewer]") {
+    Controls controls;
+    choose_model(controls, 4);  // sloan: n = 1 + w
+    choose_wrap(controls, 0.75f);
+    CHECK(controls.lobe.power == 1.75f);
+    controls.lobe.power = 3.0f;
+    choose_wrap(controls, 0.5f);
+    CHECK(controls.lobe.power == 3.0f);
+}
+
+TEST_CASE("controls: lights are switched off, dimmed and turned", "[viewer]") {
+    Light sun, lamp;
+    sun.direction_ws = normalize_or({-1, -2, -1}, {0, -1, 0});
+    lamp.type = LightType::point;
+    lamp.position_ws = {1, 2, 3};
+    const std::vector<Light> started{sun, lamp};
+    Controls controls;
+    controls.lights = light_controls(started);
+    CHECK(controls.lights[0].azimuth_deg == Approx(45.0));
+    CHECK(controls.lights[0].elevation_deg == Approx(54.7356103));
+    controls.lights[0].azimuth_deg = 90;  // from +x
+    controls.lights[0].elevation_deg = 0;
+    controls.lights[1].intensity = 0.5f;
+    std::vector<Light> lights = lights_of(controls, started);
+    CHECK(length(to_double(lights[0].direction_ws) - Vec3d{-1, 0, 0}) < 1e-6);
+    CHECK(lights[1].color_linear == Vec3f{0.5f, 0.5f, 0.5f});
+    CHECK(lights[1].position_ws == lamp.position_ws);
+    controls.lights[1].on = false;
+    CHECK(lights_of(controls, started)[1].color_linear == Vec3f{});
+    controls.lights.clear();  // before those of a new sky are known
+    CHECK(lights_of(controls, started) == started);
+}
+
+TEST_CASE("controls: as flags, they give the same settings", "[viewer]") {
+    const OpenedJob opened = open_job("demo", {});
+    const Controls started = controls_of(opened.job);
+    Controls controls = started;
+    choose_model(controls, 5);  // mcauley
+    choose_wrap(controls, 0.3f);
+    controls.specular = SpecularModel::ggx;
+    controls.normalize_specular = false;
+    controls.shadows = ShadowMode::hard;
+    controls.sky_shadows = 16;
+    controls.sh_order = 3;
+    controls.tone_curve = ToneCurve::aces;
+    controls.samples = 8;
+    controls.max_error_codes = 0.5f;
+    std::istringstream line(as_flags(controls, started));
+    std::vector<std::string> flags;
+    for (std::string word; line >> word;) flags.push_back(word);
+    CHECK(open_job("demo", flags).job.settings == settings_of(controls, opened.job.settings));
+}
