@@ -141,7 +141,7 @@ TEST_CASE("OBJ: materials of an MTL file become halflit's", "[io]") {
 TEST_CASE("OBJ: comments end a statement, and a backslash in them joins no line", "[io]") {
     const auto loaded =
         load_any_ok(to_bytes("v 0 0 0 # a b c\nv 1 0 0\n# C:\\art\\\nv 0 1 0 # C:\\art\\\nvt 0 0 # t\nv "
-                             "-0.00000000000000000000000000000000000000000000000000000001 0 1e-60\n"
+                             "-0.00000000000000000000000000000000000000000000000000000001 2 1e-60\n"
                              "f 1/1 2/1 3/1 # x\nf 1 2 \\\n4\n"));
     REQUIRE(loaded.scene.meshes.size() == 1);
     CHECK(loaded.scene.meshes[0].indices.size() == 6);
