@@ -33,7 +33,7 @@ Result<void> add_listed(const std::string& list, std::vector<std::string>& scene
         const std::size_t end = std::min(text.find('\n'), text.size());
         std::string_view line = text.substr(0, end);
         if (line.ends_with('\r')) line.remove_suffix(1);
-        if (!line.empty()) scenes.emplace_back(line);
+        if (line.find_first_not_of(" \t") != std::string_view::npos) scenes.emplace_back(line);
         text.remove_prefix(std::min(end + 1, text.size()));
     }
     if (scenes.empty()) return fail(ErrorCode::usage, "--files-from " + list + ": found no scene");

@@ -94,7 +94,8 @@ public:
     void check_extensions() {
         filler_.owner = {};
         for (const auto& [name, offset] : extensions_)
-            if (!file_.uses(name)) filler_.warn(offset, "is not in extensionsUsed", "read as if it were");
+            if (!file_.uses(name))
+                filler_.warn(offset, "is not in extensionsUsed", is_supported(name) ? "read as if it were" : "and not supported: ignored");
     }
 
 private:

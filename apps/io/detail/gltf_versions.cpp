@@ -55,11 +55,6 @@ const Decoder* decoder_of(std::string_view name) {
     return found == std::end(kDecoders) ? nullptr : found;
 }
 
-bool is_supported(std::string_view name) {
-    if (const Decoder* decoder = decoder_of(name)) return decoder->is_there();
-    return std::find(std::begin(kSupportedExtensions), std::end(kSupportedExtensions), name) != std::end(kSupportedExtensions);
-}
-
 struct LeftOut {
     std::string_view extension;
     const char* what;  // is not drawn
@@ -95,6 +90,11 @@ void choose_forms(file::File& file) {
     if (!has_draco())
         for (file::Mesh& mesh : file.meshes)
             for (file::Primitive& primitive : mesh.primitives) primitive.draco = -1;
+}
+
+bool is_supported(std::string_view extension) {
+    if (const Decoder* decoder = decoder_of(extension)) return decoder->is_there();
+    return std::find(std::begin(kSupportedExtensions), std::end(kSupportedExtensions), extension) != std::end(kSupportedExtensions);
 }
 
 void check_versions(const file::File& file) {

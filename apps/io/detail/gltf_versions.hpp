@@ -3,7 +3,12 @@
 
 #include "apps/io/detail/gltf_document.hpp"
 
+#include <string_view>
+
 namespace halflit::io::detail {
+
+/// True for an extension that this build draws.
+[[nodiscard]] bool is_supported(std::string_view extension);
 
 /// Throws LoadFailure for another major version, a minimum above 2.0, or a required extension that is not supported.
 /// A later minor version without a minimum loads: by the specification a 2.0 reader can draw it.
