@@ -3,6 +3,7 @@
 
 #include "halflit/halflit.h"
 
+#include <halflit/auto_setup.hpp>
 #include <halflit/camera.hpp>
 #include <halflit/environment.hpp>
 #include <halflit/error.hpp>
@@ -29,6 +30,7 @@ void put(const Mat4& m, float to[16]);
 [[nodiscard]] Result<Light> light(const halflit_light* given);
 [[nodiscard]] Result<Camera> camera(const halflit_camera* given);
 [[nodiscard]] Result<Settings> settings(const halflit_settings* given);
+[[nodiscard]] Result<AutoOptions> setup_options(const halflit_setup_options* given);
 [[nodiscard]] Result<Execution> execution(const halflit_execution* given);
 struct TextureColor {
     ColorSpace space;
@@ -65,6 +67,7 @@ struct EnvironmentRequest {
 [[nodiscard]] halflit_settings to_c(const Settings& from);
 [[nodiscard]] halflit_report to_c(const RenderReport& from);
 [[nodiscard]] halflit_environment_options default_environment_options();
+[[nodiscard]] halflit_setup_options default_setup_options();
 [[nodiscard]] halflit_execution default_execution();
 [[nodiscard]] halflit_target default_target();
 [[nodiscard]] halflit_mesh default_mesh();

@@ -13,7 +13,7 @@ constexpr bool ends_with(std::size_t offset, Last T::*) {
     return offset + sizeof(Last) == sizeof(T);
 }
 #define HALFLIT_ENDS_WITH(type, member) static_assert(ends_with(offsetof(type, member), &type::member))
-HALFLIT_ENDS_WITH(halflit_load_options, variant);
+HALFLIT_ENDS_WITH(halflit_load_options, reserved);
 HALFLIT_ENDS_WITH(halflit_animation, channels);
 HALFLIT_ENDS_WITH(halflit_counts, animations);
 HALFLIT_ENDS_WITH(halflit_material, sheen_roughness_texture);
@@ -22,6 +22,7 @@ HALFLIT_ENDS_WITH(halflit_light, shadow_radius);
 HALFLIT_ENDS_WITH(halflit_environment_options, reserved);
 HALFLIT_ENDS_WITH(halflit_camera, reserved);
 HALFLIT_ENDS_WITH(halflit_settings, line_width);
+HALFLIT_ENDS_WITH(halflit_setup_options, studio);
 HALFLIT_ENDS_WITH(halflit_execution, memory_limit);
 HALFLIT_ENDS_WITH(halflit_target, coverage_row_bytes);
 HALFLIT_ENDS_WITH(halflit_report, reserved);
@@ -41,6 +42,8 @@ static_assert(HALFLIT_SPECULAR_GGX == static_cast<int>(SpecularModel::ggx));
 static_assert(HALFLIT_SHADOWS_SOFT_SPLIT == static_cast<int>(ShadowMode::soft_split));
 static_assert(HALFLIT_TONE_REINHARD == static_cast<int>(ToneCurve::reinhard) &&
               HALFLIT_TONE_NEUTRAL == static_cast<int>(ToneCurve::neutral));
+static_assert(HALFLIT_STUDIO_NEVER == static_cast<int>(StudioUse::never) &&
+              HALFLIT_STUDIO_UNDER_LIGHTS == static_cast<int>(StudioUse::under_lights));
 
 }  // namespace
 
@@ -141,6 +144,42 @@ Result<Settings> settings(const halflit_settings* given) {
     choices.read(read->tone_curve, ToneCurve::neutral, "tone_curve", settings.tone_curve);
     if (!choices.result()) return tl::unexpected<Error>(choices.result().error());
     return settings;
+}
+
+halflit_setup_options default_setup_options() {
+    const AutoOptions defaults;
+    halflit_setup_options options{};
+    options.size = sizeof options;
+    options.azimuth_deg = defaults.view.azimuth_deg;
+    options.elevation_deg = defaults.view.elevation_deg;
+    options.zoom = defaults.view.zoom;
+    options.fov_y_deg = defaults.view.fov_y_deg;
+    options.add_lights = defaults.add_lights;
+    return options;
+}
+
+Result<AutoOptions> setup_options(const halflit_setup_options* given) {
+    AutoOptions options;
+    if (given == nullptr) return options;
+    const auto read = read_struct(given, default_setup_options(), "halflit_setup_options");
+    if (!read) return tl::unexpected<Error>(read.error());
+    if (read->camera != nullptr) {
+        auto view = camera(read->camera);
+        if (!view) return tl::unexpected<Error>(view.error());
+        options.camera = std::move(*view);
+    }
+    if (!(read->exposure >= 0.0f && read->exposure < 1e18f))
+        return fail(ErrorCode::usage, "halflit_setup_options: exposure is not 0 or a positive number");
+    options.frame = read->frame != 0;
+    options.view = {read->azimuth_deg, read->elevation_deg, read->zoom, read->fov_y_deg};
+    if (read->own_ambient != 0) options.ambient_linear = vec3(read->ambient_color);
+    if (read->exposure > 0.0f) options.exposure = read->exposure;
+    options.add_lights = read->add_lights != 0;
+    options.studio_turn_rad = read->studio_turn_rad;
+    Choices choices("halflit_setup_options");
+    choices.read(read->studio, StudioUse::under_lights, "studio", options.studio);
+    if (!choices.result()) return tl::unexpected<Error>(choices.result().error());
+    return options;
 }
 
 namespace {

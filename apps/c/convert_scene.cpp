@@ -61,6 +61,7 @@ halflit_load_options to_c(const LoadOptions& from) {
     options.time_s = from.time_s;
     options.turn_upright = from.turn_upright;
     options.crease_deg = from.crease_deg;
+    options.recentre = from.recentre;
     return options;
 }
 
@@ -84,6 +85,7 @@ Result<LoadOptions> load_options(const halflit_load_options* given) {
     options.time_s = read->time_s;
     options.turn_upright = read->turn_upright != 0;
     options.crease_deg = read->crease_deg;
+    options.recentre = read->recentre != 0;
     options.limits.max_file_bytes = read->max_file_bytes;
     options.limits.max_total_bytes = read->max_total_bytes;
     options.limits.max_json_tokens = read->max_json_tokens;

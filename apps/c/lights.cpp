@@ -22,6 +22,7 @@ Result<void> light_by(halflit_scene& scene, const EnvironmentImage& image, const
     auto made = make_environment(image, options);
     if (!made) return tl::unexpected<Error>(made.error());
     const std::size_t suns = environment_suns(**made).size();
+    scene.take_back_setup();
     scene.changes.lights();
     scene.scene.lights.reserve(scene.light_count() + suns);
     set_environment(scene.scene, std::move(*made));
@@ -39,6 +40,7 @@ int32_t halflit_scene_add_light(halflit_scene* scene, const halflit_light* given
     return changing(__func__, scene, {{given, "light"}}, [&]() -> Result<void> {
         const auto made = light(given);
         if (!made) return tl::unexpected<Error>(made.error());
+        scene->take_back_setup();
         const std::size_t at = scene->light_count();
         scene->changes.lights();
         scene->scene.lights.insert(scene->scene.lights.end() - static_cast<std::ptrdiff_t>(scene->sun_count), *made);
@@ -49,10 +51,11 @@ int32_t halflit_scene_add_light(halflit_scene* scene, const halflit_light* given
 
 int32_t halflit_scene_set_light(halflit_scene* scene, int32_t index, const halflit_light* given) {
     return changing(__func__, scene, {{given, "light"}}, [&]() -> Result<void> {
-        const auto at = check_index(index, scene->light_count(), "light");
-        if (!at) return tl::unexpected<Error>(at.error());
         const auto made = light(given);
         if (!made) return tl::unexpected<Error>(made.error());
+        scene->take_back_setup();
+        const auto at = check_index(index, scene->light_count(), "light");
+        if (!at) return tl::unexpected<Error>(at.error());
         scene->changes.lights();
         scene->scene.lights[*at] = *made;
         return {};
@@ -61,6 +64,7 @@ int32_t halflit_scene_set_light(halflit_scene* scene, int32_t index, const halfl
 
 int32_t halflit_scene_set_ambient(halflit_scene* scene, const float sky[3], const float ground[3]) {
     return changing(__func__, scene, {{sky, "sky"}, {ground, "ground"}}, [&]() -> Result<void> {
+        scene->take_back_setup();
         scene->changes.lights();
         scene->scene.ambient = {vec3(sky), vec3(ground)};
         return {};
@@ -71,6 +75,7 @@ int32_t halflit_scene_add_default_lights(halflit_scene* scene, const halflit_cam
     return changing(__func__, scene, {{given, "camera"}}, [&]() -> Result<void> {
         const auto made = camera(given);
         if (!made) return tl::unexpected<Error>(made.error());
+        scene->take_back_setup();
         if (!is_dark(scene->scene)) return {};
         scene->changes.lights();
         add_default_lights(scene->scene, *made);
@@ -82,6 +87,7 @@ int32_t halflit_scene_add_studio(halflit_scene* scene, const halflit_camera* giv
     return changing(__func__, scene, {{given, "camera"}}, [&]() -> Result<void> {
         const auto made = camera(given);
         if (!made) return tl::unexpected<Error>(made.error());
+        scene->take_back_setup();
         if (!is_dark(scene->scene)) return {};
         scene->changes.lights();
         add_studio(scene->scene, *made);
@@ -91,6 +97,7 @@ int32_t halflit_scene_add_studio(halflit_scene* scene, const halflit_camera* giv
 
 int32_t halflit_scene_clear_lights(halflit_scene* scene) {
     return changing(__func__, scene, {}, [&]() -> Result<void> {
+        scene->own_light.reset();
         scene->changes.lights();
         scene->scene.lights.clear();
         scene->sun_count = 0;

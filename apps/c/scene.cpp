@@ -21,6 +21,8 @@ Result<void> hand_over(Result<LoadedScene> loaded, halflit_scene** scene) {
     made->warnings = std::move(loaded->warnings);
     made->animations = std::move(loaded->animations);
     made->motion = std::move(loaded->motion);
+    made->origin = loaded->origin;
+    made->scale = loaded->scale;
     *scene = made.release();
     return {};
 }
@@ -117,7 +119,18 @@ int32_t halflit_scene_pose(halflit_scene* scene, const char* animation, double t
             scene->changes.mesh(i);
         }
         if (posed->materials) scene->changes.materials();
-        if (posed->lights) scene->changes.lights();
+        if (posed->lights) {
+            scene->changes.lights();
+            scene->follow_pose();
+        }
+        return {};
+    });
+}
+
+int32_t halflit_scene_get_placement(const halflit_scene* scene, double origin[3], double* scale) {
+    return reading(__func__, scene, {}, [&]() -> Result<void> {
+        if (origin != nullptr) origin[0] = scene->origin.x, origin[1] = scene->origin.y, origin[2] = scene->origin.z;
+        if (scale != nullptr) *scale = scene->scale;
         return {};
     });
 }

@@ -49,6 +49,15 @@ private:
 /// A mesh as it was given, if the scene's mesh has normals or tangents that the library made: its vertices may be split.
 using GivenMeshes = std::unordered_map<std::size_t, Mesh>;
 
+/// The light of a scene, all that halflit_setup() may change.
+struct SceneLight {
+    std::vector<Light> lights;
+    Ambient ambient;
+    std::shared_ptr<const Environment> environment;
+    bool calibrated = true;
+    std::size_t sun_count = 0;
+};
+
 }  // namespace halflit::c
 
 struct halflit_scene {
@@ -58,6 +67,9 @@ struct halflit_scene {
     std::shared_ptr<const halflit::Motion> motion;  ///< null: not kept
     /// The last lights of the scene are the environment's suns; callers do not see them.
     std::size_t sun_count = 0;
+    std::optional<halflit::c::SceneLight> own_light;  ///< the light before halflit_setup() added some; empty: it did not
+    halflit::Vec3d origin{0, 0, 0};                   ///< a point p of the file is drawn at (p - origin) * scale
+    double scale = 1.0;
     std::size_t file_meshes = 0;       ///< the first meshes, which a file or the library brought
     std::set<std::size_t> added_flat;  ///< meshes that the caller added without normals
     halflit::c::GivenMeshes given_meshes;
@@ -77,6 +89,14 @@ struct halflit_scene {
     void put_given_mesh(std::size_t index, halflit::Mesh given);
     /// Adds what a material, which has changed, requires of its meshes.
     void complete_meshes_of(std::size_t material);
+
+    /// Remembers the light, so that take_back_setup() restores it.
+    void keep_light();
+    /// Removes the light that halflit_setup() added.
+    void take_back_setup();
+
+    /// Moves the lights that keep_light() remembers as those of the scene were moved.
+    void follow_pose();
 
     /// Brings `prepared` up to date. Called for a frame that counts in `drawing`.
     [[nodiscard]] halflit::Result<void> prepare(const halflit::Execution& execution) const;

@@ -41,7 +41,7 @@ void run_catching(const Loop& loop, const std::function<void(int)>& task) {
 #ifdef HALFLIT_ONETBB
 
 struct Executor::Arena {
-    explicit Arena(int thread_count) : arena(thread_count) {
+    explicit Arena(int thread_count) : threads(thread_count), arena(thread_count) {
         // oneTBB starts its threads with the first loop. An exception for one that does not start is harmless here, not inside a frame.
         run(thread_count, [](int) {});
     }
@@ -72,6 +72,38 @@ struct Executor::Arena {
     void run(int count, const std::function<void(int)>& task) {
         arena.execute([&] { tbb::parallel_for(0, count, task, tbb::simple_partitioner()); });
     }
+    /// oneTBB 2021 leaks about 7 kB with most arenas that end right after a loop, while its threads leave them. So arenas are kept for the
+    /// next executor with as many threads. The list is never freed: at the end of the process oneTBB may be gone first.
+    struct Idle {
+        std::mutex mutex;
+        std::vector<std::unique_ptr<Arena>> list;
+    };
+    static Idle& idle() {
+        static Idle& kept = *new Idle;
+        return kept;
+    }
+    static Arena* take(int thread_count) {
+        {
+            Idle& kept = idle();
+            const std::lock_guard lock(kept.mutex);
+            const auto found = std::find_if(kept.list.begin(), kept.list.end(), [=](const auto& a) { return a->threads == thread_count; });
+            if (found != kept.list.end()) {
+                Arena* const arena = found->release();
+                kept.list.erase(found);
+                return arena;
+            }
+        }
+        return std::make_unique<Arena>(thread_count).release();
+    }
+    static void give_back(std::unique_ptr<Arena> arena) {
+        try {
+            Idle& kept = idle();
+            const std::lock_guard lock(kept.mutex);
+            kept.list.push_back(std::move(arena));
+        } catch (const std::bad_alloc&) {
+        }
+    }
+    int threads;
     tbb::task_arena arena;
 };
 
@@ -100,10 +132,14 @@ struct Executor::Arena {
             },
             [&](int) { work(); });
     }
+    static Arena* take(int thread_count) { return std::make_unique<Arena>(thread_count).release(); }
+    static void give_back(std::unique_ptr<Arena>) {}
     int threads;
 };
 
 #endif
+
+void Executor::GiveBack::operator()(Arena* arena) const noexcept { Arena::give_back(std::unique_ptr<Arena>(arena)); }
 
 Executor::Executor() = default;
 Executor::~Executor() = default;
@@ -120,7 +156,7 @@ void Executor::configure(const Execution& execution) {
     arena_.reset();
     if (threads_ == 1) return;
     try {
-        arena_ = std::make_unique<Arena>(threads_);
+        arena_.reset(Arena::take(threads_));
     } catch (const std::runtime_error&) {
         threads_ = 1;
     }

@@ -43,7 +43,10 @@ public:
 
 private:
     struct Arena;
-    std::unique_ptr<Arena> arena_;
+    struct GiveBack {
+        void operator()(Arena* arena) const noexcept;
+    };
+    std::unique_ptr<Arena, GiveBack> arena_;
     ParallelFor hook_;
     int asked_ = 1, threads_ = 1;
     StopSignal stop_;

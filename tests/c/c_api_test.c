@@ -867,6 +867,107 @@ static void test_execution(void) {
     halflit_scene_destroy(cube.scene);
 }
 
+/// Hash of what halflit_setup() chooses for the scene.
+static uint64_t draw_setup(halflit_scene* scene, const halflit_setup_options* options) {
+    halflit_camera camera;
+    halflit_settings settings;
+    CHECK_OK(halflit_camera_init(&camera, sizeof camera));
+    CHECK_OK(halflit_settings_init(&settings, sizeof settings));
+    CHECK_OK(halflit_setup(scene, WIDTH, HEIGHT, options, &camera, &settings));
+    return draw(NULL, scene, &camera, &settings);
+}
+
+static void test_setup(void) {
+    // The same light, view and settings as halflit_auto_setup chooses, however often, and whatever was chosen in between.
+    Cube cube = make_cube();
+    halflit_setup_options options;
+    halflit_light lamp;
+    halflit_counts counts;
+    const float sky[3] = {0.5f, 0.5f, 0.5f};
+    uint64_t first, other, lit;
+    memset(&counts, 0, sizeof counts);
+    counts.size = sizeof counts;
+    CHECK_OK(halflit_scene_clear_lights(cube.scene));
+    first = draw_setup(cube.scene, NULL);
+    CHECK(first == draw_cube(NULL, &cube));
+    CHECK_OK(halflit_setup_options_init(&options, sizeof options));
+    CHECK(draw_setup(cube.scene, &options) == first);
+    options.azimuth_deg = 80;
+    other = draw_setup(cube.scene, &options);
+    CHECK(other != first && draw_setup(cube.scene, &options) == other);
+    CHECK(draw_setup(cube.scene, NULL) == first);
+    options.azimuth_deg = 35;
+    options.exposure = 0.5f;
+    CHECK(draw_setup(cube.scene, &options) != first);
+    options.exposure = 0;
+    options.studio = HALFLIT_STUDIO_NEVER;
+    CHECK(draw_setup(cube.scene, &options) != first);
+    options.studio = HALFLIT_STUDIO_FOR_DARK;
+    options.camera = &cube.camera;
+    CHECK(draw_setup(cube.scene, &options) == first);
+
+    // A light of the caller takes the place of what was chosen, and stays.
+    CHECK_OK(halflit_light_init(&lamp, sizeof lamp));
+    CHECK_OK(halflit_scene_add_light(cube.scene, &lamp, NULL));
+    CHECK_OK(halflit_scene_get_counts(cube.scene, &counts));
+    CHECK(counts.lights == 1);
+    lit = draw_setup(cube.scene, NULL);
+    CHECK(lit != first);
+    options.studio = HALFLIT_STUDIO_UNDER_LIGHTS;
+    other = draw_setup(cube.scene, &options);
+    CHECK(other != lit && other != first && draw_setup(cube.scene, NULL) == lit);
+    options.studio = HALFLIT_STUDIO_ALWAYS;
+    CHECK(draw_setup(cube.scene, &options) != lit);
+    CHECK_OK(halflit_scene_set_ambient(cube.scene, sky, sky));
+    CHECK_OK(halflit_scene_get_counts(cube.scene, &counts));
+    CHECK(counts.lights == 1);
+    other = draw_setup(cube.scene, NULL);
+    CHECK_OK(halflit_scene_set_ambient(cube.scene, (const float[3]){0, 0, 0}, (const float[3]){0, 0, 0}));
+    options.studio = HALFLIT_STUDIO_FOR_DARK;
+    options.own_ambient = 1;
+    memcpy(options.ambient_color, sky, sizeof sky);
+    CHECK(other != lit && draw_setup(cube.scene, &options) == other);
+    CHECK_OK(halflit_scene_set_sky(cube.scene, NULL));
+    CHECK(draw_setup(cube.scene, NULL) != other);
+    CHECK_OK(halflit_scene_clear_lights(cube.scene));
+    CHECK(draw_setup(cube.scene, NULL) == first);
+
+    options.studio = 4;
+    CHECK_FAILS(halflit_setup(cube.scene, 8, 8, &options, &cube.camera, &cube.settings), HALFLIT_ERROR_USAGE, "studio is 4");
+    options.studio = 0;
+    options.exposure = -1;
+    CHECK_FAILS(halflit_setup(cube.scene, 8, 8, &options, &cube.camera, &cube.settings), HALFLIT_ERROR_USAGE, "exposure");
+    CHECK_FAILS(halflit_setup(cube.scene, 0, 8, NULL, &cube.camera, &cube.settings), HALFLIT_ERROR_USAGE, "no pixels");
+    CHECK_FAILS(halflit_setup(cube.scene, 8, 8, NULL, NULL, &cube.settings), HALFLIT_ERROR_USAGE, "camera is null");
+    CHECK_FAILS(halflit_setup_options_init(NULL, 8), HALFLIT_ERROR_USAGE, "options is null");
+    halflit_scene_destroy(cube.scene);
+}
+
+static void test_recentre(void) {
+    // A triangle at x = 2^20, drawn there and at the origin.
+    static char far_model[sizeof model + 64];
+    const char* const node = strstr(model, "{\"mesh\":0}");
+    halflit_load_options options;
+    halflit_scene* scene;
+    double origin[3], scale;
+    float min[3], max[3];
+    sprintf(far_model, "%.*s{\"mesh\":0,\"translation\":[1048576,0,0]}%s", (int)(node - model), model, node + strlen("{\"mesh\":0}"));
+    CHECK_OK(halflit_load_options_init(&options, sizeof options));
+    CHECK_OK(halflit_scene_load_memory(far_model, strlen(far_model), "far", NULL, &options, &scene));
+    CHECK_OK(halflit_scene_get_placement(scene, origin, &scale));
+    CHECK_OK(halflit_scene_get_bounds(scene, min, max));
+    CHECK(origin[0] == 0 && scale == 1 && min[0] == 1048576);
+    halflit_scene_destroy(scene);
+    options.recentre = 1;
+    CHECK_OK(halflit_scene_load_memory(far_model, strlen(far_model), "far", NULL, &options, &scene));
+    CHECK_OK(halflit_scene_get_placement(scene, origin, &scale));
+    CHECK_OK(halflit_scene_get_placement(scene, NULL, NULL));
+    CHECK_OK(halflit_scene_get_bounds(scene, min, max));
+    CHECK(origin[0] > 1048575 && origin[0] < 1048578 && scale == 1 && fabs((double)min[0] + origin[0] - 1048576) < 1e-3);
+    CHECK_FAILS(halflit_scene_get_placement(NULL, origin, &scale), HALFLIT_ERROR_USAGE, "scene is null");
+    halflit_scene_destroy(scene);
+}
+
 int main(void) {
     CHECK(halflit_last_error()[0] == '\0');
     CHECK(strchr(halflit_version(), '.') != NULL && halflit_pixel_epoch() >= 1);
@@ -883,6 +984,8 @@ int main(void) {
     test_scenes_and_variants();
     test_animations();
     test_cameras();
+    test_setup();
+    test_recentre();
     test_execution();
     printf("%d checks, %d failed\n", checks, failures);
     return failures == 0 && checks > 100 ? 0 : 1;

@@ -66,6 +66,14 @@ void Session::draw() {
     const std::size_t width = 1 + in_.below(24), height = 1 + in_.below(24), padding = in_.below(3);
     const auto w = static_cast<std::int32_t>(width), h = static_cast<std::int32_t>(height);
     if (in_.one_in(8)) check(halflit_auto_setup(scene(), w, h, or_null(view.get()), or_null(how.get())));
+    if (in_.one_in(6)) {
+        Sized<halflit_setup_options> choice_of(in_);
+        (void)halflit_setup_options_init(choice_of.get(), choice_of.size());
+        choice_of.damage(in_, offsetof(halflit_setup_options, studio_turn_rad));
+        choice_of.set(&halflit_setup_options::camera, static_cast<const halflit_camera*>(in_.flag() ? view.get() : nullptr));
+        choice_of.set(&halflit_setup_options::studio, choice(4));
+        check(halflit_setup(scene(), w, h, or_null(choice_of.get(), 2), or_null(view.get()), or_null(how.get())));
+    }
     how.set(&halflit_settings::shadow_size, 64);
     const std::int32_t format = in_.one_in(20) ? in_.number<std::int32_t>() : static_cast<std::int32_t>(in_.below(6));
     const std::size_t pixel = format >= HALFLIT_FORMAT_RGBA_F32 ? 16 : 4, row = pixel * (width + padding);

@@ -81,6 +81,10 @@ typedef struct halflit_load_options {
     float crease_deg;      ///< STL, PLY, OBJ, 3MF without normals: smooth across edges up to this angle; by default 30
     const char* scene;     ///< scene of the file: its name, or else its index; null or empty: the one that the file names, or the first
     const char* variant;   ///< variant of the file's materials, by name; null or empty: the materials without a variant
+    /// Moves a scene that is far from the origin to it, and scales a tiny or huge one, so that float32 keeps its shape; by default off. The
+    /// program does so. See halflit_scene_get_placement.
+    int32_t recentre;
+    int32_t reserved;
 } halflit_load_options;
 HALFLIT_C_API int32_t halflit_load_options_init(halflit_load_options* options, size_t size);
 
@@ -125,6 +129,8 @@ HALFLIT_C_API int32_t halflit_scene_get_animation(const halflit_scene* scene, in
 /// so. animation: as in halflit_load_options. Meshes, instances, cameras, lights and factors of materials that the file's animations move
 /// are set; all else stays as the caller has set it.
 HALFLIT_C_API int32_t halflit_scene_pose(halflit_scene* scene, const char* animation, double time_s);
+/// What halflit_load_options.recentre did: a point p of the file is drawn at (p - origin) * scale. Either may be null.
+HALFLIT_C_API int32_t halflit_scene_get_placement(const halflit_scene* scene, double origin[3], double* scale);
 /// World-space box of everything drawn; min is infinity and max -infinity if there is nothing. Takes time in proportion to the vertices.
 HALFLIT_C_API int32_t halflit_scene_get_bounds(const halflit_scene* scene, float min[3], float max[3]);
 
@@ -409,6 +415,33 @@ HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t s
 /// grey background, and an exposure. Adds to the scene the light that it lacks; call it again only after halflit_scene_clear_lights.
 HALFLIT_C_API int32_t halflit_auto_setup(halflit_scene* scene, int32_t width, int32_t height, halflit_camera* camera,
                                          halflit_settings* settings);
+
+/// When halflit_setup() puts the scene into the built-in studio: where nothing lights it from all around; always, instead of its ambient
+/// light and environment; never; where nothing does, and a share of it under lights whose unit is known too.
+enum { HALFLIT_STUDIO_FOR_DARK = 0, HALFLIT_STUDIO_ALWAYS = 1, HALFLIT_STUDIO_NEVER = 2, HALFLIT_STUDIO_UNDER_LIGHTS = 3 };
+
+/// What the caller of halflit_setup() decides; the rest is chosen. Defaults in parentheses.
+typedef struct halflit_setup_options {
+    size_t size;
+    const halflit_camera* camera;  ///< the view; null: the scene's camera, or a view of the whole scene (null)
+    double studio_turn_rad;        ///< turns the studio about the vertical, counter-clockwise seen from above (0)
+    int32_t frame;                 ///< without `camera`: a view of the whole scene, whatever cameras the scene has (0)
+    float azimuth_deg;             ///< of a view of the whole scene, as elevation_deg and zoom: see halflit_camera_frame (35)
+    float elevation_deg;           ///< above the horizon (20)
+    float zoom;                    ///< 2 makes things twice as large (1)
+    float fov_y_deg;               ///< of a view of the whole scene: full vertical angle before the zoom (35)
+    int32_t own_ambient;           ///< ambient_color is the light from all around (0)
+    float ambient_color[3];        ///< the same from above and below
+    float exposure;                ///< factor on all light; 0: chosen (0)
+    int32_t add_lights;            ///< a scene without any light gets some (1)
+    int32_t studio;                ///< HALFLIT_STUDIO (for dark)
+} halflit_setup_options;
+HALFLIT_C_API int32_t halflit_setup_options_init(halflit_setup_options* options, size_t size);
+
+/// Chooses as halflit_auto_setup does, but what the caller leaves open alone. options may be null: the defaults. Takes back the light that
+/// the last call added, so it may be called for each picture. The functions that add, set or clear light take it back too.
+HALFLIT_C_API int32_t halflit_setup(halflit_scene* scene, int32_t width, int32_t height, const halflit_setup_options* options,
+                                    halflit_camera* camera, halflit_settings* settings);
 
 // ---- drawing -----------------------------------------------------------------------------------------------------------
 

@@ -1,0 +1,197 @@
+"""Makes the wheel of the Python package, and is its PEP 517 backend. Needs patchelf and binutils, and no Python package.
+
+    build_wheel.py LIBHALFLIT_PYTHON_SO FOLDER      writes FOLDER/halflit-VERSION-py3-none-PLATFORM.whl and prints its name
+    python3 -m build --wheel --no-isolation --config-setting library=LIBHALFLIT_PYTHON_SO
+
+Without `library` the backend builds the library in build/release, by cmake. One wheel serves every Python 3: the package calls the library
+through ctypes and knows nothing of Python's or numpy's binary interface.
+
+The wheel brings the libraries that halflit needs beside it, renamed by their content so that another package's copy of the same library
+does not take their place, and with their licences. glibc and the C++ library stay those of the system, as PEP 600 asks: two C++ libraries
+in one process do not go together.
+"""
+import base64
+import hashlib
+import os
+import platform
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import zipfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+OF_SYSTEM = re.compile(r"^(lib(c|m|dl|pthread|rt|resolv|util|stdc\+\+|gcc_s)\.so|ld-linux|linux-vdso)")
+# The newest version of the C++ library's symbols that distributions of a glibc have, as in auditwheel's policies.
+GLIBCXX_OF_GLIBC = ((24, 22), (26, 24), (27, 24), (28, 25), (31, 28), (34, 29), (35, 30), (38, 32), (39, 33), (41, 34))
+
+
+def version():
+    with open(os.path.join(HERE, "halflit", "_c.py"), encoding="utf-8") as file:
+        return re.search(r'^VERSION = "([^"]+)"', file.read(), re.M).group(1)
+
+
+def metadata():
+    with open(os.path.join(HERE, "README.md"), encoding="utf-8") as file:
+        readme = file.read()
+    return f"""Metadata-Version: 2.1
+Name: halflit
+Version: {version()}
+Summary: Models in, pictures out: a software rasterizer, without a GPU
+License: MIT
+Requires-Python: >=3.8
+Requires-Dist: numpy
+Description-Content-Type: text/markdown
+
+{readme}"""
+
+
+# ---- shared libraries ---------------------------------------------------------------------------------------------------
+
+
+def output(*command):
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, check=False)
+    if done.returncode:
+        sys.exit(f"build_wheel: {' '.join(command)}: {done.stderr.strip() or done.stdout.strip()}")
+    return done.stdout
+
+
+def needed(path):
+    """Libraries that the file needs, directly or not, and that a system need not have: name -> path."""
+    found = {}
+    for name, where in re.findall(r"^\s*(\S+) => (.*?)(?: \(0x|$)", output("ldd", path), re.M):
+        if OF_SYSTEM.match(name):
+            continue
+        if not os.path.exists(where):
+            sys.exit(f"build_wheel: {path} needs {name}, which is not there")
+        found[name] = os.path.realpath(where)
+    return found
+
+
+def bundle(library, folder):
+    """Puts the library and those that it needs into the folder, each with the folder as its search path. Returns their paths there."""
+    own = os.path.join(folder, "libhalflit_python.so")
+    shutil.copy(library, own)
+    output("strip", "--strip-unneeded", own)  # before patchelf, whose files strip damages
+    libraries = needed(library)
+    renamed = {}
+    for name, path in libraries.items():
+        with open(path, "rb") as file:
+            digest = hashlib.sha256(file.read()).hexdigest()[:8]
+        stem, _, rest = name.partition(".so")
+        renamed[name] = f"{stem}-{digest}.so{rest}"
+        shutil.copy(path, os.path.join(folder, renamed[name]))
+    paths = [own, *(os.path.join(folder, name) for name in renamed.values())]
+    for path in paths:
+        os.chmod(path, 0o755)
+        wanted = set(output("patchelf", "--print-needed", path).split())
+        # One change a call: patchelf 0.14 mixes up the names of several.
+        if path != own:
+            output("patchelf", "--set-soname", os.path.basename(path), path)
+        for name in sorted(wanted & set(renamed)):
+            output("patchelf", "--replace-needed", name, renamed[name], path)
+        output("patchelf", "--set-rpath", "$ORIGIN", path)
+    return paths, libraries
+
+
+def platform_tag(paths):
+    """manylinux_2_X of the oldest glibc that all files can be loaded with: by the versions of its symbols, and of the C++ library's."""
+    text = "".join(output("readelf", "-V", path) for path in paths)
+    glibc = max(int(minor) for minor in re.findall(r"Name: GLIBC_2\.(\d+)", text))
+    glibcxx = max([0, *(int(minor) for minor in re.findall(r"Name: GLIBCXX_3\.4\.(\d+)", text))])
+    for minor, newest in GLIBCXX_OF_GLIBC:
+        if newest >= glibcxx:
+            return f"manylinux_2_{max(minor, glibc)}_{platform.machine()}"
+    return f"linux_{platform.machine()}"
+
+
+def licences(libraries):
+    """The copyright notices of the Debian packages that the libraries come from: file name -> text. Elsewhere: none is found."""
+    found = {}
+    for path in libraries.values():
+        for name in (path, path.replace("/usr/lib/", "/lib/", 1)):
+            owner = subprocess.run(["dpkg", "-S", name], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False) \
+                if shutil.which("dpkg") else None  # fmt: skip
+            if owner is not None and owner.returncode == 0:
+                package = owner.stdout.decode().partition(":")[0]
+                notice = f"/usr/share/doc/{package}/copyright"
+                if os.path.exists(notice):
+                    with open(notice, "rb") as file:
+                        found[package + ".txt"] = file.read()
+                break
+    return found
+
+
+# ---- the wheel ----------------------------------------------------------------------------------------------------------
+
+
+def make(library, folder):
+    """Writes the wheel into the folder and returns its name."""
+    files = {}
+    package = os.path.join(HERE, "halflit")
+    for name in sorted(os.listdir(package)):
+        if name.endswith((".py", ".pyi", ".typed")):
+            with open(os.path.join(package, name), "rb") as file:
+                files["halflit/" + name] = file.read()
+    with tempfile.TemporaryDirectory() as scratch:
+        paths, libraries = bundle(library, scratch)
+        tag = "py3-none-" + platform_tag(paths)
+        for path in paths:
+            with open(path, "rb") as file:
+                files["halflit/lib/" + os.path.basename(path)] = file.read()
+    info = f"halflit-{version()}.dist-info/"
+    for name, text in licences(libraries).items():
+        files[f"{info}licenses/bundled/{name}"] = text
+    with open(os.path.join(ROOT, "LICENSE"), "rb") as file:
+        files[info + "licenses/LICENSE"] = file.read()
+    files[info + "METADATA"] = metadata().encode()
+    files[info + "WHEEL"] = f"Wheel-Version: 1.0\nGenerator: halflit\nRoot-Is-Purelib: false\nTag: {tag}\n".encode()
+    name = f"halflit-{version()}-{tag}.whl"
+    record = []
+    os.makedirs(folder, exist_ok=True)
+    with zipfile.ZipFile(os.path.join(folder, name), "w", zipfile.ZIP_DEFLATED) as archive:
+        for path, data in files.items():
+            digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
+            record.append(f"{path},sha256={digest},{len(data)}\n")
+            write(archive, path, data)
+        write(archive, info + "RECORD", ("".join(record) + f"{info}RECORD,,\n").encode())
+    return name
+
+
+def write(archive, path, data):
+    """Adds a file with a fixed date, so that equal contents make equal wheels."""
+    entry = zipfile.ZipInfo(path, (1980, 1, 1, 0, 0, 0))
+    entry.external_attr = (0o100755 if ".so" in path else 0o100644) << 16
+    entry.compress_type = zipfile.ZIP_DEFLATED
+    archive.writestr(entry, data)
+
+
+# ---- PEP 517 ------------------------------------------------------------------------------------------------------------
+
+
+def built_library():
+    folder = os.path.join(ROOT, "build", "release")
+    for command in (["cmake", "--preset", "release"], ["cmake", "--build", folder, "--target", "halflit_python"]):
+        subprocess.run(command, cwd=ROOT, check=True)
+    return os.path.join(folder, "python", "libhalflit_python.so")
+
+
+def get_requires_for_build_wheel(config_settings=None):
+    return []
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    library = (config_settings or {}).get("library")
+    return make(os.path.abspath(library) if library else built_library(), wheel_directory)
+
+
+def build_sdist(sdist_directory, config_settings=None):
+    raise NotImplementedError("halflit's source is its repository; the Python package is made as a wheel alone")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    print(make(sys.argv[1], sys.argv[2]))

@@ -1,0 +1,171 @@
+"""The C interface through ctypes: structs, constants, functions and handles.
+
+The library is loaded at the first call, not at import. ctypes releases the interpreter's lock (GIL) during each call, so threads draw
+side by side.
+"""
+from __future__ import annotations
+
+import ctypes
+import os
+import re
+import threading
+
+from ._declarations import CONSTANTS, FUNCTIONS, STRUCTS
+from ._errors import BY_CODE, Error
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
+
+VERSION = "0.1.0"  #: of the package, and of the library that it needs
+
+_NUMBERS = {
+    "int32_t": ctypes.c_int32,
+    "uint32_t": ctypes.c_uint32,
+    "uint64_t": ctypes.c_uint64,
+    "size_t": ctypes.c_size_t,
+    "float": ctypes.c_float,
+    "double": ctypes.c_double,
+    "char": ctypes.c_char,
+}
+# The functions of halflit_execution that Python may give.
+Progress = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_double)
+Cancelled = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p)
+_CALLBACKS = {"progress": Progress, "cancelled": Cancelled}
+
+
+class Struct(ctypes.Structure):
+    """A struct of halflit.h whose first member is its size."""
+
+
+def _groups(pattern: str, text: str) -> Any:
+    found = re.match(pattern, text)
+    if found is None:
+        raise ValueError(f"not a declaration: {text}")
+    return found.groups()
+
+
+def _members(text: str, structs: dict) -> list:
+    """The ctypes fields for a struct's members, written in C."""
+    fields: list = []
+    for declaration in " ".join(text.split()).strip("; ").split("; "):
+        callback = re.match(r"\w+ \(\*(\w+)\)", declaration)
+        if callback:
+            name = callback.group(1)
+            fields.append((name, _CALLBACKS.get(name, ctypes.c_void_p)))
+            continue
+        kind, names = _groups(r"((?:const )?\w+(?: ?\*(?: ?const\*)?)*) ?([^*]+)$", declaration)
+        if kind == "const char*":
+            kind = ctypes.c_char_p
+        elif "*" in kind:
+            kind = ctypes.c_void_p
+        else:
+            kind = _NUMBERS.get(kind) or structs[kind]
+        for name in names.split(","):
+            name, _, count = name.strip(" ]").partition("[")
+            fields.append((name, kind * int(count) if count else kind))
+    return fields
+
+
+STRUCT: dict = {}
+for _name, _text in STRUCTS.items():
+    STRUCT[_name] = type(_name, (Struct,), {"_fields_": _members(_text, STRUCT)})
+
+
+def choices(prefix: str) -> dict:
+    """Names of an enumeration, such as {"opaque": 0, "mask": 1}, for HALFLIT_<prefix>_OPAQUE and so on."""
+    start = f"HALFLIT_{prefix}_"
+    return {name[len(start) :].lower(): value for name, value in CONSTANTS.items() if name.startswith(start)}
+
+
+def make(name: str, initialised: bool = True):
+    """A struct of halflit.h by its name without halflit_: its size is set, and its defaults if it has an init function."""
+    struct = STRUCT["halflit_" + name]()
+    if initialised:
+        call(name + "_init", ctypes.byref(struct), ctypes.sizeof(struct))
+    else:
+        struct.size = ctypes.sizeof(struct)
+    return struct
+
+
+# ---- the library --------------------------------------------------------------------------------------------------------
+
+_loaded = None
+_loading = threading.Lock()
+
+
+def _candidates() -> list:
+    """Where the library may be: the file that HALFLIT_LIBRARY names, or else the package's own, or else that of the system."""
+    if os.environ.get("HALFLIT_LIBRARY"):
+        return [os.environ["HALFLIT_LIBRARY"]]
+    own = os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib", "libhalflit_python.so")
+    return [own] if os.path.exists(own) else ["libhalflit_c.so." + VERSION.rpartition(".")[0]]
+
+
+def _load():
+    global _loaded
+    with _loading:
+        if _loaded is not None:
+            return _loaded
+        path = _candidates()[0]
+        try:
+            library = ctypes.CDLL(path)
+        except OSError as error:
+            raise ImportError(f"halflit: cannot load its library: {error}; HALFLIT_LIBRARY may name another file") from None
+        for declaration in FUNCTIONS.strip().splitlines():
+            result, name, arguments = _groups(r"(.*?)(\w+)\((.*)\);", declaration)
+            try:
+                function = getattr(library, name)
+            except AttributeError:
+                raise ImportError(f"halflit: {path} has no {name}: it is another version than this package, {VERSION}") from None
+            function.restype = {"void": None, "const char*": ctypes.c_char_p}.get(result.strip()) or _NUMBERS.get(result.strip())
+            function.argtypes = [] if arguments == "void" else [_argument(text) for text in arguments.split(", ")]
+        version = library.halflit_version().decode()
+        if version.split(".")[:2] != VERSION.split(".")[:2]:
+            raise ImportError(f"halflit: {path} is version {version}, expected {VERSION}")
+        _loaded = library
+        return library
+
+
+def _argument(text: str):
+    if text.startswith("const char* "):
+        return ctypes.c_char_p
+    if "*" in text or "[" in text:
+        return ctypes.c_void_p
+    return _NUMBERS[text.split()[0]]
+
+
+def function(name: str):
+    """A function of halflit.h by its name without halflit_."""
+    return getattr(_loaded or _load(), "halflit_" + name)
+
+
+def call(name: str, *arguments) -> None:
+    """Calls a function that returns a code, and raises what it tells."""
+    code = function(name)(*arguments)
+    if code:
+        raise BY_CODE.get(code, Error)(function("last_error")().decode("utf-8", "replace"))
+
+
+class Handle:
+    """A scene or a renderer of the library, destroyed when nobody refers to it any more: a frame in another thread does."""
+
+    def __init__(self, create: str, destroy: str, *arguments):
+        self._destroy = None
+        pointer = ctypes.c_void_p()
+        call(create, *arguments, ctypes.byref(pointer))
+        self._as_parameter_ = pointer
+        self._destroy = function(destroy)
+
+    def __del__(self):
+        if self._destroy is not None:
+            self._destroy(self._as_parameter_)
+
+
+def text_of(value) -> str:
+    return (value or b"").decode("utf-8", "replace")
+
+
+def bytes_of(value) -> bytes | None:
+    """A text, or a path, as the library takes it."""
+    return None if value is None else os.fsencode(value)

@@ -1,0 +1,208 @@
+"""Structs, constants and functions of halflit.h. Made by declarations.py."""
+# fmt: off
+STRUCTS = {
+    "halflit_load_options": """
+        size_t size; const char* const* allow_external; size_t allow_external_count; uint64_t max_file_bytes; uint64_t
+        max_total_bytes; uint64_t max_json_tokens; uint64_t max_texture_bytes; uint64_t max_texture_pixels; uint64_t
+        max_geometry_bytes; uint64_t max_lights; int32_t max_json_depth; int32_t max_texture_side; int32_t max_jpeg_scans; int32_t
+        lenient; int32_t threads; int32_t keep_animations; const char* animation; double time_s; int32_t turn_upright; float
+        crease_deg; const char* scene; const char* variant; int32_t recentre; int32_t reserved;
+""",
+    "halflit_counts": """
+        size_t size; uint64_t triangles; int32_t meshes, instances, materials, textures, cameras; int32_t lights; int32_t
+        warnings; int32_t animations;
+""",
+    "halflit_animation": """
+        size_t size; const char* name; double end_s; uint64_t channels;
+""",
+    "halflit_texture_use": """
+        int32_t texture; int32_t uv_set; int32_t wrap_u, wrap_v; int32_t mag_filter, min_filter; int32_t mip_filter; float
+        row_u[3], row_v[3];
+""",
+    "halflit_lobe": """
+        float wrap; float power; int32_t normalize;
+""",
+    "halflit_material": """
+        size_t size; const char* name; float base_color[4]; float metallic, roughness; float emissive[3]; float normal_scale;
+        float occlusion_strength; float alpha_cutoff; int32_t alpha_mode; int32_t double_sided; int32_t unlit; int32_t own_lobe;
+        halflit_lobe lobe; halflit_texture_use base_color_texture; halflit_texture_use metallic_roughness_texture;
+        halflit_texture_use normal_texture; halflit_texture_use occlusion_texture; halflit_texture_use emissive_texture; float
+        dielectric_reflectance; float transmission; float thickness; float attenuation_distance; float attenuation_color[3];
+        halflit_texture_use transmission_texture; halflit_texture_use thickness_texture; float specular; float specular_color[3];
+        halflit_texture_use specular_texture; halflit_texture_use specular_color_texture; int32_t shadow_catcher; float clearcoat;
+        float clearcoat_roughness; float clearcoat_normal_scale; halflit_texture_use clearcoat_texture; halflit_texture_use
+        clearcoat_roughness_texture; halflit_texture_use clearcoat_normal_texture; float sheen_color[3]; float sheen_roughness;
+        halflit_texture_use sheen_color_texture; halflit_texture_use sheen_roughness_texture;
+""",
+    "halflit_mesh": """
+        size_t size; const char* name; const float* positions; const float* normals; const float* tangents; const float* uv0;
+        const float* uv1; const float* colors; const uint32_t* indices; size_t vertex_count; size_t index_count; int32_t material;
+        int32_t topology;
+""",
+    "halflit_camera": """
+        size_t size; const char* name; float world_from_camera[16]; int32_t orthographic; float fov_y_rad; float aspect; float
+        half_height, half_width; float near_z; float far_z; int32_t reserved;
+""",
+    "halflit_light": """
+        size_t size; int32_t type; float color[3]; float position[3]; float direction[3]; float range; float source_radius; float
+        inner_cone_rad, outer_cone_rad; float cone_power; float shadow_radius;
+""",
+    "halflit_environment_options": """
+        size_t size; double rotate_rad; int32_t extract_suns; int32_t keep_image; int32_t calibrated; int32_t reserved;
+""",
+    "halflit_region": """
+        int32_t x, y; int32_t width, height;
+""",
+    "halflit_settings": """
+        size_t size; double max_error_codes; double environment_tolerance; uint64_t shadow_memory_limit; halflit_region region;
+        int32_t samples; float background[4]; int32_t background_environment; float exposure; int32_t accuracy; int32_t
+        shading_rate; int32_t texture_detail; int32_t specular; int32_t normalize_specular; int32_t environment_bands; int32_t
+        override_lobe; halflit_lobe lobe; int32_t shadows; int32_t shadow_size; float shadow_fade; int32_t
+        shadow_terminator_offset; int32_t tone_curve; int32_t sky_shadows; int32_t anisotropy; int32_t soft_shadow_maps; int32_t
+        reserved; float point_size; float line_width;
+""",
+    "halflit_setup_options": """
+        size_t size; const halflit_camera* camera; double studio_turn_rad; int32_t frame; float azimuth_deg; float elevation_deg;
+        float zoom; float fov_y_deg; int32_t own_ambient; float ambient_color[3]; float exposure; int32_t add_lights; int32_t
+        studio;
+""",
+    "halflit_execution": """
+        size_t size; const char* isa; void* user; int32_t (*cancelled)(void* user); void (*on_tile)(void* user, int32_t x, int32_t
+        y, int32_t width, int32_t height); void (*progress)(void* user, double share); void (*parallel_for)(void* user, int32_t
+        count, void (*body)(void* task, int32_t i), void* task); int32_t threads; int32_t tile_size; double time_limit_s; size_t
+        memory_limit;
+""",
+    "halflit_target": """
+        size_t size; void* pixels; size_t row_bytes; float* depth; size_t depth_row_bytes; float* normal; size_t normal_row_bytes;
+        uint32_t* instance; size_t instance_row_bytes; uint32_t* triangle; size_t triangle_row_bytes; int32_t width, height;
+        int32_t format; int32_t region_alone; float* shading_normal; size_t shading_normal_row_bytes; float* albedo; size_t
+        albedo_row_bytes; float* position; size_t position_row_bytes; uint32_t* lights; size_t lights_row_bytes; float* coverage;
+        size_t coverage_row_bytes;
+""",
+    "halflit_report": """
+        size_t size; double total_ms; double prepare_ms; double plan_ms; double shadows_ms; double cull_ms, transform_ms, bin_ms;
+        double tiles_ms; double error_budget; double error_codes; uint64_t triangles_submitted; uint64_t triangles_drawn; uint64_t
+        triangles_not_finite; uint64_t pixels_visible; uint64_t fragments_shaded; uint64_t nan_pixels; char isa[16]; int32_t
+        error_within; int32_t threads; int32_t warnings; int32_t reserved;
+""",
+}
+CONSTANTS = {
+    "HALFLIT_OK": 0,
+    "HALFLIT_ERROR_USAGE": 2,
+    "HALFLIT_ERROR_BAD_INPUT": 3,
+    "HALFLIT_ERROR_IO": 4,
+    "HALFLIT_ERROR_LIMIT": 5,
+    "HALFLIT_ERROR_INTERNAL": 6,
+    "HALFLIT_ERROR_CANCELLED": 7,
+    "HALFLIT_COLOR_SRGB": 0,
+    "HALFLIT_COLOR_LINEAR": 1,
+    "HALFLIT_COLOR_SRGB_BY_ALPHA": 2,
+    "HALFLIT_COLOR_NORMAL": 3,
+    "HALFLIT_ALPHA_OPAQUE": 0,
+    "HALFLIT_ALPHA_MASK": 1,
+    "HALFLIT_ALPHA_BLEND": 2,
+    "HALFLIT_WRAP_REPEAT": 0,
+    "HALFLIT_WRAP_MIRROR": 1,
+    "HALFLIT_WRAP_CLAMP": 2,
+    "HALFLIT_FILTER_NEAREST": 0,
+    "HALFLIT_FILTER_LINEAR": 1,
+    "HALFLIT_MIP_NONE": 0,
+    "HALFLIT_MIP_NEAREST": 1,
+    "HALFLIT_MIP_LINEAR": 2,
+    "HALFLIT_TOPOLOGY_TRIANGLES": 0,
+    "HALFLIT_TOPOLOGY_LINES": 1,
+    "HALFLIT_TOPOLOGY_POINTS": 2,
+    "HALFLIT_LIGHT_DIRECTIONAL": 0,
+    "HALFLIT_LIGHT_POINT": 1,
+    "HALFLIT_LIGHT_SPOT": 2,
+    "HALFLIT_ACCURACY_REFERENCE": 0,
+    "HALFLIT_ACCURACY_EXACT": 1,
+    "HALFLIT_RATE_FLAT": 0,
+    "HALFLIT_RATE_GOURAUD": 1,
+    "HALFLIT_RATE_PIXEL": 2,
+    "HALFLIT_DETAIL_FULL": 0,
+    "HALFLIT_DETAIL_BILINEAR": 1,
+    "HALFLIT_DETAIL_NEAREST": 2,
+    "HALFLIT_SPECULAR_NONE": 0,
+    "HALFLIT_SPECULAR_PHONG": 1,
+    "HALFLIT_SPECULAR_BLINN": 2,
+    "HALFLIT_SPECULAR_GGX": 3,
+    "HALFLIT_SHADOWS_OFF": 0,
+    "HALFLIT_SHADOWS_HARD": 1,
+    "HALFLIT_SHADOWS_SOFT_SPLIT": 2,
+    "HALFLIT_TONE_NONE": 0,
+    "HALFLIT_TONE_REINHARD": 1,
+    "HALFLIT_TONE_ACES": 2,
+    "HALFLIT_TONE_NEUTRAL": 3,
+    "HALFLIT_STUDIO_FOR_DARK": 0,
+    "HALFLIT_STUDIO_ALWAYS": 1,
+    "HALFLIT_STUDIO_NEVER": 2,
+    "HALFLIT_STUDIO_UNDER_LIGHTS": 3,
+    "HALFLIT_FORMAT_RGBA8": 0,
+    "HALFLIT_FORMAT_BGRA8": 1,
+    "HALFLIT_FORMAT_RGBA8_PREMULTIPLIED": 2,
+    "HALFLIT_FORMAT_BGRA8_PREMULTIPLIED": 3,
+    "HALFLIT_FORMAT_RGBA_F32": 4,
+    "HALFLIT_FORMAT_RGBA_F32_PREMULTIPLIED": 5,
+}
+FUNCTIONS = """
+const char* halflit_version(void);
+int32_t halflit_pixel_epoch(void);
+const char* halflit_last_error(void);
+int32_t halflit_load_options_init(halflit_load_options* options, size_t size);
+int32_t halflit_scene_create(halflit_scene** scene);
+int32_t halflit_scene_load(const char* path, const halflit_load_options* options, halflit_scene** scene);
+int32_t halflit_scene_load_memory(const void* bytes, size_t count, const char* name, const char* base_dir, const halflit_load_options* options, halflit_scene** scene);
+int32_t halflit_scene_create_demo(halflit_scene** scene);
+void halflit_scene_destroy(halflit_scene* scene);
+int32_t halflit_scene_get_counts(const halflit_scene* scene, halflit_counts* counts);
+int32_t halflit_scene_get_warning(const halflit_scene* scene, int32_t index, const char** text);
+int32_t halflit_scene_get_animation(const halflit_scene* scene, int32_t index, halflit_animation* animation);
+int32_t halflit_scene_pose(halflit_scene* scene, const char* animation, double time_s);
+int32_t halflit_scene_get_placement(const halflit_scene* scene, double origin[3], double* scale);
+int32_t halflit_scene_get_bounds(const halflit_scene* scene, float min[3], float max[3]);
+int32_t halflit_scene_add_texture(halflit_scene* scene, const uint8_t* rgba8, int32_t width, int32_t height, size_t row_bytes, int32_t color, int32_t* index);
+int32_t halflit_scene_set_texture(halflit_scene* scene, int32_t index, const uint8_t* rgba8, int32_t width, int32_t height, size_t row_bytes, int32_t color);
+int32_t halflit_lobe_by_name(const char* name, float wrap, halflit_lobe* lobe);
+int32_t halflit_material_init(halflit_material* material, size_t size);
+int32_t halflit_scene_add_material(halflit_scene* scene, const halflit_material* material, int32_t* index);
+int32_t halflit_scene_get_material(const halflit_scene* scene, int32_t index, halflit_material* material);
+int32_t halflit_scene_set_material(halflit_scene* scene, int32_t index, const halflit_material* material);
+int32_t halflit_mesh_init(halflit_mesh* mesh, size_t size);
+int32_t halflit_scene_add_mesh(halflit_scene* scene, const halflit_mesh* mesh, int32_t* index);
+int32_t halflit_scene_set_mesh(halflit_scene* scene, int32_t index, const halflit_mesh* mesh);
+int32_t halflit_scene_set_vertices(halflit_scene* scene, int32_t index, const float* positions, const float* normals, size_t vertex_count);
+int32_t halflit_scene_add_instance(halflit_scene* scene, int32_t mesh, const float world_from_object[16], int32_t* index);
+int32_t halflit_scene_get_instance(const halflit_scene* scene, int32_t index, int32_t* mesh, float world_from_object[16]);
+int32_t halflit_scene_set_instance(halflit_scene* scene, int32_t index, const float world_from_object[16]);
+int32_t halflit_camera_init(halflit_camera* camera, size_t size);
+int32_t halflit_camera_look_at(const float eye[3], const float target[3], const float up[3], halflit_camera* camera);
+int32_t halflit_camera_frame(const halflit_scene* scene, float aspect, float azimuth_deg, float elevation_deg, float zoom, halflit_camera* camera);
+int32_t halflit_scene_get_camera(const halflit_scene* scene, int32_t index, halflit_camera* camera);
+int32_t halflit_light_init(halflit_light* light, size_t size);
+int32_t halflit_scene_add_light(halflit_scene* scene, const halflit_light* light, int32_t* index);
+int32_t halflit_scene_get_light(const halflit_scene* scene, int32_t index, halflit_light* light);
+int32_t halflit_scene_set_light(halflit_scene* scene, int32_t index, const halflit_light* light);
+int32_t halflit_scene_set_ambient(halflit_scene* scene, const float sky[3], const float ground[3]);
+int32_t halflit_scene_add_default_lights(halflit_scene* scene, const halflit_camera* camera);
+int32_t halflit_scene_add_studio(halflit_scene* scene, const halflit_camera* camera);
+int32_t halflit_scene_add_ground(halflit_scene* scene, int32_t* instance);
+int32_t halflit_scene_clear_lights(halflit_scene* scene);
+int32_t halflit_environment_options_init(halflit_environment_options* options, size_t size);
+int32_t halflit_scene_set_environment(halflit_scene* scene, const float* rgb, int32_t width, int32_t height, const halflit_environment_options* options);
+int32_t halflit_scene_load_environment(halflit_scene* scene, const char* path, const halflit_environment_options* options);
+int32_t halflit_scene_set_sky(halflit_scene* scene, const halflit_environment_options* options);
+int32_t halflit_settings_init(halflit_settings* settings, size_t size);
+int32_t halflit_auto_setup(halflit_scene* scene, int32_t width, int32_t height, halflit_camera* camera, halflit_settings* settings);
+int32_t halflit_setup_options_init(halflit_setup_options* options, size_t size);
+int32_t halflit_setup(halflit_scene* scene, int32_t width, int32_t height, const halflit_setup_options* options, halflit_camera* camera, halflit_settings* settings);
+int32_t halflit_execution_init(halflit_execution* execution, size_t size);
+int32_t halflit_renderer_create(const halflit_execution* execution, halflit_renderer** renderer);
+int32_t halflit_renderer_set_execution(halflit_renderer* renderer, const halflit_execution* execution);
+void halflit_renderer_destroy(halflit_renderer* renderer);
+int32_t halflit_target_init(halflit_target* target, size_t size);
+int32_t halflit_render(halflit_renderer* renderer, const halflit_scene* scene, const halflit_camera* camera, const halflit_settings* settings, const halflit_target* target, halflit_report* report);
+int32_t halflit_renderer_get_warning(const halflit_renderer* renderer, int32_t index, const char** text);
+uint64_t halflit_pixel_hash(const void* bytes, size_t count);
+int32_t halflit_write_image(const char* path, const halflit_target* target);
+"""

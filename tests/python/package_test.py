@@ -1,0 +1,143 @@
+"""The package as a whole: it agrees with halflit.h, imports quickly, and says what each part is."""
+import ast
+import ctypes
+import importlib.util
+import inspect
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+import unittest.mock
+
+import numpy as np
+
+import halflit
+from halflit import _c, _declarations, _options
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+APPS = os.path.join(ROOT, "apps")
+
+
+def text_of(*path):
+    with open(os.path.join(ROOT, *path), encoding="utf-8") as file:
+        return file.read()
+
+
+class Header(unittest.TestCase):
+    def test_declarations_are_those_of_the_header(self):
+        spec = importlib.util.spec_from_file_location("declarations", os.path.join(APPS, "python", "declarations.py"))
+        module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+        made = module.declarations(text_of("apps", "c", "include", "halflit", "halflit.h"))
+        stored = text_of("apps", "python", "halflit", "_declarations.py")
+        command = "apps/python/declarations.py apps/c/include/halflit/halflit.h apps/python/halflit/_declarations.py"
+        self.assertTrue(made == stored, "run: " + command)
+
+    def test_structs_have_the_sizes_of_the_library(self):
+        # A struct of any other size would be refused, or its last member would not be set.
+        sizes = {name: ctypes.sizeof(struct) for name, struct in _c.STRUCT.items()}
+        self.assertEqual(len(sizes), len(_declarations.STRUCTS))
+        for name, struct in _c.STRUCT.items():
+            if name + "_init" not in _declarations.FUNCTIONS:
+                continue
+            longer = (ctypes.c_char * (sizes[name] + 64))(*b"\xff" * (sizes[name] + 64))
+            _c.call(name[len("halflit_") :] + "_init", longer, len(longer))
+            self.assertEqual(longer.raw[sizes[name] :], b"\0" * 64, name)  # the library fills what it does not know with 0
+        self.assertAlmostEqual(_c.make("settings").line_width, 1.5)  # the last members
+        self.assertEqual(_c.make("material").sheen_roughness_texture.texture, -1)
+        self.assertEqual(_c.make("environment_options").keep_image, 1)
+
+    def test_keywords_are_typed(self):
+        # PictureOptions is for type checkers; its keys are those that render() knows.
+        source = ast.parse(text_of("apps", "python", "halflit", "_options.py"))
+        keys = [node for node in ast.walk(source) if isinstance(node, ast.ClassDef) and node.name == "PictureOptions"][0]
+        self.assertEqual({item.target.id for item in keys.body if isinstance(item, ast.AnnAssign)}, set(_options.KNOWN))
+        members = {_options._NAMES.get(name, name) for name in _options.SETTINGS}
+        chosen = {"size", "reserved", "region", "exposure", "override_lobe", "background_environment"}
+        self.assertEqual(members, {name for name, _ in _c.STRUCT["halflit_settings"]._fields_} - chosen)
+        for kind in (halflit.Material, halflit.Light, halflit.Camera, halflit.Lobe, halflit.TextureUse):
+            self.assertEqual(set(kind._members()) - {"matrix", "world_from_camera"}, set(kind.__annotations__), kind)
+
+    def test_version(self):
+        self.assertEqual(halflit.version(), halflit.__version__)
+        self.assertIn(f"project(halflit VERSION {halflit.__version__} ", text_of("CMakeLists.txt"))
+        self.assertGreaterEqual(halflit.pixel_epoch(), 1)
+
+
+class Import(unittest.TestCase):
+    def test_import_takes_less_than_50_ms(self):
+        # Neither numpy nor the library is loaded. The least of ten runs: others may have been disturbed.
+        code = (
+            "import time; start = time.perf_counter(); import halflit; took = time.perf_counter() - start\n"
+            "import sys; assert 'numpy' not in sys.modules; print(took * 1000)"
+        )
+        environment = {**os.environ, "PYTHONPATH": os.path.join(APPS, "python")}
+        environment.pop("PYTHONDONTWRITEBYTECODE", None)
+        environment["PYTHONPYCACHEPREFIX"] = os.path.join(os.environ.get("TMPDIR", "/tmp"), f"halflit_pycache_{os.getuid()}")
+        times = [float(subprocess.check_output([sys.executable, "-c", code], env=environment)) for _ in range(10)]
+        print(f"import halflit: {min(times):.1f} ms", file=sys.stderr)
+        self.assertLess(min(times), 50)
+
+    def test_a_library_that_is_not_there_is_named(self):
+        code = "import halflit\ntry: halflit.version()\nexcept ImportError as error: print(error)"
+        environment = {**os.environ, "PYTHONPATH": os.path.join(APPS, "python"), "HALFLIT_LIBRARY": "/nowhere/lib.so"}
+        said = subprocess.check_output([sys.executable, "-c", code], env=environment).decode()
+        self.assertIn("/nowhere/lib.so", said)
+        self.assertIn("HALFLIT_LIBRARY", said)
+
+
+class Documentation(unittest.TestCase):
+    def test_every_public_name_has_a_docstring_and_types(self):
+        checked = 0
+        for name in halflit.__all__:
+            value = getattr(halflit, name)
+            if name == "AOVS":
+                continue
+            self.assertTrue(value.__doc__, name)
+            functions = [value] if inspect.isfunction(value) else []
+            if inspect.isclass(value):
+                public = [member for name, member in vars(value).items() if not name.startswith("_")]
+                functions = [f for f in public if inspect.isfunction(f) or isinstance(f, (property, classmethod))]
+            for function in functions:
+                function = getattr(function, "fget", None) or getattr(function, "__func__", function)
+                self.assertTrue(function.__doc__ or function.__name__ == "close", f"{name}.{function.__name__}")
+                if function.__name__ not in ("setter",) and not isinstance(function, property):
+                    self.assertIn("return", function.__annotations__, f"{name}.{function.__name__} has no type")
+                checked += 1
+        self.assertGreater(checked, 40)
+        self.assertTrue(os.path.exists(os.path.join(APPS, "python", "halflit", "py.typed")))
+
+    @unittest.skipUnless(shutil.which("mypy"), "no mypy")
+    def test_types_hold_and_catch_a_misspelled_keyword(self):
+        with tempfile.TemporaryDirectory() as folder:
+            user = os.path.join(folder, "user.py")
+            with open(user, "w", encoding="utf-8") as file:
+                file.write('import halflit\npicture: halflit.Picture = halflit.render("demo", (8, 8), samples=8)\n')
+                file.write('halflit.render("x", sampels=3)\n')
+            command = ["mypy", "--enable-incomplete-feature=Unpack", "--python-executable", sys.executable, "--cache-dir", folder, user]
+            environment = {**os.environ, "MYPYPATH": os.path.join(APPS, "python")}
+            said = subprocess.run(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False).stdout.decode()
+        errors = [line for line in said.splitlines() if ": error:" in line]
+        self.assertEqual(len(errors), 1, said)
+        self.assertIn('"sampels"', errors[0])
+
+    def test_the_readmes_program_draws(self):
+        for path in (("README.md",), ("apps", "python", "README.md")):
+            programs = re.findall(r"```python\n(.*?)```", text_of(*path), re.S)
+            self.assertTrue(programs, path)
+            for program in programs:
+                saved = []
+                scope = {"__name__": "readme"}
+                with unittest.mock.patch.object(halflit.Picture, "save", lambda self, name: saved.append((name, self))):
+                    exec(program, scope)  # noqa: S102
+                self.assertLessEqual(len(program.strip().splitlines()), 45)
+                for name, picture in saved:
+                    self.assertGreater(len(np.unique(np.asarray(picture).reshape(-1, 4), axis=0)), 50, name)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,167 @@
+"""Planes beside the picture, parts of it, the caller's memory, files and notebooks."""
+import io
+import os
+import tempfile
+import unittest
+import zlib
+
+import numpy as np
+
+import halflit
+from support import CORNERS, FACES, box
+
+
+def cube():
+    scene = halflit.Scene()
+    scene.add_mesh(CORNERS, FACES, material={"base_color": (0.5, 0.25, 1), "metallic": 0})
+    return scene
+
+
+#: Looks at the cube's front face, z = 1, from 4 units away.
+FRONT = halflit.Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_rad=0.3)
+
+
+class Planes(unittest.TestCase):
+    def test_values_of_a_face(self):
+        scene = cube()
+        picture = scene.render((20, 10), camera=FRONT, aovs="all", samples=4)
+        planes = picture.aovs
+        self.assertEqual(set(planes), set(halflit.AOVS))
+        inside = planes["id"] == 1
+        self.assertTrue(inside[5, 10] and planes["id"].dtype == np.uint32)
+        self.assertTrue(np.allclose(planes["depth"][inside], 4, atol=1e-5))
+        self.assertTrue(np.isinf(planes["depth"][~inside]).all())
+        for name in ("normal", "vertex_normal"):
+            self.assertTrue(np.allclose(planes[name][inside], (0, 0, 1), atol=1e-6))
+            self.assertTrue((planes[name][~inside] == 0).all())
+        self.assertTrue(np.allclose(planes["albedo"][inside], (0.5, 0.25, 1), atol=1e-6))
+        self.assertTrue(np.allclose(planes["position"][inside][:, 2], 1, atol=1e-5))
+        self.assertTrue(set(np.unique(planes["triangle"])) <= {0, 3, 4})
+        self.assertEqual(planes["coverage"][5, 10], 1)
+        self.assertTrue((planes["lights"][inside] >= 1).all())
+        self.assertEqual(picture.pixel_hash, cube().render((20, 10), camera=FRONT, samples=4).pixel_hash)
+        one = scene.render((20, 10), camera=FRONT, aovs="depth").aovs
+        self.assertEqual(list(one), ["depth"])
+        with self.assertRaisesRegex(halflit.UsageError, "aovs: expected names of depth, normal"):
+            scene.render(8, aovs=["depth", "speed"])
+
+    def test_planes_of_a_far_model_are_in_its_world(self):
+        far = halflit.render(box(translation=[1e6, 0, 0]), 40, aovs=["position", "depth", "id"])
+        near = halflit.render(box(), 40, aovs=["position", "depth", "id"])
+        inside = near.aovs["id"] == 1
+        self.assertTrue((far.aovs["id"] == near.aovs["id"]).all())
+        self.assertTrue(np.allclose(far.aovs["position"][inside] - (1e6, 0, 0), near.aovs["position"][inside], atol=0.07))  # 2^20 / 2^24
+        self.assertTrue(np.allclose(far.aovs["depth"][inside], near.aovs["depth"][inside], atol=1e-4))
+        tiny = halflit.render(box(scale=[1e-5] * 3), 40, aovs=["position", "depth", "id"])
+        self.assertTrue(np.allclose(tiny.aovs["depth"][inside] * 1e5, near.aovs["depth"][inside], rtol=1e-4))
+        self.assertTrue(np.allclose(tiny.aovs["position"][inside] * 1e5, near.aovs["position"][inside], atol=1e-3))
+
+    def test_planes_of_the_program(self):
+        # The numbers that `--aov id,coverage` writes.
+        try:
+            from PIL import Image
+        except ImportError:
+            self.skipTest("no PIL")
+        import subprocess
+
+        import support
+
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "x.png")
+            flags = ["--size", "80x60", "-o", path, "--aov", "id,coverage,lights", "--quiet"]
+            subprocess.run([support.PROGRAM, "render", "demo", *flags], check=True)
+            planes = halflit.render("demo", (80, 60), aovs=["id", "coverage", "lights"]).aovs
+            for name, scale in (("id", 1), ("lights", 1), ("coverage", 65535)):
+                stored = np.asarray(Image.open(os.path.join(folder, f"x.{name}.png"))).astype(np.int64)
+                self.assertEqual(stored.tolist(), np.floor(planes[name] * float(scale) + 0.5).astype(np.int64).tolist(), name)
+
+
+class Memory(unittest.TestCase):
+    def test_regions_are_parts(self):
+        whole = cube().render((60, 40), aovs=["depth"])
+        part = cube().render((60, 40), region=(10, 5, 30, 20), aovs=["depth"])
+        self.assertEqual(part.shape, (20, 30, 4))
+        self.assertTrue((part == whole[5:25, 10:40]).all())
+        self.assertTrue((part.aovs["depth"] == whole.aovs["depth"][5:25, 10:40]).all())
+        for region in ((50, 0, 20, 20), (0, 0, 0, 4), (-1, 0, 4, 4)):
+            with self.assertRaisesRegex(halflit.UsageError, "region"):
+                cube().render((60, 40), region=region)
+
+    def test_the_callers_memory(self):
+        expected = cube().render((60, 40))
+        canvas = np.full((50, 80, 4), 7, np.uint8)
+        drawn = cube().render((60, 40), out=canvas[5:45, 10:70])
+        self.assertTrue(np.shares_memory(drawn, canvas))
+        self.assertTrue((canvas[5:45, 10:70] == expected).all())
+        self.assertTrue((canvas[:5] == 7).all() and (canvas[:, :10] == 7).all() and (canvas[:, 70:] == 7).all())
+        for out in (canvas, canvas[::-1][:40, :60], np.zeros((40, 120, 4), np.uint8)[:, ::2], np.zeros((40, 60, 4), np.int16)):
+            with self.assertRaises(halflit.UsageError):
+                cube().render((60, 40), out=out)
+        locked = np.zeros((40, 60, 4), np.uint8)
+        locked.flags.writeable = False
+        with self.assertRaisesRegex(halflit.UsageError, "writeable"):
+            cube().render((60, 40), out=locked)
+
+    def test_floats_are_the_light_of_the_codes(self):
+        light = cube().render(40, dtype=np.float32, tone_curve="none", background="transparent")
+        codes = cube().render(40, tone_curve="none", background="transparent")
+        self.assertEqual((light.dtype, light.shape), (np.float32, (40, 40, 4)))
+        solid = codes[:, :, 3] == 255
+        clipped = np.clip(light[solid][:, :3].astype(float), 0, 1)
+        again = np.where(clipped <= 0.0031308, clipped * 12.92, 1.055 * clipped ** (1 / 2.4) - 0.055) * 255
+        self.assertLess(np.abs(again - codes[solid][:, :3]).max(), 0.51)  # half a code of rounding, and float32's
+        half = cube().render(40, background="transparent", premultiplied=True)
+        self.assertTrue((half[:, :, :3].max(axis=2) <= half[:, :, 3]).all())
+
+
+class Files(unittest.TestCase):
+    def test_notebooks_show_the_pixels(self):
+        picture = cube().render((31, 17), background="transparent")
+        data = picture._repr_png_()
+        self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
+        try:
+            from PIL import Image
+        except ImportError:
+            self.skipTest("no PIL")
+        self.assertEqual(np.asarray(Image.open(io.BytesIO(data))).tolist(), picture.tolist())
+        self.assertEqual(np.asarray(Image.open(io.BytesIO(picture[::2, :9]._repr_png_()))).tolist(), picture[::2, :9].tolist())
+        self.assertEqual(np.asarray(Image.open(io.BytesIO(picture[:, :, :3].to_png()))).tolist(), picture[:, :, :3].tolist())
+        light = cube().render((31, 17), dtype=np.float32, background="transparent")
+        shown = np.asarray(Image.open(io.BytesIO(light._repr_png_()))).astype(int)
+        codes = cube().render((31, 17), tone_curve="none", background="transparent")
+        self.assertLess(np.abs(shown - codes).max(), 2)  # one code by rounding
+        self.assertIsNone(picture[0]._repr_png_())
+        self.assertIsNone((picture / 2)._repr_png_())
+        self.assertIsNotNone(cube()._repr_png_())
+
+    def test_files(self):
+        picture = cube().render((31, 17))
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("x.png", "x.bmp", "x.tga", "x.jpg"):
+                picture.save(os.path.join(folder, name))
+                self.assertGreater(os.path.getsize(os.path.join(folder, name)), 100)
+            with open(os.path.join(folder, "x.png"), "rb") as file:
+                self.assertEqual(file.read(8), b"\x89PNG\r\n\x1a\n")
+            light = cube().render((31, 17), dtype=np.float32)
+            for name in ("x.pfm", "x.hdr"):
+                light.save(os.path.join(folder, name))
+            with self.assertRaises(halflit.UsageError):
+                picture.save(os.path.join(folder, "x.hdr"))
+            with self.assertRaises(halflit.UsageError):
+                picture[0].save(os.path.join(folder, "x.png"))
+            with self.assertRaises(halflit.FileError):
+                picture.save(os.path.join(folder, "no", "x.png"))
+
+    def test_a_picture_is_an_array(self):
+        picture = cube().render(16)
+        self.assertIsInstance(picture, np.ndarray)
+        self.assertEqual(picture.mean(axis=2).shape, (16, 16))
+        self.assertEqual(zlib.crc32(picture.tobytes()), zlib.crc32(np.asarray(picture).tobytes()))
+        self.assertEqual(picture[2:5].report, {})
+        for name in ("total_ms", "triangles_drawn", "pixels_visible", "isa", "threads", "warnings"):
+            self.assertIn(name, picture.report)
+        self.assertEqual(picture.report["triangles_submitted"], 12)
+
+
+if __name__ == "__main__":
+    unittest.main()

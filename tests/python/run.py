@@ -1,0 +1,22 @@
+"""Runs one test file with the package of this tree.   run.py NAME_test.py
+
+Exits with 77, skipped, where numpy is absent or all its tests were skipped.
+"""
+import os
+import sys
+import unittest
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [HERE, os.path.join(os.path.dirname(os.path.dirname(HERE)), "apps", "python")]
+
+try:
+    import numpy  # noqa: F401
+except ImportError:
+    print("skipped: this Python has no numpy")
+    sys.exit(77)
+
+suite = unittest.defaultTestLoader.discover(HERE, pattern=sys.argv[1], top_level_dir=HERE)
+result = unittest.TextTestRunner(verbosity=2).run(suite)
+if result.wasSuccessful() and result.testsRun and len(result.skipped) == result.testsRun:
+    sys.exit(77)
+sys.exit(0 if result.wasSuccessful() and result.testsRun else 1)

@@ -1,0 +1,251 @@
+"""Scenes from numpy arrays: what is handed over, what is drawn, what is refused."""
+import unittest
+
+import numpy as np
+
+import halflit
+from support import CORNERS, FACES, TURN, box
+
+
+def render(scene, **keywords):
+    return scene.render((80, 60), **keywords)
+
+
+class Arrays(unittest.TestCase):
+    def test_the_same_from_every_type_of_array(self):
+        first = halflit.render((CORNERS, FACES), (80, 60))
+        self.assertEqual((first.shape, first.dtype), ((60, 80, 4), np.uint8))
+        for vertices, faces in (
+            (CORNERS.astype(np.float64), FACES.astype(np.int64)),
+            (CORNERS.tolist(), FACES.tolist()),
+            (np.asfortranarray(CORNERS), FACES.astype(np.int32)),
+            (CORNERS, FACES.ravel()),
+            (CORNERS[FACES.ravel()], None),
+        ):
+            self.assertEqual(halflit.render((vertices, faces), (80, 60)).pixel_hash, first.pixel_hash)
+
+    def test_float32_and_int32_are_not_copied(self):
+        from halflit import _arrays
+
+        for array in (CORNERS, CORNERS[2:6]):
+            self.assertIs(_arrays.floats(array, 3, "x").base, array.base)
+            self.assertEqual(_arrays.floats(array, 3, "x").ctypes.data, array.ctypes.data)
+        for kind in (np.uint32, np.int32):
+            faces = FACES.astype(kind)
+            self.assertEqual(_arrays.indices(faces, 3).ctypes.data, faces.ctypes.data)
+        texture = np.zeros((8, 16, 4), np.uint8)[:, :5]
+        self.assertEqual(_arrays.rgba8(texture).ctypes.data, texture.ctypes.data)
+
+    def test_large_arrays_are_read_and_may_be_freed(self):
+        scene = halflit.Scene()
+        for _ in range(3):
+            vertices = np.random.default_rng(1).random((300000, 3), np.float32)
+            mesh = scene.add_mesh(vertices)
+            del vertices
+        first = render(scene)
+        self.assertEqual(scene.counts["triangles"], 300000)
+        scene.set_vertices(mesh, np.random.default_rng(1).random((300000, 3), np.float32))
+        self.assertEqual(render(scene).pixel_hash, first.pixel_hash)
+
+    def test_normals(self):
+        flat, smooth, given = halflit.Scene(), halflit.Scene(), halflit.Scene()
+        flat.add_mesh(CORNERS, FACES)
+        smooth.add_mesh(CORNERS, FACES, normals="smooth")
+        given.add_mesh(CORNERS, FACES, normals=CORNERS)  # those of a ball
+        hashes = [render(scene).pixel_hash for scene in (flat, smooth, given)]
+        self.assertEqual(len(set(hashes)), 3)
+        # On a closed and symmetric body smooth normals are those of the ball, but for the weights of the faces.
+        normals = halflit._arrays.smooth_normals(CORNERS, FACES)
+        self.assertTrue(np.allclose(np.linalg.norm(normals, axis=1), 1, atol=1e-6))
+        self.assertGreater((normals * CORNERS).sum(axis=1).min() / 3**0.5, 0.94)  # 0.943: corners with 4, 1 and 1 triangles
+
+    def test_vertex_colours(self):
+        linear, codes, short = halflit.Scene(), halflit.Scene(), halflit.Scene()
+        colors = (np.arange(32).reshape(8, 4) * 8 % 256).astype(np.uint8)
+        colors[:, 3] = 255
+        as_light = np.where(colors / 255 <= 0.04045, colors / 255 / 12.92, ((colors / 255 + 0.055) / 1.055) ** 2.4)
+        as_light[:, 3] = 1
+        linear.add_mesh(CORNERS, FACES, colors=as_light)
+        codes.add_mesh(CORNERS, FACES, colors=colors)
+        short.add_mesh(CORNERS, FACES, colors=colors[:, :3])
+        hashes = {render(scene).pixel_hash for scene in (linear, codes, short)}
+        self.assertEqual(len(hashes), 1)
+        self.assertNotEqual(hashes, {halflit.render((CORNERS, FACES), (80, 60)).pixel_hash})
+
+    def test_texture_shows_its_texels(self):
+        # An unlit square that fills the view shows the texture's four colours in their places, without a tone curve bit for bit.
+        texture = np.array([[[255, 0, 0], [0, 255, 0]], [[0, 0, 255], [90, 120, 30]]], np.uint8)
+        square = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], np.float32)
+        uv = np.array([[0, 1], [1, 1], [1, 0], [0, 0]], np.float32)
+        camera = halflit.Camera(orthographic=True, half_height=1, near_z=0, far_z=10)
+        camera.matrix = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 5], [0, 0, 0, 1]]
+        scene = halflit.Scene()
+        index = scene.add_texture(texture)
+        use = halflit.TextureUse(index, mag_filter="nearest", min_filter="nearest", mip_filter="none", wrap_u="clamp", wrap_v="clamp")
+        scene.add_mesh(square, [[0, 1, 2], [0, 2, 3]], uv=uv, material={"base_color_texture": use, "unlit": True})
+        picture = scene.render(4, camera=camera, tone_curve="none", exposure=1)
+        self.assertEqual(picture[::3, ::3, :3].tolist(), texture.tolist())
+        scene.set_texture(index, texture[::-1])
+        self.assertEqual(scene.render(4, camera=camera, tone_curve="none", exposure=1)[::3, ::3, :3].tolist(), texture[::-1].tolist())
+
+    def test_points_and_lines(self):
+        for topology, faces in (("points", [0, 1, 2]), ("lines", [[0, 1], [2, 3]]), ("points", None)):
+            scene = halflit.Scene()
+            scene.add_mesh(CORNERS, faces, topology=topology, material={"unlit": True})
+            picture = render(scene, point_size=5, line_width=3)
+            self.assertGreater(picture.report["pixels_visible"], 10, topology)
+
+    def test_what_is_wrong_is_refused(self):
+        scene = halflit.Scene()
+        for arguments, words in (
+            ((CORNERS[:, :2], FACES), r"vertices: expected an array of shape \(n, 3\), found \(8, 2\)"),
+            ((CORNERS, FACES[:, :2]), r"faces: expected an array of shape \(n, 3\)"),
+            ((CORNERS, FACES.astype(float)), "faces: expected whole numbers"),
+            ((CORNERS, FACES.astype(int) - 1), "negative"),
+            ((CORNERS, FACES.astype(int) + 2**32), "above 2"),
+            ((CORNERS[:5], FACES), "index 7, but the number of vertices is 5"),
+            ((CORNERS, FACES.ravel()[:35]), "35 corners"),
+        ):
+            with self.assertRaisesRegex(ValueError, words):
+                scene.add_mesh(*arguments)
+        for keywords, words in (
+            ({"normals": CORNERS[:3]}, "normals: 3 rows"),
+            ({"normals": "soft"}, "normals: expected"),
+            ({"uv": CORNERS}, "uv0: expected"),
+            ({"colors": CORNERS[:, :2]}, "colors: expected"),
+            ({"material": 3}, "material"),
+            ({"material": {"shine": 3}}, "Material has no member shine"),
+            ({"topology": "quads"}, "topology: expected one of triangles"),
+        ):
+            with self.assertRaisesRegex(halflit.UsageError, words):
+                scene.add_mesh(CORNERS, FACES, **keywords)
+        with self.assertRaisesRegex(halflit.UsageError, "index 9|faces: vertex 9"):
+            scene.add_mesh(CORNERS, [[0, 1, 9]], normals="smooth")
+        with self.assertRaisesRegex(halflit.UsageError, "texture"):
+            scene.add_texture(np.zeros((4, 4, 4)))
+        self.assertEqual(scene.counts["meshes"], 0)
+
+
+class Parts(unittest.TestCase):
+    def test_instances_move(self):
+        scene, fresh = halflit.Scene(), halflit.Scene()
+        place = np.eye(4)
+        place[:3, 3] = 1, 2, 3
+        mesh = scene.add_mesh(CORNERS, FACES, name="cube")
+        scene.add_instance(mesh, place)
+        self.assertEqual(scene.counts["instances"], 2)
+        self.assertEqual(scene.bounds.tolist(), [[-1, -1, -1], [2, 3, 4]])
+        number, matrix = scene.instance(1)
+        self.assertEqual((number, matrix.tolist()), (mesh, place.tolist()))
+        before = render(scene)
+        scene.set_instance(0, place)
+        fresh.add_mesh(CORNERS, FACES, matrix=place)
+        fresh.add_instance(0, place)
+        self.assertNotEqual(render(scene).pixel_hash, before.pixel_hash)
+        self.assertEqual(render(scene).pixel_hash, render(fresh).pixel_hash)
+
+    def test_frames_of_one_scene_are_those_of_fresh_ones(self):
+        # Whatever was drawn before: other sizes, views and light.
+        scene = halflit.Scene()
+        scene.add_mesh(CORNERS, FACES)
+        for keywords in ({}, {"azimuth": 80}, {"studio": "never"}, {"ambient": (0.1, 0.2, 0.3)}, {"exposure": 2.0}, {}):
+            for size in (40, (60, 40)):
+                fresh = halflit.render((CORNERS, FACES), size, **keywords)
+                self.assertEqual(scene.render(size, **keywords).pixel_hash, fresh.pixel_hash, (keywords, size))
+
+    def test_materials_are_read_and_replaced(self):
+        scene = halflit.Scene()
+        paint = halflit.Material(name="paint", base_color=(1, 0.5, 0.25), metallic=0, lobe=("sloan", 0.5), alpha_mode="blend")
+        index = scene.add_material(paint)
+        self.assertEqual(scene.material(index), paint)
+        self.assertEqual((paint.base_color, paint.alpha_mode, paint.double_sided), ((1, 0.5, 0.25, 1), "blend", False))
+        self.assertEqual(repr(halflit.Material(metallic=0, roughness=0.5)), "Material(metallic=0.0, roughness=0.5)")
+        scene.add_mesh(CORNERS, FACES, material=index)
+        before = render(scene)
+        scene.set_material(index, roughness=0.1, lobe="half-lambert", alpha_mode="opaque", base_color=[0, 0, 1])
+        self.assertEqual(scene.material(index).name, "paint")
+        self.assertNotEqual(render(scene).pixel_hash, before.pixel_hash)
+        with self.assertRaisesRegex(halflit.UsageError, "material 5"):
+            scene.material(5)
+        with self.assertRaisesRegex(halflit.UsageError, "expected one of opaque, mask, blend"):
+            halflit.Material(alpha_mode="solid")
+        with self.assertRaisesRegex(halflit.UsageError, "base_color: expected 4 numbers"):
+            halflit.Material(base_color=(1, 2))
+
+    def test_setup_is_kept_while_things_move(self):
+        scene = halflit.Scene.load(box(more=TURN), keep_animations=True)
+        setup = scene.setup((80, 60))
+        frames = []
+        for i in range(4):
+            scene.pose(time=i / 2)
+            frames.append(scene.render(setup=setup))
+            again = halflit.Scene.load(box(more=TURN), time=i / 2)
+            self.assertEqual(frames[-1].pixel_hash, again.render((80, 60), camera=setup.camera, exposure=setup.exposure).pixel_hash)
+        self.assertEqual(len({frame.pixel_hash for frame in frames}), 4)
+        scene.render(30, azimuth=90)  # another setup in between
+        scene.pose(time=0)
+        self.assertEqual(scene.render(setup=setup).pixel_hash, frames[0].pixel_hash)
+        with self.assertRaisesRegex(halflit.UsageError, "setup: made for 80 x 60"):
+            scene.render(64, setup=setup)
+
+    def test_cameras(self):
+        scene = halflit.Scene()
+        scene.add_mesh(CORNERS, FACES)
+        framed = scene.frame(80 / 60, azimuth=10, zoom=1.2)
+        self.assertEqual(render(scene, camera=framed).pixel_hash, render(scene, azimuth=10, zoom=1.2).pixel_hash)
+        camera = halflit.Camera.look_at((3, 2, 5), (0, 0, 0), fov_y_rad=0.8, near_z=0.5, far_z=50)
+        view = np.linalg.inv(camera.matrix.astype(float))
+        t, aspect = 1 / np.tan(0.4), 80 / 60
+        perspective = [[t / aspect, 0, 0, 0], [0, t, 0, 0], [0, 0, -50.5 / 49.5, -50 / 49.5], [0, 0, -1, 0]]
+        other = halflit.Camera.from_matrices(view, perspective)
+        for name in ("fov_y_rad", "near_z", "far_z"):
+            self.assertAlmostEqual(getattr(other, name), getattr(camera, name), places=4)
+        self.assertTrue(np.allclose(other.matrix, camera.matrix, atol=1e-6))
+        difference = render(scene, camera=other).astype(int) - render(scene, camera=camera)
+        self.assertLess(abs(difference).mean(), 0.05)  # measured 0: the matrices differ in the last bit
+        flat = halflit.Camera.from_matrices(view, [[0.25, 0, 0, 0], [0, 0.5, 0, 0], [0, 0, -0.2, -1.2], [0, 0, 0, 1]])
+        self.assertEqual([flat.orthographic, flat.half_height, flat.half_width], [True, 2, 4])
+        self.assertAlmostEqual(flat.near_z, 1, places=5)
+        self.assertAlmostEqual(flat.far_z, 11, places=4)
+        by_matrix = render(scene, camera=camera.matrix)
+        self.assertEqual(by_matrix.camera.matrix.tolist(), camera.matrix.tolist())
+        with self.assertRaisesRegex(halflit.UsageError, "middle of the picture"):
+            halflit.Camera.from_matrices(view, [[1, 0, 0.2, 0], [0, 1, 0, 0], [0, 0, -1, -1], [0, 0, -1, 0]])
+        with self.assertRaisesRegex(halflit.UsageError, "cannot be combined with azimuth"):
+            render(scene, camera=camera, azimuth=3)
+        with self.assertRaisesRegex(halflit.UsageError, "index below 0"):
+            render(scene, camera=1)
+
+    def test_errors_tell_what_is_wrong(self):
+        with self.assertRaisesRegex(halflit.FileError, "nowhere.glb"):
+            halflit.render("/nowhere.glb")
+        with self.assertRaises(OSError):
+            halflit.render("/nowhere.glb")
+        with self.assertRaises(halflit.BadInputError):
+            halflit.render(b"glTF and then nothing")
+        with self.assertRaisesRegex(TypeError, "sampels.*did you mean 'samples'"):
+            halflit.render("demo", sampels=4)
+        with self.assertRaisesRegex(TypeError, "has no keyword 'lenien'"):
+            halflit.Scene.load(box(), lenien=True)
+        with self.assertRaisesRegex(TypeError, "expected a path"):
+            halflit.render(7)
+        with self.assertRaisesRegex(halflit.UsageError, "size"):
+            halflit.render("demo", (0, 4))
+        with self.assertRaisesRegex(halflit.UsageError, "samples"):
+            halflit.render("demo", 16, samples=3)
+        with self.assertRaises(halflit.LimitError):
+            halflit.Scene.load(box(), max_geometry_bytes=10)
+        scene = halflit.Scene()
+        with scene:
+            self.assertIsNone(scene.bounds)
+        with self.assertRaisesRegex(halflit.UsageError, "closed"):
+            scene.render(8)
+        self.assertEqual(repr(scene), "<halflit.Scene, closed>")
+
+    def test_an_empty_scene_is_its_background(self):
+        picture = halflit.Scene().render(8)
+        self.assertEqual(np.unique(picture.reshape(-1, 4), axis=0).tolist(), [[0x3A, 0x3F, 0x47, 255]])
+
+
+if __name__ == "__main__":
+    unittest.main()

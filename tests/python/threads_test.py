@@ -1,0 +1,121 @@
+"""Threads draw side by side, and Python's functions are called while a frame is drawn."""
+import threading
+import time
+import unittest
+
+import halflit
+from support import CORNERS, FACES, box
+
+
+def heavy(threads=1):
+    """A frame of some tenths of a second."""
+    return halflit.render("demo", (1600, 900), samples=16, threads=threads)
+
+
+class Threads(unittest.TestCase):
+    def test_two_threads_draw_at_once(self):
+        # While one thread draws, another one runs Python code: the interpreter's lock is free. And two draw in less than the time of both.
+        alone = time.perf_counter()
+        expected = heavy().pixel_hash
+        alone = time.perf_counter() - alone
+        hashes, counted = [], 0
+        threads = [threading.Thread(target=lambda: hashes.append(heavy().pixel_hash)) for _ in range(2)]
+        start = time.perf_counter()
+        for thread in threads:
+            thread.start()
+        while any(thread.is_alive() for thread in threads):
+            counted += 1
+            time.sleep(0.001)
+        together = time.perf_counter() - start
+        print(f"one picture {alone:.2f} s, two at once {together:.2f} s")
+        self.assertEqual(hashes, [expected] * 2)
+        self.assertGreater(counted, 20 * alone)  # wakes of a millisecond each: with the lock held there would be a few
+
+    def test_frames_overlap(self):
+        # Both frames are in their functions at the same time, which is impossible one after the other.
+        inside, most, lock = set(), [0], threading.Lock()
+        meet = threading.Barrier(2, timeout=60)
+
+        def draw(number):
+            first = [True]
+
+            def progress(share):
+                if first[0]:
+                    first[0] = False
+                    meet.wait()  # until the other frame is here too
+                with lock:
+                    inside.add(number)
+                    most[0] = max(most[0], len(inside))
+
+            halflit.render("demo", (320, 200), threads=1, progress=progress)
+
+        threads = [threading.Thread(target=draw, args=(i,)) for i in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(most[0], 2)
+
+    def test_many_threads_and_one_scene(self):
+        scene = halflit.Scene()
+        scene.add_mesh(CORNERS, FACES)
+        expected = {size: scene.render(size).pixel_hash for size in range(16, 48, 4)}
+        wrong = []
+
+        def draw(sizes):
+            for _ in range(10):
+                for size in sizes:
+                    if scene.render(size).pixel_hash != expected[size]:
+                        wrong.append(size)
+
+        threads = [threading.Thread(target=draw, args=(list(expected)[i::2],)) for i in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(wrong, [])
+
+    def test_a_scene_may_be_closed_while_it_is_drawn(self):
+        scene = halflit.Scene.load(box())
+        meet, drawn = threading.Event(), []
+        thread = threading.Thread(target=lambda: drawn.append(scene.render(400, threads=1, progress=lambda share: meet.set())))
+        thread.start()
+        self.assertTrue(meet.wait(60))
+        scene.close()
+        thread.join()
+        self.assertEqual(drawn[0].pixel_hash, halflit.render(box(), 400).pixel_hash)
+
+
+class Callbacks(unittest.TestCase):
+    def test_progress_ends_at_1(self):
+        shares = []
+        halflit.render("demo", (320, 200), progress=shares.append)
+        self.assertEqual(shares[-1], 1)
+        self.assertEqual(shares, sorted(shares))
+
+    def test_a_frame_is_cancelled(self):
+        with self.assertRaises(halflit.CancelledError):
+            halflit.render("demo", (320, 200), cancelled=lambda: True)
+        halflit.render("demo", (32, 20), cancelled=lambda: False)
+
+    def test_an_exception_stops_the_frame_and_is_raised(self):
+        scene = halflit.Scene.demo()
+        expected = scene.render((320, 200)).pixel_hash
+
+        def fail(*_):
+            raise KeyboardInterrupt("stop")
+
+        for name in ("progress", "cancelled"):
+            with self.assertRaisesRegex(KeyboardInterrupt, "stop"):
+                scene.render((320, 200), **{name: fail})
+        self.assertEqual(scene.render((320, 200)).pixel_hash, expected)
+
+    def test_limits(self):
+        with self.assertRaises(halflit.LimitError):
+            halflit.render("demo", (1600, 900), samples=16, time_limit=1e-4)
+        with self.assertRaises(halflit.LimitError):
+            halflit.render("demo", (320, 200), memory_limit=1000)
+
+
+if __name__ == "__main__":
+    unittest.main()
