@@ -6,6 +6,8 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     set(processor x86_64)
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
     set(processor aarch64)
+elseif(EMSCRIPTEN)
+    set(processor wasm32)
 else()
     set(processor other)
 endif()
@@ -77,7 +79,8 @@ function(halflit_kernel_objects layer out header)
         target_link_libraries(${target} PRIVATE halflit_flags)
         set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
         target_compile_options(${target} PRIVATE ${HALFLIT_FLAGS_${isa}} -fno-exceptions -Wno-ignored-attributes
-            $<$<CXX_COMPILER_ID:GNU>:-fschedule-insns -fsched-pressure -Wno-psabi --param=sccvn-max-alias-queries-per-access=300> ${ARGN})
+            $<$<CXX_COMPILER_ID:GNU>:-fschedule-insns -fsched-pressure -Wno-psabi --param=sccvn-max-alias-queries-per-access=300>
+            $<$<BOOL:${EMSCRIPTEN}>:-Wno-pass-failed> ${ARGN})
         if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
             # With a check at each access, GCC takes more than 20 minutes for one kernel whose functions are all inlined. Without, the sets
             # share symbols, so these builds need a processor that has all of their sets.

@@ -18,6 +18,7 @@ namespace halflit::cli {
 [[nodiscard]] Command env_command();
 [[nodiscard]] Command figures_command();
 [[nodiscard]] Command trade_command();
+[[nodiscard]] Command playground_command();
 
 // Hidden.
 [[nodiscard]] Command help_command();

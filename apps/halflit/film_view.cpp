@@ -104,6 +104,8 @@ Result<SceneChanges> pose_job(RenderJob& job, const RenderOptions& options, doub
     if (left_out) changes->lights = false;
     if (changes->materials && options.classic.any())
         return fail(ErrorCode::usage, "--kd, --ks, --shininess: cannot be combined with an animation that changes materials");
+    if (changes->materials && !options.own_lobes)
+        for (Material& material : job.scene().materials) material.has_own_lobe = false;
     return changes;
 }
 

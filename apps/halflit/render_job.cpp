@@ -155,10 +155,8 @@ Result<void> choose_setup(RenderJob& job, const RenderOptions& options, const st
     film.sun_radius = static_cast<float>(static_cast<double>(options.sun_size_deg) * (kPi / 180.0));
     film.lamp_radius = options.lamp_size;
     for (Light& light : scene.lights) soften(light, film);
-    if (options.film.turntable > 0) {
-        film.light = light_of(scene);
-        film.choice = choice;
-    }
+    film.light = light_of(scene);
+    film.choice = choice;
     const AutoSetup setup = auto_setup(scene, film.bounds, job.width, job.height, choice);
     for (Light& light : scene.lights) soften(light, film);
     if (options.settings.background_environment && scene.environment == nullptr)
@@ -262,6 +260,8 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
         job.choices.push_back(pose_choice(*animation, job.source.animation, job.pose_time_s));
     turn_upright(job.scene(), options.up);
     replace_materials(job.scene(), options.classic);
+    if (!options.own_lobes)
+        for (Material& material : job.scene().materials) material.has_own_lobe = false;
     const bool moves = options.film.animates() && job.source.motion && job.animation() != nullptr;
     if (moves) {
         const auto swept = swept_bounds(job, options);
@@ -310,16 +310,46 @@ bool relight(RenderJob& job, const Camera& camera) {
     return true;
 }
 
-Result<void> change_light(RenderJob& job, const RenderOptions& options) {
+namespace {
+
+/// Lights the scene anew, from its own light.
+Result<void> light_anew(RenderJob& job, const RenderOptions& placed, const std::optional<Camera>& camera) {
     Scene& scene = job.scene();
     scene.lights = job.own_light.lights;
     scene.ambient = job.own_light.ambient;
     scene.environment = job.own_light.environment;
     scene.calibrated = job.own_light.calibrated;
+    if (const auto set_up = choose_setup(job, placed, camera); !set_up) return set_up;
+    return job.prepared->update({.lights = true}, job.timed_execution());
+}
+
+}  // namespace
+
+Result<void> change_light(RenderJob& job, const RenderOptions& options) {
     const std::size_t choices = job.choices.size();
-    const auto set_up = choose_setup(job, in_drawn_world(options, job.source), job.camera);
+    auto lit = light_anew(job, in_drawn_world(options, job.source), job.camera);
     job.choices.resize(std::min(choices, job.choices.size()));  // they were told for the start
-    if (!set_up) return set_up;
+    return lit;
+}
+
+Result<void> change_job(RenderJob& job, const RenderOptions& options, PictureSize usual, bool same_light) {
+    // What was said of the view is said anew, and of the light with it.
+    std::erase_if(job.choices, [&](const std::string& choice) { return !same_light || choice.starts_with("camera:"); });
+    std::erase_if(job.warnings, [](const std::string& warning) { return warning.starts_with("the file's camera"); });
+    const float exposure = job.settings.exposure;
+    const int shadow_size = job.settings.shadow_size;
+    if (const auto chosen = choose_settings(job.settings, options); !chosen) return chosen;
+    const RenderOptions placed = in_drawn_world(options, job.source);
+    job.settings.shadow_fade = placed.settings.shadow_fade;
+    const auto camera = choose_view(job, placed, options, usual);
+    if (!camera) return tl::unexpected(camera.error());
+    job.settings.region = options.settings.region.width > 0 ? options.settings.region : Region{0, 0, job.width, job.height};
+    if (!same_light) return light_anew(job, placed, *camera);
+    job.settings.exposure = exposure;
+    job.settings.shadow_size = shadow_size;
+    const float aspect = static_cast<float>(job.width) / static_cast<float>(job.height);
+    job.camera = *camera ? **camera : frame_scene(job.scene(), job.film.bounds, aspect, placed.view);
+    if (!relight(job, job.camera)) return {};
     return job.prepared->update({.lights = true}, job.timed_execution());
 }
 

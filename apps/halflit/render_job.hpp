@@ -60,6 +60,10 @@ bool relight(RenderJob& job, const Camera& camera);
 /// Lights the scene anew, from its own light, by the flags' lights, environment and exposure. The camera stays; other flags do not count.
 [[nodiscard]] Result<void> change_light(RenderJob& job, const RenderOptions& options);
 
+/// Makes of the job what make_render_job would make of the flags, if they differ from the job's in settings, view, lights and environment
+/// alone: the scene stays loaded and prepared. same_light: in settings and view alone.
+[[nodiscard]] Result<void> change_job(RenderJob& job, const RenderOptions& options, PictureSize usual, bool same_light);
+
 /// Allocates the region of the picture that is drawn: 8-bit codes, and linear floats if `linear`.
 [[nodiscard]] Image make_image(const RenderJob& job, bool linear);
 /// The whole picture, of which `image`, made by make_image(), holds the region.

@@ -313,6 +313,10 @@ FlagGroup surface_flags(RenderOptions& o) {
               o.lobe.normalize = true;
               return {};
           }},
+         {"--own-lobes", form_of(kOffOn),
+          fmt::format("Let materials that have lobes of their own keep them (default {}); off: --lobe, --wrap and --power count for all",
+                      name_of(o.own_lobes, kOffOn)),
+          named(o.own_lobes, kOffOn)},
          {"--specular", form_of(kSpecularNames), fmt::format("Model of the highlights (default {})", name_of(s.specular, kSpecularNames)),
           named(s.specular, kSpecularNames)},
          {"--specular-normalize", form_of(kOffOn),

@@ -42,6 +42,7 @@ struct RenderOptions {
 
     std::optional<std::string> lobe_name;
     io::LobeParameters lobe;
+    bool own_lobes = true;  ///< materials that have lobes of their own keep them
     ClassicMaterial classic;
     std::optional<Vec3f> ambient_linear;
     std::vector<GivenLight> lights;               ///< in the file's world

@@ -26,6 +26,9 @@ struct SceneSource {
     std::shared_ptr<const Motion> motion{};  ///< for pose_at(); null without LoadOptions::keep_animations
 };
 
+/// Name of standard input in messages.
+inline constexpr const char* kStandardInputName = "standard input";
+
 /// An empty name is the demo scene. Built-in names come before files: a file called "demo" is given as "./demo".
 [[nodiscard]] Result<SceneSource> load_scene(const RenderOptions& options);
 

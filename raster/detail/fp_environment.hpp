@@ -9,7 +9,7 @@
 
 namespace halflit::raster {
 
-class FpEnvironment {
+class [[maybe_unused]] FpEnvironment {
 public:
     FpEnvironment(const FpEnvironment&) = delete;
     FpEnvironment& operator=(const FpEnvironment&) = delete;

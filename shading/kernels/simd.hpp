@@ -1,7 +1,7 @@
 // The vocabulary: every operation that a kernel may use. It and the other files named simd_* alone name xsimd or an intrinsic.
 //
 // One kernel source is compiled once per instruction set. Before including this header a kernel file defines
-//   HALFLIT_ISA   the set's name as an identifier: scalar, sse2, sse41, avx2, avx512, neon64
+//   HALFLIT_ISA   the set's name as an identifier: scalar, sse2, sse41, avx2, avx512, neon64, wasm128
 //   HALFLIT_ARCH  the xsimd architecture, e.g. avx2; left undefined for scalar
 // and gets F (float lanes), I (int32 lanes), M (one truth value per lane), kWidth, and Q (four floats, one record).
 //
@@ -25,6 +25,10 @@
 #ifdef HALFLIT_ARCH
 #define xsimd HALFLIT_CONCAT(xsimd_, HALFLIT_ISA)
 #include <xsimd/xsimd.hpp>
+// Intel's intrinsics. Emscripten has those of SSE4.1 too, each made of one or a few operations of WebAssembly.
+#if defined(__x86_64__) || defined(__wasm_simd128__)
+#define HALFLIT_X86_VECTORS
+#endif
 #endif
 
 #include "sh/config.hpp"
@@ -127,7 +131,7 @@ HALFLIT_INLINE I shr(I i) {
     return i >> N;
 }
 
-#if defined(__x86_64__)
+#if defined(HALFLIT_X86_VECTORS)
 
 HALFLIT_INLINE F vdiv(F a, F b) { return a / b; }
 #if defined(__AVX512F__)
@@ -158,7 +162,14 @@ HALFLIT_INLINE M less(I a, I b) { return M(_mm256_castsi256_ps(_mm256_cmpgt_epi3
 HALFLIT_INLINE M equal(I a, I b) { return M(_mm256_castsi256_ps(_mm256_cmpeq_epi32(a, b))); }
 #else
 HALFLIT_INLINE F vsqrt(F a) { return _mm_sqrt_ps(a); }
+#if defined(__wasm_simd128__)
+// Emscripten's _mm_cvtps_epi32 goes lane by lane.
+HALFLIT_INLINE I round_even(F x) {
+    return I(reinterpret_cast<__m128i>(wasm_i32x4_trunc_sat_f32x4(wasm_f32x4_nearest(reinterpret_cast<v128_t>(static_cast<__m128>(x))))));
+}
+#else
 HALFLIT_INLINE I round_even(F x) { return _mm_cvtps_epi32(x); }
+#endif
 HALFLIT_INLINE F vmin(F a, F b) { return _mm_min_ps(a, b); }
 HALFLIT_INLINE F vmax(F a, F b) { return _mm_max_ps(a, b); }
 HALFLIT_INLINE std::uint32_t mask_bits(M m) { return static_cast<std::uint32_t>(_mm_movemask_ps(m)); }
@@ -215,7 +226,7 @@ HALFLIT_INLINE M equal(I a, I b) { return M(vceqq_s32(a, b)); }
 HALFLIT_INLINE std::int32_t first_lane(I i) { return _mm_cvtsi128_si32(_mm512_castsi512_si128(i)); }
 #elif defined(__AVX2__)
 HALFLIT_INLINE std::int32_t first_lane(I i) { return _mm_cvtsi128_si32(_mm256_castsi256_si128(i)); }
-#elif defined(__x86_64__)
+#elif defined(HALFLIT_X86_VECTORS)
 HALFLIT_INLINE std::int32_t first_lane(I i) { return _mm_cvtsi128_si32(i); }
 #elif defined(__aarch64__)
 HALFLIT_INLINE std::int32_t first_lane(I i) { return vgetq_lane_s32(i, 0); }
@@ -282,7 +293,7 @@ HALFLIT_INLINE void q_transpose(Q& a, Q& b, Q& c, Q& d) {
         for (int j = 0; j < 4; ++j) out[i]->v[j] = t[j].v[i];
 }
 
-#elif defined(__x86_64__)
+#elif defined(HALFLIT_X86_VECTORS)
 
 using Q = __m128;
 HALFLIT_INLINE Q q_load(const float* p) { return _mm_loadu_ps(p); }

@@ -22,7 +22,7 @@ HALFLIT_INLINE F to_single(D x) { return static_cast<float>(x); }
 using HalfD = __m512d;
 #elif defined(__AVX2__)
 using HalfD = __m256d;
-#elif defined(__x86_64__)
+#elif defined(HALFLIT_X86_VECTORS)
 using HalfD = __m128d;
 #else
 using HalfD = float64x2_t;
@@ -58,7 +58,7 @@ HALFLIT_INLINE D to_double(I i) {
 }
 HALFLIT_INLINE D to_double(F x) { return {_mm256_cvtps_pd(_mm256_castps256_ps128(x)), _mm256_cvtps_pd(_mm256_extractf128_ps(x, 1))}; }
 HALFLIT_INLINE F to_single(D x) { return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(x.low)), _mm256_cvtpd_ps(x.high), 1); }
-#elif defined(__x86_64__)
+#elif defined(HALFLIT_X86_VECTORS)
 HALFLIT_INLINE D d_set(double x) { return {_mm_set1_pd(x), _mm_set1_pd(x)}; }
 HALFLIT_INLINE D to_double(I i) { return {_mm_cvtepi32_pd(i), _mm_cvtepi32_pd(_mm_unpackhi_epi64(i, i))}; }
 HALFLIT_INLINE D to_double(F x) { return {_mm_cvtps_pd(x), _mm_cvtps_pd(_mm_movehl_ps(x, x))}; }

@@ -87,7 +87,7 @@ HALFLIT_INLINE void load4(const float* const* p, F& a, F& b, F& c, F& d) {
     lanes_of_records(records, a, b, c, d);
 }
 
-#if defined(__x86_64__) && defined(HALFLIT_ARCH)
+#if defined(HALFLIT_X86_VECTORS)
 /// Four floats from p on in the first quarter or half of a register, those from p + step in the next one, and so on; and _mm_shuffle_ps in
 /// each of them.
 #if defined(__AVX512F__)
@@ -121,7 +121,7 @@ HALFLIT_INLINE __m128 shuffle_quarters(__m128 a, __m128 b) {
 HALFLIT_INLINE void load2(const float* p, F& x, F& y) {
 #if !defined(HALFLIT_ARCH)
     x = p[0], y = p[1];
-#elif defined(__x86_64__)
+#elif defined(HALFLIT_X86_VECTORS)
     const auto first = quarters(p, 8), second = quarters(p + 4, 8);
     x = shuffle_quarters<_MM_SHUFFLE(2, 0, 2, 0)>(first, second);
     y = shuffle_quarters<_MM_SHUFFLE(3, 1, 3, 1)>(first, second);
@@ -135,7 +135,7 @@ HALFLIT_INLINE void load2(const float* p, F& x, F& y) {
 HALFLIT_INLINE void load3(const float* p, F& x, F& y, F& z) {
 #if !defined(HALFLIT_ARCH)
     x = p[0], y = p[1], z = p[2];
-#elif defined(__x86_64__)
+#elif defined(HALFLIT_X86_VECTORS)
     const auto first = quarters(p, 12), second = quarters(p + 4, 12), third = quarters(p + 8, 12);  // x0 y0 z0 x1, y1 z1 x2 y2, z2 x3 y3 z3
     const auto x2_y2_x3_y3 = shuffle_quarters<_MM_SHUFFLE(2, 1, 3, 2)>(second, third);
     const auto y0_z0_y1_z1 = shuffle_quarters<_MM_SHUFFLE(1, 0, 2, 1)>(first, second);

@@ -30,7 +30,7 @@ TEST_CASE("pixels: the demo scene's file is the same for all threads, tiles and 
     for (const char* threads : {"1", "2", "5"}) CHECK(with({"--threads", threads}) == expected);
     for (const char* tile : {"16", "32"}) CHECK(with({"--tile", tile}) == expected);
     int sets = 0;
-    for (const char* isa : {"scalar", "sse2", "sse4.1", "avx2", "avx512", "neon64"}) {
+    for (const char* isa : {"scalar", "sse2", "sse4.1", "avx2", "avx512", "neon64", "wasm128"}) {
         if (run({"info", "sphere:12", "--isa", isa}).code != 0) continue;  // not on this CPU
         ++sets;
         INFO(isa);

@@ -239,7 +239,7 @@ TEST_CASE("execution: tile sizes and instruction sets that are not offered are r
         CHECK(pixels == Bytes(pixels.size(), 0xCD));
     }
     int missing = 0;
-    for (const Isa isa : {Isa::scalar, Isa::sse2, Isa::sse41, Isa::avx2, Isa::avx512, Isa::neon64, static_cast<Isa>(77)}) {
+    for (const Isa isa : {Isa::scalar, Isa::sse2, Isa::sse41, Isa::avx2, Isa::avx512, Isa::neon64, Isa::wasm128, static_cast<Isa>(77)}) {
         const auto drawn = draw(pixels, usual(), {.isa = isa});
         INFO(isa_name(isa));
         REQUIRE(drawn.has_value() == isa_available(isa));

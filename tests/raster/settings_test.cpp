@@ -93,7 +93,7 @@ TEST_CASE("settings: samples, tile size, exposure and region are checked", "[ras
 }
 
 TEST_CASE("settings: an instruction set that this CPU does not run is a usage error", "[raster][settings]") {
-    for (const Isa isa : {Isa::scalar, Isa::sse2, Isa::sse41, Isa::avx2, Isa::avx512, Isa::neon64}) {
+    for (const Isa isa : {Isa::scalar, Isa::sse2, Isa::sse41, Isa::avx2, Isa::avx512, Isa::neon64, Isa::wasm128}) {
         const Outcome o = outcome(box_scene(), {}, 40, 30, {.isa = isa});
         INFO(isa_name(isa));
         if (isa_available(isa))

@@ -12,7 +12,7 @@ using namespace halflit::testing;
 namespace {
 
 /// True if the two objects may be run: on x86-64 they are built for processors with FMA.
-bool has_fma() {
+[[maybe_unused]] bool has_fma() {
 #if defined(__x86_64__)
     __builtin_cpu_init();
     return __builtin_cpu_supports("fma") != 0;

@@ -133,11 +133,12 @@ void Accessor::check(const Document& document, const file::Accessor& source) {
     component_ = component_of(source.component_type, name_);
     components_ = source.components;
     normalized_ = source.normalized;
-    count_ = source.count;
+    count_ = static_cast<std::size_t>(source.count);
+    if (count_ != source.count) refuse(name_, fmt::format("{} elements are more than memory can hold", source.count), ErrorCode::limit);
     const std::uint64_t size = size_of(component_) * static_cast<std::uint64_t>(components_);
     if (source.buffer_view < 0) return;  // all zeros, apart from sparse values
     const file::BufferView& view = document.file.buffer_views[static_cast<std::size_t>(source.buffer_view)];
-    stride_ = view.byte_stride == 0 ? size : static_cast<std::uint64_t>(view.byte_stride);
+    stride_ = static_cast<std::size_t>(view.byte_stride == 0 ? size : static_cast<std::uint64_t>(view.byte_stride));
     if (stride_ < size)
         refuse(name_, fmt::format("bufferViews[{}].byteStride is {}, expected at least the element's {} bytes", source.buffer_view, stride_,
                                   size));
@@ -189,7 +190,7 @@ void Accessor::check_sparse(Document& document, const file::Sparse& source) {
     check_range(where + ".values", value_offset, sparse_count, size, size, value_view.byte_length);
 
     document.geometry.take(sparse_count * sizeof(std::uint32_t));
-    sparse_indices_.reserve(sparse_count);
+    sparse_indices_.reserve(static_cast<std::size_t>(sparse_count));
     const std::byte* indices = document.view_data(source.index_view) + index_offset;
     for (std::uint64_t i = 0; i < sparse_count; ++i) {
         const std::uint32_t index = to_unsigned(indices + i * index_size, index_type);

@@ -219,7 +219,7 @@ private:
             refuse(where, fmt::format("{}: expected {} elements for {} times, found {}", output.name(), expected, track.times.size(),
                                       output.count()));
         document_.geometry.take(track.times.size() * of_key * sizeof(float));
-        track.values.resize(track.times.size() * of_key);
+        track.values.resize(static_cast<std::size_t>(track.times.size() * of_key));
         const auto step = static_cast<std::size_t>(components);
         for (std::size_t i = 0; i < output.count(); ++i) output.read_floats(i, track.values.data() + i * step);
         if (const auto bad = std::count_if(track.values.begin(), track.values.end(), [](float v) { return !shading::finite(v); }); bad > 0)

@@ -153,8 +153,8 @@ Soup read_binary(std::span<const std::byte> bytes, ModelBuilder& builder, bool& 
     for (std::size_t t = 0; t < count && !has_colors; ++t) has_colors = colors.number_of(attribute_of(t)) != kNone;
 
     Soup soup;
-    soup.positions.reserve(3 * count);
-    soup.position_of.reserve(3 * count);
+    soup.positions.reserve(static_cast<std::size_t>(3 * count));
+    soup.position_of.reserve(static_cast<std::size_t>(3 * count));
     std::vector<std::uint32_t> index_of;  // of a colour by its number
     constexpr std::uint32_t kWhole = 0x8000;
     if (has_colors) index_of.assign(kWhole + 1, kNone);

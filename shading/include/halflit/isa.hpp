@@ -12,12 +12,12 @@
 namespace halflit {
 
 /// Narrowest first.
-enum class Isa : std::uint8_t { scalar, sse2, sse41, avx2, avx512, neon64 };
+enum class Isa : std::uint8_t { scalar, sse2, sse41, avx2, avx512, neon64, wasm128 };
 
-/// "scalar", "sse2", "sse4.1", "avx2", "avx512", "neon64".
+/// "scalar", "sse2", "sse4.1", "avx2", "avx512", "neon64", "wasm128".
 [[nodiscard]] HALFLIT_API std::string_view isa_name(Isa isa);
 
-/// All names as "scalar, sse2, .. or neon64", for messages.
+/// All names as "scalar, sse2, .. or wasm128", for messages.
 [[nodiscard]] HALFLIT_API std::string isa_names();
 
 /// Instruction sets built into this library, narrowest first.

@@ -449,7 +449,7 @@ HALFLIT_C_API int32_t halflit_setup(halflit_scene* scene, int32_t width, int32_t
 /// frame, by several at once. They must return, and must not draw or destroy the scene.
 typedef struct halflit_execution {
     size_t size;
-    const char* isa;                   ///< instruction set: scalar, sse2, sse4.1, avx2, avx512 or neon64; null: the best one
+    const char* isa;                   ///< instruction set: scalar, sse2, sse4.1, avx2, avx512, neon64 or wasm128; null: the best one
     void* user;                        ///< handed to the functions below
     int32_t (*cancelled)(void* user);  ///< asked before each part of the work; not 0: stop
     /// Told after each tile which pixels are final.

@@ -1,0 +1,81 @@
+#include "apps/web/dropped_files.hpp"
+
+#include "apps/io/file_access.hpp"
+#include "apps/io/text.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <utility>
+
+namespace halflit {
+namespace {
+
+std::map<std::string, std::vector<std::byte>, std::less<>> dropped_files;
+
+/// The name without "." and, where it can be resolved, without "..".
+std::string plain_name(std::string_view name) {
+    std::vector<std::string_view> parts;
+    while (!name.empty()) {
+        const std::string_view part = name.substr(0, name.find('/'));
+        name.remove_prefix(std::min(name.size(), part.size() + 1));
+        if (part == ".." && !parts.empty())
+            parts.pop_back();
+        else if (!part.empty() && part != ".")
+            parts.push_back(part);
+    }
+    std::string plain;
+    for (const std::string_view part : parts) plain.append(plain.empty() ? "" : "/").append(part);
+    return plain;
+}
+
+Result<std::vector<std::byte>> find_file(const std::string& name, std::size_t max_bytes, ErrorCode absent) {
+    const auto found = dropped_files.find(name);
+    if (found == dropped_files.end()) return fail(absent, "no such file was dropped");
+    if (found->second.size() > max_bytes)
+        return fail(ErrorCode::limit, fmt::format("has {} bytes, the limit is {}", found->second.size(), max_bytes));
+    return found->second;
+}
+
+}  // namespace
+
+namespace web {
+
+void add_file(const std::string& name, std::vector<std::byte> bytes) { dropped_files[plain_name(name)] = std::move(bytes); }
+
+void forget_files() { dropped_files.clear(); }
+
+}  // namespace web
+
+namespace io {
+
+Result<std::vector<std::byte>> read_file(const std::string& path, std::size_t max_bytes) {
+    auto file = find_file(plain_name(path), max_bytes, ErrorCode::io);
+    if (!file) return fail(file.error().code, fmt::format("{}: {}", printable(path), file.error().message));
+    return file;
+}
+
+ModelFolder::ModelFolder(std::string base_dir, std::vector<std::string> /*also_allowed*/) : has_base_(!base_dir.empty()) {
+    folders_.push_back({-1, 0, std::move(base_dir), ""});
+}
+
+ModelFolder::~ModelFolder() = default;
+
+Result<void> ModelFolder::check() const { return {}; }
+
+std::vector<std::string> ModelFolder::places(std::string_view relative) const {
+    return {plain_name(fmt::format("{}/{}", folders_[0].name, relative))};
+}
+
+/// A file beside the model. A browser hands over dropped files without their folders, so the last part of the name alone counts too.
+Result<std::vector<std::byte>> ModelFolder::read(std::string_view relative, std::size_t max_bytes) {
+    const auto refuse = [&](const Error& error) { return fail(error.code, fmt::format("\"{}\": {}", printable(relative), error.message)); };
+    auto file = find_file(places(relative)[0], max_bytes, ErrorCode::bad_input);
+    if (!file && file.error().code == ErrorCode::bad_input)
+        file = find_file(std::string(relative.substr(relative.rfind('/') + 1)), max_bytes, ErrorCode::bad_input);
+    if (!file) return refuse(file.error());
+    return file;
+}
+
+}  // namespace io
+}  // namespace halflit

@@ -1,0 +1,17 @@
+// What the command line asks its system for and a page does not have.
+#include "apps/halflit/file_names.hpp"
+#include "apps/halflit/scene_source.hpp"
+
+namespace halflit::cli {
+
+bool is_file(const std::string& /*path*/) { return false; }
+
+bool is_model_name(std::string_view /*path*/) { return false; }
+
+std::string did_you_mean_file(const std::string& /*path*/, std::vector<std::string> /*names*/) { return ""; }
+
+Result<std::vector<std::byte>> read_standard_input(std::size_t /*max_bytes*/, double /*time_limit_s*/) {
+    return fail(ErrorCode::usage, "standard input: a page has none");
+}
+
+}  // namespace halflit::cli

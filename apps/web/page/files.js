@@ -1,0 +1,28 @@
+// Models and environments that a visitor drops or opens. They never leave the page.
+const kModelName = /\.(glb|gltf|stl|ply|obj)$/i, kSkyName = /\.(hdr|pfm)$/i;
+
+function files_of_entry(entry, folder) {
+  if (entry.isFile) return new Promise((resolve) => entry.file((file) => resolve([{ name: folder + file.name, file }]), () => resolve([])));
+  const reader = entry.createReader(), found = [];
+  const more = async () => {
+    const entries = await new Promise((resolve) => reader.readEntries(resolve, () => resolve([])));
+    if (entries.length === 0) return found;
+    for (const inner of entries) found.push(...(await files_of_entry(inner, `${folder}${entry.name}/`)));
+    return more();
+  };
+  return more();
+}
+
+// Files of a drop, those in folders by their paths.
+async function dropped_files(transfer) {
+  const entries = [...transfer.items].map((item) => item.webkitGetAsEntry?.()).filter(Boolean);
+  if (entries.length === 0) return [...transfer.files].map((file) => ({ name: file.name, file }));
+  return (await Promise.all(entries.map((entry) => files_of_entry(entry, "")))).flat();
+}
+
+// {files: [{name, bytes}], model, sky}: what of them to draw.
+async function read_files(list) {
+  const files = await Promise.all(list.map(async ({ name, file }) => ({ name, bytes: await file.arrayBuffer() })));
+  const named = (pattern) => files.map((file) => file.name).filter((name) => pattern.test(name)).sort((a, b) => a.split("/").length - b.split("/").length)[0];
+  return { files, model: named(kModelName), sky: named(kSkyName) };
+}

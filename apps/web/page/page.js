@@ -1,0 +1,246 @@
+// The page: one state, and what follows from it.
+const $ = (id) => document.getElementById(id);
+let state = state_of_link(location.hash.slice(1));
+let shown = null;        // answer of the last picture
+let files = [];          // that were dropped
+let engine = null, comparer = null;
+let heat = false, heat_of = "";
+let waiting = false, drawing = false, settle_timer = 0, turning = false;
+let frame_ms = [];       // of the last pictures while the view turns
+
+function fail_with(message) {
+  $("error").textContent = message;
+  $("error").hidden = !message;
+}
+
+async function new_engine(name) {
+  const made = new Engine(name);
+  const answer = await made.started;
+  if (answer.error) fail_with(answer.error);
+  if (files.length) await made.ask("files", { files });
+  return made;
+}
+
+// While a hand turns the view, pictures have one sample.
+function flags_now() {
+  return flags_of(turning ? { ...state, samples: 1, budget: 0 } : state);
+}
+
+function fit_command() {
+  $("command").style.height = "auto";
+  $("command").style.height = `${$("command").scrollHeight + 2}px`;
+}
+
+async function draw_picture() {
+  if (!engine || engine.ended) engine = await new_engine($("module").value);
+  const start = performance.now(), flags = flags_now(), scene = state.scene;
+  const answer = await engine.ask("draw", { scene, flags });
+  if (answer.stopped) return;
+  if (answer.error) {
+    const missing = !/^(demo|sphere:|lights:)/.test(scene) && !files.some((file) => file.name === scene);
+    fail_with(missing ? `${scene}: drop this file to see what the link shows` : answer.error);
+    return;
+  }
+  fail_with("");
+  const canvas = $("picture");
+  if (canvas.width !== answer.width || canvas.height !== answer.height) Object.assign(canvas, { width: answer.width, height: answer.height });
+  canvas.getContext("2d").putImageData(new ImageData(new Uint8ClampedArray(answer.pixels), answer.width, answer.height), 0, 0);
+  answer.ms = performance.now() - start;
+  answer.key = [scene, ...flags].join("\n");
+  shown = answer;
+  say_facts();
+  show_lobes();
+}
+
+function say_facts() {
+  const { report, ms } = shown;
+  frame_ms = turning ? [...frame_ms.slice(-9), ms] : [];
+  const mean = frame_ms.reduce((a, b) => a + b, 0) / (frame_ms.length || 1);
+  const parts = [`${report.render_ms.toFixed(0)} ms`, `${report.isa}, one thread`, `${report.triangles.toLocaleString("en")} triangles`, `${report.lights} lights`];
+  if (report.bands) parts.push(`${report.bands} bands`);
+  if (turning) parts.push(`${(1000 / mean).toFixed(0)} pictures a second, 1 sample`);
+  else parts.push(`hash ${report.hash}`);
+  if (state.budget > 0 && !turning) parts.push(`error proven below ${digits(report.bound, 3)} codes`);
+  $("facts").textContent = parts.join(" · ");
+  $("notes").textContent = [...report.choices, ...report.warnings].join(" · ");
+  const end = Math.max(0, ...report.animations.map((a) => a.end));
+  form.querySelector('label[data-for="time"]').hidden = !(end > 0);
+  form.time.max = end || 1;
+  form.time.step = (end || 1) / 200;
+}
+
+async function show_lobes() {
+  const bands = state.sh_order || shown.report.bands || 3, lobe = kLobes[state.lobe];
+  const wanted = lobe
+    ? [{ name: state.lobe, wrap: lobe.takes_wrap ? state.wrap : -1, power: state.power === "" ? -1 : state.power, normalize: state.normalize }]
+    : shown.report.lobes.slice(0, 8).map((own) => ({ name: own.normalize ? "mcauley" : "green", ...own }));
+  const answers = await Promise.all(wanted.map((task) => engine.ask("lobe", { ...task, bands })));
+  const curves = answers.map((answer) => answer.report).filter((report) => report && !report.error);
+  if (curves.length === 0) return;
+  draw_curves($("curve"), curves, bands, curves.length === 1);
+  const last = curves[curves.length - 1];
+  draw_bands($("bands"), last.bands, bands);
+  $("series_name").textContent = curves.length === 1 ? `${bands} bands, off by ${last.sup === null ? "over 1" : digits(last.sup, 2)}` : "series (choose a model)";
+}
+
+async function compare_picture() {
+  const key = [state.scene, ...flags_of(state)].join("\n");
+  if (!heat || heat_of === key) return;
+  heat_of = key;
+  comparer?.stop();  // a comparison that is no longer wanted
+  $("busy").textContent = "comparing with the reference";
+  $("busy").hidden = false;
+  const own = (comparer = new Engine($("module").value));
+  await own.started;
+  if (files.length) await own.ask("files", { files });
+  const answer = await own.ask("compare", { scene: state.scene, flags: flags_of(state) });
+  if (own !== comparer) return;
+  own.stop();
+  comparer = null;
+  $("busy").hidden = true;
+  if (answer.error) {
+    fail_with(answer.error);
+    return;
+  }
+  const canvas = $("heat"), { max, mean, p999 } = answer.report;
+  Object.assign(canvas, { width: answer.width, height: answer.height });
+  canvas.getContext("2d").putImageData(heat_picture(new Uint8Array(answer.pixels), answer.width, answer.height), 0, 0);
+  canvas.hidden = $("legend").hidden = false;
+  $("ramp_most").textContent = `0 to ${digits(max, 2)} codes, mean ${digits(mean, 2)}`;
+  $("notes").textContent = `Error against float64, before rounding to whole codes: at most ${digits(max, 3)}, mean ${digits(mean, 3)}, ` +
+    `99.9 % of the pixels below ${digits(p999, 3)}. The reference took ${(answer.report.reference_ms / 1000).toFixed(1)} s.`;
+}
+
+function hide_heat() {
+  $("heat").hidden = $("legend").hidden = true;
+  heat_of = "";
+  comparer?.stop();
+  comparer = null;
+  $("busy").hidden = true;
+}
+
+// Draws until the last picture is that of the state.
+async function draw_all() {
+  waiting = true;
+  if (drawing) return;
+  drawing = true;
+  while (waiting) {
+    waiting = false;
+    await draw_picture();
+  }
+  drawing = false;
+  if (!turning) compare_picture();
+}
+
+// moves: the view alone changes, under a hand.
+function set_state(next, moves = false) {
+  state = next;
+  turning = moves;
+  clearTimeout(settle_timer);
+  if (moves) settle_timer = setTimeout(() => set_state(state), 250);
+  show_state(state);
+  show_lights(state, change_light);
+  $("command").value = command_of(state);
+  fit_command();
+  history.replaceState(null, "", `#${link_of(state)}`);
+  if (heat) hide_heat();
+  draw_all();
+}
+
+function change_light(i, key, value) {
+  const lights = lights_of(state);
+  lights[i][key] = value;
+  set_state({ ...state, lights: lights_text(lights) });
+}
+
+async function take_files(list) {
+  const read = await read_files(list);
+  if (!read.model && !read.sky) {
+    fail_with("expected .glb, .gltf, .stl, .ply or .obj, or .hdr or .pfm as an environment");
+    return;
+  }
+  files = read.model ? read.files : [...files, ...read.files];
+  await engine?.ask("files", { files });
+  const next = { ...state };
+  if (read.model) Object.assign(next, { scene: read.model, view: "", time: 0 });
+  if (read.sky) next.env = read.sky;
+  set_state(next);
+}
+
+form.addEventListener("input", (event) => {
+  const input = event.target;
+  if (input.name) set_state(state_of_control(state, input));
+});
+form.addEventListener("submit", (event) => event.preventDefault());
+$("light_count").addEventListener("input", (event) => {
+  const lights = lights_of(state), kUsual = [{ azimuth: -40, elevation: 40 }, { azimuth: 120, elevation: 20 }, { azimuth: 0, elevation: 80 }, { azimuth: 60, elevation: 30 }];
+  while (lights.length < +event.target.value) lights.push({ ...kUsual[lights.length], intensity: 1, color: "#ffffff" });
+  set_state({ ...state, lights: lights_text(lights.slice(0, +event.target.value)) });
+});
+$("module").addEventListener("change", () => {
+  engine?.stop();
+  engine = null;
+  set_state(state);
+});
+attach_orbit($("picture"), (change) => {
+  if (!shown) return;
+  set_state({ ...state, view: view_text(change(view_of(state) || shown.report.view)) }, true);
+});
+$("open").addEventListener("click", () => $("files").click());
+$("files").addEventListener("change", (event) => take_files([...event.target.files].map((file) => ({ name: file.name, file }))));
+$("reset_view").addEventListener("click", () => set_state({ ...state, view: "" }));
+$("reset").addEventListener("click", () => set_state({ ...kDefaults }));
+$("toggle_heat").addEventListener("click", () => {
+  heat = !heat;
+  $("toggle_heat").setAttribute("aria-pressed", heat);
+  hide_heat();
+  if (heat) compare_picture();
+});
+$("download").addEventListener("click", async () => {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(await png_of(new Uint8Array(shown.pixels), shown.width, shown.height));
+  link.download = command_of(state).match(/ -o '?(.*?)'?$/)[1];
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+});
+$("copy_link").addEventListener("click", async () => {
+  const address = `${location.href.split("#")[0]}#${link_of(state)}`;
+  try {
+    await navigator.clipboard.writeText(address);
+    $("copy_link").textContent = "Copied";
+  } catch {  // a page may not be allowed to; the address bar has the link too
+    window.prompt("The link:", address);
+  }
+  setTimeout(() => ($("copy_link").textContent = "Copy link"), 1500);
+});
+addEventListener("hashchange", () => set_state(state_of_link(location.hash.slice(1))));
+addEventListener("dragover", (event) => {
+  event.preventDefault();
+  $("drop").hidden = false;
+});
+addEventListener("dragleave", (event) => {
+  if (!event.relatedTarget) $("drop").hidden = true;
+});
+addEventListener("drop", async (event) => {
+  event.preventDefault();
+  $("drop").hidden = true;
+  take_files(await dropped_files(event.dataTransfer));
+});
+addEventListener("resize", () => {
+  fit_command();
+  if (shown) show_lobes();
+});
+
+const ramp = $("ramp").getContext("2d");
+for (let x = 0; x < 128; ++x) {
+  ramp.fillStyle = `rgb(${heat_color(x / 127)})`;
+  ramp.fillRect(x, 0, 1, 1);
+}
+if (!has_simd()) {
+  $("module").value = "scalar";
+  $("module").disabled = true;
+}
+set_state(state);
+
+// For tests: pictures without the page's own state.
+window.halflit = { Engine, take_files, current: () => ({ state, shown, idle: !drawing && !waiting && !turning && $("busy").hidden }) };

@@ -1,0 +1,117 @@
+// What the page shows, as one flat record, and its two other forms: the flags of `halflit render`, and the part of a link after the #.
+const kDefaults = {
+  scene: "demo", size: "640x360", samples: 4, view: "", time: 0,
+  lobe: "", wrap: 0.5, power: "", normalize: false,
+  specular: "blinn", specular_normalize: true,
+  scene_lights: true, lights: "", shadows: "soft-split", sun_size: 0, sky_shadows: 0,
+  env: "", rotate: 0, show_env: false, sh_order: 0,
+  exposure: "", tonemap: "neutral", budget: 0, ground: false,
+};
+
+// The six models: whether the wrap is the user's, and the power that the name stands for.
+const kLobes = {
+  lambert: { takes_wrap: false, wrap: 0, power: () => 1 },
+  green: { takes_wrap: true, power: () => 1 },
+  "half-lambert": { takes_wrap: false, wrap: 1, power: () => 1 },
+  valve: { takes_wrap: false, wrap: 1, power: () => 2 },
+  sloan: { takes_wrap: true, power: (wrap) => 1 + wrap },
+  mcauley: { takes_wrap: true, power: (wrap) => 1 + wrap },
+};
+
+// Six digits and no exponent: the picture is drawn from the same text that the command line shows.
+const digits = (x, count = 6) => (Math.abs(x) < 1e-12 ? "0" : String(Number(Number(x).toPrecision(count))));
+
+// "azimuth,elevation,intensity,colour;.." of lights that were added.
+function lights_of(state) {
+  return state.lights ? state.lights.split(";").map((text) => {
+    const [azimuth, elevation, intensity, color] = text.split(",");
+    return { azimuth: +azimuth || 0, elevation: +elevation || 0, intensity: intensity === undefined ? 1 : +intensity || 0, color: color || "#ffffff" };
+  }) : [];
+}
+
+function lights_text(lights) {
+  return lights.map((l) => [l.azimuth, l.elevation, l.intensity, l.color].join(",")).join(";");
+}
+
+function light_flag(light) {
+  const az = (light.azimuth * Math.PI) / 180, el = (light.elevation * Math.PI) / 180;
+  const from = [Math.sin(az) * Math.cos(el), Math.sin(el), Math.cos(az) * Math.cos(el)];
+  const direction = from.map((x) => digits(Math.round(-x * 1e4) / 1e4)).join(",");
+  return `directional:dir=${direction}:color=${light.color}:intensity=${digits(light.intensity)}`;
+}
+
+// "px,py,pz,tx,ty,tz,fov" of a view that was turned; empty: the scene's own.
+function view_of(state) {
+  const n = state.view ? state.view.split(",").map(Number) : [];
+  return n.length === 7 && n.every(Number.isFinite) ? { position: n.slice(0, 3), target: n.slice(3, 6), fov: n[6] } : null;
+}
+
+function view_text(view) {
+  return [...view.position, ...view.target, view.fov].map((x) => digits(x)).join(",");
+}
+
+// The words after `halflit SCENE`.
+function flags_of(state) {
+  const flags = ["--size", state.size];
+  const add = (flag, value) => flags.push(flag, String(value));
+  if (state.samples != kDefaults.samples) add("--samples", state.samples);
+  const view = view_of(state);
+  if (view) {
+    add("--camera-position", view.position.map((x) => digits(x)).join(","));
+    add("--camera-target", view.target.map((x) => digits(x)).join(","));
+    add("--fov", digits(view.fov));
+  }
+  if (state.time > 0) add("--time", digits(state.time));
+  if (state.lobe) {
+    add("--lobe", state.lobe);
+    if (kLobes[state.lobe].takes_wrap) add("--wrap", digits(state.wrap));
+    if (state.power !== "") add("--power", digits(state.power));
+    if (state.normalize) flags.push("--normalize");
+    add("--own-lobes", "off");
+  }
+  if (state.specular !== kDefaults.specular) add("--specular", state.specular);
+  if (!state.specular_normalize) add("--specular-normalize", "off");
+  if (!state.scene_lights) flags.push("--no-scene-lights");
+  for (const light of lights_of(state)) add("--light", light_flag(light));
+  if (state.shadows !== kDefaults.shadows) add("--shadows", state.shadows);
+  if (state.sun_size > 0) add("--sun-size", digits(state.sun_size));
+  if (state.sky_shadows > 0) add("--sky-shadows", state.sky_shadows);
+  if (state.env) add("--env", state.env);
+  if (state.rotate != 0) add("--env-rotate", digits(state.rotate));
+  if (state.show_env) add("--background", "environment");
+  if (state.sh_order > 0) add("--sh-order", state.sh_order);
+  if (state.exposure !== "") add("--exposure", digits(state.exposure));
+  if (state.tonemap !== kDefaults.tonemap) add("--tonemap", state.tonemap);
+  if (state.budget > 0) add("--max-error", digits(state.budget));
+  if (state.ground) flags.push("--ground");
+  return flags;
+}
+
+function shell_word(word) {
+  return /^[A-Za-z0-9_.,:=\/+@%-][A-Za-z0-9_.,:=\/+@%#-]*$/.test(word) ? word : `'${word.replace(/'/g, `'\\''`)}'`;
+}
+
+function command_of(state) {
+  const stem = state.scene.replace(/^.*\//, "").replace(/\.[^.]*$/, "").replace(/:/g, "-");
+  return ["halflit", state.scene, ...flags_of(state), "-o", `${stem}.png`].map(shell_word).join(" ");
+}
+
+function link_of(state) {
+  const query = new URLSearchParams();
+  for (const key of Object.keys(kDefaults)) if (state[key] !== kDefaults[key]) query.set(key, String(state[key]));
+  return query.toString().replace(/%2C/g, ",").replace(/%3A/g, ":");
+}
+
+function state_of_link(text) {
+  const state = { ...kDefaults };
+  for (const [key, value] of new URLSearchParams(text)) {
+    if (!(key in kDefaults)) continue;
+    const kind = typeof kDefaults[key];
+    if (kind === "boolean") state[key] = value === "true";
+    else if (kind === "number") state[key] = Number.isFinite(+value) ? +value : kDefaults[key];
+    else state[key] = value;
+  }
+  if (!(state.lobe in kLobes)) state.lobe = "";
+  if (state.power !== "") state.power = Number.isFinite(+state.power) ? +state.power : "";
+  return state;
+}

@@ -1,0 +1,140 @@
+#include "apps/web/picture_session.hpp"
+
+#include "apps/halflit/render_options.hpp"
+#include "apps/lab/trade_error.hpp"
+#include "apps/web/session_report.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+namespace halflit::web {
+namespace {
+
+/// Flags that change neither what is loaded nor how it is lit.
+constexpr std::string_view kSettingsFlags[] = {"--camera",
+                                               "--camera-position",
+                                               "--camera-target",
+                                               "--fov",
+                                               "--azimuth",
+                                               "--elevation",
+                                               "--zoom",
+                                               "--lobe",
+                                               "--wrap",
+                                               "--power",
+                                               "--normalize",
+                                               "--specular",
+                                               "--samples",
+                                               "--shading",
+                                               "--shadows",
+                                               "--sky-shadows",
+                                               "--specular-normalize",
+                                               "--sh-order",
+                                               "--tonemap",
+                                               "--max-error",
+                                               "--accuracy",
+                                               "--shadow-fade",
+                                               "--soft-shadow-maps",
+                                               "--shadow-terminator",
+                                               "--texture-filter",
+                                               "--anisotropy"};
+/// Flags that change how it is lit. All others change what is loaded.
+constexpr std::string_view kLightFlags[] = {"--light",   "--no-scene-lights", "--ambient",   "--env",      "--env-rotate",
+                                            "--env-sun", "--sun-size",        "--lamp-size", "--exposure", "--background"};
+
+bool is_one_of(std::string_view flag, std::span<const std::string_view> flags) {
+    return std::find(flags.begin(), flags.end(), flag) != flags.end();
+}
+
+/// The flags that load the scene, and those that light it, each with its value.
+struct Keys {
+    std::string scene, light;
+};
+
+Keys keys_of(const std::string& scene, const std::vector<std::string>& flags) {
+    Keys keys{scene, ""};
+    std::string* key = nullptr;
+    for (const std::string& word : flags) {
+        if (word.starts_with("--"))
+            key = is_one_of(word, kSettingsFlags) ? nullptr : is_one_of(word, kLightFlags) ? &keys.light : &keys.scene;
+        if (key != nullptr) key->append("\n").append(word);
+    }
+    return keys;
+}
+
+}  // namespace
+
+void PictureSession::forget_scene() { job_.reset(); }
+
+Result<void> PictureSession::apply(const std::string& scene, const std::vector<std::string>& flags) {
+    auto options = cli::parse_render_flags(flags);
+    if (!options) return tl::unexpected(options.error());
+    options->scene = scene;
+    options->execution.threads = 1;
+    options->may_want_reference = true;
+    options->load.limits.max_geometry_bytes = std::uint64_t{1} << 30;  // of the 2 GB that the module may take
+    Keys keys = keys_of(scene, flags);
+    if (job_ && keys.scene == scene_flags_) {
+        const bool same_light = keys.light == light_flags_;
+        light_flags_ = "?";  // until it is done
+        if (const auto changed = cli::change_job(*job_, *options, kUsualSize, same_light); !changed) {
+            job_.reset();
+            return changed;
+        }
+    } else {
+        job_.reset();  // its memory first
+        auto job = cli::make_render_job(*options, kUsualSize);
+        if (!job) return tl::unexpected(job.error());
+        job_.emplace(std::move(*job));
+        scene_flags_ = std::move(keys.scene);
+    }
+    light_flags_ = std::move(keys.light);
+    return {};
+}
+
+Result<Image> PictureSession::render(const Settings& settings, bool linear) {
+    Image image = cli::make_image(*job_, linear);
+    auto report = renderer_.render(*job_->prepared, job_->camera, settings, cli::target_of(*job_, image), job_->execution);
+    if (!report) return tl::unexpected(report.error());
+    last_ = std::move(*report);
+    return image;
+}
+
+Result<void> PictureSession::draw(const std::string& scene, const std::vector<std::string>& flags) {
+    const cli::Stopwatch watch;
+    if (const auto applied = apply(scene, flags); !applied) return applied;
+    const double apply_ms = watch.ms();
+    auto image = render(job_->settings, false);
+    if (!image) return tl::unexpected(image.error());
+    picture_ = std::move(*image);
+    report_ = picture_report(*job_, last_, picture_, apply_ms);
+    return {};
+}
+
+Result<void> PictureSession::compare(const std::string& scene, const std::vector<std::string>& flags) {
+    if (const auto applied = apply(scene, flags); !applied) return applied;
+    const auto drawn = render(job_->settings, true);
+    if (!drawn) return tl::unexpected(drawn.error());
+    Settings settings = job_->settings;
+    settings.shading.max_error_codes = 0.0;
+    settings.shading.environment_bands = 0;
+    settings.background_linear = {0, 0, 0, 0};
+    settings.background_environment = false;
+    const auto coverage = render(settings, true);
+    if (!coverage) return tl::unexpected(coverage.error());
+    settings = job_->settings;
+    settings.shading.max_error_codes = 0.0;
+    settings.shading.environment_bands = 0;
+    settings.shading.accuracy = Accuracy::reference;
+    const cli::Stopwatch watch;
+    const auto truth = render(settings, true);
+    if (!truth) return tl::unexpected(truth.error());
+    const double reference_ms = watch.ms();
+    const cli::TradeReference reference(*truth, *coverage, job_->settings.tone_curve);
+    const cli::TradeError error = reference.error_of(*drawn);
+    const double gain = 255.0 / std::max(error.max, 1e-6);
+    picture_ = reference.difference(*drawn, gain);
+    report_ = error_report(error, reference_ms);
+    return {};
+}
+
+}  // namespace halflit::web

@@ -1,0 +1,42 @@
+// The page's scene between two pictures: it stays loaded, prepared and lit as far as the flags allow.
+#pragma once
+
+#include "apps/halflit/render_job.hpp"
+#include "halflit/renderer.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace halflit::web {
+
+/// Size of pictures without --size, as `halflit render` has it.
+inline constexpr cli::PictureSize kUsualSize = cli::kRenderSize;
+
+class PictureSession {
+public:
+    /// Draws what `halflit render SCENE FLAGS` draws. Each flag is its long name, each value a word of its own.
+    Result<void> draw(const std::string& scene, const std::vector<std::string>& flags);
+    /// Draws it, and once more by --accuracy reference, and compares the two. picture() is then the error: the larger the difference in
+    /// codes, the nearer to white; black where nothing is drawn.
+    Result<void> compare(const std::string& scene, const std::vector<std::string>& flags);
+    /// The next picture loads its scene anew, e.g. because files have changed.
+    void forget_scene();
+
+    [[nodiscard]] const Image& picture() const { return picture_; }
+    /// JSON about the last picture or comparison.
+    [[nodiscard]] const std::string& report() const { return report_; }
+
+private:
+    Result<void> apply(const std::string& scene, const std::vector<std::string>& flags);
+    Result<Image> render(const Settings& settings, bool linear);
+
+    std::optional<cli::RenderJob> job_;
+    std::string scene_flags_, light_flags_;  ///< those that the job was made and lit by
+    Renderer renderer_;
+    RenderReport last_;
+    Image picture_;
+    std::string report_;
+};
+
+}  // namespace halflit::web

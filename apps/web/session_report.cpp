@@ -1,0 +1,108 @@
+#include "apps/web/session_report.hpp"
+
+#include "sh/lobe_error.hpp"
+#include "sh/trig.hpp"
+#include "sh/vec3d.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace halflit::web {
+namespace {
+
+template <class Range, class Text>
+std::string list_of(const Range& values, const Text& text) {
+    std::string list;
+    for (const auto& value : values) list.append(list.empty() ? "" : ",").append(text(value));
+    return "[" + list + "]";
+}
+
+/// Seven digits: what a float holds.
+std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.7g}", value) : "null"; }
+
+std::string point(Vec3d p) { return fmt::format("[{},{},{}]", number(p.x), number(p.y), number(p.z)); }
+
+/// The camera as --camera-position, --camera-target and --fov give it, in the file's world. The target is the point of the view axis
+/// nearest to the scene's centre.
+std::string view_of(const cli::RenderJob& job) {
+    const Camera& camera = job.camera;
+    const auto column = [&](int i) {
+        const Vec4f c = camera.world_from_camera.c[i];
+        return Vec3d{static_cast<double>(c.x), static_cast<double>(c.y), static_cast<double>(c.z)};
+    };
+    const Vec3d eye = column(3), ahead = column(2) * -1.0;
+    const Bounds& bounds = job.film.bounds;
+    const Vec3d centre = bounds.empty ? Vec3d{} : (to_double(bounds.min) + to_double(bounds.max)) * 0.5;
+    const Vec3d size = bounds.empty ? Vec3d{1, 1, 1} : to_double(bounds.max) - to_double(bounds.min);
+    const double radius = std::sqrt(dot(size, size)) / 2;
+    const double distance = std::max(dot(centre - eye, ahead), radius * 0.05);
+    const auto in_file = [&](Vec3d p) { return p * (1.0 / job.source.scale) + job.source.origin; };
+    return fmt::format(R"({{"position":{},"target":{},"fov":{},"radius":{}}})", point(in_file(eye)), point(in_file(eye + ahead * distance)),
+                       number(camera.orthographic ? 35.0 : static_cast<double>(camera.fov_y_rad) * (180.0 / kPi)),
+                       number(radius / job.source.scale));
+}
+
+/// Lobes that materials bring along, each once.
+std::string own_lobes(const Scene& scene) {
+    std::vector<Lobe> lobes;
+    for (const Material& material : scene.materials)
+        if (std::find(lobes.begin(), lobes.end(), material.lobe) == lobes.end()) lobes.push_back(material.lobe);
+    return list_of(lobes, [](const Lobe& lobe) {
+        return fmt::format(R"({{"wrap":{},"power":{},"normalize":{}}})", number(static_cast<double>(lobe.wrap)),
+                           number(static_cast<double>(lobe.power)), lobe.normalize);
+    });
+}
+
+}  // namespace
+
+std::string json_text(std::string_view text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\')
+            out.append("\\").append(1, c);
+        else if (static_cast<unsigned char>(c) < 0x20)
+            out.append(fmt::format("\\u{:04x}", static_cast<unsigned>(c)));
+        else
+            out.append(1, c);
+    }
+    return out + "\"";
+}
+
+std::string picture_report(const cli::RenderJob& job, const RenderReport& report, const Image& picture, double apply_ms) {
+    std::vector<std::string> warnings = job.warnings;
+    warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
+    int bands = 0;
+    for (const EnvironmentUse& use : report.environment) bands = std::max(bands, use.bands);
+    return fmt::format(
+        R"({{"width":{},"height":{},"hash":"{:016x}","isa":"{}","apply_ms":{:.2f},"render_ms":{:.2f},)"
+        R"("shadows_ms":{:.2f},"tiles_ms":{:.2f},"triangles":{},"lights":{},"exposure":{},"bands":{},"bound":{},"within":{},"samples":{},"view":{},"lobes":{},"animations":{},)"
+        R"("choices":{},"warnings":{}}})",
+        picture.width, picture.height, pixel_hash(picture.rgba8), isa_name(report.isa), apply_ms, report.total_ms, report.ms.shadows,
+        report.ms.tiles, report.triangles_submitted, job.scene().lights.size(), number(static_cast<double>(job.settings.exposure)), bands,
+        number(report.error.codes), report.error.within, job.settings.samples, view_of(job), own_lobes(job.scene()),
+        list_of(job.source.animations,
+                [](const AnimationInfo& a) { return fmt::format(R"({{"name":{},"end":{}}})", json_text(a.name), number(a.end_s)); }),
+        list_of(job.choices, json_text), list_of(warnings, json_text));
+}
+
+std::string error_report(const cli::TradeError& error, double reference_ms) {
+    return fmt::format(R"({{"max":{},"mean":{},"p999":{},"share_off":{},"reference_ms":{:.1f}}})", number(error.max), number(error.mean),
+                       number(error.p999), number(error.share_off), reference_ms);
+}
+
+std::string lobe_report(const Lobe& lobe, int bands, int samples) {
+    const sh::WrapLobe exact{static_cast<double>(lobe.wrap), static_cast<double>(lobe.power), static_cast<double>(lobe.scale())};
+    const sh::BandFactors factors = sh::zonal_bands(exact);
+    const sh::TruncationError error = sh::truncation_error(exact, bands);
+    std::vector<double> cosines;
+    for (int i = 0; i < samples; ++i) cosines.push_back(2.0 * i / (samples - 1) - 1.0);
+    return fmt::format(R"({{"wrap":{},"power":{},"scale":{},"f":{},"series":{},"bands":{},"sup":{},"l2":{}}})", number(exact.wrap),
+                       number(exact.power), number(exact.scale),
+                       list_of(cosines, [&](double x) { return number(sh::lobe_value(exact, x)); }),
+                       list_of(cosines, [&](double x) { return number(sh::series_value(factors, bands, x)); }), list_of(factors, number),
+                       number(error.sup), number(error.l2));
+}
+
+}  // namespace halflit::web

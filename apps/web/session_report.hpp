@@ -1,0 +1,22 @@
+// JSON for the page. It is written by hand, because it is short and the library for it would be a third of the module.
+#pragma once
+
+#include "apps/halflit/render_job.hpp"
+#include "apps/lab/trade_error.hpp"
+#include "halflit/report.hpp"
+
+#include <string>
+
+namespace halflit::web {
+
+/// apply_ms: loading, preparing and lighting, as far as that was necessary.
+[[nodiscard]] std::string picture_report(const cli::RenderJob& job, const RenderReport& report, const Image& picture, double apply_ms);
+[[nodiscard]] std::string error_report(const cli::TradeError& error, double reference_ms);
+
+/// A lobe's values at `samples` cosines from -1 to 1, its series of `bands` bands there, the bands, and the error of the series.
+[[nodiscard]] std::string lobe_report(const Lobe& lobe, int bands, int samples);
+
+/// The text as a JSON string.
+[[nodiscard]] std::string json_text(std::string_view text);
+
+}  // namespace halflit::web

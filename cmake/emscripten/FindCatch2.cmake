@@ -1,0 +1,10 @@
+# Catch2 2, which is a header, with CMake's part of the build machine's package.
+if(NOT TARGET Catch2::Catch2)
+    add_library(Catch2::Catch2 INTERFACE IMPORTED)
+endif()
+foreach(folder /usr/lib/cmake/Catch2 /usr/share/cmake/Catch2)
+    if(EXISTS ${folder}/Catch.cmake)
+        list(APPEND CMAKE_MODULE_PATH ${folder})
+        set(Catch2_FOUND TRUE)
+    endif()
+endforeach()

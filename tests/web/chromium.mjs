@@ -1,0 +1,105 @@
+// A page in headless Chromium, told what to do through a pipe: the DevTools protocol, without any package.
+import { spawn, spawnSync } from "node:child_process";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+
+const kNames = ["chromium", "chromium-browser", "google-chrome"];
+
+// The browser's name; undefined: there is none.
+export function find_chromium() {
+  return kNames.find((name) => spawnSync(name, ["--version"], { stdio: "ignore" }).status === 0);
+}
+
+export class Page {
+  static async open(address, { width = 1280, height = 800, phone = false } = {}) {
+    const page = new Page();
+    page.folder = mkdtempSync(join(tmpdir(), "halflit-chromium-"));
+    page.process = spawn(find_chromium(), ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+      "--disable-background-networking", "--disable-component-update", "--disable-sync", "--hide-scrollbars", "--remote-debugging-pipe",
+      `--user-data-dir=${page.folder}`, "about:blank"], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
+    page.exited = new Promise((resolve) => page.process.once("exit", resolve));
+    page.waiting = new Map();
+    page.faults = [];      // exceptions and errors of the page
+    page.requests = [];    // addresses that the page asked for
+    page.listen();
+    const { targetId } = await page.send("Target.createTarget", { url: "about:blank" });
+    page.session = (await page.send("Target.attachToTarget", { targetId, flatten: true })).sessionId;
+    for (const domain of ["Page", "Runtime", "Network", "DOM", "Log"]) await page.send(`${domain}.enable`);
+    await page.send("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: phone ? 2 : 1, mobile: phone });
+    if (phone) await page.send("Emulation.setTouchEmulationEnabled", { enabled: true, maxTouchPoints: 2 });
+    await page.send("Page.navigate", { url: address });
+    return page;
+  }
+
+  listen() {
+    let rest = "";
+    this.process.stdio[4].setEncoding("utf8");
+    this.process.stdio[4].on("data", (text) => {
+      const messages = (rest + text).split("\0");
+      rest = messages.pop();
+      messages.map((message) => JSON.parse(message)).forEach((message) => this.take(message));
+    });
+  }
+
+  take({ id, result, error, method, params }) {
+    if (id) {
+      const { resolve, reject } = this.waiting.get(id);
+      this.waiting.delete(id);
+      error ? reject(new Error(error.message)) : resolve(result);
+    } else if (method === "Runtime.exceptionThrown") {
+      this.faults.push(params.exceptionDetails.exception?.description || params.exceptionDetails.text);
+    } else if (method === "Log.entryAdded" && params.entry.level === "error") {
+      this.faults.push(params.entry.text);
+    } else if (method === "Network.requestWillBeSent") {
+      this.requests.push(params.request.url);
+    }
+  }
+
+  send(method, params = {}) {
+    const id = (this.last = (this.last || 0) + 1);
+    return new Promise((resolve, reject) => {
+      this.waiting.set(id, { resolve, reject });
+      this.process.stdio[3].write(JSON.stringify({ id, method, params, sessionId: this.session }) + "\0");
+    });
+  }
+
+  // The value of an expression, of what it promises if it is a promise.
+  async value(expression) {
+    const { result, exceptionDetails } = await this.send("Runtime.evaluate", { expression, awaitPromise: true, returnByValue: true });
+    if (exceptionDetails) throw new Error(exceptionDetails.exception?.description || exceptionDetails.text);
+    return result.value;
+  }
+
+  async until(expression, seconds = 60) {
+    for (const end = Date.now() + 1000 * seconds; Date.now() < end; await new Promise((resolve) => setTimeout(resolve, 50)))
+      if (await this.value(expression).catch(() => false)) return;
+    throw new Error(`after ${seconds} s still not true: ${expression}`);
+  }
+
+  async screenshot(file) {
+    writeFileSync(file, Buffer.from((await this.send("Page.captureScreenshot", { format: "png" })).data, "base64"));
+  }
+
+  async choose_files(selector, files) {
+    const { root } = await this.send("DOM.getDocument");
+    const { nodeId } = await this.send("DOM.querySelector", { nodeId: root.nodeId, selector });
+    await this.send("DOM.setFileInputFiles", { nodeId, files });
+  }
+
+  // A drag of the mouse, or of a finger.
+  async drag(from, to, { touch = false, steps = 8 } = {}) {
+    const at = (share) => ({ x: from.x + (to.x - from.x) * share, y: from.y + (to.y - from.y) * share });
+    const mouse = (type, point) => this.send("Input.dispatchMouseEvent", { type, ...point, button: "left", buttons: 1, clickCount: 1 });
+    const finger = (type, points) => this.send("Input.dispatchTouchEvent", { type, touchPoints: points });
+    await (touch ? finger("touchStart", [at(0)]) : mouse("mousePressed", at(0)));
+    for (let i = 1; i <= steps; ++i) await (touch ? finger("touchMove", [at(i / steps)]) : mouse("mouseMoved", at(i / steps)));
+    await (touch ? finger("touchEnd", []) : mouse("mouseReleased", at(1)));
+  }
+
+  async close() {
+    this.process.kill();
+    await this.exited;
+    rmSync(this.folder, { recursive: true, force: true, maxRetries: 5 });
+  }
+}

@@ -1,0 +1,194 @@
+// The page in headless Chromium against the program: node page_test.mjs PROGRAM PAGE SOURCE_FOLDER WORK_FOLDER
+import { spawnSync } from "node:child_process";
+import { copyFileSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+import { Page, find_chromium } from "./chromium.mjs";
+
+const [program, page_file, source, work] = process.argv.slice(2).map((path) => resolve(path));
+const kSkipped = 77;
+let failures = 0;
+
+function check(fact, holds, found = "") {
+  if (!holds) ++failures;
+  console.log(`${holds ? "ok" : "FAILED"}: ${fact}${found === "" ? "" : `: ${found}`}`);
+}
+
+function skip_without(what, there) {
+  if (there) return;
+  console.log(`skipped: ${what}`);
+  process.exit(kSkipped);
+}
+
+function run(words) {
+  const result = spawnSync(program, words, { cwd: work, encoding: "utf8", maxBuffer: 1 << 26 });
+  if (result.status !== 0) throw new Error(`halflit ${words.join(" ")}: ${result.stderr}`);
+  return result.stdout;
+}
+
+// The hash of the picture that the program draws by a command line without output.
+const native_hash = (words) => JSON.parse(run([...words, "-o", "native.png", "--report", "-", "--quiet"])).pixel_hash;
+
+// A pedestal with pictures of all kinds: a JPEG, a PNG of 8 bits with alpha, in files of their own.
+function write_textured_model() {
+  run(["demo", "--size", "96x80", "-o", "photo.jpg", "--quiet"]);
+  run(["sphere:500", "--size", "64x64", "--background", "transparent", "-o", "ball.png", "--quiet"]);
+  const floats = [], indices = [0, 1, 2, 0, 2, 3], positions = [[-1, 0, 0], [1, 0, 0], [1, 2, 0], [-1, 2, 0]], uvs = [[0, 1], [1, 1], [1, 0], [0, 0]];
+  positions.forEach((p) => floats.push(...p));
+  positions.forEach(() => floats.push(0, 0, 1));
+  uvs.forEach((uv) => floats.push(...uv));
+  const data = Buffer.concat([Buffer.from(new Float32Array(floats).buffer), Buffer.from(new Uint16Array(indices).buffer)]);
+  writeFileSync(join(work, "textured.bin"), data);
+  const view = (byteOffset, byteLength) => ({ buffer: 0, byteOffset, byteLength });
+  const primitive = (material) => ({ attributes: { POSITION: 0, NORMAL: 1, TEXCOORD_0: 2 }, indices: 3, material });
+  const material = (index, alphaMode) => ({ doubleSided: true, alphaMode, pbrMetallicRoughness: { baseColorTexture: { index }, metallicFactor: 0.2, roughnessFactor: 0.5 } });
+  writeFileSync(join(work, "textured.gltf"), JSON.stringify({
+    asset: { version: "2.0" }, scene: 0, scenes: [{ nodes: [0, 1] }],
+    nodes: [{ mesh: 0 }, { mesh: 1, translation: [0.4, 0, 0.7], rotation: [0, 0.2588, 0, 0.9659] }],
+    meshes: [{ primitives: [primitive(0)] }, { primitives: [primitive(1)] }],
+    materials: [material(0, "OPAQUE"), material(1, "BLEND")],
+    textures: [{ source: 0 }, { source: 1 }], images: [{ uri: "photo.jpg" }, { uri: "ball.png" }],
+    buffers: [{ uri: "textured.bin", byteLength: data.length }],
+    bufferViews: [view(0, 48), view(48, 48), view(96, 32), view(128, 12)],
+    accessors: [{ bufferView: 0, componentType: 5126, count: 4, type: "VEC3", min: [-1, 0, 0], max: [1, 2, 0] },
+      { bufferView: 1, componentType: 5126, count: 4, type: "VEC3" }, { bufferView: 2, componentType: 5126, count: 4, type: "VEC2" },
+      { bufferView: 3, componentType: 5123, count: 6, type: "SCALAR" }],
+  }));
+}
+
+const kFiles = ["knot.glb", "textured.gltf", "textured.bin", "photo.jpg", "ball.png"];
+const idle = "window.halflit && halflit.current().shown && halflit.current().idle";
+const shown_hash = (page) => page.value("halflit.current().shown.report.hash");
+const words_of = (command) => command.replace(/ -o .*/, "").match(/'[^']*'|\S+/g).slice(1).map((word) => word.replace(/^'|'$/g, ""));
+
+// Every scene by one module, one after the other.
+async function compare_scenes(page, module, scenes, expected) {
+  const files = kFiles.map((name) => ({ name, base64: readFileSync(join(work, name)).toString("base64") }));
+  const found = await page.value(`(async () => {
+    const engine = new halflit.Engine(${JSON.stringify(module)});
+    const files = ${JSON.stringify(files)}.map(({ name, base64 }) => ({ name, bytes: Uint8Array.from(atob(base64), (c) => c.charCodeAt(0)).buffer }));
+    await engine.started;
+    await engine.ask("files", { files });
+    const found = [];
+    for (const [scene, ...flags] of ${JSON.stringify(scenes)}) {
+      const answer = await engine.ask("draw", { scene, flags });
+      found.push(answer.error || [answer.report.hash, answer.report.isa]);
+    }
+    engine.stop();
+    return found;
+  })()`);
+  const isa = module === "simd" ? "wasm128" : "scalar";
+  scenes.forEach((scene, i) => check(`${module}: ${scene.join(" ")}`, found[i][0] === expected[i] && found[i][1] === isa, `${found[i]}, native ${expected[i]}`));
+}
+
+async function test_page(page) {
+  await page.until(idle);
+  check("the page's first picture is the program's", (await shown_hash(page)) === native_hash(["demo", "--size", "640x360"]));
+
+  // A turn by the mouse, and its speed.
+  const turns = Number(process.env.HALFLIT_WEB_TURNS || 24);
+  const rates = [];
+  for (let i = 0; i < 3; ++i) {
+    await page.value(`(async () => {
+      const engine = new halflit.Engine("simd"), ask = (flags) => engine.ask("draw", { scene: "demo", flags: ["--size", "640x360", ...flags] });
+      await engine.started;
+      const measure = async (samples) => {
+        await ask(["--samples", samples]);
+        const start = performance.now();
+        for (let k = 0; k < ${turns}; ++k) await ask(["--samples", samples, "--camera-position", (9 * Math.sin(k / 9)).toFixed(3) + ",2.5," + (9 * Math.cos(k / 9)).toFixed(3), "--camera-target", "0,1,0", "--fov", "25"]);
+        return 1000 * ${turns} / (performance.now() - start);
+      };
+      window.rates = [await measure("1"), await measure("4")];
+      engine.stop();
+    })()`);
+    rates.push(await page.value("window.rates"));
+  }
+  const best = [0, 1].map((i) => Math.max(...rates.map((rate) => rate[i])));
+  check("the demo turns at 640x360", best[0] > 3, `${best[0].toFixed(1)} pictures a second with 1 sample, ${best[1].toFixed(1)} with 4`);
+
+  const before = await shown_hash(page);
+  await page.drag({ x: 400, y: 300 }, { x: 470, y: 280 });
+  await page.until(idle);
+  const command = await page.value("document.getElementById('command').value"), turned = await shown_hash(page);
+  check("a drag turns the view", turned !== before && command.includes("--camera-position"));
+  check("the command line gives the turned picture", native_hash(words_of(command)) === turned, command);
+
+  // Controls, as a hand sets them.
+  const set = (name, value) => page.value(`(() => { const input = document.querySelector('[name="${name}"]'); input.${typeof value === "boolean" ? "checked" : "value"} = ${JSON.stringify(value)}; input.dispatchEvent(new Event("input", { bubbles: true })); })()`);
+  for (const [name, value] of [["lobe", "sloan"], ["wrap", "0.8"], ["power", "2.2"], ["normalize", true], ["specular", "ggx"], ["env", "sky"], ["sh_order", "3"], ["sky_shadows", "16"], ["shadows", "hard"]]) await set(name, value);
+  await page.value("(() => { const count = document.getElementById('light_count'); count.value = 2; count.dispatchEvent(new Event('input', { bubbles: true })); })()");
+  await page.until(idle);
+  const full = await page.value("document.getElementById('command').value"), full_hash = await shown_hash(page);
+  check("the command line gives the picture of all controls", native_hash(words_of(full)) === full_hash, full);
+
+  // The PNG of the page.
+  const png = await page.value("(async () => { const { shown } = halflit.current(); const bytes = new Uint8Array(await (await png_of(new Uint8Array(shown.pixels), shown.width, shown.height)).arrayBuffer()); let text = ''; for (const b of bytes) text += String.fromCharCode(b); return btoa(text); })()");
+  writeFileSync(join(work, "page.png"), Buffer.from(png, "base64"));
+  check("the page's PNG has the program's pixels", spawnSync(program, ["diff", "native.png", "page.png"], { cwd: work }).status === 0);
+
+  // The error against the reference.
+  await page.value("document.getElementById('toggle_heat').click()");
+  await page.until("!document.getElementById('legend').hidden", 120);
+  const words = await page.value("document.getElementById('notes').textContent"), most = Number(words.match(/at most ([0-9.e-]+)/)?.[1]);
+  check("the error map tells an error", most > 0 && most < 60, words);
+  await page.screenshot(join(work, "desktop.png"));
+  await page.value("document.getElementById('toggle_heat').click()");
+
+  // The link.
+  const link = await page.value("location.href");
+  const other = await Page.open(link);
+  await other.until(idle);
+  check("the link gives the same picture", (await shown_hash(other)) === full_hash, link.split("#")[1]);
+  await other.close();
+
+  // A model.
+  await page.choose_files("#files", kFiles.slice(1).map((name) => join(work, name)));
+  await page.until("halflit.current().state.scene === 'textured.gltf' && halflit.current().idle");
+  const model = await page.value("document.getElementById('command').value");
+  check("a model that was opened is drawn", native_hash(words_of(model)) === (await shown_hash(page)), model);
+  check("no error is shown", await page.value("document.getElementById('error').hidden"), await page.value("document.getElementById('error').textContent"));
+  await page.screenshot(join(work, "model.png"));
+}
+
+async function test_phone(address) {
+  const page = await Page.open(address, { width: 390, height: 844, phone: true });
+  await page.until(idle);
+  const width = await page.value("document.documentElement.scrollWidth");
+  check("nothing is wider than a phone", width <= 390, width);
+  const before = await shown_hash(page), box = JSON.parse(await page.value("JSON.stringify(document.getElementById('picture').getBoundingClientRect())"));
+  await page.drag({ x: 150, y: box.y + 80 }, { x: 230, y: box.y + 90 }, { touch: true });
+  await page.until(idle);
+  check("a finger turns the view", (await shown_hash(page)) !== before);
+  await page.screenshot(join(work, "phone.png"));
+  check("the phone's page has no error", page.faults.length === 0, page.faults.join(", "));
+  await page.close();
+}
+
+skip_without("there is no Chromium", find_chromium());
+const size = statSync(page_file, { throwIfNoEntry: false })?.size;
+skip_without("the page was not built, as there is no Emscripten", size);
+rmSync(work, { recursive: true, force: true });
+mkdirSync(work, { recursive: true });
+copyFileSync(join(source, "apps/examples/knot.glb"), join(work, "knot.glb"));
+write_textured_model();
+check("the page has at most 3 MB", size <= 3e6, size);
+
+const scenes = readFileSync(join(source, "tests/web/scenes.txt"), "utf8").split("\n").filter((line) => line && !line.startsWith("#")).map((line) => line.split(" "));
+const expected = scenes.map(native_hash);
+check("there are at least 20 different pictures", new Set(expected).size >= 20, new Set(expected).size);
+const address = pathToFileURL(page_file).href;
+const page = await Page.open(address);
+try {
+  await page.until(idle);
+  await compare_scenes(page, "simd", scenes, expected);
+  await compare_scenes(page, "scalar", [...scenes].reverse(), [...expected].reverse());
+  await test_page(page);
+  const outside = page.requests.filter((request) => !/^(file|blob|data):/.test(request));
+  check("nothing is asked of a network", outside.length === 0, outside.join(", "));
+  check("the page has no error", page.faults.length === 0, page.faults.join(", "));
+  await test_phone(address);
+} finally {
+  await page.close();
+}
+console.log(failures === 0 ? "all as expected" : `${failures} failed`);
+process.exit(failures === 0 ? 0 : 1);
