@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 """Makes the wheel of the Python package, and is its PEP 517 backend. Needs patchelf and binutils, and no Python package.
 
     build_wheel.py LIBHALFLIT_PYTHON_SO FOLDER      writes FOLDER/halflit-VERSION-py3-none-PLATFORM.whl and prints its name

@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 """Makes halflit/_declarations.py, which has the structs, constants and functions of halflit.h as text.
 
     declarations.py HALFLIT_H [FILE]      without FILE: to standard output
