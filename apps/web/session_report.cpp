@@ -77,7 +77,8 @@ std::string picture_report(const cli::RenderJob& job, const RenderReport& report
     for (const EnvironmentUse& use : report.environment) bands = std::max(bands, use.bands);
     return fmt::format(
         R"({{"width":{},"height":{},"hash":"{:016x}","isa":"{}","apply_ms":{:.2f},"render_ms":{:.2f},)"
-        R"("shadows_ms":{:.2f},"tiles_ms":{:.2f},"triangles":{},"lights":{},"exposure":{},"bands":{},"bound":{},"within":{},"samples":{},"view":{},"lobes":{},"animations":{},)"
+        R"("shadows_ms":{:.2f},"tiles_ms":{:.2f},"triangles":{},"lights":{},"exposure":{},"bands":{},"bound":{},"within":{},"samples":{},)"
+        R"("view":{},"lobes":{},"animations":{},)"
         R"("choices":{},"warnings":{}}})",
         picture.width, picture.height, pixel_hash(picture.rgba8), isa_name(report.isa), apply_ms, report.total_ms, report.ms.shadows,
         report.ms.tiles, report.triangles_submitted, job.scene().lights.size(), number(static_cast<double>(job.settings.exposure)), bands,
