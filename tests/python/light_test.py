@@ -58,7 +58,8 @@ class Lights(unittest.TestCase):
         scene.clear_lights()
         scene.set_ambient((0.25, 0.5, 0.75))
         self.assertTrue(np.allclose(middle(scene), (0.25, 0.5, 0.75), atol=1e-5))
-        self.assertTrue(np.allclose(middle(square(color=(0, 0, 0)), ambient=(0.25, 0.5, 0.75)), (0.25, 0.5, 0.75), atol=1e-5))
+        behind = square(direction=(0, 0, 1))  # a scene without any light would get some
+        self.assertTrue(np.allclose(middle(behind, ambient=(0.25, 0.5, 0.75)), (0.25, 0.5, 0.75), atol=1e-5))
         with self.assertRaisesRegex(halflit.UsageError, "environment: expected an array"):
             scene.set_environment(np.zeros((4, 8)))
 
