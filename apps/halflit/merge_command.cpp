@@ -127,6 +127,19 @@ Result<void> check_output(const MergeOptions& options) {
     return check_writable(options.output);
 }
 
+/// Names pictures whose file is gone, up to ten. False: none is.
+bool tell_lost(const ReportedRun& run) {
+    constexpr std::size_t kShown = 10;
+    std::size_t lost = 0;
+    for (const ReportedPicture& picture : run.pictures) {
+        if (is_there(picture.path) || lost++ >= kShown) continue;
+        const auto& shard = picture.file.shard;
+        print_error(picture.path + " is not there" + (shard ? fmt::format("; of shard {} of {}", shard->index, shard->count) : ""));
+    }
+    if (lost > kShown) print_error(fmt::format("and {} more", lost - kShown));
+    return lost > 0;
+}
+
 Result<int> run_merge(const MergeOptions& options) {
     if (const auto checked = check_output(options); !checked) return tl::unexpected(checked.error());
     const auto run = read_reports(options.reports);
@@ -135,7 +148,8 @@ Result<int> run_merge(const MergeOptions& options) {
     if (run->pictures.empty()) return fail(ErrorCode::negative_result, "the reports name no picture");
     const std::string missing = missing_of(*run);
     if (!missing.empty()) print_error(missing);
-    if (!missing.empty() || !run->failures.empty()) return static_cast<int>(ErrorCode::negative_result);
+    const bool lost = tell_lost(*run);
+    if (lost || !missing.empty() || !run->failures.empty()) return static_cast<int>(ErrorCode::negative_result);
     for (const ReportedPicture& picture : run->pictures)
         if (!options.output.empty() && same_file(options.output, picture.path))
             return fail(ErrorCode::io, options.output + ": is read for the output and is not overwritten");

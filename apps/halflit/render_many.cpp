@@ -138,7 +138,7 @@ private:
                 if (path == options_.each.report)
                     return fail(ErrorCode::usage, "--report: expected another file than the picture's, found '" + path + "'");
                 if (const auto [other, is_new] = scene_of.try_emplace(std::move(path), &scene); !is_new)
-                    return fail(ErrorCode::usage, fmt::format("{}: {} has the same picture {}", scene,
+                    return fail(ErrorCode::usage, fmt::format("{}: {} has the same picture {} ({{index}} in -o tells them apart)", scene,
                                                               *other->second == scene ? "another scene" : *other->second, other->first));
             }
         }

@@ -193,7 +193,7 @@ std::string missing_of(const ReportedRun& run) {
     }
     if (missing.empty()) return "";
     std::string text = fmt::format("missing: {} {}", film ? "frames" : "scenes", first_of(missing));
-    if (any.shard) text += fmt::format("; they are in the shards {} of {}", first_of(shards), any.shard->count);
+    if (any.shard) text += fmt::format("; of shard{} {} of {}", shards.size() == 1 ? "" : "s", first_of(shards), any.shard->count);
     return text;
 }
 

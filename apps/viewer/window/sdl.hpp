@@ -13,6 +13,7 @@ namespace halflit::viewer {
     F(Quit)                      \
     F(SetHint)                   \
     F(GetError)                  \
+    F(GetCurrentVideoDriver)     \
     F(CreateWindow)              \
     F(DestroyWindow)             \
     F(GetWindowSize)             \

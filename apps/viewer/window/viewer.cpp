@@ -375,6 +375,9 @@ Result<ViewerSummary> run_viewer(cli::RenderJob job, const cli::RenderOptions& o
         return fail(ErrorCode::usage, "view: no display: " + reason);
     }
     const AtEnd quit([&sdl] { sdl->Quit(); });
+    const std::string_view driver = sdl->GetCurrentVideoDriver();
+    if (!how.rehearsal.wanted && (driver == "offscreen" || driver == "dummy"))
+        return fail(ErrorCode::usage, "view: no display; --orbit, --click and --screenshot do without");
     return Viewer(*sdl, std::move(job), options, how).run();
 }
 
