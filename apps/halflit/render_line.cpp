@@ -71,6 +71,9 @@ Result<RenderKind> settle_kind(RenderLine& line) {
     if (line.film.wanted()) {
         if (words.size() > 1) return fail(ErrorCode::usage, "--frames and --turntable: expected one scene, found " + words[1]);
         if (is_folder(line.output) && !line.output.ends_with('/')) line.output += '/';
+        const bool names_file = !line.output.empty() && !line.output.ends_with('/') && !film::film_format_of(line.output) && !line.format;
+        if (const auto format = output_format_of(line.output); names_file && !format)
+            return fail(ErrorCode::usage, format.error().message + " for a file of each frame, or .gif, .apng or .webp for all of them");
         return RenderKind::film;
     }
     if (const auto checked = check_film_options(line.film, line.output); !checked) return tl::unexpected(checked.error());
