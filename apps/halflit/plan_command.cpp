@@ -136,11 +136,10 @@ std::string text_of(const Divided& run, std::string_view form) {
     if (form == "slurm") return slurm_text(run);
     if (form == "kubernetes") return kubernetes_text(run);
     if (form == "opencue") return command_of(run, fmt::format("#IFRAME#/{}", run.shards)) + "\n";
-    if (form == "parallel")
-        return fmt::format("seq 0 {} | parallel --retries 3 --joblog halflit.log {}\n", run.shards - 1,
-                           shell_word(command_of(run, fmt::format("{{}}/{}", run.shards))));
     std::string text;
     for (std::int64_t i = 0; i < run.shards; ++i) text += command_of(run, fmt::format("{}/{}", i, run.shards)) + "\n";
+    // Commands that parallel reads are run as they are; in one of its own, {} and {.} would be replaced.
+    if (form == "parallel") return "parallel --retries 3 --joblog halflit.log <<'END_OF_COMMANDS'\n" + text + "END_OF_COMMANDS\n";
     return text;
 }
 

@@ -242,6 +242,25 @@ class Parts(unittest.TestCase):
             scene.render(8)
         self.assertEqual(repr(scene), "<halflit.Scene, closed>")
 
+    def test_numbers_that_c_cannot_hold_are_refused(self):
+        scene = halflit.Scene()
+        scene.add_mesh(CORNERS, FACES)
+        for call in (
+            lambda: scene.instance(2**32),
+            lambda: scene.render(8, samples=2**32 + 4),
+            lambda: scene.render(8, memory_limit=-1),
+        ):
+            with self.assertRaisesRegex(halflit.UsageError, "expected a whole number"):
+                call()
+        self.assertEqual(scene.render(8, dtype=None).dtype, np.uint8)
+
+    def test_a_copied_camera_keeps_its_name(self):
+        camera = halflit.Camera(name="a name of some length")
+        copy = camera.copy()
+        camera.name = "other"
+        del camera
+        self.assertEqual(copy.name, "a name of some length")
+
     def test_an_empty_scene_is_its_background(self):
         picture = halflit.Scene().render(8)
         self.assertEqual(np.unique(picture.reshape(-1, 4), axis=0).tolist(), [[0x3A, 0x3F, 0x47, 255]])

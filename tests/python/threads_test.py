@@ -1,7 +1,10 @@
 """Threads draw side by side, and Python's functions are called while a frame is drawn."""
+import signal
 import threading
 import time
 import unittest
+
+import numpy as np
 
 import halflit
 from support import CORNERS, FACES, box
@@ -109,6 +112,26 @@ class Callbacks(unittest.TestCase):
             with self.assertRaisesRegex(KeyboardInterrupt, "stop"):
                 scene.render((320, 200), **{name: fail})
         self.assertEqual(scene.render((320, 200)).pixel_hash, expected)
+
+    def test_a_callback_cannot_use_the_scene_that_is_drawn(self):
+        scene = halflit.Scene()
+        scene.add_mesh(np.random.default_rng(1).random((3000, 3), np.float32))
+        for name in ("progress", "cancelled"):
+            with self.assertRaisesRegex(halflit.UsageError, "scene that is drawn"):  # it waited for itself
+                scene.render(200, threads=4, **{name: lambda *_: scene.counts})
+        with self.assertRaises(ValueError):
+            scene.render(8, cancelled=lambda: np.zeros(3))
+        self.assertEqual(scene.render(8).shape, (8, 8, 4))
+
+    def test_ctrl_c_ends_a_frame_with_functions(self):
+        for _ in range(3):
+            timer = threading.Timer(0.1, lambda: signal.raise_signal(signal.SIGINT))
+            timer.start()
+            with self.assertRaises(KeyboardInterrupt):
+                end = time.monotonic() + 20
+                while time.monotonic() < end:
+                    halflit.render("demo", (640, 360), samples=16, progress=lambda share: None)
+            timer.join()
 
     def test_limits(self):
         with self.assertRaises(halflit.LimitError):

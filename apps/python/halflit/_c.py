@@ -6,12 +6,13 @@ side by side.
 from __future__ import annotations
 
 import ctypes
+import operator
 import os
 import re
 import threading
 
 from ._declarations import CONSTANTS, FUNCTIONS, STRUCTS
-from ._errors import BY_CODE, Error
+from ._errors import BY_CODE, Error, UsageError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -34,8 +35,33 @@ Cancelled = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p)
 _CALLBACKS = {"progress": Progress, "cancelled": Cancelled}
 
 
+#: Least and largest number of each type of whole numbers.
+_RANGES = {
+    ctypes.c_int32: (-(2**31), 2**31 - 1),
+    ctypes.c_uint32: (0, 2**32 - 1),
+    ctypes.c_uint64: (0, 2**64 - 1),
+    ctypes.c_size_t: (0, 2 ** (8 * ctypes.sizeof(ctypes.c_size_t)) - 1),
+}
+
+
+def whole(kind, value, name: str):
+    """A number that the C type holds; ctypes would drop its upper bits. What is no whole number is left to ctypes."""
+    if kind not in _RANGES or not hasattr(value, "__index__"):
+        return value
+    low, high = _RANGES[kind]
+    number = operator.index(value)
+    if not low <= number <= high:
+        raise UsageError(f"{name}: expected a whole number from {low} to {high}, found {number}")
+    return number
+
+
 class Struct(ctypes.Structure):
     """A struct of halflit.h whose first member is its size."""
+
+    _kinds: dict = {}  # member -> ctypes type
+
+    def __setattr__(self, name: str, value) -> None:
+        super().__setattr__(name, whole(self._kinds.get(name), value, name))
 
 
 def _groups(pattern: str, text: str) -> Any:
@@ -70,6 +96,21 @@ def _members(text: str, structs: dict) -> list:
 STRUCT: dict = {}
 for _name, _text in STRUCTS.items():
     STRUCT[_name] = type(_name, (Struct,), {"_fields_": _members(_text, STRUCT)})
+    STRUCT[_name]._kinds = dict(STRUCT[_name]._fields_)
+
+
+def _checked(kind):
+    """The type as that of an argument."""
+
+    class Checked(kind):
+        @classmethod
+        def from_param(cls, value):
+            return kind.from_param(whole(kind, value, "an index or number"))
+
+    return Checked
+
+
+_ARGUMENTS = {name: _checked(kind) if kind in _RANGES else kind for name, kind in _NUMBERS.items()}
 
 
 def choices(prefix: str) -> dict:
@@ -132,7 +173,7 @@ def _argument(text: str):
         return ctypes.c_char_p
     if "*" in text or "[" in text:
         return ctypes.c_void_p
-    return _NUMBERS[text.split()[0]]
+    return _ARGUMENTS[text.split()[0]]
 
 
 def function(name: str):
@@ -142,7 +183,10 @@ def function(name: str):
 
 def call(name: str, *arguments) -> None:
     """Calls a function that returns a code, and raises what it tells."""
-    code = function(name)(*arguments)
+    try:
+        code = function(name)(*arguments)
+    except ctypes.ArgumentError as error:
+        raise UsageError(f"{name}: {error}") from None
     if code:
         raise BY_CODE.get(code, Error)(function("last_error")().decode("utf-8", "replace"))
 

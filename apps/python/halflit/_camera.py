@@ -107,7 +107,9 @@ class Camera(Record):
 
     def copy(self) -> Camera:
         """Another camera that is equal."""
-        return Camera._of(_c.STRUCT["halflit_camera"].from_buffer_copy(self._c))
+        camera = Camera._of(_c.STRUCT["halflit_camera"].from_buffer_copy(self._c))
+        camera._c.name = self._c.name  # its own: that of the other may go away
+        return camera
 
     def placed(self, origin, scale: float) -> Camera:
         """The camera in a world where a point p is at (p - origin) * scale."""

@@ -136,11 +136,12 @@ def draw(scene, size, options: dict) -> Picture:
         settings.exposure = options["exposure"]
     target, picture, planes = memory(setup.size, settings, options)
     report = _c.make("report", False)
-    execution = Execution(options)
+    execution = Execution(options, scene._lock)
     renderer = renderer_of(scene, execution)
     try:
         arguments = (renderer, scene._handle, setup.camera._c, settings, target, report)
-        _c.call("render", *arguments[:2], *(ctypes.byref(struct) for struct in arguments[2:]))
+        with execution.interrupts():
+            _c.call("render", *arguments[:2], *(ctypes.byref(struct) for struct in arguments[2:]))
     except Exception:
         if execution.raised is not None:
             raise execution.raised from None
@@ -189,8 +190,9 @@ def memory(size: tuple, settings, options: dict):
         for name, value in zip(("x", "y", "width", "height"), (x, y, width, height)):
             setattr(settings.region, name, value)
         target.region_alone = 1
-    dtype = np.dtype(options.get("dtype", np.uint8) if options.get("out") is None else options["out"].dtype)
-    if dtype not in (np.uint8, np.float32) or options.get("dtype", dtype) != dtype:
+    asked = options.get("dtype")
+    dtype = np.dtype((np.uint8 if asked is None else asked) if options.get("out") is None else options["out"].dtype)
+    if dtype not in (np.uint8, np.float32) or (asked is not None and np.dtype(asked) != dtype):
         raise UsageError(f"dtype: expected uint8 or float32, and that of `out`, found {dtype}")
     format_name = "RGBA_F32" if dtype == np.float32 else "RGBA8"
     target.format = _c.CONSTANTS[f"HALFLIT_FORMAT_{format_name}{'_PREMULTIPLIED' if options.get('premultiplied') else ''}"]

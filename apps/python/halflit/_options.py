@@ -1,7 +1,10 @@
 """The keywords of render(): what decides a picture, and how it is computed."""
 from __future__ import annotations
 
+import contextlib
 import ctypes
+import signal
+import threading
 
 from . import _c
 from ._errors import UsageError
@@ -9,7 +12,7 @@ from ._records import Lobe, chosen, fill
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any, Callable, Sequence, Tuple, TypedDict, Union
+    from typing import Any, Callable, Iterator, Sequence, Tuple, TypedDict, Union
 
     import numpy as np
 
@@ -172,10 +175,32 @@ def settings_dict(settings) -> dict:
     return values
 
 
-class Execution:
-    """A halflit_execution for the keywords. An exception in progress() or cancelled() stops the frame, and is raised after it."""
+_CALLING = threading.local()  # lock: of the scene whose frame calls a function in this thread
 
-    def __init__(self, options: dict):
+
+class SceneLock:
+    """One thread at a time uses a scene. The functions that a frame of it calls cannot: the frame would wait for itself."""
+
+    def __init__(self) -> None:
+        self._lock = threading.RLock()
+
+    def __enter__(self) -> None:
+        if getattr(_CALLING, "lock", None) is self:
+            raise UsageError("progress and cancelled cannot use the scene that is drawn")
+        self._lock.acquire()
+
+    def __exit__(self, *_) -> None:
+        self._lock.release()
+
+
+class Execution:
+    """A halflit_execution for the keywords. An exception in progress() or cancelled() stops the frame, and is raised after it.
+
+    lock: of the scene, which the frame holds while it waits for the functions.
+    """
+
+    def __init__(self, options: dict, lock: SceneLock):
+        self.lock = lock
         self.struct = struct = _c.make("execution")
         self.raised: BaseException | None = None
         self.key = tuple(options.get(name) for name in EXECUTION)
@@ -188,11 +213,32 @@ class Execution:
         self.has_functions = progress is not None or cancelled is not None
         if self.has_functions:
             struct.progress = _c.Progress(lambda _, share: self._guarded(progress, share) and None)
-            struct.cancelled = _c.Cancelled(lambda _: 1 if self.raised or self._guarded(cancelled) else 0)
+            struct.cancelled = _c.Cancelled(lambda _: 1 if self.raised or self._guarded(lambda: bool(cancelled and cancelled())) or self.raised else 0)
+
+    @contextlib.contextmanager
+    def interrupts(self) -> Iterator[None]:
+        """While the library calls functions, Ctrl-C ends the frame: an exception at the begin of such a call would be lost in ctypes."""
+        in_main = threading.current_thread() is threading.main_thread()
+        if not (self.has_functions and in_main and signal.getsignal(signal.SIGINT) is signal.default_int_handler):
+            yield
+            return
+
+        def note(*_) -> None:
+            self.raised = self.raised or KeyboardInterrupt()
+
+        signal.signal(signal.SIGINT, note)
+        try:
+            yield
+        finally:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
 
     def _guarded(self, function, *arguments):
+        before = getattr(_CALLING, "lock", None)
+        _CALLING.lock = self.lock
         try:
             return function(*arguments) if function is not None and self.raised is None else None
         except BaseException as error:  # KeyboardInterrupt too: the frame ends, then it is raised
             self.raised = error
             return None
+        finally:
+            _CALLING.lock = before

@@ -4,11 +4,11 @@ from __future__ import annotations
 import ctypes
 import math
 import os
-import threading
 
 from . import _c
 from ._camera import Camera
 from ._errors import UsageError
+from ._options import SceneLock
 from ._records import Light, Material, Record, fill
 
 TYPE_CHECKING = False
@@ -62,7 +62,7 @@ class Scene:
 
     def _start(self, handle: _c.Handle) -> None:
         self._handle: Any = handle
-        self._lock = threading.RLock()
+        self._lock = SceneLock()
         self._renderer = None
         self._executed = None  # Execution.key of the renderer
         self._changes = 0  # of anything that setup() looks at
