@@ -41,10 +41,7 @@ FlagGroup untrusted_file_flags(RenderOptions& o) {
              {.names = "--allow-external",
               .form = "DIR",
               .help = "Also allow references to files in this folder",
-              .read = [&o](const std::string& text) -> Result<void> {
-                  o.load.allow_external.push_back(text);
-                  return {};
-              },
+              .read = append_to(o.load.allow_external),
               .repeated = true},
              limit_flag("--max-file-bytes", limits.max_file_bytes, "a larger model, buffer or picture file", kAny),
              limit_flag("--max-total-bytes", limits.max_total_bytes, "more bytes in all buffers together", kAny),

@@ -104,8 +104,7 @@ Result<SceneChanges> pose_job(RenderJob& job, const RenderOptions& options, doub
     if (left_out) changes->lights = false;
     if (changes->materials && options.classic.any())
         return fail(ErrorCode::usage, "--kd, --ks, --shininess: cannot be combined with an animation that changes materials");
-    if (changes->materials && !options.own_lobes)
-        for (Material& material : job.scene().materials) material.has_own_lobe = false;
+    if (changes->materials && !options.own_lobes) drop_own_lobes(scene);
     return changes;
 }
 

@@ -72,6 +72,14 @@ template <class Target, class Parser>
     };
 }
 
+/// Appends the text, for what may be given several times.
+[[nodiscard]] inline ReadValue append_to(std::vector<std::string>& target) {
+    return [&target](const std::string& text) -> Result<void> {
+        target.push_back(text);
+        return {};
+    };
+}
+
 /// Sets a switch.
 [[nodiscard]] inline ReadValue set_to(bool& target, bool value = true) {
     return [&target, value](const std::string&) -> Result<void> {

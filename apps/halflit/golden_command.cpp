@@ -128,13 +128,7 @@ Command golden_command() {
               .read = read_text(o.folder),
               .required = true,
               .form = "DIR"},
-             {.name = "NAME",
-              .help = "Scenes of the list; without a name, all of them",
-              .read = [&o](const std::string& text) -> Result<void> {
-                  o.names.push_back(text);
-                  return {};
-              },
-              .repeated = true}},
+             {.name = "NAME", .help = "Scenes of the list; without a name, all of them", .read = append_to(o.names), .repeated = true}},
             {{"Flags", {{"--json", "", "Print one JSON object", set_to(o.json)}}},
              {"Check",
               {{"-o,--output", "DIR", "Folder for index.html and the pictures that differ (default DIR/report)",

@@ -150,12 +150,12 @@ Result<int> run_merge(const MergeOptions& options) {
     if (!missing.empty()) print_error(missing);
     const bool lost = tell_lost(*run);
     if (lost || !missing.empty() || !run->failures.empty()) return static_cast<int>(ErrorCode::negative_result);
-    for (const ReportedPicture& picture : run->pictures)
-        if (!options.output.empty() && same_file(options.output, picture.path))
-            return fail(ErrorCode::io, options.output + ": is read for the output and is not overwritten");
     if (options.output.empty()) {
         if (const auto verified = verify(*run); !verified) return tl::unexpected(verified.error());
     } else {
+        for (const ReportedPicture& picture : run->pictures)
+            if (same_file(options.output, picture.path))
+                return fail(ErrorCode::io, options.output + ": is read for the output and is not overwritten");
         const auto bytes = join(*run, options);
         if (!bytes) return tl::unexpected(bytes.error());
         if (const auto written = io::write_file(options.output, *bytes); !written) return tl::unexpected(written.error());
@@ -174,13 +174,9 @@ Result<int> run_merge(const MergeOptions& options) {
 Command merge_command() {
     const auto options = std::make_shared<MergeOptions>();
     MergeOptions& o = *options;
-    const auto add_report = [&o](const std::string& text) -> Result<void> {
-        o.reports.push_back(text);
-        return {};
-    };
     Positional reports{.name = "REPORT",
                        .help = "Reports of halflit render --shard I/N --report FILE",
-                       .read = add_report,
+                       .read = append_to(o.reports),
                        .required = true,
                        .repeated = true,
                        .form = "FILE",

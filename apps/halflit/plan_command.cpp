@@ -157,13 +157,9 @@ Result<int> run_plan(const PlanOptions& options) {
 Command plan_command() {
     const auto options = std::make_shared<PlanOptions>();
     PlanOptions& o = *options;
-    const auto add_word = [&o](const std::string& text) -> Result<void> {
-        o.words.push_back(text);
-        return {};
-    };
     Positional words{.name = "COMMAND",
                      .help = "The command to divide, behind --: render and its arguments",
-                     .read = add_word,
+                     .read = append_to(o.words),
                      .required = true,
                      .repeated = true,
                      .usage = "-- render ..."};

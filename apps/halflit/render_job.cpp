@@ -260,8 +260,7 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
         job.choices.push_back(pose_choice(*animation, job.source.animation, job.pose_time_s));
     turn_upright(job.scene(), options.up);
     replace_materials(job.scene(), options.classic);
-    if (!options.own_lobes)
-        for (Material& material : job.scene().materials) material.has_own_lobe = false;
+    if (!options.own_lobes) drop_own_lobes(job.scene());
     const bool moves = options.film.animates() && job.source.motion && job.animation() != nullptr;
     if (moves) {
         const auto swept = swept_bounds(job, options);
@@ -289,6 +288,10 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
         return tl::unexpected(updated.error());
     job.settings.region = options.settings.region.width > 0 ? options.settings.region : Region{0, 0, job.width, job.height};
     return job;
+}
+
+void drop_own_lobes(Scene& scene) {
+    for (Material& material : scene.materials) material.has_own_lobe = false;
 }
 
 bool relight(RenderJob& job, const Camera& camera) {

@@ -54,6 +54,9 @@ struct RenderJob {
 /// scene are reported before it is loaded.
 [[nodiscard]] Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usual);
 
+/// Takes the materials' own lobes away, so that the settings' lobe counts for all.
+void drop_own_lobes(Scene& scene);
+
 /// Turns the light that was chosen for the viewer, such as the studio, with another camera. The exposure stays. False: there is none.
 bool relight(RenderJob& job, const Camera& camera);
 

@@ -162,10 +162,7 @@ Command render_table(RenderLine& o) {
     Positional scene = scene_argument(o, false);
     scene.help += ". A picture's name after it is the output";
     scene.usage = "SCENE... [PICTURE]";
-    scene.read = [&o](const std::string& text) -> Result<void> {
-        o.words.push_back(text);
-        return {};
-    };
+    scene.read = append_to(o.words);
     scene.repeated = true;
     return {"render", "Draw a scene into a picture; without one, the demo scene", {std::move(scene)}, std::move(groups), {}};
 }

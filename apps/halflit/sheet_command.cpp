@@ -168,10 +168,7 @@ Command sheet_command() {
            read_text(o.references)}}});
     Positional scenes = scene_argument(o, true);
     scenes.usage = "SCENE...";
-    scenes.read = [&o](const std::string& text) -> Result<void> {
-        o.scenes.push_back(text);
-        return {};
-    };
+    scenes.read = append_to(o.scenes);
     scenes.repeated = true;
     return {"sheet", "Draw many scenes into one picture, with their names", {std::move(scenes)}, std::move(groups), [options] {
                 return run_sheet(*options);

@@ -94,10 +94,6 @@ Result<int> run_figures(const FiguresOptions& options) {
 Command figures_command() {
     const auto options = std::make_shared<FiguresOptions>();
     FiguresOptions& o = *options;
-    const auto read_name = [&o](const std::string& text) -> Result<void> {
-        o.names.push_back(text);
-        return {};
-    };
     const auto read_format = [&o](const std::string& text) -> Result<void> {
         if (text != "svg" && text != "png") return fail(ErrorCode::usage, "expected svg or png, found '" + printable(text) + "'");
         o.format = text == "svg" ? FigureFormat::svg : FigureFormat::png;
@@ -107,7 +103,7 @@ Command figures_command() {
             "Remake the figures of the literature, with captions that say what was computed",
             {{.name = "NAME",
               .help = "Figures to make (see --list); without a name, all of them and an index.html",
-              .read = read_name,
+              .read = append_to(o.names),
               .repeated = true}},
             {{"Flags",
               {{"-o,--output", "DIR", "Folder for the files; created if missing (default figures)",

@@ -51,8 +51,7 @@ Result<void> TradeBench::choose(const TradeChoice& choice) {
     lobe_ = choice.lobe;
     job_.scene().materials = own_materials_;
     settings_.shading.lobe = lobe_ ? space_.lobes[*lobe_].lobe : job_.settings.shading.lobe;
-    if (lobe_)
-        for (Material& material : job_.scene().materials) material.has_own_lobe = false;
+    if (lobe_) drop_own_lobes(job_.scene());
     return job_.prepared->update({.materials = true});
 }
 

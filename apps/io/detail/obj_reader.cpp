@@ -32,13 +32,14 @@ public:
         std::string joined;
         while (lines_.next(line)) {
             if (lines_.number() % 65536 == 0) builder_.document().check_time();
-            if (without_comment(line).ends_with('\\')) {
+            line = without_comment(line);
+            if (line.ends_with('\\')) {
                 joined.clear();
                 do {
                     joined.append(line.substr(0, line.size() - 1)).push_back(' ');
                 } while (lines_.next(line) && line.ends_with('\\'));
                 joined.append(line);
-                line = joined;
+                line = without_comment(joined);
             }
             read_statement(line);
         }
@@ -91,7 +92,7 @@ private:
     [[nodiscard]] std::string where() const { return fmt::format("line {}", lines_.number()); }
 
     void read_statement(std::string_view line) {
-        Words words(without_comment(line));
+        Words words(line);
         const std::string_view word = words.next();
         if (word.empty()) return;
         if (word == "v") return read_position(words);
