@@ -44,6 +44,11 @@ struct WideBox {
         for (int k = 0; k < 3; ++k) inside &= other.low[k] >= low[k] && other.high[k] <= high[k];
         return inside;
     }
+    [[nodiscard]] bool finite() const {
+        bool all = true;
+        for (int k = 0; k < 3; ++k) all &= high[k] - high[k] == 0.0 && low[k] - low[k] == 0.0;
+        return all;
+    }
 };
 
 WideBox box_at(Vec3f p) { return {{p.x, p.y, p.z}, {p.x, p.y, p.z}}; }
@@ -216,11 +221,9 @@ FramedPart framed_part(const Scene& scene) {
         if (bounds.empty) continue;
         const PlacedBox box({bounds.min.x, bounds.min.y, bounds.min.z}, {bounds.max.x, bounds.max.y, bounds.max.z},
                             instance.world_from_object);
-        Placed& one = placed.emplace_back(Placed{static_cast<int>(i), {}, part.meshes[m].vertices.size(), triangles_of(scene.meshes[m])});
-        for (int k = 0; k < 3; ++k) {
-            one.box.low[k] = box.low[k];
-            one.box.high[k] = box.high[k];
-        }
+        const WideBox wide{{box.low[0], box.low[1], box.low[2]}, {box.high[0], box.high[1], box.high[2]}};
+        if (!wide.finite()) continue;  // a matrix that is not finite: nothing of it is drawn
+        placed.push_back({static_cast<int>(i), wide, part.meshes[m].vertices.size(), triangles_of(scene.meshes[m])});
     }
     const std::size_t all = placed.size();
     leave_out_strays(placed);

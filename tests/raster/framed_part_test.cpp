@@ -6,6 +6,7 @@
 #include "tests/support/catch.hpp"
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 using namespace halflit;
@@ -95,6 +96,22 @@ TEST_CASE("framing: points far from a cloud are left out, also at very different
     Scene strayed;
     add(strayed, cloud, {});
     CHECK(same(framed(strayed), alone));
+}
+
+TEST_CASE("framing: a matrix that is not finite places nothing", "[raster][framing]") {
+    const float inf = std::numeric_limits<float>::infinity();
+    for (const bool with_ground : {false, true})
+        for (const float x : {inf, -inf, std::numeric_limits<float>::quiet_NaN()})
+            for (const int column : {0, 3}) {
+                INFO("x = " << x << " in column " << column << (with_ground ? ", with a wide ground" : ""));
+                Scene scene = car();
+                if (with_ground) add(scene, make_plane(5000, 1), {});
+                const Camera alone = framed(scene);
+                Mat4 place;
+                place.c[column].x = x;
+                scene.instances.push_back({1, place});
+                CHECK(same(framed(scene), alone));
+            }
 }
 
 TEST_CASE("framing: what is no ground and no stray is framed", "[raster][framing]") {
