@@ -44,10 +44,36 @@ Box usable_box(const Bounds& bounds) {
     return box;
 }
 
-/// Finds the nearest camera in a given direction that sees a set of points. The camera is at origin + right ox + up oy + back d. A point
-/// (x, y, z) in these axes is in view if |x - ox| <= tan_x (d - z), where tan_x is the tangent of half the field of view, less the margin.
-/// That is, ox lies in [x + tan_x z - tan_x d, x - tan_x z + tan_x d]. With the smallest d one ox remains for all points, the middle of the
-/// intersection of these intervals. The same holds for y.
+/// Points on one axis of the picture, as seen from any distance along z. A point (y, z) appears at (y - o) / (d - z) to an eye at (o, d).
+/// It lies within +-tangent of the view's middle if o is in [y + tangent z - tangent d, y - tangent z + tangent d].
+struct Extent {
+    struct Point {
+        double y = 0.0, z = 0.0;
+    };
+    double tangent;
+    double low = -1e300, high = 1e300;  ///< largest y + tangent z, least y - tangent z
+    Point at_low{}, at_high{};          ///< the points that they are of
+
+    [[nodiscard]] bool has(double y, double z) const { return low >= y + tangent * z && high <= y - tangent * z; }
+    void add(double y, double z) {
+        if (y + tangent * z > low) low = y + tangent * z, at_low = {y, z};
+        if (y - tangent * z < high) high = y - tangent * z, at_high = {y, z};
+    }
+    /// Least distance from which all points lie within the tangent.
+    [[nodiscard]] double distance() const { return (low - high) / (2.0 * tangent); }
+    /// Place of an eye that has the two outermost points equally far from the view's middle, if the tangent is their angle's.
+    [[nodiscard]] double middle() const { return 0.5 * (low + high); }
+    /// That tangent, for an eye at distance d: a step of Newton's method to low - high = 2 tangent d.
+    [[nodiscard]] double balanced(double d) const {
+        const double depth = (d - at_low.z) + (d - at_high.z);
+        return depth > 0.0 ? (at_low.y - at_high.y) / depth : tangent;
+    }
+    /// The place nearest to o from which all points lie within the tangent.
+    [[nodiscard]] double nearest(double o, double d) const { return clamped(o, low - tangent * d, high + tangent * d); }
+};
+
+/// Finds the nearest camera in a given direction that sees a set of points, then a place for it that has equal margins left and right, and
+/// above and below. Each step is a pass over the points.
 class ViewFit {
 public:
     ViewFit(Vec3d origin, float aspect, const ViewSettings& view)
@@ -55,30 +81,43 @@ public:
           origin_(origin),
           axes_(orbit_axes(view)),
           tan_y_(half_angle_tangent(usable_fov(static_cast<float>(view.fov_y_deg * (kPi / 180.0))))),
-          inner_x_(tan_y_ * usable_aspect(aspect) * (1.0 - kFrameMargin)),
-          inner_y_(tan_y_ * (1.0 - kFrameMargin)) {}
+          x_{tan_y_ * usable_aspect(aspect) * (1.0 - kFrameMargin)},
+          y_{tan_y_ * (1.0 - kFrameMargin)} {}
 
     /// True if adding the point would change nothing.
     [[nodiscard]] bool has(Vec3d p) const {
         const double x = dot(p, axes_.right), y = dot(p, axes_.up), z = dot(p, axes_.back);
-        return x_.low >= x + inner_x_ * z && x_.high <= x - inner_x_ * z && y_.low >= y + inner_y_ * z && y_.high <= y - inner_y_ * z &&
-               front_ >= z;
+        return x_.has(x, z) && y_.has(y, z) && front_ >= z;
     }
 
     /// Adds a point, given relative to the origin.
     void add(Vec3d p) {
         const double x = dot(p, axes_.right), y = dot(p, axes_.up), z = dot(p, axes_.back);
-        x_ = {larger(x_.low, x + inner_x_ * z), -larger(-x_.high, -(x - inner_x_ * z))};
-        y_ = {larger(y_.low, y + inner_y_ * z), -larger(-y_.high, -(y - inner_y_ * z))};
+        x_.add(x, z);
+        y_.add(y, z);
         front_ = larger(front_, z);
     }
 
-    /// radius: size of the set of points; keeps the camera off a set that is seen edge on.
-    [[nodiscard]] Camera camera(double radius) const {
-        const double fit = larger((x_.low - x_.high) / (2.0 * inner_x_), (y_.low - y_.high) / (2.0 * inner_y_));
-        const double distance = larger(fit, front_ + 1e-3 * radius);
-        const Vec3d eye =
-            ((origin_ + axes_.right * (0.5 * (x_.low + x_.high))) + axes_.up * (0.5 * (y_.low + y_.high))) + axes_.back * distance;
+    /// Sets the distance. radius: size of the set of points; keeps the camera off a set that is seen edge on.
+    void choose_distance(double radius) { distance_ = larger(larger(x_.distance(), y_.distance()), front_ + 1e-3 * radius); }
+
+    /// The fit of the next pass, which is nearer to equal margins.
+    [[nodiscard]] ViewFit centring() const {
+        ViewFit next = *this;
+        next.x_ = {x_.balanced(distance_)};
+        next.y_ = {y_.balanced(distance_)};
+        return next;
+    }
+    /// True if margins differ by less than a 500th of the picture's side.
+    [[nodiscard]] bool is_centred() const {
+        const auto close = [&](const Extent& e) { return magnitude(e.balanced(distance_) - e.tangent) < 1e-3 * tan_y_; };
+        return close(x_) && close(y_);
+    }
+
+    /// seen: the fit of the first pass.
+    [[nodiscard]] Camera camera(const ViewFit& seen) const {
+        const double x = seen.x_.nearest(x_.middle(), distance_), y = seen.y_.nearest(y_.middle(), distance_);
+        const Vec3d eye = ((origin_ + axes_.right * x) + axes_.up * y) + axes_.back * distance_;
 
         // Zoom changes the field of view, not the position; the tangent scales exactly.
         const double zoom = finite(view_.zoom) && view_.zoom > 0.0f ? view_.zoom : 1.0;
@@ -89,21 +128,19 @@ public:
         camera.world_from_camera = {{column(axes_.right, 0), column(axes_.up, 0), column(axes_.back, 0), column(eye, 1)}};
         camera.fov_y_rad = static_cast<float>(clamped(2.0 * arc_tangent(tan_y_ / zoom), kMinFov, kMaxFov));
         // Near plane: half way to the nearest point, or 1e-4 of the camera's distance if that is more.
-        camera.near_z = static_cast<float>(larger(0.5 * (distance - front_), 1e-4 * distance));
+        camera.near_z = static_cast<float>(larger(0.5 * (distance_ - front_), 1e-4 * distance_));
         camera.far_z = 0.0f;
         return camera;
     }
 
 private:
-    struct Slab {
-        double low = -1e300, high = 1e300;
-    };
     ViewSettings view_;
     Vec3d origin_;
     Axes axes_;
-    double tan_y_, inner_x_, inner_y_;
-    Slab x_, y_;
+    double tan_y_;
+    Extent x_, y_;
     double front_ = -1e300;  // coordinate of the nearest point along `back`
+    double distance_ = 0.0;  // of the eye along `back`, from the origin
 };
 
 /// True if no vertex of the instance can change the fit, judged by its box. In scenes of many instances few are at the rim.
@@ -118,14 +155,29 @@ bool is_seen_already(const ViewFit& fit, const FramedVertices& used, const Mat4&
     return true;
 }
 
+/// add_points(fit) adds all points, relative to the box's middle.
+template <class AddPoints>
+Camera fitted(const Box& box, float aspect, const ViewSettings& view, const AddPoints& add_points) {
+    constexpr int kMostPasses = 5;
+    ViewFit seen(box.center, aspect, view);
+    add_points(seen);
+    seen.choose_distance(length(box.half));
+    ViewFit fit = seen;
+    for (int pass = 1; pass < kMostPasses && (pass == 1 || !fit.is_centred()); ++pass) {
+        fit = fit.centring();
+        add_points(fit);
+    }
+    return fit.camera(seen);
+}
+
 }  // namespace
 
 Camera frame_bounds(const Bounds& bounds, float aspect, const ViewSettings& view) {
     const Box box = usable_box(bounds);
-    ViewFit fit(box.center, aspect, view);
-    for (int corner = 0; corner < 8; ++corner)
-        fit.add({corner & 1 ? box.half.x : -box.half.x, corner & 2 ? box.half.y : -box.half.y, corner & 4 ? box.half.z : -box.half.z});
-    return fit.camera(length(box.half));
+    return fitted(box, aspect, view, [&](ViewFit& fit) {
+        for (int corner = 0; corner < 8; ++corner)
+            fit.add({corner & 1 ? box.half.x : -box.half.x, corner & 2 ? box.half.y : -box.half.y, corner & 4 ? box.half.z : -box.half.z});
+    });
 }
 
 Camera frame_scene(const Scene& scene, float aspect, const ViewSettings& view) {
@@ -138,18 +190,18 @@ Camera frame_scene(const Scene& scene, const Bounds& bounds, float aspect, const
     const Box box = usable_box(framed);
     if (framed.empty || !(framed.radius() > 1e-5 * length(box.center)) || !(framed.radius() < kMaxCoordinate))
         return frame_bounds(framed, aspect, view);
-    ViewFit fit(box.center, aspect, view);
-    for (const int i : part.instances) {
-        const Instance& instance = scene.instances[static_cast<std::size_t>(i)];
-        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-        const FramedVertices& vertices = part.meshes[static_cast<std::size_t>(instance.mesh)];
-        if (is_seen_already(fit, vertices, instance.world_from_object, box.center)) continue;
-        for (const std::uint32_t v : vertices.vertices) {
-            const Vec3f p = transform_point(instance.world_from_object, mesh.positions[v]);
-            if (finite(p)) fit.add(to_double(p) - box.center);
+    return fitted(box, aspect, view, [&](ViewFit& fit) {
+        for (const int i : part.instances) {
+            const Instance& instance = scene.instances[static_cast<std::size_t>(i)];
+            const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+            const FramedVertices& vertices = part.meshes[static_cast<std::size_t>(instance.mesh)];
+            if (is_seen_already(fit, vertices, instance.world_from_object, box.center)) continue;
+            for (const std::uint32_t v : vertices.vertices) {
+                const Vec3f p = transform_point(instance.world_from_object, mesh.positions[v]);
+                if (finite(p)) fit.add(to_double(p) - box.center);
+            }
         }
-    }
-    return fit.camera(length(box.half));
+    });
 }
 
 }  // namespace halflit

@@ -232,6 +232,9 @@ TEST_CASE("framing: a scene is fitted to its vertices, tightly for any shape", "
                 CHECK(std::max({left, right, top, bottom}) == Approx(0.92).margin(1e-4));
                 // The direction that limits the fit touches both margins.
                 CHECK(std::max(std::min(left, right), std::min(top, bottom)) == Approx(0.92).margin(1e-4));
+                // The margins of the other one are equal, up to a step of the search.
+                CHECK(left == Approx(right).margin(0.01));
+                CHECK(top == Approx(bottom).margin(0.01));
             }
 }
 
