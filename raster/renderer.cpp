@@ -165,8 +165,10 @@ struct Renderer::Impl {
         // An empty region is common; an empty whole picture is rarely intended.
         const Region& drawn = plan.written;
         const bool whole_picture = drawn.width == target.width && drawn.height == target.height;
-        if (report.triangles_submitted == 0 || (whole_picture && report.triangles_drawn == 0))
+        if (report.triangles_submitted == 0)
             report.warnings.emplace_back("nothing to draw");
+        else if (whole_picture && report.triangles_drawn == 0)
+            report.warnings.emplace_back("nothing to draw: all triangles face away, lie outside of the view, or cover no sample");
         return report;
     }
 

@@ -1,5 +1,5 @@
 // Functions of halflit.h about cameras and settings.
-#include "apps/c/convert.hpp"
+#include "apps/c/convert_parts.hpp"
 #include "apps/c/scene_access.hpp"
 #include "apps/c/versioned.hpp"
 
@@ -36,6 +36,10 @@ int32_t halflit_camera_frame(const halflit_scene* scene, float aspect, float azi
                              halflit_camera* to) {
     return reading(__func__, scene, {{to, "camera"}}, [&]() -> Result<void> {
         if (!(aspect > 0.0f && aspect < 1e6f)) return fail(ErrorCode::usage, "halflit_camera_frame: aspect is not a positive number");
+        Members members("halflit_camera_frame");
+        members.finite("azimuth_deg or elevation_deg", azimuth_deg, elevation_deg);
+        members.positive("zoom", zoom, 1000000000);
+        if (!members.result()) return members.result();
         ViewSettings view;
         view.azimuth_deg = azimuth_deg;
         view.elevation_deg = elevation_deg;

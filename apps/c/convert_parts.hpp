@@ -4,27 +4,46 @@
 #include "apps/c/convert.hpp"
 #include "apps/c/versioned.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 
 namespace halflit::c {
 
-/// Reads the enumerations of one struct; the first value out of range is its error.
-class Choices {
+/// Checks the members of one struct; the first that is out of range is its error.
+class Members {
 public:
-    explicit Choices(const char* of) : of_(of) {}
+    explicit Members(const char* of) : of_(of) {}
     /// last: the enumeration's last value; they count from 0.
     template <class E>
     void read(std::int32_t given, E last, const char* member, E& to) {
         if (given >= 0 && given <= static_cast<std::int32_t>(last))
             to = static_cast<E>(given);
-        else if (result_)
-            result_ = fail(ErrorCode::usage, std::string(of_) + ": " + member + " is " + std::to_string(given) + ", expected 0 to " +
-                                                 std::to_string(static_cast<int>(last)));
+        else
+            wrong(member, "is " + std::to_string(given) + ", expected 0 to " + std::to_string(static_cast<int>(last)));
+    }
+    /// Requires numbers that are neither infinite nor NaN.
+    template <class... Numbers>
+    void finite(const char* member, const Numbers&... numbers) {
+        if (!(... && all_finite(numbers))) wrong(member, "is not finite");
+    }
+    /// Requires a number above 0 and below the limit.
+    void positive(const char* member, float number, int limit) {
+        if (!(number > 0.0f && number < static_cast<float>(limit))) wrong(member, "is not above 0 and below " + std::to_string(limit));
     }
     [[nodiscard]] const Result<void>& result() const { return result_; }
 
 private:
+    static bool all_finite(float number) { return number - number == 0.0f; }
+    static bool all_finite(double number) { return number - number == 0.0; }
+    template <class T, std::size_t N>
+    static bool all_finite(const T (&numbers)[N]) {
+        return std::all_of(numbers, numbers + N, [](T number) { return all_finite(number); });
+    }
+    void wrong(const char* member, const std::string& what) {
+        if (result_) result_ = fail(ErrorCode::usage, std::string(of_) + ": " + member + " " + what);
+    }
+
     const char* of_;
     Result<void> result_;
 };

@@ -135,14 +135,15 @@ Result<Settings> settings(const halflit_settings* given) {
     shading.environment_tolerance = read->environment_tolerance;
     shading.max_error_codes = read->max_error_codes;
     shading.anisotropy = read->anisotropy;
-    Choices choices("halflit_settings");
-    choices.read(read->accuracy, Accuracy::exact, "accuracy", shading.accuracy);
-    choices.read(read->shading_rate, ShadingRate::pixel, "shading_rate", shading.rate);
-    choices.read(read->texture_detail, TextureDetail::nearest, "texture_detail", shading.texture_detail);
-    choices.read(read->specular, SpecularModel::ggx, "specular", shading.specular);
-    choices.read(read->shadows, ShadowMode::soft_split, "shadows", settings.shadows);
-    choices.read(read->tone_curve, ToneCurve::neutral, "tone_curve", settings.tone_curve);
-    if (!choices.result()) return tl::unexpected<Error>(choices.result().error());
+    Members members("halflit_settings");
+    members.read(read->accuracy, Accuracy::exact, "accuracy", shading.accuracy);
+    members.read(read->shading_rate, ShadingRate::pixel, "shading_rate", shading.rate);
+    members.read(read->texture_detail, TextureDetail::nearest, "texture_detail", shading.texture_detail);
+    members.read(read->specular, SpecularModel::ggx, "specular", shading.specular);
+    members.read(read->shadows, ShadowMode::soft_split, "shadows", settings.shadows);
+    members.read(read->tone_curve, ToneCurve::neutral, "tone_curve", settings.tone_curve);
+    members.finite("background", read->background);
+    if (!members.result()) return tl::unexpected<Error>(members.result().error());
     return settings;
 }
 
@@ -176,9 +177,13 @@ Result<AutoOptions> setup_options(const halflit_setup_options* given) {
     if (read->exposure > 0.0f) options.exposure = read->exposure;
     options.add_lights = read->add_lights != 0;
     options.studio_turn_rad = read->studio_turn_rad;
-    Choices choices("halflit_setup_options");
-    choices.read(read->studio, StudioUse::under_lights, "studio", options.studio);
-    if (!choices.result()) return tl::unexpected<Error>(choices.result().error());
+    Members members("halflit_setup_options");
+    members.read(read->studio, StudioUse::under_lights, "studio", options.studio);
+    members.finite("azimuth_deg, elevation_deg or studio_turn_rad", read->azimuth_deg, read->elevation_deg, read->studio_turn_rad);
+    members.finite("ambient_color", read->ambient_color);
+    members.positive("zoom", read->zoom, 1000000000);
+    members.positive("fov_y_deg", read->fov_y_deg, 180);
+    if (!members.result()) return tl::unexpected<Error>(members.result().error());
     return options;
 }
 

@@ -4,15 +4,15 @@
 namespace halflit::c {
 namespace {
 
-TextureUse texture_use(const halflit_texture_use& given, const char* member, Choices& choices) {
+TextureUse texture_use(const halflit_texture_use& given, const char* member, Members& members) {
     TextureUse use;
     use.texture = given.texture;
-    choices.read(given.uv_set, 1, member, use.uv_set);
-    choices.read(given.wrap_u, TextureWrap::clamp, member, use.sampler.wrap_u);
-    choices.read(given.wrap_v, TextureWrap::clamp, member, use.sampler.wrap_v);
-    choices.read(given.mag_filter, TextureFilter::linear, member, use.sampler.mag);
-    choices.read(given.min_filter, TextureFilter::linear, member, use.sampler.min);
-    choices.read(given.mip_filter, MipFilter::linear, member, use.sampler.mip);
+    members.read(given.uv_set, 1, member, use.uv_set);
+    members.read(given.wrap_u, TextureWrap::clamp, member, use.sampler.wrap_u);
+    members.read(given.wrap_v, TextureWrap::clamp, member, use.sampler.wrap_v);
+    members.read(given.mag_filter, TextureFilter::linear, member, use.sampler.mag);
+    members.read(given.min_filter, TextureFilter::linear, member, use.sampler.min);
+    members.read(given.mip_filter, MipFilter::linear, member, use.sampler.mip);
     use.row_u = vec3(given.row_u);
     use.row_v = vec3(given.row_v);
     return use;
@@ -103,9 +103,9 @@ Result<TextureColor> texture_color(std::int32_t given) {
     if (given == HALFLIT_COLOR_SRGB_BY_ALPHA) return TextureColor{ColorSpace::srgb, MipRule::alpha};
     if (given == HALFLIT_COLOR_NORMAL) return TextureColor{ColorSpace::linear, MipRule::normal};
     ColorSpace space = ColorSpace::srgb;
-    Choices choices("texture");
-    choices.read(given, ColorSpace::linear, "color", space);
-    if (!choices.result()) return tl::unexpected<Error>(choices.result().error());
+    Members members("texture");
+    members.read(given, ColorSpace::linear, "color", space);
+    if (!members.result()) return tl::unexpected<Error>(members.result().error());
     return TextureColor{space, MipRule::equal};
 }
 
@@ -177,36 +177,36 @@ Result<Material> material(const halflit_material* given) {
     material.unlit = read->unlit != 0;
     material.has_own_lobe = read->own_lobe != 0;
     material.lobe = lobe(read->lobe);
-    Choices choices("halflit_material");
-    choices.read(read->alpha_mode, AlphaMode::blend, "alpha_mode", material.alpha_mode);
-    material.base_color_texture = texture_use(read->base_color_texture, "a value of base_color_texture", choices);
-    material.metallic_roughness_texture = texture_use(read->metallic_roughness_texture, "a value of metallic_roughness_texture", choices);
-    material.normal_texture = texture_use(read->normal_texture, "a value of normal_texture", choices);
-    material.occlusion_texture = texture_use(read->occlusion_texture, "a value of occlusion_texture", choices);
-    material.emissive_texture = texture_use(read->emissive_texture, "a value of emissive_texture", choices);
+    Members members("halflit_material");
+    members.read(read->alpha_mode, AlphaMode::blend, "alpha_mode", material.alpha_mode);
+    material.base_color_texture = texture_use(read->base_color_texture, "a value of base_color_texture", members);
+    material.metallic_roughness_texture = texture_use(read->metallic_roughness_texture, "a value of metallic_roughness_texture", members);
+    material.normal_texture = texture_use(read->normal_texture, "a value of normal_texture", members);
+    material.occlusion_texture = texture_use(read->occlusion_texture, "a value of occlusion_texture", members);
+    material.emissive_texture = texture_use(read->emissive_texture, "a value of emissive_texture", members);
     material.transmission.share = read->transmission;
     material.transmission.thickness = read->thickness;
     material.transmission.attenuation_distance = read->attenuation_distance;
     material.transmission.attenuation_color = vec3(read->attenuation_color);
-    material.transmission.texture = texture_use(read->transmission_texture, "a value of transmission_texture", choices);
+    material.transmission.texture = texture_use(read->transmission_texture, "a value of transmission_texture", members);
     material.specular = read->specular;
     material.specular_color = vec3(read->specular_color);
-    material.specular_texture = texture_use(read->specular_texture, "a value of specular_texture", choices);
-    material.specular_color_texture = texture_use(read->specular_color_texture, "a value of specular_color_texture", choices);
-    material.transmission.thickness_texture = texture_use(read->thickness_texture, "a value of thickness_texture", choices);
+    material.specular_texture = texture_use(read->specular_texture, "a value of specular_texture", members);
+    material.specular_color_texture = texture_use(read->specular_color_texture, "a value of specular_color_texture", members);
+    material.transmission.thickness_texture = texture_use(read->thickness_texture, "a value of thickness_texture", members);
     material.clearcoat.factor = read->clearcoat;
     material.clearcoat.roughness = read->clearcoat_roughness;
     material.clearcoat.normal_scale = read->clearcoat_normal_scale;
-    material.clearcoat.texture = texture_use(read->clearcoat_texture, "a value of clearcoat_texture", choices);
+    material.clearcoat.texture = texture_use(read->clearcoat_texture, "a value of clearcoat_texture", members);
     material.clearcoat.roughness_texture =
-        texture_use(read->clearcoat_roughness_texture, "a value of clearcoat_roughness_texture", choices);
-    material.clearcoat.normal_texture = texture_use(read->clearcoat_normal_texture, "a value of clearcoat_normal_texture", choices);
+        texture_use(read->clearcoat_roughness_texture, "a value of clearcoat_roughness_texture", members);
+    material.clearcoat.normal_texture = texture_use(read->clearcoat_normal_texture, "a value of clearcoat_normal_texture", members);
     material.sheen.color = vec3(read->sheen_color);
     material.sheen.roughness = read->sheen_roughness;
-    material.sheen.color_texture = texture_use(read->sheen_color_texture, "a value of sheen_color_texture", choices);
-    material.sheen.roughness_texture = texture_use(read->sheen_roughness_texture, "a value of sheen_roughness_texture", choices);
+    material.sheen.color_texture = texture_use(read->sheen_color_texture, "a value of sheen_color_texture", members);
+    material.sheen.roughness_texture = texture_use(read->sheen_roughness_texture, "a value of sheen_roughness_texture", members);
     material.shadow_catcher = read->shadow_catcher != 0;
-    if (!choices.result()) return tl::unexpected<Error>(choices.result().error());
+    if (!members.result()) return tl::unexpected<Error>(members.result().error());
     if (auto ok = check_lobe(material.lobe); !ok) return fail(ErrorCode::usage, "halflit_material: lobe: " + ok.error().message);
     return material;
 }
@@ -231,9 +231,14 @@ Result<Light> light(const halflit_light* given) {
     const auto read = read_struct(given, to_c(Light{}), "halflit_light");
     if (!read) return tl::unexpected<Error>(read.error());
     Light light;
-    Choices choices("halflit_light");
-    choices.read(read->type, LightType::spot, "type", light.type);
-    if (!choices.result()) return tl::unexpected<Error>(choices.result().error());
+    Members members("halflit_light");
+    members.read(read->type, LightType::spot, "type", light.type);
+    members.finite("color", read->color);
+    members.finite("position", read->position);
+    members.finite("direction", read->direction);
+    members.finite("a cone angle or cone_power", read->inner_cone_rad, read->outer_cone_rad, read->cone_power);
+    members.finite("source_radius or shadow_radius", read->source_radius, read->shadow_radius);
+    if (!members.result()) return tl::unexpected<Error>(members.result().error());
     light.color_linear = vec3(read->color);
     light.position_ws = vec3(read->position);
     light.direction_ws = vec3(read->direction);

@@ -61,9 +61,9 @@ Result<Mesh> make_mesh(const Scene& scene, const halflit_mesh* pointer) {
         return faulty(ErrorCode::limit, "more than 2^31 vertices or 2^28 triangles");
     const std::size_t corners = given->indices != nullptr ? given->index_count : count;
     Topology topology{};
-    Choices choices("halflit_mesh");
-    choices.read(given->topology, Topology::points, "topology", topology);
-    if (!choices.result()) return tl::unexpected<Error>(choices.result().error());
+    Members members("halflit_mesh");
+    members.read(given->topology, Topology::points, "topology", topology);
+    if (!members.result()) return tl::unexpected<Error>(members.result().error());
     if (const std::size_t each = corners_of(topology); corners % each != 0)
         return faulty(ErrorCode::bad_input, std::to_string(corners) + " corners, expected " + std::to_string(each) + " for each " +
                                                 (topology == Topology::triangles ? "triangle" : "line"));

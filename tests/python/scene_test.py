@@ -159,7 +159,7 @@ class Parts(unittest.TestCase):
         index = scene.add_material(paint)
         self.assertEqual(scene.material(index), paint)
         self.assertEqual((paint.base_color, paint.alpha_mode, paint.double_sided), ((1, 0.5, 0.25, 1), "blend", False))
-        self.assertEqual(repr(halflit.Material(metallic=0, roughness=0.5)), "Material(metallic=0.0, roughness=0.5)")
+        self.assertEqual(repr(halflit.Material(metallic=1, roughness=0.5)), "Material(metallic=1.0, roughness=0.5)")
         scene.add_mesh(CORNERS, FACES, material=index)
         before = render(scene)
         scene.set_material(index, roughness=0.1, lobe="half-lambert", alpha_mode="opaque", base_color=[0, 0, 1])

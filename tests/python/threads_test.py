@@ -1,5 +1,8 @@
 """Threads draw side by side, and Python's functions are called while a frame is drawn."""
+import os
 import signal
+import subprocess
+import sys
 import threading
 import time
 import unittest
@@ -132,6 +135,19 @@ class Callbacks(unittest.TestCase):
                 while time.monotonic() < end:
                     halflit.render("demo", (640, 360), samples=16, progress=lambda share: None)
             timer.join()
+
+    def test_the_interpreter_ends_while_a_daemon_draws(self):
+        # It ended the thread of a call in the midst of the library, which aborted.
+        code = (
+            "import threading, time, halflit\n"
+            "def draw():\n"
+            "    while True: halflit.render('demo', (640, 360), samples=16, progress=lambda share: None)\n"
+            "threading.Thread(target=draw, daemon=True).start(); time.sleep(0.3); print('end')"
+        )
+        for _ in range(3):
+            done = subprocess.run([sys.executable, "-c", code], env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60, check=False)  # fmt: skip
+            self.assertEqual((done.returncode, done.stdout, done.stderr), (0, b"end\n", b""))
 
     def test_limits(self):
         with self.assertRaises(halflit.LimitError):

@@ -21,13 +21,13 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
-    from ._options import PictureOptions as PictureOptions
     from ._picture import Picture as Picture
+    from ._picture_options import PictureOptions as PictureOptions
 
 __version__ = _c.VERSION
 __all__ = (
-    "AOVS BadInputError Camera CancelledError Error FileError Light LimitError Lobe Material Picture Scene Setup TextureUse UsageError"
-    " pixel_epoch render version"
+    "AOVS BadInputError Camera CancelledError Error FileError Light LimitError Lobe Material Picture"
+    " PictureOptions Scene Setup TextureUse UsageError pixel_epoch render version"
 ).split()
 
 
@@ -42,9 +42,13 @@ def pixel_epoch() -> int:
 
 
 def __getattr__(name: str) -> Any:
-    # Picture is a numpy array, and numpy takes longer to import than all else.
+    # Picture is a numpy array, and numpy takes longer to import than all else. PictureOptions needs typing.
     if name == "Picture":
         from ._picture import Picture
 
         return Picture
+    if name == "PictureOptions":
+        from ._picture_options import PictureOptions
+
+        return PictureOptions
     raise AttributeError(f"module 'halflit' has no attribute {name!r}")

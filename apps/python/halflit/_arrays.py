@@ -17,13 +17,15 @@ def floats(value, columns: int, name: str, count: int | None = None) -> np.ndarr
 
 
 def colors(value, count: int) -> np.ndarray:
-    """Vertex colours: float32 of shape (n, 4), linear. Bytes are sRGB codes; alpha may be left out."""
+    """Vertex colours: float32 of shape (n, 4), linear. Bytes are sRGB codes; alpha may be left out. Codes of another type are refused."""
     array = np.asarray(value)
     if array.ndim != 2 or array.shape[1] not in (3, 4):
         raise UsageError(f"colors: expected an array of shape (n, 3) or (n, 4), found {array.shape}")
     if array.dtype == np.uint8:
         linear = linear_from_srgb(array[:, :3] / 255.0)
         array = np.concatenate([linear, array[:, 3:] / 255.0], axis=1)
+    elif (array > (16 if array.dtype.kind == "f" else 1)).any():
+        raise UsageError(f"colors: expected uint8 sRGB codes, or linear light where 1 is white, found {array.dtype} up to {array.max()}")
     if array.shape[1] == 3:
         array = np.concatenate([array, np.ones((len(array), 1), array.dtype)], axis=1)
     return floats(array, 4, "colors", count)

@@ -212,4 +212,9 @@ def text_of(value) -> str:
 
 def bytes_of(value) -> bytes | None:
     """A text, or a path, as the library takes it."""
-    return None if value is None else os.fsencode(value)
+    if value is None:
+        return None
+    text = os.fsencode(value)
+    if b"\0" in text:  # C would read up to it
+        raise UsageError(f"expected a text or a path without NUL, found {value!r}")
+    return text

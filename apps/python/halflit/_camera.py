@@ -22,17 +22,28 @@ class Camera(Record):
 
     Camera(matrix, fov_y_rad=0.8): matrix is world_from_camera, 4 x 4, rigid, its translation in the last column.
     Camera.look_at(eye, target), Camera.from_matrices(view, projection), Scene.frame() and Scene.cameras give others.
+
+    Members:
+        name: of a camera of a file
+        matrix: world_from_camera, 4 x 4, rigid
+        orthographic: else perspective
+        fov_y_rad: perspective: full vertical angle, 0 to pi
+        aspect: perspective: width / height that the view is made for; 0: that of the picture
+        half_height: orthographic: half the view's height, world units
+        half_width: orthographic: half its width; 0: from the picture's aspect
+        near_z: above 0 for perspective, world units
+        far_z: above near_z; 0: no limit (perspective alone)
     """
 
     _kind, _truths = "camera", frozenset({"orthographic"})
     name: str
-    orthographic: bool  #: else perspective
-    fov_y_rad: float  #: perspective: full vertical angle, 0 to pi
-    aspect: float  #: perspective: width / height that the view is made for; 0: that of the picture
-    half_height: float  #: orthographic: half the view's height, world units
-    half_width: float  #: orthographic: half its width; 0: from the picture's aspect
-    near_z: float  #: above 0 for perspective, world units
-    far_z: float  #: above near_z; 0: no limit (perspective alone)
+    orthographic: bool
+    fov_y_rad: float
+    aspect: float
+    half_height: float
+    half_width: float
+    near_z: float
+    far_z: float
 
     def __init__(self, matrix=None, **members: Any):
         super().__init__(**members)

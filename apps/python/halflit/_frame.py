@@ -3,13 +3,16 @@ from __future__ import annotations
 
 import ctypes
 import math
+import sys
+import warnings
 
 import numpy as np
 
 from . import _c
 from ._camera import Camera
 from ._errors import UsageError
-from ._options import AOVS, Execution, apply_settings, check_names, settings_dict
+from ._execution import Execution
+from ._options import AOVS, apply_settings, check_names, settings_dict
 from ._picture import Picture
 from ._records import chosen, fill
 from ._scene import Setup
@@ -140,7 +143,7 @@ def draw(scene, size, options: dict) -> Picture:
     renderer = renderer_of(scene, execution)
     try:
         arguments = (renderer, scene._handle, setup.camera._c, settings, target, report)
-        with execution.interrupts():
+        with execution.calls():
             _c.call("render", *arguments[:2], *(ctypes.byref(struct) for struct in arguments[2:]))
     except Exception:
         if execution.raised is not None:
@@ -157,7 +160,19 @@ def draw(scene, size, options: dict) -> Picture:
     picture.report = {name: getattr(report, name) for name, _ in report._fields_ if name not in ("size", "reserved")}
     picture.report.update(isa=report.isa.decode(), error_within=bool(report.error_within))
     picture.report["warnings"] = scene.warnings + frame_warnings(renderer, report.warnings)
+    tell(scene, picture.report["warnings"])
     return picture
+
+
+def tell(scene, lines: list) -> None:
+    """Shows each warning of a scene once, at the line of the caller that draws."""
+    level, frame = 2, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__package__") == __package__:
+        level, frame = level + 1, frame.f_back
+    for line in lines:
+        if line not in scene._told:
+            scene._told.add(line)
+            warnings.warn(f"halflit: {line}", stacklevel=level)
 
 
 def renderer_of(scene, execution: Execution):

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from typing_extensions import Unpack
 
-    from ._options import PictureOptions
+    from ._picture_options import PictureOptions
     from ._picture import Picture
     from ._records import Color
 
@@ -48,7 +48,7 @@ def render(
     of_file = {"animation": animation, "time": time, "scene": scene, "variant": variant}
     if isinstance(source, Scene):
         others = {**of_file, "time": time or None, "environment": environment, "load": load, "ground": ground or None}
-        others.update(lights=lights or None, scene_lights=None if scene_lights else False)
+        others.update(lights=lights or None, scene_lights=None if scene_lights else False, environment_rotate=environment_rotate or None)
         for name, value in others.items():
             if value is not None:
                 raise TypeError(f"render() of a Scene has no keyword {name}: the Scene has methods for it")

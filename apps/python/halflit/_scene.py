@@ -8,7 +8,7 @@ import os
 from . import _c
 from ._camera import Camera
 from ._errors import UsageError
-from ._options import SceneLock
+from ._execution import SceneLock
 from ._records import Light, Material, Record, fill
 
 TYPE_CHECKING = False
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     import numpy as np
     from typing_extensions import Unpack
 
-    from ._options import PictureOptions
+    from ._picture_options import PictureOptions
     from ._picture import Picture
     from ._records import Color, Point
 
@@ -69,6 +69,8 @@ class Scene:
         self._light_changes = 0
         self._setup_key = None
         self._own_lights = False  # add_light() was called
+        self._plain_material: Optional[int] = None
+        self._told: set = set()  # warnings that were shown
         self.origin: Tuple[float, ...] = (0.0, 0.0, 0.0)  #: a point p of the file is drawn at (p - origin) * scale
         self.scale = 1.0  #: see origin; 1 unless the file's model is tiny or huge
 
@@ -256,7 +258,8 @@ class Scene:
         vertices: (n, 3) world units. faces: (m, 3) vertex numbers, counter-clockwise seen from the front; None: 0 1 2, 3 4 5 and so on.
         normals: (n, 3), "smooth" (made from the faces around each vertex), or None: each triangle is flat.
         uv, uv1: (n, 2), v = 0 is the first row of a texture. colors: (n, 3) or (n, 4), linear floats or uint8 sRGB codes.
-        tangents: (n, 4), direction and +1 or -1. material: index, Material, or a dict of its members; None: white and rough.
+        tangents: (n, 4), direction and +1 or -1. material: index, Material, or a dict of its members; None: white, not metallic, rough,
+        and seen from both sides.
         topology: "triangles", "lines" (faces: (m, 2)) or "points" (faces: (m,)).
         """
         with self._lock:
@@ -306,8 +309,14 @@ class Scene:
         mesh.name = _c.bytes_of(name)
         if isinstance(material, (Material, dict)):
             material = self.add_material(Material._from(material))
-        mesh.material = -1 if material is None else material
+        mesh.material = self._plain() if material is None else material
         return mesh, keep
+
+    def _plain(self) -> int:
+        """The material of meshes that are given none, as that of models without materials."""
+        if self._plain_material is None:
+            self._plain_material = self.add_material(roughness=0.6, double_sided=True)
+        return self._plain_material
 
     def set_vertices(self, mesh: int, vertices, normals=None) -> None:
         """Moves the vertices of a mesh that was added: (n, 3), n as before. normals: (n, 3); None: the mesh keeps those that it has."""

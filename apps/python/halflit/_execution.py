@@ -1,0 +1,133 @@
+"""How frames are computed: threads, limits, and functions of Python that the library calls meanwhile."""
+from __future__ import annotations
+
+import atexit
+import contextlib
+import os
+import signal
+import threading
+
+from . import _c
+from ._errors import CancelledError, UsageError
+from ._options import EXECUTION
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Iterator
+
+_CALLING = threading.local()  # lock: of the scene whose frame calls a function in this thread
+
+
+class SceneLock:
+    """One thread at a time uses a scene. The functions that a frame of it calls cannot: the frame would wait for itself."""
+
+    def __init__(self) -> None:
+        self._lock = threading.RLock()
+
+    def __enter__(self) -> None:
+        if getattr(_CALLING, "lock", None) is self:
+            raise UsageError("progress and cancelled cannot use the scene that is drawn")
+        self._lock.acquire()
+
+    def __exit__(self, *_) -> None:
+        self._lock.release()
+
+
+class _Calls:
+    """Frames that call functions. When the interpreter ends they are stopped and waited for: it ends the thread of a later call in the
+    midst of the library, which aborts."""
+
+    def __init__(self) -> None:
+        self.ending = False
+        self._frames = 0
+        self._changed = threading.Condition()
+
+    @contextlib.contextmanager
+    def of_a_frame(self) -> Iterator[None]:
+        with self._changed:
+            if self.ending:
+                raise CancelledError("the interpreter ends")
+            self._frames += 1
+        try:
+            yield
+        finally:
+            with self._changed:
+                self._frames -= 1
+                self._changed.notify_all()
+            if self.ending:
+                raise SystemExit  # the frame is of a daemon thread, which ends without a word
+
+    def end(self) -> None:
+        with self._changed:
+            self.ending = True
+            self._changed.wait_for(lambda: self._frames == 0, timeout=10)
+
+
+_CALLS = _Calls()
+atexit.register(_CALLS.end)
+os.register_at_fork(after_in_child=_CALLS.__init__)  # the frames of other threads are not there
+
+
+class Execution:
+    """A halflit_execution for the keywords. An exception in progress() or cancelled() stops the frame, and is raised after it.
+
+    lock: of the scene, which the frame holds while it waits for the functions.
+    """
+
+    def __init__(self, options: dict, lock: SceneLock):
+        self.lock = lock
+        self.struct = struct = _c.make("execution")
+        self.raised: BaseException | None = None
+        self.key = tuple(options.get(name) for name in EXECUTION)
+        for name, member in (("threads", "threads"), ("tile_size", "tile_size"), ("time_limit", "time_limit_s"), ("memory_limit",) * 2):
+            if options.get(name) is not None:
+                setattr(struct, member, options[name])
+        if options.get("isa") is not None:
+            struct.isa = _c.bytes_of(options["isa"])
+        progress, cancelled = options.get("progress"), options.get("cancelled")
+        self.has_functions = progress is not None or cancelled is not None
+        if self.has_functions:
+            struct.progress = _c.Progress(lambda _, share: self._guarded(progress, share) and None)
+            struct.cancelled = _c.Cancelled(lambda _: 1 if self._stops(cancelled) else 0)
+
+    def _stops(self, cancelled) -> bool:
+        if _CALLS.ending or self.raised:
+            return True
+        return bool(self._guarded(lambda: bool(cancelled and cancelled())) or self.raised)
+
+    @contextlib.contextmanager
+    def calls(self) -> Iterator[None]:
+        """Around the call that draws: what must hold while the library calls functions."""
+        if not self.has_functions:
+            yield
+            return
+        with _CALLS.of_a_frame(), self._interrupts():
+            yield
+
+    @contextlib.contextmanager
+    def _interrupts(self) -> Iterator[None]:
+        """Ctrl-C ends the frame: an exception at the begin of a function would be lost in ctypes."""
+        in_main = threading.current_thread() is threading.main_thread()
+        if not (in_main and signal.getsignal(signal.SIGINT) is signal.default_int_handler):
+            yield
+            return
+
+        def note(*_) -> None:
+            self.raised = self.raised or KeyboardInterrupt()
+
+        signal.signal(signal.SIGINT, note)
+        try:
+            yield
+        finally:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+
+    def _guarded(self, function, *arguments):
+        before = getattr(_CALLING, "lock", None)
+        _CALLING.lock = self.lock
+        try:
+            return function(*arguments) if function is not None and self.raised is None else None
+        except BaseException as error:  # KeyboardInterrupt too: the frame ends, then it is raised
+            self.raised = error
+            return None
+        finally:
+            _CALLING.lock = before
