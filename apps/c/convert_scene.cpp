@@ -206,6 +206,16 @@ Result<Material> material(const halflit_material* given) {
     material.sheen.color_texture = texture_use(read->sheen_color_texture, "a value of sheen_color_texture", members);
     material.sheen.roughness_texture = texture_use(read->sheen_roughness_texture, "a value of sheen_roughness_texture", members);
     material.shadow_catcher = read->shadow_catcher != 0;
+    members.finite("base_color", read->base_color);
+    members.finite("metallic, roughness or dielectric_reflectance", read->metallic, read->roughness, read->dielectric_reflectance);
+    members.finite("emissive", read->emissive);
+    members.finite("normal_scale, occlusion_strength or alpha_cutoff", read->normal_scale, read->occlusion_strength, read->alpha_cutoff);
+    members.finite("transmission or thickness", read->transmission, read->thickness);
+    members.finite("attenuation_distance or attenuation_color", read->attenuation_distance, read->attenuation_color);
+    members.finite("specular or specular_color", read->specular, read->specular_color);
+    members.finite("clearcoat or clearcoat_roughness", read->clearcoat, read->clearcoat_roughness);
+    members.finite("clearcoat_normal_scale", read->clearcoat_normal_scale);
+    members.finite("sheen_color or sheen_roughness", read->sheen_color, read->sheen_roughness);
     if (!members.result()) return tl::unexpected<Error>(members.result().error());
     if (auto ok = check_lobe(material.lobe); !ok) return fail(ErrorCode::usage, "halflit_material: lobe: " + ok.error().message);
     return material;

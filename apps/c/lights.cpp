@@ -1,5 +1,5 @@
 // Functions of halflit.h about light.
-#include "apps/c/convert.hpp"
+#include "apps/c/convert_parts.hpp"
 #include "apps/c/scene_access.hpp"
 #include "apps/c/versioned.hpp"
 
@@ -24,7 +24,7 @@ Result<void> light_by(halflit_scene& scene, const EnvironmentImage& image, const
     const std::size_t suns = environment_suns(**made).size();
     scene.take_back_setup();
     scene.changes.lights();
-    scene.scene.lights.reserve(scene.light_count() + suns);
+    scene.scene.lights.reserve(scene.lights().size() + suns);
     set_environment(scene.scene, std::move(*made));
     scene.sun_count = suns;
     return {};
@@ -41,7 +41,7 @@ int32_t halflit_scene_add_light(halflit_scene* scene, const halflit_light* given
         const auto made = light(given);
         if (!made) return tl::unexpected<Error>(made.error());
         scene->take_back_setup();
-        const std::size_t at = scene->light_count();
+        const std::size_t at = scene->lights().size();
         scene->changes.lights();
         scene->scene.lights.insert(scene->scene.lights.end() - static_cast<std::ptrdiff_t>(scene->sun_count), *made);
         if (index != nullptr) *index = static_cast<std::int32_t>(at);
@@ -53,9 +53,9 @@ int32_t halflit_scene_set_light(halflit_scene* scene, int32_t index, const halfl
     return changing(__func__, scene, {{given, "light"}}, [&]() -> Result<void> {
         const auto made = light(given);
         if (!made) return tl::unexpected<Error>(made.error());
-        scene->take_back_setup();
-        const auto at = check_index(index, scene->light_count(), "light");
+        const auto at = check_index(index, scene->lights().size(), "light");
         if (!at) return tl::unexpected<Error>(at.error());
+        scene->take_back_setup();
         scene->changes.lights();
         scene->scene.lights[*at] = *made;
         return {};
@@ -64,6 +64,10 @@ int32_t halflit_scene_set_light(halflit_scene* scene, int32_t index, const halfl
 
 int32_t halflit_scene_set_ambient(halflit_scene* scene, const float sky[3], const float ground[3]) {
     return changing(__func__, scene, {{sky, "sky"}, {ground, "ground"}}, [&]() -> Result<void> {
+        Members members("halflit_scene_set_ambient");
+        members.finite("sky", sky[0], sky[1], sky[2]);
+        members.finite("ground", ground[0], ground[1], ground[2]);
+        if (!members.result()) return members.result();
         scene->take_back_setup();
         scene->changes.lights();
         scene->scene.ambient = {vec3(sky), vec3(ground)};

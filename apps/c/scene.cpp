@@ -34,7 +34,7 @@ std::uint64_t triangle_count(const Scene& scene) {
 }
 
 template <class T>
-std::int32_t count_of(const std::vector<T>& list) {
+std::int32_t count_of(const T& list) {
     return static_cast<std::int32_t>(list.size());
 }
 
@@ -82,7 +82,7 @@ int32_t halflit_scene_get_counts(const halflit_scene* scene, halflit_counts* cou
         const Scene& from = scene->scene;
         const halflit_counts found{
             sizeof(halflit_counts),    triangle_count(from),       count_of(from.meshes),  count_of(from.instances),
-            count_of(from.materials),  count_of(from.textures),    count_of(from.cameras), static_cast<std::int32_t>(scene->light_count()),
+            count_of(from.materials),  count_of(from.textures),    count_of(from.cameras), count_of(scene->lights()),
             count_of(scene->warnings), count_of(scene->animations)};
         return write_struct(found, counts, "halflit_counts");
     });
@@ -166,9 +166,9 @@ int32_t halflit_scene_get_instance(const halflit_scene* scene, int32_t index, in
 
 int32_t halflit_scene_get_light(const halflit_scene* scene, int32_t index, halflit_light* light) {
     return reading(__func__, scene, {{light, "light"}}, [&]() -> Result<void> {
-        const auto at = check_index(index, scene->light_count(), "light");
+        const auto at = check_index(index, scene->lights().size(), "light");
         if (!at) return tl::unexpected<Error>(at.error());
-        return write_struct(to_c(scene->scene.lights[*at]), light, "halflit_light");
+        return write_struct(to_c(scene->lights()[*at]), light, "halflit_light");
     });
 }
 

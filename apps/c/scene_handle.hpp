@@ -14,6 +14,7 @@
 #include <mutex>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -80,7 +81,11 @@ struct halflit_scene {
     mutable std::mutex preparing;  ///< held while `prepared` is made or updated
     mutable std::optional<halflit::PreparedScene> prepared;
 
-    [[nodiscard]] std::size_t light_count() const { return scene.lights.size() - sun_count; }
+    /// The lights that callers see: without suns, and without what halflit_setup() added.
+    [[nodiscard]] std::span<const halflit::Light> lights() const {
+        const std::vector<halflit::Light>& all = own_light ? own_light->lights : scene.lights;
+        return {all.data(), all.size() - (own_light ? own_light->sun_count : sun_count)};
+    }
 
     /// Makes `given` the mesh at `index`, which may be the next one. Adds the normals and tangents that its material requires. Requires:
     /// indices and material in range.

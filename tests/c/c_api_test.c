@@ -943,6 +943,59 @@ static void test_setup(void) {
     halflit_scene_destroy(cube.scene);
 }
 
+static void test_lights_of_the_caller(void) {
+    // What halflit_setup() adds is not seen, and a call that fails leaves it in the scene.
+    Cube cube = make_cube();
+    halflit_light lamp;
+    halflit_counts counts;
+    uint64_t lit;
+    memset(&counts, 0, sizeof counts);
+    counts.size = sizeof counts;
+    CHECK_OK(halflit_scene_clear_lights(cube.scene));
+    lit = draw_setup(cube.scene, NULL);
+    CHECK_OK(halflit_scene_get_counts(cube.scene, &counts));
+    CHECK(counts.lights == 0);
+    CHECK_OK(halflit_light_init(&lamp, sizeof lamp));
+    CHECK_FAILS(halflit_scene_get_light(cube.scene, 0, &lamp), HALFLIT_ERROR_USAGE, "light 0");
+    CHECK_FAILS(halflit_scene_set_light(cube.scene, 0, &lamp), HALFLIT_ERROR_USAGE, "light 0");
+    CHECK(draw_cube(NULL, &cube) == lit);
+    lamp.color[1] = 0.25f;
+    CHECK_OK(halflit_scene_add_light(cube.scene, &lamp, NULL));
+    lit = draw_setup(cube.scene, NULL);
+    CHECK_OK(halflit_scene_get_light(cube.scene, 0, &lamp));
+    CHECK(lamp.color[1] == 0.25f);
+    CHECK_OK(halflit_scene_set_light(cube.scene, 0, &lamp));
+    CHECK(draw_setup(cube.scene, NULL) == lit);
+    halflit_scene_destroy(cube.scene);
+}
+
+static void test_numbers_that_are_none(void) {
+    Cube cube = make_cube();
+    halflit_setup_options options;
+    halflit_light lamp;
+    halflit_material clay;
+    const float bad[3] = {0, NAN, 0}, black[3] = {0, 0, 0};
+    CHECK_OK(halflit_light_init(&lamp, sizeof lamp));
+    lamp.color[2] = INFINITY;
+    CHECK_FAILS(halflit_scene_add_light(cube.scene, &lamp, NULL), HALFLIT_ERROR_USAGE, "halflit_light: color is not finite");
+    CHECK_FAILS(halflit_scene_set_ambient(cube.scene, black, bad), HALFLIT_ERROR_USAGE, "ground is not finite");
+    CHECK_OK(halflit_material_init(&clay, sizeof clay));
+    clay.roughness = NAN;
+    CHECK_FAILS(halflit_scene_set_material(cube.scene, 0, &clay), HALFLIT_ERROR_USAGE, "roughness");
+    CHECK_OK(halflit_setup_options_init(&options, sizeof options));
+    options.fov_y_deg = 500;
+    CHECK_FAILS(halflit_setup(cube.scene, 8, 8, &options, &cube.camera, &cube.settings), HALFLIT_ERROR_USAGE,
+                "fov_y_deg is not above 0 and below 180");
+    options.fov_y_deg = 35;
+    options.zoom = NAN;
+    CHECK_FAILS(halflit_setup(cube.scene, 8, 8, &options, &cube.camera, &cube.settings), HALFLIT_ERROR_USAGE, "zoom");
+    CHECK_FAILS(halflit_camera_frame(cube.scene, 1, NAN, 20, 1, &cube.camera), HALFLIT_ERROR_USAGE, "azimuth_deg");
+    cube.settings.background[0] = NAN;
+    CHECK(draw_cube(NULL, &cube) == 0);
+    CHECK(strstr(halflit_last_error(), "background is not finite") != NULL);
+    halflit_scene_destroy(cube.scene);
+}
+
 static void test_recentre(void) {
     // A triangle at x = 2^20, drawn there and at the origin.
     static char far_model[sizeof model + 64];
@@ -985,6 +1038,8 @@ int main(void) {
     test_animations();
     test_cameras();
     test_setup();
+    test_lights_of_the_caller();
+    test_numbers_that_are_none();
     test_recentre();
     test_execution();
     printf("%d checks, %d failed\n", checks, failures);

@@ -93,7 +93,7 @@ typedef struct halflit_counts {
     size_t size;
     uint64_t triangles;                                       ///< over all instances
     int32_t meshes, instances, materials, textures, cameras;  ///< one more than the largest index
-    int32_t lights;                                           ///< without the suns of the environment
+    int32_t lights;                                           ///< without an environment's suns and what halflit_setup() added
     int32_t warnings;                                         ///< of loading
     int32_t animations;                                       ///< of the file
 } halflit_counts;
