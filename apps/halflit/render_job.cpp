@@ -44,11 +44,13 @@ PictureSize shaped(PictureSize usual, const Camera& camera) {
     return {side(fitted), side(fitted / aspect)};
 }
 
-std::string camera_choice(const Camera* of_file, const RenderOptions& options) {
+/// replaces: the file has a camera that shows the scene small or not at all.
+std::string camera_choice(const Camera* of_file, const RenderOptions& options, bool replaces) {
     if (of_file != nullptr) return "camera: the file's" + (of_file->name.empty() ? "" : ", " + of_file->name);
     if (options.camera_position)
         return fmt::format("camera: at {},{},{}", options.camera_position->x, options.camera_position->y, options.camera_position->z);
-    return fmt::format("camera: a view of the whole scene, azimuth {}, elevation {}", options.view.azimuth_deg, options.view.elevation_deg);
+    return fmt::format("camera: a view of the whole scene, azimuth {}, elevation {}{}", options.view.azimuth_deg,
+                       options.view.elevation_deg, replaces ? "; the file's shows the scene small or not at all (--camera 0: by it)" : "");
 }
 
 std::string pose_choice(const AnimationInfo& animation, int index, double time_s) {
@@ -72,9 +74,7 @@ Result<std::optional<Camera>> choose_view(RenderJob& job, const RenderOptions& o
     const std::vector<Camera>& cameras = job.scene().cameras;
     const bool whole = options.own_view() || (options.film.turntable > 0 && !options.camera);  // a turntable goes around the scene
     const Camera* chosen = whole ? nullptr : choose_camera(job.scene(), job.film.bounds);
-    if (chosen == nullptr && !cameras.empty() && !whole && !options.camera)
-        job.warnings.push_back(
-            "the file's camera shows the scene small or not at all: drawn from a view of the whole scene (--camera 0: by the file's)");
+    const bool replaces = chosen == nullptr && !cameras.empty() && !whole && !options.camera;
     if (options.camera) {
         const auto found = find_camera(cameras, *options.camera);
         if (!found) return tl::unexpected(found.error());
@@ -84,7 +84,7 @@ Result<std::optional<Camera>> choose_view(RenderJob& job, const RenderOptions& o
     job.width = size.width;
     job.height = size.height;
     if (const auto checked = check_size(size, options.settings.region); !checked) return tl::unexpected(checked.error());
-    job.choices.push_back(camera_choice(chosen, given));
+    job.choices.push_back(camera_choice(chosen, given, replaces));
     if (chosen != nullptr) {
         job.film.file_camera = static_cast<int>(chosen - cameras.data());
         return *chosen;

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kLeastShare = 1.0 / 16.0;  ///< of the whole's radius, below which the rest is looked at closely
 constexpr std::size_t kStrayShare = 1000;   ///< one in so many vertices may be left out
+constexpr std::size_t kManyVertices = 24;   ///< from which on a triangle, three vertices, may be
 constexpr double kFlat = 0.01;              ///< height of a ground over its width
 constexpr int kBins = 256, kMostRounds = 8;
 
@@ -136,7 +137,7 @@ FramedVertices framed_vertices(const Mesh& mesh, bool& whole) {
             if (finite(mesh.positions[v])) visit(box_at(mesh.positions[v]), std::uint64_t{1});
     };
     // A position may be that of several vertices, one for each triangle at a corner.
-    const std::uint64_t positions = std::max<std::uint64_t>(1, finite_count / kStrayShare),
+    const std::uint64_t positions = std::max<std::uint64_t>(finite_count < kManyVertices ? 1 : 3, finite_count / kStrayShare),
                         most = std::max<std::uint64_t>(finite_count / 3, 1);
     const auto box = closest_box(each, std::min(most, 64 * positions));
     if (!box) return out;
@@ -195,7 +196,7 @@ void leave_out_grounds(std::vector<Placed>& placed) {
 void leave_out_strays(std::vector<Placed>& placed) {
     std::uint64_t vertices = 0;
     for (const Placed& one : placed) vertices += one.vertices;
-    if (placed.size() < 2 || vertices < 24) return;
+    if (placed.size() < 2 || vertices < kManyVertices) return;
     const auto each = [&](const auto& visit) {
         for (const Placed& one : placed) visit(one.box, one.vertices);
     };

@@ -67,6 +67,21 @@ TEST_CASE("framing: a few vertices far away are left out", "[raster][framing]") 
         if (!sphere.tangents.empty()) sphere.tangents.push_back({1, 0, 0, 1});
         sphere.indices.insert(sphere.indices.end(), {0, 1, stray, 1, 2, stray, 2, 0, stray});
         CHECK(same(framed(corner), alone));
+        Scene alone_13, with_stray;  // thirteen triangles in one mesh, and a fourteenth far away
+        Mesh small;
+        for (int i = 0; i < 13; ++i)
+            for (const Vec3f at : {Vec3f{0, 0, 0}, Vec3f{1, 0, 0}, Vec3f{0, 1, 0}})
+                small.positions.push_back(at + Vec3f{static_cast<float>(i % 4), static_cast<float>(i / 4), 0});
+        const auto number = [](Mesh& mesh) {
+            for (auto i = static_cast<std::uint32_t>(mesh.indices.size()); i < mesh.positions.size(); ++i) mesh.indices.push_back(i);
+        };
+        number(small);
+        add(alone_13, small, {});
+        for (const Vec3f at : {Vec3f{0, 0, 0}, Vec3f{1, 0, 0}, Vec3f{0, 1, 0}})
+            small.positions.push_back(at + Vec3f{static_cast<float>(far), 0, 0});
+        number(small);
+        add(with_stray, small, {});
+        CHECK(same(framed(with_stray), framed(alone_13)));
         Scene triangle = car();
         Mesh one;
         one.positions = {{static_cast<float>(far), 0, 0}, {static_cast<float>(far), 1, 0}, {static_cast<float>(far), 0, 1}};
