@@ -41,7 +41,7 @@ std::vector<LightControl> light_controls(const std::vector<Light>& lights) {
     return controls;
 }
 
-Controls controls_of(const cli::RenderJob& job) {
+Controls controls_of(const cli::RenderJob& job, const cli::RenderOptions& options) {
     const Settings& settings = job.settings;
     Controls controls;
     controls.own_lobes = !settings.shading.lobe;
@@ -55,6 +55,8 @@ Controls controls_of(const cli::RenderJob& job) {
     controls.shadows = settings.shadows;
     controls.sky_shadows = settings.sky_shadows;
     controls.sh_order = settings.shading.environment_bands;
+    controls.sky.rotate_deg = options.environment_rotate_deg;
+    controls.over_own_lobes = !options.own_lobes;
     controls.tone_curve = settings.tone_curve;
     controls.samples = settings.samples;
     controls.max_error_codes = static_cast<float>(settings.shading.max_error_codes);
@@ -112,7 +114,7 @@ std::vector<Light> lights_of(const Controls& controls, const std::vector<Light>&
 }
 
 cli::RenderOptions with_sky(cli::RenderOptions options, const SkyControls& sky) {
-    options.environment_rotate_deg += sky.rotate_deg;
+    options.environment_rotate_deg = sky.rotate_deg;
     if (sky.sky == Sky::as_started) return options;
     options.environment = sky.sky == Sky::sky ? "sky" : "";
     options.studio = sky.sky == Sky::studio ? StudioUse::always : sky.sky == Sky::none ? StudioUse::never : StudioUse::for_dark;
@@ -120,7 +122,7 @@ cli::RenderOptions with_sky(cli::RenderOptions options, const SkyControls& sky) 
     return options;
 }
 
-std::string as_flags(const Controls& now, const Controls& started) {
+std::string as_flags(const Controls& now, const Controls& started, float exposure) {
     std::string flags;
     const auto add = [&](std::string_view flag, const auto& value) { flags += fmt::format(" {} {}", flag, value); };
     if (!now.own_lobes && (started.own_lobes || now.lobe != started.lobe)) {
@@ -128,16 +130,18 @@ std::string as_flags(const Controls& now, const Controls& started) {
         add("--power", now.lobe.power);
         if (now.lobe.normalize) flags += " --normalize";
     }
+    if (!now.own_lobes && now.over_own_lobes && !started.over_own_lobes) add("--own-lobes", "off");
     if (now.specular != started.specular) add("--specular", cli::kSpecularNames[static_cast<std::size_t>(now.specular)]);
     if (now.normalize_specular != started.normalize_specular) add("--specular-normalize", now.normalize_specular ? "on" : "off");
     if (now.shadows != started.shadows) add("--shadows", cli::shadow_mode_name(now.shadows));
     if (now.sky_shadows != started.sky_shadows) add("--sky-shadows", now.sky_shadows);
     if (now.sky.sky != Sky::as_started) add("--env", kSkyNames[static_cast<std::size_t>(now.sky.sky)]);
-    if (now.sky.rotate_deg != 0.0f) add("--env-rotate", now.sky.rotate_deg);
+    if (now.sky.rotate_deg != started.sky.rotate_deg) add("--env-rotate", now.sky.rotate_deg);
     if (now.sh_order != started.sh_order) add("--sh-order", now.sh_order == 0 ? "auto" : std::to_string(now.sh_order));
     if (now.tone_curve != started.tone_curve) add("--tonemap", cli::tone_curve_name(now.tone_curve));
     if (now.samples != started.samples) add("--samples", now.samples);
     if (now.max_error_codes != started.max_error_codes) add("--max-error", now.max_error_codes);
+    if (now.exposure_ev != 0.0f) add("--exposure", std::log2(static_cast<double>(exposure)) + static_cast<double>(now.exposure_ev));
     return flags.empty() ? flags : flags.substr(1);
 }
 

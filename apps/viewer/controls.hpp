@@ -1,4 +1,4 @@
-// The controls of the window as values: read from a job, changed by a hand, and put into settings and lights.
+// The controls of the window as values: read from a job, changed by the user, and put into settings and lights.
 #pragma once
 
 #include "apps/halflit/render_job.hpp"
@@ -33,13 +33,13 @@ struct LightControl {
 /// Lights come from the scene anew where these differ.
 struct SkyControls {
     Sky sky = Sky::as_started;
-    float rotate_deg = 0.0f;  ///< added to --env-rotate
+    float rotate_deg = 0.0f;  ///< in the place of --env-rotate
     friend bool operator==(const SkyControls&, const SkyControls&) = default;
 };
 
 struct Controls {
     bool own_lobes = true;  ///< materials keep the lobes of the scene
-    /// The lobe also replaces those of materials that chose their own, which no flag of render does.
+    /// The lobe also replaces those of materials that chose their own, as --own-lobes off does.
     bool over_own_lobes = false;
     int model = 0;  ///< index into kNamedLobes
     Lobe lobe = Lobe::lambert();
@@ -57,8 +57,8 @@ struct Controls {
     friend bool operator==(const Controls&, const Controls&) = default;
 };
 
-/// The controls' places for a job as its flags made it.
-[[nodiscard]] Controls controls_of(const cli::RenderJob& job);
+/// The controls' first values, for a job as its flags made it.
+[[nodiscard]] Controls controls_of(const cli::RenderJob& job, const cli::RenderOptions& options);
 
 /// Controls of these lights as they are.
 [[nodiscard]] std::vector<LightControl> light_controls(const std::vector<Light>& lights);
@@ -77,7 +77,9 @@ void choose_wrap(Controls& controls, float wrap);
 /// The flags with the controls' sky.
 [[nodiscard]] cli::RenderOptions with_sky(cli::RenderOptions options, const SkyControls& sky);
 
-/// The flags of `halflit render` that give the same lobe, highlights, shadows and light, where they differ from those of the start.
-[[nodiscard]] std::string as_flags(const Controls& controls, const Controls& started);
+/// The flags of `halflit render` that give the same lobe, highlights, shadows, sky, exposure and samples, where they differ from those of
+/// the start. There are none for changes of single lights, nor for a lobe's part that the start's flags set and that was taken back.
+/// exposure: the factor on all light without the control's.
+[[nodiscard]] std::string as_flags(const Controls& controls, const Controls& started, float exposure);
 
 }  // namespace halflit::viewer

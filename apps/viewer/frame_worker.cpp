@@ -27,7 +27,8 @@ FrameWorker::FrameWorker(cli::RenderJob job, const cli::RenderOptions& options, 
       start_camera_(job_.camera),
       start_settings_(job_.settings),
       own_lobes_(own_lobes_of(job_.scene())),
-      start_lights_(job_.scene().lights) {
+      start_lights_(job_.scene().lights),
+      sky_{Sky::as_started, options.environment_rotate_deg} {
     job_.timeout_s = 0.0;  // it was for loading
     job_.execution.cancelled = [this] { return given_up_.load(std::memory_order_relaxed); };
     thread_ = std::thread([this] { run(); });
@@ -160,6 +161,7 @@ Result<void> FrameWorker::draw(const FrameRequest& request, DrawnFrame& frame) {
     frame.picture = cli::make_image(job_, false);
     const auto rendered = renderer_.render(*job_.prepared, job_.camera, job_.settings, cli::target_of(job_, frame.picture), job_.execution);
     if (!rendered) return tl::unexpected(rendered.error());
+    frame.exposure = start_settings_.exposure;
     frame.size_ms = rendered->total_ms - rendered->ms.prepare - rendered->ms.plan - rendered->ms.shadows;
     cli::Json report;
     cli::add_frame(report, job_, *rendered, frame.picture);

@@ -38,6 +38,7 @@ struct DrawnFrame {
     std::optional<Error> error{};
     std::string report;                                 ///< lines
     std::string plan;                                   ///< lines; empty for quick pictures
+    float exposure = 1;                                 ///< factor on all light, without the control's
     std::optional<std::vector<LightControl>> lights{};  ///< the scene has other lights than before
     std::optional<PixelStory> story{};
 };
@@ -58,9 +59,6 @@ public:
     void give_up();
     /// The result of the last request, once.
     [[nodiscard]] std::optional<DrawnFrame> take();
-
-    /// Before the first request.
-    [[nodiscard]] const cli::RenderJob& job() const { return job_; }
 
 private:
     void run();

@@ -4,6 +4,8 @@
 #include "sh/arc.hpp"
 #include "sh/trig.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -79,6 +81,19 @@ Camera OrbitCamera::camera() const {
         camera.far_z = static_cast<float>(middle + 2.0 * radius_);
     }
     return camera;
+}
+
+std::string OrbitCamera::flags(double aspect, Vec3d origin, double scale) const {
+    if (!moved_ || start_.orthographic) return "";
+    const auto point = [&](Vec3d p) {
+        const Vec3d at = p * (1.0 / scale) + origin;
+        return fmt::format("{},{},{}", at.x, at.y, at.z);
+    };
+    // A camera made for a wider picture shows its width, and more above and below.
+    const SinCos half = sin_cos(static_cast<double>(start_.fov_y_rad) / 2);
+    const double wider = start_.aspect > 0.0f ? std::max(1.0, static_cast<double>(start_.aspect) / aspect) : 1.0;
+    return fmt::format("--camera-position {} --camera-target {} --fov {}", point(target_ + back() * distance_), point(target_),
+                       static_cast<float>(2.0 * arc_tangent(half.sin / half.cos * wider) * (180.0 / kPi)));
 }
 
 }  // namespace halflit::viewer

@@ -1,8 +1,10 @@
-// A camera that a hand turns around a point, by a mouse's motion in pixels of the picture.
+// A camera that the user turns around a point, by a mouse's motion in pixels of the picture.
 #pragma once
 
 #include "halflit/camera.hpp"
 #include "sh/vec3d.hpp"
+
+#include <string>
 
 namespace halflit::viewer {
 
@@ -16,18 +18,18 @@ public:
     /// Turns around the point on the view axis that is nearest to the centre of `bounds`.
     OrbitCamera(const Camera& start, const Bounds& bounds);
 
-    /// The scene follows the hand: right is a turn of the scene to the right, down shows more of its top.
+    /// The scene follows the pointer: right is a turn of the scene to the right, down shows more of its top.
     void turn(double right_px, double down_px);
-    /// The point under the hand follows it; in a perspective view, points at the distance of the centre do.
+    /// The point under the pointer follows it; in a perspective view, points at the distance of the centre do.
     void pan(double right_px, double down_px, int picture_height);
     /// Each step enlarges the scene by a tenth.
     void zoom(double steps);
     void reset();
 
     [[nodiscard]] Camera camera() const;
-    [[nodiscard]] bool moved() const { return moved_; }
-    [[nodiscard]] double azimuth() const { return azimuth_; }
-    [[nodiscard]] double elevation() const { return elevation_; }
+    /// The flags of `halflit render` that place the camera there in a picture of width / height `aspect`, in the file's world, of which a
+    /// point p is drawn at (p - origin) * scale. Empty until it is moved, and for orthographic views, which no flag makes.
+    [[nodiscard]] std::string flags(double aspect, Vec3d origin, double scale) const;
     [[nodiscard]] double distance() const { return distance_; }
 
 private:

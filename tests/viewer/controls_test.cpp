@@ -4,12 +4,24 @@
 #include "sh/vec3d.hpp"
 #include "tests/viewer/jobs.hpp"
 
+#include <algorithm>
 #include <iterator>
 #include <sstream>
 
 using namespace halflit;
 using namespace halflit::test;
 using namespace halflit::viewer;
+
+namespace {
+
+std::vector<std::string> words(const std::string& line) {
+    std::istringstream in(line);
+    std::vector<std::string> all;
+    for (std::string word; in >> word;) all.push_back(word);
+    return all;
+}
+
+}  // namespace
 
 TEST_CASE("controls: untouched, they change neither settings nor lights", "[viewer]") {
     for (const std::vector<std::string>& flags :
@@ -18,10 +30,10 @@ TEST_CASE("controls: untouched, they change neither settings nor lights", "[view
           {"--env", "sky", "--sh-order", "4", "--shadows", "hard", "--sky-shadows", "16", "--tonemap", "aces", "--samples", "8"},
           {"--max-error", "0.5", "--specular-normalize", "off"}}) {
         const OpenedJob opened = open_job("demo", flags);
-        const Controls controls = controls_of(opened.job);
+        const Controls controls = controls_of(opened.job, opened.options);
         CHECK(settings_of(controls, opened.job.settings) == opened.job.settings);
         CHECK(lights_of(controls, opened.job.scene().lights) == opened.job.scene().lights);
-        CHECK(as_flags(controls, controls).empty());
+        CHECK(as_flags(controls, controls, 1.0f).empty());
     }
 }
 
@@ -38,7 +50,7 @@ TEST_CASE("controls: a model is the lobe that --lobe gives", "[viewer]") {
     }
 }
 
-TEST_CASE("controls: the power follows the wrap until a hand moves it", "[viewer]") {
+TEST_CASE("controls: the power follows the wrap until the user moves it", "[viewer]") {
     Controls controls;
     choose_model(controls, 4);  // sloan: n = 1 + w
     choose_wrap(controls, 0.75f);
@@ -73,7 +85,7 @@ TEST_CASE("controls: lights are switched off, dimmed and turned", "[viewer]") {
 
 TEST_CASE("controls: as flags, they give the same settings", "[viewer]") {
     const OpenedJob opened = open_job("demo", {});
-    const Controls started = controls_of(opened.job);
+    const Controls started = controls_of(opened.job, opened.options);
     Controls controls = started;
     choose_model(controls, 5);  // mcauley
     choose_wrap(controls, 0.3f);
@@ -85,8 +97,21 @@ TEST_CASE("controls: as flags, they give the same settings", "[viewer]") {
     controls.tone_curve = ToneCurve::aces;
     controls.samples = 8;
     controls.max_error_codes = 0.5f;
-    std::istringstream line(as_flags(controls, started));
-    std::vector<std::string> flags;
-    for (std::string word; line >> word;) flags.push_back(word);
-    CHECK(open_job("demo", flags).job.settings == settings_of(controls, opened.job.settings));
+    CHECK(open_job("demo", words(as_flags(controls, started, 1.0f))).job.settings == settings_of(controls, opened.job.settings));
+}
+
+TEST_CASE("controls: as flags, a turned sky and an exposure are those of the window", "[viewer]") {
+    const OpenedJob opened = open_job("demo", {"--env", "sky", "--env-rotate", "30"});
+    const Controls started = controls_of(opened.job, opened.options);
+    Controls controls = started;
+    controls.sky.rotate_deg += 10;
+    controls.exposure_ev = 0.5f;
+    std::vector<std::string> flags = words(as_flags(controls, started, opened.job.settings.exposure));
+    CHECK(std::find(flags.begin(), flags.end(), "40") != flags.end());
+    flags.insert(flags.end(), {"--env", "sky"});
+    const OpenedJob again = open_job("demo", flags);
+    CHECK(again.job.settings.exposure == Approx(settings_of(controls, opened.job.settings).exposure));
+    CHECK(with_sky(opened.options, controls.sky).environment_rotate_deg == 40.0f);
+    const Settings settings = settings_of(controls, opened.job.settings);
+    CHECK(again.job.settings.shading.lobe == settings.shading.lobe);
 }

@@ -1,9 +1,14 @@
 #include "apps/viewer/orbit_camera.hpp"
 
+#include "apps/halflit/render_options.hpp"
 #include "apps/halflit/scene_view.hpp"
+#include "raster/view/projection.hpp"
 #include "tests/support/catch.hpp"
 
 #include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
 
 using namespace halflit;
 using viewer::OrbitCamera;
@@ -61,7 +66,7 @@ TEST_CASE("orbit camera: a turn keeps the centre in the middle and the distance"
     }
 }
 
-TEST_CASE("orbit camera: a whole turn comes back, and a hand to the right moves the front to the right", "[viewer]") {
+TEST_CASE("orbit camera: a whole turn comes back, and a drag to the right moves the front to the right", "[viewer]") {
     OrbitCamera orbit(centred(), box());
     orbit.turn(0, 0);
     const Camera before = orbit.camera();
@@ -73,7 +78,7 @@ TEST_CASE("orbit camera: a whole turn comes back, and a hand to the right moves 
     for (std::size_t i = 0; i < 4; ++i) CHECK(length(column(orbit.camera(), i) - column(before, i)) < 1e-4);
 }
 
-TEST_CASE("orbit camera: a pan moves the centre by the hand's pixels", "[viewer]") {
+TEST_CASE("orbit camera: a pan moves the centre by the mouse's pixels", "[viewer]") {
     const Camera start = centred();
     OrbitCamera orbit(start, box());
     constexpr int kHeight = 200;
@@ -103,6 +108,35 @@ TEST_CASE("orbit camera: a zoom step is a tenth, in perspective and orthographic
     const double depth = -dot(kCenter - column(camera, 3), column(camera, 2)), radius = static_cast<double>(box().radius());
     CHECK(static_cast<double>(camera.near_z) < depth - radius);
     CHECK(static_cast<double>(camera.far_z) > depth + radius);
+}
+
+TEST_CASE("orbit camera: its flags place a camera with the same view, far from the origin too", "[viewer]") {
+    for (const bool shaped : {false, true}) {
+        Camera start = centred();
+        if (shaped) start.aspect = 2.0f;
+        OrbitCamera orbit(start, box());
+        const Vec3d origin{1e7, -3, 0.1};
+        constexpr double kScale = 1.0 / 3.0;
+        CHECK(orbit.flags(1.5, origin, kScale).empty());
+        orbit.turn(40, -20);
+        std::istringstream line(orbit.flags(1.5, origin, kScale));
+        std::vector<std::string> flags;
+        for (std::string word; line >> word;) flags.push_back(word);
+        const auto options = cli::parse_render_flags(flags);
+        REQUIRE(options);
+        const auto drawn = [&](Vec3d p) { return to_float((p - origin) * kScale); };
+        const Camera placed = cli::placed_camera(drawn(options->camera_position.value()), drawn(options->camera_target.value()),
+                                                 options->view.fov_y_deg, box());
+        const Mat4 a = raster::clip_from_world(placed, 1.5f), b = raster::clip_from_world(orbit.camera(), 1.5f);
+        for (int i = 0; i < 4; ++i)
+            for (const auto part : {&Vec4f::x, &Vec4f::y, &Vec4f::z, &Vec4f::w}) CHECK(a.c[i].*part == Approx(b.c[i].*part).margin(1e-5));
+    }
+    Camera flat = frame_bounds(box(), 1.0f, {});
+    flat.orthographic = true;
+    flat.half_height = 3;
+    OrbitCamera over(flat, box());
+    over.turn(10, 10);
+    CHECK(over.flags(1.0, {}, 1.0).empty());
 }
 
 TEST_CASE("orbit camera: a scene of one point, or none, has a finite camera", "[viewer]") {

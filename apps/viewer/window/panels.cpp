@@ -64,9 +64,9 @@ bool lobe_controls(Controls& c, bool has_own_lobes) {
         choose_wrap(c, wrap);
         changed = true;
     }
-    const auto moved = [&](bool hand) {
-        if (hand) c.own_lobes = false;
-        changed = changed || hand;
+    const auto moved = [&](bool by_user) {
+        if (by_user) c.own_lobes = false;
+        changed = changed || by_user;
     };
     moved(ImGui::SliderFloat("n (power)", &c.lobe.power, 0.0f, 8.0f, "%.2f"));
     c.lobe.power = std::clamp(c.lobe.power, 0.0f, kMaxLobePower);
@@ -171,7 +171,8 @@ bool Panel::draw(const PanelTexts& texts, int left, int width, int height) {
         controls = started;
         controls.lights = std::move(lights);
     }
-    const std::string flags = as_flags(controls, started);
+    std::string flags = as_flags(controls, started, texts.exposure);
+    if (!texts.view.empty()) flags = flags.empty() ? texts.view : texts.view + " " + flags;
     if (!flags.empty()) {
         ImGui::SameLine();
         if (ImGui::Button("copy flags")) ImGui::SetClipboardText(flags.c_str());

@@ -6,6 +6,7 @@
 #include "apps/viewer/orbit_camera.hpp"
 #include "apps/viewer/window/gui.hpp"
 #include "apps/viewer/window/panels.hpp"
+#include "apps/viewer/window/rehearsal_mouse.hpp"
 #include "apps/viewer/window/sdl.hpp"
 #include "apps/viewer/window/surface.hpp"
 #include "halflit/image.hpp"
@@ -20,8 +21,7 @@ namespace halflit::viewer {
 namespace {
 
 constexpr int kPanelWidth = 400;
-constexpr int kClickReach = 3;        // pixels that a click may move
-constexpr Uint32 kHand = 0x68616e64;  // the mouse of a rehearsal
+constexpr int kClickReach = 3;  // pixels that a click may move
 
 /// Called at the end of the scope.
 template <class End>
@@ -47,15 +47,18 @@ public:
           how_(how),
           window_(sdl),
           orbit_(job.camera, job.film.bounds),
-          panel_{controls_of(job), controls_of(job), has_own_lobes(job.scene())},
+          panel_{controls_of(job, options), controls_of(job, options), has_own_lobes(job.scene())},
           refinement_(job.settings.samples),
           rehearsal_(how.rehearsal, static_cast<int>(OrbitCamera::kPixelsOfTurn)),
+          mouse_(sdl),
           done_event_(SDL_USEREVENT) {
         panel_.tab = how.tab;
-        picture_width_ = job.width, picture_height_ = job.height;
+        picture_width_ = started_width_ = job.width, picture_height_ = started_height_ = job.height;
         texts_.scene = fmt::format("{}: {} triangles", job.source.name, job.prepared->triangle_count());
         texts_.pixel = "A click on the picture tells how its pixel came about.";
         for (const std::string& warning : job.warnings) texts_.report += "warning: " + warning + "\n";
+        texts_.exposure = job.settings.exposure;
+        origin_ = cli::turned_upright(job.source.origin, options.up), scale_ = job.source.scale;
         title_ = "halflit: " + job.source.name;
         worker_ = std::make_unique<FrameWorker>(std::move(job), options, [this] { wake(); });
     }
@@ -124,7 +127,7 @@ private:
         }
         if (frame->story) {
             texts_.pixel = story_text(*frame->story);
-            texts_.marked = true;
+            texts_.marked = !moved_since_request_;
             texts_.mark_x = frame->story->x, texts_.mark_y = frame->story->y;
             panel_.tab = Tab::pixel;
             panel_.select_tab = true;
@@ -145,49 +148,29 @@ private:
         window_.show(frame->picture);
         new_picture_ = true;
         texts_.report = frame->report;
+        texts_.exposure = frame->exposure;
         if (!frame->plan.empty()) texts_.plan = frame->plan;
         shown_step_ = frame->step;
         shown_ms_ = frame->draw_ms;
     }
 
-    void push(Uint32 type, int dx) {
-        SDL_Event event{};
-        event.type = type;
-        if (type == SDL_MOUSEMOTION) {
-            event.motion.which = kHand;
-            event.motion.x = hand_x_ += dx;
-            event.motion.y = hand_y_;
-            event.motion.xrel = dx;
-            event.motion.state = SDL_BUTTON_LMASK;
-        } else {
-            event.button.which = kHand;
-            event.button.button = SDL_BUTTON_LEFT;
-            event.button.x = hand_x_;
-            event.button.y = hand_y_;
-        }
-        if (sdl_.PushEvent(&event) > 0) ++pushed_;
-    }
-
-    /// The rehearsal's motions go through SDL's queue, as a hand's.
     void rehearse() {
-        if (pushed_ > 0) return;  // the last motion is still in the queue
+        if (mouse_.waits()) return;
         const bool finished = refinement_.finished() && worker_->idle();
         const RehearsalStep step = rehearsal_.next({clock_.ms(), new_picture_, finished && redraw_ <= 1, story_shown_ && redraw_ == 0});
         switch (step.gesture) {
             case Gesture::press:
-                hand_x_ = picture_width_ / 2, hand_y_ = picture_height_ / 2;
-                push(SDL_MOUSEBUTTONDOWN, 0);
+                mouse_.press(picture_width_ / 2, picture_height_ / 2);
                 break;
             case Gesture::drag:
-                push(SDL_MOUSEMOTION, step.dx);
+                mouse_.drag(step.dx);
                 break;
             case Gesture::release:
-                push(SDL_MOUSEBUTTONUP, 0);
+                mouse_.release();
                 break;
             case Gesture::click:
-                hand_x_ = how_.rehearsal.click->x, hand_y_ = how_.rehearsal.click->y;
-                push(SDL_MOUSEBUTTONDOWN, 0);
-                push(SDL_MOUSEBUTTONUP, 0);
+                mouse_.press(how_.rehearsal.click->x, how_.rehearsal.click->y);
+                mouse_.release();
                 break;
             case Gesture::end:
                 last_present_ = true;
@@ -200,6 +183,8 @@ private:
 
     void moved() {
         texts_.marked = false;
+        clicked_.reset();
+        moved_since_request_ = true;
         moved_ms_ = clock_.ms();
         refinement_.moved(moved_ms_);
         worker_->give_up();
@@ -210,9 +195,7 @@ private:
         if (event.type == done_event_) return;
         redraw_ = std::max(redraw_, 2);  // a widget shows what an event did one frame later
         gui_->handle(event);
-        const bool moved_by_hand = event.type == SDL_MOUSEMOTION && event.motion.which == kHand;
-        const bool pressed_by_hand = (event.type == SDL_MOUSEBUTTONDOWN || event.type == SDL_MOUSEBUTTONUP) && event.button.which == kHand;
-        if (moved_by_hand || pressed_by_hand) --pushed_;
+        mouse_.handled(event);
         switch (event.type) {
             case SDL_QUIT:
                 ended_ = true;
@@ -226,6 +209,7 @@ private:
                 wandered_ = 0;
                 break;
             case SDL_MOUSEBUTTONUP:
+                if (event.button.button != held_) break;
                 if (held_ == SDL_BUTTON_LEFT && wandered_ <= kClickReach && event.button.x < picture_width_)
                     clicked_ = FrameRequest::Pixel{std::max(0, event.button.x), std::clamp(event.button.y, 0, picture_height_ - 1)};
                 held_ = 0;
@@ -273,6 +257,7 @@ private:
         if (!worker_->idle()) return;
         FrameRequest request{orbit_.camera(), panel_.controls, picture_width_, picture_height_, {}};
         telling_ = clicked_ && refinement_.finished();
+        moved_since_request_ = false;
         if (telling_) {
             request.pixel = std::exchange(clicked_, std::nullopt);
             worker_->begin(std::move(request));
@@ -283,6 +268,14 @@ private:
         request.step = *step;
         refinement_.began(*step);
         worker_->begin(std::move(request));
+    }
+
+    /// Where they differ from those of the start.
+    [[nodiscard]] std::string view_flags() const {
+        const bool resized = picture_width_ != started_width_ || picture_height_ != started_height_;
+        const std::string size = resized ? fmt::format("--size {}x{}", picture_width_, picture_height_) : "";
+        const std::string view = orbit_.flags(static_cast<double>(picture_width_) / picture_height_, origin_, scale_);
+        return size + (size.empty() || view.empty() ? "" : " ") + view;
     }
 
     void present() {
@@ -297,6 +290,7 @@ private:
                                     shown_step_.divisor > 1 ? fmt::format(" / {}", shown_step_.divisor) : "", shown_step_.samples,
                                     shown_step_.samples > 1 ? "s" : "", shown_ms_,
                                     rate_ > 0.0 && !refinement_.finished() ? fmt::format(", {:.0f} a second", rate_) : "");
+        texts_.view = view_flags();
         gui_->begin(width, height, static_cast<float>(since_present_.ms() / 1000.0));
         const SkyControls sky = panel_.controls.sky;
         if (panel_.draw(texts_, picture_width_, width - picture_width_, height)) {
@@ -332,9 +326,12 @@ private:
     PanelTexts texts_;
     Refinement refinement_;
     Rehearsal rehearsal_;
+    RehearsalMouse mouse_;
     const Uint32 done_event_;
     std::string title_;
-    int picture_width_ = 0, picture_height_ = 0;
+    Vec3d origin_{};  ///< a point p of the file is drawn at (p - origin) * scale
+    double scale_ = 1.0;
+    int picture_width_ = 0, picture_height_ = 0, started_width_ = 0, started_height_ = 0;
     std::unique_ptr<Gui> gui_;
 
     cli::Stopwatch clock_, since_present_, since_picture_;
@@ -347,9 +344,8 @@ private:
     Uint8 held_ = 0;    ///< button that was pressed on the picture
     int wandered_ = 0;  ///< pixels since then
     int pointer_x_ = 0;
+    bool moved_since_request_ = false;
     std::optional<FrameRequest::Pixel> clicked_;
-    int hand_x_ = 0, hand_y_ = 0;  ///< the rehearsal's
-    int pushed_ = 0;               ///< its events in SDL's queue
     std::optional<Error> failure_;
     Image screenshot_;
     ViewerSummary summary_;
