@@ -80,10 +80,9 @@ void halflit_scene_destroy(halflit_scene* scene) { delete scene; }
 int32_t halflit_scene_get_counts(const halflit_scene* scene, halflit_counts* counts) {
     return reading(__func__, scene, {{counts, "counts"}}, [&] {
         const Scene& from = scene->scene;
-        const halflit_counts found{
-            sizeof(halflit_counts),    triangle_count(from),       count_of(from.meshes),  count_of(from.instances),
-            count_of(from.materials),  count_of(from.textures),    count_of(from.cameras), count_of(scene->lights()),
-            count_of(scene->warnings), count_of(scene->animations)};
+        const halflit_counts found{sizeof(halflit_counts),    triangle_count(from),       count_of(from.meshes),  count_of(from.instances),
+                                   count_of(from.materials),  count_of(from.textures),    count_of(from.cameras), count_of(scene->lights()),
+                                   count_of(scene->warnings), count_of(scene->animations)};
         return write_struct(found, counts, "halflit_counts");
     });
 }
