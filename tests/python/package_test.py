@@ -95,7 +95,8 @@ class Documentation(unittest.TestCase):
             self.assertTrue(value.__doc__, name)
             functions = [value] if inspect.isfunction(value) else []
             if inspect.isclass(value):
-                public = [member for name, member in vars(value).items() if not name.startswith("_")]
+                own = [base for base in value.__mro__ if base.__module__.startswith("halflit")]
+                public = [member for base in own for name, member in vars(base).items() if not name.startswith("_")]
                 functions = [f for f in public if inspect.isfunction(f) or isinstance(f, (property, classmethod))]
             for function in functions:
                 function = getattr(function, "fget", None) or getattr(function, "__func__", function)

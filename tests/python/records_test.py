@@ -69,8 +69,8 @@ class Refused(unittest.TestCase):
             ({"zoom": nan}, "zoom"),
             ({"zoom": 0}, "zoom"),
             ({"azimuth": inf}, "azimuth_deg"),
-            ({"ambient": (nan, 0, 0)}, "ambient_color"),
-            ({"background": (nan, 0, 0)}, "background is not finite"),
+            ({"ambient": (nan, 0, 0)}, "ambient: a number is not finite"),
+            ({"background": (nan, 0, 0)}, "background: expected linear light"),
             ({"exposure": nan}, "exposure"),
         ):
             with self.assertRaisesRegex(halflit.UsageError, words):

@@ -9,20 +9,21 @@ instances, textures, lights, many pictures. Lengths are world units, angles in d
 """
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 from . import _c
 from ._camera import Camera
 from ._errors import BadInputError, CancelledError, Error, FileError, LimitError, UsageError
+from ._light import Light
+from ._material import Lobe, Material, TextureUse
 from ._options import AOVS
-from ._records import Light, Lobe, Material, TextureUse
+from ._picture_options import PictureOptions
 from ._render import render
-from ._scene import Scene, Setup
+from ._scene import Scene
+from ._setup import Setup
 
-TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any
-
     from ._picture import Picture as Picture
-    from ._picture_options import PictureOptions as PictureOptions
 
 __version__ = _c.VERSION
 __all__ = (
@@ -42,13 +43,9 @@ def pixel_epoch() -> int:
 
 
 def __getattr__(name: str) -> Any:
-    # Picture is a numpy array, and numpy takes longer to import than all else. PictureOptions needs typing.
+    # Picture is a numpy array, and numpy takes longer to import than all else.
     if name == "Picture":
         from ._picture import Picture
 
         return Picture
-    if name == "PictureOptions":
-        from ._picture_options import PictureOptions
-
-        return PictureOptions
     raise AttributeError(f"module 'halflit' has no attribute {name!r}")

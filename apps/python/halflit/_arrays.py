@@ -1,18 +1,44 @@
 """Arrays of a caller as the library reads them. An array that has the right type and order is handed over without a copy."""
 from __future__ import annotations
 
+from typing import Optional
+
 import numpy as np
 
-from ._errors import UsageError
+from ._color import BRIGHTEST, linear_from_codes
+from ._errors import UsageError, warn
+from ._values import shown
 
 
-def floats(value, columns: int, name: str, count: int | None = None) -> np.ndarray:
+def numbers(value, kind, name: str) -> np.ndarray:
+    """The array, of numbers of this kind, without gaps."""
+    array = np.asarray(value)
+    if array.dtype.kind not in "fiub":
+        raise UsageError(f"{name}: expected an array of numbers, found {array.dtype} of {shown(value)}")
+    return np.ascontiguousarray(array, dtype=kind)
+
+
+def floats(value, columns: int, name: str, count: Optional[int] = None) -> np.ndarray:
     """float32 of shape (n, columns), rows without gaps. count: the n that is expected."""
-    array = np.ascontiguousarray(value, dtype=np.float32)
+    array = numbers(value, np.float32, name)
     if array.ndim != 2 or array.shape[1] != columns:
         raise UsageError(f"{name}: expected an array of shape (n, {columns}), found {array.shape}")
     if count is not None and len(array) != count:
         raise UsageError(f"{name}: {len(array)} rows, expected one for each of {count} vertices")
+    return array
+
+
+def positions(value, count: Optional[int] = None) -> np.ndarray:
+    """Vertices as floats(). Warns where rounding to float32 changes a shape that is far from the origin."""
+    array = floats(value, 3, "vertices", count)
+    if getattr(value, "dtype", np.float64) != np.float32 and len(array) and np.isfinite(array).all():
+        low, high = array.min(axis=0), array.max(axis=0)
+        step = np.spacing(np.maximum(np.abs(low), np.abs(high)).max())
+        if step > 1e-4 * (high - low).max() and not np.array_equal(array, value):
+            warn(
+                f"vertices: float32 rounds them to steps of {step:g}, in a mesh of size {(high - low).max():g}: move them to the origin"
+                " before, as by vertices - vertices.mean(axis=0)"
+            )
     return array
 
 
@@ -22,58 +48,72 @@ def colors(value, count: int) -> np.ndarray:
     if array.ndim != 2 or array.shape[1] not in (3, 4):
         raise UsageError(f"colors: expected an array of shape (n, 3) or (n, 4), found {array.shape}")
     if array.dtype == np.uint8:
-        linear = linear_from_srgb(array[:, :3] / 255.0)
-        array = np.concatenate([linear, array[:, 3:] / 255.0], axis=1)
-    elif (array > (16 if array.dtype.kind == "f" else 1)).any():
-        raise UsageError(f"colors: expected uint8 sRGB codes, or linear light where 1 is white, found {array.dtype} up to {array.max()}")
+        array = linear_from_codes(array)
+    else:
+        array = floats(array, array.shape[1], "colors") if array.dtype.kind == "f" else array
+        most = BRIGHTEST if array.dtype.kind == "f" else 1
+        if array.size and not (array.min() >= 0 and array.max() <= most):
+            raise UsageError(
+                f"colors: expected uint8 sRGB codes, or linear light from 0, where 1 is white, to {most:g},"
+                f" found {array.dtype} from {array.min()} to {array.max()}"
+            )
     if array.shape[1] == 3:
         array = np.concatenate([array, np.ones((len(array), 1), array.dtype)], axis=1)
     return floats(array, 4, "colors", count)
 
 
-def linear_from_srgb(share):
-    """Light of an sRGB value, both 0 to 1."""
-    share = np.asarray(share, dtype=np.float64)
-    return np.where(share <= 0.04045, share / 12.92, ((share + 0.055) / 1.055) ** 2.4)
-
-
-def indices(value, columns: int) -> np.ndarray:
-    """uint32, one row of vertex numbers for each primitive. int32 without negative numbers has the same bytes."""
+def indices(value, columns: int, count: int) -> np.ndarray:
+    """uint32, `columns` vertex numbers for each primitive, all below count. int32 without negative numbers has the same bytes."""
     array = np.asarray(value)
+    if not array.size:
+        return np.zeros((0, columns), np.uint32)
     if array.dtype.kind not in "iu":
         raise UsageError(f"faces: expected whole numbers, found {array.dtype}")
     if array.ndim != 1 and not (array.ndim == 2 and array.shape[1] == columns):
         raise UsageError(f"faces: expected an array of shape (n, {columns}), found {array.shape}")
-    if array.dtype.kind == "i" and array.size and int(array.min()) < 0:
-        raise UsageError("faces: a negative vertex number")
-    if array.size and int(array.max()) > 0xFFFFFFFF:
-        raise UsageError("faces: a vertex number above 2^32")
+    if array.size % columns:
+        raise UsageError(f"faces: {array.size} corners, expected {columns} for each")
+    low, high = int(array.min()), int(array.max())
+    if low < 0 or high >= count:
+        raise UsageError(f"faces: vertex {low if low < 0 else high}, expected 0 to {count - 1}: the number of vertices is {count}")
     if array.dtype == np.int32 and array.flags.c_contiguous:
         return array.view(np.uint32)
     return np.ascontiguousarray(array, dtype=np.uint32)
 
 
 def smooth_normals(vertices: np.ndarray, faces: np.ndarray) -> np.ndarray:
-    """Normals of the surface through the vertices: the mean of the faces around each, by their areas; float32 (n, 3), not normalised.
+    """Normals of the surface through the vertices: the mean of the faces around each, by their areas; float32 (n, 3), of length 1.
 
     A vertex without a face, or whose faces cancel each other, has +y.
     """
-    corners = np.asarray(vertices, dtype=np.float64)[np.asarray(faces).reshape(-1, 3)]
+    faces = np.asarray(faces).reshape(-1, 3)
+    corners = np.asarray(vertices, dtype=np.float64)[faces]
     of_faces = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normals = np.zeros((len(vertices), 3))
     for corner in range(3):
-        np.add.at(normals, np.asarray(faces).reshape(-1, 3)[:, corner], of_faces)
+        np.add.at(normals, faces[:, corner], of_faces)
     length = np.linalg.norm(normals, axis=1, keepdims=True)
     flat = ~(length > 0)
     return np.where(flat, (0.0, 1.0, 0.0), normals / np.where(flat, 1, length)).astype(np.float32)
 
 
 def matrix(value, name: str = "matrix") -> np.ndarray:
-    """16 float32, column after column, of a 4 x 4 array whose rows are rows: the translation is value[:3, 3]."""
-    array = np.asarray(value, dtype=np.float32)
+    """float64 (4, 4) whose rows are rows: the translation is value[:3, 3]."""
+    array = numbers(value, np.float64, name).copy()
     if array.shape != (4, 4):
         raise UsageError(f"{name}: expected an array of shape (4, 4), found {array.shape}")
-    return np.ascontiguousarray(array.T)
+    if not np.isfinite(array).all():
+        raise UsageError(f"{name}: a number is not finite")
+    if not np.allclose(array[3], (0, 0, 0, 1), rtol=0, atol=1e-6):
+        hint = ": is it transposed?" if np.allclose(array[:, 3], (0, 0, 0, 1), rtol=0, atol=1e-6) else ""
+        raise UsageError(f"{name}: expected 0 0 0 1 as the last row, and the translation in the last column, found {array[3]}{hint}")
+    array[3] = 0, 0, 0, 1
+    return array
+
+
+def columns_of(array: np.ndarray) -> np.ndarray:
+    """16 float32, column after column, of a 4 x 4 array."""
+    return np.ascontiguousarray(array.T, dtype=np.float32)
 
 
 def rgba8(value) -> np.ndarray:
@@ -84,9 +124,11 @@ def rgba8(value) -> np.ndarray:
     if array.dtype != np.uint8:
         raise UsageError(f"texture: expected uint8, found {array.dtype}")
     if array.ndim == 2:
-        array = np.repeat(array[:, :, None], 3, axis=2)
-    if array.ndim != 3 or array.shape[2] not in (3, 4):
-        raise UsageError(f"texture: expected an array of shape (height, width, 3 or 4), found {array.shape}")
+        array = array[:, :, None]
+    if array.ndim != 3 or not 1 <= array.shape[2] <= 4:
+        raise UsageError(f"texture: expected an array of shape (height, width) or (height, width, 1 to 4), found {array.shape}")
+    if array.shape[2] < 3:  # grey, or grey and alpha
+        array = np.concatenate([np.repeat(array[:, :, :1], 3, axis=2), array[:, :, 1:]], axis=2)
     if array.shape[2] == 3:
         array = np.concatenate([array, np.full(array.shape[:2] + (1,), 255, np.uint8)], axis=2)
     return array if array.strides[1:] == (4, 1) and array.strides[0] > 0 else np.ascontiguousarray(array)

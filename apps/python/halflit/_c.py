@@ -6,17 +6,14 @@ side by side.
 from __future__ import annotations
 
 import ctypes
-import operator
 import os
 import re
 import threading
+from typing import Any
 
 from ._declarations import CONSTANTS, FUNCTIONS, STRUCTS
-from ._errors import BY_CODE, Error, UsageError
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Any
+from ._errors import UsageError, made
+from ._values import real, whole
 
 VERSION = "0.1.0"  #: of the package, and of the library that it needs
 
@@ -29,7 +26,7 @@ _NUMBERS = {
     "double": ctypes.c_double,
     "char": ctypes.c_char,
 }
-# The functions of halflit_execution that Python may give.
+# The callbacks of halflit_execution that Python may give.
 Progress = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_double)
 Cancelled = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p)
 _CALLBACKS = {"progress": Progress, "cancelled": Cancelled}
@@ -44,24 +41,24 @@ _RANGES = {
 }
 
 
-def whole(kind, value, name: str):
-    """A number that the C type holds; ctypes would drop its upper bits. What is no whole number is left to ctypes."""
-    if kind not in _RANGES or not hasattr(value, "__index__"):
-        return value
-    low, high = _RANGES[kind]
-    number = operator.index(value)
-    if not low <= number <= high:
-        raise UsageError(f"{name}: expected a whole number from {low} to {high}, found {number}")
-    return number
+def converted(kind, value, name: str):
+    """The number for a C type, to which ctypes would cut it down in silence. Other types are left to ctypes."""
+    if kind in _RANGES:
+        return whole(value, name, *_RANGES[kind])
+    return real(value, name) if kind in (ctypes.c_float, ctypes.c_double) else value
 
 
 class Struct(ctypes.Structure):
-    """A struct of halflit.h whose first member is its size."""
+    """A struct of halflit.h."""
 
     _kinds: dict = {}  # member -> ctypes type
 
     def __setattr__(self, name: str, value) -> None:
-        super().__setattr__(name, whole(self._kinds.get(name), value, name))
+        self.put(name, value, name)
+
+    def put(self, member: str, value, name: str) -> None:
+        """Sets a member for which the caller has another name."""
+        super().__setattr__(member, converted(self._kinds.get(member), value, name))
 
 
 def _groups(pattern: str, text: str) -> Any:
@@ -99,20 +96,6 @@ for _name, _text in STRUCTS.items():
     STRUCT[_name]._kinds = dict(STRUCT[_name]._fields_)
 
 
-def _checked(kind):
-    """The type as that of an argument."""
-
-    class Checked(kind):
-        @classmethod
-        def from_param(cls, value):
-            return kind.from_param(whole(kind, value, "an index or number"))
-
-    return Checked
-
-
-_ARGUMENTS = {name: _checked(kind) if kind in _RANGES else kind for name, kind in _NUMBERS.items()}
-
-
 def choices(prefix: str) -> dict:
     """Names of an enumeration, such as {"opaque": 0, "mask": 1}, for HALFLIT_<prefix>_OPAQUE and so on."""
     start = f"HALFLIT_{prefix}_"
@@ -135,12 +118,12 @@ _loaded = None
 _loading = threading.Lock()
 
 
-def _candidates() -> list:
-    """Where the library may be: the file that HALFLIT_LIBRARY names, or else the package's own, or else that of the system."""
+def library_path() -> str:
+    """The file that HALFLIT_LIBRARY names, or else the package's own library, or else that of the system."""
     if os.environ.get("HALFLIT_LIBRARY"):
-        return [os.environ["HALFLIT_LIBRARY"]]
+        return os.environ["HALFLIT_LIBRARY"]
     own = os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib", "libhalflit_python.so")
-    return [own] if os.path.exists(own) else ["libhalflit_c.so." + VERSION.rpartition(".")[0]]
+    return own if os.path.exists(own) else "libhalflit_c.so." + VERSION.rpartition(".")[0]
 
 
 def _load():
@@ -148,7 +131,7 @@ def _load():
     with _loading:
         if _loaded is not None:
             return _loaded
-        path = _candidates()[0]
+        path = library_path()
         try:
             library = ctypes.CDLL(path)
         except OSError as error:
@@ -160,7 +143,10 @@ def _load():
             except AttributeError:
                 raise ImportError(f"halflit: {path} has no {name}: it is another version than this package, {VERSION}") from None
             function.restype = {"void": None, "const char*": ctypes.c_char_p}.get(result.strip()) or _NUMBERS.get(result.strip())
-            function.argtypes = [] if arguments == "void" else [_argument(text) for text in arguments.split(", ")]
+            declared = [] if arguments == "void" else arguments.split(", ")
+            function.argtypes = [_argument(text) for text in declared]
+            # Names as in Python, where units are said by the documentation.
+            function.names = [re.sub(r"_(deg|s)$", "", text.split()[-1]) for text in declared]
         version = library.halflit_version().decode()
         if version.split(".")[:2] != VERSION.split(".")[:2]:
             raise ImportError(f"halflit: {path} is version {version}, expected {VERSION}")
@@ -173,7 +159,7 @@ def _argument(text: str):
         return ctypes.c_char_p
     if "*" in text or "[" in text:
         return ctypes.c_void_p
-    return _ARGUMENTS[text.split()[0]]
+    return _NUMBERS[text.split()[0]]
 
 
 def function(name: str):
@@ -181,18 +167,21 @@ def function(name: str):
     return getattr(_loaded or _load(), "halflit_" + name)
 
 
+#: Functions that are given the path of a file -> its place among the arguments.
+_PATHS = {"scene_load": 0, "scene_load_environment": 1, "write_image": 0}
+
+
 def call(name: str, *arguments) -> None:
     """Calls a function that returns a code, and raises what it tells."""
-    try:
-        code = function(name)(*arguments)
-    except ctypes.ArgumentError as error:
-        raise UsageError(f"{name}: {error}") from None
+    called = function(name)
+    code = called(*map(converted, called.argtypes, arguments, called.names))
     if code:
-        raise BY_CODE.get(code, Error)(function("last_error")().decode("utf-8", "replace"))
+        path = arguments[_PATHS[name]] if name in _PATHS else None
+        raise made(code, function("last_error")().decode("utf-8", "replace"), path)
 
 
 class Handle:
-    """A scene or a renderer of the library, destroyed when nobody refers to it any more: a frame in another thread does."""
+    """A scene or a renderer of the library. It is destroyed with its last reference; a running frame holds one."""
 
     def __init__(self, create: str, destroy: str, *arguments):
         self._destroy = None

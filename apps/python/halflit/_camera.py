@@ -3,18 +3,14 @@ from __future__ import annotations
 
 import ctypes
 import math
+from typing import Any, Callable
 
 from . import _c
 from ._errors import UsageError
-from ._records import Record, fill
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Any
-
-    import numpy as np
-
-    from ._records import Point
+from ._lazy import np
+from ._record import Record
+from ._types import Point
+from ._values import reals
 
 
 class Camera(Record):
@@ -24,15 +20,15 @@ class Camera(Record):
     Camera.look_at(eye, target), Camera.from_matrices(view, projection), Scene.frame() and Scene.cameras give others.
 
     Members:
-        name: of a camera of a file
-        matrix: world_from_camera, 4 x 4, rigid
-        orthographic: else perspective
-        fov_y_rad: perspective: full vertical angle, 0 to pi
-        aspect: perspective: width / height that the view is made for; 0: that of the picture
-        half_height: orthographic: half the view's height, world units
-        half_width: orthographic: half its width; 0: from the picture's aspect
-        near_z: above 0 for perspective, world units
-        far_z: above near_z; 0: no limit (perspective alone)
+        name: of a camera of a file ("")
+        matrix: world_from_camera, 4 x 4, rigid (the identity)
+        orthographic: else perspective (False)
+        fov_y_rad: perspective: full vertical angle, 0 to pi (pi / 4)
+        aspect: perspective: width / height that the view is made for; 0: that of the picture (0)
+        half_height: orthographic: half the view's height, world units (1)
+        half_width: orthographic: half its width; 0: from the picture's aspect (0)
+        near_z: above 0 for perspective, world units (0.1)
+        far_z: above near_z; 0: no limit (perspective alone) (0)
     """
 
     _kind, _truths = "camera", frozenset({"orthographic"})
@@ -52,20 +48,29 @@ class Camera(Record):
 
     @classmethod
     def _members(cls) -> list:
-        return [*super()._members(), "matrix"]
+        return [name for name in super()._members() if name != "world_from_camera"] + ["matrix"]
 
     @property
     def matrix(self) -> np.ndarray:
-        """world_from_camera, float32 (4, 4): the translation is matrix[:3, 3]."""
-        import numpy as np
-
-        return np.array(self._c.world_from_camera, dtype=np.float32).reshape(4, 4).T.copy()
+        """world_from_camera, float64 (4, 4): the translation is matrix[:3, 3]."""
+        if "matrix" in self._exact:
+            return np.array(self._exact["matrix"])
+        return np.array(self._c.world_from_camera, dtype=np.float64).reshape(4, 4).T.copy()
 
     @matrix.setter
     def matrix(self, value) -> None:
         from ._arrays import matrix
 
-        self._c.world_from_camera[:] = matrix(value).ravel().tolist()
+        array = matrix(value)
+        turn = array[:3, :3]
+        if not np.abs(turn.T @ turn - np.eye(3)).max() < 1e-3:
+            raise UsageError("matrix: expected a rigid one, a rotation and a translation alone")
+        self._place(array)
+
+    def _place(self, matrix: np.ndarray) -> None:
+        self._c.world_from_camera[:] = matrix.T.ravel().tolist()
+        self._exact["matrix"] = matrix.tolist()
+        object.__setattr__(self, "_drawn", None)
 
     def __setattr__(self, name: str, value) -> None:
         if name == "matrix":
@@ -75,15 +80,23 @@ class Camera(Record):
 
     def to_dict(self) -> dict:
         """All members by their names, and the matrix."""
-        values = {name: getattr(self, name) for name in self._members() if name not in ("matrix", "world_from_camera")}
-        return {**values, "matrix": self.matrix.tolist()}
+        return {**super().to_dict(), "matrix": self.matrix.tolist()}
 
     @classmethod
     def look_at(cls, eye: Point, target: Point, up: Point = (0, 1, 0), **members: Any) -> Camera:
         """A camera at `eye` that looks at `target`, with `up` upwards in the picture; points in world units."""
         camera = cls(**members)
-        points = [fill(ctypes.c_float * 3, value, name) for value, name in ((eye, "eye"), (target, "target"), (up, "up"))]
-        _c.call("camera_look_at", *points, ctypes.byref(camera._c))
+        points = [np.array(reals(value, 3, name)) for value, name in ((eye, "eye"), (target, "target"), (up, "up"))]
+        ahead = points[1] - points[0]
+        if not np.isfinite(points).all() or not ahead.any() or not points[2].any():
+            raise UsageError(f"look_at: expected an eye, another point as target, and a direction as up, found {eye}, {target}, {up}")
+        # Far from the origin float32 would turn the view: there it is made around the eye.
+        start = points[0] if np.abs(points[:2]).max() > 4096 * np.abs(ahead).max() else np.zeros(3)
+        given = [(ctypes.c_float * 3)(*point) for point in (points[0] - start, points[1] - start, points[2])]
+        _c.call("camera_look_at", *given, ctypes.byref(camera._c))
+        matrix = camera.matrix
+        matrix[:3, 3] = points[0]
+        camera._place(matrix)
         return camera
 
     @classmethod
@@ -93,15 +106,18 @@ class Camera(Record):
         The projection may be perspective, with or without a far plane, or orthographic; its axis must go through the middle of the
         picture.
         """
-        import numpy as np
+        from ._arrays import matrix
 
         p = np.asarray(projection, dtype=np.float64)
         if p.shape != (4, 4):
             raise UsageError(f"projection: expected an array of shape (4, 4), found {p.shape}")
-        camera = cls(np.linalg.inv(np.asarray(view, dtype=np.float64)))
+        try:
+            camera = cls(np.linalg.inv(matrix(view, "view")))
+        except np.linalg.LinAlgError:
+            raise UsageError("view: expected a rigid matrix, found one without an inverse") from None
         a, b = p[2, 2], p[2, 3]
         off_centre = abs(p[0, 2]) + abs(p[1, 2]) if p[3, 2] == -1 else abs(p[0, 3]) + abs(p[1, 3])
-        if off_centre > 1e-6 or p[0, 0] <= 0 or p[1, 1] <= 0:
+        if not (off_centre <= 1e-6 and p[0, 0] > 0 and p[1, 1] > 0):
             raise UsageError("projection: expected an axis through the middle of the picture")
         if p[3, 2] == -1:
             camera.fov_y_rad = 2 * math.atan(1 / p[1, 1])
@@ -118,20 +134,16 @@ class Camera(Record):
 
     def copy(self) -> Camera:
         """Another camera that is equal."""
-        camera = Camera._of(_c.STRUCT["halflit_camera"].from_buffer_copy(self._c))
-        camera._c.name = self._c.name  # its own: that of the other may go away
-        return camera
+        return self._copied()
 
-    def placed(self, origin, scale: float) -> Camera:
-        """The camera in a world where a point p is at (p - origin) * scale."""
-        camera = self.copy()
-        if scale != 1.0 or any(origin):
-            place = camera._c.world_from_camera
-            for axis in range(3):
-                place[12 + axis] = (place[12 + axis] - origin[axis]) * scale
-            for name in ("half_height", "half_width", "near_z", "far_z"):
-                setattr(camera._c, name, getattr(camera._c, name) * scale)
-        return camera
+    def _moved(self, move: Callable, scale: float) -> Camera:
+        """The camera in a world whose points are moved and whose lengths are multiplied so."""
+        made, matrix = self._copied(), self.matrix
+        matrix[:3, 3] = move(matrix[:3, 3])
+        made._place(matrix)
+        for name in ("half_height", "half_width", "near_z", "far_z"):
+            setattr(made._c, name, getattr(made._c, name) * scale)
+        return made
 
     def _shape(self) -> float:
         """Width / height that the camera is made for; 0 if it is made for any."""

@@ -1,4 +1,4 @@
-"""How frames are computed: threads, limits, and functions of Python that the library calls meanwhile."""
+"""How frames are computed: threads, limits, and callbacks."""
 from __future__ import annotations
 
 import atexit
@@ -6,20 +6,17 @@ import contextlib
 import os
 import signal
 import threading
+from typing import Iterator
 
 from . import _c
 from ._errors import CancelledError, UsageError
 from ._options import EXECUTION
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Iterator
-
-_CALLING = threading.local()  # lock: of the scene whose frame calls a function in this thread
+_CALLING = threading.local()  # lock: of the scene whose frame runs a callback in this thread
 
 
 class SceneLock:
-    """One thread at a time uses a scene. The functions that a frame of it calls cannot: the frame would wait for itself."""
+    """One thread at a time uses a scene. The callbacks of its frame cannot: the frame would wait for itself."""
 
     def __init__(self) -> None:
         self._lock = threading.RLock()
@@ -34,10 +31,13 @@ class SceneLock:
 
 
 class _Calls:
-    """Frames that call functions. When the interpreter ends they are stopped and waited for: it ends the thread of a later call in the
-    midst of the library, which aborts."""
+    """Frames with callbacks. At exit they are stopped and waited for: after exit, CPython kills a thread that calls back; inside the library
+    that aborts the process."""
 
     def __init__(self) -> None:
+        self.begin()
+
+    def begin(self) -> None:
         self.ending = False
         self._frames = 0
         self._changed = threading.Condition()
@@ -65,13 +65,13 @@ class _Calls:
 
 _CALLS = _Calls()
 atexit.register(_CALLS.end)
-os.register_at_fork(after_in_child=_CALLS.__init__)  # the frames of other threads are not there
+os.register_at_fork(after_in_child=_CALLS.begin)  # the frames of other threads are not there
 
 
 class Execution:
     """A halflit_execution for the keywords. An exception in progress() or cancelled() stops the frame, and is raised after it.
 
-    lock: of the scene, which the frame holds while it waits for the functions.
+    lock: of the scene, which the frame holds while it waits for the callbacks.
     """
 
     def __init__(self, options: dict, lock: SceneLock):
@@ -81,12 +81,12 @@ class Execution:
         self.key = tuple(options.get(name) for name in EXECUTION)
         for name, member in (("threads", "threads"), ("tile_size", "tile_size"), ("time_limit", "time_limit_s"), ("memory_limit",) * 2):
             if options.get(name) is not None:
-                setattr(struct, member, options[name])
+                struct.put(member, options[name], name)
         if options.get("isa") is not None:
             struct.isa = _c.bytes_of(options["isa"])
         progress, cancelled = options.get("progress"), options.get("cancelled")
-        self.has_functions = progress is not None or cancelled is not None
-        if self.has_functions:
+        self.has_callbacks = progress is not None or cancelled is not None
+        if self.has_callbacks:
             struct.progress = _c.Progress(lambda _, share: self._guarded(progress, share) and None)
             struct.cancelled = _c.Cancelled(lambda _: 1 if self._stops(cancelled) else 0)
 
@@ -97,8 +97,8 @@ class Execution:
 
     @contextlib.contextmanager
     def calls(self) -> Iterator[None]:
-        """Around the call that draws: what must hold while the library calls functions."""
-        if not self.has_functions:
+        """Around the call that draws: what must hold while the library calls back."""
+        if not self.has_callbacks:
             yield
             return
         with _CALLS.of_a_frame(), self._interrupts():
@@ -106,7 +106,7 @@ class Execution:
 
     @contextlib.contextmanager
     def _interrupts(self) -> Iterator[None]:
-        """Ctrl-C ends the frame: an exception at the begin of a function would be lost in ctypes."""
+        """Ctrl-C ends the frame: an exception at the start of a callback would be lost in ctypes."""
         in_main = threading.current_thread() is threading.main_thread()
         if not (in_main and signal.getsignal(signal.SIGINT) is signal.default_int_handler):
             yield

@@ -2,13 +2,16 @@
 from __future__ import annotations
 
 import ctypes
+from typing import Any, Dict, Iterable
 
 from . import _c
-from ._errors import UsageError
-from ._records import Lobe, chosen, fill
+from ._color import BRIGHTEST, color
+from ._material import Lobe
+from ._record import chosen
+from ._values import truth
 
 #: Planes beside the picture: name -> (member of the target, channels, number type). They show what each pixel's first sample sees.
-AOVS = {
+PLANES = {
     "depth": ("depth", 1, "float32"),  # distance along the view axis; infinity where nothing is
     "normal": ("shading_normal", 3, "float32"),  # unit normal that light falls on, normal map included, world space
     "vertex_normal": ("normal", 3, "float32"),  # the same without the normal map
@@ -20,10 +23,14 @@ AOVS = {
     "lights": ("lights", 1, "uint32"),  # lights that have the surface in their range and cone
 }
 
-VIEW = ("camera", "azimuth", "elevation", "zoom", "fov", "setup", "exposure", "ambient", "studio", "studio_turn")
+#: Names of the planes: render(aovs=...).
+AOVS = tuple(PLANES)
+
+VIEW = ("camera", "azimuth", "elevation", "zoom", "fov", "setup", "exposure", "ev", "ambient", "studio", "studio_turn")
 PIXELS = ("dtype", "premultiplied", "out", "aovs", "region")
 EXECUTION = ("threads", "isa", "tile_size", "time_limit", "memory_limit", "progress", "cancelled")
 _NAMES = {"max_error": "max_error_codes"}  # keyword -> member of halflit_settings, where they differ
+_TRUTHS = ("normalize_specular", "shadow_terminator_offset")
 _CHOICES = {
     "accuracy": "ACCURACY",
     "shading_rate": "RATE",
@@ -40,14 +47,14 @@ SETTINGS = (
 KNOWN = frozenset((*VIEW, *PIXELS, *EXECUTION, *SETTINGS))
 
 
-def check_names(options: dict, known=KNOWN) -> None:
+def check_names(options: Iterable[str], known: Iterable[str] = KNOWN, function: str = "render") -> None:
     """Fails as a function does for a keyword that it does not have."""
     for name in options:
         if name not in known:
-            import difflib
+            import difflib  # takes a tenth of halflit's own import
 
             near = difflib.get_close_matches(name, sorted(known), 1)
-            raise TypeError(f"render() has no keyword {name!r}" + (f", did you mean {near[0]!r}?" if near else ""))
+            raise TypeError(f"{function}() has no keyword {name!r}" + (f", did you mean {near[0]!r}?" if near else ""))
 
 
 def apply_settings(settings, options: dict) -> None:
@@ -61,38 +68,23 @@ def apply_settings(settings, options: dict) -> None:
         elif name == "lobe":
             settings.lobe, settings.override_lobe = Lobe._from(value)._c, 1
         elif name in _CHOICES and isinstance(value, str):
-            setattr(settings, name, chosen(value, _CHOICES[name], name))
+            settings.put(name, chosen(value, _CHOICES[name], name), name)
         else:
-            setattr(settings, _NAMES.get(name, name), value)
+            settings.put(_NAMES.get(name, name), truth(value, name) if name in _TRUTHS else value, name)
 
 
 def set_background(settings, value) -> None:
-    if isinstance(value, str) and value == "environment":
-        settings.background_environment = 1
+    if isinstance(value, str) and value in ("environment", "transparent"):
+        settings.background_environment = value == "environment"
+        if value == "transparent":
+            settings.background = (ctypes.c_float * 4)()
         return
-    settings.background = color_of(value) if isinstance(value, str) else fill(ctypes.c_float * 4, value, "background", 1.0)
+    settings.background = (ctypes.c_float * 4)(*color(value, "background", 4, BRIGHTEST))
 
 
-def color_of(text: str):
-    """Four linear floats for "transparent" or "#rrggbb", which is sRGB."""
-    digits = text[1:] if text.startswith("#") else ""
-    if len(digits) in (3, 4):
-        digits = "".join(2 * digit for digit in digits)
-    try:
-        codes = [int(digits[i : i + 2], 16) / 255 for i in range(0, len(digits), 2)]
-    except ValueError:
-        codes = []
-    if text == "transparent":
-        return (ctypes.c_float * 4)()
-    if len(codes) not in (3, 4):
-        raise UsageError(f"expected transparent, environment, #rgb, #rrggbb, #rrggbbaa or numbers, found {text!r}")
-    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in codes[:3]]
-    return (ctypes.c_float * 4)(*linear, *(codes[3:] or [1.0]))
-
-
-def settings_dict(settings) -> dict:
+def settings_dict(settings) -> Dict[str, Any]:
     """All settings by the names of halflit_settings."""
-    values = {}
+    values: Dict[str, Any] = {}
     for name, _ in settings._fields_:
         value = getattr(settings, name)
         if name in ("size", "reserved"):

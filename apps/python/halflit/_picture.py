@@ -2,17 +2,18 @@
 from __future__ import annotations
 
 import ctypes
+import os
+from typing import Any, Dict, Optional
 
 import numpy as np
 
 from . import _c
+from ._camera import Camera
+from ._color import srgb_from_linear
 from ._errors import UsageError
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Any, Dict
-
-    from ._camera import Camera
+#: Kinds of files whose pixels are floats; all others have 8-bit codes.
+_LINEAR = (".exr", ".hdr", ".pfm")
 
 
 class Picture(np.ndarray):
@@ -24,11 +25,13 @@ class Picture(np.ndarray):
 
     report: Dict[str, Any]  #: times, counts, the bound on the error, warnings: see halflit_report in halflit.h
     aovs: Dict[str, np.ndarray]  #: the planes that render(aovs=...) asked for, by name
-    camera: Camera  #: the camera that drew it
+    camera: Optional[Camera]  #: the camera that drew it
     settings: Dict[str, Any]  #: all settings that decided its pixels
+    premultiplied: bool  #: colours are multiplied by alpha; files and notebooks get them divided again
 
     def __array_finalize__(self, source) -> None:
-        self.report, self.aovs, self.camera, self.settings = {}, {}, None, {}  # type: ignore[assignment]
+        self.report, self.aovs, self.camera, self.settings = {}, {}, None, {}
+        self.premultiplied = getattr(source, "premultiplied", False)
 
     @property
     def pixel_hash(self) -> str:
@@ -37,33 +40,60 @@ class Picture(np.ndarray):
         return f"{_c.function('pixel_hash')(pixels.ctypes.data, pixels.nbytes):016x}"
 
     def save(self, path) -> None:
-        """Writes .png, .bmp, .tga or .jpg from uint8, .exr, .hdr or .pfm from float32. The file is old or new, never half written."""
-        if self.ndim != 3 or self.shape[2] != 4 or self.dtype not in (np.uint8, np.float32):
-            raise UsageError(f"save: expected uint8 or float32 of shape (height, width, 4), found {self.dtype} of {self.shape}")
-        pixels = np.ascontiguousarray(self)
+        """Writes .png, .bmp, .tga or .jpg, or from float32 also .exr, .hdr or .pfm. The file is old or new, never half written.
+
+        In 8-bit files floats become sRGB codes; light above 1 is cut off.
+        """
+        is_linear = os.path.splitext(os.fsdecode(path))[1].lower() in _LINEAR
+        if is_linear and self.dtype != np.float32:
+            raise UsageError(f"{os.fsdecode(path)}: expected a picture of float32, as by render(dtype=numpy.float32), found {self.dtype}")
+        pixels = self._straight("save")
+        if not is_linear:
+            pixels = codes_of(pixels)
+        if pixels.shape[2] == 3:
+            solid = np.full(pixels.shape[:2] + (1,), 1 if is_linear else 255, pixels.dtype)
+            pixels = np.concatenate([pixels, solid], axis=2)
+        pixels = np.ascontiguousarray(pixels)
         target = _c.make("target")
         target.pixels, target.width, target.height = pixels.ctypes.data, pixels.shape[1], pixels.shape[0]
-        target.format = _c.CONSTANTS["HALFLIT_FORMAT_RGBA_F32" if pixels.dtype == np.float32 else "HALFLIT_FORMAT_RGBA8"]
+        target.format = _c.CONSTANTS["HALFLIT_FORMAT_RGBA_F32" if is_linear else "HALFLIT_FORMAT_RGBA8"]
         _c.call("write_image", _c.bytes_of(path), ctypes.byref(target))
 
     def to_png(self) -> bytes:
         """The picture as the bytes of a PNG. Floats become sRGB codes; light above 1 is cut off."""
         from ._png import encode
 
+        return encode(np.ascontiguousarray(codes_of(self._straight("to_png"))))
+
+    def _straight(self, name: str) -> np.ndarray:
+        """The pixels, colours divided by alpha if they were multiplied by it."""
         pixels = np.asarray(self)
         if pixels.ndim != 3 or pixels.shape[2] not in (3, 4) or 0 in pixels.shape or pixels.dtype not in (np.uint8, np.float32):
-            raise UsageError(f"to_png: expected uint8 or float32 of shape (height, width, 3 or 4), found {pixels.dtype} of {pixels.shape}")
+            raise UsageError(f"{name}: expected uint8 or float32 of shape (height, width, 3 or 4), found {pixels.dtype} of {pixels.shape}")
+        if not self.premultiplied or pixels.shape[2] == 3:
+            return pixels
+        straight, alpha = pixels.copy(), pixels[:, :, 3:]
         if pixels.dtype == np.float32:
-            light = np.clip(np.nan_to_num(pixels), 0, 1)
-            codes = np.where(light <= 0.0031308, light * 12.92, 1.055 * light ** (1 / 2.4) - 0.055)
-            if pixels.shape[2] == 4:
-                codes[:, :, 3] = light[:, :, 3]
-            pixels = (codes * 255 + 0.5).astype(np.uint8)
-        return encode(np.ascontiguousarray(pixels))
+            straight[:, :, :3] = np.where(alpha > 0, pixels[:, :, :3] / np.where(alpha > 0, alpha, 1), 0)
+        else:
+            wide = alpha.astype(np.uint32)
+            divided = (pixels[:, :, :3] * np.uint32(255) + wide // 2) // np.maximum(wide, 1)
+            straight[:, :, :3] = np.where(wide > 0, np.minimum(divided, 255), 0)
+        return straight
 
-    def _repr_png_(self) -> bytes | None:
+    def _repr_png_(self) -> Optional[bytes]:
         """What Jupyter shows; parts that are no picture, such as a row, are shown as numbers."""
         try:
             return self.to_png()
         except UsageError:
             return None
+
+
+def codes_of(pixels: np.ndarray) -> np.ndarray:
+    """uint8 sRGB codes of light; codes stay. Alpha is linear in both."""
+    if pixels.dtype == np.uint8:
+        return pixels
+    light = np.clip(np.nan_to_num(pixels), 0, 1)
+    share = srgb_from_linear(light)
+    share[:, :, 3:] = light[:, :, 3:]
+    return (share * 255 + 0.5).astype(np.uint8)

@@ -12,7 +12,7 @@ def encode(rgba8) -> bytes:
     def chunk(kind: bytes, body: bytes) -> bytes:
         return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
 
-    # Filter 2, the difference to the row above, is what smooth pictures are small with.
+    # Filter 2 (Up): smooth pictures compress best with it.
     import numpy as np
 
     rows = np.zeros((height, 1 + width * channels), np.uint8)

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ._arrays import linear_from_srgb
+from ._color import linear_from_srgb
 from ._errors import UsageError
 
 

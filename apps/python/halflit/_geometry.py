@@ -1,0 +1,207 @@
+"""Textures, materials, meshes and instances of a scene."""
+from __future__ import annotations
+
+import ctypes
+from typing import Any, Dict, Optional, Tuple, Union
+
+from . import _c
+from ._errors import UsageError
+from ._lazy import np
+from ._material import Material
+from ._scene_base import SceneBase
+from ._values import shown, whole
+
+_COLORS = {"srgb": "SRGB", "linear": "LINEAR", "srgb_by_alpha": "SRGB_BY_ALPHA", "normal": "NORMAL"}
+
+MaterialOf = Union[int, Material, Dict[str, Any], None]
+
+
+class Geometry(SceneBase):
+    """The methods of a Scene about what reflects light."""
+
+    # ---- textures and materials -----------------------------------------------------------------------------------------
+
+    def add_texture(self, pixels, color: str = "srgb") -> int:
+        """Adds a texture of uint8 (height, width) or (height, width, 1 to 4 channels), row 0 on top, or of a PIL picture, and returns its
+        index. One channel is grey, two are grey and alpha.
+
+        color: "srgb", "linear", "srgb_by_alpha" (for materials that mask or blend) or "normal" (a normal map).
+        """
+        index = ctypes.c_int32()
+        self._texture("scene_add_texture", (), pixels, color, (ctypes.byref(index),))
+        return index.value
+
+    def set_texture(self, index: int, pixels, color: str = "srgb") -> None:
+        """Replaces a texture; the size may differ."""
+        self._texture("scene_set_texture", (index,), pixels, color, ())
+
+    def _texture(self, name: str, before: tuple, pixels, color: str, after: tuple) -> None:
+        from ._arrays import rgba8
+
+        if not isinstance(color, str) or color not in _COLORS:
+            raise UsageError(f"color: expected one of {', '.join(_COLORS)}, found {shown(color)}")
+        array = rgba8(pixels)
+        code = _c.CONSTANTS["HALFLIT_COLOR_" + _COLORS[color]]
+        self._change(name, *before, array.ctypes.data, array.shape[1], array.shape[0], array.strides[0], code, *after)
+
+    def add_material(self, material: Union[Material, Dict[str, Any], None] = None, **members: Any) -> int:
+        """Adds a Material with these members, and returns its index: add_material(base_color=(1, 0.4, 0.2), roughness=0.3)."""
+        index = ctypes.c_int32()
+        made = Material._from({} if material is None else material, **members)
+        self._change("scene_add_material", ctypes.byref(made._c), ctypes.byref(index))
+        return index.value
+
+    def material(self, index: int) -> Material:
+        """A material of the scene. Change a member, then call set_material()."""
+        material = Material()
+        self._call("scene_get_material", index, ctypes.byref(material._c))
+        return material._copied()
+
+    def set_material(self, index: int, material: Union[Material, Dict[str, Any], None] = None, **members: Any) -> None:
+        """Replaces a material in all meshes that have it, or some of its members: set_material(0, roughness=0.3)."""
+        with self._lock:
+            made = Material._from(self.material(index) if material is None else material, **members)
+            self._change("scene_set_material", index, ctypes.byref(made._c))
+
+    # ---- meshes ---------------------------------------------------------------------------------------------------------
+
+    def add_mesh(
+        self,
+        vertices,
+        faces=None,
+        *,
+        normals=None,
+        uv=None,
+        uv1=None,
+        colors=None,
+        tangents=None,
+        material: MaterialOf = None,
+        topology: str = "triangles",
+        name: Optional[str] = None,
+        matrix=None,
+        place: bool = True,
+    ) -> int:
+        """Adds a mesh and returns its index. It is drawn where `matrix` (4 x 4; the identity) places it, unless place is False.
+
+        vertices: (n, 3) world units. faces: (m, 3) vertex numbers, counter-clockwise seen from the front; None: 0 1 2, 3 4 5 and so on.
+        normals: (n, 3), "smooth" (made from the faces around each vertex, anew when they move), or None: each triangle is flat.
+        uv, uv1: (n, 2), v = 0 is the first row of a texture. tangents: (n, 4), direction and +1 or -1.
+        colors: (n, 3) or (n, 4), uint8 sRGB codes, or linear floats, where 1 is white; above 16 they are taken for codes and refused.
+        material: index, Material, or a dict of its members; None: white, roughness 0.6, seen from both sides.
+        topology: "triangles", "lines" (faces: (m, 2)) or "points" (faces: (m,)).
+        """
+        from ._mesh import MeshArrays
+
+        with self._lock:
+            arrays = MeshArrays(topology, vertices, faces, normals, uv=uv, uv1=uv1, colors=colors, tangents=tangents)
+            at = self._placement(matrix)
+            index = ctypes.c_int32()
+            own = isinstance(material, (Material, dict))
+            used = self._plain_material() if material is None else self._material_index(material)
+            self._change("scene_add_mesh", ctypes.byref(arrays.struct(used, name)), ctypes.byref(index))
+            self._remember(index.value, arrays, used, own)
+            if place:
+                self._add_instance(index.value, at)
+            return index.value
+
+    def set_mesh(self, index: int, vertices, faces=None, *, normals=None, uv=None, uv1=None, colors=None, tangents=None,
+                 material: MaterialOf = None, topology: str = "triangles", name: Optional[str] = None) -> None:  # fmt: skip
+        """Replaces a mesh in all its instances; arguments as in add_mesh(), but material None: the mesh keeps its material.
+
+        A Material or a dict replaces the material that was made for this mesh alone, if it has such a one.
+        """
+        from ._mesh import MeshArrays
+
+        with self._lock:
+            arrays = MeshArrays(topology, vertices, faces, normals, uv=uv, uv1=uv1, colors=colors, tangents=tangents)
+            if material is None and index not in self._materials:
+                raise UsageError(f"material: expected one, as mesh {shown(index)} was not added by add_mesh()")
+            own = isinstance(material, (Material, dict))
+            self._check_mesh(index)  # before a material is added
+            if isinstance(material, (Material, dict)) and index in self._own_materials:
+                used = self._own_materials[index]
+                self.set_material(used, material)
+            else:
+                used = self._materials[index] if material is None else self._material_index(material)
+            self._change("scene_set_mesh", index, ctypes.byref(arrays.struct(used, name)))
+            self._remember(index, arrays, used, own or (material is None and index in self._own_materials))
+
+    def _remember(self, mesh: int, arrays, material: int, own: bool) -> None:
+        self._materials[mesh] = material
+        self._own_materials.pop(mesh, None)
+        if own:
+            self._own_materials[mesh] = material
+        self._smooth.pop(mesh, None)
+        if arrays.is_smooth:
+            self._smooth[mesh] = arrays.faces().copy()  # the caller's array may change
+
+    def _material_index(self, material: Union[int, Material, Dict[str, Any]]) -> int:
+        return self.add_material(material) if isinstance(material, (Material, dict)) else material
+
+    def _check_mesh(self, index: int) -> None:
+        if not 0 <= whole(index, "mesh", -(2**31), 2**31 - 1) < self.counts["meshes"]:
+            raise UsageError(f"mesh {index}, but the scene has {self.counts['meshes']}")
+
+    def _plain_material(self) -> int:
+        """The material of meshes that are given none, as that of models without materials."""
+        if self._plain is None:
+            self._plain = self.add_material(roughness=0.6, double_sided=True)
+        return self._plain
+
+    def set_vertices(self, mesh: int, vertices, normals=None) -> None:
+        """Moves the vertices of a mesh that was added: (n, 3), n as before.
+
+        normals: (n, 3), or "smooth" as in add_mesh() if the mesh was added so. None: smooth ones are made anew, others stay as they are.
+        """
+        from . import _arrays
+
+        with self._lock:
+            positions = _arrays.positions(vertices)
+            smooth = self._smooth.get(mesh)
+            if isinstance(normals, str) and (normals != "smooth" or smooth is None):
+                raise UsageError(f'normals: expected an array, or "smooth" for a mesh that was added so, found {normals!r}')
+            if normals is None or isinstance(normals, str):
+                if smooth is not None and smooth.size and int(smooth.max()) >= len(positions):
+                    raise UsageError(f"vertices: {len(positions)} rows, but the mesh was added with more")
+                directions = None if smooth is None else _arrays.smooth_normals(positions, smooth)
+            else:
+                directions, smooth = _arrays.floats(normals, 3, "normals", len(positions)), None
+            pointer = None if directions is None else directions.ctypes.data
+            self._change("scene_set_vertices", mesh, positions.ctypes.data, pointer, len(positions))
+            if smooth is None:
+                self._smooth.pop(mesh, None)
+
+    # ---- instances ------------------------------------------------------------------------------------------------------
+
+    def add_instance(self, mesh: int, matrix=None) -> int:
+        """Places a mesh in the world by a 4 x 4 matrix (the identity), and returns the instance's index."""
+        return self._add_instance(mesh, self._placement(matrix))
+
+    def _add_instance(self, mesh: int, place: np.ndarray) -> int:
+        index = ctypes.c_int32()
+        self._change("scene_add_instance", mesh, place.ctypes.data, ctypes.byref(index))
+        return index.value
+
+    def instance(self, index: int) -> Tuple[int, np.ndarray]:
+        """Mesh and matrix, float64 (4, 4), of an instance."""
+        mesh, columns = ctypes.c_int32(), np.empty((4, 4), np.float32)
+        self._call("scene_get_instance", index, ctypes.byref(mesh), columns.ctypes.data)
+        return mesh.value, self._world.matrix_out(columns.T.astype(np.float64))
+
+    def set_instance(self, index: int, matrix) -> None:
+        """Moves an instance. The next frame recomputes what depends on it alone."""
+        place = self._placement(matrix)
+        self._change("scene_set_instance", index, place.ctypes.data)
+
+    def add_ground(self) -> int:
+        """Adds a ground below the scene that is invisible but for the shadows on it, and returns its instance's index."""
+        index = ctypes.c_int32()
+        self._change("scene_add_ground", ctypes.byref(index))
+        return index.value
+
+    def _placement(self, matrix) -> np.ndarray:
+        """16 float32 that place a mesh in the world that is drawn, by a matrix of the file's world."""
+        from . import _arrays
+
+        given = np.eye(4) if matrix is None else _arrays.matrix(matrix)
+        return _arrays.columns_of(self._world.matrix_in(given))

@@ -1,0 +1,24 @@
+"""numpy, which takes longer to import than all of halflit: it is imported when a name of it is first used."""
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+
+class LazyModule:
+    """Stands for a module. Annotations may name it too: typing.get_type_hints() then finds its types."""
+
+    def __init__(self, name: str):
+        self._name = name
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(importlib.import_module(self._name), name)
+
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from . import _picture as pictures
+else:
+    np = LazyModule("numpy")
+    pictures = LazyModule(__package__ + "._picture")

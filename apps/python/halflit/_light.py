@@ -1,0 +1,60 @@
+"""Lights."""
+from __future__ import annotations
+
+from typing import Any, Callable
+
+from ._lazy import np  # noqa: F401  (in annotations)
+from ._record import Record
+from ._types import Color, Point
+from ._values import reals
+
+
+class Light(Record):
+    """A light. A directional light of colour 1 makes a white surface that faces it exactly white; other lights do so at distance 1.
+
+    Light("point", position=(0, 2, 0), color=(4, 4, 4)). Defaults in parentheses.
+
+    Members:
+        type: "directional", "point" or "spot" (directional)
+        color: directional: irradiance / pi; point, spot: the same at distance 1 (1, 1, 1)
+        position: point, spot: world space (0, 0, 0)
+        direction: directional, spot: the way the light travels, of any length above 0 (0, -1, 0)
+        range: point, spot: no light beyond, world units; 0: no limit (0)
+        source_radius: point, spot: lower bound of the distance in the falloff, world units; 0: 1e-4 (0)
+        inner_cone_rad: spot: full light up to this angle from the axis (0)
+        outer_cone_rad: spot: none from this angle on (pi / 4)
+        cone_power: spot: factor cos(angle from the axis) ** cone_power (0)
+        shadow_radius: size for soft shadows. Directional: angle from middle to rim, radians; others: world units (0)
+    """
+
+    _kind, _choices, _colors = "light", {"type": "LIGHT"}, {"color": None}
+    type: str
+    color: Color
+    position: Point
+    direction: Point
+    range: float
+    source_radius: float
+    inner_cone_rad: float
+    outer_cone_rad: float
+    cone_power: float
+    shadow_radius: float
+
+    def __init__(self, type: str = "directional", **members: Any):
+        super().__init__(type=type, **members)
+
+    def __setattr__(self, name: str, value) -> None:
+        super().__setattr__(name, value)
+        if name == "position":
+            self._exact[name] = tuple(reals(value, 3, name))
+
+    def _moved(self, move: Callable, scale: float) -> Light:
+        """The light in a world whose points are moved and whose lengths are multiplied so."""
+        made = self._copied()
+        if self.type == "directional":
+            return made
+        made.position = move(self.position)
+        made.color = [c * scale * scale for c in self._c.color]  # falls with the squared distance
+        made.range, made.source_radius, made.shadow_radius = (
+            value * scale for value in (self.range, self.source_radius, self.shadow_radius)
+        )
+        return made

@@ -1,0 +1,71 @@
+"""The light of a scene."""
+from __future__ import annotations
+
+import ctypes
+import math
+import os
+from typing import Any, Dict, Optional, Union
+
+from . import _c
+from ._color import color
+from ._errors import UsageError
+from ._lazy import np
+from ._light import Light
+from ._scene_base import SceneBase
+from ._types import Color
+from ._values import real, truth
+
+
+class Lighting(SceneBase):
+    """The methods of a Scene about light."""
+
+    def add_light(self, light: Union[Light, Dict[str, Any], str] = "directional", **members: Any) -> int:
+        """Adds a Light, or one of this type, with these members: add_light("point", position=(0, 2, 0), color=(4, 4, 4))."""
+        index = ctypes.c_int32()
+        made = Light(light, **members) if isinstance(light, str) else Light._from(light, **members)
+        self._relight("scene_add_light", ctypes.byref(self._world.into(made)._c), ctypes.byref(index))
+        self._own_lights = True
+        return index.value
+
+    def light(self, index: int) -> Light:
+        """A light of the scene. Change a member, then call set_light()."""
+        light = Light()
+        self._call("scene_get_light", index, ctypes.byref(light._c))
+        return self._world.out(light)
+
+    def set_light(self, index: int, light: Union[Light, Dict[str, Any]]) -> None:
+        """Replaces a light."""
+        self._relight("scene_set_light", index, ctypes.byref(self._world.into(Light._from(light))._c))
+
+    def set_ambient(self, sky: Color, ground: Optional[Color] = None) -> None:
+        """Sets the light from all around, linear: sky from above, ground (the same) from below. An environment replaces it."""
+        given = ((sky, "sky"), (sky if ground is None else ground, "ground"))
+        self._relight("scene_set_ambient", *((ctypes.c_float * 3)(*color(value, name, 3)) for value, name in given))
+
+    def set_environment(self, image, *, rotate: float = 0.0, extract_suns: bool = True, calibrated: bool = False) -> None:
+        """Lights the scene by an image of the light from all directions, in the place of ambient light.
+
+        image: floats (height, width, 3), linear, row 0 straight up, the middle column along -z; a path (.hdr, .pfm, .exr); or "sky".
+        rotate: degrees about +y, counter-clockwise seen from above. calibrated: the array is made for exposure 1.
+        """
+        how = _c.make("environment_options")
+        how.rotate_rad = real(rotate, "rotate") * (math.pi / 180)
+        how.extract_suns, how.calibrated = truth(extract_suns, "extract_suns"), truth(calibrated, "calibrated")
+        if isinstance(image, str) and image == "sky":
+            self._relight("scene_set_sky", ctypes.byref(how))
+        elif isinstance(image, (str, os.PathLike)):
+            self._relight("scene_load_environment", _c.bytes_of(image), ctypes.byref(how))
+        else:
+            array = np.asarray(image)
+            if array.ndim != 3 or array.shape[2] != 3 or array.dtype.kind != "f":
+                raise UsageError(
+                    "environment: expected an array of shape (height, width, 3), floats of linear light,"
+                    f" found {array.dtype} of {array.shape}"
+                )
+            array = np.ascontiguousarray(array, dtype=np.float32)
+            self._relight("scene_set_environment", array.ctypes.data, array.shape[1], array.shape[0], ctypes.byref(how))
+
+    def clear_lights(self) -> None:
+        """Removes the lights, the ambient light and the environment, those of the file too."""
+        self._relight("scene_clear_lights")
+        self._own_lights = False

@@ -1,0 +1,209 @@
+"""Materials, their lobes and their uses of textures."""
+from __future__ import annotations
+
+import ctypes
+import math
+from typing import Any, Dict, Tuple, Union
+
+from . import _c
+from ._lazy import np  # noqa: F401  (in annotations)
+from ._record import Record
+from ._types import Color
+from ._values import whole
+
+
+class Lobe(Record):
+    """Diffuse light as a function of x, the cosine between normal and light: max(0, (x + wrap) / (1 + wrap)) ** power.
+
+    Wherever a lobe is expected, a name does too: "lambert", "green", "half-lambert", "valve", "sloan" or "mcauley", or a name and a
+    wrap, as in ("sloan", 0.6).
+
+    Members:
+        wrap: 0 (Lambert) to 1
+        power: 0 to 10000
+        normalize: scale such that a surface receives as much light as by Lambert
+    """
+
+    _kind, _truths = "lobe", frozenset({"normalize"})
+    wrap: float
+    power: float
+    normalize: bool
+
+    def __init__(self, wrap: float = 0.0, power: float = 1.0, normalize: bool = False):
+        self._begin(_c.STRUCT["halflit_lobe"]())
+        self.wrap, self.power, self.normalize = wrap, power, normalize
+
+    @classmethod
+    def named(cls, name: str, wrap: float = 0.5) -> Lobe:
+        """A lobe of the literature. wrap: 0 to 1, for those that take one."""
+        lobe = cls()
+        _c.call("lobe_by_name", _c.bytes_of(name), wrap, ctypes.byref(lobe._c))
+        return lobe
+
+    @classmethod
+    def _from(cls, value, name: str = "lobe", **members: Any):
+        if isinstance(value, str):
+            value = cls.named(value)
+        elif isinstance(value, (tuple, list)) and len(value) == 2 and isinstance(value[0], str):
+            value = cls.named(*value)
+        return super()._from(value, name, **members)
+
+
+class TextureUse(Record):
+    """A material's use of a texture. Wherever one is expected, the texture's index does too.
+
+    Members:
+        texture: index; -1: none (-1)
+        uv_set: 0 or 1 (0)
+        wrap_u: beyond 0 and 1: "repeat", "mirror" or "clamp" to the edge (repeat)
+        wrap_v: likewise (repeat)
+        mag_filter: "nearest" or "linear" (linear)
+        min_filter: likewise (linear)
+        mip_filter: "none", "nearest" or "linear" (linear)
+        row_u: u' = row_u[0] u + row_u[1] v + row_u[2] (1, 0, 0)
+        row_v: likewise v' (0, 1, 0)
+    """
+
+    _kind = "texture_use"
+    _choices = {"wrap_u": "WRAP", "wrap_v": "WRAP", "mag_filter": "FILTER", "min_filter": "FILTER", "mip_filter": "MIP"}
+    texture: int
+    uv_set: int
+    wrap_u: str
+    wrap_v: str
+    mag_filter: str
+    min_filter: str
+    mip_filter: str
+    row_u: Tuple[float, float, float]
+    row_v: Tuple[float, float, float]
+
+    def __init__(self, texture: int = -1, **members: Any):
+        self._begin(_c.STRUCT["halflit_texture_use"].from_buffer_copy(_c.make("material").base_color_texture))
+        for name, value in {"texture": texture, **members}.items():
+            setattr(self, name, value)
+
+    @classmethod
+    def _from(cls, value, name: str = "texture", **members: Any):
+        if not isinstance(value, (cls, dict)):
+            value = cls(-1 if value is None else whole(value, name, -1, 2**31 - 1))
+        return super()._from(value, name, **members)
+
+
+class Material(Record):
+    """glTF's metallic-roughness material, and a lobe. Defaults in parentheses; textures: none.
+
+    Textures are indices that Scene.add_texture() gave, or TextureUse. Colours are linear light with Rec. 709 primaries, "#rrggbb", or
+    uint8 sRGB codes.
+
+    Members:
+        name: for messages ("")
+        base_color: 0 to 1; 3 numbers, or 4 with alpha (1, 1, 1, 1)
+        metallic: 0 to 1, times the texture's. glTF and halflit.h begin with 1, for the texture's sake (0; it becomes 1 when a
+            metallic_roughness_texture is set, unless metallic was set)
+        roughness: 0 to 1, times the texture's (1)
+        emissive: light of its own, from 0 (0, 0, 0)
+        normal_scale: factor on x and y of the normal texture (1)
+        occlusion_strength: 0 to 1; 0 ignores the occlusion texture (1)
+        alpha_cutoff: for "mask": drawn where alpha is at least this (0.5)
+        alpha_mode: "opaque", "mask" or "blend" (opaque)
+        double_sided: back faces are drawn too; without it, what is clockwise as seen is left out (False)
+        unlit: base colour alone, without light (False)
+        own_lobe: render(lobe=...) does not replace this material's lobe (False)
+        lobe: of diffuse light (lambert)
+        base_color_texture: sRGB
+        metallic_roughness_texture: linear: green is roughness, blue metallic
+        normal_texture: linear, in tangent space; add it with color="normal"
+        occlusion_texture: linear: red
+        emissive_texture: sRGB
+        dielectric_reflectance: F0 of dielectrics: reflectance at normal incidence where not metallic, 0 to 1 (0.04)
+        transmission: share of light from behind that passes through, 0 to 1 (0)
+        thickness: path length of that light inside, world units (0)
+        attenuation_distance: path length after which white light has attenuation_color, world units; 0: nothing is absorbed (0)
+        attenuation_color: 0 to 1 (1, 1, 1)
+        transmission_texture: linear: red
+        thickness_texture: linear: green
+        specular: weight of the specular reflection of dielectrics, 0 to 1 (1)
+        specular_color: factor on F0 of dielectrics, from 0 (1, 1, 1)
+        specular_texture: linear: alpha
+        specular_color_texture: sRGB
+        shadow_catcher: invisible but for the shadows on it (False)
+        clearcoat: weight of a clear coat, 0 to 1 (0)
+        clearcoat_roughness: 0 to 1 (0)
+        clearcoat_normal_scale: factor on x and y of the coat's normal texture (1)
+        clearcoat_texture: linear: red
+        clearcoat_roughness_texture: linear: green
+        clearcoat_normal_texture: linear, in tangent space
+        sheen_color: of fibres above the surface, 0 to 1; black: none (0, 0, 0)
+        sheen_roughness: 0 to 1 (0)
+        sheen_color_texture: sRGB
+        sheen_roughness_texture: linear: alpha
+    """
+
+    _kind, _choices = "material", {"alpha_mode": "ALPHA"}
+    _truths = frozenset({"double_sided", "unlit", "own_lobe", "shadow_catcher"})
+    _colors = {"base_color": 1.0, "emissive": None, "attenuation_color": 1.0, "specular_color": math.inf, "sheen_color": 1.0}
+    _nested = {"halflit_lobe": Lobe, "halflit_texture_use": TextureUse}
+    _metallic_given = False
+    name: str
+    base_color: Color
+    metallic: float
+    roughness: float
+    emissive: Color
+    normal_scale: float
+    occlusion_strength: float
+    alpha_cutoff: float
+    alpha_mode: str
+    double_sided: bool
+    unlit: bool
+    own_lobe: bool
+    lobe: Union[Lobe, str, Tuple[str, float]]
+    base_color_texture: Union[TextureUse, int]
+    metallic_roughness_texture: Union[TextureUse, int]
+    normal_texture: Union[TextureUse, int]
+    occlusion_texture: Union[TextureUse, int]
+    emissive_texture: Union[TextureUse, int]
+    dielectric_reflectance: float
+    transmission: float
+    thickness: float
+    attenuation_distance: float
+    attenuation_color: Color
+    transmission_texture: Union[TextureUse, int]
+    thickness_texture: Union[TextureUse, int]
+    specular: float
+    specular_color: Color
+    specular_texture: Union[TextureUse, int]
+    specular_color_texture: Union[TextureUse, int]
+    shadow_catcher: bool
+    clearcoat: float
+    clearcoat_roughness: float
+    clearcoat_normal_scale: float
+    clearcoat_texture: Union[TextureUse, int]
+    clearcoat_roughness_texture: Union[TextureUse, int]
+    clearcoat_normal_texture: Union[TextureUse, int]
+    sheen_color: Color
+    sheen_roughness: float
+    sheen_color_texture: Union[TextureUse, int]
+    sheen_roughness_texture: Union[TextureUse, int]
+
+    def __init__(self, **members: Any):
+        super().__init__()
+        self._c.metallic = 0.0
+        for name, value in members.items():
+            setattr(self, name, value)
+
+    def __setattr__(self, name: str, value) -> None:
+        super().__setattr__(name, value)
+        if name == "metallic":
+            object.__setattr__(self, "_metallic_given", True)
+        elif name == "metallic_roughness_texture" and self._has_metallic_texture() and not self._metallic_given and self.metallic == 0:
+            self._c.metallic = 1.0  # a factor of 0 would hide the texture's
+
+    def _has_metallic_texture(self) -> bool:
+        return self._c.metallic_roughness_texture.texture >= 0
+
+    def _copied(self):
+        other = super()._copied()
+        object.__setattr__(other, "_metallic_given", self._metallic_given)
+        return other
+
+    def _defaults(self) -> Dict[str, Any]:
+        return {**super()._defaults(), "metallic": 1.0 if self._has_metallic_texture() else 0.0}

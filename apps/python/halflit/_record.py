@@ -1,0 +1,142 @@
+"""Structs of halflit.h as objects whose members are attributes.
+
+A member that is an enumeration has the names of its values ("blend"), a colour or a point is a tuple, truth is a bool.
+"""
+from __future__ import annotations
+
+import ctypes
+from typing import Any, Dict, Optional, Type
+
+from . import _c
+from ._color import color
+from ._errors import UsageError
+from ._values import reals, shown, truth
+
+
+class Record:
+    """Base of the classes with members: keywords of the constructor and attributes are the members of the struct, with its defaults."""
+
+    _kind = ""  # name of the struct without halflit_
+    _truths: frozenset = frozenset()
+    _choices: Dict[str, str] = {}  # member -> prefix of its constants
+    _colors: Dict[str, Optional[float]] = {}  # member -> largest number, see color(); None: light
+    _nested: Dict[str, Type[Record]] = {}  # struct of a member -> its class
+    _exact: Dict[str, Any]  # members that float32 is too coarse for, far from the origin, as they were given
+    _drawn: Any = None  # (World, struct): what this is in the world that is drawn, until a member is set
+
+    def __init__(self, **members: Any):
+        self._begin(_c.make(self._kind))
+        for name, value in members.items():
+            setattr(self, name, value)
+
+    def _begin(self, struct) -> None:
+        object.__setattr__(self, "_c", struct)
+        object.__setattr__(self, "_exact", {})
+
+    @classmethod
+    def _of(cls, struct):
+        """A record around a struct, which it keeps."""
+        record = cls.__new__(cls)
+        record._begin(struct)
+        return record
+
+    @classmethod
+    def _from(cls, value, name: str = "", **members: Any):
+        """Converts a dict (or a name, an index) to the record, and sets the members in a copy of it. name: of the argument, for messages."""
+        if isinstance(value, dict):
+            value = cls(**value)
+        elif not isinstance(value, cls):
+            raise UsageError(f"{name or cls._kind}: expected a {cls.__name__} or a dict of its members, found {shown(value)}")
+        if members:
+            value = value._copied()
+            for member, wanted in members.items():
+                setattr(value, member, wanted)
+        return value
+
+    def _copied(self):
+        """Another record that is equal. Its name is its own: that of a scene may go away."""
+        other = type(self)._of(type(self._c).from_buffer_copy(self._c))
+        if "name" in self._members():
+            other._c.name = bytes(self._c.name or b"")
+        other._exact.update(self._exact)
+        object.__setattr__(other, "_drawn", self._drawn)
+        return other
+
+    @classmethod
+    def _members(cls) -> list:
+        return [name for name, _ in _c.STRUCT["halflit_" + cls._kind]._fields_ if name not in ("size", "reserved")]
+
+    def __getattr__(self, name: str):
+        if name.startswith("_") or name not in self._members():
+            raise AttributeError(f"{type(self).__name__} has no member {name}")
+        if name in self._exact:
+            return self._exact[name]
+        value = getattr(self._c, name)
+        if name in self._choices:
+            return next((text for text, number in _c.choices(self._choices[name]).items() if number == value), value)
+        if name in self._truths:
+            return bool(value)
+        if isinstance(value, ctypes.Array):
+            return tuple(value)
+        if isinstance(value, ctypes.Structure):
+            return self._nested[type(value).__name__]._of(value)
+        return _c.text_of(value) if name == "name" else value
+
+    def __setattr__(self, name: str, value) -> None:
+        if name in ("size", "reserved") or name not in self._members():
+            raise UsageError(f"{type(self).__name__} has no member {name}, expected one of {', '.join(self._members())}")
+        setattr(self._c, name, self._converted(name, value))
+        object.__setattr__(self, "_drawn", None)
+
+    def _converted(self, name: str, value):
+        field = self._c._kinds[name]
+        if name in self._choices and isinstance(value, str):
+            return chosen(value, self._choices[name], name)
+        if name in self._truths:
+            return truth(value, name)
+        if name in self._colors:
+            return field(*color(value, name, field._length_, self._colors[name]))
+        if issubclass(field, ctypes.Array):
+            return field(*reals(value, field._length_, name))
+        if issubclass(field, ctypes.Structure):
+            return self._nested[field.__name__]._from(value, name)._c
+        return _c.bytes_of(value) if name == "name" else value
+
+    def to_dict(self) -> Dict[str, Any]:
+        """All members by their names."""
+        values = {name: getattr(self, name) for name in self._members()}
+        return {name: value.to_dict() if isinstance(value, Record) else value for name, value in values.items()}
+
+    def _defaults(self) -> Dict[str, Any]:
+        """The members that repr() leaves out if they have these values."""
+        return type(self)().to_dict()
+
+    def __reduce__(self):
+        """A copy, or a pickle, has a struct of its own."""
+        return _remade, (type(self), self.to_dict())
+
+    def __repr__(self) -> str:
+        defaults = self._defaults()
+        members = [f"{name}={value!r}" for name, value in self.to_dict().items() if value != defaults[name]]
+        return f"{type(self).__name__}({', '.join(members)})"
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Record) or type(self) is not type(other):
+            return False
+        exact = all(self._exact[name] == other._exact[name] for name in self._exact.keys() & other._exact.keys())
+        return exact and self._of(self._c).to_dict() == self._of(other._c).to_dict()  # one that a scene gave has float32 alone
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+def _remade(kind, members: dict) -> Record:
+    return kind(**members)
+
+
+def chosen(value: str, prefix: str, name: str) -> int:
+    """The number of an enumeration's value by its name; - and _ are the same."""
+    known = _c.choices(prefix)
+    try:
+        return known[value.replace("-", "_")]
+    except KeyError:
+        raise UsageError(f"{name}: expected one of {', '.join(known)}, found {value!r}") from None

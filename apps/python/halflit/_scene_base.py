@@ -1,0 +1,85 @@
+"""What all parts of a scene use: its handle, its lock, and the calls that change it."""
+from __future__ import annotations
+
+import ctypes
+from typing import Any, Dict, List, Optional, TypeVar
+
+from . import _c
+from ._errors import UsageError
+from ._execution import SceneLock
+from ._world import World
+
+Self = TypeVar("Self", bound="SceneBase")
+
+
+class SceneBase:
+    """A scene of the library, and what Python remembers of it."""
+
+    def _start(self, handle: _c.Handle) -> None:
+        self._handle: Any = handle
+        self._lock = SceneLock()
+        self._renderer: Any = None
+        self._executed: Any = None  # Execution.key of the renderer
+        self._world = World()
+        self._changes = 0  # of anything that setup() looks at
+        self._lit_by: Any = None  # the Setup whose light is in the scene of the library
+        self._lit_key: Any = None  # of what _lit_by was chosen for; None: not for the scene as it is
+        self._own_lights = False  # add_light() was called
+        self._told: set = set()  # warnings that were shown
+        self._plain: Optional[int] = None  # material of meshes that are given none
+        self._materials: Dict[int, int] = {}  # mesh that was added -> its material
+        self._own_materials: Dict[int, int] = {}  # mesh -> material that was made for it alone
+        self._smooth: Dict[int, Any] = {}  # mesh with normals="smooth" -> its faces
+
+    @property
+    def counts(self) -> Dict[str, int]:
+        """Numbers of triangles (over all instances), meshes, instances, materials, textures, cameras, lights, warnings and animations."""
+        found = _c.make("counts", False)
+        self._call("scene_get_counts", ctypes.byref(found))
+        return {name: getattr(found, name) for name, _ in found._fields_ if name != "size"}
+
+    @property
+    def warnings(self) -> List[str]:
+        """What the loader could not draw, one line each."""
+        text, lines = ctypes.c_char_p(), []
+        for i in range(self.counts["warnings"]):
+            self._call("scene_get_warning", i, ctypes.byref(text))
+            lines.append(_c.text_of(text.value))
+        return lines
+
+    def _call(self, name: str, *arguments) -> None:
+        with self._lock:
+            self._check_open()
+            _c.call(name, self._handle, *arguments)
+
+    def _change(self, name: str, *arguments) -> None:
+        with self._lock:
+            self._call(name, *arguments)
+            self._changes += 1
+
+    def _relight(self, name: str, *arguments) -> None:
+        with self._lock:
+            try:
+                self._change(name, *arguments)
+            finally:
+                self._lit_by = self._lit_key = None  # a call that fails may have taken back the light of setup() too
+
+    def _check_open(self) -> None:
+        if self._handle is None:
+            raise UsageError("the scene is closed")
+
+    def close(self) -> None:
+        """Frees the scene's memory at once; otherwise it is freed when nothing refers to the scene any more."""
+        with self._lock:
+            self._handle = self._renderer = None
+
+    def __enter__(self: Self) -> Self:
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        if self._handle is None:
+            return "<halflit.Scene, closed>"
+        return f"<halflit.Scene of {', '.join(f'{n} {name}' for name, n in self.counts.items() if n)}>"

@@ -1,0 +1,78 @@
+"""The memory of a frame: the picture, and the planes beside it. This module imports numpy."""
+from __future__ import annotations
+
+from typing import Dict, Tuple
+
+import numpy as np
+
+from . import _c
+from ._errors import UsageError
+from ._options import PLANES
+from ._picture import Picture
+from ._values import shown, sized, truth
+
+
+class Target:
+    """A halflit_target, and the arrays that it points to. The region that is asked for is written into the settings."""
+
+    def __init__(self, size: Tuple[int, int], settings, options: dict):
+        self.struct = _c.make("target")
+        self.struct.width, self.struct.height = size
+        width, height = region_of(size, options, settings, self.struct)
+        premultiplied = truth(options.get("premultiplied") or False, "premultiplied")
+        pixels = pixels_of((height, width, 4), options)
+        format_name = "RGBA_F32" if pixels.dtype == np.float32 else "RGBA8"
+        self.struct.format = _c.CONSTANTS[f"HALFLIT_FORMAT_{format_name}{'_PREMULTIPLIED' if premultiplied else ''}"]
+        self.struct.pixels, self.struct.row_bytes = pixels.ctypes.data, pixels.strides[0]
+        self.picture = pixels.view(Picture)
+        self.picture.premultiplied = premultiplied
+        self.planes = planes_of((height, width), options)
+        for name, plane in self.planes.items():
+            setattr(self.struct, PLANES[name][0], plane.ctypes.data)
+
+
+def region_of(size: tuple, options: dict, settings, target) -> tuple:
+    """Width and height of what is drawn."""
+    if options.get("region") is None:
+        return size
+    region = sized(options["region"], "region")
+    if len(region) != 4:
+        raise UsageError(f"region: expected x, y, width and height, found {shown(options['region'])}")
+    x, y, width, height = region
+    if min(x, y) < 0 or min(width, height) < 1 or x + width > size[0] or y + height > size[1]:
+        raise UsageError(f"region: expected a part of the {size[0]} x {size[1]} picture, found {region}")
+    for name, value in zip(("x", "y", "width", "height"), region):
+        setattr(settings.region, name, value)
+    target.region_alone = 1
+    return width, height
+
+
+def pixels_of(shape: tuple, options: dict) -> np.ndarray:
+    """The array to draw into: that of the caller, or a new one."""
+    asked, out = options.get("dtype"), options.get("out")
+    if out is not None and not isinstance(out, np.ndarray):
+        raise UsageError(f"out: expected an array, found {shown(out)}")
+    dtype = np.dtype((np.uint8 if asked is None else asked) if out is None else out.dtype)
+    if dtype not in (np.uint8, np.float32) or (asked is not None and np.dtype(asked) != dtype):
+        raise UsageError(f"dtype: expected uint8 or float32, and that of `out`, found {dtype}")
+    if out is None:
+        return np.empty(shape, dtype)
+    if out.shape != shape:
+        raise UsageError(f"out: expected an array of shape {shape}, found {out.shape}")
+    if out.strides[1:] != (4 * dtype.itemsize, dtype.itemsize) or out.strides[0] < shape[1] * 4 * dtype.itemsize:
+        raise UsageError("out: expected pixels without gaps, rows one after another")
+    if not out.flags.writeable or out.ctypes.data % dtype.itemsize:
+        raise UsageError("out: expected memory that is writeable and aligned")
+    return out
+
+
+def planes_of(shape: tuple, options: dict) -> Dict[str, np.ndarray]:
+    """New arrays for the planes that are asked for."""
+    asked = options.get("aovs") or ()
+    planes = {}
+    for name in PLANES if isinstance(asked, str) and asked == "all" else (asked,) if isinstance(asked, str) else asked:
+        if name not in PLANES:
+            raise UsageError(f"aovs: expected names of {', '.join(PLANES)}, found {shown(name)}")
+        _, channels, kind = PLANES[name]
+        planes[name] = np.empty(shape if channels == 1 else (*shape, channels), kind)
+    return planes

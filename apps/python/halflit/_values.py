@@ -1,0 +1,61 @@
+"""Numbers of a caller. What is none is refused by the argument's name; nothing is cut off or guessed."""
+from __future__ import annotations
+
+import operator
+
+from ._errors import UsageError
+
+
+def shown(value) -> str:
+    """The value in a message: one short line."""
+    text = " ".join(repr(value).split())
+    return text if len(text) <= 80 else text[:77] + "..."
+
+
+def whole(value, name: str, low: int, high: int) -> int:
+    """A whole number in [low, high]. A float is none, even if it is 2.0."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise UsageError(f"{name}: expected a whole number, found {shown(value)}") from None
+    if not low <= number <= high:
+        raise UsageError(f"{name}: expected a whole number from {low} to {high}, found {number}")
+    return number
+
+
+def real(value, name: str) -> float:
+    """A number. A text is none, even if it reads as one."""
+    if not isinstance(value, (str, bytes)):
+        try:
+            return float(value)
+        except (TypeError, ValueError, OverflowError):
+            pass
+    raise UsageError(f"{name}: expected a number, found {shown(value)}")
+
+
+def truth(value, name: str) -> bool:
+    """True or False; 0 and 1 will do."""
+    if hasattr(value, "item") and not getattr(value, "ndim", 0):  # a scalar of numpy
+        value = value.item()
+    if isinstance(value, (bool, int)) and value in (0, 1):
+        return bool(value)
+    raise UsageError(f"{name}: expected True or False, found {shown(value)}")
+
+
+def reals(value, count: int, name: str) -> list:
+    """As many numbers as `count`."""
+    try:
+        numbers = [] if isinstance(value, (str, bytes)) else [real(x, name) for x in value]
+    except TypeError:
+        numbers = []
+    if len(numbers) != count:
+        raise UsageError(f"{name}: expected {count} numbers, found {shown(value)}")
+    return numbers
+
+
+def sized(value, name: str) -> tuple:
+    """Whole numbers of an iterable, such as a size or a region."""
+    try:
+        return tuple(whole(x, name, -(2**31), 2**31 - 1) for x in value)
+    except TypeError:
+        raise UsageError(f"{name}: expected whole numbers, found {shown(value)}") from None
