@@ -1,4 +1,4 @@
-"""Meshes of trimesh. Without it, objects that offer what trimesh's do stand in for them."""
+"""Meshes of trimesh. Without it, objects of the same shapes and number types stand in for them."""
 import unittest
 
 import numpy as np
@@ -11,58 +11,136 @@ try:
 except ImportError:
     trimesh = None
 
+GREY = np.array([102, 102, 102, 255], np.uint8)  # trimesh's DEFAULT_COLOR
+NORMALS = CORNERS / np.float32(3**0.5)
+
+
+def rgba(color):
+    """As trimesh.visual.color.to_rgba: uint8 (4,), floats times 255."""
+    if color is None:
+        return GREY.copy()
+    array = np.asarray(color)
+    array = np.round(array * 255).astype(np.uint8) if array.dtype.kind == "f" else array.astype(np.uint8)
+    return np.append(array, np.uint8(255)) if len(array) == 3 else array
+
 
 class Part:
     """Members as attributes."""
+
+    __module__ = "trimesh.base"
 
     def __init__(self, **members):
         self.__dict__.update(members)
 
 
-class StandIn(Part):
-    __module__ = "trimesh.base"
+def simple(image=None, diffuse=None):
+    return Part(image=image, ambient=rgba(None), diffuse=rgba(diffuse), specular=rgba(None), glossiness=1.0)
 
 
-NORMALS = CORNERS / np.float32(3**0.5)
+def pbr(baseColorFactor=None, emissiveFactor=None, doubleSided=False, **members):  # noqa: N803
+    names = "metallicFactor roughnessFactor alphaMode alphaCutoff baseColorTexture metallicRoughnessTexture"
+    names += " normalTexture occlusionTexture emissiveTexture"
+    return Part(
+        baseColorFactor=None if baseColorFactor is None else rgba(baseColorFactor),
+        emissiveFactor=None if emissiveFactor is None else np.array(emissiveFactor, np.float64),
+        doubleSided=doubleSided,
+        **{**dict.fromkeys(names.split()), **members},
+    )
 
 
-def stand_in(**visual):
-    arrays = {"vertices": CORNERS.astype(float), "faces": FACES.astype(np.int64), "vertex_normals": NORMALS.astype(float)}
-    return StandIn(visual=Part(**visual), **arrays)
+class Mesh(Part):
+    """A Trimesh: normals are made when they are asked for, and stay in the cache."""
+
+    def __init__(self, visual, normals=None, vertices=CORNERS, faces=FACES):
+        super().__init__(vertices=vertices.astype(float), faces=faces.astype(np.int64), visual=visual)
+        self._cache = {} if normals is None else {"vertex_normals": normals.astype(float)}
+
+    @property
+    def vertex_normals(self):
+        return self._cache.setdefault("vertex_normals", NORMALS.astype(float))
+
+    @property
+    def smooth_shaded(self):
+        """Split at the edges of the cube: each corner has the normal of its face."""
+        corners = self.faces.ravel()
+        vertices = self.vertices[corners]
+        of_faces = np.cross(vertices[1::3] - vertices[::3], vertices[2::3] - vertices[::3])
+        normals = np.repeat(of_faces / np.linalg.norm(of_faces, axis=1, keepdims=True), 3, axis=0)
+        visual = Part(**vars(self.visual))
+        for name in ("uv", "vertex_colors"):
+            if getattr(visual, name, None) is not None:
+                setattr(visual, name, getattr(visual, name)[corners])
+        return Mesh(visual, normals, vertices, np.arange(len(corners)).reshape(-1, 3))
+
+
+def colored(kind=None, **colors):
+    """A mesh with ColorVisuals, which have neither uv nor material."""
+    return Mesh(Part(kind=kind, **colors))
+
+
+def textured(material, uv=None, **mesh):
+    return Mesh(Part(kind="texture", uv=uv, material=material), **mesh)
 
 
 def scene(**mesh):
     made = halflit.Scene()
-    material = {"metallic": 0.0, "roughness": 0.8, **mesh.pop("material", {})}
-    made.add_mesh(CORNERS, FACES, normals=NORMALS, material=material, **mesh)
+    made.add_mesh(CORNERS, FACES, **mesh)
     return made.render(64)
 
 
 class OfStandIns(unittest.TestCase):
     def check(self, mesh, expected):
         self.assertEqual(halflit.render(mesh, 64).pixel_hash, expected.pixel_hash)
+        self.assertEqual(halflit.render(mesh, 64).pixel_hash, expected.pixel_hash)  # whatever the first call put into its cache
 
-    def test_geometry_and_colours(self):
-        self.check(stand_in(kind=None), scene())
+    def test_a_plain_mesh_is_that_of_its_arrays(self):
+        self.check(colored(), scene())
+        self.assertNotEqual(halflit.render(colored(), 64).pixel_hash, scene(normals=NORMALS).pixel_hash)  # not shaded as a ball
+
+    def test_normals_that_came_with_the_mesh_are_used(self):
+        self.check(Mesh(Part(kind=None), normals=CORNERS), scene(normals=CORNERS))
+
+    def test_without_scipy_faces_are_flat(self):
+        class Alone(Mesh):
+            @property
+            def smooth_shaded(self):
+                raise ImportError("no module named scipy")
+
+        self.check(Alone(Part(kind=None)), scene())
+
+    def test_colours(self):
         colors = np.tile(np.array([[200, 30, 90, 255], [10, 250, 90, 255]], np.uint8), (4, 1))
-        self.check(stand_in(kind="vertex", vertex_colors=colors), scene(colors=colors))
+        self.check(colored("vertex", vertex_colors=colors), scene(colors=colors))
         one = np.tile(np.array([[200, 30, 90, 255]], np.uint8), (12, 1))
-        self.check(stand_in(kind="face", face_colors=one), scene(colors=np.tile(one[:1], (8, 1))))
+        self.check(colored("face", face_colors=one), scene(colors=np.tile(one[:1], (8, 1))))
 
-    def test_textures_and_materials(self):
+    def test_a_material_without_uv(self):
+        red = {"base_color": (1, 0, 0), "metallic": 1, "roughness": 1}
+        self.check(textured(pbr(baseColorFactor=[1.0, 0.0, 0.0, 1.0])), scene(material=red))
+
+    def test_pbr_factors_are_linear(self):
+        # trimesh keeps them as 255ths: 0.5 is 128.
+        factors = {"metallicFactor": 0.25, "roughnessFactor": 0.5, "emissiveFactor": [0.1, 0.0, 0.0]}
+        given = pbr(baseColorFactor=[1.0, 0.5, 0.2, 1.0], alphaMode="MASK", alphaCutoff=0.5, doubleSided=True, **factors)
+        material = {"base_color": (1, 128 / 255, 0.2), "metallic": 0.25, "roughness": 0.5, "emissive": (0.1, 0, 0)}
+        self.check(textured(given), scene(material={**material, "alpha_mode": "mask", "double_sided": True}))
+
+    def test_textures(self):
         texture = np.random.default_rng(3).integers(0, 255, (16, 16, 3), dtype=np.uint8)
-        uv = CORNERS[:, :2] / 2 + 0.5
+        uv = CORNERS[:, :2].astype(float) / 2 + 0.5
         upside_down = np.stack([uv[:, 0], 1 - uv[:, 1]], axis=1)  # v points up in trimesh
-        simple = Part(image=texture, diffuse=np.array([255, 255, 255, 255], np.uint8))
-        expected = halflit.Scene()
-        index = expected.add_texture(texture)
-        material = {"metallic": 0.0, "roughness": 0.8, "base_color_texture": index}
-        expected.add_mesh(CORNERS, FACES, normals=NORMALS, uv=upside_down, material=material)
-        self.check(stand_in(kind="texture", uv=uv, material=simple), expected.render(64))
-        factors = {"baseColorFactor": [1.0, 0.5, 0.2, 1.0], "metallicFactor": 0.25, "roughnessFactor": 0.5, "emissiveFactor": None}
-        pbr = Part(baseColorTexture=None, alphaMode="MASK", alphaCutoff=0.5, doubleSided=True, **factors)
-        material = {"base_color": (1, 0.5, 0.2), "metallic": 0.25, "roughness": 0.5, "alpha_mode": "mask", "double_sided": True}
-        self.check(stand_in(kind="texture", uv=uv, material=pbr), scene(uv=upside_down, material=material))
+
+        def expected(**material):
+            made = halflit.Scene()
+            index = made.add_texture(texture)
+            made.add_mesh(CORNERS, FACES, uv=upside_down, material={"base_color_texture": index, **material})
+            return made.render(64)
+
+        plain = {"roughness": 0.6, "double_sided": True}
+        self.check(textured(simple(image=texture), uv), expected(**plain))  # its grey is what trimesh has for no colour
+        self.check(textured(simple(image=texture, diffuse=[200, 0, 0, 255]), uv), expected(base_color=np.uint8([200, 0, 0]), **plain))
+        self.check(textured(simple(), uv), scene(material={"base_color": GREY, **plain}))
+        self.check(textured(pbr(baseColorTexture=texture, metallicFactor=0.0), uv), expected(metallic=0, roughness=1))
 
     def test_scenes_and_points(self):
         place = np.eye(4)
@@ -74,14 +152,14 @@ class OfStandIns(unittest.TestCase):
             def __getitem__(self, node):
                 return (np.eye(4) if node == "left" else place), "cube"
 
-        whole = StandIn(geometry={"cube": stand_in(kind=None)}, graph=Graph())
+        whole = Part(geometry={"cube": colored()}, graph=Graph())
         made = halflit.Scene.from_trimesh(whole)
         self.assertEqual((made.counts["meshes"], made.counts["instances"]), (1, 2))
         self.assertEqual(made.bounds.tolist(), [[-1, -1, -1], [4, 1, 1]])
-        cloud = StandIn(vertices=CORNERS, colors=np.tile(np.array([[255, 0, 0, 255]], np.uint8), (8, 1)))
+        cloud = Part(vertices=CORNERS, colors=np.tile(np.array([[255, 0, 0, 255]], np.uint8), (8, 1)))
         self.assertGreater(halflit.render(cloud, 64).report["pixels_visible"], 8)
         with self.assertRaisesRegex(halflit.UsageError, "expected a Trimesh"):
-            halflit.Scene.from_trimesh(StandIn(extents=3))
+            halflit.Scene.from_trimesh(Part(extents=3))
 
 
 @unittest.skipUnless(trimesh, "no trimesh")
@@ -89,11 +167,22 @@ class OfTrimesh(unittest.TestCase):
     def test_a_box_and_a_scene(self):
         mesh = trimesh.creation.box()
         self.assertEqual(halflit.render(mesh, 64).report["triangles_submitted"], 12)
+        self.assertEqual(halflit.render(mesh, 64).pixel_hash, halflit.render((mesh.vertices, mesh.faces), 64).pixel_hash)
         whole = trimesh.Scene([mesh, trimesh.creation.icosphere()])
         self.assertGreater(halflit.render(whole, 64).report["triangles_submitted"], 100)
         mesh.visual.vertex_colors = [255, 0, 0, 255]
         picture = halflit.render(mesh, 64).astype(int)
         self.assertGreater(picture[32, 32, 0], picture[32, 32, 2] + 50)
+
+    def test_a_material_of_a_file(self):
+        material = trimesh.visual.material.PBRMaterial(baseColorFactor=[1.0, 0.0, 0.0, 1.0], metallicFactor=0.0)
+        mesh = trimesh.creation.box()
+        mesh.visual = trimesh.visual.TextureVisuals(material=material)
+        file = trimesh.exchange.gltf.export_glb(trimesh.Scene(mesh))
+        again = trimesh.load(trimesh.util.wrap_as_stream(file), file_type="glb")
+        for model in (mesh, again, file):
+            picture = halflit.render(model, 64).astype(int)
+            self.assertGreater(picture[32, 32, 0], picture[32, 32, 2] + 50)
 
 
 if __name__ == "__main__":

@@ -1,10 +1,15 @@
-"""Meshes of the library trimesh, which need not be installed: only what the objects offer is used."""
+"""Meshes of the library trimesh, which need not be installed: only what the objects offer is used. This module imports numpy."""
 from __future__ import annotations
+
+from typing import Any, Dict, Optional
 
 import numpy as np
 
-from ._color import linear_from_srgb
+from ._color import linear_from_codes
 from ._errors import UsageError
+
+#: Diffuse colour of a SimpleMaterial that was given none: trimesh's DEFAULT_COLOR. It would darken a texture.
+_NO_DIFFUSE = [102, 102, 102, 255]
 
 
 def is_trimesh(value) -> bool:
@@ -29,44 +34,60 @@ def add(scene, value) -> None:
     scene.add_instance(mesh)
 
 
-def add_geometry(scene, mesh, name):
+def add_geometry(scene, mesh, name) -> Optional[int]:
     """The index of the mesh; None for what has no triangles and no points."""
-    visual = getattr(mesh, "visual", None)
     if not hasattr(mesh, "faces"):
         if not hasattr(mesh, "vertices") or hasattr(mesh, "entities"):
             return None
         colors = getattr(mesh, "colors", None)
         colors = colors if colors is not None and len(colors) == len(mesh.vertices) else None
         return scene.add_mesh(mesh.vertices, topology="points", colors=colors, material={"unlit": True}, name=name, place=False)
-    uv, colors = getattr(visual, "uv", None), None
-    vertices, faces, normals = mesh.vertices, mesh.faces, mesh.vertex_normals
+    mesh, has_normals = shaded(mesh)
+    visual, uv, colors = mesh.visual, getattr(mesh.visual, "uv", None), None
+    vertices, faces, normals = mesh.vertices, mesh.faces, mesh.vertex_normals if has_normals else None
+    kind = getattr(visual, "kind", None)
     if uv is not None:
         uv = np.asarray(uv, dtype=np.float32) * (1, -1) + (0, 1)  # v points up in trimesh
-    elif getattr(visual, "kind", None) == "vertex":
+    elif kind == "vertex":
         colors = np.asarray(visual.vertex_colors, dtype=np.uint8)
-    elif getattr(visual, "kind", None) == "face":
+    elif kind == "face":
         # Each face has its own colour: corners are split.
         corners = np.asarray(faces).ravel()
-        vertices, normals = np.asarray(vertices)[corners], np.asarray(normals)[corners]
+        vertices, normals = np.asarray(vertices)[corners], None if normals is None else np.asarray(normals)[corners]
         colors = np.repeat(np.asarray(visual.face_colors, dtype=np.uint8), 3, axis=0)
         faces = None
-    material = material_of(scene, getattr(visual, "material", None) if uv is not None else None)
+    material = material_of(scene, getattr(visual, "material", None))
     return scene.add_mesh(vertices, faces, normals=normals, uv=uv, colors=colors, material=material, name=name, place=False)
 
 
-def material_of(scene, material) -> dict:
-    """The members of a halflit material for one of trimesh: PBRMaterial or SimpleMaterial."""
-    members: dict = {"metallic": 0.0, "roughness": 0.8}
+def shaded(mesh) -> tuple:
+    """The mesh, and whether its vertex_normals are to be used.
+
+    Those that came with it are in its cache, which is how trimesh's exporters know them. Of another mesh trimesh would make means over all
+    faces of a vertex, as of a ball; its smooth_shaded has the vertices split at edges. Without scipy, which that needs, faces are flat.
+    """
+    if "vertex_normals" in getattr(mesh, "_cache", ()):
+        return mesh, True
+    try:
+        return mesh.smooth_shaded, True
+    except (AttributeError, ImportError):
+        return mesh, False
+
+
+def material_of(scene, material) -> Optional[Dict[str, Any]]:
+    """The members of a halflit material for a PBRMaterial or SimpleMaterial of trimesh; None: that of a mesh without one."""
     if material is None:
-        return members
+        return None
+    members: Dict[str, Any] = {}
     if hasattr(material, "baseColorFactor"):
-        members.update(metallic=1.0, roughness=1.0)
-        factors = (("base_color", "baseColorFactor"), ("emissive", "emissiveFactor"), ("metallic", "metallicFactor"))
-        for member, name in (*factors, ("roughness", "roughnessFactor"), ("alpha_cutoff", "alphaCutoff")):
-            factor = getattr(material, name, None)
-            if factor is not None:
-                members[member] = linear(factor) if member == "base_color" else factor
-        members["double_sided"] = bool(getattr(material, "doubleSided", False))
+        # What glTF begins with. trimesh keeps baseColorFactor, which is linear, in 255ths.
+        members.update(metallic=1.0, roughness=1.0, double_sided=bool(getattr(material, "doubleSided", False)))
+        if getattr(material, "baseColorFactor", None) is not None:
+            members["base_color"] = shares(material.baseColorFactor).tolist()
+        named = (("emissive", "emissiveFactor"), ("metallic", "metallicFactor"), ("roughness", "roughnessFactor"))
+        for member, name in (*named, ("alpha_cutoff", "alphaCutoff")):
+            if getattr(material, name, None) is not None:
+                members[member] = getattr(material, name)
         if getattr(material, "alphaMode", None):
             members["alpha_mode"] = material.alphaMode.lower()
         pictures: tuple = (
@@ -77,8 +98,11 @@ def material_of(scene, material) -> dict:
             ("emissive_texture", "emissiveTexture", "srgb"),
         )
     else:
-        if getattr(material, "diffuse", None) is not None:
-            members["base_color"] = linear(material.diffuse)
+        members.update(roughness=0.6, double_sided=True)
+        diffuse = getattr(material, "diffuse", None)
+        if diffuse is not None and not (getattr(material, "image", None) is not None and list(diffuse) == _NO_DIFFUSE):
+            codes = np.asarray(diffuse)
+            members["base_color"] = (linear_from_codes(codes) if codes.dtype.kind in "iu" else codes).tolist()
         pictures = (("base_color_texture", "image", "srgb"),)
     for member, name, color in pictures:
         picture = getattr(material, name, None)
@@ -87,9 +111,7 @@ def material_of(scene, material) -> dict:
     return members
 
 
-def linear(color) -> list:
-    """A colour of trimesh: bytes are sRGB codes with linear alpha, floats are linear."""
+def shares(color) -> np.ndarray:
+    """Bytes as shares of 255; floats stay."""
     array = np.asarray(color)
-    if array.dtype.kind not in "iu":
-        return array.tolist()
-    return [*linear_from_srgb(array[:3] / 255.0).tolist(), *(array[3:] / 255.0).tolist()]
+    return array / 255.0 if array.dtype.kind in "iu" else array
