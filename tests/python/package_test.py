@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import typing
 import unittest
 import unittest.mock
 
@@ -107,6 +108,20 @@ class Documentation(unittest.TestCase):
         self.assertGreater(checked, 40)
         self.assertTrue(os.path.exists(os.path.join(APPS, "python", "halflit", "py.typed")))
 
+    def test_type_hints_are_found_when_the_program_runs(self):
+        # As documentation generators and validators look for them.
+        checked = 0
+        for name in halflit.__all__:
+            value = getattr(halflit, name)
+            for member in (value, *vars(value).values()) if inspect.isclass(value) else (value,):
+                member = getattr(member, "fget", None) or getattr(member, "__func__", member)
+                if inspect.isclass(member) or inspect.isfunction(member):
+                    typing.get_type_hints(member)
+                    checked += 1
+        self.assertGreater(checked, 60)
+        hints = typing.get_type_hints(halflit.Scene.render)
+        self.assertIs(hints["return"], halflit.Picture)
+
     @unittest.skipUnless(shutil.which("mypy"), "no mypy")
     def test_types_hold_and_catch_a_misspelled_keyword(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -114,12 +129,14 @@ class Documentation(unittest.TestCase):
             with open(user, "w", encoding="utf-8") as file:
                 file.write('import halflit\npicture: halflit.Picture = halflit.render("demo", (8, 8), samples=8)\n')
                 file.write('halflit.render("x", sampels=3)\n')
+                file.write('halflit.Scene.demo().setup(8, samples=3)\n')
             command = ["mypy", "--enable-incomplete-feature=Unpack", "--python-executable", sys.executable, "--cache-dir", folder, user]
             environment = {**os.environ, "MYPYPATH": os.path.join(APPS, "python")}
             said = subprocess.run(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False).stdout.decode()
         errors = [line for line in said.splitlines() if ": error:" in line]
-        self.assertEqual(len(errors), 1, said)
+        self.assertEqual(len(errors), 2, said)
         self.assertIn('"sampels"', errors[0])
+        self.assertIn('"samples"', errors[1])
 
     def test_the_readmes_program_draws(self):
         for path in (("README.md",), ("apps", "python", "README.md")):

@@ -21,12 +21,21 @@ def cube():
 FRONT = halflit.Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_rad=0.3)
 
 
+def pixels_of(data):
+    """The pixels of a PNG, uint8 (height, width, 3 or 4)."""
+    try:
+        from PIL import Image
+    except ImportError:
+        raise unittest.SkipTest("no PIL") from None
+    return np.asarray(Image.open(io.BytesIO(data)))
+
+
 class Planes(unittest.TestCase):
     def test_values_of_a_face(self):
         scene = cube()
         picture = scene.render((20, 10), camera=FRONT, aovs="all", samples=4)
         planes = picture.aovs
-        self.assertEqual(set(planes), set(halflit.AOVS))
+        self.assertEqual(tuple(planes), halflit.AOVS)
         inside = planes["id"] == 1
         self.assertTrue(inside[5, 10] and planes["id"].dtype == np.uint32)
         self.assertTrue(np.allclose(planes["depth"][inside], 4, atol=1e-5))
@@ -46,7 +55,8 @@ class Planes(unittest.TestCase):
             scene.render(8, aovs=["depth", "speed"])
 
     def test_planes_of_a_far_model_are_in_its_world(self):
-        far = halflit.render(box(translation=[1e6, 0, 0]), 40, aovs=["position", "depth", "id"])
+        with self.assertWarnsRegex(UserWarning, "drawn at the origin"):
+            far = halflit.render(box(translation=[1e6, 0, 0]), 40, aovs=["position", "depth", "id"])
         near = halflit.render(box(), 40, aovs=["position", "depth", "id"])
         inside = near.aovs["id"] == 1
         self.assertTrue((far.aovs["id"] == near.aovs["id"]).all())
@@ -113,6 +123,30 @@ class Memory(unittest.TestCase):
         half = cube().render(40, background="transparent", premultiplied=True)
         self.assertTrue((half[:, :, :3].max(axis=2) <= half[:, :, 3]).all())
 
+    def test_premultiplied_pictures_are_shown_as_others(self):
+        straight = cube().render(40, background="transparent")
+        picture = cube().render(40, background="transparent", premultiplied=True)
+        self.assertEqual((picture.premultiplied, picture[3:, 2:].premultiplied, straight.premultiplied), (True, True, False))
+        self.assertNotEqual(picture.pixel_hash, straight.pixel_hash)
+        shown = pixels_of(picture.to_png())
+        edge = (straight[:, :, 3] > 0) & (straight[:, :, 3] < 255)
+        self.assertGreater(edge.sum(), 10)
+        self.assertTrue((shown[:, :, 3] == straight[:, :, 3]).all())
+        drawn = straight[:, :, 3] > 0
+        # Premultiplied codes are whole numbers, which alpha / 255 may be the smaller.
+        error = np.abs(shown.astype(int) - straight)[drawn][:, :3] * straight[drawn][:, 3:]
+        self.assertLessEqual(error.max(), 255)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "x.png")
+            picture.save(path)
+            self.assertEqual(pixels_of(open(path, "rb").read()).tolist(), shown.tolist())
+            light = cube().render(40, background="transparent", dtype=np.float32, premultiplied=True)
+            expected = cube().render(40, background="transparent", dtype=np.float32)
+            for name in ("a.png", "b.png"):
+                (light if name == "a.png" else expected).save(os.path.join(folder, name))
+            first, second = (pixels_of(open(os.path.join(folder, name), "rb").read()).astype(int) for name in ("a.png", "b.png"))
+            self.assertLessEqual(np.abs(first - second)[expected[:, :, 3] > 0].max(), 1)
+
 
 class Files(unittest.TestCase):
     def test_notebooks_show_the_pixels(self):
@@ -145,12 +179,26 @@ class Files(unittest.TestCase):
             light = cube().render((31, 17), dtype=np.float32)
             for name in ("x.pfm", "x.hdr"):
                 light.save(os.path.join(folder, name))
-            with self.assertRaises(halflit.UsageError):
+            with self.assertRaisesRegex(halflit.UsageError, "x.hdr: expected a picture of float32"):
                 picture.save(os.path.join(folder, "x.hdr"))
+            with self.assertRaisesRegex(halflit.UsageError, "x.foo: unknown file extension"):
+                picture.save(os.path.join(folder, "x.foo"))
             with self.assertRaises(halflit.UsageError):
                 picture[0].save(os.path.join(folder, "x.png"))
-            with self.assertRaises(halflit.FileError):
+            with self.assertRaises(FileNotFoundError):
                 picture.save(os.path.join(folder, "no", "x.png"))
+
+    def test_files_and_notebooks_have_the_same_codes(self):
+        codes = cube().render((31, 17), background="transparent")
+        light = cube().render((31, 17), background="transparent", dtype=np.float32)
+        with tempfile.TemporaryDirectory() as folder:
+            for picture in (codes, light, codes[:, :, :3], light[:, :, :3], codes[::2, 3:]):
+                path = os.path.join(folder, "x.png")
+                picture.save(path)
+                stored, shown = pixels_of(open(path, "rb").read()), pixels_of(picture.to_png())
+                self.assertEqual(stored[:, :, :3].tolist(), shown[:, :, :3].tolist())
+                self.assertTrue((stored[:, :, 3:] == (shown[:, :, 3:] if shown.shape[2] == 4 else 255)).all())
+            light[:, :, :3].save(os.path.join(folder, "x.pfm"))
 
     def test_a_picture_is_an_array(self):
         picture = cube().render(16)

@@ -8,7 +8,7 @@ import numpy as np
 
 import halflit
 from halflit import _options
-from support import CORNERS, FACES
+from support import CORNERS, FACES, box
 
 
 def light_of(material, faces=FACES):
@@ -43,6 +43,56 @@ class Records(unittest.TestCase):
         self.assertEqual(light_of(white), light_of({**white, "metallic": 0}))
         self.assertNotEqual(light_of(white), light_of({**white, "metallic": 1}))
 
+    def test_the_factor_of_a_metallic_texture_does_not_depend_on_the_order(self):
+        material = halflit.Material()
+        material.metallic_roughness_texture = 0
+        self.assertEqual(material.metallic, 1)
+        for members in ({"metallic": 0.25, "metallic_roughness_texture": 0}, {"metallic_roughness_texture": 0, "metallic": 0.25}):
+            self.assertEqual(halflit.Material(**members).metallic, 0.25)
+        scene = halflit.Scene()
+        texture = scene.add_texture(np.zeros((2, 2, 3), np.uint8))
+        index = scene.add_material(base_color=(1, 0, 0))
+        scene.set_material(index, metallic_roughness_texture=texture)
+        self.assertEqual(scene.material(index).metallic, 1)
+        scene.set_material(index, metallic_roughness_texture=texture, metallic=0)
+        self.assertEqual(scene.material(index).metallic, 0)
+        made = halflit.Material(metallic=0, metallic_roughness_texture=1)
+        self.assertIn("metallic=0.0", repr(made))
+        self.assertEqual(eval(repr(made), vars(halflit)), made)
+
+    def test_colours_are_light_texts_or_codes(self):
+        red = halflit.Material(base_color="#ff8000")
+        self.assertEqual(halflit.Material(base_color=np.uint8((255, 128, 0))), red)
+        self.assertAlmostEqual(red.base_color[1], ((128 / 255 + 0.055) / 1.055) ** 2.4, places=6)
+        self.assertEqual(halflit.Material(base_color="#f808").base_color[3], np.float32(0x88 / 255))
+        self.assertEqual(halflit.Material(base_color=(1, 0, 0)).base_color, (1, 0, 0, 1))
+        self.assertEqual(halflit.Light(color="#fff").color, (1, 1, 1))
+        self.assertEqual(halflit.Light(color=(8, 8, 7)).color, (8, 8, 7))
+        scene = halflit.Scene()
+        scene.add_mesh(CORNERS, FACES)
+        white = scene.render(8, background="#ffffff").pixel_hash
+        for background in ((1, 1, 1), np.uint8((255, 255, 255)), np.float32((1, 1, 1, 1))):
+            self.assertEqual(scene.render(8, background=background).pixel_hash, white)
+
+    def test_dicts_and_objects_may_be_given_everywhere(self):
+        scene = halflit.Scene()
+        paint, lamp = halflit.Material(roughness=0.5), halflit.Light("point", range=3)
+        self.assertEqual(scene.material(scene.add_material({"roughness": 0.5})), paint)
+        self.assertEqual(scene.light(scene.add_light({"type": "point", "range": 3})), lamp)
+        self.assertEqual(scene.material(scene.add_material(paint, metallic=1)), halflit.Material(roughness=0.5, metallic=1))
+        self.assertEqual(scene.light(scene.add_light(lamp, range=4)).range, 4)
+        scene.set_light(1, {"type": "spot"})
+        self.assertEqual(scene.light(1).type, "spot")
+        scene.set_material(0, paint, roughness=0.1)
+        self.assertAlmostEqual(scene.material(0).roughness, 0.1)
+        scene.set_material(0, {"roughness": 0.2})
+        self.assertAlmostEqual(scene.material(0).roughness, 0.2)
+        self.assertEqual((paint.roughness, paint.metallic, lamp.range), (0.5, 0, 3))  # the caller's are not changed
+        for call in (lambda: scene.add_light(3), lambda: scene.set_light(0, "point"), lambda: scene.add_material("red"),
+                     lambda: halflit.render(box(), 8, lights=["point"])):  # fmt: skip
+            with self.assertRaisesRegex(halflit.UsageError, "expected a (Light|Material) or a dict of its members"):
+                call()
+
     def test_a_mesh_without_a_material_is_seen_from_both_sides(self):
         # Made for people who do not know which way round their faces are.
         self.assertEqual(light_of(None), light_of({"roughness": 0.6, "double_sided": True}))
@@ -75,19 +125,118 @@ class Refused(unittest.TestCase):
         ):
             with self.assertRaisesRegex(halflit.UsageError, words):
                 scene.render(8, **keywords)
-        for members in ({"color": (nan, 1, 1)}, {"position": (0, inf, 0)}, {"shadow_radius": nan}, {"direction": (0, nan, 0)}):
-            with self.assertRaisesRegex(halflit.UsageError, "is not finite"):
-                halflit.Scene().add_light("point", **members)
         with self.assertRaisesRegex(halflit.UsageError, "zoom"):
             scene.frame(zoom=nan)
+        with self.assertRaisesRegex(halflit.UsageError, "azimuth: expected a number, found 'left'"):
+            scene.frame(azimuth="left")
+        for ambient in ((nan, 0, 0), (-1, 0, 0)):
+            with self.assertRaisesRegex(halflit.UsageError, "sky: "):
+                scene.set_ambient(ambient)
+
+    def test_members_out_of_range(self):
+        nan, inf = float("nan"), float("inf")
+        for kind, name, values in (
+            (halflit.Light, "color", ((nan, 1, 1),)),
+            (halflit.Light, "position", ((0, inf, 0),)),
+            (halflit.Light, "direction", ((0, nan, 0), (0, 0, 0))),
+            (halflit.Light, "range", (nan, inf, -1)),
+            (halflit.Light, "shadow_radius", (nan, -1)),
+            (halflit.Light, "outer_cone_rad", (nan, 4)),
+            (halflit.Material, "metallic", (7, -1, nan)),
+            (halflit.Material, "roughness", (-3, 1.1)),
+            (halflit.Material, "base_color", ((nan, 0, 0), (-1, 0, 0), (0, 0, 0, 2))),
+            (halflit.Material, "emissive", ((-1, 0, 0), (nan, 0, 0))),
+            (halflit.Material, "normal_scale", (nan,)),
+            (halflit.Material, "specular", (2,)),
+            (halflit.Material, "clearcoat", (2,)),
+            (halflit.Material, "thickness", (-1, nan)),
+            (halflit.Material, "lobe", (("sloan", nan), 3)),
+            (halflit.Lobe, "wrap", (2, nan)),
+            (halflit.TextureUse, "uv_set", (2, -1)),
+            (halflit.TextureUse, "row_u", ((1, 0, nan),)),
+            (halflit.Camera, "fov_y_rad", (0, 3.2, nan)),
+            (halflit.Camera, "half_height", (0, nan)),
+        ):
+            for value in values:
+                with self.assertRaisesRegex(halflit.UsageError, f"^{name}: "):
+                    kind(**{name: value})
+
+    def test_matrices(self):
+        eye, turned = np.eye(4), np.eye(4)
+        eye[3, 0] = 2
+        turned[:3, :3] *= 2
+        scene = halflit.Scene()
+        scene.add_mesh(CORNERS, FACES)
+        for matrix, words in (
+            (eye, "expected 0 0 0 1 as the last row"),
+            (np.array(halflit.Camera.look_at((3, 0, 0), (0, 0, 0)).matrix.T), "is it transposed"),
+            (np.full((4, 4), np.nan), "not finite"),
+            (np.eye(3), r"shape \(4, 4\), found \(3, 3\)"),
+            ("identity", "an array of numbers"),
+        ):
+            for call in (lambda m: scene.set_instance(0, m), lambda m: scene.add_instance(0, m), lambda m: halflit.Camera(m)):
+                with self.assertRaisesRegex(halflit.UsageError, f"^matrix: .*{words}"):
+                    call(matrix)
+        scene.set_instance(0, turned)
+        with self.assertRaisesRegex(halflit.UsageError, "matrix: expected a rigid one"):
+            halflit.Camera(turned)
+        for points in (((1, 2, 3), (1, 2, 3)), ((1, 2, 3), (0, 0, float("nan"))), ((1, 2, 3), (0, 0, 0), (0, 0, 0))):
+            with self.assertRaisesRegex(halflit.UsageError, "look_at: expected"):
+                halflit.Camera.look_at(*points)
+        for members, words in (({"near_z": 0}, "near_z"), ({"near_z": 2, "far_z": 1}, "far_z"), ({"orthographic": True}, "far_z")):
+            with self.assertRaisesRegex(halflit.UsageError, f"{words}: expected a distance above"):
+                scene.render(8, camera=halflit.Camera(**members))
 
     def test_codes_in_the_place_of_light(self):
         scene = halflit.Scene()
-        for colors in (np.full((8, 3), 255.0), np.full((8, 3), 200), np.full((8, 4), 2, np.uint16)):
+        for colors in (np.full((8, 3), 255.0), np.full((8, 3), 200), np.full((8, 4), 2, np.uint16), np.full((8, 3), np.nan),
+                       np.full((8, 3), -1.0)):  # fmt: skip
             with self.assertRaisesRegex(halflit.UsageError, "colors: expected uint8 sRGB codes, or linear light"):
                 scene.add_mesh(CORNERS, FACES, colors=colors)
         for colors in (np.full((8, 3), 2.0), np.ones((8, 3), int), [[1, 0, 1]] * 8, np.full((8, 3), 200, np.uint8)):
             scene.add_mesh(CORNERS, FACES, colors=colors)
+        for value in ((255, 0, 0), (255.0, 0, 0), np.array((200, 30, 90)), np.array((0, 1, 0), bool), "red", "#12", (1, (2, 3)), None):
+            with self.assertRaisesRegex(halflit.UsageError, "^base_color: expected"):
+                halflit.Material(base_color=value)
+            with self.assertRaisesRegex(halflit.UsageError, "^background: expected"):
+                scene.render(8, background=() if value is None else value)
+        for image in (np.full((4, 8, 3), 200, np.uint8), np.ones((4, 8, 3), int)):
+            with self.assertRaisesRegex(halflit.UsageError, "environment: expected .* floats of linear light"):
+                scene.set_environment(image)
+
+    def test_what_is_no_whole_number_or_truth(self):
+        scene = halflit.Scene()
+        scene.add_mesh(CORNERS, FACES)
+        for call, words in (
+            (lambda: scene.render((16.9, 8.2)), "size: expected a whole number, found 16.9"),
+            (lambda: scene.render("64"), "size: expected a whole number"),
+            (lambda: scene.render((8, 8, 8)), r"size: expected \(width, height\)"),
+            (lambda: scene.render(8, samples=4.0), "samples: expected a whole number, found 4.0"),
+            (lambda: scene.render(8, region=(0, 0, 4)), "region: expected x, y, width and height"),
+            (lambda: scene.render(8, region=(0, 0, 4, 4.5)), "region: expected a whole number, found 4.5"),
+            (lambda: scene.render(8, premultiplied="yes"), "premultiplied: expected True or False"),
+            (lambda: scene.render(8, normalize_specular="no"), "normalize_specular: expected True or False"),
+            (lambda: scene.render(8, max_error="low"), "max_error: expected a number, found 'low'"),
+            (lambda: scene.render(8, time_limit="1"), "time_limit: expected a number"),
+            (lambda: scene.render(8, fov="wide"), "fov: expected a number"),
+            (lambda: scene.render(8, out=[1, 2]), "out: expected an array"),
+            (lambda: scene.instance("first"), "index: expected a whole number, found 'first'"),
+            (lambda: scene.instance(0.0), "index: expected a whole number, found 0.0"),
+            (lambda: scene.pose(time="late"), "time: expected a number"),
+            (lambda: scene.add_instance(1.5), "mesh: expected a whole number"),
+            (lambda: halflit.TextureUse(uv_set=1.9), "uv_set: expected a whole number"),
+            (lambda: halflit.Material(base_color_texture="wood"), "base_color_texture: expected a whole number, found 'wood'"),
+            (lambda: halflit.Material(alpha_mode=1.7), "alpha_mode: expected a whole number"),
+            (lambda: halflit.Material(double_sided="no"), "double_sided: expected True or False, found 'no'"),
+            (lambda: halflit.Material(roughness="0.5"), "roughness: expected a number, found '0.5'"),
+            (lambda: halflit.Light(position=3), "position: expected 3 numbers, found 3"),
+            (lambda: halflit.Scene.load(box(), lenient="no"), "lenient: expected True or False"),
+            (lambda: halflit.Scene.load(box(), crease_deg="sharp"), "crease_deg: expected a number"),
+            (lambda: halflit.Scene.load(box(), time="1"), "time: expected a number"),
+        ):
+            with self.assertRaisesRegex(halflit.UsageError, "^" + words):
+                call()
+        self.assertEqual(scene.render(np.array((8, 6)), samples=np.int64(4), premultiplied=np.True_).shape, (6, 8, 4))
 
     def test_a_path_with_nul(self):
         with self.assertRaisesRegex(halflit.UsageError, "without NUL"):

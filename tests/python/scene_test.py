@@ -1,4 +1,9 @@
 """Scenes from numpy arrays: what is handed over, what is drawn, what is refused."""
+import errno
+import json
+import os
+import pathlib
+import tempfile
 import unittest
 
 import numpy as np
@@ -127,6 +132,115 @@ class Arrays(unittest.TestCase):
         self.assertEqual(scene.counts["meshes"], 0)
 
 
+    def test_a_mesh_that_is_refused_leaves_nothing(self):
+        scene = halflit.Scene()
+        scene.add_mesh(CORNERS, FACES)
+        before = scene.counts
+        paint = {"base_color": (1, 0, 0)}
+        for arguments in ({"matrix": np.eye(3)}, {"faces": FACES + 1}, {"faces": FACES.ravel()[:35]}, {"colors": CORNERS * np.nan},
+                          {"normals": CORNERS[:2]}, {"name": "a\0"}, {"topology": "lines"}):  # fmt: skip
+            with self.assertRaises(halflit.UsageError):
+                scene.add_mesh(CORNERS, **{"faces": FACES, "material": paint, **arguments})
+            self.assertEqual(scene.counts, before, arguments)
+        for index in (5, -1, "x"):
+            with self.assertRaisesRegex(halflit.UsageError, "mesh"):
+                scene.set_mesh(index, CORNERS, FACES, material=paint)
+        self.assertEqual(scene.counts, before)
+
+    def test_a_mesh_is_replaced(self):
+        scene = halflit.Scene()
+        red, blue = {"base_color": (1, 0, 0)}, {"base_color": (0, 0, 1)}
+        mesh = scene.add_mesh(CORNERS, FACES, material=red)
+        first, materials = render(scene).pixel_hash, scene.counts["materials"]
+        scene.set_mesh(mesh, CORNERS / 2, FACES)
+        scene.set_mesh(mesh, CORNERS, FACES)  # it has kept its material
+        self.assertEqual(render(scene).pixel_hash, first)
+        for _ in range(5):
+            scene.set_mesh(mesh, CORNERS, FACES, material=blue)
+        self.assertEqual(scene.counts["materials"], materials)
+        self.assertEqual(render(scene).pixel_hash, cube_of(blue).pixel_hash)
+        shared = scene.add_material(red)
+        scene.set_mesh(mesh, CORNERS, FACES, material=shared)
+        scene.set_mesh(mesh, CORNERS, FACES, material=blue)  # others may use the shared one
+        self.assertEqual(scene.material(shared), halflit.Material(**red))
+        with self.assertRaisesRegex(halflit.UsageError, "material: expected one, as mesh 0 was not added"):
+            halflit.Scene.load(box()).set_mesh(0, CORNERS, FACES)
+
+    def test_smooth_normals_follow_the_vertices(self):
+        squeezed = CORNERS * np.float32((0.3, 1, 1.5))
+        fresh = halflit.Scene()
+        fresh.add_mesh(squeezed, FACES, normals="smooth")
+        for normals in (None, "smooth"):
+            scene, faces = halflit.Scene(), FACES.copy()
+            mesh = scene.add_mesh(CORNERS, faces, normals="smooth")
+            faces[:] = 0  # the caller's
+            scene.set_vertices(mesh, squeezed, normals=normals)
+            self.assertEqual(render(scene).pixel_hash, render(fresh).pixel_hash)
+        scene.set_vertices(mesh, squeezed, normals=CORNERS)
+        given = render(scene).pixel_hash
+        scene.set_vertices(mesh, squeezed)  # keeps those
+        self.assertEqual(render(scene).pixel_hash, given)
+        for made, normals in ((scene, "smooth"), (fresh, "soft")):
+            with self.assertRaisesRegex(halflit.UsageError, 'normals: expected an array, or "smooth" for a mesh that was added so'):
+                made.set_vertices(0, squeezed, normals=normals)
+        with self.assertRaisesRegex(halflit.UsageError, "vertices: 5 rows"):
+            fresh.set_vertices(0, squeezed[:5])
+
+    def test_textures_of_one_to_four_channels(self):
+        grey = np.random.default_rng(2).integers(0, 255, (4, 4, 1), dtype=np.uint8)
+        half = np.full_like(grey, 128)
+        solid = np.full_like(grey, 255)
+        hashes = []
+        for pixels in (grey, grey[:, :, 0], np.repeat(grey, 3, axis=2), np.concatenate([grey, solid], axis=2),
+                       np.concatenate([grey, grey, grey, solid], axis=2), np.concatenate([grey, half], axis=2)):  # fmt: skip
+            scene = halflit.Scene()
+            material = {"base_color_texture": scene.add_texture(pixels), "alpha_mode": "blend"}
+            scene.add_mesh(CORNERS, FACES, uv=CORNERS[:, :2], material=material)
+            hashes.append(render(scene).pixel_hash)
+        self.assertEqual(len(set(hashes[:5])), 1)
+        self.assertNotEqual(hashes[5], hashes[0])
+        for shape in ((4, 4, 5), (4,), (4, 4, 0)):
+            with self.assertRaisesRegex(halflit.UsageError, "texture: expected an array of shape"):
+                halflit.Scene().add_texture(np.zeros(shape, np.uint8))
+
+    def test_allowed_folders(self):
+        # A text is one folder, not a list of letters, whose first one is the root of all files.
+        with tempfile.TemporaryDirectory() as folder:
+            model, other = os.path.join(folder, "model"), os.path.join(folder, "other")
+            os.mkdir(model)
+            os.mkdir(other)
+            with open(os.path.join(other, "x.bin"), "wb") as file:
+                file.write(CORNERS.tobytes())
+            path = os.path.join(model, "x.gltf")
+            with open(path, "w", encoding="utf-8") as file:
+                json.dump(points_of("../other/x.bin"), file)
+            for allowed in (other, pathlib.Path(other), os.fsencode(other), [other], (pathlib.Path(model), other)):
+                self.assertEqual(halflit.Scene.load(path, allow_external=allowed).counts["meshes"], 1)
+            here = os.getcwd()
+            os.chdir(folder)  # where ".", and a folder named by the text's letters, are
+            self.addCleanup(os.chdir, here)
+            os.mkdir(os.path.join(folder, "m"))
+            for allowed in ((), "m", os.path.join(folder, "m"), [model]):
+                with self.assertRaises(halflit.Error):
+                    halflit.Scene.load(path, allow_external=allowed)
+            with self.assertRaises(halflit.Error):
+                halflit.Scene.load(path, allow_external="/m")
+
+
+def points_of(file):
+    """A glTF document of the cube's corners, which lie in the file."""
+    accessor = {"bufferView": 0, "componentType": 5126, "count": 8, "type": "VEC3", "min": [-1] * 3, "max": [1] * 3}
+    return {"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "scene": 0, "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "mode": 0}]}], "accessors": [accessor],
+            "bufferViews": [{"buffer": 0, "byteLength": 96}], "buffers": [{"byteLength": 96, "uri": file}]}  # fmt: skip
+
+
+def cube_of(material):
+    scene = halflit.Scene()
+    scene.add_mesh(CORNERS, FACES, material=material)
+    return render(scene)
+
+
 class Parts(unittest.TestCase):
     def test_instances_move(self):
         scene, fresh = halflit.Scene(), halflit.Scene()
@@ -220,16 +334,32 @@ class Parts(unittest.TestCase):
     def test_errors_tell_what_is_wrong(self):
         with self.assertRaisesRegex(halflit.FileError, "nowhere.glb"):
             halflit.render("/nowhere.glb")
-        with self.assertRaises(OSError):
-            halflit.render("/nowhere.glb")
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "nowhere.hdr")
+            for call in (lambda: halflit.render(path), lambda: halflit.Scene().set_environment(path)):
+                with self.assertRaises(FileNotFoundError) as missing:
+                    call()
+                self.assertIsInstance(missing.exception, halflit.FileError)
+                self.assertEqual((missing.exception.errno, missing.exception.filename), (errno.ENOENT, path))
+                self.assertEqual(str(missing.exception), f"{path}: cannot be opened: No such file or directory")
+            with self.assertRaises(halflit.FileError) as other:
+                halflit.render(folder)
+            self.assertNotIsInstance(other.exception, FileNotFoundError)
+            model = os.path.join(folder, "model.gltf")
+            with open(model, "w", encoding="utf-8") as file:
+                json.dump(points_of("gone.bin"), file)
+            with self.assertRaisesRegex(halflit.BadInputError, "gone.bin"):  # the model itself is there
+                halflit.render(model)
         with self.assertRaises(halflit.BadInputError):
             halflit.render(b"glTF and then nothing")
         with self.assertRaisesRegex(TypeError, "sampels.*did you mean 'samples'"):
             halflit.render("demo", sampels=4)
-        with self.assertRaisesRegex(TypeError, "has no keyword 'lenien'"):
-            halflit.Scene.load(box(), lenien=True)
-        with self.assertRaisesRegex(TypeError, "expected a path"):
-            halflit.render(7)
+        for name in ("lenien", "time_s", "size", "reserved", "allow_external_count"):
+            with self.assertRaisesRegex(TypeError, f"has no keyword '{name}'"):
+                halflit.Scene.load(box(), **{name: 1})
+        for source in (7, ["a.glb", "b.glb"], (pathlib.Path("a.glb"), FACES)):
+            with self.assertRaisesRegex(TypeError, "expected a path"):
+                halflit.render(source)
         with self.assertRaisesRegex(halflit.UsageError, "size"):
             halflit.render("demo", (0, 4))
         with self.assertRaisesRegex(halflit.UsageError, "samples"):
@@ -263,7 +393,8 @@ class Parts(unittest.TestCase):
         self.assertEqual(copy.name, "a name of some length")
 
     def test_an_empty_scene_is_its_background(self):
-        picture = halflit.Scene().render(8)
+        with self.assertWarnsRegex(UserWarning, "nothing to draw"):
+            picture = halflit.Scene().render(8)
         self.assertEqual(np.unique(picture.reshape(-1, 4), axis=0).tolist(), [[0x3A, 0x3F, 0x47, 255]])
 
 

@@ -32,6 +32,11 @@ class Camera(Record):
     """
 
     _kind, _truths = "camera", frozenset({"orthographic"})
+    _ranges = {
+        "fov_y_rad": (1e-6, math.pi - 1e-6),
+        "half_height": (1e-30, math.inf),
+        **dict.fromkeys(("aspect", "half_width"), (0.0, math.inf)),
+    }
     name: str
     orthographic: bool
     fov_y_rad: float
@@ -144,6 +149,14 @@ class Camera(Record):
         for name in ("half_height", "half_width", "near_z", "far_z"):
             setattr(made._c, name, getattr(made._c, name) * scale)
         return made
+
+    def _check(self) -> None:
+        """Refuses distances that contradict each other; each alone may be set first."""
+        near_z, far_z = self.near_z, self.far_z
+        if not self.orthographic and near_z <= 0:
+            raise UsageError(f"near_z: expected a distance above 0, found {near_z}")
+        if (self.orthographic or far_z != 0) and far_z <= near_z:
+            raise UsageError(f"far_z: expected a distance above near_z, which is {near_z}, found {far_z}")
 
     def _shape(self) -> float:
         """Width / height that the camera is made for; 0 if it is made for any."""

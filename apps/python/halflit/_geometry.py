@@ -93,12 +93,12 @@ class Geometry(SceneBase):
         from ._mesh import MeshArrays
 
         with self._lock:
-            arrays = MeshArrays(topology, vertices, faces, normals, uv=uv, uv1=uv1, colors=colors, tangents=tangents)
+            arrays = MeshArrays(name, topology, vertices, faces, normals, uv=uv, uv1=uv1, colors=colors, tangents=tangents)
             at = self._placement(matrix)
             index = ctypes.c_int32()
             own = isinstance(material, (Material, dict))
             used = self._plain_material() if material is None else self._material_index(material)
-            self._change("scene_add_mesh", ctypes.byref(arrays.struct(used, name)), ctypes.byref(index))
+            self._change("scene_add_mesh", ctypes.byref(arrays.struct(used)), ctypes.byref(index))
             self._remember(index.value, arrays, used, own)
             if place:
                 self._add_instance(index.value, at)
@@ -113,7 +113,7 @@ class Geometry(SceneBase):
         from ._mesh import MeshArrays
 
         with self._lock:
-            arrays = MeshArrays(topology, vertices, faces, normals, uv=uv, uv1=uv1, colors=colors, tangents=tangents)
+            arrays = MeshArrays(name, topology, vertices, faces, normals, uv=uv, uv1=uv1, colors=colors, tangents=tangents)
             if material is None and index not in self._materials:
                 raise UsageError(f"material: expected one, as mesh {shown(index)} was not added by add_mesh()")
             own = isinstance(material, (Material, dict))
@@ -123,7 +123,7 @@ class Geometry(SceneBase):
                 self.set_material(used, material)
             else:
                 used = self._materials[index] if material is None else self._material_index(material)
-            self._change("scene_set_mesh", index, ctypes.byref(arrays.struct(used, name)))
+            self._change("scene_set_mesh", index, ctypes.byref(arrays.struct(used)))
             self._remember(index, arrays, used, own or (material is None and index in self._own_materials))
 
     def _remember(self, mesh: int, arrays, material: int, own: bool) -> None:

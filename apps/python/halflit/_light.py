@@ -1,12 +1,14 @@
 """Lights."""
 from __future__ import annotations
 
+import math
 from typing import Any, Callable
 
+from ._errors import UsageError
 from ._lazy import np  # noqa: F401  (in annotations)
 from ._record import Record
 from ._types import Color, Point
-from ._values import reals
+from ._values import reals, shown
 
 
 class Light(Record):
@@ -28,6 +30,10 @@ class Light(Record):
     """
 
     _kind, _choices, _colors = "light", {"type": "LIGHT"}, {"color": None}
+    _ranges = {
+        **dict.fromkeys(("range", "source_radius", "cone_power", "shadow_radius"), (0.0, math.inf)),
+        **dict.fromkeys(("inner_cone_rad", "outer_cone_rad"), (0.0, math.pi)),
+    }
     type: str
     color: Color
     position: Point
@@ -43,6 +49,8 @@ class Light(Record):
         super().__init__(type=type, **members)
 
     def __setattr__(self, name: str, value) -> None:
+        if name == "direction" and not any(reals(value, 3, name)):
+            raise UsageError(f"direction: expected a length above 0, found {shown(value)}")
         super().__setattr__(name, value)
         if name == "position":
             self._exact[name] = tuple(reals(value, 3, name))

@@ -24,7 +24,7 @@ class Lobe(Record):
         normalize: scale such that a surface receives as much light as by Lambert
     """
 
-    _kind, _truths = "lobe", frozenset({"normalize"})
+    _kind, _truths, _ranges = "lobe", frozenset({"normalize"}), {"wrap": (0.0, 1.0), "power": (0.0, 10000.0)}
     wrap: float
     power: float
     normalize: bool
@@ -64,7 +64,7 @@ class TextureUse(Record):
         row_v: likewise v' (0, 1, 0)
     """
 
-    _kind = "texture_use"
+    _kind, _ranges = "texture_use", {"texture": (-1, math.inf), "uv_set": (0, 1)}
     _choices = {"wrap_u": "WRAP", "wrap_v": "WRAP", "mag_filter": "FILTER", "min_filter": "FILTER", "mip_filter": "MIP"}
     texture: int
     uv_set: int
@@ -141,6 +141,11 @@ class Material(Record):
     _kind, _choices = "material", {"alpha_mode": "ALPHA"}
     _truths = frozenset({"double_sided", "unlit", "own_lobe", "shadow_catcher"})
     _colors = {"base_color": 1.0, "emissive": None, "attenuation_color": 1.0, "specular_color": math.inf, "sheen_color": 1.0}
+    _ranges = {
+        **dict.fromkeys(("metallic", "roughness", "occlusion_strength", "dielectric_reflectance", "transmission", "specular"), (0.0, 1.0)),
+        **dict.fromkeys(("clearcoat", "clearcoat_roughness", "sheen_roughness"), (0.0, 1.0)),
+        **dict.fromkeys(("alpha_cutoff", "thickness", "attenuation_distance", "emissive"), (0.0, math.inf)),
+    }
     _nested = {"halflit_lobe": Lobe, "halflit_texture_use": TextureUse}
     _metallic_given = False
     name: str

@@ -15,10 +15,11 @@ CORNERS = {"triangles": 3, "lines": 2, "points": 1}
 class MeshArrays:
     """What add_mesh() and set_mesh() are given. Everything is checked here, so that a mesh that is refused leaves nothing in the scene."""
 
-    def __init__(self, topology: str, vertices, faces, normals, **attributes: Any):
+    def __init__(self, name: Optional[str], topology: str, vertices, faces, normals, **attributes: Any):
         if topology not in CORNERS:
             raise UsageError(f"topology: expected one of {', '.join(CORNERS)}, found {topology!r}")
         self.topology = topology
+        self.name = _c.bytes_of(name)
         positions = _arrays.positions(vertices)
         self.count = len(positions)
         self.corners = None if faces is None else _arrays.indices(faces, CORNERS[topology], self.count)
@@ -32,8 +33,8 @@ class MeshArrays:
         #: member of halflit_mesh -> array or None
         self.arrays: Dict[str, Optional[np.ndarray]] = {"positions": positions, "indices": self.corners}
         named = (("normals", "normals", normals, 3), ("uv0", "uv", attributes["uv"], 2), ("uv1", "uv1", attributes["uv1"], 2))
-        for member, name, value, columns in (*named, ("tangents", "tangents", attributes["tangents"], 4)):
-            self.arrays[member] = None if value is None else _arrays.floats(value, columns, name, self.count)
+        for member, argument, value, columns in (*named, ("tangents", "tangents", attributes["tangents"], 4)):
+            self.arrays[member] = None if value is None else _arrays.floats(value, columns, argument, self.count)
         colors = attributes["colors"]
         self.arrays["colors"] = None if colors is None else _arrays.colors(colors, self.count)
 
@@ -41,13 +42,13 @@ class MeshArrays:
         """The vertex numbers, made up if there are none."""
         return np.arange(self.count, dtype=np.uint32) if self.corners is None else self.corners
 
-    def struct(self, material: int, name: Optional[str]):
+    def struct(self, material: int):
         """The halflit_mesh, which points to the arrays of this object."""
         mesh = _c.make("mesh")
         for member, array in self.arrays.items():
             setattr(mesh, member, None if array is None else array.ctypes.data)
         mesh.vertex_count, mesh.index_count = self.count, 0 if self.corners is None else self.corners.size
         mesh.topology = _c.CONSTANTS["HALFLIT_TOPOLOGY_" + self.topology.upper()]
-        mesh.name = _c.bytes_of(name)
+        mesh.name = self.name
         mesh.put("material", material, "material")
         return mesh

@@ -77,7 +77,7 @@ class Picture(np.ndarray):
             straight[:, :, :3] = np.where(alpha > 0, pixels[:, :, :3] / np.where(alpha > 0, alpha, 1), 0)
         else:
             wide = alpha.astype(np.uint32)
-            divided = (pixels[:, :, :3] * np.uint32(255) + wide // 2) // np.maximum(wide, 1)
+            divided = (pixels[:, :, :3].astype(np.uint32) * 255 + wide // 2) // np.maximum(wide, 1)
             straight[:, :, :3] = np.where(wide > 0, np.minimum(divided, 255), 0)
         return straight
 

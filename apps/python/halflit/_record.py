@@ -5,7 +5,8 @@ A member that is an enumeration has the names of its values ("blend"), a colour 
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Dict, Optional, Type
+import math
+from typing import Any, Dict, Optional, Tuple, Type
 
 from . import _c
 from ._color import color
@@ -20,6 +21,7 @@ class Record:
     _truths: frozenset = frozenset()
     _choices: Dict[str, str] = {}  # member -> prefix of its constants
     _colors: Dict[str, Optional[float]] = {}  # member -> largest number, see color(); None: light
+    _ranges: Dict[str, Tuple[float, float]] = {}  # member -> least and largest number; all others have to be finite
     _nested: Dict[str, Type[Record]] = {}  # struct of a member -> its class
     _exact: Dict[str, Any]  # members that float32 is too coarse for, far from the origin, as they were given
     _drawn: Any = None  # (World, struct): what this is in the world that is drawn, until a member is set
@@ -95,12 +97,21 @@ class Record:
         if name in self._truths:
             return truth(value, name)
         if name in self._colors:
-            return field(*color(value, name, field._length_, self._colors[name]))
+            return field(*(self._checked(x, name) for x in color(value, name, field._length_, self._colors[name])))
         if issubclass(field, ctypes.Array):
-            return field(*reals(value, field._length_, name))
+            return field(*(self._checked(x, name) for x in reals(value, field._length_, name)))
         if issubclass(field, ctypes.Structure):
             return self._nested[field.__name__]._from(value, name)._c
-        return _c.bytes_of(value) if name == "name" else value
+        if name == "name":
+            return _c.bytes_of(value)
+        return self._checked(_c.converted(field, value, name), name)
+
+    def _checked(self, number, name: str):
+        low, high = self._ranges.get(name, (-math.inf, math.inf))
+        if not (math.isfinite(number) and low <= number <= high):
+            bounds = "" if name not in self._ranges else f" from {low:g} on" if high == math.inf else f" from {low:g} to {high:g}"
+            raise UsageError(f"{name}: expected a finite number{bounds}, found {number}")
+        return number
 
     def to_dict(self) -> Dict[str, Any]:
         """All members by their names."""

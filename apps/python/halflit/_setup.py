@@ -121,7 +121,7 @@ def light_of(scene, options: dict, struct) -> None:
     # Lights that the caller adds get a share of the studio, as those of the program's --light.
     studio = "under_lights" if scene._own_lights else "for_dark"
     if options.get("ambient") is not None:
-        struct.own_ambient, struct.ambient_color = 1, (ctypes.c_float * 3)(*color(options["ambient"], "ambient", 3))
+        struct.own_ambient, struct.ambient_color = 1, (ctypes.c_float * 3)(*color(options["ambient"], "ambient", 3, least=0.0))
         studio = "never"
     given = options.get("studio")
     if isinstance(given, str):
@@ -136,10 +136,10 @@ def light_of(scene, options: dict, struct) -> None:
 
 def camera_of(scene, given) -> Camera:
     """The camera that a caller names, in the file's world."""
-    if isinstance(given, Camera):
-        return given
     if not isinstance(given, (str, int, np.integer)):
-        return Camera(given)
+        camera = given if isinstance(given, Camera) else Camera(given)
+        camera._check()
+        return camera
     cameras, name = scene.cameras, str(given)
     for camera in cameras:
         if camera.name == name:

@@ -1,0 +1,131 @@
+"""Camera, light and exposure that are chosen: when they are chosen anew, and what keywords say of them."""
+import unittest
+import unittest.mock
+
+import numpy as np
+
+import halflit
+from halflit import _c
+from support import CAMERA, CORNERS, FACES, TURN, box, program_hash
+
+
+def cube():
+    scene = halflit.Scene()
+    scene.add_mesh(CORNERS, FACES)
+    return scene
+
+
+def moved(*offset):
+    matrix = np.eye(4)
+    matrix[:3, 3] = offset
+    return matrix
+
+
+class Kept(unittest.TestCase):
+    def test_a_light_that_is_refused_changes_no_pixel(self):
+        scene = cube()
+        first = scene.render(64)
+        for wrong in (lambda: scene.set_light(99, halflit.Light()), lambda: scene.set_light(0, halflit.Light()),
+                      lambda: scene.add_light("point", range=-1), lambda: scene.set_ambient((float("nan"), 0, 0)),
+                      lambda: scene.set_environment("/nowhere.hdr")):  # fmt: skip
+            with self.assertRaises(halflit.Error):
+                wrong()
+            self.assertEqual(scene.render(64).pixel_hash, first.pixel_hash)
+        self.assertEqual(scene.counts["lights"], 0)  # those of the studio are not the caller's
+
+    def test_an_old_setup_is_not_taken_for_the_scene_as_it_is(self):
+        scene, fresh = cube(), cube()
+        old = scene.setup(64)
+        for made in (scene, fresh):
+            made.set_instance(0, moved(3, 2, 0) @ np.diag((2, 1, 1, 1)))
+        scene.render(32, azimuth=90)
+        scene.render(setup=old)
+        self.assertEqual(scene.render(64).pixel_hash, fresh.render(64).pixel_hash)
+        scene.render(setup=old)
+        self.assertEqual(scene.render(64).pixel_hash, fresh.render(64).pixel_hash)
+
+    def test_the_light_of_a_setup_is_that_of_its_camera(self):
+        # The studio is turned with the viewer, so it must not be chosen for a view of the scene as it has become.
+        scene = halflit.Scene.load(box(more=TURN), keep_animations=True)
+        setup = scene.setup((80, 60))
+        scene.set_instance(0, moved(0.7, 0, 0))
+        first = scene.render(setup=setup)
+        scene.render(30, azimuth=90)  # another light in between
+        self.assertEqual(scene.render(setup=setup).pixel_hash, first.pixel_hash)
+        lamp = halflit.Light(direction=(0, -1, 0))
+        index = scene.add_light(lamp)  # so that the studio's share is chosen
+        setup, first = scene.setup(64), None
+        for _ in range(2):
+            scene.set_light(index, lamp)  # takes back the setup's light
+            drawn = scene.render(setup=setup)
+            first = first or drawn.pixel_hash
+            self.assertEqual(drawn.pixel_hash, first)
+
+    def test_frames_of_a_scene_that_stays_choose_once(self):
+        nodes = {"nodes": [{"mesh": 0}, {"camera": 0, "translation": [0.2, 0.3, 5]}], **CAMERA}
+        scene, called = halflit.Scene.load(box(more=nodes)), []
+        call = _c.call
+        with unittest.mock.patch.object(_c, "call", lambda name, *more: called.append(name) or call(name, *more)):
+            shapes = {scene.render(camera=0).shape for _ in range(3)}
+            self.assertEqual(shapes, {(720, 1080, 4)})
+            self.assertEqual(called.count("setup"), 2)  # for the usual size, whose camera tells the shape
+            scene.set_instance(0, moved(0, 0.1, 0))
+            scene.render(64)
+            scene.render(64)
+            self.assertEqual(called.count("setup"), 3)
+
+
+class Keywords(unittest.TestCase):
+    def test_exposure_in_stops(self):
+        expected = cube().render(64, exposure=2)
+        self.assertEqual(cube().render(64, ev=1).pixel_hash, expected.pixel_hash)
+        scene = cube()
+        self.assertEqual(scene.render(setup=scene.setup(64), ev=1).pixel_hash, scene.render(setup=scene.setup(64), exposure=2).pixel_hash)
+        self.assertEqual(scene.setup(64, ev=-1).exposure, 0.5)
+        self.assertEqual(halflit.render("demo", (80, 60), ev=0.7).pixel_hash, program_hash("demo", "--size", "80x60", "--exposure", "0.7"))
+        for keywords, words in (({"ev": 1, "exposure": 2}, "ev: cannot be combined"), ({"ev": float("nan")}, "ev: expected -64 to 64"),
+                                ({"ev": "1"}, "ev: expected a number"), ({"exposure": 0}, "exposure: expected a factor above 0")):  # fmt: skip
+            with self.assertRaisesRegex(halflit.UsageError, words):
+                scene.render(8, **keywords)
+
+    def test_what_a_setup_does_not_keep_is_refused(self):
+        scene = cube()
+        for name, value in (("samples", 16), ("background", "#f00"), ("setup", None), ("dtype", np.float32)):
+            with self.assertRaisesRegex(TypeError, rf"setup\(\) has no keyword '{name}'"):
+                scene.setup(8, **{name: value})
+        setup = scene.setup(8)
+        for name, value in (("azimuth", 90), ("studio", "never"), ("ambient", (1, 1, 1)), ("camera", "frame"), ("studio_turn", 3)):
+            with self.assertRaisesRegex(halflit.UsageError, f"setup: cannot be combined with {name}"):
+                scene.render(setup=setup, **{name: value})
+        self.assertEqual(scene.render(setup=setup, samples=1, azimuth=None).shape, (8, 8, 4))
+        with self.assertRaisesRegex(halflit.UsageError, "setup: expected what Scene.setup"):
+            scene.render(setup=setup.camera)
+
+    def test_numbers_in_the_place_of_names(self):
+        scene = cube()
+        self.assertEqual(scene.render(32, studio=1).pixel_hash, scene.render(32, studio="always").pixel_hash)
+        self.assertEqual(scene.render(32, studio=2).pixel_hash, scene.render(32, studio="never").pixel_hash)
+        for studio, words in ((7, "studio"), ("neverr", "studio: expected one of for_dark"), (1.5, "studio: expected a whole number")):
+            with self.assertRaisesRegex(halflit.UsageError, words):
+                scene.render(8, studio=studio)
+
+    def test_a_closed_scene_says_so(self):
+        scene = cube()
+        setup = scene.setup(8)
+        scene.render(setup=setup)
+        scene.close()
+        for call in (lambda: scene.render(8), lambda: scene.render(setup=setup), lambda: scene.setup(8), lambda: scene.frame()):
+            with self.assertRaisesRegex(halflit.UsageError, "the scene is closed"):
+                call()
+
+    def test_keywords_of_files_are_refused_for_what_is_none(self):
+        for source in ((CORNERS, FACES), "demo", cube()):
+            for name, value in (("time", 3), ("animation", "x"), ("scene", 0), ("variant", "x"), ("load", {"typo": 1})):
+                with self.assertRaisesRegex(TypeError, f"render\\(\\) has no keyword {name} for"):
+                    halflit.render(source, 8, **{name: value})
+        with self.assertRaisesRegex(halflit.UsageError, "load: time is a keyword of render"):
+            halflit.render(box(), 8, load={"time": 1})
+
+
+if __name__ == "__main__":
+    unittest.main()
