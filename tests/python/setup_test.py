@@ -46,11 +46,14 @@ class Kept(unittest.TestCase):
 
     def test_the_light_of_a_setup_is_that_of_its_camera(self):
         # The studio is turned with the viewer, so it must not be chosen for a view of the scene as it has become.
-        scene = halflit.Scene.load(box(more=TURN), keep_animations=True)
+        around = {**TURN["animations"][0], "channels": [{"sampler": 0, "target": {"node": 1, "path": "rotation"}}]}
+        nodes = [{"mesh": 0}, {"children": [2]}, {"camera": 0, "translation": [0.2, 0.3, 5]}]
+        model = box(more={"nodes": nodes, "scenes": [{"nodes": [0, 1]}], "animations": [around], **CAMERA})
+        scene = halflit.Scene.load(model, keep_animations=True)
         setup = scene.setup((80, 60))
-        scene.set_instance(0, moved(0.7, 0, 0))
         first = scene.render(setup=setup)
-        scene.render(30, azimuth=90)  # another light in between
+        scene.pose(time=2)  # the file's camera has gone to another side
+        self.assertNotEqual(scene.render((80, 60)).pixel_hash, first.pixel_hash)
         self.assertEqual(scene.render(setup=setup).pixel_hash, first.pixel_hash)
         lamp = halflit.Light(direction=(0, -1, 0))
         index = scene.add_light(lamp)  # so that the studio's share is chosen

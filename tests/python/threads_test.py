@@ -20,7 +20,7 @@ def heavy(threads=1):
 
 class Threads(unittest.TestCase):
     def test_two_threads_draw_at_once(self):
-        # While one thread draws, another one runs Python code: the interpreter's lock is free. And two draw in less than the time of both.
+        # While two threads draw, a third one runs Python code: the interpreter's lock is free. Times are shown, and depend on the cores.
         alone = time.perf_counter()
         expected = heavy().pixel_hash
         alone = time.perf_counter() - alone

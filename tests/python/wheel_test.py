@@ -1,4 +1,4 @@
-"""A wheel is made, installed into an empty environment, and draws there with the libraries that it brought."""
+"""A wheel is made, installed into a new environment, and draws there with the system's numpy and the libraries that it brought."""
 import importlib.util
 import os
 import re
@@ -50,7 +50,7 @@ class Wheel(unittest.TestCase):
             raise AssertionError(f"{command}: {done.stdout.decode()}{done.stderr.decode()}")
         return done.stdout.decode()
 
-    def test_it_draws_in_an_empty_environment(self):
+    def test_it_draws_in_a_new_environment(self):
         place = os.path.join(self.folder.name, "venv")
         self.run_in(sys.executable, "-m", "venv", "--system-site-packages", place)  # numpy is the system's
         python = os.path.join(place, "bin", "python")
