@@ -116,6 +116,20 @@ class Worlds(unittest.TestCase):
         camera = halflit.Camera(moved(1e6 + 0.01, 0, 5 - 3e6))
         self.assertEqual(camera.copy().matrix[0, 3], 1e6 + 0.01)
 
+    def test_cameras_by_points_are_those_of_the_program(self):
+        eye, target = np.array((0.1, 0.7, 3.3)), np.array((0.05, 0.1, 0))
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        path = os.path.join(folder.name, "box.glb")
+        for node, start, size in (({}, (0, 0, 0), 1), (FAR, FAR["translation"], 1), (TINY, (0, 0, 0), 1e-5)):
+            with open(path, "wb") as file:
+                file.write(box(**node))
+            points = [(point * size + start).tolist() for point in (eye, target)]
+            words = [",".join(map(repr, point)) for point in points]
+            expected = program_hash(path, "--size", "100", "--camera-position", words[0], "--camera-target", words[1])
+            camera = halflit.Camera.look_at(*points, fov_y_rad=np.radians(35), near_z=0.1 * size)
+            self.assertEqual(halflit.render(path, 100, camera=camera).pixel_hash, expected, node)
+
     def test_lengths_of_settings(self):
         tiny = halflit.Scene.load(box(**TINY))
         self.assertAlmostEqual(tiny.render(8, shadow_fade=2e-5).settings["shadow_fade"], 2e-5, places=11)

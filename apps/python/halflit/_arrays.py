@@ -10,12 +10,20 @@ from ._errors import UsageError, warn
 from ._values import shown
 
 
-def numbers(value, kind, name: str) -> np.ndarray:
-    """The array, of numbers of this kind, without gaps."""
-    array = np.asarray(value)
+def array_of(value, name: str) -> np.ndarray:
+    """An array of numbers."""
+    try:
+        array = np.asarray(value)
+    except (TypeError, ValueError):  # rows of different lengths
+        array = np.empty(0, object)
     if array.dtype.kind not in "fiub":
-        raise UsageError(f"{name}: expected an array of numbers, found {array.dtype} of {shown(value)}")
-    return np.ascontiguousarray(array, dtype=kind)
+        raise UsageError(f"{name}: expected an array of numbers, found {shown(value)}")
+    return array
+
+
+def numbers(value, kind, name: str) -> np.ndarray:
+    """An array of numbers of this kind, without gaps."""
+    return np.ascontiguousarray(array_of(value, name), dtype=kind)
 
 
 def floats(value, columns: int, name: str, count: Optional[int] = None) -> np.ndarray:
@@ -44,7 +52,7 @@ def positions(value, count: Optional[int] = None) -> np.ndarray:
 
 def colors(value, count: int) -> np.ndarray:
     """Vertex colours: float32 of shape (n, 4), linear. Bytes are sRGB codes; alpha may be left out. Codes of another type are refused."""
-    array = np.asarray(value)
+    array = array_of(value, "colors")
     if array.ndim != 2 or array.shape[1] not in (3, 4):
         raise UsageError(f"colors: expected an array of shape (n, 3) or (n, 4), found {array.shape}")
     if array.dtype == np.uint8:
@@ -64,7 +72,7 @@ def colors(value, count: int) -> np.ndarray:
 
 def indices(value, columns: int, count: int) -> np.ndarray:
     """uint32, `columns` vertex numbers for each primitive, all below count. int32 without negative numbers has the same bytes."""
-    array = np.asarray(value)
+    array = array_of(value, "faces")
     if not array.size:
         return np.zeros((0, columns), np.uint32)
     if array.dtype.kind not in "iu":
@@ -120,7 +128,7 @@ def rgba8(value) -> np.ndarray:
     """A texture's pixels: uint8 (height, width, 4), whose pixels have no gaps; rows may have. Grey and RGB are filled up."""
     if hasattr(value, "convert") and hasattr(value, "getbands"):  # a picture of PIL
         value = value.convert("RGBA")
-    array = np.asarray(value)
+    array = array_of(value, "texture")
     if array.dtype != np.uint8:
         raise UsageError(f"texture: expected uint8, found {array.dtype}")
     if array.ndim == 2:

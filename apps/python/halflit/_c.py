@@ -13,7 +13,7 @@ from typing import Any
 
 from ._declarations import CONSTANTS, FUNCTIONS, STRUCTS
 from ._errors import UsageError, made
-from ._values import real, whole
+from ._values import real, shown, whole
 
 VERSION = "0.1.0"  #: of the package, and of the library that it needs
 
@@ -199,11 +199,13 @@ def text_of(value) -> str:
     return (value or b"").decode("utf-8", "replace")
 
 
-def bytes_of(value) -> bytes | None:
+def bytes_of(value, name: str) -> bytes | None:
     """A text, or a path, as the library takes it."""
     if value is None:
         return None
+    if not isinstance(value, (str, bytes, os.PathLike)):
+        raise UsageError(f"{name}: expected a text or a path, found {shown(value)}")
     text = os.fsencode(value)
     if b"\0" in text:  # C would read up to it
-        raise UsageError(f"expected a text or a path without NUL, found {value!r}")
+        raise UsageError(f"{name}: expected a text or a path without NUL, found {value!r}")
     return text

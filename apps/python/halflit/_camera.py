@@ -111,9 +111,9 @@ class Camera(Record):
         The projection may be perspective, with or without a far plane, or orthographic; its axis must go through the middle of the
         picture.
         """
-        from ._arrays import matrix
+        from ._arrays import matrix, numbers
 
-        p = np.asarray(projection, dtype=np.float64)
+        p = numbers(projection, np.float64, "projection")
         if p.shape != (4, 4):
             raise UsageError(f"projection: expected an array of shape (4, 4), found {p.shape}")
         try:

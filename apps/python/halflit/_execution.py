@@ -83,8 +83,11 @@ class Execution:
             if options.get(name) is not None:
                 struct.put(member, options[name], name)
         if options.get("isa") is not None:
-            struct.isa = _c.bytes_of(options["isa"])
+            struct.isa = _c.bytes_of(options["isa"], "isa")
         progress, cancelled = options.get("progress"), options.get("cancelled")
+        for name in ("progress", "cancelled"):
+            if options.get(name) is not None and not callable(options[name]):
+                raise UsageError(f"{name}: expected a function, found {options[name]!r}")
         self.has_callbacks = progress is not None or cancelled is not None
         if self.has_callbacks:
             struct.progress = _c.Progress(lambda _, share: self._guarded(progress, share) and None)

@@ -54,9 +54,11 @@ class Lighting(SceneBase):
         if isinstance(image, str) and image == "sky":
             self._relight("scene_set_sky", ctypes.byref(how))
         elif isinstance(image, (str, os.PathLike)):
-            self._relight("scene_load_environment", _c.bytes_of(image), ctypes.byref(how))
+            self._relight("scene_load_environment", _c.bytes_of(image, "environment"), ctypes.byref(how))
         else:
-            array = np.asarray(image)
+            from ._arrays import array_of
+
+            array = array_of(image, "environment")
             if array.ndim != 3 or array.shape[2] != 3 or array.dtype.kind != "f":
                 raise UsageError(
                     "environment: expected an array of shape (height, width, 3), floats of linear light,"

@@ -37,7 +37,7 @@ class Lobe(Record):
     def named(cls, name: str, wrap: float = 0.5) -> Lobe:
         """A lobe of the literature. wrap: 0 to 1, for those that take one."""
         lobe = cls()
-        _c.call("lobe_by_name", _c.bytes_of(name), wrap, ctypes.byref(lobe._c))
+        _c.call("lobe_by_name", _c.bytes_of(name, "lobe"), wrap, ctypes.byref(lobe._c))
         return lobe
 
     @classmethod

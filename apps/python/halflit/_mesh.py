@@ -16,10 +16,10 @@ class MeshArrays:
     """What add_mesh() and set_mesh() are given. Everything is checked here, so that a mesh that is refused leaves nothing in the scene."""
 
     def __init__(self, name: Optional[str], topology: str, vertices, faces, normals, **attributes: Any):
-        if topology not in CORNERS:
+        if not isinstance(topology, str) or topology not in CORNERS:
             raise UsageError(f"topology: expected one of {', '.join(CORNERS)}, found {topology!r}")
         self.topology = topology
-        self.name = _c.bytes_of(name)
+        self.name = _c.bytes_of(name, "name")
         positions = _arrays.positions(vertices)
         self.count = len(positions)
         self.corners = None if faces is None else _arrays.indices(faces, CORNERS[topology], self.count)

@@ -44,7 +44,8 @@ class Picture(np.ndarray):
 
         In 8-bit files floats become sRGB codes; light above 1 is cut off.
         """
-        is_linear = os.path.splitext(os.fsdecode(path))[1].lower() in _LINEAR
+        text = _c.bytes_of(path, "path")
+        is_linear = os.path.splitext(os.fsdecode(text or b""))[1].lower() in _LINEAR
         if is_linear and self.dtype != np.float32:
             raise UsageError(f"{os.fsdecode(path)}: expected a picture of float32, as by render(dtype=numpy.float32), found {self.dtype}")
         pixels = self._straight("save")
@@ -57,7 +58,7 @@ class Picture(np.ndarray):
         target = _c.make("target")
         target.pixels, target.width, target.height = pixels.ctypes.data, pixels.shape[1], pixels.shape[0]
         target.format = _c.CONSTANTS["HALFLIT_FORMAT_RGBA_F32" if is_linear else "HALFLIT_FORMAT_RGBA8"]
-        _c.call("write_image", _c.bytes_of(path), ctypes.byref(target))
+        _c.call("write_image", text, ctypes.byref(target))
 
     def to_png(self) -> bytes:
         """The picture as the bytes of a PNG. Floats become sRGB codes; light above 1 is cut off."""

@@ -103,7 +103,7 @@ class Record:
         if issubclass(field, ctypes.Structure):
             return self._nested[field.__name__]._from(value, name)._c
         if name == "name":
-            return _c.bytes_of(value)
+            return _c.bytes_of(value, name)
         return self._checked(_c.converted(field, value, name), name)
 
     def _checked(self, number, name: str):

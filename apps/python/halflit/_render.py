@@ -10,7 +10,7 @@ from ._light import Light
 from ._picture_options import PictureOptions
 from ._scene import Scene
 from ._types import Size, Unpack
-from ._values import truth
+from ._values import real, shown, truth
 
 
 def render(
@@ -41,14 +41,14 @@ def render(
     Further keywords are those of Scene.render(): camera, azimuth, elevation, zoom, samples, background, exposure, aovs, max_error,
     threads and so on (halflit.PictureOptions).
     """
-    of_file = {"animation": animation, "time": time or None, "scene": scene, "variant": variant, "load": load}
+    of_file = {"animation": animation, "time": real(time, "time") or None, "scene": scene, "variant": variant, "load": load}
     scene_lights, ground = truth(scene_lights, "scene_lights"), truth(ground, "ground")
     if isinstance(source, Scene):
         others = {"environment": environment, "environment_rotate": environment_rotate or None, "lights": lights or None}
         others.update(ground=ground or None, scene_lights=None if scene_lights else False)
         refuse({**of_file, **others}, "a Scene: the Scene has methods for it")
         return source.render(size, **options)
-    lights = list(lights)
+    lights = [lights] if isinstance(lights, (Light, dict)) else list(lights)
     with scene_of(source, of_file) as drawn:
         if not scene_lights:
             drawn.clear_lights()
@@ -78,7 +78,10 @@ def scene_of(source: Any, of_file: Dict[str, Any]) -> Scene:
     from ._trimesh import is_trimesh
 
     if not (isinstance(source, str) and source == "demo") and isinstance(source, (str, os.PathLike, bytes, bytearray, memoryview)):
-        more = dict(of_file.pop("load") or {})
+        more = of_file.pop("load")
+        if more is not None and not isinstance(more, dict):
+            raise UsageError(f"load: expected a dict of keywords of Scene.load(), found {shown(more)}")
+        more = more or {}
         twice = [name for name in of_file if name in more]
         if twice:
             raise UsageError(f"load: {twice[0]} is a keyword of render()")

@@ -68,7 +68,7 @@ class Scene(Geometry, Lighting):
         how = _c.make("load_options")
         folders = options.pop("allow_external", ())
         listed = [folders] if isinstance(folders, (str, bytes, os.PathLike)) else folders  # a text is not a list of letters
-        names = [_c.bytes_of(folder) for folder in listed]
+        names = [_c.bytes_of(folder, "allow_external") for folder in listed]
         if names:
             how.allow_external = ctypes.cast((ctypes.c_char_p * len(names))(*names), ctypes.c_void_p)
             how.allow_external_count = len(names)
@@ -79,12 +79,12 @@ class Scene(Geometry, Lighting):
         how.put("time_s", time, "time")
         how.keep_animations, how.recentre = truth(keep_animations, "keep_animations"), truth(recentre, "recentre")
         for name, text in (("animation", animation), ("scene", scene), ("variant", variant)):
-            setattr(how, name, None if text is None else _c.bytes_of(str(text)))
+            setattr(how, name, None if text is None else _c.bytes_of(str(text), name))
         if isinstance(source, (bytes, bytearray, memoryview)):
             data = bytes(source)
-            handle = _c.Handle("scene_load_memory", "scene_destroy", data, len(data), b"bytes", _c.bytes_of(base_dir), ctypes.byref(how))
+            handle = _c.Handle("scene_load_memory", "scene_destroy", data, len(data), b"bytes", _c.bytes_of(base_dir, "base_dir"), ctypes.byref(how))
         else:
-            handle = _c.Handle("scene_load", "scene_destroy", _c.bytes_of(source), ctypes.byref(how))
+            handle = _c.Handle("scene_load", "scene_destroy", _c.bytes_of(source, "source"), ctypes.byref(how))
         made = cls._of(handle)
         origin, scale = (ctypes.c_double * 3)(), ctypes.c_double()
         made._call("scene_get_placement", origin, ctypes.byref(scale))
@@ -129,7 +129,7 @@ class Scene(Geometry, Lighting):
 
     def pose(self, animation: Union[str, int, None] = None, time: float = 0.0) -> None:
         """Poses a scene, loaded with keep_animations=True, by an animation (name, index, "none"; the first) at a time in seconds."""
-        self._change("scene_pose", None if animation is None else _c.bytes_of(str(animation)), real(time, "time"))
+        self._change("scene_pose", None if animation is None else _c.bytes_of(str(animation), "animation"), real(time, "time"))
 
     @property
     def bounds(self) -> Optional[np.ndarray]:

@@ -7,7 +7,7 @@ import numpy as np
 
 from . import _c
 from ._errors import UsageError
-from ._options import PLANES
+from ._options import AOVS, PLANES
 from ._picture import Picture
 from ._values import shown, sized, truth
 
@@ -19,7 +19,7 @@ class Target:
         self.struct = _c.make("target")
         self.struct.width, self.struct.height = size
         width, height = region_of(size, options, settings, self.struct)
-        premultiplied = truth(options.get("premultiplied") or False, "premultiplied")
+        premultiplied = options.get("premultiplied") is not None and truth(options["premultiplied"], "premultiplied")
         pixels = pixels_of((height, width, 4), options)
         format_name = "RGBA_F32" if pixels.dtype == np.float32 else "RGBA8"
         self.struct.format = _c.CONSTANTS[f"HALFLIT_FORMAT_{format_name}{'_PREMULTIPLIED' if premultiplied else ''}"]
@@ -52,9 +52,13 @@ def pixels_of(shape: tuple, options: dict) -> np.ndarray:
     asked, out = options.get("dtype"), options.get("out")
     if out is not None and not isinstance(out, np.ndarray):
         raise UsageError(f"out: expected an array, found {shown(out)}")
-    dtype = np.dtype((np.uint8 if asked is None else asked) if out is None else out.dtype)
-    if dtype not in (np.uint8, np.float32) or (asked is not None and np.dtype(asked) != dtype):
-        raise UsageError(f"dtype: expected uint8 or float32, and that of `out`, found {dtype}")
+    try:
+        wanted = None if asked is None else np.dtype(asked)
+    except (TypeError, ValueError):
+        raise UsageError(f"dtype: expected uint8 or float32, found {shown(asked)}") from None
+    dtype = out.dtype if out is not None else wanted or np.dtype(np.uint8)
+    if dtype not in (np.uint8, np.float32) or wanted not in (None, dtype):
+        raise UsageError(f"dtype: expected uint8 or float32, and that of `out`, found {dtype if wanted is None else wanted}")
     if out is None:
         return np.empty(shape, dtype)
     if out.shape != shape:
@@ -68,10 +72,14 @@ def pixels_of(shape: tuple, options: dict) -> np.ndarray:
 
 def planes_of(shape: tuple, options: dict) -> Dict[str, np.ndarray]:
     """New arrays for the planes that are asked for."""
-    asked = options.get("aovs") or ()
+    asked = options.get("aovs")
+    if asked is None:
+        return {}
     planes = {}
-    for name in PLANES if isinstance(asked, str) and asked == "all" else (asked,) if isinstance(asked, str) else asked:
-        if name not in PLANES:
+    if isinstance(asked, str):
+        asked = AOVS if asked == "all" else (asked,)
+    for name in asked if hasattr(asked, "__iter__") else (asked,):
+        if not isinstance(name, str) or name not in PLANES:
             raise UsageError(f"aovs: expected names of {', '.join(PLANES)}, found {shown(name)}")
         _, channels, kind = PLANES[name]
         planes[name] = np.empty(shape if channels == 1 else (*shape, channels), kind)
