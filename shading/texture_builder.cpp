@@ -9,10 +9,6 @@
 #include <array>
 #include <string>
 
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
-
 namespace halflit {
 namespace {
 
@@ -60,20 +56,6 @@ Result<void> check_size(int width, int height, std::size_t channel_values) {
     return {};
 }
 
-/// Large textures are placed so that the system can back them by huge pages, where it does so on request: a page fault for each 4 kB takes
-/// a tenth of the time to load a picture.
-constexpr std::size_t kHugePage = std::size_t{2} << 20;
-
-TexelMemory allocate_texels(std::size_t count) {
-    const std::size_t bytes = count * sizeof(std::uint16_t);
-    const std::align_val_t alignment{bytes >= 2 * kHugePage ? kHugePage : 64};
-    TexelMemory memory(static_cast<std::uint16_t*>(::operator new(bytes, alignment)), FreeTexels{alignment});
-#ifdef __linux__
-    if (bytes >= 2 * kHugePage) madvise(memory.get(), bytes / kHugePage * kHugePage, MADV_HUGEPAGE);
-#endif
-    return memory;
-}
-
 }  // namespace
 
 TextureBuilder::TextureBuilder() = default;
@@ -90,7 +72,7 @@ Result<TextureBuilder> TextureBuilder::make(int width, int height, MipRule rule)
         const TextureLevel& last = texture.levels_.back();
         const auto values = std::size_t{4} * static_cast<std::size_t>(last.offset + last.width * last.height);
         texture.texels_ = std::make_shared<Texture::Texels>();
-        texture.texels_->memory = allocate_texels(values);
+        texture.texels_->memory = shading::make_large_block<std::uint16_t>(values);
         texture.data_ = {texture.texels_->memory.get(), values};
         builder.rows_.assign(texture.levels_.size(), 0);
         texture.rule_ = rule;

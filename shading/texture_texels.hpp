@@ -2,12 +2,11 @@
 #pragma once
 
 #include "halflit/texture.hpp"
+#include "shading/large_block.hpp"
 
 #include <atomic>
 #include <cstdint>
-#include <memory>
 #include <mutex>
-#include <new>
 #include <type_traits>
 
 namespace halflit {
@@ -53,14 +52,8 @@ void reduce_row(const TexelAt& texel_at, const TextureLevel& large, Value* to, c
     }
 }
 
-struct FreeTexels {
-    std::align_val_t alignment;
-    void operator()(std::uint16_t* texels) const { ::operator delete(texels, alignment); }
-};
-using TexelMemory = std::unique_ptr<std::uint16_t[], FreeTexels>;
-
 struct Texture::Texels {
-    TexelMemory memory;
+    shading::LargeBlock<std::uint16_t> memory;
     std::once_flag range_measured;
     TextureRange range{};
     std::atomic<float> storage_error{-1.0f};  ///< negative: not measured yet

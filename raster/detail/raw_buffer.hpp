@@ -2,10 +2,10 @@
 #pragma once
 
 #include "raster/detail/stop_signal.hpp"
+#include "shading/large_block.hpp"
 
 #include <algorithm>
 #include <cstddef>
-#include <memory>
 
 namespace halflit::raster {
 
@@ -17,7 +17,7 @@ public:
         if (count > capacity_) {
             data_.reset();
             capacity_ = 0;  // also if the allocation throws
-            data_ = std::make_unique_for_overwrite<T[]>(count);
+            data_ = shading::make_large_block<T>(count);
             capacity_ = count;
         }
         return data_.get();
@@ -32,7 +32,7 @@ public:
     [[nodiscard]] std::size_t capacity() const { return capacity_; }
 
 private:
-    std::unique_ptr<T[]> data_;
+    shading::LargeBlock<T> data_;
     std::size_t capacity_ = 0;
     MemoryShare share_;
 };

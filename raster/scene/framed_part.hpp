@@ -2,7 +2,8 @@
 // far away from all others, are left out: what the scene is about would be some pixels in a wide plane. The rule depends on the geometry
 // alone:
 //
-// - Of a mesh, vertices outside of a box are left out if they have at most max(1, n / 1000) different positions of n, at least 8, or at most
+// - Of a mesh, vertices outside of a box are left out if they have at most max(1, n / 1000) different positions of n, at least 8, or at
+// most
 //   3 of n, at least 24, and the box's radius is below 1/16 of the mesh's.
 // - Instances are left out likewise, by the number of their vertices: at most max(3, n / 1000) of n, at least 24.
 // - A ground is left out if it is flat (its height at most a hundredth of its width), no higher than the middle of the rest, has fewer
