@@ -12,7 +12,8 @@ export function find_chromium() {
 }
 
 export class Page {
-  static async open(address, { width = 1280, height = 800, phone = false } = {}) {
+  // prelude: a script that runs before those of the page.
+  static async open(address, { width = 1280, height = 800, phone = false, prelude = "" } = {}) {
     const page = new Page();
     page.folder = mkdtempSync(join(tmpdir(), "halflit-chromium-"));
     page.process = spawn(find_chromium(), ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
@@ -28,6 +29,7 @@ export class Page {
     for (const domain of ["Page", "Runtime", "Network", "DOM", "Log"]) await page.send(`${domain}.enable`);
     await page.send("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: phone ? 2 : 1, mobile: phone });
     if (phone) await page.send("Emulation.setTouchEmulationEnabled", { enabled: true, maxTouchPoints: 2 });
+    if (prelude) await page.send("Page.addScriptToEvaluateOnNewDocument", { source: prelude });
     await page.send("Page.navigate", { url: address });
     return page;
   }
@@ -97,9 +99,14 @@ export class Page {
     await (touch ? finger("touchEnd", []) : mouse("mouseReleased", at(1)));
   }
 
+  // The wheel, one notch at a time; below 0 zooms in.
+  async wheel(point, notch, count) {
+    for (let i = 0; i < count; ++i) await this.send("Input.dispatchMouseEvent", { type: "mouseWheel", ...point, deltaX: 0, deltaY: notch });
+  }
+
   async close() {
-    this.process.kill();
+    this.send("Browser.close").catch(() => {});
     await this.exited;
-    rmSync(this.folder, { recursive: true, force: true, maxRetries: 5 });
+    rmSync(this.folder, { recursive: true, force: true, maxRetries: 50, retryDelay: 100 });  // its helpers end a little later
   }
 }

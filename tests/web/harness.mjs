@@ -1,0 +1,92 @@
+// What the tests of the page share: the program to compare with, models, and the page's state. Both tests are called as
+//   node TEST.mjs PROGRAM PAGE SOURCE_FOLDER WORK_FOLDER
+import { spawnSync } from "node:child_process";
+import { mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+import { find_chromium } from "./chromium.mjs";
+
+const [program, page_file, source, work] = process.argv.slice(2).map((path) => resolve(path));
+const kSkipped = 77;
+let failures = 0;
+export { program, source, work };
+export const address = pathToFileURL(page_file).href;
+
+export function check(fact, holds, found = "") {
+  if (!holds) ++failures;
+  console.log(`${holds ? "ok" : "FAILED"}: ${fact}${found === "" ? "" : `: ${found}`}`);
+}
+
+function skip_without(what, there) {
+  if (there) return;
+  console.log(`skipped: ${what}`);
+  process.exit(kSkipped);
+}
+
+export function run(words) {
+  const result = spawnSync(program, words, { cwd: work, encoding: "utf8", maxBuffer: 1 << 26 });
+  if (result.status !== 0) throw new Error(`halflit ${words.join(" ")}: ${result.stderr}`);
+  return result.stdout;
+}
+
+// Ends the test as skipped, or empties its folder. Returns the page's size.
+export function begin() {
+  skip_without("there is no Chromium", find_chromium());
+  const size = statSync(page_file, { throwIfNoEntry: false })?.size;
+  skip_without("the page was not built, as there is no Emscripten", size);
+  rmSync(work, { recursive: true, force: true });
+  mkdirSync(work, { recursive: true });
+  return size;
+}
+
+export function end() {
+  console.log(failures === 0 ? "all as expected" : `${failures} failed`);
+  process.exit(failures === 0 ? 0 : 1);
+}
+
+// The hash of the picture that the program draws by a command line without output.
+export const native_hash = (words) => JSON.parse(run([...words, "-o", "native.png", "--report", "-", "--quiet"])).pixel_hash;
+
+// A .gltf with its .bin: a square of two sides, 2 high, once for each material. `more` is added to the file.
+export function write_squares(name, { nodes, materials, ...more }) {
+  const floats = [], indices = [0, 1, 2, 0, 2, 3], positions = [[-1, 0, 0], [1, 0, 0], [1, 2, 0], [-1, 2, 0]], uvs = [[0, 1], [1, 1], [1, 0], [0, 0]];
+  positions.forEach((p) => floats.push(...p));
+  positions.forEach(() => floats.push(0, 0, 1));
+  uvs.forEach((uv) => floats.push(...uv));
+  const data = Buffer.concat([Buffer.from(new Float32Array(floats).buffer), Buffer.from(new Uint16Array(indices).buffer)]);
+  writeFileSync(join(work, `${name}.bin`), data);
+  const view = (byteOffset, byteLength) => ({ buffer: 0, byteOffset, byteLength });
+  const primitive = (material) => ({ attributes: { POSITION: 0, NORMAL: 1, TEXCOORD_0: 2 }, indices: 3, material });
+  writeFileSync(join(work, `${name}.gltf`), JSON.stringify({
+    asset: { version: "2.0" }, scene: 0, scenes: [{ nodes: nodes.map((_, i) => i) }], nodes,
+    meshes: materials.map((_, i) => ({ primitives: [primitive(i)] })), materials,
+    buffers: [{ uri: `${name}.bin`, byteLength: data.length }],
+    bufferViews: [view(0, 48), view(48, 48), view(96, 32), view(128, 12)],
+    accessors: [{ bufferView: 0, componentType: 5126, count: 4, type: "VEC3", min: [-1, 0, 0], max: [1, 2, 0] },
+      { bufferView: 1, componentType: 5126, count: 4, type: "VEC3" }, { bufferView: 2, componentType: 5126, count: 4, type: "VEC2" },
+      { bufferView: 3, componentType: 5123, count: 6, type: "SCALAR" }],
+    ...more,
+  }));
+}
+
+export const idle = "window.halflit && halflit.current().shown && halflit.current().idle";
+export const shown_hash = (page) => page.value("halflit.current().shown.report.hash");
+export const words_of = (command) => command.replace(/ -o .*/, "").match(/'[^']*'|\S+/g).slice(1).map((word) => word.replace(/^'|'$/g, ""));
+
+// Answers of an engine of its own, made in the page, for one task after the other: [kind, task].
+export async function answers_of(page, module, names, tasks) {
+  const files = names.map((name) => ({ name, base64: readFileSync(join(work, name)).toString("base64") }));
+  return page.value(`(async () => {
+    const engine = new halflit.Engine(${JSON.stringify(module)});
+    const files = ${JSON.stringify(files)}.map(({ name, base64 }) => ({ name, bytes: Uint8Array.from(atob(base64), (c) => c.charCodeAt(0)).buffer }));
+    await engine.started;
+    await engine.ask("files", { files });
+    const found = [];
+    for (const [kind, task] of ${JSON.stringify(tasks)}) {
+      const { pixels, ...answer } = await engine.ask(kind, task);
+      found.push(answer);
+    }
+    engine.stop();
+    return found;
+  })()`);
+}
