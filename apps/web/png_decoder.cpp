@@ -23,6 +23,8 @@ namespace {
 using Bytes = std::span<const std::byte>;
 
 constexpr std::size_t kHeaderEnd = 33;  // signature, and IHDR with its checksum
+constexpr const char* kOtherSize = "PNG: the size differs from the header's";
+constexpr unsigned kHeaderName = 0x49484452u;  // "IHDR"
 
 unsigned png_number(Bytes file, std::size_t at) {
     unsigned value = 0;
@@ -39,6 +41,8 @@ tl::unexpected<Error> png_fault() { return fail(ErrorCode::bad_input, fmt::forma
 
 Result<ImageHeader> read_png_header(Bytes file, const ImageLimits& limits) {
     if (file.size() < kHeaderEnd) return fail(ErrorCode::bad_input, "PNG: the file ends in its header");
+    // stb_image steps over a CgBI chunk, after which the numbers below would be of something else.
+    if (png_number(file, 12) != kHeaderName) return fail(ErrorCode::bad_input, "PNG: expected the chunk IHDR first");
     const unsigned width = png_number(file, 16), height = png_number(file, 20);
     if (const auto size = check_image_size(width, height, limits); !size) return tl::unexpected(size.error());
     return ImageHeader{ImageFormat::png, static_cast<int>(width), static_cast<int>(height), std::to_integer<int>(file[24]) == 16 ? 16 : 8};
@@ -52,14 +56,17 @@ Result<DecodedImage> decode_png(Bytes file, const ImageLimits& limits, bool keep
     const auto values = std::size_t{4} * static_cast<std::size_t>(header->width) * static_cast<std::size_t>(header->height);
     DecodedImage image{header->width, header->height, {}, {}};
     int width = 0, height = 0, channels = 0;
+    const auto as_in_header = [&] { return width == header->width && height == header->height; };
     if (header->bits != 16) {
         const Pixels<stbi_uc> pixels(stbi_load_from_memory(data, size, &width, &height, &channels, 4));
         if (!pixels) return png_fault();
+        if (!as_in_header()) return fail(ErrorCode::bad_input, kOtherSize);
         image.rgba8.assign(pixels.get(), pixels.get() + values);
         return image;
     }
     const Pixels<stbi_us> pixels(stbi_load_16_from_memory(data, size, &width, &height, &channels, 4));
     if (!pixels) return png_fault();
+    if (!as_in_header()) return fail(ErrorCode::bad_input, kOtherSize);
     image.rgba16.assign(pixels.get(), pixels.get() + values);
     if (keep_16_bits) return image;
     image.rgba8.reserve(values);
