@@ -24,6 +24,8 @@ constexpr std::string_view kSettingsFlags[] = {"--camera",
                                                "--normalize",
                                                "--specular",
                                                "--samples",
+                                               "--point-size",
+                                               "--line-width",
                                                "--shading",
                                                "--shadows",
                                                "--sky-shadows",
@@ -37,9 +39,11 @@ constexpr std::string_view kSettingsFlags[] = {"--camera",
                                                "--shadow-terminator",
                                                "--texture-filter",
                                                "--anisotropy"};
-/// Flags that change how it is lit. All others change what is loaded.
-constexpr std::string_view kLightFlags[] = {"--light",   "--no-scene-lights", "--ambient",   "--env",      "--env-rotate",
-                                            "--env-sun", "--sun-size",        "--lamp-size", "--exposure", "--background"};
+/// Flags that change how it is lit, or the picture's size, by which the maps of its shadows are chosen. For all others the scene is loaded
+/// anew.
+constexpr std::string_view kLightFlags[] = {"--light",      "--no-scene-lights", "--ambient",  "--env",
+                                            "--env-rotate", "--env-sun",         "--sun-size", "--lamp-size",
+                                            "--exposure",   "--background",      "--size",     "--shadow-size"};
 
 bool is_one_of(std::string_view flag, std::span<const std::string_view> flags) {
     return std::find(flags.begin(), flags.end(), flag) != flags.end();

@@ -43,6 +43,11 @@ async function engines(page) {
   const draw = (scene, ...flags) => ["draw", { scene, flags }];
   const [odd] = await answers_of(page, "simd", ["odd.gltf", "odd.bin", "odd.png"], [draw("odd.gltf", "--size", "64x64")]);
   check("a PNG that does not begin with its header is refused", /PNG/.test(odd.error || ""), odd.error || "drawn");
+
+  const [loaded, resized, sized] = await answers_of(page, "simd", [], [draw("sphere:400000", "--size", "64x64", "--samples", "1"),
+    draw("sphere:400000", "--size", "80x60", "--samples", "1"), draw("sphere:400000", "--size", "80x60", "--samples", "1", "--shadow-size", "256")]);
+  check("another size of picture or shadow map does not load the scene anew", Math.max(resized.report.apply_ms, sized.report.apply_ms) < loaded.report.apply_ms / 4,
+    `${loaded.report.apply_ms} ms, then ${resized.report.apply_ms} and ${sized.report.apply_ms}`);
 }
 
 begin();
