@@ -22,6 +22,71 @@ async function with_page(options, hash, test) {
   }
 }
 
+// The library is unpacked when the test calls go().
+const kHeld = `{
+  const unpack = Response.prototype.arrayBuffer, gate = new Promise((resolve) => (window.go = resolve));
+  Response.prototype.arrayBuffer = async function () { await gate; return unpack.call(this); };
+}`;
+
+// Everything that a visitor can do before the library has started.
+async function haste(page) {
+  await page.until("window.halflit && window.go");
+  await page.value("(() => { const code = document.getElementById('module'); code.value = 'scalar'; code.dispatchEvent(new Event('change')); dispatchEvent(new Event('resize')); })()");
+  await page.choose_files("#files", ["square.gltf", "square.bin"].map((name) => join(work, name)));
+  await page.until("halflit.current().state.scene === 'square.gltf'");
+  await page.value("window.go()");
+  await page.until(idle);
+  check("haste: files that were opened before the library had started are drawn", (await text_of(page, "error")) === "", await text_of(page, "error"));
+  check("haste: so is the choice of the code", (await report_of(page)).isa === "scalar");
+  check("haste: the page has no error", page.faults.length === 0, page.faults.join(", "));
+}
+
+async function no_unpacking(page) {
+  await page.until("window.halflit && !document.getElementById('error').hidden");
+  check("no unpacking: the page says why it draws nothing", /DecompressionStream/.test(await text_of(page, "error")), await text_of(page, "error"));
+}
+
+async function failing_frame(page) {
+  await page.until(idle);
+  const set_samples = (count) => page.value(`(() => { const input = document.querySelector('[name="samples"]'); input.value = "${count}"; input.dispatchEvent(new Event("input", { bubbles: true })); })()`);
+  await page.value("(() => { const put = CanvasRenderingContext2D.prototype.putImageData; CanvasRenderingContext2D.prototype.putImageData = function () { CanvasRenderingContext2D.prototype.putImageData = put; throw new Error('no canvas'); }; })()");
+  await set_samples(1);
+  await page.until("!document.getElementById('error').hidden", 10);
+  check("failing frame: the page says so", /no canvas/.test(await text_of(page, "error")), await text_of(page, "error"));
+  await set_samples(8);
+  await page.until("document.getElementById('error').hidden && halflit.current().idle", 10);
+  check("failing frame: the next one is drawn", (await shown_hash(page)) === native_hash(["demo", "--size", "640x360", "--samples", "8"]));
+
+  await page.value("(() => { window.Made = window.Worker; window.Worker = class { constructor() { throw new Error('no worker'); } }; })()");
+  await page.value("document.getElementById('toggle_heat').click()");
+  await page.until("!document.getElementById('error').hidden", 10);
+  check("failing comparison: the page says so, and is ready", /no worker/.test(await text_of(page, "error")) && (await page.value(idle)), await text_of(page, "error"));
+  await page.value("window.Worker = window.Made");
+}
+
+// An engine that ends, as at the limit of its memory.
+const kEnding = `{
+  window.terminated = 0;
+  const { terminate, postMessage } = Worker.prototype;
+  Worker.prototype.terminate = function () { ++window.terminated; terminate.call(this); };
+  Worker.prototype.postMessage = function (task, ...more) {
+    if (!window.end_next || task.kind !== "draw") return postMessage.call(this, task, ...more);
+    window.end_next = false;
+    this.onmessage({ data: { id: task.id, error: "out of memory", ended: true } });
+  };
+}`;
+async function ending_engine(page) {
+  await page.until(idle);
+  await page.value("window.end_next = true");
+  await page.value("document.getElementById('reset').click()");
+  await page.until("!document.getElementById('error').hidden", 10);
+  check("ending engine: the page says so", (await text_of(page, "error")) === "out of memory");
+  check("ending engine: its worker is terminated", (await page.value("window.terminated")) === 1);
+  await page.value("document.getElementById('reset').click()");
+  await page.until("document.getElementById('error').hidden && halflit.current().idle", 20);
+  check("ending engine: another one draws the next picture", (await shown_hash(page)) === native_hash(["demo", "--size", "640x360"]));
+}
+
 // A chunk ahead of the header, as Apple's tools write it. Its data and checksum stand where a header has the size. stb_image checks none.
 function write_odd_png() {
   const chunk = (name, data, sum = 0) => {
@@ -52,7 +117,12 @@ async function engines(page) {
 
 begin();
 const matt = [{ doubleSided: true, pbrMetallicRoughness: { baseColorFactor: [0.7, 0.5, 0.3, 1], metallicFactor: 0 } }];
+write_squares("square", { nodes: [{ mesh: 0 }], materials: matt });
 write_squares("odd", { nodes: [{ mesh: 0 }], materials: [{ ...matt[0], pbrMetallicRoughness: { baseColorTexture: { index: 0 } } }], textures: [{ source: 0 }], images: [{ uri: "odd.png" }] });
 write_odd_png();
+await with_page({ prelude: kHeld }, "", haste);
+await with_page({ prelude: "delete window.DecompressionStream;" }, "", no_unpacking);
+await with_page({}, "", failing_frame);
+await with_page({ prelude: kEnding }, "", ending_engine);
 await with_page({}, "", engines);
 end();

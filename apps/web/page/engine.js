@@ -12,10 +12,11 @@ function module_bytes(name) {
   return wasm_of[name];
 }
 
+// Tasks are done in the order of ask(). An engine that ended is not used again.
 class Engine {
   // name: "simd" or "scalar".
   constructor(name) {
-    this.name = name;
+    this.ended = false;
     this.waiting = new Map();
     this.count = 0;
     const code = ["module_code", "worker_code"].map((id) => document.getElementById(id).textContent).join("\n");
@@ -24,20 +25,25 @@ class Engine {
     URL.revokeObjectURL(address);
     this.worker.onmessage = (event) => {
       const { id, ...answer } = event.data;
-      this.ended = this.ended || answer.ended;
       this.waiting.get(id)?.(answer);
       this.waiting.delete(id);
+      if (answer.ended) this.stop(answer);
     };
-    this.worker.onerror = (event) => {
-      this.ended = true;
-      for (const answer of this.waiting.values()) answer({ error: event.message || "the worker ended", ended: true });
-      this.waiting.clear();
-    };
-    this.started = module_bytes(name).then((wasm) => this.ask("start", { wasm }));
+    this.worker.onerror = (event) => this.stop({ error: event.message || "the worker ended", ended: true });
+    this.started = module_bytes(name).then((wasm) => this.send("start", { wasm })).catch((error) => {
+      this.stop({ error: `this browser cannot start the library: ${error.message}`, ended: true });
+      return this.last_answer;
+    });
   }
 
-  // Resolves with the worker's answer, which has `error` where it failed.
-  ask(kind, task = {}) {
+  // Resolves with the worker's answer, which has `error` where it failed, or `stopped` where stop() came first.
+  async ask(kind, task = {}) {
+    await this.started;
+    return this.send(kind, task);
+  }
+
+  send(kind, task) {
+    if (this.ended) return Promise.resolve(this.last_answer);
     return new Promise((resolve) => {
       const id = ++this.count;
       this.waiting.set(id, resolve);
@@ -45,10 +51,13 @@ class Engine {
     });
   }
 
-  stop() {
+  // Frees the worker's memory, which a browser keeps until then. `answer` is that of all tasks that are left.
+  stop(answer = { stopped: true }) {
+    if (this.ended) return;
     this.ended = true;
+    this.last_answer = answer;
     this.worker.terminate();
-    for (const answer of this.waiting.values()) answer({ stopped: true });
+    for (const resolve of this.waiting.values()) resolve(answer);
     this.waiting.clear();
   }
 }

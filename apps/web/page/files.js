@@ -26,3 +26,8 @@ async function read_files(list) {
   const named = (pattern) => files.map((file) => file.name).filter((name) => pattern.test(name)).sort((a, b) => a.split("/").length - b.split("/").length)[0];
   return { files, model: named(kModelName), sky: named(kSkyName) };
 }
+
+// The files, and those of `more`; a new file replaces one of the same name.
+function with_files(files, more) {
+  return [...files.filter((file) => !more.some((other) => other.name === file.name)), ...more];
+}

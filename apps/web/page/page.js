@@ -13,15 +13,19 @@ function fail_with(message) {
   $("error").hidden = !message;
 }
 
-async function new_engine(name) {
-  const made = new Engine(name);
-  const answer = await made.started;
-  if (answer.error) fail_with(answer.error);
-  if (files.length) await made.ask("files", { files });
+// An engine that has the files.
+function new_engine() {
+  const made = new Engine($("module").value);
+  if (files.length) made.ask("files", { files });
   return made;
 }
 
-// While a hand turns the view, pictures have one sample.
+function picture_engine() {
+  if (!engine || engine.ended) engine = new_engine();
+  return engine;
+}
+
+// While the view turns, pictures have one sample.
 function flags_now() {
   return flags_of(turning ? { ...state, samples: 1, budget: 0 } : state);
 }
@@ -32,9 +36,8 @@ function fit_command() {
 }
 
 async function draw_picture() {
-  if (!engine || engine.ended) engine = await new_engine($("module").value);
   const start = performance.now(), flags = flags_now(), scene = state.scene;
-  const answer = await engine.ask("draw", { scene, flags });
+  const answer = await picture_engine().ask("draw", { scene, flags });
   if (answer.stopped) return;
   if (answer.error) {
     const missing = !/^(demo|sphere:|lights:)/.test(scene) && !files.some((file) => file.name === scene);
@@ -83,25 +86,31 @@ async function show_lobes() {
   $("series_name").textContent = curves.length === 1 ? `${bands} bands, off by ${last.sup === null ? "over 1" : digits(last.sup, 2)}` : "series (choose a model)";
 }
 
-async function compare_picture() {
-  const key = [state.scene, ...flags_of(state)].join("\n");
-  if (!heat || heat_of === key) return;
-  heat_of = key;
-  comparer?.stop();  // a comparison that is no longer wanted
-  $("busy").textContent = "comparing with the reference";
-  $("busy").hidden = false;
-  const own = (comparer = new Engine($("module").value));
-  await own.started;
-  if (files.length) await own.ask("files", { files });
-  const answer = await own.ask("compare", { scene: state.scene, flags: flags_of(state) });
-  if (own !== comparer) return;
-  own.stop();
+function stop_comparing() {
+  comparer?.stop();
   comparer = null;
   $("busy").hidden = true;
-  if (answer.error) {
-    fail_with(answer.error);
-    return;
+}
+
+async function compare_picture() {
+  const task = { scene: state.scene, flags: flags_of(state) }, key = [task.scene, ...task.flags].join("\n");
+  if (!heat || heat_of === key) return;
+  heat_of = key;
+  stop_comparing();  // one that is no longer wanted
+  $("busy").hidden = false;
+  try {
+    const own = (comparer = new_engine()), answer = await own.ask("compare", task);
+    if (own !== comparer) return;
+    stop_comparing();
+    if (answer.error) fail_with(answer.error);
+    else show_heat(answer);
+  } catch (error) {
+    stop_comparing();
+    fail_with(`the page cannot compare: ${error.message}`);
   }
+}
+
+function show_heat(answer) {
   const canvas = $("heat"), { max, mean, p999 } = answer.report;
   Object.assign(canvas, { width: answer.width, height: answer.height });
   canvas.getContext("2d").putImageData(heat_picture(new Uint8Array(answer.pixels), answer.width, answer.height), 0, 0);
@@ -114,9 +123,7 @@ async function compare_picture() {
 function hide_heat() {
   $("heat").hidden = $("legend").hidden = true;
   heat_of = "";
-  comparer?.stop();
-  comparer = null;
-  $("busy").hidden = true;
+  stop_comparing();
 }
 
 // Draws until the last picture is that of the state.
@@ -126,7 +133,7 @@ async function draw_all() {
   drawing = true;
   while (waiting) {
     waiting = false;
-    await draw_picture();
+    await draw_picture().catch((error) => fail_with(`the page cannot draw: ${error.message}`));
   }
   drawing = false;
   if (!turning) compare_picture();
@@ -153,14 +160,15 @@ function change_light(i, key, value) {
   set_state({ ...state, lights: lights_text(lights) });
 }
 
+// list: [{name, file}], or a promise of it.
 async function take_files(list) {
-  const read = await read_files(list);
-  if (!read.model && !read.sky) {
-    fail_with("expected .glb, .gltf, .stl, .ply or .obj, or .hdr or .pfm as an environment");
+  const read = await Promise.resolve(list).then(read_files).catch((error) => ({ error }));
+  if (read.error || (!read.model && !read.sky)) {
+    fail_with(read.error ? `the browser cannot read the files: ${read.error.message}` : "expected .glb, .gltf, .stl, .ply or .obj, or .hdr or .pfm as an environment");
     return;
   }
-  files = read.model ? read.files : [...files, ...read.files];
-  await engine?.ask("files", { files });
+  files = read.model ? read.files : with_files(files, read.files);
+  engine?.ask("files", { files });
   const next = { ...state };
   if (read.model) Object.assign(next, { scene: read.model, view: "", time: 0 });
   if (read.sky) next.env = read.sky;
@@ -221,10 +229,10 @@ addEventListener("dragover", (event) => {
 addEventListener("dragleave", (event) => {
   if (!event.relatedTarget) $("drop").hidden = true;
 });
-addEventListener("drop", async (event) => {
+addEventListener("drop", (event) => {
   event.preventDefault();
   $("drop").hidden = true;
-  take_files(await dropped_files(event.dataTransfer));
+  take_files(dropped_files(event.dataTransfer));
 });
 addEventListener("resize", () => {
   fit_command();

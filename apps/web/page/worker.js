@@ -4,8 +4,15 @@
 let core = null;  // the module
 let queue = Promise.resolve();
 
+// Memory of the module, for the caller to free. Where something is thrown, the worker ends, and all of its memory with it.
+function allocate(size) {
+  const place = core._halflit_allocate(size || 1);
+  if (!place) throw new Error("out of memory");
+  return place;
+}
+
 function on_heap(bytes) {
-  const place = core._halflit_allocate(bytes.length);
+  const place = allocate(bytes.length);
   core.HEAPU8.set(bytes, place);
   return place;
 }
@@ -13,7 +20,7 @@ function on_heap(bytes) {
 function with_texts(texts, call) {
   const places = texts.map((text) => {
     const size = core.lengthBytesUTF8(text) + 1;
-    const place = core._halflit_allocate(size);
+    const place = allocate(size);
     core.stringToUTF8(text, place, size);
     return place;
   });
@@ -28,6 +35,10 @@ function plain_jpeg(bytes) {
   const parts = [bytes.subarray(0, 2)];
   let at = 2;
   while (at + 4 <= bytes.length && bytes[at] === 0xff && bytes[at + 1] !== 0xda) {
+    if (bytes[at + 1] === 0xff) {  // a fill byte before a marker
+      ++at;
+      continue;
+    }
     const end = at + 2 + ((bytes[at + 2] << 8) | bytes[at + 3]);
     if (bytes[at + 1] !== 0xe1 && bytes[at + 1] !== 0xe2) parts.push(bytes.subarray(at, end));
     at = end;
@@ -38,10 +49,11 @@ function plain_jpeg(bytes) {
 
 async function decoded(bytes) {
   const options = { premultiplyAlpha: "none", colorSpaceConversion: "none" };
-  const bitmap = await createImageBitmap(new Blob([plain_jpeg(bytes)]), options);
-  const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d", { willReadFrequently: true });
+  const bitmap = await createImageBitmap(new Blob([plain_jpeg(bytes)]), options), { width, height } = bitmap;
+  const context = new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true });
   context.drawImage(bitmap, 0, 0);
-  return context.getImageData(0, 0, bitmap.width, bitmap.height);
+  bitmap.close();
+  return context.getImageData(0, 0, width, height);
 }
 
 // Has the browser decode what the last attempt lacked. False: it lacked nothing.
@@ -102,8 +114,8 @@ onmessage = (event) => {
     let answer;
     try {
       answer = await tasks[task.kind](task);
-    } catch (error) {  // the module ended, for example because memory did
-      answer = { error: String(error.message || error), ended: true };
+    } catch (error) {  // the module ended; C++ throws numbers here, and only where memory ends
+      answer = { error: typeof error === "number" ? "out of memory" : String(error.message || error), ended: true };
     }
     postMessage({ ...answer, id: task.id }, answer.pixels ? [answer.pixels] : []);
   });

@@ -1,0 +1,138 @@
+// The page's scripts in Node.js, without a browser and without the module: node scripts_test.mjs PAGE_FOLDER
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { createContext, runInContext } from "node:vm";
+
+const folder = process.argv[2];
+let failures = 0;
+
+// holds: a function, so that an exception is a failure of this fact alone.
+function check(fact, holds) {
+  let found = "", ok = false;
+  try {
+    ok = holds() === true;
+  } catch (error) {
+    found = `: ${error.message}`;
+  }
+  if (!ok) ++failures;
+  console.log(`${ok ? "ok" : "FAILED"}: ${fact}${found}`);
+}
+
+const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
+const near = (a, b, most) => Math.abs(a - b) <= most;
+const away = (view) => Math.hypot(...view.position.map((x, i) => x - view.target[i]));
+
+// The lobes of the literature: their power is power + power_per_wrap * wrap.
+const lobe = (name, takes_wrap, wrap, power, power_per_wrap, normalize) => ({ name, takes_wrap, wrap, power, power_per_wrap, normalize });
+const kLibrary = {
+  usual_wrap: 0.5,
+  lobes: [lobe("lambert", false, 0, 1, 0, false), lobe("green", true, 0, 1, 0, false), lobe("half-lambert", false, 1, 1, 0, false),
+    lobe("valve", false, 1, 2, 0, false), lobe("sloan", true, 0, 1, 1, false), lobe("mcauley", true, 0, 1, 1, true)],
+  specular: ["none", "phong", "blinn", "ggx"], shadows: ["off", "hard", "soft-split"], tonemap: ["none", "reinhard", "aces", "neutral"],
+};
+
+// What the scripts define, by name. A script's constants are not members of its global object.
+function load(scripts, globals, names) {
+  const context = createContext({ console, URLSearchParams, Blob, Uint8Array, setTimeout, ...globals });
+  const text = scripts.map((name) => readFileSync(join(folder, name), "utf8")).join("\n");
+  return runInContext(`${text}\n;({ ${names.map((name) => `get ${name}() { return ${name}; }`).join(", ")} })`, context);
+}
+
+async function test_files() {
+  const { with_files, read_files } = load(["files.js"], {}, ["with_files", "read_files"]);
+  const names = (list) => list.map((file) => `${file.name} ${file.bytes}`);
+  check("files: a file replaces one of the same name", () =>
+    same(names(with_files([{ name: "a.glb", bytes: 1 }, { name: "b.hdr", bytes: 2 }], [{ name: "b.hdr", bytes: 3 }])), ["a.glb 1", "b.hdr 3"]));
+}
+
+// The worker with a module of the test's own, whose memory has 64 bytes.
+async function test_worker() {
+  const memory = new Uint8Array(64), answers = [];
+  let place = 8, closed = 0;
+  const core = {
+    HEAPU8: memory, lengthBytesUTF8: (text) => text.length, stringToUTF8: (text, at) => memory.set(new TextEncoder().encode(text + "\0"), at),
+    UTF8ToString: () => "{}", _halflit_allocate: () => place, _halflit_free: () => {}, _halflit_forget_files: () => {}, _halflit_add_file: () => {},
+    _halflit_draw: () => 0, _halflit_pixels: () => 0, _halflit_report: () => 0, _halflit_width: () => 1, _halflit_height: () => 1,
+  };
+  const bitmap = { width: 2, height: 3, close() { ++closed; this.width = this.height = 0; } };
+  const globals = {
+    halflit_module: async () => core, postMessage: (answer) => answers.push(answer), createImageBitmap: async () => bitmap,
+    OffscreenCanvas: class { getContext() { return { drawImage() {}, getImageData: (x, y, width, height) => ({ width, height }) }; } },
+  };
+  const worker = load(["worker.js"], globals, ["onmessage", "plain_jpeg", "decoded", "queue"]);
+  const ask = async (task) => {
+    worker.onmessage({ data: { ...task, id: answers.length } });
+    await worker.queue;
+    return answers.at(-1);
+  };
+  await ask({ kind: "start" });
+  const drawn = await ask({ kind: "draw", scene: "demo", flags: ["--samples", "1"] });
+  check("worker: it draws", () => drawn.width === 1 && !drawn.error);
+  core._halflit_draw = () => { throw 5246800; };  // as Emscripten throws an exception of C++
+  const thrown = await ask({ kind: "draw", scene: "demo", flags: [] });
+  check("worker: an exception of the module says that memory ended", () => thrown.error === "out of memory" && thrown.ended);
+  place = 0;
+  memory.fill(7);
+  const files = await ask({ kind: "files", files: [{ name: "a.glb", bytes: new Uint8Array([1, 2, 3]).buffer }] });
+  check("worker: without memory nothing is written", () => memory.every((byte) => byte === 7));
+  check("worker: without memory it ends and says so", () => files.error === "out of memory" && files.ended);
+
+  const image = await worker.decoded(new Uint8Array([1, 2, 3]));
+  check("worker: a decoded picture has its size, and the browser's copy is freed", () => image.width === 2 && image.height === 3 && closed === 1);
+  const segment = (marker, ...data) => [0xff, marker, 0, 2 + data.length, ...data];
+  const kept = [...segment(0xe0, 1), ...segment(0xdb, 2), 0xff, 0xda, 0, 2, 9, 9];
+  const file = [0xff, 0xd8, ...segment(0xe0, 1), 0xff, 0xff, ...segment(0xe1, 5, 5), 0xff, ...segment(0xe2, 6), ...segment(0xdb, 2), 0xff, 0xda, 0, 2, 9, 9];
+  const plain = [...new Uint8Array(await worker.plain_jpeg(new Uint8Array(file)).arrayBuffer())];
+  check("worker: Exif and profiles are cut out of a JPEG, behind fill bytes too", () => same(plain, [0xff, 0xd8, ...kept]));
+}
+
+async function test_engine() {
+  const workers = [];
+  class Worker {
+    constructor() {
+      workers.push(this);
+      this.sent = [];
+    }
+    postMessage(task) { this.sent.push(task); }
+    terminate() { this.terminated = true; }
+    answer(task, answer) { this.onmessage({ data: { ...answer, id: task.id } }); }
+  }
+  const text = { textContent: "" }, globals = (Stream) => ({
+    Worker, document: { getElementById: () => text }, URL: { createObjectURL: () => "", revokeObjectURL: () => {} }, atob: () => "", DecompressionStream: Stream,
+    Response: class { async arrayBuffer() { return new ArrayBuffer(0); } },
+    Blob: class { stream() { return { pipeThrough() {} }; } },
+  });
+  const later = () => new Promise((resolve) => setTimeout(resolve, 5));
+  const within = (promise) => Promise.race([promise, new Promise((resolve) => setTimeout(resolve, 200, { late: true }))]);
+  const { Engine } = load(["engine.js"], globals(class {}), ["Engine"]);
+
+  const engine = new Engine("simd"), worker = workers[0], files = engine.ask("files", {}), draw = engine.ask("draw", {});
+  await later();
+  check("engine: tasks wait until the module has started", () => same(worker.sent.map((task) => task.kind), ["start"]));
+  worker.answer(worker.sent[0], {});
+  await later();
+  check("engine: they are sent in their order", () => same(worker.sent.map((task) => task.kind), ["start", "files", "draw"]));
+  worker.answer(worker.sent[1], {});
+  worker.answer(worker.sent[2], { error: "out of memory", ended: true });
+  const drawn = await within(draw);
+  check("engine: a task has its answer", () => same(drawn, { error: "out of memory", ended: true }));
+  check("engine: a worker that ended is terminated, which frees its memory", () => worker.terminated === true);
+  const after = await within(engine.ask("draw", {}));
+  check("engine: a task after the end is answered", () => after.late === undefined && (after.stopped || after.error !== undefined));
+
+  const stopped = new Engine("simd");
+  await later();
+  const one = stopped.ask("draw", {});
+  stopped.stop();
+  const answers = [await within(one), await within(stopped.ask("draw", {}))];
+  check("engine: tasks before and after a stop are answered", () => answers.every((answer) => answer.stopped === true));
+
+  const old = load(["engine.js"], globals(class { constructor() { throw new Error("no such class"); } }), ["Engine"]);
+  const failed = await within(new old.Engine("simd").ask("draw", {}));
+  check("engine: a browser that cannot unpack the module gives an error", () => /no such class/.test(failed.error));
+}
+
+for (const test of [test_files, test_worker, test_engine])
+  await Promise.resolve().then(test).catch((error) => check(`${test.name} runs: ${error.message}`, () => false));
+console.log(failures === 0 ? "all as expected" : `${failures} failed`);
+process.exit(failures === 0 ? 0 : 1);
