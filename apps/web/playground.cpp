@@ -1,9 +1,9 @@
 // The functions that the page's worker calls. Texts are UTF-8 and end with a zero byte; a text that is returned lives until the next call.
-#include "apps/io/lobe_name.hpp"
 #include "apps/web/browser_pictures.hpp"
 #include "apps/web/dropped_files.hpp"
 #include "apps/web/picture_session.hpp"
 #include "apps/web/session_report.hpp"
+#include "halflit/lobe.hpp"
 #include "sh/order.hpp"
 
 #include <emscripten.h>
@@ -76,15 +76,17 @@ EMSCRIPTEN_KEEPALIVE const std::uint8_t* halflit_pixels() { return session().pic
 EMSCRIPTEN_KEEPALIVE int halflit_width() { return session().picture().width; }
 EMSCRIPTEN_KEEPALIVE int halflit_height() { return session().picture().height; }
 
-/// JSON of a lobe: wrap and power below 0 are those that the name stands for.
-EMSCRIPTEN_KEEPALIVE const char* halflit_lobe(const char* name, float wrap, float power, int normalize, int bands) {
-    io::LobeParameters parameters;
-    if (wrap >= 0) parameters.wrap = wrap;
-    if (power >= 0) parameters.power = power;
-    if (normalize != 0) parameters.normalize = true;
-    const auto lobe = io::lobe_from_name(name, parameters);
-    message = lobe ? web::lobe_report(*lobe, std::clamp(bands, 1, sh::kMaxBands), 181)
-                   : "{\"error\":" + web::json_text(lobe.error().message) + "}";
+/// JSON of a lobe: its curve and its bands.
+EMSCRIPTEN_KEEPALIVE const char* halflit_lobe(float wrap, float power, int normalize, int bands) {
+    const Lobe lobe{wrap, power, normalize != 0};
+    const auto checked = check_lobe(lobe);
+    message = checked ? web::lobe_report(lobe, std::clamp(bands, 1, sh::kMaxBands), 181)
+                      : "{\"error\":" + web::json_text(checked.error().message) + "}";
+    return message.c_str();
+}
+/// JSON of the tables that the page's own code needs, for assemble.mjs.
+EMSCRIPTEN_KEEPALIVE const char* halflit_tables() {
+    message = web::table_report();
     return message.c_str();
 }
 

@@ -1,5 +1,6 @@
 #include "apps/web/session_report.hpp"
 
+#include "apps/halflit/plan_names.hpp"
 #include "sh/lobe_error.hpp"
 #include "sh/trig.hpp"
 #include "sh/vec3d.hpp"
@@ -89,8 +90,8 @@ std::string picture_report(const cli::RenderJob& job, const RenderReport& report
 }
 
 std::string error_report(const cli::TradeError& error, double reference_ms) {
-    return fmt::format(R"({{"max":{},"mean":{},"p999":{},"share_off":{},"reference_ms":{:.1f}}})", number(error.max), number(error.mean),
-                       number(error.p999), number(error.share_off), reference_ms);
+    return fmt::format(R"({{"max":{},"mean":{},"p999":{},"reference_ms":{:.1f}}})", number(error.max), number(error.mean),
+                       number(error.p999), reference_ms);
 }
 
 std::string lobe_report(const Lobe& lobe, int bands, int samples) {
@@ -102,8 +103,18 @@ std::string lobe_report(const Lobe& lobe, int bands, int samples) {
     return fmt::format(R"({{"wrap":{},"power":{},"scale":{},"f":{},"series":{},"bands":{},"sup":{},"l2":{}}})", number(exact.wrap),
                        number(exact.power), number(exact.scale),
                        list_of(cosines, [&](double x) { return number(sh::lobe_value(exact, x)); }),
-                       list_of(cosines, [&](double x) { return number(sh::series_value(factors, bands, x)); }), list_of(factors, number),
-                       number(error.sup), number(error.l2));
+                       list_of(cosines, [&](double x) { return number(sh::series_value(factors, bands, x)); }),
+                       list_of(factors, [](double factor) { return number(factor); }), number(error.sup), number(error.l2));
+}
+
+std::string table_report() {
+    const auto lobe = [](const NamedLobe& model) {
+        return fmt::format(R"({{"name":{},"takes_wrap":{},"wrap":{},"power":{},"power_per_wrap":{},"normalize":{}}})",
+                           json_text(model.name), model.takes_wrap, model.wrap, model.power, model.power_per_wrap, model.normalize);
+    };
+    return fmt::format(R"({{"usual_wrap":{},"lobes":{},"specular":{},"shadows":{},"tonemap":{}}})", kUsualWrap, list_of(kNamedLobes, lobe),
+                       list_of(cli::kSpecularNames, json_text), list_of(cli::kShadowModeNames, json_text),
+                       list_of(cli::kToneCurveNames, json_text));
 }
 
 }  // namespace halflit::web

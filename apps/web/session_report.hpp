@@ -1,4 +1,4 @@
-// JSON for the page. It is written by hand, because it is short and the library for it would be a third of the module.
+// JSON for the page, written by hand: a few short records do not need a library.
 #pragma once
 
 #include "apps/halflit/render_job.hpp"
@@ -15,6 +15,9 @@ namespace halflit::web {
 
 /// A lobe's values at `samples` cosines from -1 to 1, its series of `bands` bands there, the bands, and the error of the series.
 [[nodiscard]] std::string lobe_report(const Lobe& lobe, int bands, int samples);
+
+/// The library's named lobes, and the names of its choices.
+[[nodiscard]] std::string table_report();
 
 /// The text as a JSON string.
 [[nodiscard]] std::string json_text(std::string_view text);

@@ -115,6 +115,20 @@ async function engines(page) {
     `${loaded.report.apply_ms} ms, then ${resized.report.apply_ms} and ${sized.report.apply_ms}`);
 }
 
+async function controls(page) {
+  await page.until(idle);
+  const set = (name, value) => page.value(`(() => { const input = document.querySelector('[name="${name}"]'); input.${typeof value === "boolean" ? "checked" : "value"} = ${JSON.stringify(value)}; input.dispatchEvent(new Event("input", { bubbles: true })); })()`);
+  for (const { name } of JSON.parse(await page.value("JSON.stringify(kLibrary.lobes)"))) {
+    await set("lobe", name);
+    await page.until(idle);
+    const drawn = await shown_hash(page), command = words_of(await command_of(page)), lobe = JSON.parse(await page.value("JSON.stringify(lobe_of(halflit.current().state))"));
+    const given = ["demo", "--size", "640x360", "--wrap", String(lobe.wrap), "--power", String(lobe.power), ...(lobe.normalize ? ["--normalize"] : []), "--own-lobes", "off"];
+    check(`lobe ${name}: the sliders' numbers give the picture of the name`, native_hash(command) === drawn && native_hash(given) === drawn, given.join(" "));
+    const shown = [await page.value("form.normalize.checked"), await page.value("form.normalize.disabled")];
+    check(`lobe ${name}: the norm is shown as the name has it`, shown[0] === (name === "mcauley") && shown[1] === (name === "mcauley"), shown);
+  }
+}
+
 begin();
 const matt = [{ doubleSided: true, pbrMetallicRoughness: { baseColorFactor: [0.7, 0.5, 0.3, 1], metallicFactor: 0 } }];
 write_squares("square", { nodes: [{ mesh: 0 }], materials: matt });
@@ -125,4 +139,5 @@ await with_page({ prelude: "delete window.DecompressionStream;" }, "", no_unpack
 await with_page({}, "", failing_frame);
 await with_page({ prelude: kEnding }, "", ending_engine);
 await with_page({}, "", engines);
+await with_page({}, "", controls);
 end();

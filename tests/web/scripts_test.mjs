@@ -38,6 +38,21 @@ function load(scripts, globals, names) {
   return runInContext(`${text}\n;({ ${names.map((name) => `get ${name}() { return ${name}; }`).join(", ")} })`, context);
 }
 
+function test_controls() {
+  const form = { exposure: { value: "0.7" }, elements: [] };
+  const page = load(["state.js", "controls.js", "files.js"], { kLibrary, document: { getElementById: () => form } }, ["kDefaults", "state_of_control", "lobe_of"]);
+  const slide = (state, name, value) => page.state_of_control(state, { name, value: String(value), type: "range" });
+  const choose = (state, name, value) => page.state_of_control(state, { name, value, type: "select-one" });
+  const tick = (state, name, checked) => page.state_of_control(state, { name, checked, type: "checkbox" });
+  const sloan = choose(page.kDefaults, "lobe", "sloan");
+  check("controls: the power follows the wrap in models where the wrap decides it", () => page.lobe_of(slide(sloan, "wrap", 0.8)).power === 1.8);
+  const moved = slide(sloan, "power", 2.2);
+  check("controls: a power that was moved stays when the wrap moves", () => page.lobe_of(slide(moved, "wrap", 0.8)).power === 2.2);
+  check("controls: moved back, it follows again", () => page.lobe_of(slide(slide(moved, "power", 1.5), "wrap", 0.8)).power === 1.8);
+  check("controls: another model has its own power", () => page.lobe_of(choose(moved, "lobe", "valve")).power === 2);
+  check("controls: McAuley's lobe is normalised by its name", () => page.lobe_of(choose(page.kDefaults, "lobe", "mcauley")).normalize);
+}
+
 async function test_files() {
   const { with_files, read_files } = load(["files.js"], {}, ["with_files", "read_files"]);
   const names = (list) => list.map((file) => `${file.name} ${file.bytes}`);
@@ -132,7 +147,7 @@ async function test_engine() {
   check("engine: a browser that cannot unpack the module gives an error", () => /no such class/.test(failed.error));
 }
 
-for (const test of [test_files, test_worker, test_engine])
+for (const test of [test_controls, test_files, test_worker, test_engine])
   await Promise.resolve().then(test).catch((error) => check(`${test.name} runs: ${error.message}`, () => false));
 console.log(failures === 0 ? "all as expected" : `${failures} failed`);
 process.exit(failures === 0 ? 0 : 1);

@@ -51,18 +51,18 @@ function show_state(state) {
       input.value = value;
     } else if (value !== "") input.value = value;
   }
-  const lobe = kLobes[state.lobe], row = (name) => form.querySelector(`label[data-for="${name}"]`);
-  const wrap = !lobe ? null : lobe.takes_wrap ? state.wrap : lobe.wrap, power = !lobe ? null : state.power === "" ? lobe.power(wrap) : state.power;
-  form.wrap.disabled = !lobe?.takes_wrap;
-  form.power.disabled = form.normalize.disabled = !lobe;
-  row("wrap").classList.toggle("off", form.wrap.disabled);
-  row("power").classList.toggle("off", form.power.disabled);
+  const model = lobe_model(state.lobe), lobe = lobe_of(state), row = (name) => form.querySelector(`label[data-for="${name}"]`);
+  form.wrap.disabled = !model?.takes_wrap;
+  form.power.disabled = !model;
+  form.normalize.disabled = !model || model.normalize;  // the name's own
+  for (const name of ["wrap", "power", "normalize"]) row(name).classList.toggle("off", form[name].disabled);
   if (lobe) {
-    form.wrap.value = wrap;
-    form.power.value = power;
+    form.wrap.value = lobe.wrap;
+    form.power.value = lobe.power;
+    form.normalize.checked = lobe.normalize;
   }
-  say_value(form.wrap, lobe ? digits(wrap, 3) : "");
-  say_value(form.power, lobe ? digits(power, 3) : "");
+  say_value(form.wrap, lobe ? digits(lobe.wrap, 3) : "");
+  say_value(form.power, lobe ? digits(lobe.power, 3) : "");
   say_value(form.rotate, `${state.rotate}°`);
   say_value(form.sun_size, `${state.sun_size}°`);
   say_value(form.sh_order, state.sh_order || "auto");
@@ -74,7 +74,9 @@ function show_state(state) {
 function state_of_control(state, input) {
   const value = input.type === "checkbox" ? input.checked : is_slider(input) || typeof kDefaults[input.name] === "number" ? +input.value : input.value;
   const next = { ...state, [input.name]: value };
-  if (input.name === "lobe" || input.name === "wrap") next.power = "";  // the name's own again
+  if (input.name === "lobe") next.power = "";  // the name's own again
+  const model = lobe_model(state.lobe);
+  if (input.name === "power" && model && value === power_of(model, lobe_of(state).wrap)) next.power = "";
   if (input.name === "lobe" && !value) next.normalize = false;
   if (input.name === "scene") Object.assign(next, { view: "", time: 0 });
   if (input.name === "env" && value !== "sky" && value !== "studio") next.show_env = false;

@@ -73,11 +73,9 @@ function say_facts() {
 }
 
 async function show_lobes() {
-  const bands = state.sh_order || shown.report.bands || 3, lobe = kLobes[state.lobe];
-  const wanted = lobe
-    ? [{ name: state.lobe, wrap: lobe.takes_wrap ? state.wrap : -1, power: state.power === "" ? -1 : state.power, normalize: state.normalize }]
-    : shown.report.lobes.slice(0, 8).map((own) => ({ name: own.normalize ? "mcauley" : "green", ...own }));
-  const answers = await Promise.all(wanted.map((task) => engine.ask("lobe", { ...task, bands })));
+  const bands = state.sh_order || shown.report.bands || 3, lobe = lobe_of(state);
+  const wanted = lobe ? [lobe] : shown.report.lobes.slice(0, 8), asked = picture_engine();
+  const answers = await Promise.all(wanted.map((task) => asked.ask("lobe", { ...task, bands })));
   const curves = answers.map((answer) => answer.report).filter((report) => report && !report.error);
   if (curves.length === 0) return;
   draw_curves($("curve"), curves, bands, curves.length === 1);

@@ -1,22 +1,24 @@
 // What the page shows, as one flat record, and its two other forms: the flags of `halflit render`, and the part of a link after the #.
+// kLibrary holds the library's own tables (assemble.mjs).
 const kDefaults = {
   scene: "demo", size: "640x360", samples: 4, view: "", time: 0,
-  lobe: "", wrap: 0.5, power: "", normalize: false,
+  lobe: "", wrap: kLibrary.usual_wrap, power: "", normalize: false,
   specular: "blinn", specular_normalize: true,
   scene_lights: true, lights: "", shadows: "soft-split", sun_size: 0, sky_shadows: 0,
   env: "", rotate: 0, show_env: false, sh_order: 0,
   exposure: "", tonemap: "neutral", budget: 0, ground: false,
 };
 
-// The six models: whether the wrap is the user's, and the power that the name stands for.
-const kLobes = {
-  lambert: { takes_wrap: false, wrap: 0, power: () => 1 },
-  green: { takes_wrap: true, power: () => 1 },
-  "half-lambert": { takes_wrap: false, wrap: 1, power: () => 1 },
-  valve: { takes_wrap: false, wrap: 1, power: () => 2 },
-  sloan: { takes_wrap: true, power: (wrap) => 1 + wrap },
-  mcauley: { takes_wrap: true, power: (wrap) => 1 + wrap },
-};
+const lobe_model = (name) => kLibrary.lobes.find((lobe) => lobe.name === name);
+const power_of = (model, wrap) => model.power + model.power_per_wrap * wrap;
+
+// {wrap, power, normalize} of the lobe that a state chooses; null: materials have their own.
+function lobe_of(state) {
+  const model = lobe_model(state.lobe);
+  if (!model) return null;
+  const wrap = model.takes_wrap ? state.wrap : model.wrap;
+  return { wrap, power: state.power === "" ? power_of(model, wrap) : state.power, normalize: model.normalize || state.normalize };
+}
 
 // Six digits and no exponent: the picture is drawn from the same text that the command line shows.
 const digits = (x, count = 6) => (Math.abs(x) < 1e-12 ? "0" : String(Number(Number(x).toPrecision(count))));
@@ -64,7 +66,7 @@ function flags_of(state) {
   if (state.time > 0) add("--time", digits(state.time));
   if (state.lobe) {
     add("--lobe", state.lobe);
-    if (kLobes[state.lobe].takes_wrap) add("--wrap", digits(state.wrap));
+    if (lobe_model(state.lobe).takes_wrap) add("--wrap", digits(state.wrap));
     if (state.power !== "") add("--power", digits(state.power));
     if (state.normalize) flags.push("--normalize");
     add("--own-lobes", "off");
@@ -111,7 +113,7 @@ function state_of_link(text) {
     else if (kind === "number") state[key] = Number.isFinite(+value) ? +value : kDefaults[key];
     else state[key] = value;
   }
-  if (!(state.lobe in kLobes)) state.lobe = "";
+  if (!lobe_model(state.lobe)) state.lobe = "";
   if (state.power !== "") state.power = Number.isFinite(+state.power) ? +state.power : "";
   return state;
 }

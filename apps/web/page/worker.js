@@ -93,10 +93,7 @@ const tasks = {
   },
   draw: (task) => picture_of(core._halflit_draw, task),
   compare: (task) => picture_of(core._halflit_compare, task),
-  lobe(task) {
-    const text = with_texts([task.name], (name) => core._halflit_lobe(name, task.wrap, task.power, task.normalize ? 1 : 0, task.bands));
-    return { report: JSON.parse(core.UTF8ToString(text)) };
-  },
+  lobe: (task) => ({ report: JSON.parse(core.UTF8ToString(core._halflit_lobe(task.wrap, task.power, task.normalize ? 1 : 0, task.bands))) }),
   files(task) {
     core._halflit_forget_files();
     for (const file of task.files) {
