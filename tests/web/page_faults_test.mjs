@@ -87,6 +87,24 @@ async function ending_engine(page) {
   check("ending engine: another one draws the next picture", (await shown_hash(page)) === native_hash(["demo", "--size", "640x360"]));
 }
 
+async function hostile_link(page) {
+  await page.until(idle);
+  check("hostile link: it is the usual picture", (await shown_hash(page)) === native_hash(["demo", "--size", "640x360"]), await command_of(page));
+  check("hostile link: no error", page.faults.length === 0 && (await text_of(page, "error")) === "", page.faults.join(", "));
+}
+
+async function line_break_in_link(page) {
+  await page.until(idle);
+  const command = await command_of(page);
+  check("a link with a line break: the command line gives the picture", native_hash(words_of(command)) === (await shown_hash(page)), command);
+}
+
+async function option_as_scene(page) {
+  await page.until("window.halflit && !document.getElementById('error').hidden");
+  const command = await command_of(page);
+  check("a link with an option as its scene: the command line has it as a file", command.startsWith("halflit ./--report=x --size") && command.endsWith(" -o ./--report=x.png"), command);
+}
+
 // A chunk ahead of the header, as Apple's tools write it. Its data and checksum stand where a header has the size. stb_image checks none.
 function write_odd_png() {
   const chunk = (name, data, sum = 0) => {
@@ -138,6 +156,9 @@ await with_page({ prelude: kHeld }, "", haste);
 await with_page({ prelude: "delete window.DecompressionStream;" }, "", no_unpacking);
 await with_page({}, "", failing_frame);
 await with_page({ prelude: kEnding }, "", ending_engine);
+await with_page({}, "#lobe=toString&constructor=1&lights=0,0,1,red&size=--report&env=--report", hostile_link);
+await with_page({}, "#lights=0,0,1,%23ffffff%0A--samples%0A16", line_break_in_link);
+await with_page({}, "#scene=--report=x", option_as_scene);
 await with_page({}, "", engines);
 await with_page({}, "", controls);
 end();

@@ -38,6 +38,34 @@ function load(scripts, globals, names) {
   return runInContext(`${text}\n;({ ${names.map((name) => `get ${name}() { return ${name}; }`).join(", ")} })`, context);
 }
 
+function test_links() {
+  const page = load(["state.js", "orbit.js", "files.js"], { kLibrary },
+    ["kDefaults", "state_of_link", "link_of", "flags_of", "command_of", "stem_of", "view_text", "view_of", "digits"]);
+  const of_link = page.state_of_link, plain = (text) => same(of_link(text), page.kDefaults);
+  check("link: an empty one is the usual state", () => plain(""));
+  const full = { ...page.kDefaults, scene: "a/b c.glb", size: "320x180", samples: 16, view: "1,2,3,0,0,0,35", time: 0.25, lobe: "sloan", wrap: 0.8, power: 2.5,
+    normalize: true, specular: "ggx", specular_normalize: false, scene_lights: false, lights: "-40,40,1,#ffe8d0;120,20,0.5,#ffffff", shadows: "hard", sun_size: 2,
+    sky_shadows: 64, env: "room.hdr", rotate: -30, show_env: true, sh_order: 3, exposure: -1.5, tonemap: "aces", budget: 0.5, ground: true };
+  check("link: each value comes back", () => same(of_link(page.link_of(full)), full));
+  for (const name of ["toString", "constructor", "__proto__", "hasOwnProperty", "no-such-lobe"])
+    check(`link: the lobe ${name} is refused`, () => plain(`lobe=${name}`));
+  for (const name of ["toString", "constructor", "__proto__", "no_such_key"]) check(`link: the key ${name} is left out`, () => plain(`${name}=5`));
+  for (const text of ["specular=toString", "shadows=soft", "tonemap=--report", "env=--report", "size=--report", "size=1e3x1", "power=much", "exposure=much", "wrap=NaN", "samples=1e999"])
+    check(`link: ${text} is refused`, () => plain(text));
+  for (const color of ["%23fff:size=3", "%23fff", "red", "%23gggggg"]) check(`link: a light of the colour ${color} is refused`, () => plain(`lights=0,0,1,${color}`));
+  for (const text of ["lights=0,0,1,%23ffffff%0A--samples%0A16", "scene=demo%0A--samples", "env=a%0Ab.hdr", "view=1,2,3,0,0,0,35%0D", "scene=a%00b", "size=640x360%0A"])
+    check(`link: control characters are refused in ${text}`, () => plain(text));
+  check("link: a scene with a number stays", () => of_link("scene=sphere:250000").scene === "sphere:250000");
+  check("link: a size of one number stays", () => of_link("size=256").size === "256");
+  check("link: numbers that the lists lack stay", () => of_link("sky_shadows=128").sky_shadows === 128);
+  const words = (text) => [...page.command_of(of_link(text)).matchAll(/'[^']*'|\S+/g)].map(([word]) => word.replace(/^'|'$/g, ""));
+  check("command: a scene that begins with - is a file", () => words("scene=--report=x").includes("./--report=x"));
+  check("command: so is an environment, and the picture", () => same(words("scene=-a.glb&env=-b.hdr").filter((word) => word.startsWith("./")), ["./-a.glb", "./-b.hdr", "./-a.png"]));
+  check("command: the picture is named after the scene", () => page.stem_of("lights:16") === "lights-16" && page.stem_of("a/it's.v2.glb") === "it's.v2" && page.stem_of("a\nb.glb") === "a\nb");
+  check("command: quotes are kept from a shell", () => page.command_of(of_link("scene=it's.glb")).startsWith("halflit 'it'\\''s.glb' "));
+
+}
+
 function test_controls() {
   const form = { exposure: { value: "0.7" }, elements: [] };
   const page = load(["state.js", "controls.js", "files.js"], { kLibrary, document: { getElementById: () => form } }, ["kDefaults", "state_of_control", "lobe_of"]);
@@ -58,6 +86,8 @@ async function test_files() {
   const names = (list) => list.map((file) => `${file.name} ${file.bytes}`);
   check("files: a file replaces one of the same name", () =>
     same(names(with_files([{ name: "a.glb", bytes: 1 }, { name: "b.hdr", bytes: 2 }], [{ name: "b.hdr", bytes: 3 }])), ["a.glb 1", "b.hdr 3"]));
+  const read = await read_files([{ name: "a\n--samples\n16.glb", file: { arrayBuffer: async () => new ArrayBuffer(1) } }]);
+  check("files: names have no control characters", () => read.model === "a_--samples_16.glb" && read.files[0].name === read.model);
 }
 
 // The worker with a module of the test's own, whose memory has 64 bytes.
@@ -83,6 +113,8 @@ async function test_worker() {
   await ask({ kind: "start" });
   const drawn = await ask({ kind: "draw", scene: "demo", flags: ["--samples", "1"] });
   check("worker: it draws", () => drawn.width === 1 && !drawn.error);
+  const broken = await ask({ kind: "draw", scene: "demo", flags: ["--light", "x\n--samples\n16"] });
+  check("worker: a word with a line break is refused, as flags are separated by line breaks", () => /line break/.test(broken.error));
   core._halflit_draw = () => { throw 5246800; };  // as Emscripten throws an exception of C++
   const thrown = await ask({ kind: "draw", scene: "demo", flags: [] });
   check("worker: an exception of the module says that memory ended", () => thrown.error === "out of memory" && thrown.ended);
@@ -147,7 +179,7 @@ async function test_engine() {
   check("engine: a browser that cannot unpack the module gives an error", () => /no such class/.test(failed.error));
 }
 
-for (const test of [test_controls, test_files, test_worker, test_engine])
+for (const test of [test_links, test_controls, test_files, test_worker, test_engine])
   await Promise.resolve().then(test).catch((error) => check(`${test.name} runs: ${error.message}`, () => false));
 console.log(failures === 0 ? "all as expected" : `${failures} failed`);
 process.exit(failures === 0 ? 0 : 1);

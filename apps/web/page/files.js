@@ -20,9 +20,10 @@ async function dropped_files(transfer) {
   return (await Promise.all(entries.map((entry) => files_of_entry(entry, "")))).flat();
 }
 
-// {files: [{name, bytes}], model, sky}: what of them to draw.
+// {files: [{name, bytes}], model, sky}: what of them to draw. Control characters in names would not pass through a link or a command line.
 async function read_files(list) {
-  const files = await Promise.all(list.map(async ({ name, file }) => ({ name, bytes: await file.arrayBuffer() })));
+  const plain = (name) => name.replace(/[\x00-\x1f\x7f]/g, "_");
+  const files = await Promise.all(list.map(async ({ name, file }) => ({ name: plain(name), bytes: await file.arrayBuffer() })));
   const named = (pattern) => files.map((file) => file.name).filter((name) => pattern.test(name)).sort((a, b) => a.split("/").length - b.split("/").length)[0];
   return { files, model: named(kModelName), sky: named(kSkyName) };
 }

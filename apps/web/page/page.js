@@ -49,8 +49,7 @@ async function draw_picture() {
   if (canvas.width !== answer.width || canvas.height !== answer.height) Object.assign(canvas, { width: answer.width, height: answer.height });
   canvas.getContext("2d").putImageData(new ImageData(new Uint8ClampedArray(answer.pixels), answer.width, answer.height), 0, 0);
   answer.ms = performance.now() - start;
-  answer.key = [scene, ...flags].join("\n");
-  shown = answer;
+  shown = { ...answer, scene };
   say_facts();
   show_lobes();
 }
@@ -203,9 +202,10 @@ $("toggle_heat").addEventListener("click", () => {
   if (heat) compare_picture();
 });
 $("download").addEventListener("click", async () => {
-  const link = document.createElement("a");
+  if (!shown) return;
+  const { scene } = shown, link = document.createElement("a");
   link.href = URL.createObjectURL(await png_of(new Uint8Array(shown.pixels), shown.width, shown.height));
-  link.download = command_of(state).match(/ -o '?(.*?)'?$/)[1];
+  link.download = `${stem_of(scene)}.png`;
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 });

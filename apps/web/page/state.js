@@ -52,6 +52,9 @@ function view_text(view) {
   return [...view.position, ...view.target, view.fov].map((x) => digits(x)).join(",");
 }
 
+// A file's name in a command line, where a word that begins with - would be a flag.
+const file_word = (name) => (name.startsWith("-") ? `./${name}` : name);
+
 // The words after `halflit SCENE`.
 function flags_of(state) {
   const flags = ["--size", state.size];
@@ -78,7 +81,7 @@ function flags_of(state) {
   if (state.shadows !== kDefaults.shadows) add("--shadows", state.shadows);
   if (state.sun_size > 0) add("--sun-size", digits(state.sun_size));
   if (state.sky_shadows > 0) add("--sky-shadows", state.sky_shadows);
-  if (state.env) add("--env", state.env);
+  if (state.env) add("--env", file_word(state.env));
   if (state.rotate != 0) add("--env-rotate", digits(state.rotate));
   if (state.show_env) add("--background", "environment");
   if (state.sh_order > 0) add("--sh-order", state.sh_order);
@@ -93,9 +96,11 @@ function shell_word(word) {
   return /^[A-Za-z0-9_.,:=\/+@%-][A-Za-z0-9_.,:=\/+@%#-]*$/.test(word) ? word : `'${word.replace(/'/g, `'\\''`)}'`;
 }
 
+// Name of the picture's file, without its ending.
+const stem_of = (scene) => scene.replace(/^.*\//s, "").replace(/\.[^.]*$/, "").replace(/:/g, "-");
+
 function command_of(state) {
-  const stem = state.scene.replace(/^.*\//, "").replace(/\.[^.]*$/, "").replace(/:/g, "-");
-  return ["halflit", state.scene, ...flags_of(state), "-o", `${stem}.png`].map(shell_word).join(" ");
+  return ["halflit", file_word(state.scene), ...flags_of(state), "-o", file_word(`${stem_of(state.scene)}.png`)].map(shell_word).join(" ");
 }
 
 function link_of(state) {
@@ -104,16 +109,27 @@ function link_of(state) {
   return query.toString().replace(/%2C/g, ",").replace(/%3A/g, ":");
 }
 
+// Texts that a link may give; the others are free. Control characters are refused in all of them.
+const kAllowed = {
+  size: (text) => /^\d+(x\d+)?$/.test(text),
+  lobe: (text) => text === "" || lobe_model(text) !== undefined,
+  specular: (text) => kLibrary.specular.includes(text),
+  shadows: (text) => kLibrary.shadows.includes(text),
+  tonemap: (text) => kLibrary.tonemap.includes(text),
+  env: (text) => ["", "studio", "sky", "none"].includes(text) || kSkyName.test(text),
+  lights: (text) => lights_of({ lights: text }).every((light) => /^#[0-9a-f]{6}$/i.test(light.color)),
+};
+const kNumberOrEmpty = ["power", "exposure"];
+
+// The state of a link, which anybody may have written: what is not allowed has its default.
 function state_of_link(text) {
   const state = { ...kDefaults };
   for (const [key, value] of new URLSearchParams(text)) {
-    if (!(key in kDefaults)) continue;
+    if (!Object.hasOwn(kDefaults, key) || /[\x00-\x1f\x7f]/.test(value)) continue;
     const kind = typeof kDefaults[key];
     if (kind === "boolean") state[key] = value === "true";
-    else if (kind === "number") state[key] = Number.isFinite(+value) ? +value : kDefaults[key];
-    else state[key] = value;
+    else if (kind === "number" || (kNumberOrEmpty.includes(key) && value !== "")) state[key] = Number.isFinite(+value) ? +value : kDefaults[key];
+    else if (!Object.hasOwn(kAllowed, key) || kAllowed[key](value)) state[key] = value;
   }
-  if (!lobe_model(state.lobe)) state.lobe = "";
-  if (state.power !== "") state.power = Number.isFinite(+state.power) ? +state.power : "";
   return state;
 }

@@ -76,6 +76,7 @@ async function give_pictures() {
 }
 
 async function picture_of(call, task) {
+  if (task.flags.some((word) => /[\n\0]/.test(word))) return { error: "a flag with a line break", code: 2 };
   const attempt = () => with_texts([task.scene, task.flags.join("\n")], call);
   let code = attempt();
   if (code !== 0 && (await give_pictures())) code = attempt();
