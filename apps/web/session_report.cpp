@@ -1,6 +1,7 @@
 #include "apps/web/session_report.hpp"
 
 #include "apps/halflit/plan_names.hpp"
+#include "apps/viewer/orbit_camera.hpp"
 #include "sh/lobe_error.hpp"
 #include "sh/trig.hpp"
 #include "sh/vec3d.hpp"
@@ -21,28 +22,33 @@ std::string list_of(const Range& values, const Text& text) {
 }
 
 /// Seven digits: what a float holds.
-std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.7g}", value) : "null"; }
+std::string number(double value, int digits = 7) { return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : "null"; }
 
-std::string point(Vec3d p) { return fmt::format("[{},{},{}]", number(p.x), number(p.y), number(p.z)); }
+/// All digits of a double: far from the origin, seven do not tell the camera from its target.
+std::string point(Vec3d p) { return fmt::format("[{},{},{}]", number(p.x, 17), number(p.y, 17), number(p.z, 17)); }
 
-/// The camera as --camera-position, --camera-target and --fov give it, in the file's world. The target is the point of the view axis
-/// nearest to the scene's centre.
+/// The camera as --camera-position, --camera-target and --fov give it, in the file's world, where a turn by the mouse begins. A camera made
+/// for a wider picture shows its width, and more above and below. There is no flag for an orthographic one: a perspective one shows the
+/// same height at the target.
 std::string view_of(const cli::RenderJob& job) {
+    constexpr double kFlatFovDeg = 35.0;
+    const auto tangent = [](double fov_rad) { return std::tan(fov_rad / 2); };
     const Camera& camera = job.camera;
     const auto column = [&](int i) {
         const Vec4f c = camera.world_from_camera.c[i];
         return Vec3d{static_cast<double>(c.x), static_cast<double>(c.y), static_cast<double>(c.z)};
     };
-    const Vec3d eye = column(3), ahead = column(2) * -1.0;
-    const Bounds& bounds = job.film.bounds;
-    const Vec3d centre = bounds.empty ? Vec3d{} : (to_double(bounds.min) + to_double(bounds.max)) * 0.5;
-    const Vec3d size = bounds.empty ? Vec3d{1, 1, 1} : to_double(bounds.max) - to_double(bounds.min);
-    const double radius = std::sqrt(dot(size, size)) / 2;
-    const double distance = std::max(dot(centre - eye, ahead), radius * 0.05);
+    const Vec3d back = column(2), eye = column(3), target = eye - back * viewer::OrbitCamera(camera, job.film.bounds).distance();
+    const double half_height = static_cast<double>(camera.half_height), half_width = static_cast<double>(camera.half_width);
+    const double made_for = camera.orthographic ? half_width / half_height : static_cast<double>(camera.aspect);
+    const double wider = std::isfinite(made_for) ? std::max(1.0, made_for * job.height / job.width) : 1.0;
+    const double fov_rad =
+        camera.orthographic ? kFlatFovDeg * (kPi / 180.0) : 2.0 * std::atan(tangent(static_cast<double>(camera.fov_y_rad)) * wider);
+    const Vec3d position = camera.orthographic ? target + back * (half_height * wider / tangent(fov_rad)) : eye;
+    const double radius = job.film.bounds.empty ? 0.0 : static_cast<double>(job.film.bounds.radius());
     const auto in_file = [&](Vec3d p) { return p * (1.0 / job.source.scale) + job.source.origin; };
-    return fmt::format(R"({{"position":{},"target":{},"fov":{},"radius":{}}})", point(in_file(eye)), point(in_file(eye + ahead * distance)),
-                       number(camera.orthographic ? 35.0 : static_cast<double>(camera.fov_y_rad) * (180.0 / kPi)),
-                       number(radius / job.source.scale));
+    return fmt::format(R"({{"position":{},"target":{},"fov":{},"radius":{}}})", point(in_file(position)), point(in_file(target)),
+                       number(fov_rad * (180.0 / kPi)), number((radius > 0.0 ? radius : 1.0) / job.source.scale));
 }
 
 /// Lobes that materials bring along, each once.

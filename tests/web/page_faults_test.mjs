@@ -105,6 +105,58 @@ async function option_as_scene(page) {
   check("a link with an option as its scene: the command line has it as a file", command.startsWith("halflit ./--report=x --size") && command.endsWith(" -o ./--report=x.png"), command);
 }
 
+async function open_model(page, name, files) {
+  await page.choose_files("#files", files.map((file) => join(work, file)));
+  await page.until(`halflit.current().state.scene === '${name}' && halflit.current().idle`);
+}
+
+async function far_model(page) {
+  await page.until(idle);
+  await open_model(page, "far.gltf", ["far.gltf", "far.bin"]);
+  const before = (await report_of(page)).view;
+  await page.drag({ x: 400, y: 300 }, { x: 440, y: 290 });
+  await page.until(idle);
+  const turned = await view_of(page), command = await command_of(page);
+  check("far model: a turn keeps the distance", Math.abs(away(turned) / away(before) - 1) < 1e-3, `${away(before)}, then ${away(turned)}`);
+  check("far model: a turn keeps the target", Math.hypot(...turned.target.map((x, i) => x - before.target[i])) < 1e-3 * away(before), turned.target);
+  check("far model: the command line gives the picture", native_hash(words_of(command)) === (await shown_hash(page)), command);
+  await page.wheel({ x: 400, y: 300 }, -200, 60);
+  await page.until(idle);
+  const close = await view_of(page);
+  check("far model: zooming in ends before the target", away(close) > 5e-4 * before.radius, away(close));
+  await page.drag({ x: 400, y: 300 }, { x: 440, y: 290 });
+  await page.until(idle);
+  check("far model: and the view can be turned there", away(await view_of(page)) > 5e-4 * before.radius, away(await view_of(page)));
+}
+
+async function early_drag(page) {
+  await page.until(idle);
+  await page.value("(() => { const scene = document.querySelector('[name=\"scene\"]'); scene.value = 'lights:16'; scene.dispatchEvent(new Event('input', { bubbles: true })); document.getElementById('picture').dispatchEvent(new WheelEvent('wheel', { deltaY: 100 })); })()");
+  await page.until(idle);
+  const command = await command_of(page);
+  check("early drag: a scene that is not drawn yet does not get the last one's view", !command.includes("--camera-position"), command);
+}
+
+// The mean difference in codes that a motion makes which is too small to see.
+async function jump(page) {
+  await page.value("window.last = new Uint8Array(halflit.current().shown.pixels); document.getElementById('picture').dispatchEvent(new WheelEvent('wheel', { deltaY: 1e-4 }))");
+  await page.until(idle);
+  return page.value("(() => { const now = new Uint8Array(halflit.current().shown.pixels); return now.reduce((sum, x, i) => sum + Math.abs(x - window.last[i]), 0) / now.length; })()");
+}
+
+async function first_motion(page) {
+  await page.until(idle);
+  const files = (name) => [`${name}.gltf`, `${name}.bin`], size = "document.querySelector('[name=\"size\"]')";
+  for (const [shape, name] of [["640x360", ""], ["360x640", ""], ["640x360", "flat"], ["360x640", "flat"], ["640x360", "wide"], ["640x360", "far"]]) {
+    if (name) await open_model(page, `${name}.gltf`, files(name));
+    await page.value("document.getElementById('reset_view').click()");
+    await page.value(`${size}.value = "${shape}"; ${size}.dispatchEvent(new Event("input", { bubbles: true }))`);
+    await page.until(idle);
+    const codes = await jump(page);
+    check(`first motion: the view of ${name || "the demo"} at ${shape} does not jump`, (await view_of(page)) !== null && codes < 0.1, codes);
+  }
+}
+
 // A chunk ahead of the header, as Apple's tools write it. Its data and checksum stand where a header has the size. stb_image checks none.
 function write_odd_png() {
   const chunk = (name, data, sum = 0) => {
@@ -150,6 +202,11 @@ async function controls(page) {
 begin();
 const matt = [{ doubleSided: true, pbrMetallicRoughness: { baseColorFactor: [0.7, 0.5, 0.3, 1], metallicFactor: 0 } }];
 write_squares("square", { nodes: [{ mesh: 0 }], materials: matt });
+write_squares("far", { nodes: [{ mesh: 0, translation: [500003, 6000003, 0] }], materials: matt });
+write_squares("flat", { nodes: [{ mesh: 0 }, { camera: 0, translation: [0, 1, 7] }], materials: matt,
+  cameras: [{ type: "orthographic", orthographic: { xmag: 2, ymag: 1.5, znear: 0.1, zfar: 20 } }] });
+write_squares("wide", { nodes: [{ mesh: 0 }, { camera: 0, translation: [0, 1, 3] }], materials: matt,
+  cameras: [{ type: "perspective", perspective: { aspectRatio: 3, yfov: 0.8, znear: 0.1, zfar: 20 } }] });
 write_squares("odd", { nodes: [{ mesh: 0 }], materials: [{ ...matt[0], pbrMetallicRoughness: { baseColorTexture: { index: 0 } } }], textures: [{ source: 0 }], images: [{ uri: "odd.png" }] });
 write_odd_png();
 await with_page({ prelude: kHeld }, "", haste);
@@ -159,6 +216,9 @@ await with_page({ prelude: kEnding }, "", ending_engine);
 await with_page({}, "#lobe=toString&constructor=1&lights=0,0,1,red&size=--report&env=--report", hostile_link);
 await with_page({}, "#lights=0,0,1,%23ffffff%0A--samples%0A16", line_break_in_link);
 await with_page({}, "#scene=--report=x", option_as_scene);
+await with_page({}, "", far_model);
+await with_page({}, "", early_drag);
+await with_page({}, "", first_motion);
 await with_page({}, "", engines);
 await with_page({}, "", controls);
 end();

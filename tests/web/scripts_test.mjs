@@ -64,6 +64,41 @@ function test_links() {
   check("command: the picture is named after the scene", () => page.stem_of("lights:16") === "lights-16" && page.stem_of("a/it's.v2.glb") === "it's.v2" && page.stem_of("a\nb.glb") === "a\nb");
   check("command: quotes are kept from a shell", () => page.command_of(of_link("scene=it's.glb")).startsWith("halflit 'it'\\''s.glb' "));
 
+  // A model far from the origin: coordinates as read from a file, at a distance of 1.
+  const far = { position: [500003.2, 6000003.4, 0.25], target: [500003, 6000003, 1.125], fov: 35 };
+  check("view: coordinates far from the origin keep a millionth of the distance", () => {
+    const read = page.view_of({ view: page.view_text(far) });
+    return [...read.position, ...read.target].every((x, i) => near(x, [...far.position, ...far.target][i], 1e-6 * away(far)));
+  });
+  check("view: so do those of a small scene", () => {
+    const small = { position: [1.234567891e-7, 0, 2e-7], target: [0, 0, 0], fov: 35 };
+    return page.view_of({ view: page.view_text(small) }).position.every((x, i) => near(x, small.position[i], 1e-6 * away(small)));
+  });
+  check("view: the command line has the same numbers", () => page.flags_of({ ...page.kDefaults, view: page.view_text(far) }).includes("500003.2,6000003.4,0.25"));
+}
+
+function test_orbit() {
+  const { turned, nearer, moved } = load(["orbit.js"], {}, ["turned", "nearer", "moved"]);
+  const start = { position: [3, 4, 12], target: [0, 0, 0], fov: 35 }, finite = (view) => [...view.position, ...view.target].every(Number.isFinite);
+  check("orbit: a turn keeps the target and the distance", () => {
+    const view = turned(start, 0.7, -0.3);
+    return same(view.target, start.target) && near(away(view), 13, 1e-12);
+  });
+  check("orbit: a whole turn ends where it began", () => turned(turned(start, Math.PI, 0), Math.PI, 0).position.every((x, i) => near(x, start.position[i], 1e-12)));
+  check("orbit: a turn stops short of the poles", () => near(turned(start, 0, 100).position[1], 13 * Math.sin((89 * Math.PI) / 180), 1e-12));
+  check("orbit: a view from straight above can be turned", () => [1, 1e-7, 1e7, 0.1 + 0.2].every((x) => finite(turned({ ...start, position: [0, x, 0] }, 0.1, 0.1))));
+  check("orbit: a view from its own target stays", () => same(turned({ ...start, position: [0, 0, 0] }, 1, 1).position, [0, 0, 0]) && finite(nearer({ ...start, position: [0, 0, 0] }, 2, 1)));
+  check("orbit: a zoom is a factor of the distance", () => near(away(nearer(start, 1.25, 5)), 13 / 1.25, 1e-12));
+  check("orbit: zooms stop at a thousandth and a thousand times of the radius", () => {
+    let near_view = start, far_view = start;
+    for (let i = 0; i < 500; ++i) [near_view, far_view] = [nearer(near_view, 1.2, 5), nearer(far_view, 1 / 1.2, 5)];
+    return near(away(near_view), 0.005, 1e-9) && near(away(far_view), 5000, 1e-6) && finite(turned(near_view, 0.1, 0.1));
+  });
+  check("orbit: what is at the target follows the pointer", () => {
+    const front = { position: [0, 0, 10], target: [0, 0, 0], fov: 90 };  // the picture is 20 high there
+    const view = moved(front, 0.1, 0.2);
+    return view.target.every((x, i) => near(x, [-2, 4, 0][i], 1e-12)) && near(away(view), 10, 1e-12);
+  });
 }
 
 function test_controls() {
@@ -179,7 +214,7 @@ async function test_engine() {
   check("engine: a browser that cannot unpack the module gives an error", () => /no such class/.test(failed.error));
 }
 
-for (const test of [test_links, test_controls, test_files, test_worker, test_engine])
+for (const test of [test_links, test_orbit, test_controls, test_files, test_worker, test_engine])
   await Promise.resolve().then(test).catch((error) => check(`${test.name} runs: ${error.message}`, () => false));
 console.log(failures === 0 ? "all as expected" : `${failures} failed`);
 process.exit(failures === 0 ? 0 : 1);

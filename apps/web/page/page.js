@@ -188,8 +188,9 @@ $("module").addEventListener("change", () => {
   set_state(state);
 });
 attach_orbit($("picture"), (change) => {
-  if (!shown) return;
-  set_state({ ...state, view: view_text(change(view_of(state) || shown.report.view)) }, true);
+  if (shown?.scene !== state.scene) return;  // the scene that is turned is not drawn yet
+  const { view } = shown.report;
+  set_state({ ...state, view: view_text(change(view_of(state) || view, view.radius)) }, true);
 });
 $("open").addEventListener("click", () => $("files").click());
 $("files").addEventListener("change", (event) => take_files([...event.target.files].map((file) => ({ name: file.name, file }))));

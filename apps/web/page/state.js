@@ -20,7 +20,7 @@ function lobe_of(state) {
   return { wrap, power: state.power === "" ? power_of(model, wrap) : state.power, normalize: model.normalize || state.normalize };
 }
 
-// Six digits and no exponent: the picture is drawn from the same text that the command line shows.
+// Six digits: the picture is drawn from the same text that the command line shows.
 const digits = (x, count = 6) => (Math.abs(x) < 1e-12 ? "0" : String(Number(Number(x).toPrecision(count))));
 
 // "azimuth,elevation,intensity,colour;.." of lights that were added.
@@ -48,8 +48,11 @@ function view_of(state) {
   return n.length === 7 && n.every(Number.isFinite) ? { position: n.slice(0, 3), target: n.slice(3, 6), fov: n[6] } : null;
 }
 
+// Coordinates are rounded to a millionth of the view's distance, however far from the origin they are.
 function view_text(view) {
-  return [...view.position, ...view.target, view.fov].map((x) => digits(x)).join(",");
+  const distance = Math.hypot(...view.position.map((x, i) => x - view.target[i])) || 1;
+  const decimals = Math.max(0, Math.min(100, 6 - Math.floor(Math.log10(distance))));
+  return [...[...view.position, ...view.target].map((x) => Number(x.toFixed(decimals))), digits(view.fov)].join(",");
 }
 
 // A file's name in a command line, where a word that begins with - would be a flag.
@@ -62,8 +65,8 @@ function flags_of(state) {
   if (state.samples != kDefaults.samples) add("--samples", state.samples);
   const view = view_of(state);
   if (view) {
-    add("--camera-position", view.position.map((x) => digits(x)).join(","));
-    add("--camera-target", view.target.map((x) => digits(x)).join(","));
+    add("--camera-position", view.position.join(","));
+    add("--camera-target", view.target.join(","));
     add("--fov", digits(view.fov));
   }
   if (state.time > 0) add("--time", digits(state.time));
