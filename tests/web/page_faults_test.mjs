@@ -41,6 +41,29 @@ async function haste(page) {
   check("haste: the page has no error", page.faults.length === 0, page.faults.join(", "));
 }
 
+// Firefox and Safari throw when history is written too often.
+const kNoHistory = "History.prototype.replaceState = () => { throw new DOMException('too many calls', 'SecurityError'); };";
+async function no_history(page) {
+  await page.until(idle);
+  const before = await shown_hash(page);
+  await page.drag({ x: 400, y: 300 }, { x: 470, y: 280 });
+  await page.until(idle);
+  check("no history: a drag turns the view", (await shown_hash(page)) !== before);
+  check("no history: the page has no error", page.faults.length === 0, page.faults.join(", "));
+}
+
+const kCountedHistory = "{ const write = History.prototype.replaceState; window.writes = 0; History.prototype.replaceState = function (...all) { ++window.writes; write.apply(this, all); }; }";
+async function counted_history(page) {
+  await page.until(idle);
+  const before = await page.value("window.writes");
+  await page.drag({ x: 400, y: 300 }, { x: 500, y: 280 }, { steps: 40 });
+  await page.value("(() => { const input = document.querySelector('[name=\"rotate\"]'); for (let i = 0; i < 40; ++i) { input.value = 5 * (i % 9); input.dispatchEvent(new Event('input', { bubbles: true })); } })()");
+  await page.until(idle);
+  const writes = (await page.value("window.writes")) - before;
+  check("history: 80 motions write the link a few times at most", writes >= 1 && writes <= 8, writes);
+  check("history: the link has the last state", (await page.value("location.hash")).includes("rotate=15"), await page.value("location.hash"));
+}
+
 async function no_unpacking(page) {
   await page.until("window.halflit && !document.getElementById('error').hidden");
   check("no unpacking: the page says why it draws nothing", /DecompressionStream/.test(await text_of(page, "error")), await text_of(page, "error"));
@@ -210,6 +233,8 @@ write_squares("wide", { nodes: [{ mesh: 0 }, { camera: 0, translation: [0, 1, 3]
 write_squares("odd", { nodes: [{ mesh: 0 }], materials: [{ ...matt[0], pbrMetallicRoughness: { baseColorTexture: { index: 0 } } }], textures: [{ source: 0 }], images: [{ uri: "odd.png" }] });
 write_odd_png();
 await with_page({ prelude: kHeld }, "", haste);
+await with_page({ prelude: kNoHistory }, "", no_history);
+await with_page({ prelude: kCountedHistory }, "", counted_history);
 await with_page({ prelude: "delete window.DecompressionStream;" }, "", no_unpacking);
 await with_page({}, "", failing_frame);
 await with_page({ prelude: kEnding }, "", ending_engine);

@@ -5,7 +5,7 @@ let shown = null;        // answer of the last picture
 let files = [];          // that were dropped
 let engine = null, comparer = null;
 let heat = false, heat_of = "";
-let waiting = false, drawing = false, settle_timer = 0, turning = false;
+let waiting = false, drawing = false, settle_timer = 0, link_timer = 0, turning = false;
 let frame_ms = [];       // of the last pictures while the view turns
 
 function fail_with(message) {
@@ -136,7 +136,17 @@ async function draw_all() {
   if (!turning) compare_picture();
 }
 
-// moves: the view alone changes, under a hand.
+// Browsers count these calls, and throw beyond 100 in half a minute. The picture does not depend on them.
+function write_link() {
+  link_timer = 0;
+  try {
+    history.replaceState(null, "", `#${link_of(state)}`);
+  } catch (error) {
+    console.warn(error);
+  }
+}
+
+// moves: the view alone changes, by a drag or a key.
 function set_state(next, moves = false) {
   state = next;
   turning = moves;
@@ -146,7 +156,8 @@ function set_state(next, moves = false) {
   show_lights(state, change_light);
   $("command").value = command_of(state);
   fit_command();
-  history.replaceState(null, "", `#${link_of(state)}`);
+  clearTimeout(link_timer);
+  link_timer = setTimeout(write_link, 300);
   if (heat) hide_heat();
   draw_all();
 }
@@ -250,4 +261,4 @@ if (!has_simd()) {
 set_state(state);
 
 // For tests: pictures without the page's own state.
-window.halflit = { Engine, take_files, current: () => ({ state, shown, idle: !drawing && !waiting && !turning && $("busy").hidden }) };
+window.halflit = { Engine, take_files, current: () => ({ state, shown, idle: !drawing && !waiting && !turning && !link_timer && $("busy").hidden }) };
