@@ -28,6 +28,27 @@ const kHeld = `{
   Response.prototype.arrayBuffer = async function () { await gate; return unpack.call(this); };
 }`;
 
+async function loading(page) {
+  await page.until("window.halflit && window.go");
+  const box = async () => JSON.parse(await page.value("JSON.stringify(document.getElementById('frame').getBoundingClientRect())"));
+  const before = await box();
+  check("loading: a line says so", /loading/i.test(await text_of(page, "loading")));
+  check("loading: the frame has the picture's shape", Math.abs(before.width / before.height - 16 / 9) < 0.01, `${before.width} x ${before.height}`);
+  await page.screenshot(join(work, `loading-${before.width}.png`));
+  await page.value("document.getElementById('download').click()");
+  await page.value("window.go()");
+  await page.until(idle);
+  const after = await box();
+  check("loading: the picture comes into the same frame", after.height === before.height && (await text_of(page, "loading")) === "", `${after.width} x ${after.height}`);
+  check("loading: a click on Download before the first picture does nothing", page.faults.length === 0, page.faults.join(", "));
+}
+
+async function loading_of_a_link(page) {
+  await page.until("window.halflit && window.go");
+  const shape = await page.value("(() => { const box = document.getElementById('frame').getBoundingClientRect(); return box.width / box.height; })()");
+  check("loading: the frame has the shape of the link's size", Math.abs(shape - 1) < 0.01, shape);
+}
+
 // Everything that a visitor can do before the library has started.
 async function haste(page) {
   await page.until("window.halflit && window.go");
@@ -67,6 +88,7 @@ async function counted_history(page) {
 async function no_unpacking(page) {
   await page.until("window.halflit && !document.getElementById('error').hidden");
   check("no unpacking: the page says why it draws nothing", /DecompressionStream/.test(await text_of(page, "error")), await text_of(page, "error"));
+  check("no unpacking: it does not seem to load", (await text_of(page, "loading")) === "" && (await page.value("halflit.current().idle || halflit.current().shown === null")));
 }
 
 async function failing_frame(page) {
@@ -232,6 +254,9 @@ write_squares("wide", { nodes: [{ mesh: 0 }, { camera: 0, translation: [0, 1, 3]
   cameras: [{ type: "perspective", perspective: { aspectRatio: 3, yfov: 0.8, znear: 0.1, zfar: 20 } }] });
 write_squares("odd", { nodes: [{ mesh: 0 }], materials: [{ ...matt[0], pbrMetallicRoughness: { baseColorTexture: { index: 0 } } }], textures: [{ source: 0 }], images: [{ uri: "odd.png" }] });
 write_odd_png();
+await with_page({ prelude: kHeld }, "", loading);
+await with_page({ prelude: kHeld, width: 390, height: 844, phone: true }, "", loading);
+await with_page({ prelude: kHeld }, "#size=480x480", loading_of_a_link);
 await with_page({ prelude: kHeld }, "", haste);
 await with_page({ prelude: kNoHistory }, "", no_history);
 await with_page({ prelude: kCountedHistory }, "", counted_history);

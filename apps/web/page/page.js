@@ -11,6 +11,7 @@ let frame_ms = [];       // of the last pictures while the view turns
 function fail_with(message) {
   $("error").textContent = message;
   $("error").hidden = !message;
+  $("loading").hidden = true;
 }
 
 // An engine that has the files.
@@ -258,6 +259,8 @@ if (!has_simd()) {
   $("module").value = "scalar";
   $("module").disabled = true;
 }
+const sides = state.size.split("x");
+Object.assign($("picture"), { width: sides[0], height: sides[1] || sides[0] });
 set_state(state);
 
 // For tests: pictures without the page's own state.
