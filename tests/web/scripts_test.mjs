@@ -114,6 +114,8 @@ function test_controls() {
   check("controls: moved back, it follows again", () => page.lobe_of(slide(slide(moved, "power", 1.5), "wrap", 0.8)).power === 1.8);
   check("controls: another model has its own power", () => page.lobe_of(choose(moved, "lobe", "valve")).power === 2);
   check("controls: McAuley's lobe is normalised by its name", () => page.lobe_of(choose(page.kDefaults, "lobe", "mcauley")).normalize);
+  check("controls: the exposure can be chosen from the lights again", () => tick(slide(page.kDefaults, "exposure", 2), "exposure_chosen", true).exposure === "");
+  check("controls: and set to what was chosen", () => tick(page.kDefaults, "exposure_chosen", false).exposure === 0.7);
 }
 
 async function test_files() {

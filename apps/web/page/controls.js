@@ -43,7 +43,7 @@ function show_lights(state, on_change) {
 
 function show_state(state) {
   for (const input of form.elements) {
-    if (!input.name) continue;
+    if (!Object.hasOwn(kDefaults, input.name)) continue;
     const value = state[input.name];
     if (input.type === "checkbox") input.checked = value;
     else if (input.tagName === "SELECT") {
@@ -66,6 +66,7 @@ function show_state(state) {
   say_value(form.rotate, `${state.rotate}°`);
   say_value(form.sun_size, `${state.sun_size}°`);
   say_value(form.sh_order, state.sh_order || "auto");
+  form.exposure_chosen.checked = state.exposure === "";
   say_value(form.exposure, state.exposure === "" ? "auto" : `${state.exposure} EV`);
   say_value(form.time, `${digits(state.time, 3)} s`);
 }
@@ -73,6 +74,7 @@ function show_state(state) {
 // The state after a change of one control.
 function state_of_control(state, input) {
   const value = input.type === "checkbox" ? input.checked : is_slider(input) || typeof kDefaults[input.name] === "number" ? +input.value : input.value;
+  if (input.name === "exposure_chosen") return { ...state, exposure: value ? "" : +form.exposure.value };
   const next = { ...state, [input.name]: value };
   if (input.name === "lobe") next.power = "";  // the name's own again
   const model = lobe_model(state.lobe);
