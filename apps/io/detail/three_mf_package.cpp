@@ -51,6 +51,11 @@ ThreeMfPackage::ThreeMfPackage(std::span<const std::byte> bytes, Document& docum
 
 ThreeMfPackage::~ThreeMfPackage() = default;
 
+void ThreeMfPackage::check_size(std::uint64_t bytes, const std::string& where) const {
+    const std::uint64_t most = document_.options.limits.max_file_bytes;
+    if (bytes > most) refuse(where, fmt::format("has more than {} bytes, which is the limit", most), ErrorCode::limit);
+}
+
 std::optional<std::vector<std::byte>> ThreeMfPackage::read(const std::string& name) {
     const std::string path = name.starts_with('/') ? name.substr(1) : name;
     const std::string where = printable(path, 120);
@@ -60,9 +65,16 @@ std::optional<std::vector<std::byte>> ThreeMfPackage::read(const std::string& na
     const auto failed = [&](const char* text) { refuse(where, fmt::format("cannot be unpacked: {}", printable(text))); };
     const std::unique_ptr<zip_file_t, Closer> file(zip_fopen_index(archive_->zip, number, 0));
     if (!file) failed(zip_strerror(archive_->zip));
-    // The size that the package gives is not believed: what comes is counted.
+    // The size that the package gives saves growing, and is refused at once where it is above the limit; what comes is counted all the
+    // same.
     std::vector<std::byte> bytes;
     constexpr std::size_t kChunk = std::size_t{256} << 10;
+    zip_stat_t told;
+    if (zip_stat_index(archive_->zip, number, 0, &told) == 0 && (told.valid & ZIP_STAT_SIZE) != 0) {
+        check_size(told.size, where);
+        if (told.size > unpacked_.left()) unpacked_.take(told.size);
+        bytes.reserve(static_cast<std::size_t>(told.size) + kChunk);
+    }
     for (;;) {
         document_.check_time();
         const std::size_t size = bytes.size();
@@ -73,9 +85,7 @@ std::optional<std::vector<std::byte>> ThreeMfPackage::read(const std::string& na
         bytes.resize(size + static_cast<std::size_t>(std::max<zip_int64_t>(got, 0)));
         if (got <= 0) break;
         unpacked_.take(static_cast<std::uint64_t>(got));
-        if (bytes.size() > document_.options.limits.max_file_bytes)
-            refuse(where, fmt::format("has more than {} bytes, which is the limit", document_.options.limits.max_file_bytes),
-                   ErrorCode::limit);
+        check_size(bytes.size(), where);
     }
     return bytes;
 }

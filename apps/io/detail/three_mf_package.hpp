@@ -27,6 +27,8 @@ public:
 
 private:
     struct Archive;
+    void check_size(std::uint64_t bytes, const std::string& where) const;
+
     Document& document_;
     std::unique_ptr<Archive> archive_;
     Budget unpacked_;
