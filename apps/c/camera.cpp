@@ -37,7 +37,8 @@ int32_t halflit_camera_frame(const halflit_scene* scene, float aspect, float azi
     return reading(__func__, scene, {{to, "camera"}}, [&]() -> Result<void> {
         if (!(aspect > 0.0f && aspect < 1e6f)) return fail(ErrorCode::usage, "halflit_camera_frame: aspect is not a positive number");
         Members members("halflit_camera_frame");
-        members.finite("azimuth_deg or elevation_deg", azimuth_deg, elevation_deg);
+        members.finite("azimuth_deg", azimuth_deg);
+        members.elevation(elevation_deg);
         members.positive("zoom", zoom, 1000000000);
         if (!members.result()) return members.result();
         ViewSettings view;

@@ -179,7 +179,8 @@ Result<AutoOptions> setup_options(const halflit_setup_options* given) {
     options.studio_turn_rad = read->studio_turn_rad;
     Members members("halflit_setup_options");
     members.read(read->studio, StudioUse::under_lights, "studio", options.studio);
-    members.finite("azimuth_deg, elevation_deg or studio_turn_rad", read->azimuth_deg, read->elevation_deg, read->studio_turn_rad);
+    members.finite("azimuth_deg or studio_turn_rad", read->azimuth_deg, read->studio_turn_rad);
+    members.elevation(read->elevation_deg);
     members.finite("ambient_color", read->ambient_color);
     members.positive("zoom", read->zoom, 1000000000);
     members.positive("fov_y_deg", read->fov_y_deg, 180);

@@ -990,6 +990,8 @@ static void test_numbers_that_are_none(void) {
     options.zoom = NAN;
     CHECK_FAILS(halflit_setup(cube.scene, 8, 8, &options, &cube.camera, &cube.settings), HALFLIT_ERROR_USAGE, "zoom");
     CHECK_FAILS(halflit_camera_frame(cube.scene, 1, NAN, 20, 1, &cube.camera), HALFLIT_ERROR_USAGE, "azimuth_deg");
+    CHECK_FAILS(halflit_camera_frame(cube.scene, 1, 35, 91, 1, &cube.camera), HALFLIT_ERROR_USAGE, "elevation_deg is not from -90 to 90");
+    CHECK_FAILS(halflit_camera_frame(cube.scene, 1, 35, NAN, 1, &cube.camera), HALFLIT_ERROR_USAGE, "elevation_deg");
     cube.settings.background[0] = NAN;
     CHECK(draw_cube(NULL, &cube) == 0);
     CHECK(strstr(halflit_last_error(), "background is not finite") != NULL);

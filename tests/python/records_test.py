@@ -35,6 +35,12 @@ class Records(unittest.TestCase):
         self.assertEqual((material.name, material.lobe.wrap), ("a name of some length", 0.5))
         self.assertEqual(halflit.Material(base_color_texture={"texture": 2, "wrap_u": "clamp"}).base_color_texture, use)
 
+    def test_scenes_are_not_copied(self):
+        scene = halflit.Scene()
+        for make in (copy.copy, copy.deepcopy, pickle.dumps):
+            with self.assertRaisesRegex(TypeError, "a halflit.Scene cannot be copied or pickled"):
+                make(scene)
+
     def test_a_material_is_matt_unless_it_is_asked_to_be_metal(self):
         self.assertEqual(halflit.Material().metallic, 0)
         self.assertEqual(halflit.Material(metallic=0.5).metallic, 0.5)
@@ -209,7 +215,7 @@ class Refused(unittest.TestCase):
         scene.add_mesh(CORNERS, FACES)
         for call, words in (
             (lambda: scene.render((16.9, 8.2)), "size: expected a whole number, found 16.9"),
-            (lambda: scene.render("64"), "size: expected a whole number"),
+            (lambda: scene.render("64"), "size: expected whole numbers, found '64'"),
             (lambda: scene.render((8, 8, 8)), r"size: expected \(width, height\)"),
             (lambda: scene.render(8, samples=4.0), "samples: expected a whole number, found 4.0"),
             (lambda: scene.render(8, region=(0, 0, 4)), "region: expected x, y, width and height"),
@@ -244,6 +250,9 @@ class Refused(unittest.TestCase):
             (lambda: halflit.Material(double_sided="no"), "double_sided: expected True or False, found 'no'"),
             (lambda: halflit.Material(roughness="0.5"), "roughness: expected a number, found '0.5'"),
             (lambda: halflit.Light(position=3), "position: expected 3 numbers, found 3"),
+            (lambda: halflit.Light("point", color=(1, -1, 0)), r"color: expected light from 0 on, found \(1, -1, 0\)"),
+            (lambda: halflit.render("demo", "big"), "size: expected whole numbers, found 'big'"),
+            (lambda: halflit.render("demo", 8, elevation=91), "halflit_setup_options: elevation_deg is not from -90 to 90"),
             (lambda: halflit.Scene.load(box(), lenient="no"), "lenient: expected True or False"),
             (lambda: halflit.Scene.load(box(), crease_deg="sharp"), "crease_deg: expected a number"),
             (lambda: halflit.Scene.load(box(), time="1"), "time: expected a number"),

@@ -119,6 +119,8 @@ class Arrays(unittest.TestCase):
             ({"normals": "soft"}, "normals: expected"),
             ({"uv": CORNERS}, "uv: expected"),
             ({"colors": CORNERS[:, :2]}, "colors: expected"),
+            ({"normals": CORNERS * np.nan}, "normals: row 0 is not finite"),
+            ({"uv": np.full((8, 2), 1e300)}, r"uv: row 0 is not finite in float32: \[inf, inf\]"),
             ({"material": 3}, "material"),
             ({"material": {"shine": 3}}, "Material has no member shine"),
             ({"topology": "quads"}, "topology: expected one of triangles"),

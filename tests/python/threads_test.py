@@ -116,6 +116,18 @@ class Callbacks(unittest.TestCase):
                 scene.render((320, 200), **{name: fail})
         self.assertEqual(scene.render((320, 200)).pixel_hash, expected)
 
+    def test_what_progress_returns_does_not_matter(self):
+        for returned in (np.zeros(3), object()):
+            picture = halflit.render("demo", (32, 20), progress=lambda share: returned)
+            self.assertEqual(picture.pixel_hash, halflit.render("demo", (32, 20)).pixel_hash)
+        lost = []
+        before, sys.unraisablehook = sys.unraisablehook, lost.append
+        try:
+            halflit.render("demo", (32, 20), progress=lambda share: np.zeros(3))
+        finally:
+            sys.unraisablehook = before
+        self.assertEqual(lost, [])
+
     def test_a_callback_cannot_use_the_scene_that_is_drawn(self):
         scene = halflit.Scene()
         scene.add_mesh(np.random.default_rng(1).random((3000, 3), np.float32))

@@ -23,7 +23,8 @@ def array_of(value, name: str) -> np.ndarray:
 
 def numbers(value, kind, name: str) -> np.ndarray:
     """An array of numbers of this kind, without gaps."""
-    return np.ascontiguousarray(array_of(value, name), dtype=kind)
+    with np.errstate(over="ignore"):  # infinite numbers are told of where they matter
+        return np.ascontiguousarray(array_of(value, name), dtype=kind)
 
 
 def floats(value, columns: int, name: str, count: Optional[int] = None) -> np.ndarray:
@@ -33,6 +34,15 @@ def floats(value, columns: int, name: str, count: Optional[int] = None) -> np.nd
         raise UsageError(f"{name}: expected an array of shape (n, {columns}), found {array.shape}")
     if count is not None and len(array) != count:
         raise UsageError(f"{name}: {len(array)} rows, expected one for each of {count} vertices")
+    return array
+
+
+def finite(value, columns: int, name: str, count: int) -> np.ndarray:
+    """The same without infinite numbers and NaN."""
+    array = floats(value, columns, name, count)
+    wrong = np.flatnonzero(~np.isfinite(array).all(axis=1))
+    if len(wrong):
+        raise UsageError(f"{name}: row {wrong[0]} is not finite in float32: {shown(array[wrong[0]].tolist())}")
     return array
 
 

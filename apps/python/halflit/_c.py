@@ -183,8 +183,9 @@ def call(name: str, *arguments) -> None:
 class Handle:
     """A scene or a renderer of the library. It is destroyed with its last reference; a running frame holds one."""
 
+    _destroy = None
+
     def __init__(self, create: str, destroy: str, *arguments):
-        self._destroy = None
         pointer = ctypes.c_void_p()
         call(create, *arguments, ctypes.byref(pointer))
         self._as_parameter_ = pointer

@@ -165,7 +165,7 @@ class Geometry(SceneBase):
                     raise UsageError(f"vertices: {len(positions)} rows, but the mesh was added with more")
                 directions = None if smooth is None else _arrays.smooth_normals(positions, smooth)
             else:
-                directions, smooth = _arrays.floats(normals, 3, "normals", len(positions)), None
+                directions, smooth = _arrays.finite(normals, 3, "normals", len(positions)), None
             pointer = None if directions is None else directions.ctypes.data
             self._change("scene_set_vertices", mesh, positions.ctypes.data, pointer, len(positions))
             if smooth is None:

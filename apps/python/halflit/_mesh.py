@@ -34,7 +34,7 @@ class MeshArrays:
         self.arrays: Dict[str, Optional[np.ndarray]] = {"positions": positions, "indices": self.corners}
         named = (("normals", "normals", normals, 3), ("uv0", "uv", attributes["uv"], 2), ("uv1", "uv1", attributes["uv1"], 2))
         for member, argument, value, columns in (*named, ("tangents", "tangents", attributes["tangents"], 4)):
-            self.arrays[member] = None if value is None else _arrays.floats(value, columns, argument, self.count)
+            self.arrays[member] = None if value is None else _arrays.finite(value, columns, argument, self.count)
         colors = attributes["colors"]
         self.arrays["colors"] = None if colors is None else _arrays.colors(colors, self.count)
 

@@ -73,6 +73,9 @@ class SceneBase:
         with self._lock:
             self._handle = self._renderer = None
 
+    def __reduce_ex__(self, protocol):
+        raise TypeError("a halflit.Scene cannot be copied or pickled: make a second one, or in another process load its file again")
+
     def __enter__(self: Self) -> Self:
         return self
 

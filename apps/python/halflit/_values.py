@@ -56,6 +56,8 @@ def reals(value, count: int, name: str) -> list:
 def sized(value, name: str) -> tuple:
     """Whole numbers of an iterable, such as a size or a region."""
     try:
+        if isinstance(value, (str, bytes)):
+            raise TypeError
         return tuple(whole(x, name, -(2**31), 2**31 - 1) for x in value)
     except TypeError:
         raise UsageError(f"{name}: expected whole numbers, found {shown(value)}") from None

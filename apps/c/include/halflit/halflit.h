@@ -289,7 +289,7 @@ HALFLIT_C_API int32_t halflit_camera_init(halflit_camera* camera, size_t size);
 /// Places the camera at `eye`, looking at `target`, with `up` upwards in the picture. up may be null: +y. The lens stays.
 HALFLIT_C_API int32_t halflit_camera_look_at(const float eye[3], const float target[3], const float up[3], halflit_camera* camera);
 /// A view of the whole scene. aspect: width / height of the picture. azimuth_deg: around +y, 0 from +z, positive from the right.
-/// elevation_deg: above the horizon. zoom: 2 makes things twice as large. 35, 20 and 1 give the usual three-quarter view.
+/// elevation_deg: above the horizon, -90 to 90. zoom: 2 makes things twice as large. 35, 20 and 1 give the usual three-quarter view.
 HALFLIT_C_API int32_t halflit_camera_frame(const halflit_scene* scene, float aspect, float azimuth_deg, float elevation_deg, float zoom,
                                            halflit_camera* camera);
 /// A camera of the scene.
@@ -427,7 +427,7 @@ typedef struct halflit_setup_options {
     double studio_turn_rad;        ///< turns the studio about the vertical, counter-clockwise seen from above (0)
     int32_t frame;                 ///< without `camera`: a view of the whole scene, whatever cameras the scene has (0)
     float azimuth_deg;             ///< of a view of the whole scene, as elevation_deg and zoom: see halflit_camera_frame (35)
-    float elevation_deg;           ///< above the horizon (20)
+    float elevation_deg;           ///< above the horizon, -90 to 90 (20)
     float zoom;                    ///< 2 makes things twice as large (1)
     float fov_y_deg;               ///< of a view of the whole scene: full vertical angle before the zoom (35)
     int32_t own_ambient;           ///< ambient_color is the light from all around (0)
