@@ -53,6 +53,16 @@ TEST_CASE("report: - is standard output, the picture goes to its file", "[cli]")
     CHECK(json_of(outcome.out)["pixel_hash"] == hash_text(read_picture(contents(folder.file("a.png")))));
 }
 
+TEST_CASE("report: the documented example has the program's hash", "[cli]") {
+    const TemporaryFolder folder;
+    const std::string text = contents(HALFLIT_SOURCE_DIR "/docs/report.md"), key = "\"pixel_hash\": \"";
+    REQUIRE(text.find("$ halflit render demo --size 640x360 -o demo.png --report -") != std::string::npos);
+    const auto start = text.find(key);
+    REQUIRE(start != std::string::npos);
+    const Outcome outcome = run({"render", "demo", "--size", "640x360", "-o", folder.file("demo.png"), "--report", "-"});
+    CHECK(json_of(outcome.out)["pixel_hash"] == text.substr(start + key.size(), 16));
+}
+
 TEST_CASE("report: a failed run has a report too", "[cli]") {
     const TemporaryFolder folder;
     const std::vector<std::pair<std::vector<std::string>, int>> cases = {
