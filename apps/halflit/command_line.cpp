@@ -139,7 +139,7 @@ std::string usage_message(const CLI::App& root, const CLI::ParseError& error, st
         else
             message = "unexpected argument " + word;
     } else if (no_command) {
-        message = "no command: expected one of";
+        message = "no scene and no command: expected halflit SCENE [PICTURE], or one of";
         for (const std::string& name : command_names(commands)) message += " " + name;
     }
     std::replace(message.begin(), message.end(), '\n', ' ');

@@ -262,7 +262,10 @@ private:
 
     Result<void> finish() {
         if (!writer_) {
-            if (drawn_count_ == 0) return {};
+            if (drawn_count_ == 0) {
+                if (range_.count() > 0) print_note(fmt::format("nothing to do: all {} frames are there", range_.count()));
+                return {};
+            }
             print_note(range_.count() == 1
                            ? "wrote " + file_of(0)
                            : fmt::format("wrote {} frames, {} to {}", drawn_count_, file_of(0), file_of(range_.count() - 1)));

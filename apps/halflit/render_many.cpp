@@ -79,7 +79,7 @@ private:
 struct Outcome {
     std::string messages, report;
     int code = 0;
-    bool blank = false;
+    bool blank = false, skipped = false;
 };
 
 class Batch {
@@ -114,6 +114,7 @@ public:
         for (std::thread& thread : others) thread.join();
         if (report_ != nullptr && std::fclose(report_.release()) != 0 && !report_error_) report_error_ = errno;
         if (report_error_) return fail(ErrorCode::io, options_.each.report + ": " + io::errno_text(*report_error_));
+        if (skipped_ > 0 && others_ == 0) print_note(fmt::format("nothing to do: all {} pictures are there", skipped_));
         return code_ != 0 ? code_ : any_blank_ ? 1 : 0;
     }
 
@@ -219,7 +220,7 @@ private:
     Outcome failure(std::size_t i, const Error& error) {
         print_error(error.message);
         const int code = static_cast<int>(error.code);
-        return {"", error_report(pictures_[i].scene, code, error.message, true), code, false};
+        return {"", error_report(pictures_[i].scene, code, error.message, true), code, false, false};
     }
 
     Outcome draw(std::size_t i) {
@@ -230,7 +231,7 @@ private:
             there.output = options.output;
             there.shard = options.shard;
             there.place = options.place;
-            return {"", skipped_report(options.scene, there), 0, false};
+            return {"", skipped_report(options.scene, there), 0, false, true};
         }
         const int threads = is_large(i) ? threads_ : 1;
         options.execution.threads = threads;
@@ -245,7 +246,7 @@ private:
         permits_.give_back(threads);
         if (!picture) return failure(i, picture.error());
         if (const auto written = write_picture(*picture); !written) return failure(i, written.error());
-        return {"", std::move(picture->report), 0, picture->blank};
+        return {"", std::move(picture->report), 0, picture->blank, false};
     }
 
     /// Large scenes and pictures are drawn one at a time: by all threads, and within the memory that one of them takes.
@@ -268,6 +269,7 @@ private:
                 report_error_ = errno;
             if (code_ == 0) code_ = outcome.code;
             any_blank_ |= outcome.blank;
+            ++(outcome.skipped ? skipped_ : others_);
             outcome = {};
         }
     }
@@ -288,6 +290,7 @@ private:
     std::optional<int> report_error_;
     int code_ = 0;
     bool any_blank_ = false;
+    std::size_t skipped_ = 0, others_ = 0;
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Many scenes in one run: each has the picture that it has alone, a bad one does not stop the others, and what is there can be kept.
 #include "tests/cli/program.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include "tests/support/catch.hpp"
 #include "tests/support/skip.hpp"
@@ -85,6 +86,8 @@ TEST_CASE("many: scenes are read from a list, and pictures that are there can be
     CHECK(lines[1]["status"] == "ok");
     CHECK(contents(folder.file("out/sphere.png")) == "mine");
     CHECK(contents(folder.file("out/lights.png")) == lights);
+    words.erase(std::find(words.begin(), words.end(), "-q"));
+    CHECK(run(words, here).err == "halflit: nothing to do: all 2 pictures are there\n");
     // A list from standard input; without --skip-existing all is drawn anew.
     CHECK(
         run({"render", "--files-from", "-", "-o", "out/", "--size", "16", "-q"}, {.input = "sphere:500\n", .folder = folder.path()}).code ==

@@ -21,7 +21,7 @@ void check_error(const Outcome& outcome, int code, const std::string& part) {
 TEST_CASE("usage: an invalid command line ends with 2 and says what was expected", "[cli]") {
     const TemporaryFolder folder;
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
-        {{}, "no command"},
+        {{}, "no scene and no command: expected halflit SCENE [PICTURE], or one of render"},
         {{"rendr"}, "did you mean render?"},
         {{"demmo"}, "unknown command demmo (did you mean demo?)"},
         {{"help", "rendr"}, "did you mean render?"},
