@@ -167,7 +167,7 @@ struct Renderer::Impl {
         const bool whole_picture = drawn.width == target.width && drawn.height == target.height;
         if (report.triangles_submitted == 0)
             report.warnings.emplace_back("nothing to draw");
-        else if (whole_picture && report.triangles_drawn == 0)
+        else if (whole_picture && report.pixels_visible == 0 && report.fragments_shaded == 0)
             report.warnings.emplace_back("nothing to draw: all triangles face away, lie outside of the view, or cover no sample");
         return report;
     }

@@ -326,6 +326,19 @@ TEST_CASE("frame: an empty scene is background, with a warning", "[raster][frame
     CHECK(flat.linear == empty.linear);
     CHECK(flat.report.triangles_submitted == 6);
     CHECK(nothing(flat.report));
+
+    // A triangle that is drawn, but lies between the samples.
+    Builder small;
+    small.add(quad(0.001f, 0.001f, 0.002f, 0.002f, 0), {1, 1, 1, 1});
+    settings.samples = 1;
+    CHECK(nothing(draw(small.scene, settings).report));
+    // A pane is seen, by whichever accuracy.
+    Builder pane;
+    pane.add(quad(-1, -1, 1, 1, 0), {1, 1, 1, 0.5f}, AlphaMode::blend);
+    for (const Accuracy accuracy : {Accuracy::exact, Accuracy::reference}) {
+        settings.shading.accuracy = accuracy;
+        CHECK(draw(pane.scene, settings).report.warnings.empty());
+    }
 }
 
 TEST_CASE("frame: triangles with a corner that is not finite are dropped and counted", "[raster][frame]") {
