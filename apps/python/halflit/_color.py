@@ -31,7 +31,7 @@ def linear_from_codes(codes) -> np.ndarray:
     return np.concatenate([linear_from_srgb(share[..., :3]), share[..., 3:]], axis=-1)
 
 
-def color(value: Color, name: str, count: int, most: Optional[float] = None, least: float = -math.inf) -> list:
+def color(value: Color, name: str, count: int, most: Optional[float] = None) -> list:
     """`count` numbers of linear light, the fourth being alpha, 1 if it is left out.
 
     Texts and uint8 are sRGB. most: largest number of red, green and blue. None: it is light, which has no limit.
@@ -54,8 +54,8 @@ def color(value: Color, name: str, count: int, most: Optional[float] = None, lea
     numbers = [float(x) for x in array]
     if not all(math.isfinite(x) for x in numbers):
         raise UsageError(f"{name}: a number is not finite: {shown(value)}")
-    if min(numbers) < least:
-        raise UsageError(f"{name}: expected light from {least:g} on, found {shown(value)}")
+    if min(numbers) < 0:
+        raise UsageError(f"{name}: expected light from 0 on, found {shown(value)}")
     return numbers + [1.0] * (count - len(numbers))
 
 

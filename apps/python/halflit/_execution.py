@@ -90,11 +90,8 @@ class Execution:
                 raise UsageError(f"{name}: expected a function, found {options[name]!r}")
         self.has_callbacks = progress is not None or cancelled is not None
         if self.has_callbacks:
-            struct.progress = _c.Progress(lambda _, share: self._tell(progress, share))
+            struct.progress = _c.Progress(lambda _, share: self._guarded(progress, share))
             struct.cancelled = _c.Cancelled(lambda _: 1 if self._stops(cancelled) else 0)
-
-    def _tell(self, progress, share: float) -> None:
-        self._guarded(progress, share)  # what it returns does not matter
 
     def _stops(self, cancelled) -> bool:
         if _CALLS.ending or self.raised:

@@ -40,7 +40,7 @@ class Lighting(SceneBase):
     def set_ambient(self, sky: Color, ground: Optional[Color] = None) -> None:
         """Sets the light from all around, linear: sky from above, ground (the same) from below. An environment replaces it."""
         given = ((sky, "sky"), (sky if ground is None else ground, "ground"))
-        self._relight("scene_set_ambient", *((ctypes.c_float * 3)(*color(value, name, 3, least=0.0)) for value, name in given))
+        self._relight("scene_set_ambient", *((ctypes.c_float * 3)(*color(value, name, 3)) for value, name in given))
 
     def set_environment(self, image, *, rotate: float = 0.0, extract_suns: bool = True, calibrated: bool = False) -> None:
         """Lights the scene by an image of the light from all directions, in the place of ambient light.

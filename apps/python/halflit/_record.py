@@ -97,8 +97,7 @@ class Record:
         if name in self._truths:
             return truth(value, name)
         if name in self._colors:
-            shares = color(value, name, field._length_, self._colors[name], least=0.0)
-            return field(*(self._checked(x, name) for x in shares))
+            return field(*(self._checked(x, name) for x in color(value, name, field._length_, self._colors[name])))
         if issubclass(field, ctypes.Array):
             return field(*(self._checked(x, name) for x in reals(value, field._length_, name)))
         if issubclass(field, ctypes.Structure):

@@ -121,7 +121,7 @@ def light_of(scene, options: dict, struct) -> None:
     # Lights that the caller adds get a share of the studio, as those of the program's --light.
     studio = "under_lights" if scene._own_lights else "for_dark"
     if options.get("ambient") is not None:
-        struct.own_ambient, struct.ambient_color = 1, (ctypes.c_float * 3)(*color(options["ambient"], "ambient", 3, least=0.0))
+        struct.own_ambient, struct.ambient_color = 1, (ctypes.c_float * 3)(*color(options["ambient"], "ambient", 3))
         studio = "never"
     given = options.get("studio")
     if isinstance(given, str):
