@@ -31,7 +31,7 @@ public:
     void positive(const char* member, float number, int limit) {
         if (!(number > 0.0f && number < static_cast<float>(limit))) wrong(member, "is not above 0 and below " + std::to_string(limit));
     }
-    /// Requires an angle above or below the horizon.
+    /// Requires degrees above the horizon, below it negative.
     void elevation(float degrees) {
         if (!(degrees >= -90.0f && degrees <= 90.0f)) wrong("elevation_deg", "is not from -90 to 90");
     }

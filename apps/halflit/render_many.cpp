@@ -220,7 +220,7 @@ private:
     Outcome failure(std::size_t i, const Error& error) {
         print_error(error.message);
         const int code = static_cast<int>(error.code);
-        return {"", error_report(pictures_[i].scene, code, error.message, true), code, false, false};
+        return {"", error_report(pictures_[i].scene, code, error.message, true), code};
     }
 
     Outcome draw(std::size_t i) {
@@ -246,7 +246,7 @@ private:
         permits_.give_back(threads);
         if (!picture) return failure(i, picture.error());
         if (const auto written = write_picture(*picture); !written) return failure(i, written.error());
-        return {"", std::move(picture->report), 0, picture->blank, false};
+        return {"", std::move(picture->report), 0, picture->blank};
     }
 
     /// Large scenes and pictures are drawn one at a time: by all threads, and within the memory that one of them takes.
