@@ -17,6 +17,5 @@ foreach(folder xsimd tl fmt stb catch2)
     endif()
 endforeach()
 set(CMAKE_CXX_STANDARD_INCLUDE_DIRECTORIES ${HALFLIT_HEADER_LINKS})
-set(CMAKE_CXX_FLAGS_INIT "-include ${CMAKE_CURRENT_LIST_DIR}/../apps/web/missing_library.hpp")
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-sALLOW_MEMORY_GROWTH=1")
 list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR}/emscripten)  # packages that are headers alone

@@ -4,18 +4,16 @@
 #   halflit_layer(NAME SOURCES... UNITY...)  a static library halflit_NAME, one layer or component, with its public headers
 #   halflit_component(NAME OUTPUT LAYERS...) the target halflit::NAME for consumers, made of layers, static or shared
 
-# Flags of the numerics contract decide values, so every target gets them. Contraction into fused multiply-add is off because it rounds
-# once where the source rounds twice, on some instruction sets only. GCC 12 drops the rounding of double to float and back where it
-# vectorises straight-line code (SLP), as in {double(float(x)), double(float(y)), double(float(z))}; tests/sh/rounding_test.cpp.
 add_library(halflit_flags INTERFACE)
 target_compile_features(halflit_flags INTERFACE cxx_std_20)
+include(${CMAKE_CURRENT_LIST_DIR}/value_flags.cmake)
 target_compile_options(halflit_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:
-    -ffp-contract=off -fno-math-errno -fno-trapping-math
-    $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>
+    ${HALFLIT_VALUE_FLAGS}
     $<$<STREQUAL:$<CONFIG>,>:-O2>
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
     $<$<CXX_COMPILER_ID:Clang,AppleClang>:-Wno-bitwise-instead-of-logical>  # a scalar kernel's mask is a bool
     $<$<BOOL:${HALFLIT_WARNINGS_AS_ERRORS}>:-Werror>>)
+target_link_libraries(halflit_flags INTERFACE halflit::xsimd)
 target_include_directories(halflit_flags INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
 foreach(folder sh shading raster apps/io)
     target_include_directories(halflit_flags INTERFACE ${PROJECT_SOURCE_DIR}/${folder}/include)

@@ -1,6 +1,7 @@
 #include "halflit/auto_setup.hpp"
 
 #include "raster/view/projection.hpp"
+#include "sh/fp_environment.hpp"
 #include "shading/environment.hpp"
 #include "shading/model/srgb.hpp"
 
@@ -145,6 +146,7 @@ Settings usual_settings() {
 }
 
 const Camera* choose_camera(const Scene& scene, const Bounds& bounds) {
+    const FpEnvironment environment_of_host;
     if (scene.cameras.empty()) return nullptr;
     const Camera& first = scene.cameras.front();
     if (bounds.empty) return &first;
@@ -153,6 +155,7 @@ const Camera* choose_camera(const Scene& scene, const Bounds& bounds) {
 }
 
 AutoSetup auto_setup(Scene& scene, const Bounds& bounds, int width, int height, const AutoOptions& options) {
+    const FpEnvironment environment_of_host;
     AutoSetup setup;
     const Camera* chosen = options.camera ? &*options.camera : options.frame ? nullptr : choose_camera(scene, bounds);
     setup.framed = chosen == nullptr;
@@ -166,6 +169,7 @@ AutoSetup auto_setup(Scene& scene, const Bounds& bounds, int width, int height, 
 }
 
 AutoSetup auto_setup(Scene& scene, int width, int height, const AutoOptions& options) {
+    const FpEnvironment environment_of_host;
     return auto_setup(scene, scene_bounds(scene), width, height, options);
 }
 

@@ -55,7 +55,7 @@ Result<VisibilityView> draw_view(const Scene& scene, const Camera& camera, const
 
 Result<VisibilityView> visibility(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height,
                                   const Execution& execution) {
-    return guarded("finding what is visible", [&] { return draw_view(scene, camera, settings, width, height, execution); });
+    return guarded("finding what is visible", execution, [&] { return draw_view(scene, camera, settings, width, height, execution); });
 }
 
 Result<std::vector<std::uint32_t>> triangle_ids(const Scene& scene, const Camera& camera, const Settings& settings, int width, int height,

@@ -260,7 +260,7 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, 
 
 Result<FramePlan> plan_frame(const PreparedData& scene, const Camera& camera, const Settings& settings, int width, int height,
                              int tile_size, FramePlanMemory& memory) {
-    return guarded("planning a frame", [&] { return make_plan(scene, camera, settings, width, height, tile_size, memory); });
+    return guarded("planning a frame", {}, [&] { return make_plan(scene, camera, settings, width, height, tile_size, memory); });
 }
 
 Result<FramePlan> plan_frame(const PreparedData& scene, const Camera& camera, const Settings& settings, int width, int height,

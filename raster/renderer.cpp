@@ -206,8 +206,8 @@ void Renderer::forget_frames() {
 namespace {
 
 template <class Body>
-Result<RenderReport> timed(const Body& body) {
-    return guarded("rendering", [&] {
+Result<RenderReport> timed(const Execution& execution, const Body& body) {
+    return guarded("rendering", execution, [&] {
         Stopwatch total;
         Result<RenderReport> report = body();
         if (report) report->total_ms = total.lap();
@@ -219,7 +219,7 @@ Result<RenderReport> timed(const Body& body) {
 
 Result<RenderReport> Renderer::render(const PreparedScene& scene, const Camera& camera, const Settings& settings, const Target& target,
                                       const Execution& execution) {
-    return timed([&]() -> Result<RenderReport> {
+    return timed(execution, [&]() -> Result<RenderReport> {
         const auto isa = check_call(settings, target, execution);
         if (!isa) return tl::unexpected<Error>(isa.error());
         return Impl::render_within_memory(impl_, scene.data(), camera, settings, target, execution, *isa, {});
@@ -228,7 +228,7 @@ Result<RenderReport> Renderer::render(const PreparedScene& scene, const Camera& 
 
 Result<RenderReport> Renderer::render(const Scene& scene, const Camera& camera, const Settings& settings, const Target& target,
                                       const Execution& execution) {
-    return timed([&]() -> Result<RenderReport> {
+    return timed(execution, [&]() -> Result<RenderReport> {
         Stopwatch watch;
         RenderReport report;
         const auto isa = check_call(settings, target, execution);
@@ -243,7 +243,7 @@ Result<RenderReport> Renderer::render(const Scene& scene, const Camera& camera, 
 
 Result<RenderReport> render(const Scene& scene, const Camera& camera, const Settings& settings, const Target& target,
                             const Execution& execution) {
-    return guarded("rendering", [&] { return Renderer().render(scene, camera, settings, target, execution); });
+    return guarded("rendering", execution, [&] { return Renderer().render(scene, camera, settings, target, execution); });
 }
 
 }  // namespace halflit

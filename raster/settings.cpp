@@ -3,6 +3,7 @@
 #include "raster/check_execution.hpp"
 
 #include "raster/kernels/raster_kernels.hpp"
+#include "sh/fp_environment.hpp"
 #include "shading/planner.hpp"
 #include "shading/sky_lights.hpp"
 
@@ -12,6 +13,7 @@
 namespace halflit {
 
 Result<void> check_settings(const Settings& settings, int width, int height) {
+    const FpEnvironment environment_of_host;
     if (width < 1 || height < 1) return fail(ErrorCode::usage, "the picture has no pixels");
     if (width > 2 * raster::kGuardBandPx || height > 2 * raster::kGuardBandPx)
         return fail(ErrorCode::limit, "picture size: " + std::to_string(width) + " x " + std::to_string(height) +

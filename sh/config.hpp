@@ -2,6 +2,7 @@
 #pragma once
 
 #include "halflit/math.hpp"  // HALFLIT_INLINE
+#include "sh/value_flags.hpp"
 
 /// Traps on a broken precondition inside the library; never used for user input. Compiled out when NDEBUG is set.
 #ifdef NDEBUG

@@ -1,5 +1,6 @@
 #include "halflit/math.hpp"
 
+#include "sh/fp_environment.hpp"
 #include "sh/mat4.hpp"
 #include "sh/trig.hpp"
 #include "sh/vec3d.hpp"
@@ -26,15 +27,22 @@ Vec3d least_axis(Vec3d v) {
 
 }  // namespace
 
-Vec4f operator*(const Mat4& m, Vec4f v) { return ((m.c[0] * v.x + m.c[1] * v.y) + m.c[2] * v.z) + m.c[3] * v.w; }
+Vec4f operator*(const Mat4& m, Vec4f v) {
+    const FpEnvironment environment_of_host;
+    return ((m.c[0] * v.x + m.c[1] * v.y) + m.c[2] * v.z) + m.c[3] * v.w;
+}
 
-Mat4 operator*(const Mat4& a, const Mat4& b) { return {{a * b.c[0], a * b.c[1], a * b.c[2], a * b.c[3]}}; }
+Mat4 operator*(const Mat4& a, const Mat4& b) {
+    const FpEnvironment environment_of_host;
+    return {{a * b.c[0], a * b.c[1], a * b.c[2], a * b.c[3]}};
+}
 
 Mat4 translation(Vec3f t) { return {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {t.x, t.y, t.z, 1}}}; }
 
 Mat4 scaling(Vec3f s) { return {{{s.x, 0, 0, 0}, {0, s.y, 0, 0}, {0, 0, s.z, 0}, {0, 0, 0, 1}}}; }
 
 Mat4 rotation(Vec4f q) {
+    const FpEnvironment environment_of_host;
     const float x2 = q.x + q.x, y2 = q.y + q.y, z2 = q.z + q.z;
     const float xx = q.x * x2, yy = q.y * y2, zz = q.z * z2;
     const float xy = q.x * y2, xz = q.x * z2, yz = q.y * z2;
@@ -44,6 +52,7 @@ Mat4 rotation(Vec4f q) {
 }
 
 Mat4 rotation(Vec3f axis, float angle_rad) {
+    const FpEnvironment environment_of_host;
     const Vec3d n = unit(to_double(axis));
     if (zero(n) || !(angle_rad - angle_rad == 0.0f)) return {};
     const SinCos a = sin_cos(static_cast<double>(angle_rad));
@@ -53,6 +62,7 @@ Mat4 rotation(Vec3f axis, float angle_rad) {
 }
 
 Mat4 look_at(Vec3f eye, Vec3f target, Vec3f up) {
+    const FpEnvironment environment_of_host;
     Vec3d back = unit(to_double(eye) - to_double(target));
     if (zero(back)) back = {0, 0, 1};
     const Vec3d upward = unit(to_double(up));

@@ -34,6 +34,9 @@ inline double exp2_of(double y) {
     return sum * std::bit_cast<double>(static_cast<std::uint64_t>(k + 1023) << 52);
 }
 
+/// e^x, with the range and the error of exp2_of plus 2e-16 |x|.
+inline double exp_of(double x) { return exp2_of(x * 1.4426950408889634); }  // 1 / ln 2
+
 /// x^p for x >= 0; 0 to any power is 0.
 inline double power_of(double x, double p) { return x > 1e-300 ? exp2_of(p * log2_of(x)) : 0.0; }
 

@@ -1,5 +1,7 @@
 #include "sh/project.hpp"
 
+#include "sh/time_limit.hpp"
+
 #include "sh/detail/legendre.hpp"
 #include "sh/rotate.hpp"
 #include "sh/vec3d.hpp"
@@ -156,6 +158,7 @@ void Projection::add_rows(const EquirectView& image, int first_row, int end_row,
         const int mirrored = image.height - 1 - row;
         const bool both = mirrored >= first_row && mirrored < end_row;
         if (both && mirrored < row) continue;
+        check_time();
         integrate_row(image.height, row, rule, integrals);
         add_row(row, 1.0);
         if (both && mirrored != row) add_row(mirrored, -1.0);

@@ -1,5 +1,7 @@
 #include "sh/sun.hpp"
 
+#include "sh/time_limit.hpp"
+
 #include <algorithm>
 #include <cstdint>
 #include <optional>
@@ -9,6 +11,7 @@ namespace {
 
 constexpr int kJudgedOrder = 5;
 constexpr int kMaxCandidates = 8;
+constexpr std::size_t kPixelsPerCheck = 4096;  ///< of a source, between two looks at the clock
 /// Choice of the level that a source is cut at. Where nearly all light is the sun's, the sun's own part dominates the bound and hides the
 /// part that is left in the image. So the lowest level is taken whose bound is at most kAsGood times the best. Levels go on below the mean
 /// luminance where the sun makes most of it, down to kAboveRest times the mean luminance of the rest. The rest is a difference, of which
@@ -51,33 +54,35 @@ double pixel_radius(const State& state, int y) {
     return __builtin_sqrt((tall * tall + wide * wide) / 12.0);
 }
 
-std::optional<Pixel> brightest(const State& state, const std::vector<std::uint8_t>& seen) {
+std::optional<Pixel> brightest(const State& state, const std::vector<bool>& seen) {
     std::optional<Pixel> best;
-    for (int y = 0; y < state.height; ++y)
+    for (int y = 0; y < state.height; ++y) {
+        check_time();
         for (int x = 0; x < state.width; ++x) {
-            if (seen[state.index(x, y)] != 0) continue;
+            if (seen[state.index(x, y)]) continue;
             const double value = luminance(state.view().at(x, y));
             if (!best || value > best->luminance) best = Pixel{x, y, value};
         }
+    }
     return best;
 }
 
 /// The pixels connected to a peak that are brighter than `floor` and within the angle `max_radius` of `axis`. Marks them as seen.
-std::vector<Pixel> region(const State& state, const Pixel& peak, Vec3d axis, double floor, double max_radius,
-                          std::vector<std::uint8_t>& seen) {
+std::vector<Pixel> region(const State& state, const Pixel& peak, Vec3d axis, double floor, double max_radius, std::vector<bool>& seen) {
     const double half_chord = sin_cos(0.5 * max_radius).sin, max_chord2 = 4.0 * half_chord * half_chord;
     std::vector<Pixel> found{peak};
-    seen[state.index(peak.x, peak.y)] = 1;
+    seen[state.index(peak.x, peak.y)] = true;
     for (std::size_t next = 0; next < found.size(); ++next) {
+        if (next % kPixelsPerCheck == 0) check_time();
         const Pixel p = found[next];
         const int neighbours[4][2] = {
             {p.x > 0 ? p.x - 1 : state.width - 1, p.y}, {p.x + 1 < state.width ? p.x + 1 : 0, p.y}, {p.x, p.y - 1}, {p.x, p.y + 1}};
         for (const auto& [x, y] : neighbours) {
-            if (y < 0 || y >= state.height || seen[state.index(x, y)] != 0) continue;
+            if (y < 0 || y >= state.height || seen[state.index(x, y)]) continue;
             const Pixel q{x, y, luminance(state.view().at(x, y))};
             const Vec3d apart = center(state, q) - axis;
             if (!(q.luminance > floor) || dot(apart, apart) > max_chord2) continue;
-            seen[state.index(x, y)] = 1;
+            seen[state.index(x, y)] = true;
             found.push_back(q);
         }
     }
@@ -101,7 +106,9 @@ Candidate gather(const State& state, const std::vector<Pixel>& pixels, double le
     Candidate out;
     Vec3d centroid{};
     double flux = 0;
+    std::size_t seen = 0;
     for (const Pixel& p : pixels) {
+        if (seen++ % kPixelsPerCheck == 0) check_time();
         if (!(p.luminance > level)) continue;
         float left[3];
         dim(state, p, level, left);
@@ -117,6 +124,7 @@ Candidate gather(const State& state, const std::vector<Pixel>& pixels, double le
     out.sun.direction = centroid * (1.0 / length(centroid));
     double spread = 0;
     for (const Pixel& p : pixels) {
+        if (seen++ % kPixelsPerCheck == 0) check_time();
         if (!(p.luminance > level)) continue;
         const Vec3d apart = center(state, p) - out.sun.direction;
         const double chord = length(apart), angle = chord + chord * chord * chord / 16.0;  // at least 2 asin(chord/2), for chords below 1
@@ -137,12 +145,12 @@ Candidate gather(const State& state, const std::vector<Pixel>& pixels, double le
 }
 
 /// The pixels that belong to the source around a peak. The brightest pixel may lie at the source's edge, so its middle is found first.
-std::vector<Pixel> source(const State& state, const Pixel& peak, double floor, double max_radius, std::vector<std::uint8_t>& seen) {
+std::vector<Pixel> source(const State& state, const Pixel& peak, double floor, double max_radius, std::vector<bool>& seen) {
     Vec3d axis = center(state, peak);
     for (int pass = 0; pass < 2; ++pass) {
         const std::vector<Pixel> pixels = region(state, peak, axis, floor, max_radius, seen);
         axis = gather(state, pixels, 0.5 * peak.luminance).sun.direction;
-        for (const Pixel& p : pixels) seen[state.index(p.x, p.y)] = 0;
+        for (const Pixel& p : pixels) seen[state.index(p.x, p.y)] = false;
     }
     return region(state, peak, axis, floor, max_radius, seen);
 }
@@ -190,8 +198,11 @@ void take(State& state, const Judge& judge, const std::vector<Pixel>& pixels, do
     projection.add_rows(state.view(), first, end, 1.0);
     std::vector<Sun> suns = state.suns;
     suns.push_back(sun);
-    for (const Pixel& p : pixels)
-        if (p.luminance > level) suns.back().pixels.push_back(static_cast<std::int32_t>(state.index(p.x, p.y)));
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        if (pixels[i].luminance > level) {
+            suns.back().pixels.push_back(static_cast<std::int32_t>(state.index(pixels[i].x, pixels[i].y)));
+            suns.back().before.push_back(before[i]);
+        }
     const double bound = judge.bound(projection.spectrum(), suns);
     if (bound <= target) {
         state.projection = std::move(projection);
@@ -207,11 +218,11 @@ void take(State& state, const Judge& judge, const std::vector<Pixel>& pixels, do
 
 }  // namespace
 
-SunExtraction extract_suns(const EquirectView& image, const Projection& full, const SunOptions& options) {
+SunExtraction extract_suns(int width, int height, std::vector<float> rgb, const Projection& full, const SunOptions& options) {
     const Judge judge;
-    State state{image.width, image.height, {image.rgb.begin(), image.rgb.end()}, full, {}, 0.0};
+    State state{width, height, std::move(rgb), full, {}, 0.0};
     state.bound = judge.bound(full.spectrum(), {});
-    std::vector<std::uint8_t> seen(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+    std::vector<bool> seen(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     for (int tried = 0; tried < kMaxCandidates && static_cast<int>(state.suns.size()) < options.max_suns; ++tried) {
         const double mean = luminance(state.projection.mean());
         const std::optional<Pixel> peak = brightest(state, seen);
@@ -233,9 +244,7 @@ SunExtraction extract_suns(const EquirectView& image, const Projection& full, co
         const auto lowest = std::find_if(cuts.rbegin(), cuts.rend(), [best](const Cut& cut) { return cut.bound <= kAsGood * best; });
         take(state, judge, pixels, lowest->level, lowest->sun, target);
     }
-    SunExtraction out{std::move(state.suns), {}, std::move(state.projection)};
-    if (!out.suns.empty()) out.residual_rgb = std::move(state.rgb);
-    return out;
+    return {std::move(state.suns), std::move(state.rgb), std::move(state.projection)};
 }
 
 Vec3d sun_bound(const std::vector<Sun>& suns, const LobeSpectrum& lobe) {

@@ -17,6 +17,7 @@ struct Sun {
     double solid_angle = 0;            ///< sr, of the pixels that it was taken from
     double spread_rad = 0;             ///< upper bound on the mean angle between its light and `direction`
     std::vector<std::int32_t> pixels;  ///< that it was taken from, y times the width plus x; no pixel belongs to two suns
+    std::vector<Vec3f> before;         ///< radiance of each of them in the image
 };
 
 struct SunOptions {
@@ -28,12 +29,19 @@ struct SunOptions {
 
 struct SunExtraction {
     std::vector<Sun> suns;            ///< in the order found
-    std::vector<float> residual_rgb;  ///< the image without the suns; empty when there are none
+    std::vector<float> residual_rgb;  ///< the image without the suns
     Projection residual;              ///< projection of the image without the suns
 };
 
-/// Takes the suns out of `image`; `full` is its projection. Bounds are those of Lambert's lobe at order 5.
-[[nodiscard]] SunExtraction extract_suns(const EquirectView& image, const Projection& full, const SunOptions& options = {});
+/// Takes the suns out of an image of `width` x `height` pixels, three floats each; `full` is its projection. Works in the image's memory,
+/// and takes one bit per pixel besides. Bounds are those of Lambert's lobe at order 5.
+[[nodiscard]] SunExtraction extract_suns(int width, int height, std::vector<float> rgb, const Projection& full,
+                                         const SunOptions& options = {});
+
+/// The same for a copy of the image.
+[[nodiscard]] inline SunExtraction extract_suns(const EquirectView& image, const Projection& full, const SunOptions& options = {}) {
+    return extract_suns(image.width, image.height, {image.rgb.begin(), image.rgb.end()}, full, options);
+}
 
 /// Bound on the error of treating each sun as one direction, for a lobe of finite slope: the sum of E spread slope / pi, E the irradiance.
 [[nodiscard]] Vec3d sun_bound(const std::vector<Sun>& suns, const LobeSpectrum& lobe);

@@ -81,6 +81,11 @@ private:
 [[nodiscard]] Environment make_environment(std::shared_ptr<const ImageLight> light, double rotate_rad);
 
 /// The same as halflit::make_environment, for images that are known to be valid.
-[[nodiscard]] Environment make_environment(const sh::EquirectView& image, const EnvironmentOptions& options = {});
+[[nodiscard]] Environment environment_of(EnvironmentImage image, const EnvironmentOptions& options = {});
+
+/// The same for a copy of an image.
+[[nodiscard]] inline Environment make_environment(const sh::EquirectView& image, const EnvironmentOptions& options = {}) {
+    return environment_of({image.width, image.height, {image.rgb.begin(), image.rgb.end()}, false}, options);
+}
 
 }  // namespace halflit::shading

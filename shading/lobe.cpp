@@ -1,5 +1,6 @@
 #include "halflit/lobe.hpp"
 
+#include "sh/fp_environment.hpp"
 #include "shading/lobe_range.hpp"
 
 #include <charconv>
@@ -28,6 +29,7 @@ std::string text_of(float value) {
 }  // namespace
 
 Result<void> check_lobe(const Lobe& lobe) {
+    const FpEnvironment environment_of_host;
     const auto refuse = [](const char* what, float most, float found, const char* why) {
         return fail(ErrorCode::bad_input,
                     std::string(what) + ": expected a number from 0 to " + text_of(most) + ", found " + text_of(found) + why);
@@ -52,6 +54,7 @@ std::string lobe_names() {
 }
 
 std::string lobe_warning(const Lobe& lobe) {
+    const FpEnvironment environment_of_host;
     if (!(lobe.power < 1.0f)) return {};
     return "power " + text_of(lobe.power) + ": below 1 the curve " + (lobe.power == 0.0f ? "jumps" : "has an infinite slope") +
            " at its boundary";

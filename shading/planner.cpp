@@ -1,6 +1,7 @@
 #include "shading/planner.hpp"
 
 #include "sh/power.hpp"
+#include "sh/time_limit.hpp"
 #include "shading/model/numbers.hpp"
 #include "shading/model/scalar.hpp"
 #include "shading/model/tone.hpp"
@@ -55,6 +56,7 @@ void plan_environments(const PlanInputs& inputs, PlanMemory& memory, ShadingPlan
     EnvironmentPlanner planner(memory.environments, order, plan.environments);
     for (MaterialPlan& material : plan.materials) {
         if ((material.stages & kStageAmbient) == 0) continue;
+        check_time();
         material.stages |= kStageEnvironment;
         material.environment = planner.diffuse(material.lobe, split_shadows);
     }
@@ -97,6 +99,7 @@ void plan_highlights(ShadingPlan& plan, PowerFits& fits) {
         const double exponent = specular_exponent(static_cast<double>(material.roughness));
         const double half_exponent = exponent * (plan.specular == SpecularModel::phong ? 0.125 : 0.5);
         if (!(half_exponent > 1.0)) continue;
+        check_time();
         const SpecularFit& fit = fits.specular(half_exponent, power_of(kExactCut, 1.0 / half_exponent), SpecularCurve::kMostTerms);
         if (fit.codes(kExactPeak, 1) <= kExactCodes) material.specular_curve = fit.curve;
     }

@@ -3,6 +3,7 @@
 // bumps have not: level k is a sum of G_k, G_(k+1), G_(k+2) and level k + 1. All is + - * / in a fixed order.
 #include "shading/reflection_map.hpp"
 
+#include "sh/time_limit.hpp"
 #include "sh/trig.hpp"
 #include "sh/vec3d.hpp"
 
@@ -70,6 +71,7 @@ std::vector<float> shrunk(const sh::EquirectView& image, int width, int height) 
     std::vector<float> out;
     out.reserve(static_cast<std::size_t>(3) * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     for (int y = 0; y < height; ++y) {
+        check_time();
         const Overlap rows = overlap(y, image.height, height);
         for (int x = 0; x < width; ++x) {
             const Overlap columns = overlap(x, image.width, width);
@@ -95,7 +97,8 @@ sh::EquirectView reduced(const sh::EquirectView& image, std::vector<float>& rgb)
     while (out.height > kMostReflectionRows && out.width % 2 == 0 && out.height % 2 == 0) {
         const int width = out.width / 2, height = out.height / 2;
         rgb.resize(std::max(rgb.size(), static_cast<std::size_t>(3) * static_cast<std::size_t>(width) * static_cast<std::size_t>(height)));
-        for (int y = 0; y < height; ++y)
+        for (int y = 0; y < height; ++y) {
+            check_time();
             for (int x = 0; x < width; ++x)
                 for (int c = 0; c < 3; ++c) {
                     const auto at = [&](int row, int column) {
@@ -103,6 +106,7 @@ sh::EquirectView reduced(const sh::EquirectView& image, std::vector<float>& rgb)
                     };
                     rgb[static_cast<std::size_t>((y * width + x) * 3 + c)] = 0.25f * ((at(0, 0) + at(0, 1)) + (at(1, 0) + at(1, 1)));
                 }
+        }
         out = {width, height, rgb};
     }
     if (out.height > kMostReflectionRows) {

@@ -2,6 +2,7 @@
 
 #include "sh/equirect.hpp"
 #include "sh/rotate.hpp"
+#include "sh/time_limit.hpp"
 #include "sh/trig.hpp"
 #include "sh/vec3d.hpp"
 
@@ -22,6 +23,7 @@ public:
         const int cuts_y = (kGridRows + image.height - 1) / image.height, cuts_x = (2 * kGridRows + image.width - 1) / image.width;
         const int height = image.height * cuts_y, width = image.width * cuts_x;
         for (int y = 0; y < height; ++y) {
+            check_time();
             const double solid_angle = sh::pixel_solid_angle(width, height, y);
             for (int x = 0; x < width; ++x)
                 cell(y * kGridRows / height, x * 2 * kGridRows / width) += image.at(x / cuts_x, y / cuts_y) * solid_angle;

@@ -1,5 +1,6 @@
 // What is measured of a texture, for bounds on the error of filtering.
 #include "sh/config.hpp"
+#include "sh/fp_environment.hpp"
 #include "shading/texture_texels.hpp"
 
 #include <algorithm>
@@ -83,12 +84,14 @@ float chain_error(const std::uint16_t* data, std::span<const TextureLevel> level
 }  // namespace
 
 const TextureRange& Texture::range() const {
+    const FpEnvironment environment_of_host;
     HALFLIT_ASSERT(texels_ != nullptr);
     std::call_once(texels_->range_measured, [&] { texels_->range = range_of(data_.data(), levels_); });
     return texels_->range;
 }
 
 float Texture::storage_error() const {
+    const FpEnvironment environment_of_host;
     HALFLIT_ASSERT(texels_ != nullptr);
     float known = texels_->storage_error.load(std::memory_order_relaxed);
     if (known < 0.0f) {

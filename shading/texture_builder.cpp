@@ -1,5 +1,6 @@
 // Making of textures: texels as they come, and the mip levels.
 #include "sh/config.hpp"
+#include "sh/fp_environment.hpp"
 #include "shading/model/srgb.hpp"
 #include "shading/moment_levels.hpp"
 #include "shading/out_of_memory.hpp"
@@ -91,6 +92,7 @@ std::uint16_t* TextureBuilder::next_row() {
 }
 
 void TextureBuilder::add_row(const std::uint8_t* rgba8, ColorSpace space) {
+    const FpEnvironment environment_of_host;
     std::uint16_t* const to = next_row();
     if (to == nullptr) return;
     const auto values = std::size_t{4} * static_cast<std::size_t>(texture_.width());
@@ -106,6 +108,7 @@ void TextureBuilder::add_row(const std::uint8_t* rgba8, ColorSpace space) {
 }
 
 void TextureBuilder::add_row(const std::uint16_t* rgba16) {
+    const FpEnvironment environment_of_host;
     std::uint16_t* const to = next_row();
     if (to == nullptr) return;
     std::copy_n(rgba16, std::size_t{4} * static_cast<std::size_t>(texture_.width()), to);
@@ -142,6 +145,7 @@ void TextureBuilder::reduce(std::size_t level) {
 }
 
 Texture TextureBuilder::finish() {
+    const FpEnvironment environment_of_host;
     while (std::uint16_t* const to = next_row()) {
         std::fill_n(to, std::size_t{4} * static_cast<std::size_t>(texture_.width()), std::uint16_t{0});
         reduce(0);
@@ -151,6 +155,7 @@ Texture TextureBuilder::finish() {
 }
 
 Result<Texture> Texture::from_rgba8(std::span<const std::uint8_t> rgba8, int width, int height, ColorSpace space, MipRule rule) {
+    const FpEnvironment environment_of_host;
     if (auto size = check_size(width, height, rgba8.size()); !size) return tl::unexpected(size.error());
     auto builder = TextureBuilder::make(width, height, rule);
     if (!builder) return tl::unexpected(builder.error());
@@ -160,6 +165,7 @@ Result<Texture> Texture::from_rgba8(std::span<const std::uint8_t> rgba8, int wid
 }
 
 Result<Texture> Texture::from_rgba16(std::span<const std::uint16_t> rgba16, int width, int height, MipRule rule) {
+    const FpEnvironment environment_of_host;
     if (auto size = check_size(width, height, rgba16.size()); !size) return tl::unexpected(size.error());
     auto builder = TextureBuilder::make(width, height, rule);
     if (!builder) return tl::unexpected(builder.error());

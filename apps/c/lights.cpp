@@ -18,8 +18,8 @@ bool is_dark(const Scene& scene) {
 }
 
 /// Lights the scene by the image, in the place of an earlier environment.
-Result<void> light_by(halflit_scene& scene, const EnvironmentImage& image, const EnvironmentOptions& options) {
-    auto made = make_environment(image, options);
+Result<void> light_by(halflit_scene& scene, EnvironmentImage image, const EnvironmentOptions& options) {
+    auto made = make_environment(std::move(image), options);
     if (!made) return tl::unexpected<Error>(made.error());
     const std::size_t suns = environment_suns(**made).size();
     scene.take_back_setup();
@@ -132,9 +132,9 @@ int32_t halflit_scene_load_environment(halflit_scene* scene, const char* path, c
     return changing(__func__, scene, {{path, "path"}}, [&]() -> Result<void> {
         const auto request = environment_request(options);
         if (!request) return tl::unexpected<Error>(request.error());
-        const auto image = read_environment(path);
+        auto image = read_environment(path);
         if (!image) return tl::unexpected<Error>(image.error());
-        return light_by(*scene, *image, request->options);
+        return light_by(*scene, std::move(*image), request->options);
     });
 }
 

@@ -1,9 +1,11 @@
 // halflit env: an environment's bands of spherical harmonics, its suns, and the number of bands that it needs.
 #include "apps/halflit/commands.hpp"
+#include "apps/halflit/file_flags.hpp"
 #include "apps/halflit/messages.hpp"
 #include "apps/halflit/run_report.hpp"
 #include "apps/halflit/scene_source.hpp"
 #include "apps/halflit/text_file.hpp"
+#include "apps/halflit/timeout.hpp"
 #include "apps/halflit/values.hpp"
 #include "halflit/image.hpp"
 #include "sh/order.hpp"
@@ -24,6 +26,7 @@ struct EnvOptions {
     std::string name;
     int bands = sh::kMaxBands;
     bool json = false;
+    double timeout_s = 0.0;  ///< 0: none
 };
 
 /// An environment and everything that is computed from it.
@@ -131,13 +134,17 @@ std::string text_of(const Description& d, int bands) {
     return text + picture(d.extraction.residual.radiance(bands));
 }
 
-Result<int> run_env(const EnvOptions& options) {
+Result<int> describe(const EnvOptions& options) {
     auto environment = find_environment(options.name);
     if (!environment) return tl::unexpected(environment.error());
     const Description description = look_at(std::move(*environment));
     const std::string text = options.json ? to_text(json_of(description, options.bands)) : text_of(description, options.bands);
     if (const auto written = write_text("-", text); !written) return tl::unexpected(written.error());
     return 0;
+}
+
+Result<int> run_env(const EnvOptions& options) {
+    return within_time(options.timeout_s, [&] { return describe(options); });
 }
 
 }  // namespace
@@ -154,7 +161,8 @@ Command env_command() {
               .form = "FILE|sky|studio"}},
             {{"Flags",
               {{"--bands", "N", "Number of bands to list, 1 to 10 (default 10)", read_int(o.bands, 1, sh::kMaxBands)},
-               {"--json", "", "Print one JSON object", set_to(o.json)}}}},
+               {"--json", "", "Print one JSON object", set_to(o.json)},
+               timeout_flag(o.timeout_s, "Stop what is not described by then, with exit code 5")}}},
             [options] { return run_env(*options); }};
 }
 

@@ -21,15 +21,17 @@ Flag limit_flag(const char* name, T& target, const char* what, std::int64_t max)
 
 }  // namespace
 
+Flag timeout_flag(double& seconds, std::string help) {
+    return {"--timeout", "SECONDS", std::move(help), parsed(seconds, [](const std::string& text) {
+                return parse_float(text, 1e-3f, 1e6f).map([](float s) { return static_cast<double>(s); });
+            })};
+}
+
 FlagGroup untrusted_file_flags(RenderOptions& o) {
     constexpr std::int64_t kAny = std::numeric_limits<std::int64_t>::max();
     LoadLimits& limits = o.load.limits;
     return {"Untrusted files",
-            {{"--timeout", "SECONDS", "Stop a scene that is not loaded and drawn by then, with exit code 5",
-              parsed(o.timeout_s,
-                     [](const std::string& text) {
-                         return parse_float(text, 1e-3f, 1e6f).map([](float s) { return static_cast<double>(s); });
-                     })},
+            {timeout_flag(o.timeout_s, "Stop a scene that is not loaded and drawn by then, with exit code 5"),
              {"--max-memory", "MIB", "Stop a scene that needs more memory, all of the process counted, with exit code 5; at least 32",
               parsed(o.max_memory_bytes,
                      [](const std::string& text) {

@@ -3,7 +3,12 @@
 
 #include "apps/halflit/render_options.hpp"
 
+#include <string>
+
 namespace halflit::cli {
+
+/// --timeout. `seconds` must outlive what this returns.
+[[nodiscard]] Flag timeout_flag(double& seconds, std::string help);
 
 /// `options` must outlive what this returns.
 [[nodiscard]] FlagGroup untrusted_file_flags(RenderOptions& options);

@@ -4,6 +4,7 @@
 #include "apps/halflit/render_job.hpp"
 #include "apps/halflit/scene_description.hpp"
 #include "apps/halflit/text_file.hpp"
+#include "apps/halflit/timeout.hpp"
 
 #include <memory>
 
@@ -14,7 +15,7 @@ struct InfoOptions : RenderOptions {
     bool json = false;
 };
 
-Result<int> run_info(const InfoOptions& options) {
+Result<int> describe(const InfoOptions& options) {
     const auto job = make_render_job(options, kRenderSize);
     if (!job) return tl::unexpected(job.error());
     for (const std::string& warning : job->warnings) print_warning(warning);
@@ -22,6 +23,10 @@ Result<int> run_info(const InfoOptions& options) {
     if (!described) return tl::unexpected(described.error());
     if (const auto written = write_text("-", *described); !written) return tl::unexpected(written.error());
     return 0;
+}
+
+Result<int> run_info(const InfoOptions& options) {
+    return within_time(options.timeout_s, [&] { return describe(options); });
 }
 
 }  // namespace

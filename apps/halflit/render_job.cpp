@@ -2,6 +2,7 @@
 
 #include "apps/halflit/film_view.hpp"
 #include "apps/halflit/stopwatch.hpp"
+#include "apps/halflit/timeout.hpp"
 #include "apps/io/errno_text.hpp"
 #include "halflit/auto_setup.hpp"
 #include "halflit/camera.hpp"
@@ -100,12 +101,12 @@ Result<std::optional<Camera>> choose_view(RenderJob& job, const RenderOptions& o
 
 /// Replaces the ambient light by the environment, and adds its suns as lights.
 Result<void> add_environment(Scene& scene, const RenderOptions& options) {
-    const auto image = find_environment(options.environment);
+    auto image = find_environment(options.environment);
     if (!image) return tl::unexpected(image.error());
     const auto environment =
-        make_environment(*image, {options.environment_sun, static_cast<double>(options.environment_rotate_deg) * (kPi / 180.0),
-                                  options.settings.background_environment,
-                                  options.may_want_reference || options.settings.shading.accuracy == Accuracy::reference});
+        make_environment(std::move(*image), {options.environment_sun, static_cast<double>(options.environment_rotate_deg) * (kPi / 180.0),
+                                             options.settings.background_environment,
+                                             options.may_want_reference || options.settings.shading.accuracy == Accuracy::reference});
     if (!environment) return tl::unexpected(environment.error());
     set_environment(scene, *environment);
     return {};
@@ -221,9 +222,7 @@ Result<void> choose_settings(Settings& settings, const RenderOptions& options) {
     return {};
 }
 
-}  // namespace
-
-Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usual) {
+Result<RenderJob> make_job(const RenderOptions& options, PictureSize usual) {
     if (options.camera_position && (options.camera || options.whole_scene))
         return fail(ErrorCode::usage, "--camera-position: cannot be combined with --camera, --azimuth, --elevation or --zoom");
     if (options.camera_target && !options.camera_position)
@@ -247,9 +246,9 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
 
     const Stopwatch loading;
     RenderOptions timed = options;
+    timed.load = options.timed_load();
     timed.load.recentre = true;
     timed.load.keep_animations = options.film.animates();
-    timed.load.limits.time_limit_s = options.timeout_s;
     auto source = load_scene(timed);
     if (!source) return tl::unexpected(source.error());
     job.load_ms = loading.ms();
@@ -288,6 +287,12 @@ Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usua
         return tl::unexpected(updated.error());
     job.settings.region = options.settings.region.width > 0 ? options.settings.region : Region{0, 0, job.width, job.height};
     return job;
+}
+
+}  // namespace
+
+Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usual) {
+    return within_time(options.timeout_s, [&] { return make_job(options, usual); });
 }
 
 void drop_own_lobes(Scene& scene) {

@@ -165,7 +165,7 @@ private:
             const PictureOptions& picture = pictures_[i];
             std::uintmax_t& bytes = bytes_[i];
             if (!is_file(picture.scene)) continue;
-            std::vector<std::string> inputs = io::files_named_by(picture.scene, picture.load);
+            std::vector<std::string> inputs = io::files_named_by(picture.scene, picture.timed_load());
             inputs.push_back(picture.scene);
             for (const std::string& input : inputs) {
                 bytes += bytes_of(input);

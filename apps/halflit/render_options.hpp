@@ -57,8 +57,14 @@ struct RenderOptions {
     std::optional<float> exposure;    ///< a factor; none: chosen from the lights
 
     LoadOptions load;
-    FilmOptions film;                  ///< of render alone
-    double timeout_s = 0.0;            ///< for loading and drawing; 0: none
+    FilmOptions film;        ///< of render alone
+    double timeout_s = 0.0;  ///< for loading and drawing; 0: none
+    /// `load` with that limit.
+    [[nodiscard]] LoadOptions timed_load() const {
+        LoadOptions timed = load;
+        timed.limits.time_limit_s = timeout_s;
+        return timed;
+    }
     std::size_t max_memory_bytes = 0;  ///< of the process; 0: no limit
 };
 

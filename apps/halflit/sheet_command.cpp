@@ -76,7 +76,7 @@ Result<void> spare_inputs(const SheetOptions& options, const std::vector<std::st
     for (const std::string& scene : options.scenes) {
         if (!is_file(scene)) continue;
         inputs.push_back(scene);
-        for (std::string& file : io::files_named_by(scene, options.load)) inputs.push_back(std::move(file));
+        for (std::string& file : io::files_named_by(scene, options.timed_load())) inputs.push_back(std::move(file));
     }
     for (const std::string& input : inputs)
         if (!input.empty() && is_file(input) && same_file(input, options.output))

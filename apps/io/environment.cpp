@@ -1,13 +1,12 @@
 #include "halflit/image.hpp"
 
+#include "apps/io/detail/load_failure.hpp"
 #include "apps/io/file_access.hpp"
 #include "apps/io/float_image.hpp"
 #include "apps/io/text.hpp"
 #include "sh/equirect.hpp"
+#include "sh/fp_environment.hpp"
 #include "sh/trig.hpp"
-#include "shading/out_of_memory.hpp"
-
-#include <new>
 
 namespace halflit {
 
@@ -71,18 +70,18 @@ Vec3d sky_pixel(int x, int y, const Sun& sun) {
 }  // namespace
 
 Result<EnvironmentImage> read_environment(const std::string& path, const EnvironmentLimits& limits) {
-    try {
+    const FpEnvironment environment_of_host;
+    return io::detail::errors_of(path, limits.time_limit_s, [&]() -> Result<EnvironmentImage> {
         const auto file = read_file(path, limits.max_file_bytes);
         if (!file) return tl::unexpected(file.error());
         auto image = decode_float_image(*file, {.max_width = limits.max_width, .max_height = limits.max_height});
         if (!image) return fail(image.error().code, printable(path) + ": " + image.error().message);
         return EnvironmentImage{image->width, image->height, std::move(image->rgb), false};
-    } catch (const std::bad_alloc&) {
-        return fail_out_of_memory([&] { return printable(path) + ": out of memory"; });
-    }
+    });
 }
 
 EnvironmentImage built_in_sky() {
+    const FpEnvironment environment_of_host;
     EnvironmentImage sky{kSkyWidth, kSkyHeight, {}, true};
     sky.rgb.reserve(static_cast<std::size_t>(kSkyWidth) * kSkyHeight * 3);
     const Sun sun = make_sun();

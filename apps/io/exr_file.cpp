@@ -3,6 +3,7 @@
 #include "apps/io/detail/exr_header.hpp"
 #include "apps/io/text.hpp"
 #include "halflit/image.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -121,6 +122,8 @@ Result<FloatImage> read_pixels(Imf::InputFile& file, int width, int height) {
     for (std::size_t c = 0; c < 3; ++c) half[c] = list.findChannel((*names)[c])->type == Imf::HALF;
     FloatImage image{width, height, {}};  // grows with what has been read
     for (int y = window.min.y; y <= window.max.y; ++y) {
+        check_time();
+        if (y - window.min.y == height / 8) image.rgb.reserve(3 * columns * static_cast<std::size_t>(height));
         file.readPixels(y, y);
         for (std::size_t i = 0; i < row.size(); ++i) {
             const std::size_t c = i % 3;

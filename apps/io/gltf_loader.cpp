@@ -16,12 +16,11 @@
 #include "apps/io/file_access.hpp"
 #include "apps/io/model_files.hpp"
 #include "apps/io/text.hpp"
-#include "shading/out_of_memory.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
 #include <memory>
-#include <new>
 #include <set>
 
 namespace halflit {
@@ -50,7 +49,7 @@ std::vector<std::string> files_of(const Document& document) {
 
 LoadedScene build(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
     const std::unique_ptr<Document> document = open_document(bytes, base_dir, options);
-    document->check_time();
+    check_time();
     choose_scene(*document);
     choose_variant(*document);
     NodeTree tree = walk_nodes(*document);
@@ -58,7 +57,7 @@ LoadedScene build(std::span<const std::byte> bytes, const std::string& base_dir,
     mark_below(tree, document->animations.hides);
     settle(*document, tree.drawn, tree.parent);
     load_buffers(*document);
-    document->check_time();
+    check_time();
     const std::vector<Accessor> accessors = check_accessors(*document);
     std::vector<Animation> animations = read_animations(*document, accessors);
     LoadedScene loaded;
@@ -111,20 +110,18 @@ std::vector<std::string> io::files_of_gltf(std::span<const std::byte> bytes, con
 
 Result<LoadedScene> load_gltf_bytes(std::span<const std::byte> bytes, const std::string& name, const std::string& base_dir,
                                     const LoadOptions& options) {
-    return errors_of(name, [&]() -> Result<LoadedScene> {
+    return errors_of(name, options.limits.time_limit_s, [&]() -> Result<LoadedScene> {
         check_threads(options);
         return build(bytes, base_dir, options);
     });
 }
 
 Result<LoadedScene> load_gltf(const std::string& path, const LoadOptions& options) {
-    try {
+    return errors_of(path, options.limits.time_limit_s, [&]() -> Result<LoadedScene> {
         const auto bytes = read_file(path, options.limits.max_file_bytes);
         if (!bytes) return tl::unexpected(bytes.error());
         return load_gltf_bytes(*bytes, path, folder_of(path), options);
-    } catch (const std::bad_alloc&) {
-        return fail_out_of_memory([&] { return fmt::format("{}: out of memory", printable(path)); });
-    }
+    });
 }
 
 }  // namespace halflit

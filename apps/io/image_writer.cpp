@@ -4,6 +4,7 @@
 #include "apps/io/exr_file.hpp"
 #include "apps/io/pfm_file.hpp"
 #include "apps/io/text.hpp"
+#include "sh/fp_environment.hpp"
 #include "shading/out_of_memory.hpp"
 
 #include <libdeflate.h>
@@ -241,6 +242,7 @@ Result<OutputFormat> output_format_of(std::string_view path) {
 }
 
 Result<std::vector<std::uint8_t>> encode_image(const Image& image, OutputFormat format) {
+    const FpEnvironment environment_of_host;
     const int w = image.width, h = image.height;
     if (w < 1 || h < 1) return fail(ErrorCode::usage, "a picture needs at least one pixel");
     const std::int64_t pixels = std::int64_t{w} * h;
@@ -260,6 +262,7 @@ Result<std::vector<std::uint8_t>> encode_image(const Image& image, OutputFormat 
 }
 
 Result<void> write_image(const std::string& path, const Image& image) {
+    const FpEnvironment environment_of_host;
     const auto format = output_format_of(path);
     if (!format) return tl::unexpected(format.error());
     const auto bytes = encode_image(image, *format);

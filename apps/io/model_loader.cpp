@@ -6,11 +6,8 @@
 #include "apps/io/file_access.hpp"
 #include "apps/io/model_files.hpp"
 #include "apps/io/text.hpp"
-#include "shading/out_of_memory.hpp"
 
 #include <fmt/format.h>
-
-#include <new>
 
 namespace halflit {
 
@@ -41,6 +38,7 @@ std::string io::folder_of(const std::string& path) {
 }
 
 std::vector<std::string> io::files_named_by(const std::string& path, const LoadOptions& options) {
+    const TimeLimit limit(options.limits.time_limit_s);
     try {
         const auto bytes = read_file(path, options.limits.max_file_bytes);
         const auto format = bytes ? find_model_format(*bytes) : std::nullopt;
@@ -51,12 +49,14 @@ std::vector<std::string> io::files_named_by(const std::string& path, const LoadO
         return {};
     } catch (const LoadFailure&) {
         return {};
+    } catch (const OutOfTime&) {
+        return {};
     }
 }
 
 Result<LoadedScene> load_model_bytes(std::span<const std::byte> bytes, const std::string& name, const std::string& base_dir,
                                      const LoadOptions& options) {
-    return errors_of(name, [&]() -> Result<LoadedScene> {
+    return errors_of(name, options.limits.time_limit_s, [&]() -> Result<LoadedScene> {
         if (bytes.size() > options.limits.max_file_bytes)
             refuse("", fmt::format("has {} bytes, the limit is {}", bytes.size(), options.limits.max_file_bytes), ErrorCode::limit);
         const std::optional<ModelFormat> format = find_model_format(bytes);
@@ -70,13 +70,11 @@ Result<LoadedScene> load_model_bytes(std::span<const std::byte> bytes, const std
 }
 
 Result<LoadedScene> load_model(const std::string& path, const LoadOptions& options) {
-    try {
+    return errors_of(path, options.limits.time_limit_s, [&]() -> Result<LoadedScene> {
         const auto bytes = read_file(path, options.limits.max_file_bytes);
         if (!bytes) return tl::unexpected(bytes.error());
         return load_model_bytes(*bytes, path, folder_of(path), options);
-    } catch (const std::bad_alloc&) {
-        return fail_out_of_memory([&] { return fmt::format("{}: out of memory", printable(path)); });
-    }
+    });
 }
 
 }  // namespace halflit

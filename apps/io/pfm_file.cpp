@@ -1,6 +1,7 @@
 #include "apps/io/pfm_file.hpp"
 
 #include "apps/io/text.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -98,6 +99,7 @@ Result<FloatImage> decode_pfm(std::span<const std::byte> file, const FloatImageL
     FloatImage image{header->width, header->height, {}};
     image.rgb.reserve(3 * width * height);
     for (std::size_t y = 0; y < height; ++y) {
+        check_time();
         const std::byte* row = file.data() + header->end + 4 * channels * width * (height - 1 - y);
         for (std::size_t i = 0; i < width * 3; ++i)
             image.rgb.push_back(light_of(value_at(row + 4 * (channels == 3 ? i : i / 3), header->little_endian) * header->factor));

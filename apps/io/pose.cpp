@@ -2,6 +2,7 @@
 #include "apps/io/detail/gltf_transform.hpp"
 #include "apps/io/detail/replace.hpp"
 #include "halflit/gltf.hpp"
+#include "sh/fp_environment.hpp"
 #include "shading/out_of_memory.hpp"
 
 #include <fmt/format.h>
@@ -71,6 +72,7 @@ NodeTransform::NodeTransform(const Mat4& m)
       origin{m.c[3].x, m.c[3].y, m.c[3].z} {}
 
 Result<SceneChanges> pose(std::span<const Node> nodes, Scene& scene) {
+    const FpEnvironment environment_of_host;
     try {
         if (const auto ok = check_nodes(nodes, scene); !ok) return tl::unexpected(ok.error());
         const auto world = place_all(nodes);

@@ -1,9 +1,11 @@
 #include "apps/io/rgbe_reader.hpp"
 
 #include "apps/io/text.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdint>
@@ -235,20 +237,50 @@ std::array<std::array<double, 256>, 3> make_scales(const Header& header) {
     return scales;
 }
 
-/// Converts pixels from the file's order, slow axis first, to rows from the top.
-std::vector<float> reordered(const Header& header, std::vector<float> stored) {
-    if (!header.columns && !header.x_reversed && !header.y_upwards) return stored;
-    std::vector<float> rgb(stored.size());
-    const auto width = static_cast<std::size_t>(header.width), height = static_cast<std::size_t>(header.height);
-    std::size_t to = 0;
-    for (std::size_t row = 0; row < height; ++row)
-        for (std::size_t column = 0; column < width; ++column) {
-            const std::size_t x = header.x_reversed ? width - 1 - column : column, y = header.y_upwards ? height - 1 - row : row;
-            const std::size_t from = 3 * (header.columns ? x * height + y : y * width + x);
-            for (std::size_t i = 0; i < 3; ++i) rgb[to++] = stored[from + i];
+/// The picture as it is read: rows from the top, whatever the file's order. Its memory is taken once an eighth of the file's lines is
+/// there, so that a short file cannot take much.
+class Rows {
+public:
+    explicit Rows(const Header& header)
+        : header_(header), width_(static_cast<std::size_t>(header.width)), height_(static_cast<std::size_t>(header.height)) {}
+
+    /// Adds the next line of the file, three floats per pixel.
+    void add(std::span<const float> line) {
+        const std::size_t lines = header_.columns ? width_ : height_;
+        if (!whole_ && ++held_ > lines / 8) take_memory(line.size());
+        if (!whole_) {
+            first_.insert(first_.end(), line.begin(), line.end());
+            return;
         }
-    return rgb;
-}
+        place(line);
+    }
+    [[nodiscard]] std::vector<float> take() && {
+        if (!whole_) take_memory(first_.size());
+        return std::move(rgb_);
+    }
+
+private:
+    void take_memory(std::size_t line) {
+        whole_ = true;
+        rgb_.resize(3 * width_ * height_);
+        for (std::size_t at = 0; at < first_.size(); at += line) place(std::span(first_).subspan(at, line));
+        first_ = {};
+    }
+    void place(std::span<const float> line) {
+        const std::size_t slow = placed_++;
+        for (std::size_t fast = 0; 3 * fast < line.size(); ++fast) {
+            const std::size_t column = header_.columns ? slow : fast, row = header_.columns ? fast : slow;
+            const std::size_t x = header_.x_reversed ? width_ - 1 - column : column, y = header_.y_upwards ? height_ - 1 - row : row;
+            std::copy_n(line.begin() + static_cast<std::ptrdiff_t>(3 * fast), 3,
+                        rgb_.begin() + static_cast<std::ptrdiff_t>(3 * (y * width_ + x)));
+        }
+    }
+
+    const Header& header_;
+    std::size_t width_, height_, held_ = 0, placed_ = 0;
+    bool whole_ = false;
+    std::vector<float> first_, rgb_;
+};
 
 }  // namespace
 
@@ -260,16 +292,19 @@ Result<RgbeImage> decode_rgbe(std::span<const std::byte> file, const RgbeLimits&
     const int lines = header->columns ? header->width : header->height;
     std::vector<Rgbe> line(static_cast<std::size_t>(header->columns ? header->height : header->width));
     Scanlines scanlines(file.subspan(header->end));
-    std::vector<float> stored;  // grows with what has been read, so that a short file cannot take much memory
+    std::vector<float> light(3 * line.size());
+    Rows rows(*header);
     for (int i = 0; i < lines; ++i) {
+        check_time();
         if (!scanlines.read(line)) return refuse(fmt::format("scanline {} of {}: {}", i, lines, scanlines.why));
-        for (const Rgbe& pixel : line)
+        for (std::size_t x = 0; x < line.size(); ++x)
             for (std::size_t k = 0; k < 3; ++k) {
-                const double value = pixel[k] * scales[k][pixel[3]];
-                stored.push_back(static_cast<float>(value < kLargest ? value : kLargest));
+                const double value = line[x][k] * scales[k][line[x][3]];
+                light[3 * x + k] = static_cast<float>(value < kLargest ? value : kLargest);
             }
+        rows.add(light);
     }
-    return RgbeImage{header->width, header->height, reordered(*header, std::move(stored))};
+    return RgbeImage{header->width, header->height, std::move(rows).take()};
 }
 
 }  // namespace halflit::io

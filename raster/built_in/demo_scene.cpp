@@ -3,6 +3,7 @@
 #include "halflit/scene.hpp"
 #include "halflit/shapes.hpp"
 #include "raster/built_in/demo_parts.hpp"
+#include "sh/fp_environment.hpp"
 #include "sh/trig.hpp"
 
 #include <utility>
@@ -152,6 +153,7 @@ void add_camera(Scene& scene) {
 }  // namespace
 
 Scene demo_scene() {
+    const FpEnvironment environment_of_host;
     Scene scene;
     add_backdrop(scene);
     add_balls(scene);

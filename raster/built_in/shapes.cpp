@@ -1,5 +1,6 @@
 #include "halflit/shapes.hpp"
 
+#include "sh/fp_environment.hpp"
 #include "sh/trig.hpp"
 #include "sh/vec3d.hpp"
 
@@ -46,6 +47,7 @@ void add_grid(Mesh& mesh, int columns, int rows, bool poles) {
 }  // namespace
 
 Mesh make_sphere(float radius, int slices, int stacks) {
+    const FpEnvironment environment_of_host;
     slices = std::max(slices, 3);
     stacks = std::max(stacks, 2);
     Mesh mesh;
@@ -70,6 +72,7 @@ Mesh make_sphere(float radius, int slices, int stacks) {
 }
 
 Mesh make_sphere_of(float radius, std::int64_t triangles) {
+    const FpEnvironment environment_of_host;
     triangles = std::clamp<std::int64_t>(triangles, 12, std::int64_t{1} << 26);
     // Square quads have slices = 2 * stacks, so stacks is near sqrt(triangles / 4). Values within a tenth of it are searched for the best.
     std::int64_t even = 2;
@@ -91,6 +94,7 @@ Mesh make_sphere_of(float radius, std::int64_t triangles) {
 }
 
 Mesh make_plane(float half_size, int subdivisions) {
+    const FpEnvironment environment_of_host;
     subdivisions = std::max(subdivisions, 1);
     Mesh mesh;
     mesh.name = "plane";
@@ -106,6 +110,7 @@ Mesh make_plane(float half_size, int subdivisions) {
 }
 
 Mesh make_box(Vec3f half_extents) {
+    const FpEnvironment environment_of_host;
     // A face is given by the directions in which u and v grow, seen from outside. cross(down, right) is the outward normal.
     struct Face {
         Vec3f right, down;
@@ -130,6 +135,7 @@ Mesh make_box(Vec3f half_extents) {
 }
 
 Mesh make_torus(float radius, float tube, int slices, int sides) {
+    const FpEnvironment environment_of_host;
     slices = std::max(slices, 3);
     sides = std::max(sides, 3);
     Mesh mesh;

@@ -1,6 +1,7 @@
 #include "halflit/scene.hpp"
 
 #include "raster/built_in/studio_light.hpp"
+#include "sh/fp_environment.hpp"
 #include "sh/trig.hpp"
 #include "shading/environment.hpp"
 
@@ -27,6 +28,7 @@ std::shared_ptr<const shading::ImageLight> scaled_studio_light(float level) {
 }  // namespace
 
 std::shared_ptr<const Environment> studio_environment(const Camera& camera, double turn_rad, float level) {
+    const FpEnvironment environment_of_host;
     // The way from the scene to the viewer; of a camera that looks straight down or up, the lower edge of its picture.
     const Mat4& m = camera.world_from_camera;
     const Vec4f back = m.c[2], up = m.c[1];

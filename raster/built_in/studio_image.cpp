@@ -4,6 +4,7 @@
 
 #include "sh/arc.hpp"
 #include "sh/equirect.hpp"
+#include "sh/fp_environment.hpp"
 #include "sh/trig.hpp"
 
 #include <algorithm>
@@ -68,6 +69,7 @@ Vec3d room(Vec3d d) {
 }  // namespace
 
 EnvironmentImage studio_image() {
+    const FpEnvironment environment_of_host;
     const std::array<SoftBox, 5> boxes{SoftBox{-50, 40, 54, 44, {2.2, 2.13, 2.0}},      // the main one, to the left above the viewer
                                        SoftBox{75, 22, 44, 80, {0.84, 0.88, 0.97}},     // a tall one fills the right side
                                        SoftBox{150, 38, 76, 34, {1.25, 1.29, 1.38}},    // behind the model: edges

@@ -1,6 +1,7 @@
 #include "raster/detail/executor.hpp"
 
-#include "raster/detail/fp_environment.hpp"
+#include "sh/fp_environment.hpp"
+#include "sh/time_limit.hpp"
 
 #ifdef HALFLIT_ONETBB
 #include <tbb/global_control.h>
@@ -164,12 +165,13 @@ void Executor::configure(const Execution& execution) {
 
 void Executor::run(int count, const std::function<void(int)>& body) {
     std::atomic<bool> left_out{false};
-    const std::function<void(int)> task = [&](int i) {
+    const std::function<void(int)> task = [&, end = TimeLimit::end()](int i) {
         if (stop_.raised()) {
             left_out = true;
             return;
         }
         const FpEnvironment environment;
+        const TimeLimit limit(end);
         body(i);
     };
     if (hook_) {

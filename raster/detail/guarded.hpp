@@ -3,8 +3,9 @@
 
 #include "halflit/error.hpp"
 #include "raster/detail/executor.hpp"
-#include "raster/detail/fp_environment.hpp"
 #include "raster/detail/stop_signal.hpp"
+#include "sh/fp_environment.hpp"
+#include "sh/time_limit.hpp"
 
 #include <exception>
 #include <new>
@@ -13,15 +14,19 @@
 
 namespace halflit::raster {
 
-/// Returns what `body` returns, a Result. An exception becomes an error; `doing` completes the message "out of memory while ...".
+/// Returns what `body` returns, a Result, within the time limit of `execution`. An exception becomes an error; `doing` completes the
+/// message "out of memory while ...".
 template <class Body>
-auto guarded(const char* doing, const Body& body) -> decltype(body()) {
+auto guarded(const char* doing, const Execution& execution, const Body& body) -> decltype(body()) {
     const FpEnvironment environment;
+    const TimeLimit limit(execution.time_limit_s);
     try {
         try {
             return body();
         } catch (const std::bad_alloc&) {
             return fail(ErrorCode::limit, std::string("out of memory while ") + doing);
+        } catch (const OutOfTime&) {
+            return fail(ErrorCode::limit, kOutOfTime);
         } catch (Stopped& stopped) {
             return tl::unexpected(std::move(stopped.error));
         } catch (const WrongLoop& e) {

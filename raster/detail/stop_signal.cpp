@@ -1,5 +1,7 @@
 #include "raster/detail/stop_signal.hpp"
 
+#include "sh/time_limit.hpp"
+
 #include <string>
 
 namespace halflit::raster {
@@ -29,7 +31,7 @@ bool StopSignal::raised() {
 void StopSignal::check() {
     if (!raised()) return;
     if (reason_ == cancelled) throw Stopped{{ErrorCode::cancelled, "stopped on request"}};
-    throw Stopped{{ErrorCode::limit, "the time limit was reached before the work was done"}};
+    throw Stopped{{ErrorCode::limit, kOutOfTime}};
 }
 
 void StopSignal::take_memory(std::size_t bytes) {

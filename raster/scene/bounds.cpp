@@ -1,6 +1,7 @@
 #include "halflit/mesh.hpp"
 
 #include "raster/detail/view_math.hpp"
+#include "sh/fp_environment.hpp"
 
 #include <limits>
 
@@ -26,12 +27,14 @@ void Bounds::include(const Bounds& other) {
 }
 
 Vec3f Bounds::center() const {
+    const FpEnvironment environment_of_host;
     const Vec3d a{min.x, min.y, min.z}, b{max.x, max.y, max.z};
     const Vec3d c = (a + b) * 0.5;
     return {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)};
 }
 
 float Bounds::radius() const {
+    const FpEnvironment environment_of_host;
     const Vec3d a{min.x, min.y, min.z}, b{max.x, max.y, max.z};
     return static_cast<float>(clamped(0.5 * length(b - a), 0.0, std::numeric_limits<float>::max()));
 }

@@ -1,6 +1,7 @@
 #include "halflit/scene.hpp"
 
 #include "sh/equirect.hpp"
+#include "sh/fp_environment.hpp"
 #include "sh/power.hpp"
 #include "sh/vec3d.hpp"
 
@@ -32,11 +33,13 @@ Vec3d level(const Scene& scene, const Bounds& bounds) {
 }  // namespace
 
 Vec3f light_level(const Scene& scene, const Bounds& bounds) {
+    const FpEnvironment environment_of_host;
     const Vec3d sum = level(scene, bounds);
     return {static_cast<float>(sum.x), static_cast<float>(sum.y), static_cast<float>(sum.z)};
 }
 
 float auto_exposure(const Scene& scene, const Bounds& bounds) {
+    const FpEnvironment environment_of_host;
     const double luminance = sh::luminance(level(scene, bounds));
     // Beyond these limits the factor or its product with the light would leave the range of float.
     if (!(luminance > 1e-24 && luminance < 1e24)) return 1.0f;
@@ -44,11 +47,15 @@ float auto_exposure(const Scene& scene, const Bounds& bounds) {
 }
 
 Ambient soft_ambient(const Scene& scene, const Bounds& bounds) {
+    const FpEnvironment environment_of_host;
     const Vec3f sum = light_level(scene, bounds);
     if (!(dot(sum, sum) < 1e36f)) return {};  // NaN, infinite, or beyond what can be squared
     return {sum * kSkyShare, sum * kGroundShare};
 }
 
-float exposure_factor(float ev) { return static_cast<float>(exp2_of(std::clamp(static_cast<double>(ev), -64.0, 64.0))); }
+float exposure_factor(float ev) {
+    const FpEnvironment environment_of_host;
+    return static_cast<float>(exp2_of(std::clamp(static_cast<double>(ev), -64.0, 64.0)));
+}
 
 }  // namespace halflit

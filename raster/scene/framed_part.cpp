@@ -5,6 +5,7 @@
 #include "raster/scene/shadow_catcher.hpp"
 #include "raster/scene/used_vertices.hpp"
 #include "sh/mat4.hpp"
+#include "sh/time_limit.hpp"
 
 #include <algorithm>
 #include <array>
@@ -132,9 +133,12 @@ FramedVertices framed_vertices(const Mesh& mesh, bool& whole) {
         finite_count += finite(mesh.positions[v]) ? 1 : 0;
     }
     if (finite_count < 8 || !(out.bounds.radius() > 0.0f)) return out;
+    TimeCheck check;
     const auto each = [&](const auto& visit) {
-        for (const std::uint32_t v : out.vertices)
+        for (const std::uint32_t v : out.vertices) {
+            check();
             if (finite(mesh.positions[v])) visit(box_at(mesh.positions[v]), std::uint64_t{1});
+        }
     };
     // A position may be that of several vertices, one for each triangle at a corner.
     const std::uint64_t positions = std::max<std::uint64_t>(finite_count < kManyVertices ? 1 : 3, finite_count / kStrayShare),

@@ -5,7 +5,9 @@
 #include "raster/scene/framed_part.hpp"
 #include "raster/scene/placed_box.hpp"
 #include "sh/arc.hpp"
+#include "sh/fp_environment.hpp"
 #include "sh/mat4.hpp"
+#include "sh/time_limit.hpp"
 #include "sh/vec3d.hpp"
 
 namespace halflit {
@@ -173,6 +175,7 @@ Camera fitted(const Box& box, float aspect, const ViewSettings& view, const AddP
 }  // namespace
 
 Camera frame_bounds(const Bounds& bounds, float aspect, const ViewSettings& view) {
+    const FpEnvironment environment_of_host;
     const Box box = usable_box(bounds);
     return fitted(box, aspect, view, [&](ViewFit& fit) {
         for (int corner = 0; corner < 8; ++corner)
@@ -181,22 +184,27 @@ Camera frame_bounds(const Bounds& bounds, float aspect, const ViewSettings& view
 }
 
 Camera frame_scene(const Scene& scene, float aspect, const ViewSettings& view) {
+    const FpEnvironment environment_of_host;
     return frame_scene(scene, scene_bounds(scene), aspect, view);
 }
 
 Camera frame_scene(const Scene& scene, const Bounds& bounds, float aspect, const ViewSettings& view) {
+    const FpEnvironment environment_of_host;
     const FramedPart part = framed_part(scene);
     const Bounds& framed = part.whole ? bounds : part.bounds;
     const Box box = usable_box(framed);
     if (framed.empty || !(framed.radius() > 1e-5 * length(box.center)) || !(framed.radius() < kMaxCoordinate))
         return frame_bounds(framed, aspect, view);
+    TimeCheck check;
     return fitted(box, aspect, view, [&](ViewFit& fit) {
         for (const int i : part.instances) {
+            check();
             const Instance& instance = scene.instances[static_cast<std::size_t>(i)];
             const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
             const FramedVertices& vertices = part.meshes[static_cast<std::size_t>(instance.mesh)];
             if (is_seen_already(fit, vertices, instance.world_from_object, box.center)) continue;
             for (const std::uint32_t v : vertices.vertices) {
+                check();
                 const Vec3f p = transform_point(instance.world_from_object, mesh.positions[v]);
                 if (finite(p)) fit.add(to_double(p) - box.center);
             }

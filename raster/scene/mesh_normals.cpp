@@ -1,5 +1,6 @@
 #include "halflit/mesh.hpp"
 
+#include "sh/fp_environment.hpp"
 #include "sh/vec3d.hpp"
 
 #include <cstddef>
@@ -29,6 +30,7 @@ Vec3f triangle_normal(Vec3f a, Vec3f b, Vec3f c) {
 }  // namespace
 
 void generate_flat_normals(Mesh& mesh) {
+    const FpEnvironment environment_of_host;
     if (mesh.topology != Topology::triangles) return;
     unshare(mesh.positions, mesh.indices);
     unshare(mesh.uv0, mesh.indices);

@@ -138,7 +138,7 @@ void PreparedData::collect() {
 }
 
 Result<PreparedData> PreparedData::make(const Scene& scene, const Execution& execution) {
-    return guarded("preparing a scene", [&]() -> Result<PreparedData> {
+    return guarded("preparing a scene", execution, [&]() -> Result<PreparedData> {
         Executor executor;
         executor.configure(execution);
         PreparedData prepared;
@@ -165,7 +165,7 @@ Result<PreparedData> PreparedData::make(const Scene& scene, const Execution& exe
 
 Result<void> PreparedData::update(const SceneChanges& changes, const Execution& execution) {
     up_to_date_ = false;
-    auto result = guarded("updating a scene", [&]() -> Result<void> {
+    auto result = guarded("updating a scene", execution, [&]() -> Result<void> {
         if (auto ok = note(changes); !ok) return ok;
         return apply_pending(execution);
     });

@@ -12,7 +12,7 @@ PreparedScene& PreparedScene::operator=(PreparedScene&&) noexcept = default;
 PreparedScene::~PreparedScene() = default;
 
 Result<PreparedScene> PreparedScene::make(const Scene& scene, const Execution& execution) {
-    return raster::guarded("preparing a scene", [&]() -> Result<PreparedScene> {
+    return raster::guarded("preparing a scene", execution, [&]() -> Result<PreparedScene> {
         auto data = raster::PreparedData::make(scene, execution);
         if (!data) return tl::unexpected<Error>(data.error());
         return PreparedScene(std::make_unique<raster::PreparedData>(std::move(*data)));

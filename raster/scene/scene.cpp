@@ -3,7 +3,9 @@
 #include "halflit/shapes.hpp"
 #include "raster/scene/shadow_catcher.hpp"
 #include "raster/scene/used_vertices.hpp"
+#include "sh/fp_environment.hpp"
 #include "sh/mat4.hpp"
+#include "sh/time_limit.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -11,16 +13,21 @@
 namespace halflit {
 
 Bounds scene_bounds(const Scene& scene) {
+    const FpEnvironment environment_of_host;
     Bounds bounds;
     std::vector<std::vector<bool>> used(scene.meshes.size());
+    TimeCheck check;
     for (const Instance& instance : scene.instances) {
+        check();
         if (instance.mesh < 0 || static_cast<std::size_t>(instance.mesh) >= scene.meshes.size()) continue;
         if (raster::catches_shadows(scene, instance)) continue;
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
         std::vector<bool>& mask = used[static_cast<std::size_t>(instance.mesh)];
         if (mask.empty()) mask = raster::used_vertices(mesh);
-        for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+            check();
             if (mask[i]) bounds.add(transform_point(instance.world_from_object, mesh.positions[i]));
+        }
     }
     return bounds;
 }
@@ -41,12 +48,14 @@ Light key_light(const Camera& camera, Vec3f color_linear) {
 }  // namespace
 
 void add_studio(Scene& scene, const Camera& camera, double turn_rad) {
+    const FpEnvironment environment_of_host;
     // A white surface that faces the key light reaches 1 with the studio's light, 0.91 after the neutral tone curve.
     scene.lights.push_back(key_light(camera, {0.52f, 0.51f, 0.49f}));
     set_environment(scene, studio_environment(camera, turn_rad));
 }
 
 void add_default_lights(Scene& scene, const Camera& camera) {
+    const FpEnvironment environment_of_host;
     // A white Lambert surface that faces the key light reaches 0.82 of the display's white, and about 1 with the ambient light.
     scene.lights.push_back(key_light(camera, {0.84f, 0.82f, 0.78f}));
     scene.ambient.sky_linear = {0.23f, 0.25f, 0.28f};
@@ -54,6 +63,7 @@ void add_default_lights(Scene& scene, const Camera& camera) {
 }
 
 void add_ground(Scene& scene, const Bounds& bounds) {
+    const FpEnvironment environment_of_host;
     constexpr float kReach = 10.0f, kBelow = 1e-4f;  // of the bounds' radius
     Material material;
     material.name = "ground";
@@ -75,6 +85,7 @@ void add_ground(Scene& scene, const Bounds& bounds) {
 }
 
 void set_environment(Scene& scene, std::shared_ptr<const Environment> environment) {
+    const FpEnvironment environment_of_host;
     scene.ambient = {};
     if (scene.environment != nullptr)
         for (const Light& sun : environment_suns(*scene.environment)) {

@@ -3,6 +3,8 @@
 #include "sh/arc.hpp"
 
 #include "sh/config.hpp"
+#include "sh/fp_environment.hpp"
+#include "sh/time_limit.hpp"
 #include "sh/vec3d.hpp"
 
 #include <algorithm>
@@ -72,10 +74,16 @@ public:
 
     void run() {
         weld();
-        for (Triangle& triangle : triangles_) measure(triangle);
+        for (Triangle& triangle : triangles_) {
+            check_();
+            measure(triangle);
+        }
         connect();
         make_groups();
-        for (Group& group : groups_) group.tangent = evaluate(group);
+        for (Group& group : groups_) {
+            check_();
+            group.tangent = evaluate(group);
+        }
         settle_degenerate();
         write();
     }
@@ -91,6 +99,7 @@ private:
         std::vector<std::uint32_t> id(mesh_.positions.size());
         seen.reserve(id.size());
         for (std::size_t v = 0; v < id.size(); ++v) {
+            check_();
             const Vec3f p = mesh_.positions[v], n = mesh_.normals[v];
             const Vec2f t = uv_[v];
             id[v] = seen.try_emplace({bits(p.x), bits(p.y), bits(p.z), bits(n.x), bits(n.y), bits(n.z), bits(t.x), bits(t.y)},
@@ -132,9 +141,9 @@ private:
                 edges.push_back({std::min(from, to), std::max(from, to), static_cast<std::uint32_t>(t), i, from < to});
             }
         }
-        std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-            return std::tie(a.low, a.high, a.triangle, a.side) < std::tie(b.low, b.high, b.triangle, b.side);
-        });
+        std::sort(edges.begin(), edges.end(), timed_less([](const Edge& a, const Edge& b) {
+                      return std::tie(a.low, a.high, a.triangle, a.side) < std::tie(b.low, b.high, b.triangle, b.side);
+                  }));
         for (std::size_t begin = 0; begin < edges.size();) {
             std::size_t end = begin;
             while (end < edges.size() && edges[end].low == edges[begin].low && edges[end].high == edges[begin].high) ++end;
@@ -153,6 +162,7 @@ private:
 
     void make_groups() {
         for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+            check_();
             if (triangles_[t].degenerate || triangles_[t].flat_uv) continue;
             for (std::uint32_t corner = 0; corner < 3; ++corner)
                 if (triangles_[t].group[corner] == kNone) grow_group(t, corner);
@@ -261,6 +271,7 @@ private:
     Mesh& mesh_;
     const std::vector<Vec2f>& uv_;
     std::vector<Triangle> triangles_;
+    TimeCheck check_;
     std::vector<Group> groups_;
     std::vector<std::uint32_t> members_;  // triangles of all groups, one group after the other
     std::vector<std::uint32_t> pending_;
@@ -269,6 +280,7 @@ private:
 }  // namespace
 
 void generate_tangents(Mesh& mesh, int uv_set) {
+    const FpEnvironment environment_of_host;
     if (mesh.topology != Topology::triangles) return;
     const std::size_t count = mesh.positions.size();
     HALFLIT_ASSERT(mesh.normals.size() == count && (uv_set == 1 ? mesh.uv1 : mesh.uv0).size() == count);

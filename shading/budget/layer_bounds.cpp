@@ -1,5 +1,6 @@
 #include "shading/budget/layer_bounds.hpp"
 
+#include "sh/power.hpp"
 #include "shading/budget/texture_bounds.hpp"
 #include "shading/model/constants.hpp"
 #include "shading/model/sheen_table.hpp"
@@ -154,7 +155,7 @@ LayerCosts layer_costs(const CodeCosts& costs, const ShadingPlan& plan, const Ma
         const double direction = s.cosine_error() + kSheenHalfError / double{kLeastHalfVector};
         double codes = costs.relative(1e-5 + 1.5e-7 * light.count);
         codes += costs.absolute(strength * (std::sqrt(sheen.exponent) * direction + s.cosine_error() / double{kLeastHalfVector}));
-        codes += costs.relative(std::exp(std::min(2.0 * sheen.roughness.relative + sheen.nodes * slopes.albedo, 13.0)) - 1.0);
+        codes += costs.relative(exp_of(std::min(2.0 * sheen.roughness.relative + sheen.nodes * slopes.albedo, 13.0)) - 1.0);
         codes += costs.absolute(strength * 0.74 * sheen.roughness.relative);
         double around = 0.0;
         if ((material.stages & kStageAmbient) != 0) codes += around_codes(costs, plan, material, sheen, s, reflections, exposure, around);

@@ -125,7 +125,7 @@ double ggx_codes(const CodeCosts& costs, const Surface& s, double light_sum) {
     const double bounced = 24.0 * (s.roughness.absolute + 6.0 * s.cosine_error()) * slopes.share * most_bounced();
     const double of_roughness = 6.0 * s.roughness.relative;
     constexpr double kSchlickError = 1.5e-6;
-    return costs.relative(std::exp(std::min(2.0 / a * direction + of_roughness + bounced, 13.0)) - 1.0) +
+    return costs.relative(exp_of(std::min(2.0 / a * direction + of_roughness + bounced, 13.0)) - 1.0) +
            costs.absolute(strength * s.cosine_error() / least) + costs.absolute(strength * kSchlickError);
 }
 

@@ -4,6 +4,8 @@
 #include "shading/kernels/pow.hpp"
 #include "shading/model/srgb.hpp"
 
+#include <bit>
+
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
@@ -30,7 +32,10 @@ HALFLIT_INLINE void encode_srgb8(const float* red, const float* green, const flo
     for (int i = 0; i < count; i += kWidth) {
         const I r = srgb8(load(red + i) * factor), g = srgb8(load(green + i) * factor), b = srgb8(load(blue + i) * factor);
         const I a = unorm8(load(alpha + i));
-        store(reinterpret_cast<std::int32_t*>(rgba8 + i), (r | shl<8>(g)) | (shl<16>(b) | shl<24>(a)));
+        // Red is the first byte of a pixel in memory.
+        const I pixel = std::endian::native == std::endian::little ? (r | shl<8>(g)) | (shl<16>(b) | shl<24>(a))
+                                                                   : (a | shl<8>(b)) | (shl<16>(g) | shl<24>(r));
+        store(reinterpret_cast<std::int32_t*>(rgba8 + i), pixel);
     }
 }
 

@@ -114,8 +114,14 @@ HALFLIT_INLINE F load(const float* p) { return F::load_unaligned(p); }
 HALFLIT_INLINE I load(const std::int32_t* p) { return I::load_unaligned(p); }
 HALFLIT_INLINE void store(float* p, F v) { v.store_unaligned(p); }
 HALFLIT_INLINE void store(std::int32_t* p, I v) { v.store_unaligned(p); }
+// From xsimd 11 on, bitwise_cast names the type of an element; before, it named a batch.
+#if XSIMD_VERSION_MAJOR >= 11
+HALFLIT_INLINE I bits(F x) { return xsimd::bitwise_cast<std::int32_t>(x); }
+HALFLIT_INLINE F from_bits(I i) { return xsimd::bitwise_cast<float>(i); }
+#else
 HALFLIT_INLINE I bits(F x) { return xsimd::bitwise_cast<I>(x); }
 HALFLIT_INLINE F from_bits(I i) { return xsimd::bitwise_cast<F>(i); }
+#endif
 HALFLIT_INLINE F vabs(F a) { return from_bits(bits(a) & I(0x7fffffff)); }
 HALFLIT_INLINE F vneg(F a) { return from_bits(bits(a) ^ I(static_cast<std::int32_t>(0x80000000u))); }
 HALFLIT_INLINE F mad(F a, F b, F c) { return a * b + c; }

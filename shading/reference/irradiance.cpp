@@ -1,6 +1,7 @@
 #include "shading/reference/irradiance.hpp"
 
 #include "sh/equirect.hpp"
+#include "sh/time_limit.hpp"
 #include "sh/zonal.hpp"
 
 #include <algorithm>
@@ -32,6 +33,7 @@ std::vector<Patch> patches(const Environment& environment) {
     std::vector<Patch> out;
     // x and y count cuts of pixels. A patch is `step` of them along each axis where pixels are merged, and one where they are cut.
     for (int y = 0; y < height * cuts; y += step) {
+        check_time();
         for (int x = 0; x < width * cuts; x += step) {
             Patch patch{};
             Vec3d middle{};

@@ -1,5 +1,6 @@
 #include "apps/io/detail/crease_normals.hpp"
 
+#include "sh/time_limit.hpp"
 #include "sh/trig.hpp"
 #include "sh/vec3d.hpp"
 
@@ -59,7 +60,9 @@ class NormalMaker {
 public:
     NormalMaker(Soup& soup, const std::vector<std::uint32_t>& place_of, double crease_deg)
         : soup_(soup), place_of_(place_of), least_cosine_(sin_cos(crease_deg * (kPi / 180)).cos), sets_(place_of.size()) {
+        TimeCheck check;
         for (std::size_t t = 0; t < soup.triangles(); ++t) {
+            check();
             const Vec3d a = at(3 * t);
             const Vec3d normal = cross(at(3 * t + 1) - a, at(3 * t + 2) - a);
             const double size = length(normal);
@@ -74,9 +77,9 @@ public:
             const std::uint32_t a = place_of_[corner], b = place_of_[following(corner)];
             edges.push_back({std::min(a, b), std::max(a, b), corner, a < b ? 1u : 0u});
         }
-        std::sort(edges.begin(), edges.end(), [](const HalfEdge& x, const HalfEdge& y) {
-            return std::tie(x.low, x.high, x.corner) < std::tie(y.low, y.high, y.corner);
-        });
+        std::sort(edges.begin(), edges.end(), timed_less([](const HalfEdge& x, const HalfEdge& y) {
+                      return std::tie(x.low, x.high, x.corner) < std::tie(y.low, y.high, y.corner);
+                  }));
         for (std::size_t i = 0; i < edges.size();) {
             std::size_t end = i + 1;
             while (end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high) ++end;
@@ -87,7 +90,9 @@ public:
 
     void add_normals() {
         std::vector<Vec3d> sum(place_of_.size());
+        TimeCheck check;
         for (std::uint32_t corner = 0; corner < place_of_.size(); ++corner) {
+            check();
             const Vec3d here = at(corner), next = at(following(corner)) - here, last = at(following(following(corner))) - here;
             Vec3d& of_set = sum[sets_.root(corner)];
             of_set = of_set + unit_[corner / 3] * angle_of(length(cross(next, last)), dot(next, last));
@@ -133,14 +138,14 @@ private:
 
 }  // namespace
 
-void add_crease_normals(const Document& document, Soup& soup, const std::vector<std::uint32_t>& place_of, double crease_deg) {
+void add_crease_normals(Soup& soup, const std::vector<std::uint32_t>& place_of, double crease_deg) {
     if (soup.normal_of.size() == soup.position_of.size() &&
         std::find(soup.normal_of.begin(), soup.normal_of.end(), kNone) == soup.normal_of.end())
         return;
-    document.check_time();
+    check_time();
     NormalMaker maker(soup, place_of, crease_deg);
     maker.join_smooth_edges();
-    document.check_time();
+    check_time();
     maker.add_normals();
 }
 

@@ -9,7 +9,7 @@ namespace halflit::io::detail {
 /// have equal numbers. Two triangles are smooth across an edge if they are its only ones, turn the same way, and their normals differ by at
 /// most `crease_deg`, or their smoothing groups say so. Around a place, triangles that hang together by such edges share a normal: the mean
 /// of theirs, weighted by their angles there.
-void add_crease_normals(const Document& document, Soup& soup, const std::vector<std::uint32_t>& place_of, double crease_deg);
+void add_crease_normals(Soup& soup, const std::vector<std::uint32_t>& place_of, double crease_deg);
 
 /// The angle between two directions, in radians, from its sine and cosine times any positive number. sine >= 0. Made of + - * / and sqrt
 /// alone; error below 1e-12.

@@ -16,7 +16,7 @@ constexpr std::size_t kLongestName = 255;
 /// Most lines that a compression packs into one block, DWAB's.
 constexpr long long kBlockLines = 256;
 /// Most memory for the blocks or tiles that the library holds at a time, bytes.
-constexpr long long kMostBlockBytes = 1LL << 30;
+constexpr long long kMostBlockBytes = 1LL << 28;  // the clock is looked at between blocks
 
 tl::unexpected<Error> refuse(std::string message) { return fail(ErrorCode::bad_input, std::move(message)); }
 

@@ -3,6 +3,7 @@
 #include "apps/io/detail/gltf_choices.hpp"
 #include "apps/io/detail/gltf_placed.hpp"
 #include "apps/io/text.hpp"
+#include "sh/time_limit.hpp"
 #include "shading/model/numbers.hpp"
 
 #include <fmt/format.h>
@@ -260,7 +261,7 @@ int choose_animation(const std::vector<std::string>& names, const std::string& w
 
 void find_animations(Document& document) {
     const LoadOptions& options = document.options;
-    check_time(options);
+    check_pose_time(options);
     std::vector<std::string> names;
     document.geometry.take(document.file.animations.size() * sizeof(std::string));
     for (const file::Animation& animation : document.file.animations) names.emplace_back(animation.name);
@@ -280,7 +281,7 @@ std::vector<Animation> read_animations(Document& document, const std::vector<Acc
         animation.index = used.animation;
         try {
             for (const AnimationUse::Channel& channel : used.channels) {
-                document.check_time();
+                check_time();
                 std::optional<Track> track = reader.read(used.animation, channel.channel, channel.slot);
                 if (!track) continue;
                 animation.end_s = std::max(animation.end_s, static_cast<double>(track->times.back()));

@@ -47,7 +47,7 @@ void check_threads(const LoadOptions& options) {
     if (options.threads < 0) refuse("", fmt::format("threads is {}, expected at least 0", options.threads), ErrorCode::usage);
 }
 
-void check_time(const LoadOptions& options) {
+void check_pose_time(const LoadOptions& options) {
     if (!std::isfinite(options.time_s)) refuse("", fmt::format("time_s is {}, expected a finite number", options.time_s), ErrorCode::usage);
 }
 
@@ -98,7 +98,7 @@ void choose_variant(Document& document) {
 }
 
 void refuse_choices(const LoadOptions& options) {
-    check_time(options);
+    check_pose_time(options);
     (void)choose_animation({}, options.animation);
     if (!options.scene.empty()) (void)scene_index({""}, options.scene);
     if (!options.variant.empty()) (void)variant_index({}, options.variant);

@@ -17,7 +17,7 @@ void choose_variant(Document& document);
 /// @{
 /// Throws LoadFailure (usage) for a value that no file may be read with.
 void check_threads(const LoadOptions& options);
-void check_time(const LoadOptions& options);
+void check_pose_time(const LoadOptions& options);
 /// @}
 
 /// Position of a name or, if there is none, of an index; -1: neither.

@@ -8,6 +8,7 @@
 #include "apps/io/detail/json_place.hpp"
 #include "apps/io/detail/uri.hpp"
 #include "apps/io/text.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -101,12 +102,6 @@ void set_geometry_limit(Document& document) {
     for (const auto& buffer : document.owned_buffers) size += buffer.size();
     size += std::min(size, compressed_bytes(document) + draco_bytes(document));  // several views may have the same bytes
     document.geometry.set_limit(std::min(document.options.limits.max_geometry_bytes, kFreeBytes + kBytesPerByte * size));
-}
-
-void Document::check_time() const {
-    const double limit = options.limits.time_limit_s;
-    if (limit > 0.0 && std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count() > limit)
-        refuse("", "the time limit was reached before the file was read", ErrorCode::limit);
 }
 
 void Document::warn(std::string what) {

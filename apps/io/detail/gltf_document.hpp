@@ -10,7 +10,6 @@
 #include "apps/io/file_access.hpp"
 #include "halflit/gltf.hpp"
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -41,13 +40,9 @@ struct Document {
     std::uint64_t file_bytes = 0;  ///< of the model's own file
     Budget geometry{"the geometry", 0}, encoded_images;
 
-    std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
-
     Document(const LoadOptions& load_options, const std::string& base_dir)
         : options(load_options), folder(base_dir, load_options.allow_external) {}
 
-    /// Throws LoadFailure when the time is over.
-    void check_time() const;
     /// Adds a warning; the first hundred different ones are kept.
     void warn(std::string what);
     /// The warnings, the last of which counts those that are left out.

@@ -2,6 +2,7 @@
 
 #include "apps/io/detail/draco_mesh.hpp"
 #include "apps/io/detail/gltf_accessor.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -59,7 +60,7 @@ public:
 
 private:
     DracoMesh open(int view) {
-        document_.check_time();
+        check_time();
         constexpr std::uint64_t kTables = 8 << 10;  // bytes that stand for the time that the tables of a small stream take
         document_.geometry.take(kTables);
         const std::uint64_t size = document_.file.buffer_views[static_cast<std::size_t>(view)].byte_length;

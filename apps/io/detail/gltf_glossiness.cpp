@@ -1,5 +1,7 @@
 #include "apps/io/detail/gltf_glossiness.hpp"
 
+#include "sh/time_limit.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -74,7 +76,7 @@ struct Converted {
 };
 
 /// The two textures of the surface, both of the larger size.
-Converted convert(const Document& document, const Factors& factors, const Texture* diffuse, const Texture* specular) {
+Converted convert(const Factors& factors, const Texture* diffuse, const Texture* specular) {
     const auto larger = [&](int (Texture::*side)() const) {
         return std::max(diffuse != nullptr ? (diffuse->*side)() : 1, specular != nullptr ? (specular->*side)() : 1);
     };
@@ -84,7 +86,7 @@ Converted convert(const Document& document, const Factors& factors, const Textur
     const Texels of_diffuse(diffuse, width, height), of_specular(specular, width, height);
     std::vector<std::uint16_t> base_row(static_cast<std::size_t>(width) * 4), rough_row(base_row.size());
     for (int y = 0; y < height; ++y) {
-        document.check_time();
+        check_time();
         for (int x = 0; x < width; ++x) {
             const std::uint16_t* const matt = of_diffuse.at(x, y);
             const MetalSurface metal = to_metal(surface_at(factors, matt, of_specular.at(x, y)));
@@ -162,8 +164,8 @@ private:
                         "converted with the mean of the other",
                         index));
         const Texture mean_matt = mean_of(*matt), mean_shiny = mean_of(*shiny);
-        Texture base = convert(document_, factors, matt, &mean_shiny).base_color;
-        Texture rough = convert(document_, factors, &mean_matt, shiny).metallic_roughness;
+        Texture base = convert(factors, matt, &mean_shiny).base_color;
+        Texture rough = convert(factors, &mean_matt, shiny).metallic_roughness;
         material.base_color_texture.texture = add(std::move(base));
         material.metallic_roughness_texture.texture = add(std::move(rough));
     }
@@ -172,7 +174,7 @@ private:
         const Key key{diffuse,      specular,      f.diffuse[0],  f.diffuse[1],  f.diffuse[2],
                       f.diffuse[3], f.specular[0], f.specular[1], f.specular[2], f.glossiness};
         if (const auto found = known_.find(key); found != known_.end()) return found->second;
-        Converted made = convert(document_, f, matt, shiny);
+        Converted made = convert(f, matt, shiny);
         const int base = add(std::move(made.base_color)), rough = add(std::move(made.metallic_roughness));
         return known_[key] = {base, rough};
     }

@@ -3,6 +3,7 @@
 #include "apps/io/detail/uri.hpp"
 #include "apps/io/image_reader.hpp"
 #include "apps/io/text.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -42,11 +43,11 @@ struct TextureRows : RowSink {
     TextureRows(const Document& of_picture, TextureBuilder made, ColorSpace of)
         : document(of_picture), builder(std::move(made)), space(of) {}
     void add_row(const std::uint8_t* rgba8) override {
-        document.check_time();
+        check_time();
         builder.add_row(rgba8, space);
     }
     void add_row(const std::uint16_t* rgba16) override {
-        document.check_time();
+        check_time();
         builder.add_row(rgba16);
     }
     void add_indexed_row(std::span<const std::uint8_t> indices, const Palette& colors) override {
@@ -82,7 +83,7 @@ ImageStore::ImageStore(Document& document, std::vector<Texture>& textures)
     : document_(document), textures_(textures), texture_memory_("the textures", document.options.limits.max_texture_bytes) {}
 
 ImageStore::Job ImageStore::prepare(int image, ColorSpace space, MipRule rule, int texture) {
-    document_.check_time();
+    check_time();
     const file::Image& entry = document_.file.images[static_cast<std::size_t>(image)];
     const LoadLimits& limits = document_.options.limits;
     std::string where = entry.place.empty() ? fmt::format("images[{}]", image) : std::string(entry.place);
@@ -146,7 +147,7 @@ void ImageStore::replace(int texture, ColorSpace space, const LoadFailure& failu
 }
 
 Texture ImageStore::make(const Job& job) const {
-    document_.check_time();
+    check_time();
     const LoadLimits& limits = document_.options.limits;
     TextureRows rows(document_, take(TextureBuilder::make(job.width, job.height, job.rule), job.where), job.space);
     take(decode_rows(job.bytes, {limits.max_texture_side, limits.max_texture_pixels, limits.max_jpeg_scans}, job.keep_16_bits, rows),
@@ -181,7 +182,11 @@ void ImageStore::start() {
     const std::size_t count = other_threads();
     try {
         threads_.reserve(count);
-        while (threads_.size() < count) threads_.emplace_back([this] { run_jobs(); });
+        while (threads_.size() < count)
+            threads_.emplace_back([this, end = TimeLimit::end()] {
+                const TimeLimit limit(end);
+                run_jobs();
+            });
     } catch (const std::system_error&) {  // no more threads: those that run do the work
     } catch (const std::bad_alloc&) {     // likewise
     }

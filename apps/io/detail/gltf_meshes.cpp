@@ -3,6 +3,7 @@
 #include "apps/io/detail/gltf_instancing.hpp"
 #include "apps/io/detail/gltf_skin.hpp"
 #include "halflit/mesh.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -66,7 +67,7 @@ private:
         }
         const InstancePlaces places = read_instance_places(document_, reader_, index);
         for (std::size_t i = 0; i < places.count; ++i) {
-            if (i % 4096 == 0) document_.check_time();
+            if (i % 4096 == 0) check_time();
             const Affine in_node = places.at(i);
             if (!is_finite(world * in_node)) {
                 document_.warn(fmt::format("nodes[{}]: the transform of an instance is not finite, not drawn", index));
@@ -133,7 +134,7 @@ private:
         std::vector<Made> made;
         const auto& primitives = document_.file.meshes[mesh].primitives;
         for (std::size_t p = 0; p < primitives.size(); ++p) {
-            document_.check_time();
+            check_time();
             // All targets are read if any may be used at another time.
             std::optional<ReadMesh> read = reader_.read(mesh, p, morphs ? std::vector<double>(primitives[p].targets.size(), 1.0) : weights);
             if (!read) continue;

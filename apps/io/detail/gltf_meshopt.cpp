@@ -2,6 +2,7 @@
 
 #include "apps/io/detail/meshopt_filter.hpp"
 #include "apps/io/detail/meshopt_vertices.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -87,7 +88,7 @@ std::vector<std::byte> decode_view(Document& document, std::size_t index) {
     const file::BufferView& parent = document.file.buffer_views[index];
     const CompressedView& view = document.file.compressed_views[static_cast<std::size_t>(parent.compressed)];
     const std::string where = fmt::format("bufferViews[{}].extensions.meshopt_compression", index);
-    document.check_time();
+    check_time();
     const std::uint64_t size = check(document, parent, view, where);
     document.geometry.take(size);
     std::vector<std::byte> out(size);

@@ -5,6 +5,7 @@
 #include "apps/io/detail/gltf_placed.hpp"
 #include "apps/io/detail/gltf_world.hpp"
 #include "apps/io/detail/replace.hpp"
+#include "sh/fp_environment.hpp"
 #include "shading/out_of_memory.hpp"
 
 #include <fmt/format.h>
@@ -246,6 +247,7 @@ void Motion::set_lights(const file::File& file, const NodeTree& tree, Scene& sce
 }
 
 Result<SceneChanges> pose_at(const Motion& motion, const std::string& animation, double time_s, Scene& scene, std::span<Node> nodes) {
+    const FpEnvironment environment_of_host;
     try {
         return motion.pose(animation, time_s, scene, nodes);
     } catch (const LoadFailure& failure) {

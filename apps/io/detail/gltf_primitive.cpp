@@ -1,6 +1,7 @@
 #include "apps/io/detail/gltf_primitive.hpp"
 
 #include "apps/io/detail/gltf_vertex_values.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -227,7 +228,7 @@ void PrimitiveReader::read_targets(const file::Primitive& primitive, std::size_t
     const std::span<const std::uint32_t> vertices = out.source_vertices;
     for (std::size_t t = 0; t < std::min(primitive.targets.size(), weights.size()); ++t) {
         if (weights[t] == 0.0) continue;
-        document_.check_time();
+        check_time();
         const std::string where = fmt::format("{}.targets[{}]", out.where, t);
         // Null for what the mesh itself lacks.
         const auto deltas = [&](const AttributeRule& rule, bool has_base, std::size_t bytes) {

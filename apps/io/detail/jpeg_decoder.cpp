@@ -1,6 +1,8 @@
 // JPEG by libjpeg-turbo, with the slow integer DCT, because its SIMD and plain versions give the same bits.
 #include "apps/io/detail/image_decoders.hpp"
 
+#include "sh/time_limit.hpp"
+
 #include <fmt/format.h>
 
 #include <csetjmp>
@@ -23,7 +25,7 @@ struct Decoder {
     std::jmp_buf escape{};
     char message[JMSG_LENGTH_MAX] = "";
     int max_scans = 0;
-    bool too_many_scans = false, out_of_memory = false;
+    bool too_many_scans = false, out_of_memory = false, out_of_time = false;
 
     Decoder() {
         info.err = jpeg_std_error(&errors);
@@ -62,8 +64,9 @@ struct Decoder {
         max_scans = scan_limit;
         progress.progress_monitor = [](j_common_ptr common) {
             auto* self = static_cast<Decoder*>(common->client_data);
-            if (self->info.input_scan_number <= self->max_scans) return;
-            self->too_many_scans = true;
+            self->too_many_scans = self->info.input_scan_number > self->max_scans;
+            self->out_of_time = TimeLimit::Clock::now() >= TimeLimit::end();
+            if (!self->too_many_scans && !self->out_of_time) return;
             std::longjmp(self->escape, 1);
         };
         info.progress = &progress;
@@ -92,6 +95,7 @@ struct Decoder {
     }
 
     [[nodiscard]] tl::unexpected<Error> error() const {
+        if (out_of_time) throw OutOfTime{};
         if (too_many_scans) return fail(ErrorCode::limit, fmt::format("JPEG: more than {} scans, which is the limit", max_scans));
         return fail(out_of_memory ? ErrorCode::limit : ErrorCode::bad_input, fmt::format("JPEG: {}", message));
     }

@@ -1,6 +1,7 @@
 #include "apps/io/detail/json_scan.hpp"
 
 #include "apps/io/text.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -53,6 +54,7 @@ private:
     void count_token() {
         if (++tokens_ > limits_.max_tokens)
             refuse(at_, fmt::format("more than {} JSON tokens, which is the limit", limits_.max_tokens), ErrorCode::limit);
+        check_();
     }
     [[nodiscard]] char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
     void skip_space() {
@@ -95,7 +97,7 @@ private:
         if (top.object) {
             const auto first = keys_.begin() + static_cast<std::ptrdiff_t>(top.first_key);
             std::sort(first, keys_.end(),
-                      [](const Key& a, const Key& b) { return a.text != b.text ? a.text < b.text : a.offset < b.offset; });
+                      timed_less([](const Key& a, const Key& b) { return a.text != b.text ? a.text < b.text : a.offset < b.offset; }));
             const auto twin = std::adjacent_find(first, keys_.end(), [](const Key& a, const Key& b) { return a.text == b.text; });
             if (twin != keys_.end()) refuse((twin + 1)->offset, fmt::format("the key \"{}\" is there twice", printable(twin->text, 60)));
             keys_.resize(top.first_key);
@@ -255,6 +257,7 @@ private:
     const JsonScanLimits limits_;
     JsonVisitor& visitor_;
     std::size_t at_ = 0, tokens_ = 0;
+    TimeCheck check_;
     std::vector<Open> open_;
     std::vector<Key> keys_;
     std::deque<std::string> decoded_;  // keys that held escapes

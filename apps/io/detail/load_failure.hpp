@@ -3,6 +3,8 @@
 
 #include "apps/io/text.hpp"
 #include "halflit/error.hpp"
+#include "sh/fp_environment.hpp"
+#include "sh/time_limit.hpp"
 
 #include <cstdint>
 #include <exception>
@@ -32,15 +34,20 @@ inline void take(Result<void>&& result, std::string_view where) {
     if (!result) refuse(where, result.error().message, result.error().code);
 }
 
-/// Calls make(), which returns a Result, and gives its failures and exceptions as errors that begin with the file's name.
+/// Calls make(), which returns a Result, within a time limit (0: none), and gives its failures and exceptions as errors that begin with the
+/// file's name.
 template <class Make>
-auto errors_of(const std::string& name, const Make& make) -> decltype(make()) {
+auto errors_of(const std::string& name, double time_limit_s, const Make& make) -> decltype(make()) {
+    const FpEnvironment environment_of_host;
+    const TimeLimit limit(time_limit_s);
     const auto failed = [&](ErrorCode code, const std::string& message) { return fail(code, printable(name) + ": " + message); };
     try {
         try {
             return make();
         } catch (const LoadFailure& failure) {
             return failed(failure.error.code, failure.error.message);
+        } catch (const OutOfTime&) {
+            return failed(ErrorCode::limit, "the time limit was reached before the file was read");
         } catch (const std::bad_alloc&) {
             return failed(ErrorCode::limit, "out of memory");
         } catch (const std::exception& error) {  // a decoder's, or the standard library's

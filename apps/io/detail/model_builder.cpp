@@ -120,7 +120,7 @@ int ModelBuilder::texture(std::vector<std::byte> picture, std::string where, Col
 std::vector<PartMesh> ModelBuilder::add_meshes(Soup&& soup, std::span<const std::string> name_of, std::span<const int> material_of) {
     std::vector<PartMesh> all;
     Scene& scene = loaded_.scene;
-    for (SoupMesh& made : make_meshes(*document_, std::move(soup), static_cast<double>(document_->options.crease_deg), left_out_)) {
+    for (SoupMesh& made : make_meshes(std::move(soup), static_cast<double>(document_->options.crease_deg), left_out_)) {
         Mesh& mesh = made.mesh;
         mesh.name = name_of[made.part];
         mesh.material = material_of[made.part];

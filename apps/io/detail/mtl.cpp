@@ -2,6 +2,7 @@
 
 #include "apps/io/detail/model_text.hpp"
 #include "apps/io/text.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -226,7 +227,7 @@ void read_mtl(std::string_view text, const std::string& name, ModelBuilder& buil
     std::string_view line;
     const std::size_t first = materials.size();
     while (lines.next(line)) {
-        if (lines.number() % 4096 == 0) builder.document().check_time();
+        if (lines.number() % 4096 == 0) check_time();
         Words words(line);
         const std::string_view word = words.next();
         if (word.empty() || word[0] == '#') continue;

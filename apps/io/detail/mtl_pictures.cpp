@@ -3,6 +3,7 @@
 #include "apps/io/picture_reader.hpp"
 #include "apps/io/text.hpp"
 #include "halflit/image.hpp"
+#include "sh/time_limit.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -36,12 +37,12 @@ const std::uint8_t* texel_of(const Image& image, int x, int y, int width, int he
 
 /// One texture of two pictures, of the larger size: write(texel of a, texel of b, texel of the result).
 template <class Write>
-Image combined(const Image& a, const Image& b, const Document& document, const Write& write) {
+Image combined(const Image& a, const Image& b, const Write& write) {
     Image out{std::max(a.width, b.width), std::max(a.height, b.height), {}, {}};
     out.rgba8.resize(std::size_t{4} * static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height));
     std::uint8_t* texel = out.rgba8.data();
     for (int y = 0; y < out.height; ++y) {
-        document.check_time();
+        check_time();
         for (int x = 0; x < out.width; ++x, texel += 4)
             write(texel_of(a, x, y, out.width, out.height), texel_of(b, x, y, out.width, out.height), texel);
     }
@@ -61,7 +62,7 @@ Result<Image> MtlPictures::decode(const std::string& file) {
 }
 
 Image MtlPictures::decoded(const std::string& file, const std::string& where) {
-    builder_.document().check_time();
+    check_time();
     auto image = decode(file);
     if (!image) refuse(where, image.error().message, image.error().code);
     return *std::move(image);
@@ -99,7 +100,7 @@ int MtlPictures::with_alpha(const std::string& color, const std::string& mask, c
             std::copy_n(from, 3, to);
             to[3] = own_alpha ? of_mask[3] : brightness(of_mask);
         };
-        return add(combined(decoded(color, where), alpha, builder_.document(), write), where, ColorSpace::srgb, MipRule::alpha);
+        return add(combined(decoded(color, where), alpha, write), where, ColorSpace::srgb, MipRule::alpha);
     });
 }
 
@@ -110,12 +111,18 @@ int MtlPictures::roughness_metal(const std::string& roughness, const std::string
             to[1] = brightness(rough);
             to[2] = brightness(of_metal);
         };
-        return add(combined(decoded(roughness, where), decoded(metal, where), builder_.document(), write), where, ColorSpace::linear,
-                   MipRule::equal);
+        return add(combined(decoded(roughness, where), decoded(metal, where), write), where, ColorSpace::linear, MipRule::equal);
     });
 }
 
 bool MtlPictures::is_grey(const std::string& file) {
+    const auto known = is_grey_.find(file);
+    if (known != is_grey_.end()) return known->second;
+    return is_grey_[file] = holds_no_colours(file);
+}
+
+bool MtlPictures::holds_no_colours(const std::string& file) {
+    check_time();
     const auto image = decode(file);
     if (!image) return false;
     for (std::size_t i = 0; i + 3 < image->rgba8.size(); i += 4) {

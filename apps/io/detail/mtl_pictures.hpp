@@ -31,12 +31,14 @@ private:
 
     Result<Image> decode(const std::string& file);
     Image decoded(const std::string& file, const std::string& where);
+    bool holds_no_colours(const std::string& file);
     int add(const Image& image, const std::string& where, ColorSpace space, MipRule rule);
     template <class Make>
     int once(const Key& key, const Make& make);
 
     ModelBuilder& builder_;
     std::map<Key, int> texture_of_;
+    std::map<std::string, bool> is_grey_;
 };
 
 }  // namespace halflit::io::detail

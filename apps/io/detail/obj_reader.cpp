@@ -7,6 +7,7 @@
 #include "apps/io/detail/obj_strokes.hpp"
 #include "apps/io/detail/polygon.hpp"
 #include "apps/io/text.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -31,7 +32,7 @@ public:
         std::string_view line;
         std::string joined;
         while (lines_.next(line)) {
-            if (lines_.number() % 65536 == 0) builder_.document().check_time();
+            if (lines_.number() % 65536 == 0) check_time();
             line = without_comment(line);
             if (line.ends_with('\\')) {
                 joined.clear();
@@ -248,7 +249,7 @@ private:
     MtlLibraries libraries_;
     ObjStrokes strokes_;
     Soup soup_;
-    PolygonCutter cutter_{builder_.document()};
+    PolygonCutter cutter_;
     std::vector<std::string> objects_{""};
     std::vector<Part> parts_;
     std::map<std::tuple<std::uint32_t, int, bool>, std::uint32_t> part_at_;

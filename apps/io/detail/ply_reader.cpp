@@ -4,6 +4,7 @@
 #include "apps/io/detail/ply_values.hpp"
 #include "apps/io/detail/polygon.hpp"
 #include "apps/io/text.hpp"
+#include "sh/time_limit.hpp"
 #include "shading/model/numbers.hpp"
 
 #include <fmt/format.h>
@@ -199,7 +200,7 @@ private:
         builder_.take_entries<Vec3f>(element.count * (1 + (has_normal ? 1 : 0) + (vertex_has_uv_ ? 1 : 0) + (has_color ? 2 : 0)));
         Row row{};
         for (std::uint64_t i = 0; i < element.count; ++i) {
-            if (i % 65536 == 0) builder_.document().check_time();
+            if (i % 65536 == 0) check_time();
             read_row(element, layout, row);
             const auto vector = [&](Slot first) {
                 return Vec3f{static_cast<float>(row[first]), static_cast<float>(row[first + 1]), static_cast<float>(row[first + 2])};
@@ -220,7 +221,7 @@ private:
         const Layout layout(element);
         Row row{};
         for (std::uint64_t i = 0; i < element.count; ++i) {
-            if (i % 65536 == 0) builder_.document().check_time();
+            if (i % 65536 == 0) check_time();
             read_row(element, layout, row);
         }
     }
@@ -236,7 +237,7 @@ private:
             builder_.document().warn(fmt::format("{} elements \"{}\" are not drawn", element.count, printable(element.name, 40)));
         Row row{};
         for (std::uint64_t i = 0; i < element.count; ++i) {
-            if (i % 65536 == 0) builder_.document().check_time();
+            if (i % 65536 == 0) check_time();
             read_row(element, layout, row);
             if (is_strips) add_strips();
             if (is_face) add_face(layout, row);
@@ -313,7 +314,7 @@ private:
     PlyValues values_;
     ModelBuilder& builder_;
     Soup soup_;
-    PolygonCutter cutter_{builder_.document()};
+    PolygonCutter cutter_;
     bool vertex_has_normal_ = false, vertex_has_uv_ = false, vertex_has_color_ = false;
     std::vector<double> polygon_, texcoords_;
     std::vector<std::uint32_t> corners_, triangles_;

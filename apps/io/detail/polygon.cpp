@@ -1,6 +1,7 @@
 #include "apps/io/detail/polygon.hpp"
 
 #include "apps/io/detail/load_failure.hpp"
+#include "sh/time_limit.hpp"
 #include "sh/vec3d.hpp"
 #include "shading/model/numbers.hpp"
 
@@ -86,7 +87,7 @@ void PolygonCutter::clip_ears(std::vector<std::uint32_t>& triangles) {
     std::uint32_t corner = 1, without_ear = 0;
     for (std::uint32_t left = n; left > 3;) {
         if (tests_ >= next_look_) {
-            document_.check_time();
+            check_time();
             next_look_ = tests_ + (std::uint64_t{1} << 22);
         }
         if (tests_ > kMostTests) refuse("", "its concave polygons have too many corners to be cut into triangles", ErrorCode::limit);

@@ -15,11 +15,9 @@ namespace halflit::io::detail {
 /// corner in it. A polygon that crosses itself has no ear at some time; then the next corner is cut as it is.
 class PolygonCutter {
 public:
-    explicit PolygonCutter(const Document& document) : document_(document) {}
-
     /// Appends three numbers of corners for each triangle, in the polygon's direction of turning; n - 2 triangles. The polygon is looked at
     /// along the coordinate axis nearest to its normal. One with a corner that is not finite is a fan, too. Throws LoadFailure (limit) when
-    /// all polygons together take too long.
+    /// all polygons together have too many corners.
     void cut(std::span<const Vec3f> corners, std::vector<std::uint32_t>& triangles);
 
 private:
@@ -41,7 +39,6 @@ private:
     std::vector<std::uint32_t> next_, previous_;
     std::vector<Reflex> reflex_;  ///< by x
     std::vector<bool> cut_off_;
-    const Document& document_;                 ///< its time
     std::uint64_t tests_ = 0, next_look_ = 0;  ///< points that were looked for in triangles, of all polygons
 };
 

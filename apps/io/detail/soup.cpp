@@ -1,6 +1,7 @@
 #include "apps/io/detail/soup.hpp"
 
 #include "apps/io/detail/crease_normals.hpp"
+#include "sh/time_limit.hpp"
 #include "shading/model/numbers.hpp"
 
 #include <algorithm>
@@ -23,7 +24,7 @@ std::vector<std::uint32_t> find_places(const std::vector<Vec3f>& positions) {
     keys.reserve(positions.size());
     for (const Vec3f& p : positions) keys.push_back({bits(p.x), bits(p.y), bits(p.z), static_cast<std::uint32_t>(keys.size())});
     std::sort(keys.begin(), keys.end(),
-              [](const Key& a, const Key& b) { return std::tie(a.x, a.y, a.z, a.index) < std::tie(b.x, b.y, b.z, b.index); });
+              timed_less([](const Key& a, const Key& b) { return std::tie(a.x, a.y, a.z, a.index) < std::tie(b.x, b.y, b.z, b.index); }));
     std::vector<std::uint32_t> place(positions.size());
     for (std::size_t i = 0; i < keys.size(); ++i) {
         const bool same = i > 0 && keys[i].x == keys[i - 1].x && keys[i].y == keys[i - 1].y && keys[i].z == keys[i - 1].z;
@@ -75,9 +76,9 @@ public:
             for (std::uint32_t corner = 3 * t; corner < 3 * t + 3; ++corner)
                 keys.push_back({place_of_[corner], soup_.normal_of[corner], number_at(soup_.uv_of, corner),
                                 number_at(soup_.color_of, corner), corner});
-        std::sort(keys.begin(), keys.end(), [](const VertexKey& a, const VertexKey& b) {
-            return a.values() == b.values() ? a.corner < b.corner : a.values() < b.values();
-        });
+        std::sort(keys.begin(), keys.end(), timed_less([](const VertexKey& a, const VertexKey& b) {
+                      return a.values() == b.values() ? a.corner < b.corner : a.values() < b.values();
+                  }));
         // made_as_: of each corner the lowest one of its vertex, and of that the vertex's number, when it is known.
         bool has_uvs = false, has_colors = false;
         for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -128,8 +129,8 @@ void forget_bad_normals(Soup& soup) {
 
 }  // namespace
 
-std::vector<SoupMesh> make_meshes(const Document& document, Soup&& soup, double crease_deg, std::size_t& left_out) {
-    document.check_time();
+std::vector<SoupMesh> make_meshes(Soup&& soup, double crease_deg, std::size_t& left_out) {
+    check_time();
     std::vector<SoupMesh> meshes;
     std::vector<std::uint32_t> place_of;  // of corners
     {
@@ -144,7 +145,7 @@ std::vector<SoupMesh> make_meshes(const Document& document, Soup&& soup, double 
     }
     if (soup.position_of.empty()) return meshes;
     forget_bad_normals(soup);
-    add_crease_normals(document, soup, place_of, crease_deg);
+    add_crease_normals(soup, place_of, crease_deg);
 
     MeshMaker maker(soup, place_of);
     std::map<std::uint32_t, std::size_t> mesh_of_part;
@@ -165,7 +166,7 @@ std::vector<SoupMesh> make_meshes(const Document& document, Soup&& soup, double 
         triangles[mesh].push_back(t);
     }
     for (std::size_t m = 0; m < meshes.size(); ++m) {
-        document.check_time();
+        check_time();
         meshes[m].mesh = maker.make(triangles[m]);
         triangles[m] = {};
     }

@@ -42,6 +42,6 @@ inline constexpr std::uint64_t kTriangleBytes = 460;
 /// One mesh for each part that has triangles, in the order of their first ones. Equal positions are one place: corners without a normal get
 /// the mean of their neighbours', weighted by angle, across edges that are not sharper than `crease_deg`. Triangles that are not finite,
 /// that lie on a line between two places, or that are a point, are left out; `left_out` counts the first kind. Requires: indices in range.
-[[nodiscard]] std::vector<SoupMesh> make_meshes(const Document& document, Soup&& soup, double crease_deg, std::size_t& left_out);
+[[nodiscard]] std::vector<SoupMesh> make_meshes(Soup&& soup, double crease_deg, std::size_t& left_out);
 
 }  // namespace halflit::io::detail

@@ -4,6 +4,7 @@
 #include "apps/io/detail/model_readers.hpp"
 #include "apps/io/detail/model_text.hpp"
 #include "apps/io/text.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -53,7 +54,7 @@ private:
             if (const std::string_view word = words_.next(); !word.empty()) return word;
             std::string_view line;
             if (!lines_.next(line)) return {};
-            if (lines_.number() % 65536 == 0) builder_.document().check_time();
+            if (lines_.number() % 65536 == 0) check_time();
             words_ = Words(line);
         }
     }
@@ -159,7 +160,7 @@ Soup read_binary(std::span<const std::byte> bytes, ModelBuilder& builder, bool& 
     constexpr std::uint32_t kWhole = 0x8000;
     if (has_colors) index_of.assign(kWhole + 1, kNone);
     for (std::size_t t = 0; t < count; ++t) {
-        if (t % 65536 == 0) builder.document().check_time();
+        if (t % 65536 == 0) check_time();
         const std::size_t at = kHeader + kRecord * t + 12;
         for (std::size_t c = 0; c < 3; ++c) {
             const auto coordinate = [&](std::size_t k) { return std::bit_cast<float>(u32_at(bytes, at + 12 * c + 4 * k)); };

@@ -227,7 +227,7 @@ private:
 
 Model read_three_mf_model(std::span<const std::byte> text, const std::string& where, ModelBuilder& builder) {
     ModelReader reader(where, builder);
-    read_xml(text, where, builder.document(), reader);
+    read_xml(text, where, reader);
     return reader.take();
 }
 

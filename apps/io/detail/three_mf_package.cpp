@@ -1,6 +1,7 @@
 #include "apps/io/detail/three_mf_package.hpp"
 
 #include "apps/io/text.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -76,7 +77,7 @@ std::optional<std::vector<std::byte>> ThreeMfPackage::read(const std::string& na
         bytes.reserve(static_cast<std::size_t>(told.size) + kChunk);
     }
     for (;;) {
-        document_.check_time();
+        check_time();
         const std::size_t size = bytes.size();
         if (bytes.capacity() < size + kChunk) bytes.reserve(std::max(2 * bytes.capacity(), size + kChunk));
         bytes.resize(size + kChunk);

@@ -9,6 +9,7 @@
 #include "apps/io/detail/three_mf_package.hpp"
 #include "apps/io/detail/xml_reader.hpp"
 #include "apps/io/text.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -79,7 +80,7 @@ private:
         const auto relations = package_.read("_rels/.rels");
         if (!relations) return kUsualModel;
         RelationReader reader;
-        read_xml(*relations, "_rels/.rels", builder_.document(), reader);
+        read_xml(*relations, "_rels/.rels", reader);
         return reader.target.empty() ? kUsualModel : reader.target;
     }
 
@@ -122,7 +123,7 @@ private:
     }
 
     void place(const std::string& path, const Component& what, const Affine& parent, double root_metres, int depth) {
-        builder_.document().check_time();
+        check_time();
         Part& in = part(path);
         const Made& made = make(in, what.object, depth);
         if (!made.has_something) return;

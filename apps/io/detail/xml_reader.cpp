@@ -1,6 +1,7 @@
 #include "apps/io/detail/xml_reader.hpp"
 
 #include "apps/io/text.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -69,7 +70,7 @@ void XMLCALL doctype(void* user, const XML_Char*, const XML_Char*, const XML_Cha
 
 }  // namespace
 
-void read_xml(std::span<const std::byte> text, const std::string& where, const Document& document, XmlSink& sink) {
+void read_xml(std::span<const std::byte> text, const std::string& where, XmlSink& sink) {
     const std::unique_ptr<std::remove_pointer_t<XML_Parser>, decltype(&XML_ParserFree)> parser(XML_ParserCreateNS(nullptr, ' '),
                                                                                                &XML_ParserFree);
     if (!parser) refuse(where, "out of memory", ErrorCode::limit);
@@ -80,7 +81,7 @@ void read_xml(std::span<const std::byte> text, const std::string& where, const D
     XML_SetStartDoctypeDeclHandler(parser.get(), doctype);
     constexpr std::size_t kChunk = std::size_t{1} << 20;
     for (std::size_t at = 0;;) {
-        document.check_time();
+        check_time();
         const std::size_t size = std::min(kChunk, text.size() - at);
         const bool is_last = at + size == text.size();
         const XML_Status status =

@@ -44,6 +44,6 @@ public:
 };
 
 /// Reads a text. `where` is for messages. Throws LoadFailure, and what the sink throws.
-void read_xml(std::span<const std::byte> text, const std::string& where, const Document& document, XmlSink& sink);
+void read_xml(std::span<const std::byte> text, const std::string& where, XmlSink& sink);
 
 }  // namespace halflit::io::detail

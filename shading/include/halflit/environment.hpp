@@ -25,14 +25,16 @@ struct EnvironmentOptions {
     double rotate_rad = 0.0;   ///< about +y, counter-clockwise seen from above
     bool keep_image = false;   ///< keep the image, for Settings::background_environment
     bool keep_light = false;   ///< keep the pieces of the suns, for Accuracy::reference
+    double time_limit_s = 0;   ///< wall clock; beyond it the call fails (limit). 0: no limit
 };
 
 /// An image in ten bands of spherical harmonics, its suns, and the data that bound the error of leaving bands out.
 struct Environment;
 
-/// Takes about 0.2 s for 1024 x 512 pixels. Fails (bad_input) for an image without pixels, of the wrong length, or with a value that is not
-/// finite or is negative. Thread-safe.
-[[nodiscard]] HALFLIT_API Result<std::shared_ptr<const Environment>> make_environment(const EnvironmentImage& image,
+/// Takes about 0.2 s for 1024 x 512 pixels, and works in the image's own memory: move an image that is no longer needed. Fails (bad_input)
+/// for an image without pixels, of the wrong length, or with a value that is not finite or is negative, and (limit) for one of more than
+/// 2^29 pixels. Thread-safe.
+[[nodiscard]] HALFLIT_API Result<std::shared_ptr<const Environment>> make_environment(EnvironmentImage image,
                                                                                       const EnvironmentOptions& options = {});
 
 /// The suns that were taken out of the image, as directional lights. A scene that the environment lights must have them among its lights;

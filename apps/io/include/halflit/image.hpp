@@ -43,6 +43,7 @@ inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 28;
 struct EnvironmentLimits {
     int max_width = 16384, max_height = 8192;           ///< pixels
     std::size_t max_file_bytes = std::size_t{1} << 30;  ///< bytes as stored
+    double time_limit_s = 0.0;                          ///< wall clock; 0: no limit
 };
 
 /// A Radiance picture (.hdr), a Portable Float Map (.pfm) or an OpenEXR picture (.exr), whichever the first bytes tell. Any aspect is

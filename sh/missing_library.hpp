@@ -1,7 +1,9 @@
-// Parts of the C++ standard library that Emscripten 3.1.6 lacks, whose libc++ is of 2021. The toolchain includes this file ahead of each
-// source (cmake/emscripten.cmake), so that the sources need no cases of their own. Each part goes once the library has it.
+// Parts of the C++ standard library that libc++ lacks: floating from_chars before version 20, jthread before 18, more in Emscripten 3.1.6,
+// whose libc++ is of 2021. Where one is missing, the build includes this file ahead of each source (cmake/libraries.cmake), so that the
+// sources need no cases of their own. Each part goes once the library has it.
 #pragma once
 
+#include <locale.h>
 #include <atomic>
 #include <charconv>
 #include <cstdio>
@@ -10,8 +12,12 @@
 #include <memory>
 #include <string>
 #include <system_error>
+#include <thread>
 #include <type_traits>
 #include <utility>
+#if defined(__APPLE__)
+#include <xlocale.h>
+#endif
 
 namespace std {
 
@@ -43,14 +49,30 @@ private:
 #endif
 
 #ifndef __cpp_lib_jthread
-/// Without stop tokens, which the project does not use. There are no threads here, so the function is called at once.
-class jthread {
+/// Without stop tokens, which the project does not use.
+#if defined(__EMSCRIPTEN__) && !defined(__EMSCRIPTEN_PTHREADS__)
+class jthread {  // there are no threads, so the function is called at once
 public:
     template <class F, class... Args>
     explicit jthread(F&& f, Args&&... args) {
         std::forward<F>(f)(std::forward<Args>(args)...);
     }
 };
+#else
+class jthread : public thread {
+public:
+    using thread::thread;
+    jthread(jthread&&) = default;
+    jthread& operator=(jthread&& other) noexcept {
+        if (joinable()) join();
+        thread::operator=(std::move(other));
+        return *this;
+    }
+    ~jthread() {
+        if (joinable()) join();
+    }
+};
+#endif
 #endif
 
 #ifndef __cpp_lib_smart_ptr_for_overwrite
@@ -76,7 +98,7 @@ requires(is_floating_point_v<T>) to_chars_result to_chars(char* first, char* las
     return {first + length, errc{}};
 }
 
-/// The nearest number, by the C library, whose locale is "C" here and whose rounding is exact. Takes what the standard takes for
+/// The nearest number, by the C library in the locale "C"; its rounding is exact. Takes what the standard takes for
 /// chars_format::general.
 template <class T>
 requires(is_floating_point_v<T>) from_chars_result
@@ -100,11 +122,12 @@ requires(is_floating_point_v<T>) from_chars_result
         if (digits() == 0) end = mantissa;
     }
     const string text(first, end);
+    static const locale_t in_c = newlocale(LC_ALL_MASK, "C", nullptr);
     T read;
     if constexpr (is_same_v<T, float>)
-        read = strtof(text.c_str(), nullptr);
+        read = strtof_l(text.c_str(), nullptr, in_c);
     else
-        read = strtod(text.c_str(), nullptr);
+        read = strtod_l(text.c_str(), nullptr, in_c);
     const bool zero = text.substr(0, text.find_first_of("eE")).find_first_of("123456789") == string::npos;
     if (read - read != 0 || (read == 0 && !zero)) return {end, errc::result_out_of_range};
     value = read;
