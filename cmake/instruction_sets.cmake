@@ -42,8 +42,12 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # halves are in the cache.
     check_cxx_compiler_flag(-mmove-max=512 HALFLIT_HAS_MOVE_MAX)
     if(HALFLIT_HAS_MOVE_MAX)
-        list(APPEND HALFLIT_FLAGS_avx2 -mmove-max=256 -mstore-max=256)
-        list(APPEND HALFLIT_FLAGS_avx512 -mmove-max=512 -mstore-max=512)
+        list(APPEND HALFLIT_FLAGS_avx2 -mmove-max=256)
+        list(APPEND HALFLIT_FLAGS_avx512 -mmove-max=512)
+        if(CMAKE_CXX_COMPILER_VERSION VERSION_LESS 16)  # from then on it means the other
+            list(APPEND HALFLIT_FLAGS_avx2 -mstore-max=256)
+            list(APPEND HALFLIT_FLAGS_avx512 -mstore-max=512)
+        endif()
     endif()
 endif()
 

@@ -4,6 +4,7 @@
 #include <libdeflate.h>
 
 #include <algorithm>
+#include <array>
 #include <initializer_list>
 #include <iterator>
 #include <new>
@@ -17,7 +18,9 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 void put(Bytes& out, std::uint32_t value, int bytes) {
-    for (int byte = bytes - 1; byte >= 0; --byte) out.push_back(static_cast<std::uint8_t>(value >> (8 * byte)));
+    const std::array<std::uint8_t, 4> big_endian{static_cast<std::uint8_t>(value >> 24), static_cast<std::uint8_t>(value >> 16),
+                                                 static_cast<std::uint8_t>(value >> 8), static_cast<std::uint8_t>(value)};
+    out.insert(out.end(), big_endian.end() - bytes, big_endian.end());
 }
 
 /// Length, type, data, and the checksum of type and data.

@@ -3,6 +3,7 @@
 
 #include "halflit/error.hpp"
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>

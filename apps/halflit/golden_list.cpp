@@ -8,7 +8,7 @@
 #include "apps/halflit/text_file.hpp"
 #include "apps/io/file_access.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>

@@ -8,7 +8,7 @@
 #include "halflit/scene.hpp"
 #include "sh/vec3d.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>

@@ -134,9 +134,23 @@ int write_all(int fd, std::span<const std::uint8_t> bytes) {
     return 0;
 }
 
+/// A pipe by name is waited for while nobody reads it, but not for ever; then the error is ENXIO.
 int write_in_place(const std::string& path, std::span<const std::uint8_t> bytes) {
-    const int fd = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+    constexpr int kTries = 500;
+    constexpr timespec kBetween{0, 20'000'000};  // in all 10 s
+    int fd = -1;
+    for (int i = 0; i < kTries; ++i) {
+        fd = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
+        if (fd >= 0 || errno != ENXIO) break;
+        (void)::nanosleep(&kBetween, nullptr);
+    }
     if (fd < 0) return errno;
+    const int flags = ::fcntl(fd, F_GETFL);
+    if (flags < 0 || ::fcntl(fd, F_SETFL, flags & ~O_NONBLOCK) != 0) {
+        const int error = errno;
+        ::close(fd);
+        return error;
+    }
     const int error = write_all(fd, bytes);
     return ::close(fd) != 0 && error == 0 ? errno : error;
 }
@@ -243,6 +257,7 @@ Result<void> write_file(const std::string& path, std::span<const std::uint8_t> b
         error = EISDIR;
     } else if (!S_ISREG(old.st_mode)) {
         error = write_in_place(path, bytes);
+        if (error == ENXIO && S_ISFIFO(old.st_mode)) return fail(ErrorCode::io, printable(path) + ": nobody reads this pipe (waited 10 s)");
     } else if (::access(path.c_str(), W_OK) != 0) {
         error = errno;  // a file that may not be written is not replaced either
     } else {

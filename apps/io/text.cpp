@@ -45,22 +45,47 @@ std::size_t find_invalid_utf8(std::string_view text) {
     return std::string_view::npos;
 }
 
+namespace {
+
+/// The code point of a sequence of 2 to 4 bytes.
+unsigned code_point(std::string_view text, std::size_t at, int length) {
+    unsigned code = byte_at(text, at) & (0x7Fu >> length);
+    for (int i = 1; i < length; ++i) code = code << 6 | (byte_at(text, at + static_cast<std::size_t>(i)) & 0x3Fu);
+    return code;
+}
+
+/// True for a character that has no glyph of its own and changes how others are shown: control, direction, format and tag characters,
+/// separators of lines (Unicode 15, categories Cc, Cf, Zl and Zp).
+bool changes_display(unsigned code) {
+    static constexpr struct {
+        unsigned first, last;
+    } kRanges[] = {{0x00, 0x1F},       {0x7F, 0x9F},       {0xAD, 0xAD},      {0x600, 0x605},     {0x61C, 0x61C},     {0x6DD, 0x6DD},
+                   {0x70F, 0x70F},     {0x890, 0x891},     {0x8E2, 0x8E2},    {0x180E, 0x180E},   {0x200B, 0x200F},   {0x2028, 0x202E},
+                   {0x2060, 0x206F},   {0xFEFF, 0xFEFF},   {0xFFF9, 0xFFFB},  {0x110BD, 0x110BD}, {0x110CD, 0x110CD}, {0x13430, 0x1343F},
+                   {0x1BCA0, 0x1BCA3}, {0x1D173, 0x1D17A}, {0xE0000, 0xE007F}};
+    for (const auto& range : kRanges)
+        if (code >= range.first && code <= range.last) return true;
+    return false;
+}
+
+}  // namespace
+
 std::string printable(std::string_view text, std::size_t max_bytes) {
     static constexpr char kHex[] = "0123456789abcdef";
     std::string out;
     const std::string_view shown = text.substr(0, max_bytes);
     for (std::size_t at = 0; at < shown.size();) {
         const int length = utf8_sequence(shown, at);
-        const unsigned first = byte_at(shown, at);
-        const bool c1 = length == 2 && first == 0xC2 && byte_at(shown, at + 1) < 0xA0;
-        if (length == 0 || c1 || (length == 1 && (first < 0x20 || first == 0x7F))) {
+        const bool shown_as_it_is = length > 0 && !changes_display(length == 1 ? byte_at(shown, at) : code_point(shown, at, length));
+        const std::size_t end = at + static_cast<std::size_t>(length == 0 ? 1 : length);
+        for (; at < end; ++at) {
+            if (shown_as_it_is) {
+                out += shown[at];
+                continue;
+            }
             out += "\\x";
-            out += kHex[first >> 4];
-            out += kHex[first & 15u];
-            ++at;
-        } else {
-            out.append(shown, at, static_cast<std::size_t>(length));
-            at += static_cast<std::size_t>(length);
+            out += kHex[byte_at(shown, at) >> 4];
+            out += kHex[byte_at(shown, at) & 15u];
         }
     }
     if (text.size() > shown.size()) out += "...";

@@ -103,10 +103,18 @@ TEST_CASE("values: a light's keys come in any order, with colons or semicolons",
 TEST_CASE("messages: controls and broken UTF-8 are escaped, all else is kept", "[cli][values]") {
     CHECK(printable("plain caf\xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80") == "plain caf\xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80");
     CHECK(printable("a\x1b[2Jb\nc\x7f") == "a\\x1b[2Jb\\x0ac\\x7f");
-    CHECK(printable("\xc2\x9b") == "\\xc2\\x9b");                    // C1: a terminal takes it for ESC [
-    CHECK(printable("\xc0\xaf") == "\\xc0\\xaf");                    // overlong
-    CHECK(printable("\xed\xa0\x80") == "\\xed\\xa0\\x80");           // surrogate
-    CHECK(printable("\xf4\x90\x80\x80") == "\\xf4\\x90\\x80\\x80");  // above U+10FFFF
-    CHECK(printable("\xe2\x82") == "\\xe2\\x82");                    // cut off
+    CHECK(printable("\xc2\x9b") == "\\xc2\\x9b");           // C1: a terminal takes it for ESC [
+    CHECK(printable("\xc0\xaf") == "\\xc0\\xaf");           // overlong
+    CHECK(printable("\xed\xa0\x80") == "\\xed\\xa0\\x80");  // surrogate
+    // Marks of direction and format: U+202E, U+2066, U+200B, U+FEFF, U+2028, U+00AD, U+E0001.
+    for (const std::string mark :
+         {"\xe2\x80\xae", "\xe2\x81\xa6", "\xe2\x80\x8b", "\xef\xbb\xbf", "\xe2\x80\xa8", "\xc2\xad", "\xf3\xa0\x80\x81"}) {
+        const std::string shown = printable("a" + mark + "b");
+        CHECK(shown.size() == 2 + 4 * mark.size());
+        CHECK(shown.find(mark) == std::string::npos);
+    }
+    CHECK(printable("\xe2\x80\xa2 \xe2\x80\xb2") == "\xe2\x80\xa2 \xe2\x80\xb2");  // their neighbours: a bullet, a prime
+    CHECK(printable("\xf4\x90\x80\x80") == "\\xf4\\x90\\x80\\x80");                // above U+10FFFF
+    CHECK(printable("\xe2\x82") == "\\xe2\\x82");                                  // cut off
     CHECK(printable(std::string_view("\0", 1)) == "\\x00");
 }

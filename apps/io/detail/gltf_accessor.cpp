@@ -211,8 +211,7 @@ std::vector<Accessor> check_accessors(Document& document) {
         Accessor& accessor = accessors[i];
         accessor.name_ = fmt::format("accessors[{}]", source.stands_for >= 0 ? static_cast<std::size_t>(source.stands_for) : i);
         if (!used) {
-            // An index out of range, and a type that is not there, have been noted.
-            if (source.buffer_view >= static_cast<int>(document.file.buffer_views.size()) || source.component_type == 0) continue;
+            if (source.component_type == 0) continue;  // that the type is not there has been noted
             try {
                 accessor.check(document, source);
             } catch (const LoadFailure& failure) {
@@ -223,7 +222,10 @@ std::vector<Accessor> check_accessors(Document& document) {
         const auto is_read = [&](int view) { return document.used.has(Target::buffer_views, static_cast<std::size_t>(view)); };
         // Else a decoded accessor stands in its place.
         if (source.buffer_view >= 0 && !is_read(source.buffer_view)) continue;
-        if (source.sparse >= 0 && !is_read(document.file.sparse[static_cast<std::size_t>(source.sparse)].index_view)) continue;
+        if (source.sparse >= 0) {
+            const file::Sparse& sparse = document.file.sparse[static_cast<std::size_t>(source.sparse)];
+            if (!is_read(sparse.index_view) || !is_read(sparse.value_view)) continue;
+        }
         accessor.check(document, source);
         accessor.warn_of_alignment(document, source);
         if (source.buffer_view >= 0 && accessor.count_ > 0) accessor.data_ = document.view_data(source.buffer_view) + source.byte_offset;

@@ -1,6 +1,7 @@
 #include "apps/io/detail/gltf_animation.hpp"
 
 #include "apps/io/detail/gltf_choices.hpp"
+#include "apps/io/detail/gltf_indices.hpp"
 #include "apps/io/detail/gltf_placed.hpp"
 #include "apps/io/text.hpp"
 #include "sh/time_limit.hpp"
@@ -170,7 +171,7 @@ public:
 private:
     const Accessor& accessor(const std::string& where, int index) {
         if (index < 0) refuse(where, "is not there");
-        return accessors_[static_cast<std::size_t>(index)];
+        return element(accessors_, index, "accessors");
     }
 
     bool read_times(const std::string& where, int index, Track& track) {

@@ -2,6 +2,7 @@
 
 #include "apps/io/detail/glb_container.hpp"
 #include "apps/io/detail/gltf_draco.hpp"
+#include "apps/io/detail/gltf_indices.hpp"
 #include "apps/io/detail/gltf_json.hpp"
 #include "apps/io/detail/gltf_meshopt.hpp"
 #include "apps/io/detail/gltf_versions.hpp"
@@ -119,9 +120,13 @@ std::vector<std::string> Document::take_warnings() {
 }
 
 const std::byte* Document::view_data(int buffer_view) const {
-    const file::BufferView& view = file.buffer_views[static_cast<std::size_t>(buffer_view)];
-    if (view.decoded >= 0) return decoded[static_cast<std::size_t>(view.decoded)].data();
-    return buffers[static_cast<std::size_t>(view.buffer)].data() + view.byte_offset;
+    const file::BufferView& view = element(file.buffer_views, buffer_view, "bufferViews");
+    if (view.decoded >= 0) return element(decoded, view.decoded, "decoded bufferViews").data();
+    const std::span<const std::byte> buffer = element(buffers, view.buffer, "buffers");
+    if (view.byte_offset + view.byte_length > buffer.size())  // the buffer of a view that is not used is not there
+        refuse(fmt::format("bufferViews[{}]", buffer_view), fmt::format("ends at {} of buffer {}, of which {} bytes are there",
+                                                                        view.byte_offset + view.byte_length, view.buffer, buffer.size()));
+    return buffer.data() + view.byte_offset;
 }
 
 std::unique_ptr<Document> open_document(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {

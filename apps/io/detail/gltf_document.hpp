@@ -48,7 +48,8 @@ struct Document {
     /// The warnings, the last of which counts those that are left out.
     [[nodiscard]] std::vector<std::string> take_warnings();
     [[nodiscard]] bool warnings_are_full() const { return warnings_left_out > 0; }
-    [[nodiscard]] const std::byte* view_data(int buffer_view) const;  ///< requires: check_buffer_views has run, and the view is used
+    /// The bytes of a view, all of which are there. Throws LoadFailure for a view whose buffer is not read.
+    [[nodiscard]] const std::byte* view_data(int buffer_view) const;
 };
 
 /// Sets the geometry that the file may have, by its size and that of the buffers read so far.

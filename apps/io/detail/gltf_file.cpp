@@ -18,6 +18,10 @@ bool is_drawn(std::string_view attribute) {
 
 bool is_of_skin(std::string_view attribute) { return attribute.starts_with("JOINTS_") || attribute.starts_with("WEIGHTS_"); }
 
+bool is_of_vertices(std::string_view attribute) { return is_drawn(attribute) || is_of_skin(attribute); }
+
+bool is_of_instances(std::string_view attribute) { return attribute == "TRANSLATION" || attribute == "ROTATION" || attribute == "SCALE"; }
+
 const MaterialExtensions& File::extensions_of(const Material& material) const {
     static const MaterialExtensions kNone;
     return material.extended < 0 ? kNone : extended[static_cast<std::size_t>(material.extended)];

@@ -1,5 +1,6 @@
 // Contents of a glTF file, as the loader needs them: one struct for each kind of object, with names and defaults of the glTF 2.0 schema.
-// An index of -1 means "not there". Filled by read_gltf_json, which checks every type, range and index.
+// An index of -1 means "not there". Filled by read_gltf_json, which checks every type, range and index: an index that is out of range, and
+// noted, becomes -1.
 #pragma once
 
 #include "apps/io/detail/gltf_transform.hpp"
@@ -65,6 +66,8 @@ using Attributes = std::vector<std::pair<std::string_view, int>>;
 [[nodiscard]] int find(const Attributes& attributes, std::string_view name);  ///< -1: not there
 [[nodiscard]] bool is_drawn(std::string_view attribute);                      ///< no set beyond those that the renderer has, no "_AGE"
 [[nodiscard]] bool is_of_skin(std::string_view attribute);                    ///< JOINTS_0, WEIGHTS_0, ...
+[[nodiscard]] bool is_of_vertices(std::string_view attribute);                ///< one of both
+[[nodiscard]] bool is_of_instances(std::string_view attribute);               ///< TRANSLATION, ROTATION or SCALE
 
 /// KHR_materials_variants: the material of a primitive in some variants.
 struct VariantMaterial {
@@ -210,6 +213,18 @@ struct Material {
     std::optional<OwnLobe> own_lobe;
     int extended = -1;  ///< into File::extended; -1: none of those extensions
 };
+
+/// The texture places of a material.
+inline constexpr TexturePlace Material::*kTexturePlaces[] = {&Material::base_color_texture, &Material::metallic_roughness_texture,
+                                                             &Material::normal_texture, &Material::occlusion_texture,
+                                                             &Material::emissive_texture};
+inline constexpr TexturePlace MaterialExtensions::*kExtendedPlaces[] = {
+    &MaterialExtensions::transmission_texture,       &MaterialExtensions::thickness_texture,
+    &MaterialExtensions::specular_texture,           &MaterialExtensions::specular_color_texture,
+    &MaterialExtensions::clearcoat_texture,          &MaterialExtensions::clearcoat_roughness_texture,
+    &MaterialExtensions::clearcoat_normal_texture,   &MaterialExtensions::sheen_color_texture,
+    &MaterialExtensions::sheen_roughness_texture,    &MaterialExtensions::diffuse_texture,
+    &MaterialExtensions::specular_glossiness_texture};
 
 struct Scene {
     std::string_view name;

@@ -1,6 +1,7 @@
 #include "apps/io/detail/gltf_json.hpp"
 
 #include "apps/io/detail/gltf_filler.hpp"
+#include "apps/io/detail/gltf_indices.hpp"
 #include "apps/io/detail/gltf_schema.hpp"
 #include "apps/io/detail/gltf_versions.hpp"
 #include "apps/io/detail/json_place.hpp"
@@ -73,7 +74,8 @@ public:
         if (levels_.size() == owner_depth_) filler_.owner = {};
     }
 
-    /// Called after the scan, when the lengths of all arrays are known.
+    /// Called after the scan, when the lengths of all arrays are known. Afterwards no member of the file has an index that is out of range,
+    /// whatever was said of it.
     void check_indices() {
         for (const Index& index : indices_) {
             const std::size_t count = count_of(index.target, file_);
@@ -88,6 +90,9 @@ public:
                 throw JsonFault{ErrorCode::bad_input, index.offset, std::move(what)};  // the graph of the nodes is walked as a whole
             filler_.fault(index.offset, std::move(what));
         }
+        for_each_index(file_, [&](Target target, int& index) {
+            if (index >= 0 && static_cast<std::size_t>(index) >= count_of(target, file_)) index = -1;
+        });
     }
 
     /// Called after the scan: extensions that the file uses and does not list.
@@ -132,10 +137,8 @@ private:
             filler_.owner = {node->target, static_cast<std::uint32_t>(top.count - 1)};
             owner_depth_ = levels_.size();
         }
-        // Attributes have free names. Those that are not drawn may be anything.
-        const bool drawn =
-            node != top.node->every || node->target != Target::accessors || file::is_drawn(filler_.key) || file::is_of_skin(filler_.key);
-        const bool good = check(*node, value, node->mild || !drawn);
+        // Attributes have free names. Those that are not read may be anything.
+        const bool good = check(*node, value, node->mild || (node->reads != nullptr && !node->reads(filler_.key)));
         // An element that is no object counts as one, so that those after it keep their numbers.
         if ((good || element) && node->put != nullptr) put(*node, value);
         return good ? node : nullptr;

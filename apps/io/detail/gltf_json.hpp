@@ -13,7 +13,7 @@
 namespace halflit::io::detail {
 
 /// `text` must outlive the result, whose names point into it, and begins after its byte order mark. Faults of elements go to `notes`;
-/// the values that they concern have their defaults, and indices among them may be out of range, except those of scene and children.
+/// the values that they concern have their defaults. No index is out of range.
 /// Throws LoadFailure for other faults, with path, line and column. Takes the memory of all objects from `memory`.
 file::File read_gltf_json(std::string_view text, const JsonScanLimits& limits, Budget memory, Notes& notes);
 

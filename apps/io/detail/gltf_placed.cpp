@@ -20,6 +20,7 @@ Vec3d unit_or(Vec3d v, Vec3d otherwise) {
 
 bool set_projection(const file::Camera& source, double scale, Camera& camera) {
     const auto in = [](double value, double low, double high) { return value > low && value < high; };
+    if (!(source.type == "orthographic" ? source.orthographic : source.perspective)) return false;
     if (source.type == "orthographic") {
         const file::Projection& o = *source.orthographic;
         const double width = scale * (o.xmag < 0 ? -o.xmag : o.xmag), height = scale * (o.ymag < 0 ? -o.ymag : o.ymag);

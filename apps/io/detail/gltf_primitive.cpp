@@ -1,5 +1,6 @@
 #include "apps/io/detail/gltf_primitive.hpp"
 
+#include "apps/io/detail/gltf_indices.hpp"
 #include "apps/io/detail/gltf_vertex_values.hpp"
 #include "sh/time_limit.hpp"
 
@@ -43,7 +44,7 @@ std::vector<Vec3f> read_vec3(const Accessor& accessor, std::span<const std::uint
 
 std::vector<Vec2f> read_vec2(const Accessor& accessor, std::span<const std::uint32_t> vertices) {
     std::vector<Vec2f> out(vertices.size());
-    float value[4];
+    float value[4] = {};
     for (std::size_t i = 0; i < out.size(); ++i) {
         accessor.read_floats(vertices[i], value);
         out[i] = {value[0], value[1]};
@@ -100,7 +101,7 @@ const Accessor* PrimitiveReader::attribute(const std::string& list, const file::
                                            std::optional<std::size_t> count) {
     const int found = file::find(attributes, rule.name);
     if (found < 0) return nullptr;
-    const Accessor& accessor = accessors_[static_cast<std::size_t>(found)];
+    const Accessor& accessor = element(accessors_, found, "accessors");
     const std::string where = fmt::format("{}.{}", list, rule.name);
     if (accessor.components() < rule.min_components || accessor.components() > rule.max_components)
         refuse(where, fmt::format("{}: expected {} components, found {}", accessor.name(), rule.max_components, accessor.components()));
@@ -119,9 +120,9 @@ const Accessor* PrimitiveReader::attribute(const std::string& list, const file::
 
 /// Vertex attributes lie at multiples of 4 bytes, and those that share a bufferView have a stride (glTF 2.0, 3.6.1.1 and 3.6.2.4).
 void PrimitiveReader::warn_of_layout(const std::string& where, int index) {
-    const file::Accessor& source = document_.file.accessors[static_cast<std::size_t>(index)];
+    const file::Accessor& source = element(document_.file.accessors, index, "accessors");
     if (source.buffer_view < 0 || document_.warnings_are_full()) return;
-    const Accessor& accessor = accessors_[static_cast<std::size_t>(index)];
+    const Accessor& accessor = element(accessors_, index, "accessors");
     if (source.byte_offset % 4 != 0 && size_of(accessor.component()) < 4)
         document_.warn(fmt::format("{}.byteOffset: expected a multiple of 4 for vertices, found {}, read as it is", accessor.name(),
                                    source.byte_offset));
@@ -137,7 +138,7 @@ void PrimitiveReader::warn_of_layout(const std::string& where, int index) {
 
 std::vector<std::uint32_t> PrimitiveReader::list_indices(const file::Primitive& primitive, const std::string& where,
                                                          std::size_t vertex_count) {
-    const Accessor* accessor = primitive.indices < 0 ? nullptr : &accessors_[static_cast<std::size_t>(primitive.indices)];
+    const Accessor* accessor = primitive.indices < 0 ? nullptr : &element(accessors_, primitive.indices, "accessors");
     const auto mode = static_cast<file::Mode>(primitive.mode);
     std::size_t count = vertex_count;
     if (accessor != nullptr) {

@@ -1,6 +1,7 @@
 #include "apps/io/detail/gltf_schema.hpp"
 
 #include "apps/io/detail/gltf_schema_rows.hpp"
+#include "sh/config.hpp"
 
 #include <deque>
 
@@ -18,6 +19,7 @@ public:
             apply(row, place);
             for (const SchemaRow& below : texture_rows()) apply(below, make(place, below.path));
         }
+        for ([[maybe_unused]] const SchemaNode& node : nodes_) HALFLIT_ASSERT(node.members.size() <= 32);  // bits of required_mask
         for (SchemaNode& node : nodes_)
             for (std::size_t i = 0; i < node.members.size(); ++i)
                 if (node.members[i].second->required) node.required_mask |= 1u << i;
@@ -33,6 +35,7 @@ private:
         node.length = row.length;
         node.closed = row.closed;
         node.mild = row.mild;
+        node.reads = row.reads;
         node.ranged = row.ranged;
         node.range = row.range;
         node.required = row.path.back() == '!';

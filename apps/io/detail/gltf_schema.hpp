@@ -42,12 +42,16 @@ struct Range {
     [[nodiscard]] bool holds(double value) const;
 };
 
+/// True for the names of members that are read.
+using Reads = bool (*)(std::string_view name);
+
 struct SchemaNode {
     Rule rule = Rule::any;
     Target target = Target::none;
     bool required = false;  ///< within its parent object
     bool closed = false;    ///< an object that refuses keys outside `members`
     bool mild = false;      ///< nothing that is drawn depends on it: a wrong type or index is warned of
+    Reads reads = nullptr;  ///< of a member with a free name: the names that are read; what others have is as mild. Null: all
     bool ranged = false;    ///< `range` restricts the value
     Range range;
     std::size_t length = 0;  ///< elements of an array; 0: any number
@@ -69,6 +73,7 @@ struct SchemaRow {
     std::size_t length = 0;
     bool closed = false;
     bool mild = false;
+    Reads reads = nullptr;
     bool ranged = false;
     Range range{};
 };

@@ -34,6 +34,13 @@ constexpr SchemaRow mild(SchemaRow row) {
     return row;
 }
 
+/// Members of these names are read; what others have may be anything.
+template <Reads Names>
+constexpr SchemaRow reading(SchemaRow row) {
+    row.reads = Names;
+    return row;
+}
+
 constexpr double kHalfPi = 1.5707963267948966;
 constexpr const char* kNoCamera = "the camera is left out";
 constexpr const char* kEmpty = "it is empty";
@@ -118,7 +125,7 @@ constexpr SchemaRow kRows[] = {
     {"meshes/#/primitives!", array},
     {"meshes/#/primitives/#", object, add_primitive},
     {"meshes/#/primitives/#/attributes!", object},
-    {"meshes/#/primitives/#/attributes/*", index, put_attribute, Target::accessors},
+    reading<file::is_of_vertices>({"meshes/#/primitives/#/attributes/*", index, put_attribute, Target::accessors}),
     {"meshes/#/primitives/#/indices", index, put_primitive<&file::Primitive::indices>, Target::accessors},
     {"meshes/#/primitives/#/material", index, put_primitive<&file::Primitive::material>, Target::materials},
     {"meshes/#/primitives/#/mode", code, put_primitive<&file::Primitive::mode>},
@@ -134,7 +141,7 @@ constexpr SchemaRow kRows[] = {
     {"meshes/#/primitives/#/extensions/KHR_draco_mesh_compression/attributes!", object},
     {"meshes/#/primitives/#/extensions/KHR_draco_mesh_compression/attributes/*", code, put_draco_attribute},
     {"meshes/#/primitives/#/targets/#", object, add_morph_target},
-    {"meshes/#/primitives/#/targets/#/*", index, put_morph_attribute, Target::accessors},
+    reading<file::is_drawn>({"meshes/#/primitives/#/targets/#/*", index, put_morph_attribute, Target::accessors}),
 
     {"nodes/#", object, begin_node, Target::nodes, end_node},
     mild({"nodes/#/name", string, put<&File::nodes, &file::Node::name>}),
@@ -158,8 +165,8 @@ constexpr SchemaRow kRows[] = {
          f.file.nodes.back().instancing = static_cast<int>(f.file.instancings.size() - 1);
      }},
     {"nodes/#/extensions/EXT_mesh_gpu_instancing/attributes!", object},
-    {"nodes/#/extensions/EXT_mesh_gpu_instancing/attributes/*", index,
-     [](F f, V v) { f.append(f.file.instancings.back(), {f.key, static_cast<int>(v.number)}); }, Target::accessors},
+    reading<file::is_of_instances>({"nodes/#/extensions/EXT_mesh_gpu_instancing/attributes/*", index,
+     [](F f, V v) { f.append(f.file.instancings.back(), {f.key, static_cast<int>(v.number)}); }, Target::accessors}),
     {"nodes/#/extensions/KHR_node_visibility/visible", boolean, [](F f, V v) { f.file.nodes.back().visible = v.truth ? 1 : 0; }},
 
     {"skins/#", object, add<&File::skins>, Target::skins},

@@ -75,7 +75,7 @@ private:
         }
         if (node.instancing >= 0)
             for (const auto& [name, value] : file_.instancings[static_cast<std::size_t>(node.instancing)])
-                if (name == "TRANSLATION" || name == "ROTATION" || name == "SCALE") accessor(value);
+                if (file::is_of_instances(name)) accessor(value);
         if (node.skin < 0) return;
         if (mark(Target::skins, node.skin)) accessor(file_.skins[static_cast<std::size_t>(node.skin)].inverse_bind_matrices);
         if (skinned_[index]) return;
@@ -98,12 +98,8 @@ private:
         if (!mark(Target::materials, primitive.material)) return;
         const file::Material& m = file_.materials[static_cast<std::size_t>(primitive.material)];
         const file::MaterialExtensions& more = file_.extensions_of(m);
-        for (const file::TexturePlace* place :
-             {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.occlusion_texture, &m.emissive_texture,
-              &more.transmission_texture, &more.thickness_texture, &more.specular_texture, &more.specular_color_texture,
-              &more.clearcoat_texture, &more.clearcoat_roughness_texture, &more.clearcoat_normal_texture, &more.sheen_color_texture,
-              &more.sheen_roughness_texture, &more.diffuse_texture, &more.specular_glossiness_texture})
-            texture(place->index);
+        for (const auto place : file::kTexturePlaces) texture((m.*place).index);
+        for (const auto place : file::kExtendedPlaces) texture((more.*place).index);
     }
 
     /// Morph targets with a weight other than 0.

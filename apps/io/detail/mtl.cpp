@@ -4,7 +4,7 @@
 #include "apps/io/text.hpp"
 #include "sh/time_limit.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>

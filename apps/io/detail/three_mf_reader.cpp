@@ -124,6 +124,8 @@ private:
 
     void place(const std::string& path, const Component& what, const Affine& parent, double root_metres, int depth) {
         check_time();
+        if (depth > kMostDepth)  // an object that is made already may have any depth below it
+            refuse(path, fmt::format("more than {} components inside each other", kMostDepth), ErrorCode::limit);
         Part& in = part(path);
         const Made& made = make(in, what.object, depth);
         if (!made.has_something) return;

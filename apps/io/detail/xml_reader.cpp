@@ -18,6 +18,14 @@ namespace {
 
 constexpr int kMostDepth = 64;
 
+std::uint64_t line_of(XML_Parser parser) {
+#if XML_MAJOR_VERSION > 2 || XML_MINOR_VERSION >= 9
+    return XML_GetCurrentLineNumber64(parser);
+#else
+    return XML_GetCurrentLineNumber(parser);
+#endif
+}
+
 struct Reading {
     XML_Parser parser;
     XmlSink& sink;
@@ -39,7 +47,7 @@ struct Reading {
 void XMLCALL begin(void* user, const XML_Char* name, const XML_Char** attributes) {
     auto& reading = *static_cast<Reading*>(user);
     reading.guarded([&] {
-        const std::size_t line = XML_GetCurrentLineNumber(reading.parser);
+        const std::size_t line = line_of(reading.parser);
         if (++reading.depth > kMostDepth)
             refuse(fmt::format("line {}", line), fmt::format("more than {} elements inside each other", kMostDepth), ErrorCode::limit);
         reading.sink.begin(name, XmlAttributes(attributes), line);
@@ -62,10 +70,8 @@ void XMLCALL declare(void* user, const XML_Char* prefix, const XML_Char* name_sp
 
 void XMLCALL doctype(void* user, const XML_Char*, const XML_Char*, const XML_Char*, int) {
     auto& reading = *static_cast<Reading*>(user);
-    reading.guarded([&] {
-        refuse(fmt::format("line {}", XML_GetCurrentLineNumber(reading.parser)),
-               "has a document type declaration, which 3MF does not allow");
-    });
+    reading.guarded(
+        [&] { refuse(fmt::format("line {}", line_of(reading.parser)), "has a document type declaration, which 3MF does not allow"); });
 }
 
 }  // namespace
@@ -89,7 +95,7 @@ void read_xml(std::span<const std::byte> text, const std::string& where, XmlSink
         if (reading.failure) std::rethrow_exception(reading.failure);
         if (status != XML_STATUS_OK) {
             const XML_Error error = XML_GetErrorCode(parser.get());
-            refuse(fmt::format("{}: line {}", where, XML_GetCurrentLineNumber(parser.get())), printable(XML_ErrorString(error)),
+            refuse(fmt::format("{}: line {}", where, line_of(parser.get())), printable(XML_ErrorString(error)),
                    error == XML_ERROR_NO_MEMORY ? ErrorCode::limit : ErrorCode::bad_input);
         }
         at += size;
