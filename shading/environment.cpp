@@ -111,12 +111,12 @@ Result<std::shared_ptr<const Environment>> make_environment(EnvironmentImage ima
     constexpr std::size_t kMostPixels = std::size_t{1} << 29;
     if (image.width < 1 || image.height < 1) return fail(ErrorCode::bad_input, "environment: the image has no pixels");
     const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height), expected = 3 * pixels;
-    if (pixels > kMostPixels)
-        return fail(ErrorCode::limit, "environment: the image has " + std::to_string(pixels) + " pixels, the limit is 2^29");
     if (image.rgb.size() != expected)
         return fail(ErrorCode::bad_input, "environment: " + std::to_string(image.rgb.size()) + " values, expected " +
                                               std::to_string(expected) + " for " + std::to_string(image.width) + " x " +
                                               std::to_string(image.height) + " pixels");
+    if (pixels > kMostPixels)
+        return fail(ErrorCode::limit, "environment: the image has " + std::to_string(pixels) + " pixels, the limit is 2^29");
     if (!(options.rotate_rad - options.rotate_rad == 0.0)) return fail(ErrorCode::usage, "environment: the rotation is not a finite angle");
     try {
         const TimeLimit limit(options.time_limit_s);

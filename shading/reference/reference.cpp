@@ -19,8 +19,8 @@ static_assert(static_cast<float>(kHeldRoughness) == kMinRoughness);
 
 Vec3d scale(Vec3d v, double s) { return {v.x * s, v.y * s, v.z * s}; }
 Vec3d unit(Vec3d v) {
-    const double length = std::hypot(v.x, v.y, v.z);
-    return length > 0 ? scale(v, 1.0 / length) : v;
+    const double size = length(v);
+    return size > 0 ? scale(v, 1.0 / size) : v;
 }
 Vec3d row3(const FragmentBlock& block, int row, int lane) {
     return {block.lane[row][lane], block.lane[row + 1][lane], block.lane[row + 2][lane]};
@@ -95,7 +95,8 @@ Rgba sample_ellipse(const Texture& texture, const TextureUse& use, const Fragmen
     for (double* x : {&s.ux, &s.vx, &s.uy, &s.vy}) *x = std::isnan(*x) ? 0.0 : std::clamp(*x, -1e8, 1e8);
     // The longer axis is at the angle t with tan 2t = 2 uv / (uu - vv).
     const double uu = s.ux * s.ux + s.uy * s.uy, vv = s.vx * s.vx + s.vy * s.vy, uv = s.ux * s.vx + s.uy * s.vy;
-    const double angle = 0.5 * std::atan2(2 * uv, uu - vv), length = std::sqrt(0.5 * (uu + vv) + std::hypot(0.5 * (uu - vv), uv));
+    const double angle = 0.5 * std::atan2(2 * uv, uu - vv),
+                 length = std::sqrt(0.5 * (uu + vv) + std::sqrt(0.25 * (uu - vv) * (uu - vv) + uv * uv));
     const double width = length > 0 ? std::abs(s.ux * s.vy - s.uy * s.vx) / length : 0.0;
     const double ratio = std::clamp(length / std::max(width, 1.0), 1.0, static_cast<double>(most)), between = length / ratio;
     const double du = between * std::cos(angle) / texture.width(), dv = between * std::sin(angle) / texture.height();
@@ -150,7 +151,7 @@ Arrival arrival(const Light& light, Vec3d position) {
     const Vec3d travel = unit(to_double(light.direction_ws));
     if (light.type == LightType::directional) return {scale(travel, -1), 1.0};
     const Vec3d offset = to_double(light.position_ws) - position;
-    const double distance = std::hypot(offset.x, offset.y, offset.z);
+    const double distance = length(offset);
     const Vec3d direction = unit(offset);
     const double radius = std::max(double{kMinSourceRadius}, double{light.source_radius});
     double attenuation = 1.0 / std::max(distance * distance, radius * radius);
@@ -205,7 +206,7 @@ Vec3d map_value(const ReflectionPlan& reflections, int level, Vec3d d) {
     const ReflectionMap& map = *reflections.map;
     const int rows = map.rows[level];
     const double u = std::atan2(d.x, -d.z) / (2 * kPi) + 0.5 + double{reflections.turned};
-    const double x = (u - std::floor(u)) * 2 * rows, y = std::atan2(std::hypot(d.x, d.z), d.y) / kPi * rows;
+    const double x = (u - std::floor(u)) * 2 * rows, y = std::atan2(std::sqrt(d.x * d.x + d.z * d.z), d.y) / kPi * rows;
     const int i = std::clamp(static_cast<int>(x), 0, 2 * rows - 1), j = std::clamp(static_cast<int>(y), 0, rows - 1);
     const auto value = [&](int column, int row) {
         const std::array<float, 4>& at = map.rgba[static_cast<std::size_t>(map.first[level] + row * (2 * rows + 1) + column)];
@@ -497,7 +498,7 @@ Fibres sheen_of(const FrameInputs& frame, const Material& material, SlotMask ava
         const Vec3d both = from.direction + surface.to_eye, half = unit(both), sine = cross(surface.normal, half);
         const double n_dot_l = dot(surface.normal, from.direction);
         if (!(n_dot_l > 0) || !(dot(surface.normal, both) > double{kLeastHalfVector})) continue;
-        const double d = (2 + 1 / a) * std::pow(std::min(std::hypot(sine.x, sine.y, sine.z), 1.0), 1 / a) / 2;  // times pi
+        const double d = (2 + 1 / a) * std::pow(std::min(length(sine), 1.0), 1 / a) / 2;  // times pi
         const double value = d / (4 * (n_dot_l + n_dot_v - n_dot_l * n_dot_v)) * n_dot_l / std::max(1.0, table_albedo);
         const double seen = around.hidden.empty() ? 1.0 : 1.0 - around.hidden[i].hard;
         light = light + scale(to_double(frame.lights[i].color_linear), value * from.attenuation * seen);

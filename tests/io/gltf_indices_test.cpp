@@ -46,11 +46,13 @@ TEST_CASE("gltf indices: one that is out of range is gone, or refuses the file",
         INFO(row.path);
         nlohmann::json scene = test::scene_of_all_arrays();
         put(scene, row, 12'000'000);
+        int left = 0;
         try {
-            CHECK(count_indices(scene, 12'000'000) == 0);
+            left = count_indices(scene, 12'000'000);
             ++gone;
         } catch (const LoadFailure&) {  // of the graph of the nodes
         }
+        CHECK(left == 0);
     }
     CHECK(gone > 50);
 }

@@ -9,6 +9,7 @@
 #include "tests/support/skip.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
 #include <fstream>
 #include <map>
@@ -88,6 +89,15 @@ std::string hex(std::uint64_t value) {
     return text.str();
 }
 
+/// The floats' bytes, the lowest first, on every machine.
+std::vector<std::uint8_t> little_endian(const std::vector<float>& values) {
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(values.size() * sizeof(float));
+    for (const float value : values)
+        for (int byte = 0; byte < 4; ++byte) bytes.push_back(static_cast<std::uint8_t>(std::bit_cast<std::uint32_t>(value) >> (8 * byte)));
+    return bytes;
+}
+
 /// "rgba8 linear": the 8-bit picture, and the linear one as bytes.
 std::string hashes(const test::NamedScene& named, const Variant& variant) {
     Scene scene = named.scene;
@@ -106,8 +116,7 @@ std::string hashes(const test::NamedScene& named, const Variant& variant) {
     settings.shadow_size = 256;
     const auto report = render(scene, named.camera, settings, {kWidth, kHeight, rgba8.data(), linear.data()});
     if (!report) return report.error().message;
-    return hex(pixel_hash(rgba8)) + " " +
-           hex(pixel_hash({reinterpret_cast<const std::uint8_t*>(linear.data()), linear.size() * sizeof(float)}));
+    return hex(pixel_hash(rgba8)) + " " + hex(pixel_hash(little_endian(linear)));
 }
 
 }  // namespace

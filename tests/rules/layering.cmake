@@ -6,6 +6,11 @@ set(layers sh shading raster apps)
 # Functions of the standard library that a kernel must not call.
 string(CONCAT library_function "std::(sqrt|pow|exp2?|log2?|sin|cos|tan|atan2?|acos|asin|fma|floor|ceil|round|nearbyint|l?lrint"
     "|fabs|abs|min|max|clamp|hypot)[^a-z0-9_]")
+# Functions of the C library whose last bits differ. What draws or decides has its own (sh/trig.hpp, sh/power.hpp); the reference, which
+# --accuracy reference and tests compare with, and measures of lobes for people to read have not.
+string(CONCAT libm_function "(std::|[^a-z0-9_:.>]|__builtin_)(exp|exp2|expm1|log|log2|log10|log1p|pow|cbrt|hypot|sin|cos|tan|asin|acos|atan|atan2"
+    "|sinh|cosh|tanh|erf|tgamma|lgamma)f?l?\\(")
+set(by_libm "^(shading/reference/|raster/passes/reference_shading|sh/lobe_error\\.cpp)")
 # Subfolders of a layer, with the includes that a file of each must not have.
 set(subfolders
     "shading/model/=shading/((plan|budget|reference|kernels)/|planner)"
@@ -84,11 +89,14 @@ foreach(layer IN LISTS layers)
             if(line MATCHES "^ *#include \"(bench|tests)/")
                 list(APPEND failures "${file}: include points out of the layers: ${line}")
             endif()
-            if(file STREQUAL "raster/detail/fp_environment.hpp")
+            if(file STREQUAL "sh/fp_environment.hpp")
                 # The one place that sets the processor's floating-point control register.
-                string(REGEX REPLACE "_mm_[gs]etcsr|immintrin" "" line "${line}")
+                string(REGEX REPLACE "_mm_[gs]etcsr|xmmintrin" "" line "${line}")
             endif()
-            if(NOT in_vocabulary AND line MATCHES "xsimd|[^a-z]_mm(256|512)?_|immintrin|arm_neon")
+            if(layer MATCHES "^(sh|shading|raster)$" AND NOT file MATCHES "${by_libm}" AND line MATCHES "${libm_function}")
+                list(APPEND failures "${file}: the C library's last bits differ among machines, and may turn a decision: ${line}")
+            endif()
+            if(NOT in_vocabulary AND line MATCHES "xsimd|[^a-z]_mm(256|512)?_|[ix]mmintrin|arm_neon")
                 list(APPEND failures "${file}: vector instructions are named in shading/kernels/simd*.hpp only: ${line}")
             endif()
             if((in_kernel OR in_vocabulary) AND line MATCHES "#include <(cmath|math|algorithm|numeric|functional|complex)")
