@@ -8,14 +8,5 @@ include(${EMSCRIPTEN_ROOT_PATH}/cmake/Modules/Platform/Emscripten.cmake)
 set(CMAKE_CROSSCOMPILING_EMULATOR node --no-experimental-fetch)
 set(CMAKE_CXX_LINKER_LAUNCHER env NODE_PATH=/usr/share/nodejs)  # Debian's acorn, for a Node.js that is not Debian's
 
-# Header-only libraries of the build machine, without the other headers of its /usr/include.
-set(HALFLIT_HEADER_LINKS ${CMAKE_BINARY_DIR}/header-only)
-foreach(folder xsimd tl fmt stb catch2)
-    if(EXISTS /usr/include/${folder} AND NOT EXISTS ${HALFLIT_HEADER_LINKS}/${folder})
-        file(MAKE_DIRECTORY ${HALFLIT_HEADER_LINKS})
-        file(CREATE_LINK /usr/include/${folder} ${HALFLIT_HEADER_LINKS}/${folder} SYMBOLIC)
-    endif()
-endforeach()
-set(CMAKE_CXX_STANDARD_INCLUDE_DIRECTORIES ${HALFLIT_HEADER_LINKS})
+include(${CMAKE_CURRENT_LIST_DIR}/header_only.cmake)
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-sALLOW_MEMORY_GROWTH=1")
-list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR}/emscripten)  # packages that are headers alone

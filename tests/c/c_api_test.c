@@ -269,14 +269,15 @@ static void test_faulty_arguments(void) {
     execution.isa = NULL;
     execution.tile_size = 20;
     CHECK_FAILS(halflit_renderer_create(&execution, &renderer), HALFLIT_ERROR_USAGE, "tile_size is 20");
-    CHECK_FAILS(halflit_scene_load("no/such.glb", NULL, &none), HALFLIT_ERROR_IO, "no/such.glb");
-    CHECK_FAILS(halflit_scene_load_memory("{", 1, "memory.gltf", NULL, NULL, &none), HALFLIT_ERROR_BAD_INPUT, "memory.gltf");
+    CHECK_FAILS(halflit_scene_load("no/such.glb", NULL, &none), HAS_FILES ? HALFLIT_ERROR_IO : HALFLIT_ERROR_USAGE, "no/such.glb");
+    CHECK_FAILS(halflit_scene_load_memory("{", 1, "memory.gltf", NULL, NULL, &none),
+                HAS_FILES ? HALFLIT_ERROR_BAD_INPUT : HALFLIT_ERROR_USAGE, "memory.gltf");
     CHECK_FAILS(halflit_auto_setup(cube.scene, 0, 8, &cube.camera, &cube.settings), HALFLIT_ERROR_USAGE, "no pixels");
     target.format = 6;
     CHECK_FAILS(halflit_write_image("x.png", &target), HALFLIT_ERROR_USAGE, "format is 6");
     target.format = HALFLIT_FORMAT_RGBA_F32;
     CHECK_FAILS(halflit_write_image("x.png", &target), HALFLIT_ERROR_USAGE, "8-bit");
-    CHECK_FAILS(halflit_write_image("x.gif", &target), HALFLIT_ERROR_USAGE, ".hdr");
+    CHECK_FAILS(halflit_write_image("x.gif", &target), HALFLIT_ERROR_USAGE, HAS_FILES ? ".hdr" : "x.gif");
     cube.settings.samples = 3;
     CHECK(draw_cube(NULL, &cube) == 0 && strstr(halflit_last_error(), "samples") != NULL);
     halflit_scene_destroy(cube.scene);
@@ -351,6 +352,7 @@ static void test_formats(void) {
     CHECK(wrong == 0);
     CHECK(rgba[3] == 64 && linear[0] == 0.5f);
 
+    if (!HAS_FILES) return;
     // Files: the same bytes whichever format the memory has.
     target = make_target(rgba);
     CHECK_OK(halflit_write_image("c_api_test_rgba.bmp", &target));
@@ -591,7 +593,8 @@ static void test_environments(void) {
     CHECK_FAILS(halflit_scene_set_environment(cube.scene, grey, 0, 8, NULL), HALFLIT_ERROR_USAGE, "no pixels");
     grey[5] = -1;
     CHECK(halflit_scene_set_environment(cube.scene, grey, 16, 8, NULL) == HALFLIT_ERROR_BAD_INPUT);
-    CHECK_FAILS(halflit_scene_load_environment(cube.scene, "no/such.hdr", NULL), HALFLIT_ERROR_IO, "no/such.hdr");
+    CHECK_FAILS(halflit_scene_load_environment(cube.scene, "no/such.hdr", NULL), HAS_FILES ? HALFLIT_ERROR_IO : HALFLIT_ERROR_USAGE,
+                "no/such.hdr");
     CHECK(draw_cube(NULL, &cube) == by_grey);
     halflit_scene_destroy(cube.scene);
 }
@@ -1034,15 +1037,17 @@ int main(void) {
     test_changes();
     test_tangents_and_normals_follow_the_material();
     test_environments();
-    test_loading();
     test_points_and_lines();
-    test_scenes_and_variants();
-    test_animations();
+    if (HAS_FILES) {
+        test_loading();
+        test_scenes_and_variants();
+        test_animations();
+        test_recentre();
+    }
     test_cameras();
     test_setup();
     test_lights_of_the_caller();
     test_numbers_that_are_none();
-    test_recentre();
     test_execution();
     printf("%d checks, %d failed\n", checks, failures);
     return failures == 0 && checks > 100 ? 0 : 1;

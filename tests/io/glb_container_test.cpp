@@ -7,7 +7,7 @@ using namespace halflit::test;
 
 namespace {
 
-void put_u32(Bytes& file, std::size_t at, std::uint32_t value) { std::memcpy(file.data() + at, &value, 4); }
+void put_u32(Bytes& file, std::size_t at, std::uint32_t value) { put(file, at, value); }
 
 ErrorCode code_of(const Bytes& file) {
     const auto loaded = load(file);
@@ -37,11 +37,7 @@ TEST_CASE("glb: a container without BIN, and one with unknown chunks, loads", "[
 TEST_CASE("glb: a broken header, chunk, order or length is refused", "[io]") {
     const Bytes good = TriangleFile().file();
     REQUIRE(code_of(good) == ErrorCode::negative_result);
-    const std::size_t json_size = [&] {
-        std::uint32_t size = 0;
-        std::memcpy(&size, good.data() + 12, 4);
-        return std::size_t{size};
-    }();
+    const std::size_t json_size = u32_of(good, 12);
     const std::size_t bin_header = 20 + json_size;
     const auto changed = [&](std::size_t at, std::uint32_t value) {
         Bytes file = good;

@@ -6,6 +6,7 @@
 #include "tests/support/catch.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -24,14 +25,27 @@ inline Bytes to_bytes(std::string_view text) {
     return out;
 }
 
-/// Appends values as they are in memory (glTF is little-endian, and so are the machines that run the tests).
+/// Writes a value at a place of a file: the lowest byte first, as glTF has them, on every machine.
+template <class T>
+void put(Bytes& out, std::size_t at, T value) {
+    std::memcpy(out.data() + at, &value, sizeof value);
+    if constexpr (std::endian::native == std::endian::big) std::reverse(out.data() + at, out.data() + at + sizeof value);
+}
+
+/// The same for appending.
 template <class T>
 void append(Bytes& out, std::initializer_list<T> values) {
     for (const T value : values) {
-        const std::size_t at = out.size();
-        out.resize(at + sizeof value);
-        std::memcpy(out.data() + at, &value, sizeof value);
+        out.resize(out.size() + sizeof value);
+        put(out, out.size() - sizeof value, value);
     }
+}
+
+/// The number at a place of a file.
+inline std::uint32_t u32_of(const Bytes& file, std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i) value |= std::to_integer<std::uint32_t>(file.at(at + i)) << (8 * i);
+    return value;
 }
 
 inline void append_u32(Bytes& out, std::uint32_t value) { append<std::uint32_t>(out, {value}); }

@@ -65,8 +65,8 @@ void mend_lengths(Bytes& file, std::size_t json_size_was, std::size_t size_was) 
     const std::size_t json_size = json_size_was + file.size() - size_was;
     if (json_size % 4 != 0 || 20 + json_size > file.size()) return;
     const auto total = static_cast<std::uint32_t>(file.size()), json = static_cast<std::uint32_t>(json_size);
-    std::memcpy(file.data() + 8, &total, 4);
-    std::memcpy(file.data() + 12, &json, 4);
+    put(file, 8, total);
+    put(file, 12, json);
 }
 
 }  // namespace
@@ -82,8 +82,7 @@ TEST_CASE("fuzz: the undamaged file loads whole", "[io]") {
 
 TEST_CASE("fuzz: damaged files give a sound scene or an error", "[io]") {
     const Bytes good = rich_file();
-    std::uint32_t json_size = 0;
-    std::memcpy(&json_size, good.data() + 12, 4);
+    const std::uint32_t json_size = u32_of(good, 12);
     const Bytes text = rich_file(true);
     std::size_t loaded_count = 0, refused_count = 0;
     for (unsigned seed = 0; seed < 20000; ++seed) {

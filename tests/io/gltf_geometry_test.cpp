@@ -203,8 +203,8 @@ TEST_CASE("gltf: morph targets are applied with the node's weights, or else with
 TEST_CASE("gltf: positions that are not numbers are kept for the renderer to drop", "[io]") {
     TriangleFile file;
     const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
-    std::memcpy(file.bin.data(), &nan, 4);
-    std::memcpy(file.bin.data() + 12, &inf, 4);
+    put(file.bin, 0, nan);
+    put(file.bin, 12, inf);
     const Mesh mesh = load_ok(file.file()).scene.meshes.at(0);
     CHECK(mesh.positions[0].x != mesh.positions[0].x);
     CHECK(mesh.positions[1].x == inf);

@@ -18,21 +18,23 @@ class KernelVariable {
 public:
     explicit KernelVariable(const char* value) {
         if (const char* old = std::getenv("HALFLIT_KERNEL")) old_ = old, had_ = true;
-        if (value != nullptr)
-            setenv("HALFLIT_KERNEL", value, 1);
-        else
-            unsetenv("HALFLIT_KERNEL");
+        set(value);
     }
-    ~KernelVariable() {
-        if (had_)
-            setenv("HALFLIT_KERNEL", old_.c_str(), 1);
-        else
-            unsetenv("HALFLIT_KERNEL");
-    }
+    ~KernelVariable() { set(had_ ? old_.c_str() : nullptr); }
     KernelVariable(const KernelVariable&) = delete;
     KernelVariable& operator=(const KernelVariable&) = delete;
 
 private:
+    static void set(const char* value) {
+#ifdef _WIN32
+        _putenv_s("HALFLIT_KERNEL", value != nullptr ? value : "");  // an empty value removes it
+#else
+        if (value != nullptr)
+            setenv("HALFLIT_KERNEL", value, 1);
+        else
+            unsetenv("HALFLIT_KERNEL");
+#endif
+    }
     std::string old_;
     bool had_ = false;
 };

@@ -1,0 +1,34 @@
+// Functions of the component io, in a build without it: what needs files is refused.
+#include <halflit/image.hpp>
+#include <halflit/model.hpp>
+
+namespace halflit {
+namespace {
+
+tl::unexpected<Error> refuse(const std::string& name) {
+    return fail(ErrorCode::usage, name + ": this build of the library reads and writes no files (HALFLIT_BUILD_IO)");
+}
+
+}  // namespace
+
+Result<LoadedScene> load_model(const std::string& path, const LoadOptions& /*options*/) { return refuse(path); }
+
+Result<LoadedScene> load_gltf(const std::string& path, const LoadOptions& /*options*/) { return refuse(path); }
+
+Result<LoadedScene> load_model_bytes(std::span<const std::byte> /*bytes*/, const std::string& name, const std::string& /*base_dir*/,
+                                     const LoadOptions& /*options*/) {
+    return refuse(name);
+}
+
+Result<SceneChanges> pose_at(const Motion& /*motion*/, const std::string& /*animation*/, double /*time_s*/, Scene& /*scene*/,
+                             std::span<Node> /*nodes*/) {
+    return refuse("pose");
+}
+
+Result<EnvironmentImage> read_environment(const std::string& path, const EnvironmentLimits& /*limits*/) { return refuse(path); }
+
+Result<OutputFormat> output_format_of(std::string_view path) { return refuse(std::string(path)); }
+
+Result<void> write_image(const std::string& path, const Image& /*image*/) { return refuse(path); }
+
+}  // namespace halflit
