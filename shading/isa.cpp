@@ -80,7 +80,7 @@ bool isa_available(Isa isa) {
 
 Result<Isa> default_isa() {
     // The only place where the library reads an environment variable.
-    if (const char* name = std::getenv("HALFLIT_KERNEL"); name != nullptr && std::string_view(name) != "auto")
+    if (const char* name = std::getenv("HALFLIT_KERNEL"); name != nullptr && *name != '\0' && std::string_view(name) != "auto")
         return named_isa(name, "HALFLIT_KERNEL");
     Isa widest = Isa::scalar;
     for (const Isa isa : kBuiltIsas)

@@ -273,11 +273,13 @@ static void test_faulty_arguments(void) {
     CHECK_FAILS(halflit_scene_load_memory("{", 1, "memory.gltf", NULL, NULL, &none),
                 HAS_FILES ? HALFLIT_ERROR_BAD_INPUT : HALFLIT_ERROR_USAGE, "memory.gltf");
     CHECK_FAILS(halflit_auto_setup(cube.scene, 0, 8, &cube.camera, &cube.settings), HALFLIT_ERROR_USAGE, "no pixels");
-    target.format = 6;
-    CHECK_FAILS(halflit_write_image("x.png", &target), HALFLIT_ERROR_USAGE, "format is 6");
-    target.format = HALFLIT_FORMAT_RGBA_F32;
-    CHECK_FAILS(halflit_write_image("x.png", &target), HALFLIT_ERROR_USAGE, "8-bit");
-    CHECK_FAILS(halflit_write_image("x.gif", &target), HALFLIT_ERROR_USAGE, HAS_FILES ? ".hdr" : "x.gif");
+    if (HAS_FILES) {
+        target.format = 6;
+        CHECK_FAILS(halflit_write_image("x.png", &target), HALFLIT_ERROR_USAGE, "format is 6");
+        target.format = HALFLIT_FORMAT_RGBA_F32;
+        CHECK_FAILS(halflit_write_image("x.png", &target), HALFLIT_ERROR_USAGE, "8-bit");
+        CHECK_FAILS(halflit_write_image("x.gif", &target), HALFLIT_ERROR_USAGE, ".hdr");
+    }
     cube.settings.samples = 3;
     CHECK(draw_cube(NULL, &cube) == 0 && strstr(halflit_last_error(), "samples") != NULL);
     halflit_scene_destroy(cube.scene);
