@@ -1,6 +1,7 @@
 #include "apps/io/detail/gltf_world.hpp"
 
 #include "apps/io/detail/double_box.hpp"
+#include "raster/scene/framed_part.hpp"
 #include "sh/vec3d.hpp"
 #include "shading/model/numbers.hpp"
 
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace halflit::io::detail {
@@ -55,6 +57,30 @@ std::vector<Affine> instance_transforms(const NodeTree& tree, const LoadedScene&
     return out;
 }
 
+/// A view leaves out a few vertices far away from all others (raster/scene/framed_part.hpp). Where they are this many times as far away as
+/// the rest is large, no scale of the scene keeps both within float32: their triangles are not drawn.
+constexpr double kTooFar = 0x1p40;
+
+void leave_out_strays(Document& document, Scene& scene) {
+    const raster::FramedPart part = raster::framed_part(scene);
+    if (part.whole) return;
+    std::size_t count = 0;
+    for (std::size_t m = 0; m < part.meshes.size(); ++m) {
+        const Bounds& kept = part.meshes[m].bounds;
+        if (kept.empty || !(kept.radius() > 0.0f)) continue;
+        const Vec3d middle = to_double(kept.center());
+        for (Vec3f& p : scene.meshes[m].positions) {
+            const double away = length(to_double(p) - middle);
+            if (!(away > kTooFar * static_cast<double>(kept.radius()))) continue;
+            p.x = std::numeric_limits<float>::quiet_NaN();
+            ++count;
+        }
+    }
+    if (count > 0)
+        document.warn(
+            fmt::format("{} vertices lie more than 1e12 times the size of their mesh away: their triangles are not drawn", count));
+}
+
 }  // namespace
 
 Affine drawn(const Affine& world, Vec3d origin, double scale) {
@@ -71,6 +97,10 @@ std::vector<double> recentre(Document& document, NodeTree& tree, LoadedScene& lo
     std::vector<Affine> transforms = instance_transforms(tree, loaded);
     std::vector<DoubleBox> boxes;
     for (const Mesh& mesh : scene.meshes) boxes.push_back(box_of(mesh));
+    if (std::any_of(boxes.begin(), boxes.end(), [](const DoubleBox& box) { return largest(box) > kLargest; })) {
+        leave_out_strays(document, scene);
+        for (std::size_t m = 0; m < boxes.size(); ++m) boxes[m] = box_of(scene.meshes[m]);
+    }
     DoubleBox world;
     for (std::size_t i = 0; i < transforms.size(); ++i) {
         const DoubleBox& box = boxes[static_cast<std::size_t>(scene.instances[i].mesh)];
