@@ -248,11 +248,10 @@ public:
     void add(std::span<const float> line) {
         const std::size_t lines = header_.columns ? width_ : height_;
         if (!whole_ && ++held_ > lines / 8) take_memory(line.size());
-        if (!whole_) {
+        if (whole_)
+            place(line);
+        else
             first_.insert(first_.end(), line.begin(), line.end());
-            return;
-        }
-        place(line);
     }
     [[nodiscard]] std::vector<float> take() && {
         if (!whole_) take_memory(first_.size());
@@ -262,11 +261,18 @@ public:
 private:
     void take_memory(std::size_t line) {
         whole_ = true;
-        rgb_.resize(3 * width_ * height_);
+        if (usual_)
+            rgb_.reserve(3 * width_ * height_);
+        else
+            rgb_.resize(3 * width_ * height_);
         for (std::size_t at = 0; at < first_.size(); at += line) place(std::span(first_).subspan(at, line));
         first_ = {};
     }
     void place(std::span<const float> line) {
+        if (usual_) {
+            rgb_.insert(rgb_.end(), line.begin(), line.end());
+            return;
+        }
         const std::size_t slow = placed_++;
         for (std::size_t fast = 0; 3 * fast < line.size(); ++fast) {
             const std::size_t column = header_.columns ? slow : fast, row = header_.columns ? fast : slow;
@@ -278,7 +284,7 @@ private:
 
     const Header& header_;
     std::size_t width_, height_, held_ = 0, placed_ = 0;
-    bool whole_ = false;
+    bool usual_ = !header_.columns && !header_.x_reversed && !header_.y_upwards, whole_ = false;
     std::vector<float> first_, rgb_;
 };
 

@@ -4,8 +4,14 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/skip.hpp"
 
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <sstream>
+#include <string>
+#include <tuple>
 
 using namespace halflit::test;
 
@@ -39,6 +45,68 @@ TEST_CASE("limits: a scene that takes longer than --timeout ends with 5, a repor
     CHECK(folder.names() == std::vector<std::string>{"a.json"});
     CHECK(content(folder.file("a.json")).find("\"code\": 5") != std::string::npos);
     CHECK(run({"sphere:100", "--size", "16x16", "--timeout", "600", "-o", folder.file("b.png")}).code == 0);
+}
+
+namespace {
+
+/// A Radiance picture of long runs: 8.5 MB for 16384 x 8192 pixels. The rows nearest to a pole are bright: a sun of many pixels.
+std::string long_runs(int width, int height, int bright_rows, const std::string& order) {
+    std::string file = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" + order + "\n";
+    for (int y = 0; y < height; ++y) {
+        file += std::string{2, 2, static_cast<char>(width >> 8), static_cast<char>(width & 255)};
+        for (int component = 0; component < 4; ++component)
+            for (int x = 0; x < width;) {
+                const int run = std::min(127, width - x);
+                file += static_cast<char>(128 + run);
+                file += static_cast<char>(component < 3 ? 128 : y < bright_rows ? 140 : 126);
+                x += run;
+            }
+    }
+    return file;
+}
+
+}  // namespace
+
+TEST_CASE("limits: --timeout is kept while an environment is read and analysed", "[cli][slow]") {
+    const TemporaryFolder folder;
+    for (const auto& [width, height, bright, order] :
+         {std::tuple{16384, 8192, 0, "-Y 8192 +X 16384"}, {16384, 8192, 60, "-Y 8192 +X 16384"}, {16384, 8192, 0, "+X 16384 +Y 8192"}}) {
+        INFO(order << ", " << bright << " bright rows");
+        const std::string sky = folder.file("sky.hdr");
+        std::ofstream(sky, std::ios::binary) << (order[0] == '-' ? long_runs(width, height, bright, order)
+                                                                 : long_runs(height, width, bright, order));
+        for (const char* limit : {"0.5", "2"}) {
+            const auto start = std::chrono::steady_clock::now();
+            const Outcome outcome = run({"sphere:100", "--env", sky, "--timeout", limit, "--size", "64", "-o", folder.file("a.png")});
+            const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            CHECK(outcome.code == 5);
+            CHECK(outcome.err.find("time limit") != std::string::npos);
+            CHECK(took < std::stod(limit) + 6.0);  // tenths of a second on a quiet machine
+        }
+        CHECK(run({"env", sky, "--timeout", "0.5"}).code == 5);
+    }
+}
+
+TEST_CASE("limits: an environment takes little more memory than its picture", "[cli][slow]") {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    HALFLIT_SKIP("sanitizers take terabytes of addresses");
+#endif
+    const TemporaryFolder folder;
+    const std::string sky = folder.file("sky.hdr");
+    std::ofstream(sky, std::ios::binary) << long_runs(8192, 4096, 0, "-Y 4096 +X 8192");
+    // 403 MB of floats.
+    const Outcome outcome = run({"sphere:100", "--env", sky, "--max-memory", "700", "--size", "64", "-o", folder.file("a.png")});
+    INFO(outcome.err);
+    CHECK(outcome.code == 0);
+}
+
+TEST_CASE("output: a pipe that nobody reads is an error, not a wait for ever", "[cli][slow]") {
+    const TemporaryFolder folder;
+    const std::string pipe = folder.file("pipe.png");
+    REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+    const Outcome outcome = run({"sphere:100", "--size", "16", "-o", pipe});
+    CHECK(outcome.code == 4);
+    CHECK(outcome.err.find("nobody reads this pipe") != std::string::npos);
 }
 
 TEST_CASE("limits: --timeout ends the wait for standard input", "[cli]") {

@@ -136,6 +136,29 @@ TEST_CASE("world: the smallest and the largest positions that float32 holds are 
     }
 }
 
+TEST_CASE("world: a stray vertex near float32's end does not shrink a scene to nothing", "[io]") {
+    for (const float far : {1e30f, 2.66e33f, -6e35f, 3e38f})
+        for (const std::size_t vertex : {std::size_t{0}, std::size_t{40}}) {
+            INFO(far << ", vertex " << vertex);
+            Bytes file = sheet(1, 1, 0);
+            const std::size_t bin = 20 + u32_of(file, 12) + 8;
+            put(file, bin + 12 * vertex, far);
+            LoadedScene loaded = load_ok(file, recentred());
+            CHECK(loaded.scale == 1.0);
+            REQUIRE(loaded.warnings.size() == 1);
+            INFO(loaded.warnings[0]);
+            CHECK(loaded.warnings[0].find("vertices lie more than 1e12") != std::string::npos);
+            const AutoSetup setup = auto_setup(loaded.scene, kSide, kSide, {.frame = true});
+            std::vector<std::uint8_t> pixels(4 * kSide * kSide);
+            const auto report =
+                render(loaded.scene, setup.camera, setup.settings, {.width = kSide, .height = kSide, .pixels = pixels.data()});
+            REQUIRE(report);
+            CHECK(report->nan_pixels == 0);
+            CHECK(report->triangles_drawn > 100);
+            CHECK(report->pixels_visible > kSide * kSide / 4);
+        }
+}
+
 TEST_CASE("world: without the option a scene stays where the file has it", "[io]") {
     const LoadedScene loaded = load_ok(sheet(1, 1, 1e7));
     CHECK(loaded.scale == 1.0);
