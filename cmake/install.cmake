@@ -56,6 +56,9 @@ else()
         set(raster_libraries "-lhalflit_raster -lhalflit_shading -lhalflit_sh -pthread -lstdc++ -lm")
     endif()
 endif()
+if(HALFLIT_ATOMIC_LIBRARY)
+    string(APPEND raster_libraries " -latomic")
+endif()
 halflit_pkg_config(halflit "scenes and pictures in memory" "${raster_libraries}" "")
 if(TARGET halflit::io)
     halflit_pkg_config(halflit-io "models, pictures and environments as files" "${io_flags}" halflit)
@@ -75,6 +78,11 @@ if(TARGET halflit)
                 DIRECTORIES /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}
             RUNTIME COMPONENT program
             LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/halflit COMPONENT program)
+        install(CODE "
+            set(root \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}\")
+            execute_process(COMMAND ${CMAKE_COMMAND} \"-DBUNDLE=\${root}/${CMAKE_INSTALL_LIBDIR}/halflit\"
+                \"-DINTO=\${root}/${CMAKE_INSTALL_DOCDIR}/licences\" -DDEPENDENCIES=${PROJECT_SOURCE_DIR}/cmake/dependencies.cmake
+                -P ${PROJECT_SOURCE_DIR}/cmake/licences.cmake COMMAND_ERROR_IS_FATAL ANY)" COMPONENT program)
     else()
         install(TARGETS halflit RUNTIME COMPONENT program)
     endif()

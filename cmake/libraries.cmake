@@ -19,6 +19,17 @@ foreach(folder sh shading raster apps/io)
     target_include_directories(halflit_flags INTERFACE ${PROJECT_SOURCE_DIR}/${folder}/include)
 endforeach()
 
+# Some processors have no instruction for atomic bytes, and a library for them (riscv64 with GCC 12).
+include(CheckCXXSourceCompiles)
+set(atomic_bytes "#include <atomic>
+#include <cstdint>
+int main() { std::atomic<bool> a{false}; std::atomic<std::uint64_t> b{0}; return a.exchange(true) || ++b > 1; }")
+check_cxx_source_compiles("${atomic_bytes}" HALFLIT_ATOMICS_ARE_BUILT_IN)
+set(HALFLIT_ATOMIC_LIBRARY "")
+if(NOT HALFLIT_ATOMICS_ARE_BUILT_IN)
+    set(HALFLIT_ATOMIC_LIBRARY atomic)
+endif()
+
 # Adds sources to a target: GROUP a.cpp b.cpp.. GROUP c.cpp.. Those of a group are compiled together.
 function(halflit_unity target)
     set(number 0)
