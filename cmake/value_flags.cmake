@@ -40,8 +40,8 @@ list(JOIN probe_flags " " probe_flags)
 string(TOUPPER "${CMAKE_BUILD_TYPE}" probe_type)
 set(probe ${CMAKE_CURRENT_LIST_DIR}/value_probe.cpp)
 file(SHA1 ${probe} probe_hash)
-string(SHA1 probe_key "${CMAKE_CXX_COMPILER} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${probe_type}} ${probe_flags}
-    ${CMAKE_EXE_LINKER_FLAGS} ${probe_hash}")
+string(SHA1 probe_key "${CMAKE_CXX_COMPILER} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${probe_type}}
+    ${probe_flags} ${CMAKE_EXE_LINKER_FLAGS} ${probe_hash}")
 if(NOT HALFLIT_VALUE_PROBE STREQUAL probe_key)
     set(CMAKE_TRY_COMPILE_CONFIGURATION ${CMAKE_BUILD_TYPE})
     set(probe_folder ${PROJECT_BINARY_DIR}/CMakeFiles/value_probe)
@@ -64,7 +64,8 @@ if(NOT HALFLIT_VALUE_PROBE STREQUAL probe_key)
         execute_process(COMMAND ${CMAKE_OBJDUMP} -d ${probe_folder}/fused_probe OUTPUT_VARIABLE probe_code ERROR_QUIET)
         string(REGEX MATCH "<_?halflit_multiply_add[^\n>]*>:\n([^\n]+\n)+" probe_code "${probe_code}")
     endif()
-    # Names of fused operations: vfmadd (x86), fmadd, fmla (Arm), vfma (32-bit Arm), fmadd (RISC-V), fmadds, xsmadd (Power), maebr, wfma (Z).
+    # Names of fused operations: vfmadd (x86), fmadd, fmla (Arm), vfma (32-bit Arm), fmadd (RISC-V), fmadds, xsmadd (POWER), maebr,
+    # wfma (Z).
     if(probe_code MATCHES "[ \t]((v?fn?m(add|sub|la|ls)|vfn?m[as]|x[sv]n?m(add|sub)|m[as][ed]br|wfn?m[as])[a-z0-9.]*)[ \t]")
         message(FATAL_ERROR "halflit: the compiler fuses multiplications and additions (${CMAKE_MATCH_1}) in spite of -ffp-contract=off, "
             "which changes pixels")

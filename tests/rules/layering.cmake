@@ -8,8 +8,8 @@ string(CONCAT library_function "std::(sqrt|pow|exp2?|log2?|sin|cos|tan|atan2?|ac
     "|fabs|abs|min|max|clamp|hypot)[^a-z0-9_]")
 # Functions of the C library whose last bits differ. What draws or decides has its own (sh/trig.hpp, sh/power.hpp); the reference, which
 # --accuracy reference and tests compare with, and measures of lobes for people to read have not.
-string(CONCAT libm_function "(std::|[^a-z0-9_:.>]|__builtin_)(exp|exp2|expm1|log|log2|log10|log1p|pow|cbrt|hypot|sin|cos|tan|asin|acos|atan|atan2"
-    "|sinh|cosh|tanh|erf|tgamma|lgamma)f?l?\\(")
+string(CONCAT libm_function "(std::|[^a-z0-9_:.>]|__builtin_)(exp|exp2|expm1|log|log2|log10|log1p|pow|cbrt|hypot|sin|cos|tan"
+    "|asin|acos|atan|atan2|sinh|cosh|tanh|erf|tgamma|lgamma)f?l?\\(")
 set(by_libm "^(shading/reference/|raster/passes/reference_shading|sh/lobe_error\\.cpp)")
 # Subfolders of a layer, with the includes that a file of each must not have.
 set(subfolders

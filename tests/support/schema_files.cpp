@@ -73,7 +73,7 @@ std::vector<IndexRow> index_rows() {
 }
 
 Json scene_of_all_arrays() {
-    return Json::parse(R"({
+    Json scene = Json::parse(R"({
         "asset": {"version": "2.0"}, "scene": 0,
         "scenes": [{"nodes": [0, 1]}, {}, {}],
         "nodes": [{"mesh": 0, "camera": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}}, {"mesh": 0, "skin": 0}, {}],
@@ -87,8 +87,7 @@ Json scene_of_all_arrays() {
         "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}, {}, {}],
         "textures": [{"source": 0, "sampler": 0}, {}, {}],
         "samplers": [{}, {}, {}],
-        "images": [{"uri": "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR4nGNgYGBgAAAABQABpfZFQAAAAABJRU5ErkJggg=="},
-                   {}, {}],
+        "images": [{}, {}, {}],
         "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
                       {"bufferView": 1, "componentType": 5121, "count": 3, "type": "VEC4"},
                       {"bufferView": 2, "componentType": 5126, "count": 3, "type": "VEC4"}],
@@ -100,6 +99,9 @@ Json scene_of_all_arrays() {
         "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}, {"type": "point"}, {"type": "point"}]},
                        "KHR_materials_variants": {"variants": [{"name": "a"}]}}
     })");
+    scene["images"][0]["uri"] =  // one texel
+        "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR4nGNgYGBgAAAABQABpfZFQAAAAABJRU5ErkJggg==";
+    return scene;
 }
 
 void put(Json& scene, const IndexRow& row, const Json& value) {
