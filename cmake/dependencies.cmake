@@ -13,7 +13,7 @@
 # USE is raster, io, program, viewer, tests or bench; of several uses, the first.
 #    NAME          USE     OLDEST TESTED  DEBIAN'S PACKAGE     TARGET                HOW
 set(halflit_rows
-    "xsimd         raster  8.1    14.3    libxsimd-dev         halflit::xsimd        header xsimd/config/xsimd_config.hpp MAJOR.([0-9]+) MINOR.([0-9]+)"
+    "xsimd         raster  8.1    14.3    libxsimd-dev halflit::xsimd header xsimd/config/xsimd_config.hpp MAJOR.([0-9]+) MINOR.([0-9]+)"
     "tl-expected   raster  1.0    1.3.1   libexpected-dev      tl::expected          find_package tl-expected"
     "TBB           raster  2021.8 2023.1  libtbb-dev           TBB::tbb              find_package TBB"
     "fmt           io      9.1    11.1.1  libfmt-dev           fmt::fmt              find_package fmt"
