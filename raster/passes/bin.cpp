@@ -264,9 +264,10 @@ private:
         const auto tiles = static_cast<std::size_t>(in_.view.tiles_x) * static_cast<std::size_t>(in_.view.tiles_y);
         chunk_.tile_begin.assign(tiles + 1, 0);
         chunk_.tile_list.resize(chunk_.pairs.size());
-        for (const std::uint64_t p : chunk_.pairs) ++chunk_.tile_begin[(p >> 32) + 1];
+        const auto tile_of = [](std::uint64_t pair) { return static_cast<std::size_t>(pair >> 32); };
+        for (const std::uint64_t p : chunk_.pairs) ++chunk_.tile_begin[tile_of(p) + 1];
         for (std::size_t t = 0; t < tiles; ++t) chunk_.tile_begin[t + 1] += chunk_.tile_begin[t];
-        for (const std::uint64_t p : chunk_.pairs) chunk_.tile_list[chunk_.tile_begin[p >> 32]++] = static_cast<std::uint32_t>(p);
+        for (const std::uint64_t p : chunk_.pairs) chunk_.tile_list[chunk_.tile_begin[tile_of(p)]++] = static_cast<std::uint32_t>(p);
         // Each entry now holds the end of its tile; shift back to the beginnings.
         for (std::size_t t = tiles; t > 0; --t) chunk_.tile_begin[t] = chunk_.tile_begin[t - 1];
         chunk_.tile_begin[0] = 0;
