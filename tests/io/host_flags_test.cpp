@@ -6,6 +6,8 @@
 
 #include "tests/support/catch.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cfenv>
 #include <filesystem>
@@ -23,7 +25,8 @@ namespace {
 
 /// Twenty models: those of the assets if they are here, and one of the test's own.
 std::vector<std::string> models() {
-    const std::filesystem::path own = std::filesystem::temp_directory_path() / "halflit_host_flags.glb";
+    const std::filesystem::path own =
+        std::filesystem::temp_directory_path() / ("halflit_host_flags_" + std::to_string(::getpid()) + ".glb");  // tests run side by side
     const Bytes file = rich_file();
     std::ofstream(own, std::ios::binary).write(reinterpret_cast<const char*>(file.data()), static_cast<std::streamsize>(file.size()));
     std::vector<std::string> paths{own.string()};
