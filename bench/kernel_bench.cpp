@@ -1,5 +1,6 @@
 // Cost of the inner functions of a frame besides light: geometry, rasterization, interpolation, textures, output. Every row on every
 // instruction set that this processor has, in short slices in random order, so that other load on the machine affects all rows alike.
+#include "bench/failed_run.hpp"
 #include "bench/kernel_rows.hpp"
 
 #include <benchmark/benchmark.h>
@@ -23,7 +24,7 @@ public:
     bool ReportContext(const Context&) override { return true; }
     void ReportRuns(const std::vector<Run>& runs) override {
         for (const Run& run : runs) {
-            if (run.run_type != Run::RT_Iteration || run.error_occurred) continue;
+            if (run.run_type != Run::RT_Iteration || failed(run)) continue;
             const double ns = run.cpu_accumulated_time * 1e9 / static_cast<double>(run.iterations);
             const auto [at, added] = shortest_.try_emplace(run.run_name.function_name, ns);
             if (!added) at->second = std::min(at->second, ns);

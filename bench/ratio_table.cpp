@@ -1,5 +1,6 @@
 #include "bench/ratio_table.hpp"
 
+#include "bench/failed_run.hpp"
 #include "shading/fragment_block.hpp"
 
 #include <algorithm>
@@ -42,7 +43,7 @@ std::string joined(std::size_t variants, const Text& text) {
 void RatioTable::ReportRuns(const std::vector<Run>& runs) {
     for (const Run& run : runs) {
         const auto found = cells_.find(run.run_name.function_name);
-        if (run.run_type != Run::RT_Iteration || run.error_occurred || found == cells_.end()) continue;
+        if (run.run_type != Run::RT_Iteration || failed(run) || found == cells_.end()) continue;
         const Cell& cell = found->second;
         const auto row = static_cast<std::size_t>(cell.row), variant = static_cast<std::size_t>(cell.variant);
         const double ns = run.cpu_accumulated_time * 1e9 / static_cast<double>(run.iterations);

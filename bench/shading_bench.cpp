@@ -105,7 +105,8 @@ std::map<std::string, Cell> register_all(const std::vector<Row>& rows, const std
 int main(int argc, char** argv) {
     using namespace halflit::bench;
     // Defaults come first: the command line overrides them.
-    std::vector<char*> arguments = {argv[0]};
+    std::vector<char*> arguments(argv, argv + 1);
+    arguments.reserve(static_cast<std::size_t>(argc) + 3);
     std::string defaults[] = {"--benchmark_repetitions=15", "--benchmark_min_time=0.001", "--benchmark_enable_random_interleaving=true"};
     for (std::string& flag : defaults) arguments.push_back(flag.data());
     arguments.insert(arguments.end(), argv + 1, argv + argc);

@@ -80,10 +80,10 @@ void compare_geometry(const file::File& a, const tinygltf::Model& b) {
         const file::Sparse& s = a.sparse.at(static_cast<std::size_t>(x.sparse));
         CHECK(s.count == y.sparse.count);
         CHECK(s.index_view == y.sparse.indices.bufferView);
-        CHECK(s.index_offset == y.sparse.indices.byteOffset);
+        CHECK(s.index_offset == static_cast<int>(y.sparse.indices.byteOffset));  // size_t from version 2.9 on
         CHECK(s.index_component_type == y.sparse.indices.componentType);
         CHECK(s.value_view == y.sparse.values.bufferView);
-        CHECK(s.value_offset == y.sparse.values.byteOffset);
+        CHECK(s.value_offset == static_cast<int>(y.sparse.values.byteOffset));
     }
     REQUIRE(a.meshes.size() == b.meshes.size());
     for (std::size_t m = 0; m < a.meshes.size(); ++m) {

@@ -1,0 +1,14 @@
+// Google Benchmark's word for a run that failed, which is another one from version 1.8 on.
+#pragma once
+
+namespace halflit::bench {
+
+template <class Run>
+[[nodiscard]] bool failed(const Run& run) {
+    if constexpr (requires { run.error_occurred; })
+        return run.error_occurred;
+    else
+        return static_cast<int>(run.skipped) != 0;
+}
+
+}  // namespace halflit::bench
