@@ -105,11 +105,11 @@ std::map<std::string, Cell> register_all(const std::vector<Row>& rows, const std
 int main(int argc, char** argv) {
     using namespace halflit::bench;
     // Defaults come first: the command line overrides them.
-    std::vector<char*> arguments(argv, argv + 1);
-    arguments.reserve(static_cast<std::size_t>(argc) + 3);
+    std::vector<char*> arguments;
+    arguments.push_back(argv[0]);
     std::string defaults[] = {"--benchmark_repetitions=15", "--benchmark_min_time=0.001", "--benchmark_enable_random_interleaving=true"};
     for (std::string& flag : defaults) arguments.push_back(flag.data());
-    arguments.insert(arguments.end(), argv + 1, argv + argc);
+    for (int i = 1; i < argc; ++i) arguments.push_back(argv[i]);
     int count = static_cast<int>(arguments.size());
     benchmark::Initialize(&count, arguments.data());
     if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
