@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
     std::vector<char*> arguments = {argv[0]};
     std::string defaults[] = {"--benchmark_repetitions=15", "--benchmark_min_time=0.001", "--benchmark_enable_random_interleaving=true"};
     for (std::string& flag : defaults) arguments.push_back(flag.data());
-    arguments.insert(arguments.end(), argv + 1, argv + argc);
+    for (int i = 1; i < argc; ++i) arguments.push_back(argv[i]);
     int count = static_cast<int>(arguments.size());
     benchmark::Initialize(&count, arguments.data());
     if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
