@@ -107,10 +107,10 @@ class Records(unittest.TestCase):
     def test_each_member_is_explained(self):
         for kind in (halflit.Material, halflit.Light, halflit.Camera, halflit.Lobe, halflit.TextureUse):
             for name in set(kind._members()) - {"world_from_camera"}:
-                self.assertRegex(kind.__doc__, rf"(?m)^        {name}: \S", kind)
+                self.assertRegex(kind.__doc__, rf"(?m)^ +{name}: \S", kind)
         self.assertTrue(_options.KNOWN)
         for name in _options.KNOWN:
-            self.assertRegex(halflit.PictureOptions.__doc__, rf"(?m)^        {name}: \S")
+            self.assertRegex(halflit.PictureOptions.__doc__, rf"(?m)^ +{name}: \S")
         self.assertEqual(set(halflit.PictureOptions.__annotations__), _options.KNOWN)
 
 
