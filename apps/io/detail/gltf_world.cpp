@@ -1,7 +1,6 @@
 #include "apps/io/detail/gltf_world.hpp"
 
 #include "apps/io/detail/double_box.hpp"
-#include "raster/scene/framed_part.hpp"
 #include "sh/vec3d.hpp"
 #include "shading/model/numbers.hpp"
 
@@ -57,28 +56,29 @@ std::vector<Affine> instance_transforms(const NodeTree& tree, const LoadedScene&
     return out;
 }
 
-/// A view leaves out a few vertices far away from all others (raster/scene/framed_part.hpp). Where they are this many times as far away as
-/// the rest is large, no scale of the scene keeps both within float32: their triangles are not drawn.
+/// A view leaves out a few vertices far away from all others. Where they are this many times as far from the origin as the vertex in the
+/// middle of all, no scale of the scene keeps both within float32: their triangles are not drawn.
 constexpr double kTooFar = 0x1p40;
 
 void leave_out_strays(Document& document, Scene& scene) {
-    const raster::FramedPart part = raster::framed_part(scene);
-    if (part.whole) return;
     std::size_t count = 0;
-    for (std::size_t m = 0; m < part.meshes.size(); ++m) {
-        const Bounds& kept = part.meshes[m].bounds;
-        if (kept.empty || !(kept.radius() > 0.0f)) continue;
-        const Vec3d middle = to_double(kept.center());
-        for (Vec3f& p : scene.meshes[m].positions) {
-            const double away = length(to_double(p) - middle);
-            if (!(away > kTooFar * static_cast<double>(kept.radius()))) continue;
-            p.x = std::numeric_limits<float>::quiet_NaN();
-            ++count;
-        }
+    for (Mesh& mesh : scene.meshes) {
+        std::vector<double> away;
+        for (const Vec3f& p : mesh.positions)
+            if (shading::finite(p)) away.push_back(length(to_double(p)));
+        if (away.size() < 8) continue;
+        const auto middle = away.begin() + static_cast<std::ptrdiff_t>(away.size() / 2);
+        std::nth_element(away.begin(), middle, away.end());
+        const double limit = kTooFar * *middle;
+        const auto strays = static_cast<std::size_t>(std::count_if(away.begin(), away.end(), [&](double a) { return a > limit; }));
+        if (!(limit > 0.0) || strays == 0 || strays > away.size() / 8) continue;
+        for (Vec3f& p : mesh.positions)
+            if (shading::finite(p) && length(to_double(p)) > limit) p.x = std::numeric_limits<float>::quiet_NaN();
+        count += strays;
     }
     if (count > 0)
-        document.warn(
-            fmt::format("{} vertices lie more than 1e12 times the size of their mesh away: their triangles are not drawn", count));
+        document.warn(fmt::format(
+            "{} vertices lie more than 1e12 times as far away as the others of their mesh: their triangles are not drawn", count));
 }
 
 }  // namespace
