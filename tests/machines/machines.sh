@@ -17,7 +17,8 @@ debian() {
     local suite=$1 folder=$root/build/chroots/$1 mirror script=()
     [ ! -e "$folder/.whole" ] || return 0
     install debootstrap
-    mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Origin: Debian' | head -n 1)
+    mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Origin: Debian' 'Label: Debian' | head -n 1)
+    [ -n "$mirror" ] || fail "a chroot of Debian needs a mirror: apt here has none (apt-get update)"
     [ -e "/usr/share/debootstrap/scripts/$suite" ] || script=(sid)  # a suite that is newer than debootstrap
     echo "dev: making a chroot of Debian $suite" >&2
     "${as_root[@]}" rm -rf "$folder"
@@ -25,7 +26,7 @@ debian() {
     "${as_root[@]}" debootstrap --variant=minbase "$suite" "$folder" "$mirror" "${script[@]}" >"$root/build/chroots/$suite.log" 2>&1 ||
         fail "debootstrap failed: see build/chroots/$suite.log"
     # What this machine's apt needs to reach its mirror; not what it does after installing.
-    grep -lE '^ *Acquire' /etc/apt/apt.conf.d/* 2>/dev/null | "${as_root[@]}" xargs -r cp -t "$folder/etc/apt/apt.conf.d/"
+    { grep -lZE '^ *Acquire' /etc/apt/apt.conf.d/* 2>/dev/null || true; } | "${as_root[@]}" xargs -0 -r cp -t "$folder/etc/apt/apt.conf.d/"
     "${as_root[@]}" touch "$folder/.whole"
 }
 
@@ -53,9 +54,11 @@ in_debian() {
 # --debian SUITE: what a new user does there, on a copy of the project.
 test_debian() {
     in_debian "$1" '
-        apt-get update -qq && apt-get install -y -qq --no-install-recommends git >/dev/null
-        mkdir -p /root/halflit && cd /root/halflit
-        find . -mindepth 1 -maxdepth 1 ! -name build -exec rm -rf {} +
+        apt-get update -qq
+        apt-get install -y -qq --no-install-recommends git >/dev/null
+        mkdir -p /root/halflit
+        cd /root/halflit
+        find /root/halflit -mindepth 1 -maxdepth 1 ! -name build -exec rm -rf {} +
         git config --global --add safe.directory /halflit
         git -C /halflit ls-files -z --cached --others --exclude-standard | (cd /halflit && xargs -0 ls -d 2>/dev/null) |
             tar -C /halflit -T - -c | tar -x
