@@ -49,7 +49,10 @@ else()
     get_property(io_flags GLOBAL PROPERTY HALFLIT_IO_FLAGS)
     list(JOIN io_flags " " io_flags)
     set(io_flags "-lhalflit_io ${io_flags}")
-    set(c_requires halflit-io)
+    set(c_requires halflit)
+    if(TARGET halflit::io)
+        set(c_requires halflit-io)
+    endif()
     if(HALFLIT_ONETBB)
         set(raster_libraries "-lhalflit_raster -lhalflit_shading -lhalflit_sh -ltbb -lstdc++ -lm")
     else()
@@ -81,8 +84,8 @@ if(TARGET halflit)
         install(CODE "
             set(root \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}\")
             execute_process(COMMAND ${CMAKE_COMMAND} \"-DBUNDLE=\${root}/${CMAKE_INSTALL_LIBDIR}/halflit\"
-                \"-DINTO=\${root}/${CMAKE_INSTALL_DOCDIR}/licences\" -DDEPENDENCIES=${PROJECT_SOURCE_DIR}/cmake/dependencies.cmake
-                -P ${PROJECT_SOURCE_DIR}/cmake/licences.cmake COMMAND_ERROR_IS_FATAL ANY)" COMPONENT program)
+                \"-DINTO=\${root}/${CMAKE_INSTALL_DOCDIR}/licences\" \"-DDEPENDENCIES=${PROJECT_SOURCE_DIR}/cmake/dependencies.cmake\"
+                -P \"${PROJECT_SOURCE_DIR}/cmake/licences.cmake\" COMMAND_ERROR_IS_FATAL ANY)" COMPONENT program)
     else()
         install(TARGETS halflit RUNTIME COMPONENT program)
     endif()

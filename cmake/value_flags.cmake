@@ -9,11 +9,11 @@ set(HALFLIT_VALUE_FLAGS -ffp-contract=off -fno-math-errno -fno-trapping-math)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     list(APPEND HALFLIT_VALUE_FLAGS -fno-tree-slp-vectorize)
 endif()
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(i[3-6]86|x86)$")
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(i[3-6]86|x86|x86_64|AMD64)$" AND CMAKE_SIZEOF_VOID_P EQUAL 4)
     list(APPEND HALFLIT_VALUE_FLAGS -msse2 -mfpmath=sse)
     message(STATUS "halflit: 32-bit x86: compiled with -msse2 -mfpmath=sse, since x87's precision would change pixels")
 endif()
-list(APPEND HALFLIT_VALUE_FLAGS "SHELL:-include ${PROJECT_SOURCE_DIR}/sh/value_flags.hpp")
+list(APPEND HALFLIT_VALUE_FLAGS "SHELL:-include \"${PROJECT_SOURCE_DIR}/sh/value_flags.hpp\"")
 
 # Old libc++ lacks parts of the standard library.
 check_cxx_source_compiles("
@@ -29,7 +29,7 @@ int main() {
     return value == 1.5f ? 0 : 1;
 }" HALFLIT_LIBRARY_IS_WHOLE)
 if(NOT HALFLIT_LIBRARY_IS_WHOLE)
-    list(APPEND HALFLIT_VALUE_FLAGS "SHELL:-include ${PROJECT_SOURCE_DIR}/sh/missing_library.hpp")
+    list(APPEND HALFLIT_VALUE_FLAGS "SHELL:-include \"${PROJECT_SOURCE_DIR}/sh/missing_library.hpp\"")
 endif()
 
 # A compiler may ignore a flag without an error. So a small program is compiled as our sources are, and run where it can run; and its fused
@@ -76,6 +76,10 @@ if(NOT HALFLIT_VALUE_PROBE STREQUAL probe_key)
         set(probe_runs ON)
         execute_process(COMMAND ${CMAKE_CROSSCOMPILING_EMULATOR} ${probe_folder}/plain_probe RESULT_VARIABLE probe_result
             OUTPUT_VARIABLE probe_output)
+        if(NOT probe_result MATCHES "^-?[0-9]+$" AND CMAKE_CROSSCOMPILING)  # there is no emulator
+            set(probe_result 0)
+            set(probe_runs OFF)
+        endif()
     endif()
     if(NOT probe_result EQUAL 0)
         message(FATAL_ERROR "halflit: the compiler's arithmetic would change pixels: ${probe_output} (cmake/value_probe.cpp)")

@@ -6,5 +6,7 @@ set(CMAKE_C_COMPILER x86_64-w64-mingw32-gcc-posix)
 set(CMAKE_CXX_COMPILER x86_64-w64-mingw32-g++-posix)
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-static")  # programs need no library of the compiler beside them
 find_program(HALFLIT_WINE NAMES wine64 wine)
-set(CMAKE_CROSSCOMPILING_EMULATOR ${HALFLIT_WINE})
+if(HALFLIT_WINE)
+    set(CMAKE_CROSSCOMPILING_EMULATOR ${HALFLIT_WINE})
+endif()
 include(${CMAKE_CURRENT_LIST_DIR}/header_only.cmake)
