@@ -17,8 +17,8 @@ TimeLimit::Clock::time_point after(double seconds) {
 
 }  // namespace
 
-TimeLimit::TimeLimit(double seconds) : TimeLimit(after(seconds)) {}
-TimeLimit::TimeLimit(Clock::time_point end) : outer_(current_end) { current_end = std::min(outer_, end); }
+TimeLimit::TimeLimit(double seconds) : TimeLimit(std::min(current_end, after(seconds))) {}
+TimeLimit::TimeLimit(Clock::time_point end) : outer_(current_end) { current_end = end; }
 TimeLimit::~TimeLimit() { current_end = outer_; }
 TimeLimit::Clock::time_point TimeLimit::end() { return current_end; }
 

@@ -1,5 +1,6 @@
-// The time limit of a thread's work. Long loops of every layer ask whether it is over; who set the limit turns the exception into an error.
-// The limit belongs to the thread, so that loops need no parameter for it. Work that moves to other threads takes it along.
+// The time limit of a thread's work. Long loops call check_time(), which throws OutOfTime once the limit has passed. The function that set
+// the limit turns this into an error. The limit belongs to the thread, so that loops need no parameter for it. Work that moves to other
+// threads takes it along.
 #pragma once
 
 #include "halflit/export.hpp"
@@ -12,14 +13,14 @@ namespace halflit {
 /// Thrown by check_time().
 struct HALFLIT_API OutOfTime {};
 
-/// Limits the work of this thread from now on until its own end. Within another limit, the one that ends sooner holds.
+/// Sets a time limit for this thread while the object lives.
 class [[nodiscard]] TimeLimit {
 public:
     using Clock = std::chrono::steady_clock;
 
-    /// 0: no limit of its own.
+    /// Of nested limits the earlier one holds. 0: no limit of its own.
     HALFLIT_API explicit TimeLimit(double seconds);
-    /// `end`: of another thread's limit.
+    /// For work that began on another thread, with the end of its limit. It replaces this thread's limit, which may belong to other work.
     HALFLIT_API explicit TimeLimit(Clock::time_point end);
     HALFLIT_API ~TimeLimit();
     TimeLimit(const TimeLimit&) = delete;
@@ -55,7 +56,7 @@ template <class Less>
     };
 }
 
-/// What an error says of work that OutOfTime ended.
+/// Message of the error for work that OutOfTime ended.
 inline constexpr const char* kOutOfTime = "the time limit was reached before the work was done";
 
 }  // namespace halflit

@@ -147,6 +147,7 @@ private:
     }
 
     /// Refuses pictures that would overwrite a scene, or a file which one of the scenes refers to, there or not. Counts the scenes' bytes.
+    /// A scene whose files are not known within its time is not drawn.
     Result<void> spare_inputs() {
         std::map<FileId, std::string> there;           // pictures, and the report
         std::map<std::string, std::string> not_there;  // by their whole paths
@@ -165,7 +166,12 @@ private:
             const PictureOptions& picture = pictures_[i];
             std::uintmax_t& bytes = bytes_[i];
             if (!is_file(picture.scene)) continue;
-            std::vector<std::string> inputs = io::files_named_by(picture.scene, picture.timed_load());
+            auto files = io::files_named_by(picture.scene, picture.timed_load());
+            if (!files) {
+                unread_.emplace(i, files.error());
+                continue;
+            }
+            std::vector<std::string> inputs = *std::move(files);
             inputs.push_back(picture.scene);
             for (const std::string& input : inputs) {
                 bytes += bytes_of(input);
@@ -225,6 +231,7 @@ private:
 
     Outcome draw(std::size_t i) {
         PictureOptions& options = pictures_[i];
+        if (const auto unread = unread_.find(i); unread != unread_.end()) return failure(i, unread->second);
         if (options_.skip_existing && is_there(options.output)) {
             print_detail(options.output + " is there and was left alone");
             PictureFile there;
@@ -283,6 +290,7 @@ private:
     Permits permits_;
     std::vector<PictureOptions> pictures_;
     std::vector<std::uintmax_t> bytes_;           ///< of each scene, with the files that it refers to
+    std::map<std::size_t, Error> unread_;         ///< scenes whose files are not known
     std::mutex mutex_;                            ///< guards all below
     std::size_t next_ = 0, told_ = 0, step_ = 1;  ///< the shard's scenes are `step_` apart
     std::vector<std::optional<Outcome>> outcomes_;

@@ -13,6 +13,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <new>
 
@@ -76,7 +77,9 @@ Result<void> spare_inputs(const SheetOptions& options, const std::vector<std::st
     for (const std::string& scene : options.scenes) {
         if (!is_file(scene)) continue;
         inputs.push_back(scene);
-        for (std::string& file : io::files_named_by(scene, options.timed_load())) inputs.push_back(std::move(file));
+        auto files = io::files_named_by(scene, options.timed_load());
+        if (!files) return tl::unexpected(files.error());
+        std::move(files->begin(), files->end(), std::back_inserter(inputs));
     }
     for (const std::string& input : inputs)
         if (!input.empty() && is_file(input) && same_file(input, options.output))

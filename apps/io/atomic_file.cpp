@@ -134,14 +134,14 @@ int write_all(int fd, std::span<const std::uint8_t> bytes) {
     return 0;
 }
 
-/// A pipe by name is waited for while nobody reads it, but not for ever; then the error is ENXIO.
-int write_in_place(const std::string& path, std::span<const std::uint8_t> bytes) {
+/// Waits up to 10 s for a reader of a named pipe, then fails with ENXIO.
+int write_in_place(const std::string& path, std::span<const std::uint8_t> bytes, bool pipe) {
     constexpr int kTries = 500;
     constexpr timespec kBetween{0, 20'000'000};  // in all 10 s
     int fd = -1;
     for (int i = 0; i < kTries; ++i) {
         fd = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
-        if (fd >= 0 || errno != ENXIO) break;
+        if (fd >= 0 || errno != ENXIO || !pipe) break;
         (void)::nanosleep(&kBetween, nullptr);
     }
     if (fd < 0) return errno;
@@ -256,7 +256,7 @@ Result<void> write_file(const std::string& path, std::span<const std::uint8_t> b
     } else if (S_ISDIR(old.st_mode)) {
         error = EISDIR;
     } else if (!S_ISREG(old.st_mode)) {
-        error = write_in_place(path, bytes);
+        error = write_in_place(path, bytes, S_ISFIFO(old.st_mode));
         if (error == ENXIO && S_ISFIFO(old.st_mode)) return fail(ErrorCode::io, printable(path) + ": nobody reads this pipe (waited 10 s)");
     } else if (::access(path.c_str(), W_OK) != 0) {
         error = errno;  // a file that may not be written is not replaced either

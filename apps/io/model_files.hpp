@@ -1,6 +1,7 @@
 // The files that a model refers to.
 #pragma once
 
+#include "halflit/error.hpp"
 #include "halflit/gltf.hpp"
 
 #include <cstddef>
@@ -11,8 +12,8 @@
 namespace halflit::io {
 
 /// Paths at which the files may lie that the model at `path` refers to, drawn or not, there or not. Reads the model alone; empty if it
-/// cannot be read. Throws std::bad_alloc.
-[[nodiscard]] std::vector<std::string> files_named_by(const std::string& path, const LoadOptions& options);
+/// cannot be read. Errors: limit (the time of `options`). Throws std::bad_alloc.
+[[nodiscard]] Result<std::vector<std::string>> files_named_by(const std::string& path, const LoadOptions& options);
 /// The same of a glTF file's content. Throws LoadFailure.
 [[nodiscard]] std::vector<std::string> files_of_gltf(std::span<const std::byte> bytes, const std::string& base_dir,
                                                      const LoadOptions& options);

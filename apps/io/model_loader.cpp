@@ -6,6 +6,7 @@
 #include "apps/io/file_access.hpp"
 #include "apps/io/model_files.hpp"
 #include "apps/io/text.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -37,20 +38,20 @@ std::string io::folder_of(const std::string& path) {
     return slash == 0 ? "/" : path.substr(0, slash);
 }
 
-std::vector<std::string> io::files_named_by(const std::string& path, const LoadOptions& options) {
+Result<std::vector<std::string>> io::files_named_by(const std::string& path, const LoadOptions& options) {
     const TimeLimit limit(options.limits.time_limit_s);
     try {
         const auto bytes = read_file(path, options.limits.max_file_bytes);
         const auto format = bytes ? find_model_format(*bytes) : std::nullopt;
-        if (!format) return {};
+        if (!format) return std::vector<std::string>{};
         if (*format == ModelFormat::gltf || *format == ModelFormat::glb) return io::files_of_gltf(*bytes, folder_of(path), options);
         if (*format == ModelFormat::obj) return files_of_obj(*bytes, folder_of(path), options);
         if (*format == ModelFormat::ply) return files_of_ply(*bytes, folder_of(path), options);
-        return {};
+        return std::vector<std::string>{};
     } catch (const LoadFailure&) {
-        return {};
+        return std::vector<std::string>{};
     } catch (const OutOfTime&) {
-        return {};
+        return fail(ErrorCode::limit, printable(path) + ": " + kOutOfTime);
     }
 }
 

@@ -47,7 +47,7 @@ auto errors_of(const std::string& name, double time_limit_s, const Make& make) -
         } catch (const LoadFailure& failure) {
             return failed(failure.error.code, failure.error.message);
         } catch (const OutOfTime&) {
-            return failed(ErrorCode::limit, "the time limit was reached before the file was read");
+            return failed(ErrorCode::limit, kOutOfTime);
         } catch (const std::bad_alloc&) {
             return failed(ErrorCode::limit, "out of memory");
         } catch (const std::exception& error) {  // a decoder's, or the standard library's
