@@ -136,6 +136,7 @@ float light_scene(Scene& scene, const Bounds& bounds, const Camera& camera, cons
 }  // namespace
 
 Settings usual_settings() {
+    const FpEnvironment environment_of_host;
     const auto linear = [](int code) { return static_cast<float>(shading::linear_from_srgb(code / 255.0)); };
     Settings settings;
     settings.samples = 4;

@@ -62,6 +62,7 @@ public:
 class jthread : public thread {
 public:
     using thread::thread;
+    jthread() noexcept = default;
     jthread(jthread&&) = default;
     jthread& operator=(jthread&& other) noexcept {
         if (joinable()) join();

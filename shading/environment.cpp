@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <map>
 #include <new>
 #include <string>
@@ -108,9 +109,9 @@ namespace halflit {
 
 Result<std::shared_ptr<const Environment>> make_environment(EnvironmentImage image, const EnvironmentOptions& options) {
     const FpEnvironment environment_of_host;
-    constexpr std::size_t kMostPixels = std::size_t{1} << 29;
+    constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 29;
     if (image.width < 1 || image.height < 1) return fail(ErrorCode::bad_input, "environment: the image has no pixels");
-    const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height), expected = 3 * pixels;
+    const std::uint64_t pixels = static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height), expected = 3 * pixels;
     if (image.rgb.size() != expected)
         return fail(ErrorCode::bad_input, "environment: " + std::to_string(image.rgb.size()) + " values, expected " +
                                               std::to_string(expected) + " for " + std::to_string(image.width) + " x " +

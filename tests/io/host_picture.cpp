@@ -22,7 +22,7 @@ std::uint64_t HALFLIT_HOST(const std::string& path) {
     scene.meshes.push_back(shape);
     Instance part;
     part.mesh = static_cast<int>(scene.meshes.size()) - 1;
-    const float size = 0.2f * bounds.radius();
+    const float size = 0.25f * bounds.radius();
     part.world_from_object = translation(bounds.center()) * rotation(Vec3f{0.3f, 1.0f, 0.2f}, 0.7f) * scaling({size, size, size});
     scene.instances.push_back(part);
     const AutoSetup setup = auto_setup(scene, kSide, kSide);
