@@ -1,4 +1,5 @@
 // The floating-point environment and the compiler flags of a host change no pixel, from the file on.
+#include "halflit/auto_setup.hpp"
 #include "halflit/image.hpp"
 #include "tests/io/host_picture.hpp"
 #include "tests/io/rich_file.hpp"
@@ -8,13 +9,13 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <cfenv>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <map>
 #include <string>
+#include <system_error>
 #include <vector>
 #if defined(__SSE__)
 #include <xmmintrin.h>
@@ -23,10 +24,17 @@
 namespace halflit::test {
 namespace {
 
-/// Twenty models: those of the assets if they are here, and one of the test's own.
+/// Up to 21 models: those of the assets if they are here, and one of the test's own.
 std::vector<std::string> models() {
-    const std::filesystem::path own =
-        std::filesystem::temp_directory_path() / ("halflit_host_flags_" + std::to_string(::getpid()) + ".glb");  // tests run side by side
+    static const struct OwnFile {
+        std::filesystem::path path = std::filesystem::temp_directory_path() /
+                                     ("halflit_host_flags_" + std::to_string(::getpid()) + ".glb");  // tests run side by side
+        ~OwnFile() {
+            std::error_code ignored;
+            std::filesystem::remove(path, ignored);
+        }
+    } file_of_test;
+    const std::filesystem::path& own = file_of_test.path;
     const Bytes file = rich_file();
     std::ofstream(own, std::ios::binary).write(reinterpret_cast<const char*>(file.data()), static_cast<std::streamsize>(file.size()));
     std::vector<std::string> paths{own.string()};
@@ -91,6 +99,21 @@ TEST_CASE("host: an environment's picture is the same in every rounding mode", "
         const double found = level();
         std::fesetenv(&before);
         CHECK(found == expected);
+    }
+}
+
+TEST_CASE("host: the usual settings are the same in every rounding mode", "[io][host]") {
+    const Settings expected = usual_settings();
+    for (const Mode& mode : modes()) {
+        INFO(mode.name);
+        std::fenv_t before;
+        std::fegetenv(&before);
+        mode.set();
+        const Settings found = usual_settings();
+        std::fesetenv(&before);
+        CHECK(found.background_linear.x == expected.background_linear.x);
+        CHECK(found.background_linear.y == expected.background_linear.y);
+        CHECK(found.background_linear.z == expected.background_linear.z);
     }
 }
 

@@ -2,6 +2,7 @@
 #include "halflit/renderer.hpp"
 #include "halflit/shapes.hpp"
 #include "raster/detail/executor.hpp"
+#include "sh/time_limit.hpp"
 #include "tests/raster/test_scenes.hpp"
 #include "tests/support/isas.hpp"
 
@@ -194,6 +195,23 @@ TEST_CASE("execution: an item runs once, however often the host's loop asks", "[
     std::vector<int> runs(10);
     CHECK_THROWS(executor.run(10, [&](int i) { ++runs.at(static_cast<std::size_t>(i)); }));
     CHECK(runs == std::vector<int>(10, 1));
+}
+
+TEST_CASE("execution: a host's thread that waits within one render may run tiles of another, which keep their own limit",
+          "[raster][execution]") {
+    raster::Executor executor;
+    executor.configure({.threads = 1, .parallel_for = [](int count, const std::function<void(int)>& body) {
+                            const TimeLimit of_another_render(1e-9);
+                            for (int i = 0; i < count; ++i) body(i);
+                        }});
+    int done = 0;
+    CHECK_NOTHROW(executor.run(4, [&](int) {
+        check_time();
+        ++done;
+    }));
+    CHECK(done == 4);
+    const TimeLimit own(1e-9);
+    CHECK_THROWS_AS(executor.run(4, [](int) { check_time(); }), OutOfTime);
 }
 
 TEST_CASE("execution: a function of the host that throws ends the frame with an error, and no exception leaves", "[raster][execution]") {
