@@ -1,4 +1,4 @@
-// Google Benchmark's word for a run that failed, which is another one from version 1.8 on.
+// True if a run of Google Benchmark failed. The member was renamed in version 1.8.
 #pragma once
 
 namespace halflit::bench {

@@ -55,7 +55,7 @@ macro(halflit_find_by_pkg-config module)
         if(NOT version)
             set(version "${${name}_${module}_VERSION}")  # of several modules
         endif()
-        list(TRANSFORM ${name}_LIBRARIES PREPEND -l OUTPUT_VARIABLE flags)
+        set(flags ${${name}_LDFLAGS})
         if(TARGET ${target})
             # Some modules give folders relative to a prefix that they do not name (Draco's in Debian 13).
             get_target_property(folders ${target} INTERFACE_INCLUDE_DIRECTORIES)

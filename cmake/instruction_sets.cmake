@@ -44,7 +44,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     if(HALFLIT_HAS_MOVE_MAX)
         list(APPEND HALFLIT_FLAGS_avx2 -mmove-max=256)
         list(APPEND HALFLIT_FLAGS_avx512 -mmove-max=512)
-        if(CMAKE_CXX_COMPILER_VERSION VERSION_LESS 16)  # from then on it means the other
+        if(CMAKE_CXX_COMPILER_VERSION VERSION_LESS 16)  # from 16 on -mmove-max sets both
             list(APPEND HALFLIT_FLAGS_avx2 -mstore-max=256)
             list(APPEND HALFLIT_FLAGS_avx512 -mstore-max=512)
         endif()

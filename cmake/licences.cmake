@@ -1,6 +1,6 @@
-# Writes the licences of the libraries of others that a bundle holds: those in its folder, and those that are compiled in.
+# Writes the licences of the libraries that a bundle holds: the shared ones in its folder, and those that are compiled in.
 #   cmake -DBUNDLE=folder with shared libraries -DINTO=folder -DDEPENDENCIES=dependencies.cmake -P licences.cmake
-# Debian's packages have their licences in /usr/share/doc. Elsewhere the list of libraries is written, for who makes the bundle to fill in.
+# Debian's packages have their licences in /usr/share/doc. Elsewhere a warning names the libraries whose licences are missing.
 include(${DEPENDENCIES})
 set(packages "")
 set(unknown "")

@@ -22,8 +22,10 @@ TimeLimit::TimeLimit(Clock::time_point end) : outer_(current_end) { current_end 
 TimeLimit::~TimeLimit() { current_end = outer_; }
 TimeLimit::Clock::time_point TimeLimit::end() { return current_end; }
 
+bool time_is_over() { return current_end != kNever && TimeLimit::Clock::now() >= current_end; }
+
 void check_time() {
-    if (current_end != kNever && TimeLimit::Clock::now() >= current_end) throw OutOfTime{};
+    if (time_is_over()) throw OutOfTime{};
 }
 
 }  // namespace halflit

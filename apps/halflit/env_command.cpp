@@ -162,7 +162,7 @@ Command env_command() {
             {{"Flags",
               {{"--bands", "N", "Number of bands to list, 1 to 10 (default 10)", read_int(o.bands, 1, sh::kMaxBands)},
                {"--json", "", "Print one JSON object", set_to(o.json)},
-               timeout_flag(o.timeout_s, "Stop what is not described by then, with exit code 5")}}},
+               timeout_flag(o.timeout_s, "Stop with exit code 5 if the description takes longer")}}},
             [options] { return run_env(*options); }};
 }
 

@@ -4,6 +4,7 @@
 #include "apps/halflit/file_names.hpp"
 #include "apps/halflit/messages.hpp"
 #include "apps/halflit/render_line.hpp"
+#include "apps/halflit/run_report.hpp"
 #include "apps/halflit/spelling.hpp"
 #include "apps/halflit/text_file.hpp"
 
@@ -129,7 +130,7 @@ std::string kubernetes_text(const Divided& run) {
                      {"parallelism", std::min<std::int64_t>(run.shards, 10)},
                      {"completionMode", "Indexed"},
                      {"template", {{"spec", pod}}}}}};
-    return job.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return to_text(job);
 }
 
 std::string text_of(const Divided& run, std::string_view form) {

@@ -2,7 +2,9 @@
 
 #include "apps/halflit/messages.hpp"
 #include "apps/halflit/plan_names.hpp"
+#include "apps/io/text.hpp"
 #include "halflit/version.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -64,11 +66,17 @@ void append_lines(std::string& text, const std::string& label, const Json& value
             if (!item.is_string()) return item.dump();
             return item.get<std::string>().empty() ? std::string("(no name)") : item.get<std::string>();
         };
-        for (const Json& item : value) list += (list.empty() ? "" : ", ") + shown(item);
+        for (const Json& item : value) {
+            check_time();
+            list += (list.empty() ? "" : ", ") + shown(item);
+        }
         text += fmt::format("{}{}: {}\n", indent, label, list.empty() ? "none" : printable(list));
     } else if (value.is_structured()) {
         text += fmt::format("{}{}:\n", indent, label);
-        for (const auto& [key, item] : value.items()) append_lines(text, key, item, depth + 1);
+        for (const auto& [key, item] : value.items()) {
+            check_time();
+            append_lines(text, key, item, depth + 1);
+        }
     } else {
         text += fmt::format("{}{}: {}\n", indent, label, value.is_string() ? printable(value.get<std::string>()) : value.dump());
     }
@@ -151,7 +159,7 @@ Json environment_use_json(const EnvironmentUse& use, const Settings& settings) {
 }
 
 std::string to_text(const Json& json, bool one_line) {
-    return json.dump(one_line ? -1 : 2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return io::display_safe_json(json.dump(one_line ? -1 : 2, ' ', false, Json::error_handler_t::replace)) + "\n";
 }
 
 std::string to_lines(const Json& json) {

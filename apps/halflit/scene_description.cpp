@@ -4,6 +4,7 @@
 #include "apps/halflit/run_report.hpp"
 #include "raster/frame_plan.hpp"
 #include "raster/scene/mesh_topology.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -39,28 +40,42 @@ std::string_view name_of(AlphaMode mode) {
     return "";
 }
 
+Json names_json(const std::vector<std::string>& names) {
+    Json list = Json::array();
+    for (const std::string& name : names) {
+        check_time();
+        list.push_back(name);
+    }
+    return list;
+}
+
 Json file_json(const SceneInfo& file) {
-    return {{"format", file.format},
-            {"version", file.version},
-            {"generator", file.generator},
-            {"scenes", file.scenes},
-            {"scene_names", file.scene_names},
-            {"scene", file.scene < 0 ? Json() : Json(file.scene)},
-            {"variants", file.variants},
-            {"nodes", file.nodes},
-            {"meshes", file.meshes},
-            {"primitives", file.primitives},
-            {"materials", file.materials},
-            {"textures", file.textures},
-            {"images", file.images},
-            {"cameras", file.cameras},
-            {"lights", file.lights},
-            {"animations", file.animations},
-            {"skins", file.skins},
-            {"morph_targets", file.morph_targets},
-            {"point_and_line_primitives", file.point_and_line_primitives},
-            {"extensions_used", file.extensions_used},
-            {"extensions_required", file.extensions_required}};
+    Json json{{"format", file.format},
+              {"version", file.version},
+              {"generator", file.generator},
+              {"scenes", file.scenes},
+              {"scene_names", Json::array()},
+              {"scene", file.scene < 0 ? Json() : Json(file.scene)},
+              {"variants", Json::array()},
+              {"nodes", file.nodes},
+              {"meshes", file.meshes},
+              {"primitives", file.primitives},
+              {"materials", file.materials},
+              {"textures", file.textures},
+              {"images", file.images},
+              {"cameras", file.cameras},
+              {"lights", file.lights},
+              {"animations", file.animations},
+              {"skins", file.skins},
+              {"morph_targets", file.morph_targets},
+              {"point_and_line_primitives", file.point_and_line_primitives},
+              {"extensions_used", Json::array()},
+              {"extensions_required", Json::array()}};
+    json["scene_names"] = names_json(file.scene_names);
+    json["variants"] = names_json(file.variants);
+    json["extensions_used"] = names_json(file.extensions_used);
+    json["extensions_required"] = names_json(file.extensions_required);
+    return json;
 }
 
 Json counts_json(const Scene& scene) {
@@ -197,7 +212,8 @@ Result<Json> plan_json(const RenderJob& job) {
 
 Result<std::string> describe_scene(const RenderJob& job, bool json) {
     const Scene& scene = job.scene();
-    Json description{{"scene", job.source.name}};
+    Json description = json ? report_head("info") : Json::object();
+    description["scene"] = job.source.name;
     if (job.source.file) description["file"] = file_json(*job.source.file);
     description["drawn"] = counts_json(scene);
     const Bounds& bounds = job.prepared->bounds();
@@ -206,8 +222,10 @@ Result<std::string> describe_scene(const RenderJob& job, bool json) {
     for (const Camera& camera : scene.cameras) cameras.push_back(camera.name);
     description["cameras"] = std::move(cameras);
     Json animations = Json::array();
-    for (const AnimationInfo& animation : job.source.animations)
+    for (const AnimationInfo& animation : job.source.animations) {
+        check_time();
         animations.push_back({{"name", animation.name}, {"end_s", animation.end_s}, {"channels", animation.channels}});
+    }
     description["animations"] = std::move(animations);
     if (job.animation() != nullptr) description["pose"] = pose_json(job);
     description["size"] = {job.width, job.height};
@@ -219,12 +237,7 @@ Result<std::string> describe_scene(const RenderJob& job, bool json) {
     if (!plan) return tl::unexpected(plan.error());
     description.update(*plan);
     description["warnings"] = job.warnings;
-    if (json) {
-        Json report = report_head("info");
-        report.update(description);
-        return to_text(report);
-    }
-    return to_lines(description);
+    return json ? to_text(description) : to_lines(description);
 }
 
 Result<std::string> describe_plan(const RenderJob& job) {

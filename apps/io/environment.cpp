@@ -4,14 +4,12 @@
 #include "apps/io/file_access.hpp"
 #include "apps/io/float_image.hpp"
 #include "apps/io/text.hpp"
-#include "sh/fp_environment.hpp"
 
 namespace halflit {
 
 using namespace io;
 
 Result<EnvironmentImage> read_environment(const std::string& path, const EnvironmentLimits& limits) {
-    const FpEnvironment environment_of_host;
     return io::detail::errors_of(path, limits.time_limit_s, [&]() -> Result<EnvironmentImage> {
         const auto file = read_file(path, limits.max_file_bytes);
         if (!file) return tl::unexpected(file.error());

@@ -1,5 +1,10 @@
 #include "apps/io/text.hpp"
 
+#include "sh/time_limit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 
@@ -89,6 +94,27 @@ std::string printable(std::string_view text, std::size_t max_bytes) {
         }
     }
     if (text.size() > shown.size()) out += "...";
+    return out;
+}
+
+std::string display_safe_json(std::string_view json) {
+    const auto add_unit = [](std::string& out, unsigned unit) { out += fmt::format("\\u{:04x}", unit); };
+    std::string out;
+    TimeCheck check;
+    for (std::size_t at = 0, end = 0; at < json.size(); at = end) {
+        check();
+        const int length = std::max(1, utf8_sequence(json, at));
+        end = at + static_cast<std::size_t>(length);
+        const unsigned code = length == 1 ? byte_at(json, at) : code_point(json, at, length);
+        if (code < 0x7F || !changes_display(code)) {  // JSON escapes the controls of ASCII but DEL
+            out.append(json, at, end - at);
+        } else if (code < 0x10000) {
+            add_unit(out, code);
+        } else {
+            add_unit(out, 0xD7C0 + (code >> 10));
+            add_unit(out, 0xDC00 + (code & 0x3FF));
+        }
+    }
     return out;
 }
 

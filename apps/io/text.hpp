@@ -10,6 +10,9 @@ namespace halflit::io {
 /// Control characters, DEL, the C1 controls and bytes that are not UTF-8 become \xNN; at most `max_bytes` of the source are shown.
 [[nodiscard]] std::string printable(std::string_view text, std::size_t max_bytes = 200);
 
+/// JSON text, valid UTF-8, with what printable() escapes beyond ASCII as \uNNNN: the same JSON value.
+[[nodiscard]] std::string display_safe_json(std::string_view json);
+
 /// Number of bytes of the UTF-8 sequence at text[at], or 0 where there is none (overlong forms and surrogates included).
 [[nodiscard]] int utf8_sequence(std::string_view text, std::size_t at);
 

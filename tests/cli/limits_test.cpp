@@ -87,6 +87,30 @@ TEST_CASE("limits: --timeout is kept while an environment is read and analysed",
     }
 }
 
+TEST_CASE("limits: --timeout is kept among many names of a model", "[cli][slow]") {
+    const TemporaryFolder folder;
+    const auto list = [](std::size_t count, const char* each) {
+        std::string text;
+        for (std::size_t i = 0; i < count; ++i) text += each + std::to_string(i);
+        return text;
+    };
+    const std::string head = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{}],"extensionsUsed":["a)";
+    for (const auto& [name, text] :
+         {std::pair{"libraries.obj", "mtllib" + list(1'000'000, " a") + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
+          {"extensions.gltf", head + list(2'000'000, "\",\"e") + "\"]}"}}) {
+        INFO(name);
+        const std::string model = folder.file(name);
+        std::ofstream(model, std::ios::binary) << text;
+        for (const bool described : {false, true}) {
+            const auto start = std::chrono::steady_clock::now();
+            const Outcome outcome = described ? run({"info", model, "--json", "--timeout", "0.3"})
+                                              : run({model, "--timeout", "0.3", "--size", "64", "-o", folder.file("a.png")});
+            CHECK(outcome.code == 5);
+            CHECK(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < 3.0);
+        }
+    }
+}
+
 TEST_CASE("limits: an environment takes little more memory than its picture", "[cli][slow]") {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     HALFLIT_SKIP("sanitizers take terabytes of addresses");

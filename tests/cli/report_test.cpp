@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
 
 using namespace halflit::test;
 
@@ -251,4 +252,25 @@ TEST_CASE("render: a lobe out of range is refused with the reason, a power below
     const Outcome warned = run({"render", "sphere:500", "--size", "8x8", "-o", folder.file("a.png"), "--power", "0.5"});
     CHECK(warned.code == 0);
     CHECK(warned.err.find("warning: power 0.5: below 1 the curve has an infinite slope at its boundary") != std::string::npos);
+}
+
+TEST_CASE("report: what a name's characters do to a terminal is escaped in JSON, and the name stays the same", "[cli][report]") {
+    const TemporaryFolder folder;
+    const std::string model = folder.file("named.gltf");
+    const std::string name =
+        "a\xE2\x80\xAE"
+        "b\xC2\x9B"
+        "c\xF3\xA0\x81\x81"
+        "d\x7F\xC3\xA9";  // U+202E, U+009B, U+E0041, DEL, e acute
+    std::ofstream(model, std::ios::binary)
+        << R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"camera":0}],"cameras":[{"name":")" << name
+        << R"(","type":"perspective","perspective":{"yfov":1,"znear":0.1}}]})";
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"info", model, "--json"}, {model, "--size", "16", "-o", folder.file("a.png"), "--report", "-"}}) {
+        const Outcome outcome = run(arguments);
+        INFO(outcome.out << outcome.err);
+        CHECK(outcome.code == 0);
+        for (const char* raw : {"\xE2\x80\xAE", "\xC2\x9B", "\xF3\xA0", "\x7F"}) CHECK(outcome.out.find(raw) == std::string::npos);
+        if (arguments[0] == "info") CHECK(nlohmann::json::parse(outcome.out)["cameras"][0] == name);
+    }
 }

@@ -12,7 +12,7 @@
 namespace halflit::io::detail {
 namespace {
 
-/// Numbers of indices with this value, over all members of the file.
+/// Number of indices with this value among all members of the file.
 int count_indices(const nlohmann::json& scene, int value) {
     const std::string text = scene.dump();
     Notes notes;

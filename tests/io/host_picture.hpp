@@ -1,4 +1,4 @@
-// What a host does from a file to pixels, by the public interface alone. Compiled twice: by the project's flags, and by -Ofast.
+// Draws a model as a host does, with the public interface alone. Compiled twice: with the project's flags, and with -Ofast.
 #pragma once
 
 #include <cstdint>

@@ -3,18 +3,11 @@
 #   cross.sh ARCH FILTER     FILTER: the tests of shading that depend on the machine
 set -euo pipefail
 arch=$1 filter=$2 io=ON
-case $arch in
-arm64) triplet=aarch64-linux-gnu qemu=aarch64 ;;
-armhf) triplet=arm-linux-gnueabihf qemu=arm ;;
-i386) triplet=i686-linux-gnu qemu=i386 ;;
-ppc64el) triplet=powerpc64le-linux-gnu qemu=ppc64le ;;
-riscv64) triplet=riscv64-linux-gnu qemu=riscv64 io=OFF ;;  # Debian 12 has no libraries for it
-s390x) triplet=s390x-linux-gnu qemu=s390x ;;
-*)
-    echo "cross.sh: expected arm64, armhf, i386, ppc64el, riscv64 or s390x, found '$arch'" >&2
+read -r triplet qemu < <(sed -n "s/^ *\"$arch  *\([^ ]*\)  *[^ ]*  *\([a-z0-9]*\).*/\1 \2/p" /halflit/cmake/cross.cmake) || {
+    echo "cross.sh: expected an architecture of cmake/cross.cmake, found '$arch'" >&2
     exit 2
-    ;;
-esac
+}
+[ "$arch" != riscv64 ] || io=OFF  # Debian 12 has no libraries for it
 libraries=()
 if [ $io = ON ]; then
     dpkg --add-architecture "$arch"
@@ -27,7 +20,7 @@ if [ $io = ON ]; then
 fi
 apt-get update -qq
 apt-get install -y -qq --no-install-recommends cmake ninja-build ccache pkg-config libxsimd-dev libexpected-dev nlohmann-json3-dev libstb-dev \
-    libcli11-dev libtinygltf-dev catch2 qemu-user g++ "g++-${triplet//_/-}" "${libraries[@]}" >/dev/null
+    libcli11-dev libtinygltf-dev catch2 qemu-user g++ "g++-$triplet" "${libraries[@]}" >/dev/null
 emulator=(qemu-$qemu)
 [ $io = ON ] || emulator+=(-L /usr/$triplet)
 cmake -S /halflit -B "/build/$arch" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_TOOLCHAIN_FILE=/halflit/cmake/cross.cmake \

@@ -2,6 +2,7 @@
 
 #include "apps/io/detail/gltf_animation.hpp"
 #include "apps/io/text.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -65,7 +66,9 @@ void choose_scene(Document& document) {
     file::File& file = document.file;
     std::vector<std::string>& names = document.info.scene_names;
     document.geometry.take(file.scenes.size() * sizeof(std::string));
+    TimeCheck check;
     for (const file::Scene& scene : file.scenes) {
+        check();
         document.geometry.take(scene.name.size());
         names.emplace_back(scene.name);
     }

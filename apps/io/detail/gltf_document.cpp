@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 #include <utility>
 
 namespace halflit::io::detail {
@@ -90,8 +91,16 @@ void fill_info(Document& document, std::span<const std::byte> bytes) {
     info.cameras = file.cameras.size();
     info.lights = file.lights.size();
     info.morph_targets = file.morph_targets;
-    for (const std::string_view name : file.extensions_used) info.extensions_used.push_back(printable(name, 80));
-    for (const std::string_view name : file.extensions_required) info.extensions_required.push_back(printable(name, 80));
+    const auto list = [](const std::vector<std::string_view>& names, std::vector<std::string>& shown) {
+        std::set<std::string_view> seen;
+        TimeCheck check;
+        for (const std::string_view name : names) {
+            check();
+            if (seen.insert(name).second) shown.push_back(printable(name, 80));
+        }
+    };
+    list(file.extensions_used, info.extensions_used);
+    list(file.extensions_required, info.extensions_required);
 }
 
 JsonScanLimits scan_limits(const LoadOptions& options) { return {options.limits.max_json_depth, options.limits.max_json_tokens}; }

@@ -1,6 +1,6 @@
 // Contents of a glTF file, as the loader needs them: one struct for each kind of object, with names and defaults of the glTF 2.0 schema.
-// An index of -1 means "not there". Filled by read_gltf_json, which checks every type, range and index: an index that is out of range, and
-// noted, becomes -1.
+// An index of -1 means "not there". Filled by read_gltf_json, which checks every type, range and index. An index that is out of range
+// becomes -1 if it is not refused.
 #pragma once
 
 #include "apps/io/detail/gltf_transform.hpp"

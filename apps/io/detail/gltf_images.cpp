@@ -34,14 +34,12 @@ Texture checkerboard(ColorSpace space) {
 
 /// Makes a texture from rows as they are decoded.
 struct TextureRows : RowSink {
-    const Document& document;
     TextureBuilder builder;
     ColorSpace space;
     Texture palette;                 ///< 256 x 1 texels, once it is known
     std::vector<std::uint16_t> row;  ///< of colours of the palette
 
-    TextureRows(const Document& of_picture, TextureBuilder made, ColorSpace of)
-        : document(of_picture), builder(std::move(made)), space(of) {}
+    TextureRows(TextureBuilder made, ColorSpace of) : builder(std::move(made)), space(of) {}
     void add_row(const std::uint8_t* rgba8) override {
         check_time();
         builder.add_row(rgba8, space);
@@ -149,7 +147,7 @@ void ImageStore::replace(int texture, ColorSpace space, const LoadFailure& failu
 Texture ImageStore::make(const Job& job) const {
     check_time();
     const LoadLimits& limits = document_.options.limits;
-    TextureRows rows(document_, take(TextureBuilder::make(job.width, job.height, job.rule), job.where), job.space);
+    TextureRows rows(take(TextureBuilder::make(job.width, job.height, job.rule), job.where), job.space);
     take(decode_rows(job.bytes, {limits.max_texture_side, limits.max_texture_pixels, limits.max_jpeg_scans}, job.keep_16_bits, rows),
          job.where);
     return rows.builder.finish();

@@ -6,6 +6,7 @@
 #include "apps/io/detail/gltf_versions.hpp"
 #include "apps/io/detail/json_place.hpp"
 #include "apps/io/text.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -75,7 +76,7 @@ public:
     }
 
     /// Called after the scan, when the lengths of all arrays are known. Afterwards no member of the file has an index that is out of range,
-    /// whatever was said of it.
+    /// whether its fault was refused, noted or ignored.
     void check_indices() {
         for (const Index& index : indices_) {
             const std::size_t count = count_of(index.target, file_);
@@ -90,7 +91,9 @@ public:
                 throw JsonFault{ErrorCode::bad_input, index.offset, std::move(what)};  // the graph of the nodes is walked as a whole
             filler_.fault(index.offset, std::move(what));
         }
+        TimeCheck check;
         for_each_index(file_, [&](Target target, int& index) {
+            check();
             if (index >= 0 && static_cast<std::size_t>(index) >= count_of(target, file_)) index = -1;
         });
     }

@@ -1,6 +1,7 @@
 #include "apps/io/detail/gltf_nodes.hpp"
 
 #include "apps/io/detail/gltf_node_transform.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -18,7 +19,9 @@ std::span<const int> children_of(const file::File& file, std::size_t node) {
 
 std::vector<int> find_parents(const file::File& file) {
     std::vector<int> parent(file.nodes.size(), -1);
+    TimeCheck check;
     for (std::size_t i = 0; i < file.nodes.size(); ++i) {
+        check();
         for (const int child : children_of(file, i)) {
             int& found = parent[static_cast<std::size_t>(child)];
             if (static_cast<std::size_t>(child) == i) refuse(fmt::format("nodes[{}].children", i), "the node is its own child");
@@ -36,7 +39,9 @@ void append_trees(const file::File& file, const std::vector<int>& roots, std::ve
     std::vector<int> open;
     for (auto root = roots.rbegin(); root != roots.rend(); ++root)
         if (static_cast<std::size_t>(*root) < seen.size()) open.push_back(*root);  // others are faults already
+    TimeCheck check;
     while (!open.empty()) {
+        check();
         const int node = open.back();
         open.pop_back();
         if (seen[static_cast<std::size_t>(node)]) continue;
@@ -91,7 +96,9 @@ NodeTree walk_nodes(Document& document) {
 void place_nodes(const file::File& file, NodeTree& tree) {
     tree.world_from_node.resize(file.nodes.size());
     tree.hidden.clear();
+    TimeCheck check;
     for (const int i : tree.order) {
+        check();
         const auto node = static_cast<std::size_t>(i);
         const Affine local = local_transform(file, node);
         const int parent = tree.parent[node];
@@ -115,7 +122,9 @@ std::vector<Node> make_nodes(Document& document, const NodeTree& tree) {
     const file::File& file = document.file;
     document.geometry.take(file.nodes.size() * sizeof(Node));
     std::vector<Node> nodes(file.nodes.size());
+    TimeCheck check;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
+        check();
         document.geometry.take(file.nodes[i].name.size());
         nodes[i].name = file.nodes[i].name;
         nodes[i].parent = tree.parent[i];

@@ -51,7 +51,7 @@ struct SchemaNode {
     bool required = false;  ///< within its parent object
     bool closed = false;    ///< an object that refuses keys outside `members`
     bool mild = false;      ///< nothing that is drawn depends on it: a wrong type or index is warned of
-    Reads reads = nullptr;  ///< of a member with a free name: the names that are read; what others have is as mild. Null: all
+    Reads reads = nullptr;  ///< of a member with a free name: which names are read. A fault in any other is mild. Null: all are
     bool ranged = false;    ///< `range` restricts the value
     Range range;
     std::size_t length = 0;  ///< elements of an array; 0: any number

@@ -5,6 +5,7 @@
 #include "apps/io/detail/load_failure.hpp"
 #include "apps/io/image_reader.hpp"
 #include "apps/io/text.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -107,7 +108,9 @@ void check_versions(const file::File& file) {
             refuse("asset.minVersion", fmt::format("the file needs glTF {}, expected at most 2.0", printable(file.min_version, 20)));
     }
     if (version->first != 2) refuse("asset.version", fmt::format("expected glTF 2, found \"{}\"", printable(file.version, 20)));
+    TimeCheck check;
     for (const std::string_view name : file.extensions_required) {
+        check();
         if (is_supported(name)) continue;
         std::string hint;
         if (const Decoder* decoder = decoder_of(name))
@@ -119,8 +122,14 @@ void check_versions(const file::File& file) {
 
 void check_extensions(Document& document) {
     const file::File& file = document.file;
-    const std::set<std::string_view> used(file.extensions_used.begin(), file.extensions_used.end());
+    TimeCheck check;
+    std::set<std::string_view> used;
+    for (const std::string_view name : file.extensions_used) {
+        check();
+        used.insert(name);
+    }
     for (const std::string_view name : used) {
+        check();
         if (is_supported(name)) continue;
         const auto* known =
             std::find_if(std::begin(kLeftOut), std::end(kLeftOut), [&](const LeftOut& row) { return row.extension == name; });
@@ -128,7 +137,7 @@ void check_extensions(Document& document) {
                                                   : fmt::format("extensionsUsed: {} is not known, ignored", printable(name, 80)));
     }
     for (std::size_t i = 0; i < file.extensions_required.size(); ++i)
-        if (!used.contains(file.extensions_required[i]))
+        if (check(); !used.contains(file.extensions_required[i]))
             document.warn(fmt::format("extensionsRequired[{}]: {} is not in extensionsUsed, read as if it were", i,
                                       printable(file.extensions_required[i], 80)));
 }

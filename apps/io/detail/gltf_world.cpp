@@ -56,8 +56,8 @@ std::vector<Affine> instance_transforms(const NodeTree& tree, const LoadedScene&
     return out;
 }
 
-/// A view leaves out a few vertices far away from all others. Where they are this many times as far from the origin as the vertex in the
-/// middle of all, no scale of the scene keeps both within float32: their triangles are not drawn.
+/// A vertex is a stray if it lies this many times farther from the origin than the mesh's median vertex: no scale of the scene keeps both
+/// within float32. Triangles of strays are not drawn.
 constexpr double kTooFar = 0x1p40;
 
 void leave_out_strays(Document& document, Scene& scene) {
@@ -78,7 +78,8 @@ void leave_out_strays(Document& document, Scene& scene) {
     }
     if (count > 0)
         document.warn(fmt::format(
-            "{} vertices lie more than 1e12 times as far away as the others of their mesh: their triangles are not drawn", count));
+            "{} vertices lie more than 1e12 times farther from the origin than their mesh's median vertex: their triangles are not drawn",
+            count));
 }
 
 }  // namespace

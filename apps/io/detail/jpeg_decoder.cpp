@@ -65,7 +65,7 @@ struct Decoder {
         progress.progress_monitor = [](j_common_ptr common) {
             auto* self = static_cast<Decoder*>(common->client_data);
             self->too_many_scans = self->info.input_scan_number > self->max_scans;
-            self->out_of_time = TimeLimit::Clock::now() >= TimeLimit::end();
+            self->out_of_time = time_is_over();
             if (!self->too_many_scans && !self->out_of_time) return;
             std::longjmp(self->escape, 1);
         };

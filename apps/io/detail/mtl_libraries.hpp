@@ -4,6 +4,7 @@
 #include "apps/io/detail/model_text.hpp"
 #include "apps/io/detail/mtl.hpp"
 #include "apps/io/text.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -55,6 +56,7 @@ public:
 private:
     /// Reads a library; false where it cannot be read, of which it warns unless `quietly`.
     bool read(std::string_view name, bool quietly) {
+        check_time();
         Document& document = builder_.document();
         builder_.add_file(name);
         const auto bytes = document.folder.read(ModelBuilder::file_name(name), document.options.limits.max_file_bytes);

@@ -1,7 +1,6 @@
 // Polygons cut into triangles.
 #pragma once
 
-#include "apps/io/detail/gltf_document.hpp"
 #include "halflit/math.hpp"
 
 #include <cstdint>

@@ -2,7 +2,6 @@
 // meshes, whose vertices have one index each.
 #pragma once
 
-#include "apps/io/detail/gltf_document.hpp"
 #include "halflit/mesh.hpp"
 
 #include <cstdint>

@@ -1,5 +1,7 @@
 #include "apps/io/detail/xml_reader.hpp"
 
+#include "apps/io/detail/load_failure.hpp"
+
 #include "apps/io/text.hpp"
 #include "sh/time_limit.hpp"
 

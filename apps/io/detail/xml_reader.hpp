@@ -1,8 +1,5 @@
 // XML read by expat: elements in their order, with their attributes. No document type declaration is accepted, so there are no entities.
 #pragma once
-
-#include "apps/io/detail/gltf_document.hpp"
-
 #include <cstddef>
 #include <span>
 #include <string>

@@ -102,7 +102,7 @@ struct SceneInfo {
     int scene = -1;                             ///< the scene that is drawn; -1: the file has none, all nodes are drawn
     std::vector<std::string> variants;          ///< names of KHR_materials_variants
     std::vector<std::string> files;             ///< where files may lie that the model refers to, drawn or not, there or not
-    /// Names, as the file lists them.
+    /// Names in the file's order, each once.
     std::vector<std::string> extensions_used;
     /// Those without which the file must not be drawn.
     std::vector<std::string> extensions_required;
