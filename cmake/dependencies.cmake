@@ -2,7 +2,7 @@
 # the names of Debian's packages from it.
 #   halflit_find(NAME)               sets NAME_found, NAME_target, NAME_flags (for the linker), and NAME_problem, a sentence, where it is
 #                                    not found or too old
-#   halflit_need(NAMES...)           the same; ends the configuration where it is not found
+#   halflit_need(NAMES...)           the same; ends the configuration where one is not found, with halflit_need_note
 #   halflit_want(NAME "what goes")   the same; says what is left out where it is not found
 
 # HOW is one of
@@ -112,16 +112,21 @@ function(halflit_find name)
     set(${name}_found OFF PARENT_SCOPE)
     if(NOT problem)
         set(${name}_found ON PARENT_SCOPE)
+        set_property(GLOBAL APPEND PROPERTY HALFLIT_LIBRARIES ${name})
     endif()
 endfunction()
 
 macro(halflit_need)
+    set(halflit_problems "")
     foreach(halflit_library IN ITEMS ${ARGN})
         halflit_find(${halflit_library})
         if(${halflit_library}_problem)
-            message(FATAL_ERROR "halflit: ${${halflit_library}_problem}")
+            string(APPEND halflit_problems "halflit: ${${halflit_library}_problem}\n")
         endif()
     endforeach()
+    if(halflit_problems)
+        message(FATAL_ERROR "${halflit_problems}${halflit_need_note}")
+    endif()
 endmacro()
 
 macro(halflit_want library without)

@@ -81,11 +81,13 @@ if(TARGET halflit)
                 DIRECTORIES /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}
             RUNTIME COMPONENT program
             LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/halflit COMPONENT program)
+        get_property(libraries GLOBAL PROPERTY HALFLIT_LIBRARIES)
+        list(JOIN libraries " " libraries)
         install(CODE "
             set(root \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}\")
             execute_process(COMMAND ${CMAKE_COMMAND} \"-DBUNDLE=\${root}/${CMAKE_INSTALL_LIBDIR}/halflit\"
                 \"-DINTO=\${root}/${CMAKE_INSTALL_DOCDIR}/licences\" \"-DDEPENDENCIES=${PROJECT_SOURCE_DIR}/cmake/dependencies.cmake\"
-                -P \"${PROJECT_SOURCE_DIR}/cmake/licences.cmake\" COMMAND_ERROR_IS_FATAL ANY)" COMPONENT program)
+                \"-DLIBRARIES=${libraries}\" -P \"${PROJECT_SOURCE_DIR}/cmake/licences.cmake\" COMMAND_ERROR_IS_FATAL ANY)" COMPONENT program)
     else()
         install(TARGETS halflit RUNTIME COMPONENT program)
     endif()

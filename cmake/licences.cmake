@@ -1,14 +1,17 @@
 # Writes the licences of the libraries that a bundle holds: the shared ones in its folder, and those that are compiled in.
-#   cmake -DBUNDLE=folder with shared libraries -DINTO=folder -DDEPENDENCIES=dependencies.cmake -P licences.cmake
+#   cmake -DBUNDLE=folder with shared libraries -DINTO=folder -DDEPENDENCIES=dependencies.cmake -DLIBRARIES="names there" -P licences.cmake
 # Debian's packages have their licences in /usr/share/doc. Elsewhere a warning names the libraries whose licences are missing.
+cmake_minimum_required(VERSION 3.25)
 include(${DEPENDENCIES})
+separate_arguments(LIBRARIES)
 set(packages "")
 set(unknown "")
 foreach(row IN LISTS halflit_rows)
     string(REGEX REPLACE " +" ";" row "${row}")
+    list(GET row 0 name)
     list(GET row 1 use)
     list(GET row 4 package)
-    if(NOT use MATCHES "^(tests|bench)$")
+    if(name IN_LIST LIBRARIES AND NOT use MATCHES "^(tests|bench)$")
         list(APPEND packages ${package})
     endif()
 endforeach()

@@ -71,8 +71,8 @@ Json view_report(const ViewOptions& options, const viewer::ViewerSummary& summar
 Result<int> run_view(ViewOptions options) {
     if (!viewer::has_viewer())
         return fail(ErrorCode::usage,
-                    "view: needs the libraries SDL2 and Dear ImGui (libsdl2-dev and libimgui-dev in Debian), which this "
-                    "build lacks: " +
+                    "view: needs the libraries SDL2 and Dear ImGui (libsdl2-dev and libimgui-dev in Debian; ./dev view "
+                    "installs them and builds it), which this build lacks: " +
                         viewer::missing_libraries());
     viewer::RehearsalPlan& rehearsal = options.window.rehearsal;
     rehearsal.wanted = rehearsal.orbit_frames > 0 || rehearsal.click || !options.window.screenshot.empty() || !options.report.empty();
