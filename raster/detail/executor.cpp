@@ -4,6 +4,7 @@
 #include "sh/time_limit.hpp"
 
 #ifdef HALFLIT_ONETBB
+#include <tbb/cache_aligned_allocator.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <exception>
 #include <limits>
 #include <new>
@@ -43,8 +45,15 @@ void run_catching(const Loop& loop, const std::function<void(int)>& task) {
 
 struct Executor::Arena {
     explicit Arena(int thread_count) : threads(thread_count), arena(thread_count) {
+        take_first_memory();
         // oneTBB starts its threads with the first loop. An exception for one that does not start is harmless here, not inside a frame.
         run(thread_count, [](int) {});
+    }
+    /// oneTBB 2022 waits for itself for ever where its memory ends while it starts. Here it throws instead, and keeps what it took.
+    static void take_first_memory() {
+        tbb::cache_aligned_allocator<std::byte> memory;
+        constexpr std::size_t kBytes = 256 * 1024;
+        memory.deallocate(memory.allocate(kBytes), kBytes);
     }
     /// Number of threads, at most `wanted`, that the system lets this process start. oneTBB's loops end with an exception where one of its
     /// threads does not start. A number that did start is not tried again.
