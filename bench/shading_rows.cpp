@@ -184,8 +184,8 @@ Row pixel_row() {
     Material material;
     material.lobe = Lobe::sloan(0.3f);
     material.roughness = 0.4f;
-    material.normal_texture.texture = 0;
-    material.normal_texture.sampler.mip = MipFilter::none;
+    material.textures[TextureSlot::normal].texture = 0;
+    material.textures[TextureSlot::normal].sampler.mip = MipFilter::none;
     Row row;
     row.name = "whole pixel";
     row.work = Work::pixel;

@@ -38,9 +38,9 @@ struct Textured {
 
     Textured(int side, int block_count, Walk walk, bool alike) : blocks(static_cast<std::size_t>(block_count)) {
         Material material;
-        material.base_color_texture.texture = 0;
-        material.emissive_texture.texture = 1;
-        if (!alike) material.emissive_texture.sampler.wrap_u = TextureWrap::mirror;
+        material.textures[TextureSlot::base_color].texture = 0;
+        material.textures[TextureSlot::emissive].texture = 1;
+        if (!alike) material.textures[TextureSlot::emissive].sampler.wrap_u = TextureWrap::mirror;
         material.emissive = {1, 1, 1};
         const shading::SlotMask slots[] = {shading::kBaseSlots, shading::kBaseSlots};
         ShadingSettings options;

@@ -111,49 +111,28 @@ Result<TextureColor> texture_color(std::int32_t given) {
 
 // ---- parts of a scene --------------------------------------------------------------------------------------------------
 
+void put_number(float from, float& to) { to = from; }
+void put_number(Vec3f from, float (&to)[3]) { put(from, to); }
+void put_number(Vec4f from, float (&to)[4]) { put(from, to); }
+void take_number(float from, float& to) { to = from; }
+void take_number(const float (&from)[3], Vec3f& to) { to = vec3(from); }
+void take_number(const float (&from)[4], Vec4f& to) { to = vec4(from); }
+
 halflit_material to_c(const Material& from) {
     halflit_material material{};
     material.size = sizeof material;
     material.name = from.name.c_str();
-    put(from.base_color, material.base_color);
-    material.metallic = from.metallic;
-    material.roughness = from.roughness;
-    material.dielectric_reflectance = from.dielectric_reflectance;
-    put(from.emissive, material.emissive);
-    material.normal_scale = from.normal_scale;
-    material.occlusion_strength = from.occlusion_strength;
-    material.alpha_cutoff = from.alpha_cutoff;
     material.alpha_mode = static_cast<std::int32_t>(from.alpha_mode);
     material.double_sided = from.double_sided;
     material.unlit = from.unlit;
     material.own_lobe = from.has_own_lobe;
     material.shadow_catcher = from.shadow_catcher;
     material.lobe = to_c(from.lobe);
-    material.base_color_texture = to_c(from.base_color_texture);
-    material.metallic_roughness_texture = to_c(from.metallic_roughness_texture);
-    material.normal_texture = to_c(from.normal_texture);
-    material.occlusion_texture = to_c(from.occlusion_texture);
-    material.emissive_texture = to_c(from.emissive_texture);
-    material.transmission = from.transmission.share;
-    material.thickness = from.transmission.thickness;
-    material.attenuation_distance = from.transmission.attenuation_distance;
-    put(from.transmission.attenuation_color, material.attenuation_color);
-    material.transmission_texture = to_c(from.transmission.texture);
-    material.thickness_texture = to_c(from.transmission.thickness_texture);
-    material.specular = from.specular;
-    put(from.specular_color, material.specular_color);
-    material.specular_texture = to_c(from.specular_texture);
-    material.specular_color_texture = to_c(from.specular_color_texture);
-    material.clearcoat = from.clearcoat.factor;
-    material.clearcoat_roughness = from.clearcoat.roughness;
-    material.clearcoat_normal_scale = from.clearcoat.normal_scale;
-    material.clearcoat_texture = to_c(from.clearcoat.texture);
-    material.clearcoat_roughness_texture = to_c(from.clearcoat.roughness_texture);
-    material.clearcoat_normal_texture = to_c(from.clearcoat.normal_texture);
-    put(from.sheen.color, material.sheen_color);
-    material.sheen_roughness = from.sheen.roughness;
-    material.sheen_color_texture = to_c(from.sheen.color_texture);
-    material.sheen_roughness_texture = to_c(from.sheen.roughness_texture);
+#define HALFLIT_NUMBER(member, ...) put_number(from.member, material.member);
+#define HALFLIT_TEXTURE(slot, ...) material.slot##_texture = to_c(from.textures[TextureSlot::slot]);
+#include "shading/material_properties.def"
+#undef HALFLIT_NUMBER
+#undef HALFLIT_TEXTURE
     return material;
 }
 
@@ -165,57 +144,21 @@ Result<Material> material(const halflit_material* given) {
     if (!read) return tl::unexpected<Error>(read.error());
     Material material;
     if (read->name != nullptr) material.name = read->name;
-    material.base_color = vec4(read->base_color);
-    material.metallic = read->metallic;
-    material.roughness = read->roughness;
-    material.dielectric_reflectance = read->dielectric_reflectance;
-    material.emissive = vec3(read->emissive);
-    material.normal_scale = read->normal_scale;
-    material.occlusion_strength = read->occlusion_strength;
-    material.alpha_cutoff = read->alpha_cutoff;
     material.double_sided = read->double_sided != 0;
     material.unlit = read->unlit != 0;
     material.has_own_lobe = read->own_lobe != 0;
     material.lobe = lobe(read->lobe);
+    material.shadow_catcher = read->shadow_catcher != 0;
     Members members("halflit_material");
     members.read(read->alpha_mode, AlphaMode::blend, "alpha_mode", material.alpha_mode);
-    material.base_color_texture = texture_use(read->base_color_texture, "a value of base_color_texture", members);
-    material.metallic_roughness_texture = texture_use(read->metallic_roughness_texture, "a value of metallic_roughness_texture", members);
-    material.normal_texture = texture_use(read->normal_texture, "a value of normal_texture", members);
-    material.occlusion_texture = texture_use(read->occlusion_texture, "a value of occlusion_texture", members);
-    material.emissive_texture = texture_use(read->emissive_texture, "a value of emissive_texture", members);
-    material.transmission.share = read->transmission;
-    material.transmission.thickness = read->thickness;
-    material.transmission.attenuation_distance = read->attenuation_distance;
-    material.transmission.attenuation_color = vec3(read->attenuation_color);
-    material.transmission.texture = texture_use(read->transmission_texture, "a value of transmission_texture", members);
-    material.specular = read->specular;
-    material.specular_color = vec3(read->specular_color);
-    material.specular_texture = texture_use(read->specular_texture, "a value of specular_texture", members);
-    material.specular_color_texture = texture_use(read->specular_color_texture, "a value of specular_color_texture", members);
-    material.transmission.thickness_texture = texture_use(read->thickness_texture, "a value of thickness_texture", members);
-    material.clearcoat.factor = read->clearcoat;
-    material.clearcoat.roughness = read->clearcoat_roughness;
-    material.clearcoat.normal_scale = read->clearcoat_normal_scale;
-    material.clearcoat.texture = texture_use(read->clearcoat_texture, "a value of clearcoat_texture", members);
-    material.clearcoat.roughness_texture =
-        texture_use(read->clearcoat_roughness_texture, "a value of clearcoat_roughness_texture", members);
-    material.clearcoat.normal_texture = texture_use(read->clearcoat_normal_texture, "a value of clearcoat_normal_texture", members);
-    material.sheen.color = vec3(read->sheen_color);
-    material.sheen.roughness = read->sheen_roughness;
-    material.sheen.color_texture = texture_use(read->sheen_color_texture, "a value of sheen_color_texture", members);
-    material.sheen.roughness_texture = texture_use(read->sheen_roughness_texture, "a value of sheen_roughness_texture", members);
-    material.shadow_catcher = read->shadow_catcher != 0;
-    members.finite("base_color", read->base_color);
-    members.finite("metallic, roughness or dielectric_reflectance", read->metallic, read->roughness, read->dielectric_reflectance);
-    members.finite("emissive", read->emissive);
-    members.finite("normal_scale, occlusion_strength or alpha_cutoff", read->normal_scale, read->occlusion_strength, read->alpha_cutoff);
-    members.finite("transmission or thickness", read->transmission, read->thickness);
-    members.finite("attenuation_distance or attenuation_color", read->attenuation_distance, read->attenuation_color);
-    members.finite("specular or specular_color", read->specular, read->specular_color);
-    members.finite("clearcoat or clearcoat_roughness", read->clearcoat, read->clearcoat_roughness);
-    members.finite("clearcoat_normal_scale", read->clearcoat_normal_scale);
-    members.finite("sheen_color or sheen_roughness", read->sheen_color, read->sheen_roughness);
+#define HALFLIT_NUMBER(member, ...)        \
+    members.finite(#member, read->member); \
+    take_number(read->member, material.member);
+#define HALFLIT_TEXTURE(slot, ...) \
+    material.textures[TextureSlot::slot] = texture_use(read->slot##_texture, "a value of " #slot "_texture", members);
+#include "shading/material_properties.def"
+#undef HALFLIT_NUMBER
+#undef HALFLIT_TEXTURE
     if (!members.result()) return tl::unexpected<Error>(members.result().error());
     if (auto ok = check_lobe(material.lobe); !ok) return fail(ErrorCode::usage, "halflit_material: lobe: " + ok.error().message);
     return material;

@@ -34,9 +34,9 @@ Result<Texture> make_texture(const std::uint8_t* rgba8, std::int32_t width, std:
 Result<Material> make_material(const Scene& scene, const halflit_material* given) {
     auto made = material(given);
     if (!made) return made;
-    for (const TextureUse* use : texture_uses(*made))
-        if (use->used())
-            if (const auto at = check_index(use->texture, scene.textures.size(), "halflit_material: texture"); !at)
+    for (const TextureUse& use : made->textures)
+        if (use.used())
+            if (const auto at = check_index(use.texture, scene.textures.size(), "halflit_material: texture"); !at)
                 return tl::unexpected<Error>(at.error());
     return made;
 }

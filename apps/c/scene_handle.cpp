@@ -1,5 +1,7 @@
 #include "apps/c/scene_handle.hpp"
 
+#include "shading/material_properties.hpp"
+
 #include <algorithm>
 
 namespace halflit::c {
@@ -31,16 +33,16 @@ namespace {
 std::optional<Mesh> completed(const Scene& scene, const Mesh& mesh) {
     const Material no_material;
     const Material& material = mesh.material >= 0 ? scene.materials[static_cast<std::size_t>(mesh.material)] : no_material;
-    const TextureUse& normal_map = material.normal_texture;
-    const bool has_uv = !(normal_map.uv_set == 0 ? mesh.uv0 : mesh.uv1).empty();
+    const TextureUse* const normal_map = shading::normal_map_of(material);
+    const bool has_uv = normal_map != nullptr && !(normal_map->uv_set == 0 ? mesh.uv0 : mesh.uv1).empty();
     if (mesh.topology != Topology::triangles) return {};
     const bool needs_normals = mesh.normals.empty() && !material.unlit;
     // Flat normals remove the tangents, which belong to other normals.
-    const bool needs_tangents = (mesh.tangents.empty() || needs_normals) && !material.unlit && normal_map.used() && has_uv;
+    const bool needs_tangents = (mesh.tangents.empty() || needs_normals) && !material.unlit && has_uv;
     if (!needs_normals && !needs_tangents) return {};
     Mesh full = mesh;
     if (needs_normals) generate_flat_normals(full);
-    if (needs_tangents) generate_tangents(full, normal_map.uv_set);
+    if (needs_tangents) generate_tangents(full, normal_map->uv_set);
     return full;
 }
 

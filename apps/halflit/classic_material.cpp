@@ -25,7 +25,7 @@ void replace_materials(Scene& scene, const ClassicMaterial& classic) {
         material.dielectric_reflectance = specular.value_or(material.dielectric_reflectance);
         if (!exponent) continue;
         material.roughness = static_cast<float>(shading::roughness_of_exponent(static_cast<double>(*exponent)));
-        material.metallic_roughness_texture = {};
+        material.textures[TextureSlot::metallic_roughness] = {};
     }
 }
 

@@ -28,8 +28,8 @@ Result<Scene> with_encoded_colors(Scene scene) {
         for (Vec4f& color : mesh.colors) color = {encoded(color.x), encoded(color.y), encoded(color.z), color.w};
     std::vector<bool> done(scene.textures.size());
     for (const Material& material : scene.materials) {
-        if (!material.base_color_texture.used()) continue;
-        const auto index = static_cast<std::size_t>(material.base_color_texture.texture);
+        if (!material.textures[TextureSlot::base_color].used()) continue;
+        const auto index = static_cast<std::size_t>(material.textures[TextureSlot::base_color].texture);
         if (done[index]) continue;
         done[index] = true;
         Texture& texture = scene.textures[index];

@@ -160,7 +160,7 @@ std::string mirror_constants(float roughness) {
 ShaderSources shader_sources(const Scene& scene, Vec3f eye) {
     static_assert(kEnvironmentBands == 3);
     const Material& material = scene.materials[0];
-    const bool textured = material.base_color_texture.used();
+    const bool textured = material.textures[TextureSlot::base_color].used();
     const float roughness = std::max(material.roughness, shading::kMinRoughness);
     const double half_exponent = half_specular_exponent(double{roughness});
     const auto lamps = std::count_if(scene.lights.begin(), scene.lights.end(), [](const Light& l) { return l.type == LightType::point; });

@@ -46,8 +46,8 @@ void add_textures(BenchScene& bench, int side, float repeats) {
     }
     Material& material = bench.scene.materials[0];
     material.base_color = {1, 1, 1, 1};
-    material.base_color_texture.texture = 0;
-    material.normal_texture.texture = 1;
+    material.textures[TextureSlot::base_color].texture = 0;
+    material.textures[TextureSlot::normal].texture = 1;
     for (Vec2f& uv : bench.scene.meshes[0].uv0) uv = uv * repeats;
 }
 

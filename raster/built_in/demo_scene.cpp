@@ -70,9 +70,9 @@ void add_plinth(Scene& scene) {
     const int color = make(mosaic.color_srgb, ColorSpace::srgb), normal = make(mosaic.normal, ColorSpace::linear);
     const int roughness_metal = make(mosaic.roughness_metal, ColorSpace::linear);
     Material& material = scene.materials[static_cast<std::size_t>(tiles)];
-    material.base_color_texture.texture = color;
-    material.normal_texture.texture = normal;
-    material.metallic_roughness_texture.texture = roughness_metal;
+    material.textures[TextureSlot::base_color].texture = color;
+    material.textures[TextureSlot::normal].texture = normal;
+    material.textures[TextureSlot::metallic_roughness].texture = roughness_metal;
     add_object(scene, raster::detail::make_plinth_side(kPlinthRadius, kPlinthSide, 7, 128), tiles, translation(kPlinthFoot));
 }
 

@@ -48,7 +48,7 @@ bool tests_samples(const TilePass& pass, const shading::MaterialPlan& material) 
 bool test_samples(const TilePass& pass, const shading::MaterialPlan& material, const TileRect& rect, const FragmentList& list,
                   TileScratch& scratch) {
     const SamplePattern& samples = pass.geometry.view().samples;
-    const bool second = material.base_color_texture.uv_set == 1;
+    const bool second = material.textures[TextureSlot::base_color].uv_set == 1;
     auto& lane = scratch.block.lane;
     float* const u = lane[second ? shading::kU1 : shading::kU0];
     float* const v = lane[second ? shading::kV1 : shading::kV0];

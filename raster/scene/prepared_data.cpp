@@ -29,9 +29,9 @@ shading::SlotMask slots_of(const Mesh& mesh) {
 }
 
 Result<void> check_material(const Material& material, std::size_t index, std::size_t texture_count) {
-    for (const TextureUse* use : texture_uses(material))
-        if (use->used() && static_cast<std::size_t>(use->texture) >= texture_count)
-            return fail(ErrorCode::bad_input, "material " + std::to_string(index) + ": refers to texture " + std::to_string(use->texture) +
+    for (const TextureUse& use : material.textures)
+        if (use.used() && static_cast<std::size_t>(use.texture) >= texture_count)
+            return fail(ErrorCode::bad_input, "material " + std::to_string(index) + ": refers to texture " + std::to_string(use.texture) +
                                                   ", but the scene has " + std::to_string(texture_count));
     if (const auto lobe = check_lobe(material.lobe); !lobe)
         return fail(lobe.error().code, "material " + std::to_string(index) + ": lobe: " + lobe.error().message);

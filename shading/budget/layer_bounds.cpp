@@ -2,6 +2,7 @@
 
 #include "sh/power.hpp"
 #include "shading/budget/texture_bounds.hpp"
+#include "shading/material_properties.hpp"
 #include "shading/model/constants.hpp"
 #include "shading/model/sheen_table.hpp"
 
@@ -40,9 +41,10 @@ SheenSlopes sheen_slopes(int first) {
     return out;
 }
 int first_row(double roughness) { return std::clamp(static_cast<int>(roughness * (kReflectionNodes - 1)), 0, kReflectionNodes - 2); }
-double least_roughness(const SheenPlan& sheen) {
-    const double least = sheen.roughness_texture.data != nullptr ? least_value(sheen.roughness_texture, 3) : 1.0;
-    return std::max(static_cast<double>(sheen.roughness) * least, double{kMinRoughness});
+double least_roughness(const MaterialPlan& material) {
+    const TexturePlan& texture = material.textures[TextureSlot::sheen_roughness];
+    const double least = texture.data != nullptr ? least_value(texture, 3) : 1.0;
+    return std::max(static_cast<double>(material.sheen.roughness) * least, double{kMinRoughness});
 }
 
 }  // namespace
@@ -51,15 +53,19 @@ MaterialPlan coat_as_metal(const MaterialPlan& material) {
     const ClearcoatPlan& coat = material.clearcoat;
     MaterialPlan metal;
     metal.stages = material.stages & (kStageLights | kStageAmbient | kStageEnvironment | kStageSpecular | kStageOcclusionTexture);
-    metal.occlusion_texture = material.occlusion_texture, metal.occlusion_strength = material.occlusion_strength;
+    metal.textures[TextureSlot::occlusion] = material.textures[TextureSlot::occlusion],
+    metal.occlusion_strength = material.occlusion_strength;
     for (int c = 0; c < 3; ++c) metal.base_color[c] = coat.factor;
     metal.metallic = 1.0f, metal.dielectric = 0.0f, metal.roughness = coat.roughness;
     metal.lobe = material.lobe, metal.ggx = material.ggx;
     metal.environment = material.environment, metal.reflection_lobes = 1;
-    metal.normal_texture = coat.normal_texture, metal.normal_scale = coat.normal_scale, metal.normal_roughness = coat.normal_roughness;
-    metal.metallic_roughness_texture = coat.roughness_texture;
-    if (coat.normal_texture.data != nullptr) metal.stages |= kStageNormalMap;
-    if (coat.roughness_texture.data != nullptr) metal.stages |= kStageMetallicRoughnessTexture;
+    metal.normal_scale = coat.normal_scale, metal.normal_roughness = coat.normal_roughness;
+    const auto take_texture = [&](TextureSlot from, TextureSlot to) {
+        metal.textures[to] = material.textures[from];
+        if (metal.textures[to].data != nullptr) metal.stages |= info_of(to).stage;
+    };
+    take_texture(TextureSlot::clearcoat_normal, TextureSlot::normal);
+    take_texture(TextureSlot::clearcoat_roughness, TextureSlot::metallic_roughness);
     return metal;
 }
 
@@ -69,8 +75,8 @@ Surface coat_surface(const ShadingPlan& plan, const MaterialPlan& material, cons
     const double most = coat.factor;
     s.albedo = 0.0;               // a coat scatters nothing
     s.matt = s.shiny = Factor{};  // the blue channel of its texture of roughness has no meaning
-    if (coat.texture.data != nullptr)
-        s.base_color = factor_of(most * filter_error(coat.texture, 0, facts.largest_uv), most * least_value(coat.texture, 0));
+    if (const TexturePlan& texture = material.textures[TextureSlot::clearcoat]; texture.data != nullptr)
+        s.base_color = factor_of(most * filter_error(texture, 0, facts.largest_uv), most * least_value(texture, 0));
     return s;
 }
 
@@ -91,7 +97,7 @@ double coat_codes(const CodeCosts& costs, const MaterialPlan& metal, const Shadi
 /// Light of the surroundings that sheen reflects; s: the base.
 double around_codes(const CodeCosts& costs, const ShadingPlan& plan, const MaterialPlan& material, const SheenSurface& sheen,
                     const Surface& s, const ReflectionSteps* reflections, double exposure, double& most) {
-    const SheenSlopes slopes = sheen_slopes(first_row(least_roughness(material.sheen)));
+    const SheenSlopes slopes = sheen_slopes(first_row(least_roughness(material)));
     // The viewer's side, x / sqrt(x^2 + 0.01) of x = V - (N.V) N, has a slope of at most 10. Directions are no shorter than their height.
     const double side = 10.0 * (2.0 * s.normal_error + 2e-7);
     const double angle = (4.0 * (s.normal_error + side) + sheen.nodes * slopes.direction) / slopes.least_height + 2e-6;
@@ -123,19 +129,19 @@ double around_codes(const CodeCosts& costs, const ShadingPlan& plan, const Mater
 
 SheenSurface sheen_surface(const MaterialPlan& material, double normal_error, const SceneFacts& facts) {
     const SheenPlan& sheen = material.sheen;
-    const double least = least_roughness(sheen), cosine_error = normal_error + 4e-7;
+    const double least = least_roughness(material), cosine_error = normal_error + 4e-7;
     SheenSurface out{};
     out.color = std::max({sheen.color[0], sheen.color[1], sheen.color[2]});
     out.exponent = 1.0 / (least * least);
     out.most = out.color * (1.0 + 0.5 * out.exponent) * 0.25;  // V2 N.L is at most 1 / 4
-    if (sheen.roughness_texture.data != nullptr)
-        out.roughness = factor_of(static_cast<double>(sheen.roughness) * filter_error(sheen.roughness_texture, 3, facts.largest_uv), least);
+    if (const TexturePlan& texture = material.textures[TextureSlot::sheen_roughness]; texture.data != nullptr)
+        out.roughness = factor_of(static_cast<double>(sheen.roughness) * filter_error(texture, 3, facts.largest_uv), least);
     out.nodes = (kReflectionNodes - 1) * (out.roughness.absolute + 6.0 * cosine_error) + 1e-5;
-    if (sheen.color_texture.data != nullptr) {
+    if (const TexturePlan& texture = material.textures[TextureSlot::sheen_color]; texture.data != nullptr) {
         double error = 0.0, least_color = 1.0;
         for (int c = 0; c < 3; ++c) {
-            error = std::max(error, filter_error(sheen.color_texture, c, facts.largest_uv));
-            least_color = std::min(least_color, least_value(sheen.color_texture, c));
+            error = std::max(error, filter_error(texture, c, facts.largest_uv));
+            least_color = std::min(least_color, least_value(texture, c));
         }
         out.texture = factor_of(error, least_color);
     }
@@ -149,7 +155,7 @@ LayerCosts layer_costs(const CodeCosts& costs, const ShadingPlan& plan, const Ma
     if ((material.stages & kStageSheen) != 0) {
         const SheenSurface sheen = sheen_surface(material, s.normal_error, facts);
         const double strength = sheen.most * light.sum;
-        const SheenSlopes slopes = sheen_slopes(first_row(least_roughness(material.sheen)));
+        const SheenSlopes slopes = sheen_slopes(first_row(least_roughness(material)));
         // D is A sin^(1/a), whose slope is at most A sqrt(1/a); |1/a ln sin| sin^(1/a) is at most 1/e. N.L + N.V is at least
         // kLeastHalfVector, and so is |L + V|.
         const double direction = s.cosine_error() + kSheenHalfError / double{kLeastHalfVector};

@@ -160,13 +160,13 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
     };
     double least_color = has(kStageVertexColor) ? 0.0 : std::min({red, green, blue}), least_metallic = s.metallic;
     if (has(kStageBaseColorTexture)) {
-        s.base_color = textured(material.base_color_texture, {0, 1, 2}, s.albedo);
+        s.base_color = textured(material.textures[TextureSlot::base_color], {0, 1, 2}, s.albedo);
         for (const int c : {0, 1, 2})
-            least_color = std::min(least_color, material.base_color[c] * least_value(material.base_color_texture, c));
+            least_color = std::min(least_color, material.base_color[c] * least_value(material.textures[TextureSlot::base_color], c));
     }
     double roughness = material.roughness;
     if (has(kStageMetallicRoughnessTexture)) {
-        const TexturePlan& texture = material.metallic_roughness_texture;
+        const TexturePlan& texture = material.textures[TextureSlot::metallic_roughness];
         roughness *= least_value(texture, 1);
         s.roughness = factor_of(filtered(texture, {1}) * material.roughness, std::max(roughness, double{kMinRoughness}));
         least_metallic *= least_value(texture, 2);
@@ -183,22 +183,23 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
     s.reflectance = std::max({kLeastReflectance, dielectric, s.metallic > 0.0 ? s.albedo : 0.0});
     if (has(kStageOcclusionTexture)) {
         const double strength = material.occlusion_strength;
-        s.occlusion = factor_of(strength * filtered(material.occlusion_texture, {0}),
-                                1.0 + strength * (least_value(material.occlusion_texture, 0) - 1.0));
+        s.occlusion = factor_of(strength * filtered(material.textures[TextureSlot::occlusion], {0}),
+                                1.0 + strength * (least_value(material.textures[TextureSlot::occlusion], 0) - 1.0));
     }
     if (has(kStageSpecularColor)) {
         // F0 and its weight, the latter at grazing views; the matt part lacks the largest F0.
         double error = 0.0;
-        if (material.specular_color_texture.data != nullptr)
+        if (material.textures[TextureSlot::specular_color].data != nullptr)
             error += std::max({material.dielectric_color[0], material.dielectric_color[1], material.dielectric_color[2]}) *
-                     filtered(material.specular_color_texture, {0, 1, 2});
-        if (material.specular_texture.data != nullptr) error += filtered(material.specular_texture, {3});
+                     filtered(material.textures[TextureSlot::specular_color], {0, 1, 2});
+        if (material.textures[TextureSlot::specular].data != nullptr) error += filtered(material.textures[TextureSlot::specular], {3});
         s.dielectric = {error, error > 0.0 ? kAnyShare : 0.0};
         s.least_albedo = 0.0;
     }
     if (has(kStageTransmission)) {
-        const TransmissionPlan& inside = material.transmission;
-        if (inside.texture.data != nullptr) s.scattered = factor_of(inside.share * filtered(inside.texture, {0}), 1.0 - inside.share);
+        const double share = material.transmission.share;
+        if (const TexturePlan& texture = material.textures[TextureSlot::transmission]; texture.data != nullptr)
+            s.scattered = factor_of(share * filtered(texture, {0}), 1.0 - share);
         s.least_albedo = 0.0;
     }
     if (has(kStageClearcoat)) {
@@ -211,7 +212,8 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
         s.least_albedo = 0.0;
     }
     if (has(kStageEmissiveTexture))
-        s.emissive = textured(material.emissive_texture, {0, 1, 2}, *std::max_element(material.emissive, material.emissive + 3));
+        s.emissive =
+            textured(material.textures[TextureSlot::emissive], {0, 1, 2}, *std::max_element(material.emissive, material.emissive + 3));
     s.least_roughness = roughness;
     s.exponent = specular_exponent(roughness);
     s.normalization = plan.normalize_specular ? specular_normalization(0.5 * s.exponent, plan.specular == SpecularModel::phong) : 1.0;
@@ -223,14 +225,15 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
     if (has(kStageNormalMap)) {
         // The three components are in [-1, 1], each off by twice its channel's error. The vector is no shorter than its z. Where z may be 0
         // there is no bound: between texels that point away from each other a normal may be as short as one likes.
-        const double z = 2.0 * least_value(material.normal_texture, 2) - 1.0;
-        const double error =
-            2.0 * 1.7320508 * filtered(material.normal_texture, {0, 1, 2}) * std::max(1.0, std::fabs(double{material.normal_scale}));
+        const double z = 2.0 * least_value(material.textures[TextureSlot::normal], 2) - 1.0;
+        const double error = 2.0 * 1.7320508 * filtered(material.textures[TextureSlot::normal], {0, 1, 2}) *
+                             std::max(1.0, std::fabs(double{material.normal_scale}));
         s.normal_error += error < z ? error / (z - error) : 2.0;
         if (material.normal_roughness) {
             // (r^4 + u^2)^(1/4), u being what the normals lost, has the slope u / (2 (r^4 + u^2)^(3/4)) in u, which is at most 1 / (2 r).
             const double held = std::max(roughness, double{kMinRoughness});
-            const double lost = filtered(material.normal_texture, {3}) * std::fabs(double{material.normal_scale}) / (2.0 * held);
+            const double lost =
+                filtered(material.textures[TextureSlot::normal], {3}) * std::fabs(double{material.normal_scale}) / (2.0 * held);
             s.roughness.absolute += lost;
             s.roughness.relative += lost / held;
         }

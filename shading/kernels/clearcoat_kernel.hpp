@@ -30,14 +30,16 @@ struct Coat {
 HALFLIT_INLINE Coat fetch_coat(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane,
                                const ShadeRows& rows) {
     const shading::ClearcoatPlan& plan = material.clearcoat;
+    const BySlot<shading::TexturePlan>& textures = material.textures;
     TexelTaps taps;
     Coat coat{F(plan.factor), F(plan.roughness), load3(rows.surface, lane)};
-    if (plan.texture.data != nullptr) coat.share = coat.share * sample_texture(plan.texture, block, lane, taps).r;
-    if (plan.roughness_texture.data != nullptr)
-        coat.roughness = coat.roughness * sample_texture(plan.roughness_texture, block, lane, taps).g;
+    if (textures[TextureSlot::clearcoat].data != nullptr)
+        coat.share = coat.share * sample_texture(textures[TextureSlot::clearcoat], block, lane, taps).r;
+    if (textures[TextureSlot::clearcoat_roughness].data != nullptr)
+        coat.roughness = coat.roughness * sample_texture(textures[TextureSlot::clearcoat_roughness], block, lane, taps).g;
     coat.roughness = vmax(coat.roughness, F(shading::kMinRoughness));
-    if (plan.normal_texture.data != nullptr) {
-        const Sample texel = sample_texture(plan.normal_texture, block, lane, taps);
+    if (textures[TextureSlot::clearcoat_normal].data != nullptr) {
+        const Sample texel = sample_texture(textures[TextureSlot::clearcoat_normal], block, lane, taps);
         coat.normal =
             mapped_normal(block, lane, normalize_any(row3(block, shading::kNormalX, lane)), {texel.r, texel.g, texel.b}, plan.normal_scale);
         if (material.double_sided) coat.normal = coat.normal * row(block, shading::kFacing, lane);

@@ -45,7 +45,7 @@ static void fetch_surfaces(const shading::MaterialPlan& material, const shading:
         if (lit || !needs_color) {
             F lost(0.0f);
             if (has(material, kStageNormalMap)) {
-                const Sample texel = sample_texture(material.normal_texture, block, lane, taps);
+                const Sample texel = sample_texture(material.textures[TextureSlot::normal], block, lane, taps);
                 store3(rows.texel, lane, {texel.r, texel.g, texel.b});
                 lost = texel.a * F(material.normal_scale);
             }

@@ -89,11 +89,12 @@ HALFLIT_INLINE V3 sheen_radiance(const shading::ShadingPlan& frame, bool environ
         TexelTaps taps;
         V3 color = broadcast(plan.color);
         F roughness(plan.roughness);
-        if (plan.color_texture.data != nullptr) {
-            const Sample texture = sample_texture(plan.color_texture, block, lane, taps);
+        if (material.textures[TextureSlot::sheen_color].data != nullptr) {
+            const Sample texture = sample_texture(material.textures[TextureSlot::sheen_color], block, lane, taps);
             color = color * V3{texture.r, texture.g, texture.b};
         }
-        if (plan.roughness_texture.data != nullptr) roughness = roughness * sample_texture(plan.roughness_texture, block, lane, taps).a;
+        if (material.textures[TextureSlot::sheen_roughness].data != nullptr)
+            roughness = roughness * sample_texture(material.textures[TextureSlot::sheen_roughness], block, lane, taps).a;
         roughness = vmax(roughness, F(shading::kMinRoughness));
         const V3 normal = load3(rows.normal, lane), to_eye = load3(rows.to_eye, lane);
         const F n_dot_v = dot(normal, to_eye), held = clamp(n_dot_v, none, one);

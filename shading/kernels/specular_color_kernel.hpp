@@ -18,9 +18,10 @@ inline namespace HALFLIT_ISA_NAMESPACE {
         TexelTaps taps;
         F weight(material.specular_weight);
         V3 color = broadcast(material.dielectric_color);
-        if (material.specular_texture.data != nullptr) weight = weight * sample_texture(material.specular_texture, block, lane, taps).a;
-        if (material.specular_color_texture.data != nullptr) {
-            const Sample texture = sample_texture(material.specular_color_texture, block, lane, taps);
+        if (material.textures[TextureSlot::specular].data != nullptr)
+            weight = weight * sample_texture(material.textures[TextureSlot::specular], block, lane, taps).a;
+        if (material.textures[TextureSlot::specular_color].data != nullptr) {
+            const Sample texture = sample_texture(material.textures[TextureSlot::specular_color], block, lane, taps);
             color = color * V3{texture.r, texture.g, texture.b};
         }
         store3(rows.dielectric, lane, V3{vmin(color.x, one), vmin(color.y, one), vmin(color.z, one)} * weight);

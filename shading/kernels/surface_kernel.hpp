@@ -13,7 +13,7 @@ HALFLIT_INLINE bool has(const shading::MaterialPlan& material, Stage stage) { re
 HALFLIT_INLINE Sample base_color(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane, TexelTaps& taps) {
     Sample color{F(material.base_color[0]), F(material.base_color[1]), F(material.base_color[2]), F(material.base_color[3])};
     if (has(material, kStageBaseColorTexture)) {
-        const Sample texture = sample_texture(material.base_color_texture, block, lane, taps);
+        const Sample texture = sample_texture(material.textures[TextureSlot::base_color], block, lane, taps);
         color = {color.r * texture.r, color.g * texture.g, color.b * texture.b, color.a * texture.a};
     }
     if (has(material, kStageVertexColor)) {
@@ -52,7 +52,7 @@ HALFLIT_INLINE Normals normals(const shading::MaterialPlan& material, const shad
 HALFLIT_INLINE Normals normals(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane, TexelTaps& taps) {
     V3 texel{F(0.0f), F(0.0f), F(0.0f)};
     if (has(material, kStageNormalMap)) {
-        const Sample texture = sample_texture(material.normal_texture, block, lane, taps);
+        const Sample texture = sample_texture(material.textures[TextureSlot::normal], block, lane, taps);
         texel = {texture.r, texture.g, texture.b};
     }
     return normals(material, block, lane, texel);
@@ -75,13 +75,14 @@ HALFLIT_INLINE Reflectance reflectance(const shading::MaterialPlan& material, co
     Reflectance result{F(material.metallic), F(material.roughness), F(1.0f)};
     F occlusion_texture(1.0f);
     if (has(material, kStageMetallicRoughnessTexture)) {
-        const Sample texture = sample_texture(material.metallic_roughness_texture, block, lane, taps);
+        const Sample texture = sample_texture(material.textures[TextureSlot::metallic_roughness], block, lane, taps);
         result.roughness = result.roughness * texture.g;
         result.metallic = result.metallic * texture.b;
         occlusion_texture = texture.r;
     }
     if (has(material, kStageOcclusionTexture)) {
-        if (!material.occlusion_is_metallic_roughness) occlusion_texture = sample_texture(material.occlusion_texture, block, lane, taps).r;
+        if (!material.occlusion_is_metallic_roughness)
+            occlusion_texture = sample_texture(material.textures[TextureSlot::occlusion], block, lane, taps).r;
         result.occlusion = mad(F(material.occlusion_strength), occlusion_texture - F(1.0f), F(1.0f));
     }
     return result;
@@ -90,7 +91,7 @@ HALFLIT_INLINE Reflectance reflectance(const shading::MaterialPlan& material, co
 HALFLIT_INLINE V3 emitted(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane, TexelTaps& taps) {
     V3 emissive = broadcast(material.emissive);
     if (has(material, kStageEmissiveTexture)) {
-        const Sample texture = sample_texture(material.emissive_texture, block, lane, taps);
+        const Sample texture = sample_texture(material.textures[TextureSlot::emissive], block, lane, taps);
         emissive = emissive * V3{texture.r, texture.g, texture.b};
     }
     return emissive;

@@ -17,10 +17,11 @@ inline namespace HALFLIT_ISA_NAMESPACE {
     for (int lane = 0; lane < count; lane += kWidth) {
         TexelTaps taps;
         F share(plan.share);
-        if (plan.texture.data != nullptr) share = share * sample_texture(plan.texture, block, lane, taps).r;
+        if (material.textures[TextureSlot::transmission].data != nullptr)
+            share = share * sample_texture(material.textures[TextureSlot::transmission], block, lane, taps).r;
         V3 passed = broadcast(plan.passed);
-        if (plan.thickness_texture.data != nullptr) {
-            const F thickness = vneg(sample_texture(plan.thickness_texture, block, lane, taps).g);
+        if (material.textures[TextureSlot::thickness].data != nullptr) {
+            const F thickness = vneg(sample_texture(material.textures[TextureSlot::thickness], block, lane, taps).g);
             passed = {exp2_floored(kExp2Degree6, thickness * F(plan.absorbed[0])),
                       exp2_floored(kExp2Degree6, thickness * F(plan.absorbed[1])),
                       exp2_floored(kExp2Degree6, thickness * F(plan.absorbed[2]))};

@@ -1,6 +1,7 @@
 #include "shading/plan/material_plan.hpp"
 
 #include "sh/power.hpp"
+#include "shading/material_properties.hpp"
 #include "shading/model/numbers.hpp"
 
 #include <algorithm>
@@ -10,49 +11,24 @@ namespace {
 
 SlotMask slots_of(const MaterialPlan& plan, bool lit) {
     SlotMask slots = lit ? kBaseSlots : 0u;
-    if ((plan.stages & kStageNormalMap) != 0) slots |= kTangentSlot;
     if ((plan.stages & kStageVertexColor) != 0) slots |= kColorSlot;
-    const auto add = [&](Stage stage, const TexturePlan& texture) {
-        if ((plan.stages & stage) != 0) slots |= texture.uv_set == 1 ? kUv1Slot : kUv0Slot;
-    };
-    add(kStageBaseColorTexture, plan.base_color_texture);
-    add(kStageMetallicRoughnessTexture, plan.metallic_roughness_texture);
-    add(kStageNormalMap, plan.normal_texture);
-    add(kStageOcclusionTexture, plan.occlusion_texture);
-    add(kStageEmissiveTexture, plan.emissive_texture);
-    for (const TexturePlan* texture : {&plan.specular_texture, &plan.specular_color_texture})
-        if (texture->data != nullptr) add(kStageSpecularColor, *texture);
-    for (const TexturePlan* texture : {&plan.transmission.texture, &plan.transmission.thickness_texture})
-        if (texture->data != nullptr) add(kStageTransmission, *texture);
-    for (const TexturePlan* texture : {&plan.clearcoat.texture, &plan.clearcoat.roughness_texture, &plan.clearcoat.normal_texture})
-        if (texture->data != nullptr) add(kStageClearcoat, *texture);
-    for (const TexturePlan* texture : {&plan.sheen.color_texture, &plan.sheen.roughness_texture})
-        if (texture->data != nullptr) add(kStageSheen, *texture);
-    if (plan.clearcoat.normal_texture.data != nullptr) slots |= kTangentSlot;
+    for (const TextureSlot slot : kAllTextureSlots) {
+        const TexturePlan& texture = plan.textures[slot];
+        if (texture.data == nullptr) continue;
+        slots |= texture.uv_set == 1 ? kUv1Slot : kUv0Slot;
+        if (holds_normals(slot)) slots |= kTangentSlot;
+    }
     return slots;
 }
 
 /// Numbers the textures' taps: textures with the same taps get the same number.
 void number_taps(MaterialPlan& plan) {
-    TexturePlan* const textures[] = {&plan.base_color_texture,
-                                     &plan.metallic_roughness_texture,
-                                     &plan.normal_texture,
-                                     &plan.occlusion_texture,
-                                     &plan.emissive_texture,
-                                     &plan.transmission.texture,
-                                     &plan.transmission.thickness_texture,
-                                     &plan.specular_texture,
-                                     &plan.specular_color_texture,
-                                     &plan.clearcoat.texture,
-                                     &plan.clearcoat.roughness_texture,
-                                     &plan.clearcoat.normal_texture,
-                                     &plan.sheen.color_texture,
-                                     &plan.sheen.roughness_texture};
     std::int32_t number = 0;
-    for (TexturePlan* const& texture : textures) {
-        const auto* const same = std::find_if(
-            textures, &texture, [&](const TexturePlan* earlier) { return earlier->data != nullptr && same_taps(*earlier, *texture); });
-        texture->taps = same == &texture ? ++number : (*same)->taps;
+    for (TexturePlan& texture : plan.textures) {
+        TexturePlan* const end = &texture;
+        const TexturePlan* const same = std::find_if(
+            plan.textures.data(), end, [&](const TexturePlan& earlier) { return earlier.data != nullptr && same_taps(earlier, texture); });
+        texture.taps = same == end ? ++number : same->taps;
     }
 }
 
@@ -77,8 +53,8 @@ bool loses_normals(const TexturePlan& normals) {
 }
 
 /// Plans what is not a texture: Beer's law over the thickness, colour^(thickness / distance).
-void plan_transmission(const Transmission& material, TransmissionPlan& plan) {
-    plan.share = clamp_or_low(material.share, 0.0f, 1.0f);
+void plan_transmission(const Material& material, TransmissionPlan& plan) {
+    plan.share = clamp_or_low(material.transmission, 0.0f, 1.0f);
     const double ways = material.attenuation_distance > 0.0f && material.thickness > 0.0f
                             ? static_cast<double>(material.thickness) / static_cast<double>(material.attenuation_distance)
                             : 0.0;
@@ -137,61 +113,58 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
     if (lit && options.rate != ShadingRate::pixel) plan.stages |= kStagePrelit;
 
     bool gradients = false;
-    const auto use_texture = [&](bool wanted, Stage stage, const TextureUse& use, TexturePlan& target) {
+    const auto use_texture = [&](bool wanted, TextureSlot slot) {
         if (!wanted) return;
-        target = plan_texture(use, textures, available, options);
-        if (target.data == nullptr) return;
-        plan.stages |= stage;
-        gradients = gradients || target.needs_lod;
+        TexturePlan& texture = plan.textures[slot];
+        texture = plan_texture(material.textures[slot], textures, available, options);
+        if (texture.data == nullptr) return;
+        plan.stages |= info_of(slot).stage;
+        gradients = gradients || texture.needs_lod;
     };
     const bool base_color_seen = lit || material.unlit || material.alpha_mode != AlphaMode::opaque;
-    use_texture(base_color_seen, kStageBaseColorTexture, material.base_color_texture, plan.base_color_texture);
-    use_texture(lit && kinds.specular, kStageMetallicRoughnessTexture, material.metallic_roughness_texture,
-                plan.metallic_roughness_texture);
-    use_texture(lit && (available & kTangentSlot) != 0, kStageNormalMap, material.normal_texture, plan.normal_texture);
-    use_texture(lit && kinds.ambient && plan.occlusion_strength > 0.0f, kStageOcclusionTexture, material.occlusion_texture,
-                plan.occlusion_texture);
-    use_texture(!material.unlit && !zero(material.emissive), kStageEmissiveTexture, material.emissive_texture, plan.emissive_texture);
+    const bool has_tangents = (available & kTangentSlot) != 0;
+    use_texture(base_color_seen, TextureSlot::base_color);
+    use_texture(lit && kinds.specular, TextureSlot::metallic_roughness);
+    use_texture(lit && has_tangents, TextureSlot::normal);
+    use_texture(lit && kinds.ambient && plan.occlusion_strength > 0.0f, TextureSlot::occlusion);
+    use_texture(!material.unlit && !zero(material.emissive), TextureSlot::emissive);
     if (lit && kinds.specular && material.has_specular_color()) {
         plan.stages |= kStageSpecularColor;
         plan_specular_color(material, plan);
-        use_texture(true, kStageSpecularColor, material.specular_texture, plan.specular_texture);
-        use_texture(true, kStageSpecularColor, material.specular_color_texture, plan.specular_color_texture);
+        use_texture(true, TextureSlot::specular);
+        use_texture(true, TextureSlot::specular_color);
     }
     if (material.transmits()) {
         plan.stages |= kStageTransmission;
-        plan_transmission(material.transmission, plan.transmission);
-        use_texture(true, kStageTransmission, material.transmission.texture, plan.transmission.texture);
+        plan_transmission(material, plan.transmission);
+        use_texture(true, TextureSlot::transmission);
         const float(&absorbed)[3] = plan.transmission.absorbed;
-        use_texture(absorbed[0] + absorbed[1] + absorbed[2] > 0.0f, kStageTransmission, material.transmission.thickness_texture,
-                    plan.transmission.thickness_texture);
+        use_texture(absorbed[0] + absorbed[1] + absorbed[2] > 0.0f, TextureSlot::thickness);
     }
     if (lit && coated) {
-        const Clearcoat& coat = material.clearcoat;
         plan.stages |= kStageClearcoat;
-        plan.clearcoat.factor = clamp_or_low(coat.factor, 0.0f, 1.0f);
-        plan.clearcoat.roughness = clamp_or_low(coat.roughness, 0.0f, 1.0f);
-        plan.clearcoat.normal_scale = coat.normal_scale;
-        use_texture(true, kStageClearcoat, coat.texture, plan.clearcoat.texture);
-        use_texture(true, kStageClearcoat, coat.roughness_texture, plan.clearcoat.roughness_texture);
-        use_texture((available & kTangentSlot) != 0, kStageClearcoat, coat.normal_texture, plan.clearcoat.normal_texture);
-        plan.clearcoat.normal_roughness = loses_normals(plan.clearcoat.normal_texture);
+        plan.clearcoat.factor = clamp_or_low(material.clearcoat, 0.0f, 1.0f);
+        plan.clearcoat.roughness = clamp_or_low(material.clearcoat_roughness, 0.0f, 1.0f);
+        plan.clearcoat.normal_scale = material.clearcoat_normal_scale;
+        use_texture(true, TextureSlot::clearcoat);
+        use_texture(true, TextureSlot::clearcoat_roughness);
+        use_texture(has_tangents, TextureSlot::clearcoat_normal);
+        plan.clearcoat.normal_roughness = loses_normals(plan.textures[TextureSlot::clearcoat_normal]);
     }
     if (lit && kinds.specular && material.has_sheen()) {
-        const Sheen& sheen = material.sheen;
         plan.stages |= kStageSheen;
-        const float color[] = {sheen.color.x, sheen.color.y, sheen.color.z};
+        const float color[] = {material.sheen_color.x, material.sheen_color.y, material.sheen_color.z};
         for (int c = 0; c < 3; ++c) plan.sheen.color[c] = clamp_or_low(color[c], 0.0f, 1.0f);
-        plan.sheen.roughness = clamp_or_low(sheen.roughness, 0.0f, 1.0f);
-        use_texture(true, kStageSheen, sheen.color_texture, plan.sheen.color_texture);
-        use_texture(true, kStageSheen, sheen.roughness_texture, plan.sheen.roughness_texture);
+        plan.sheen.roughness = clamp_or_low(material.sheen_roughness, 0.0f, 1.0f);
+        use_texture(true, TextureSlot::sheen_color);
+        use_texture(true, TextureSlot::sheen_roughness);
     }
-    plan.normal_roughness = kinds.specular && loses_normals(plan.normal_texture);
+    plan.normal_roughness = kinds.specular && loses_normals(plan.textures[TextureSlot::normal]);
     if (gradients) plan.stages |= kStageGradients;
     if (base_color_seen && (available & kColorSlot) != 0) plan.stages |= kStageVertexColor;
-    plan.occlusion_is_metallic_roughness = (plan.stages & kStageOcclusionTexture) != 0 &&
-                                           (plan.stages & kStageMetallicRoughnessTexture) != 0 &&
-                                           same_fetch(plan.occlusion_texture, plan.metallic_roughness_texture);
+    plan.occlusion_is_metallic_roughness =
+        (plan.stages & kStageOcclusionTexture) != 0 && (plan.stages & kStageMetallicRoughnessTexture) != 0 &&
+        same_fetch(plan.textures[TextureSlot::occlusion], plan.textures[TextureSlot::metallic_roughness]);
     number_taps(plan);
     plan.slots = slots_of(plan, lit);
     return plan;

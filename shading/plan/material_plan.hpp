@@ -30,26 +30,23 @@ struct CellTolerance {
     float half_exponent = 0, peak = 0;  ///< of the widest highlight; normalisation of the sharpest
 };
 
-/// Transmission as planned; used with kStageTransmission.
+/// Transmission as planned; used with kStageTransmission, as its textures are.
 struct TransmissionPlan {
     float share = 0;
     float passed[3] = {1, 1, 1};    ///< share of light that is not absorbed, without a texture of thickness
     float absorbed[3] = {0, 0, 0};  ///< -log2 of it where the texture of thickness is 1
-    TexturePlan texture, thickness_texture;
 };
 
 /// A coat as planned; used with kStageClearcoat.
 struct ClearcoatPlan {
     float factor = 0, roughness = 0, normal_scale = 1;
     bool normal_roughness = false;  ///< as MaterialPlan's, of the coat's own normal texture
-    TexturePlan texture, roughness_texture, normal_texture;
 };
 
 /// Sheen as planned; used with kStageSheen.
 struct SheenPlan {
     float color[3] = {0, 0, 0};
     float roughness = 0;
-    TexturePlan color_texture, roughness_texture;
 };
 
 struct MaterialPlan {
@@ -82,8 +79,7 @@ struct MaterialPlan {
     int reflection_lobes = 0;                      ///< lobes by which the environment's reflections are taken, 0 to 2; 0: there are none
     bool normal_roughness = false;                 ///< minified normals make the surface rougher: their texture was made so
     bool occlusion_is_metallic_roughness = false;  ///< both read the same texels the same way: one fetch serves both
-    TexturePlan base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;
-    TexturePlan specular_texture, specular_color_texture;
+    BySlot<TexturePlan> textures;
     TransmissionPlan transmission;
     ClearcoatPlan clearcoat;
     SheenPlan sheen;

@@ -421,7 +421,7 @@ double level_of_detail(const Texture& texture, const TextureUse& use, const Frag
 namespace {
 
 Rgba base_color(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane) {
-    Rgba base = material_texture(frame, material.base_color_texture, available, block, lane, {1, 1, 1, 1});
+    Rgba base = material_texture(frame, material.textures[TextureSlot::base_color], available, block, lane, {1, 1, 1, 1});
     base = {base.r * material.base_color.x, base.g * material.base_color.y, base.b * material.base_color.z, base.a * material.base_color.w};
     if ((available & 8u) != 0)
         base = {base.r * block.lane[kColorR][lane], base.g * block.lane[kColorG][lane], base.b * block.lane[kColorB][lane],
@@ -439,18 +439,19 @@ double alpha_of(const Material& material, double alpha) {
 /// Share of the light that enters the surface which passes through it.
 double transmitted(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane) {
     if (!material.transmits()) return 0.0;
-    return std::clamp(double{material.transmission.share}, 0.0, 1.0) *
-           material_texture(frame, material.transmission.texture, available, block, lane, {1, 1, 1, 1}).r;
+    return std::clamp(double{material.transmission}, 0.0, 1.0) *
+           material_texture(frame, material.textures[TextureSlot::transmission], available, block, lane, {1, 1, 1, 1}).r;
 }
 
 Surface surface_of(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane) {
     const Rgba white{1, 1, 1, 1}, base = base_color(frame, material, available, block, lane);
-    const Rgba mr = material_texture(frame, material.metallic_roughness_texture, available, block, lane, white);
-    const Rgba occlusion = material_texture(frame, material.occlusion_texture, available, block, lane, white);
+    const Rgba mr = material_texture(frame, material.textures[TextureSlot::metallic_roughness], available, block, lane, white);
+    const Rgba occlusion = material_texture(frame, material.textures[TextureSlot::occlusion], available, block, lane, white);
     Surface surface{};
     surface.base = {base.r, base.g, base.b};
-    surface.normal = mapped_normal(frame, material, material.normal_texture, material.normal_scale, available, block, lane);
-    surface.roughness = rougher(frame, material.normal_texture, material.normal_scale, material.roughness * mr.g, available, block, lane);
+    surface.normal = mapped_normal(frame, material, material.textures[TextureSlot::normal], material.normal_scale, available, block, lane);
+    surface.roughness =
+        rougher(frame, material.textures[TextureSlot::normal], material.normal_scale, material.roughness * mr.g, available, block, lane);
     surface.occlusion = 1.0 + double{material.occlusion_strength} * (occlusion.r - 1.0);
     const Vec3d position = row3(block, kPosX, lane);
     surface.to_eye = frame.orthographic ? scale(to_double(frame.view_direction_ws), -1) : unit(to_double(frame.eye_ws) - position);
@@ -460,9 +461,9 @@ Surface surface_of(const FrameInputs& frame, const Material& material, SlotMask 
         const double dielectric = std::clamp(double{material.dielectric_reflectance}, 0.0, 1.0);
         surface.metallic = material.metallic * mr.b;
         surface.matt = scale(surface.base, (1 - surface.metallic) * scattered);
-        const Rgba color = material_texture(frame, material.specular_color_texture, available, block, lane, white);
+        const Rgba color = material_texture(frame, material.textures[TextureSlot::specular_color], available, block, lane, white);
         surface.weight = std::clamp(double{material.specular}, 0.0, 1.0) *
-                         material_texture(frame, material.specular_texture, available, block, lane, white).a;
+                         material_texture(frame, material.textures[TextureSlot::specular], available, block, lane, white).a;
         const auto channel = [&](float factor, double texture) {
             return std::min(1.0, dielectric * std::max(0.0, double{factor}) * texture) * surface.weight;
         };
@@ -481,12 +482,14 @@ struct Fibres {
 };
 Fibres sheen_of(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
                 const Surface& surface, const Surroundings& around) {
-    const Sheen& sheen = material.sheen;
-    const Rgba white{1, 1, 1, 1}, texture = material_texture(frame, sheen.color_texture, available, block, lane, white);
+    const Rgba white{1, 1, 1, 1},
+        texture = material_texture(frame, material.textures[TextureSlot::sheen_color], available, block, lane, white);
     const auto held = [](float x) { return std::clamp(double{x}, 0.0, 1.0); };
-    const Vec3d color{held(sheen.color.x) * texture.r, held(sheen.color.y) * texture.g, held(sheen.color.z) * texture.b};
-    const double roughness =
-        std::max(kHeldRoughness, held(sheen.roughness) * material_texture(frame, sheen.roughness_texture, available, block, lane, white).a);
+    const Vec3d color{held(material.sheen_color.x) * texture.r, held(material.sheen_color.y) * texture.g,
+                      held(material.sheen_color.z) * texture.b};
+    const double roughness = std::max(
+        kHeldRoughness, held(material.sheen_roughness) *
+                            material_texture(frame, material.textures[TextureSlot::sheen_roughness], available, block, lane, white).a);
     const double a = roughness * roughness, signed_n_dot_v = dot(surface.normal, surface.to_eye),
                  n_dot_v = std::clamp(signed_n_dot_v, 0.0, 1.0);
     const TableCell at(roughness, n_dot_v);
@@ -530,13 +533,16 @@ struct Coat {
 };
 Coat coat_of(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
              const Surface& below) {
-    const Clearcoat& coat = material.clearcoat;
     const Rgba white{1, 1, 1, 1};
-    Coat out{std::clamp(double{coat.factor}, 0.0, 1.0) * material_texture(frame, coat.texture, available, block, lane, white).r, below};
-    out.surface.normal = mapped_normal(frame, material, coat.normal_texture, coat.normal_scale, available, block, lane);
-    const double roughness =
-        std::clamp(double{coat.roughness}, 0.0, 1.0) * material_texture(frame, coat.roughness_texture, available, block, lane, white).g;
-    out.surface.roughness = rougher(frame, coat.normal_texture, coat.normal_scale, roughness, available, block, lane);
+    Coat out{std::clamp(double{material.clearcoat}, 0.0, 1.0) *
+                 material_texture(frame, material.textures[TextureSlot::clearcoat], available, block, lane, white).r,
+             below};
+    out.surface.normal = mapped_normal(frame, material, material.textures[TextureSlot::clearcoat_normal], material.clearcoat_normal_scale,
+                                       available, block, lane);
+    const double roughness = std::clamp(double{material.clearcoat_roughness}, 0.0, 1.0) *
+                             material_texture(frame, material.textures[TextureSlot::clearcoat_roughness], available, block, lane, white).g;
+    out.surface.roughness = rougher(frame, material.textures[TextureSlot::clearcoat_normal], material.clearcoat_normal_scale, roughness,
+                                    available, block, lane);
     out.surface.metallic = 0, out.surface.weight = 1;
     out.surface.f0 = {0.04, 0.04, 0.04};
     return out;
@@ -615,7 +621,7 @@ Rgba shade(const FrameInputs& frame, const Material& material, SlotMask availabl
     if (material.shadow_catcher)
         return {0, 0, 0, hidden_light(frame, material, available, block, lane, around) * std::clamp(base.a, 0.0, 1.0)};
     const Surface surface = surface_of(frame, material, available, block, lane);
-    const Rgba glow = material_texture(frame, material.emissive_texture, available, block, lane, {1, 1, 1, 1});
+    const Rgba glow = material_texture(frame, material.textures[TextureSlot::emissive], available, block, lane, {1, 1, 1, 1});
     const Vec3d position = row3(block, kPosX, lane);
     Vec3d color = lit(frame, material, surface, position, around);
     if (has_sheen(frame, material)) {
@@ -646,9 +652,8 @@ Vec3d kept(const FrameInputs& frame, const Material& material, SlotMask availabl
             mirrored = environment_share(f0, surface.weight, std::max(surface.roughness, kHeldRoughness), n_dot_v);
         }
     }
-    const Transmission& inside = material.transmission;
-    const double thickness =
-        double{inside.thickness} * material_texture(frame, inside.thickness_texture, available, block, lane, {1, 1, 1, 1}).g;
+    const double thickness = double{material.thickness} *
+                             material_texture(frame, material.textures[TextureSlot::thickness], available, block, lane, {1, 1, 1, 1}).g;
     const bool front = !material.double_sided || block.lane[kFacing][lane] > 0.0f;
     double share = transmitted(frame, material, available, block, lane) * (1 - mirrored) * (1 - surface.metallic);
     if (has_sheen(frame, material)) share *= sheen_of(frame, material, available, block, lane, surface, around).left;
@@ -657,13 +662,13 @@ Vec3d kept(const FrameInputs& frame, const Material& material, SlotMask availabl
         share *= 1.0 - coat.share * coat_fresnel(coat);
     }
     const auto channel = [&](double base, float color) {
-        const double passed = front && inside.attenuation_distance > 0.0f && inside.thickness > 0.0f
-                                  ? std::pow(double{color}, thickness / double{inside.attenuation_distance})
+        const double passed = front && material.attenuation_distance > 0.0f && material.thickness > 0.0f
+                                  ? std::pow(double{color}, thickness / double{material.attenuation_distance})
                                   : 1.0;
         return std::clamp(1 - alpha + alpha * share * base * passed, 0.0, 1.0);
     };
-    return {channel(surface.base.x, inside.attenuation_color.x), channel(surface.base.y, inside.attenuation_color.y),
-            channel(surface.base.z, inside.attenuation_color.z)};
+    return {channel(surface.base.x, material.attenuation_color.x), channel(surface.base.y, material.attenuation_color.y),
+            channel(surface.base.z, material.attenuation_color.z)};
 }
 
 double srgb_code(double linear) {

@@ -1,6 +1,9 @@
 // Frame settings and materials of the trials.
+#include "shading/material_properties.hpp"
 #include "tests/adversary/textures.hpp"
 #include "tests/adversary/trial.hpp"
+
+#include <algorithm>
 
 namespace halflit::adversary {
 namespace {
@@ -60,23 +63,51 @@ Material some_material(Genes& genes) {
 
 }  // namespace
 
+namespace {
+
+/// Numbers of the extensions' properties: each is the default, or anything up to twice white.
+void add_layers(const Genome& genome, int index, Trial& trial, Material& m) {
+    int row = 0;
+    for (const shading::MaterialNumber& number : shading::kMaterialNumbers) {
+        if (!number.gltf.starts_with("extensions/")) continue;
+        // Four genes for each.
+        Genes genes(genome, kLayers + kLayerSections * index + row / 8 % kLayerSections, trial.read);
+        genes.skip(row++ % 8 * 4);
+        if (!genes.chance(0.2)) continue;
+        float values[4];
+        for (int c = 0; c < number.count; ++c) values[c] = genes.real32(std::max(number.low, -1.0f), std::min(number.high, 2.0f));
+        number.set(m, values);
+    }
+}
+
+void add_textures(const Genome& genome, AvoidSet avoid, int index, Trial& trial, Material& m) {
+    for (int i = 0; i < kTextureSlots; ++i) {
+        const auto slot = static_cast<TextureSlot>(i);
+        const int section = i < kFirstSlots ? kMaterialTextures + index * kFirstSlots / 2 + i / 2
+                                            : kLayerTextures + index * kSlotSections + (i - kFirstSlots) / 2;
+        Genes genes(genome, section, trial.read);
+        genes.skip(i % 2 * kTextureGenes);
+        TextureUse& use = m.textures[slot];
+        const auto picture = some_texture(genes, slot, avoid, use);
+        const bool metal = slot == TextureSlot::base_color || slot == TextureSlot::metallic_roughness;
+        if (picture == nullptr || ((avoid & kAvoidMetalTextures) != 0 && metal)) {
+            use = {};
+            continue;
+        }
+        use.texture = static_cast<int>(trial.scene.textures.size());
+        trial.scene.textures.push_back(picture->texture);
+        trial.pictures.push_back(picture);
+    }
+}
+
+}  // namespace
+
 void add_materials(const Genome& genome, AvoidSet avoid, Trial& trial) {
     for (int i = 0; i < kMaterials; ++i) {
         Genes genes(genome, kMaterial + i, trial.read);
         Material m = some_material(genes);
-        TextureUse* const uses[] = {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.occlusion_texture};
-        for (int slot = 0; slot < 4; ++slot) {
-            Genes section(genome, kMaterialTextures + 2 * i + slot / 2, trial.read);
-            section.skip(slot % 2 * kTextureGenes);
-            const auto picture = some_texture(section, static_cast<Slot>(slot), avoid, *uses[slot]);
-            if (picture == nullptr || ((avoid & kAvoidMetalTextures) != 0 && slot < 2)) {
-                *uses[slot] = {};
-                continue;
-            }
-            uses[slot]->texture = static_cast<int>(trial.scene.textures.size());
-            trial.scene.textures.push_back(picture->texture);
-            trial.pictures.push_back(picture);
-        }
+        add_layers(genome, i, trial, m);
+        add_textures(genome, avoid, i, trial, m);
         trial.scene.materials.push_back(m);
     }
 }

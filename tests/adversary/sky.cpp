@@ -50,7 +50,7 @@ void make_plain(Trial& trial) {
     trial.settings.samples = 1;
     for (Mesh& mesh : trial.scene.meshes) mesh.colors.clear();
     for (Material& m : trial.scene.materials) {
-        m.base_color_texture = m.occlusion_texture = m.normal_texture = {};
+        m.textures[TextureSlot::base_color] = m.textures[TextureSlot::occlusion] = m.textures[TextureSlot::normal] = {};
         m.alpha_mode = AlphaMode::opaque;
         m.unlit = false;
     }

@@ -1,5 +1,7 @@
 #include "tests/adversary/textures.hpp"
 
+#include "shading/material_properties.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <list>
@@ -15,8 +17,8 @@ struct Recipe {
     Pattern pattern;
     std::uint64_t seed;
     double low[3], high[3];  ///< by channel
-    Slot slot;
-    bool odd;  ///< normals: z has nothing to do with x and y
+    ColorSpace space;
+    bool normals, odd;  ///< odd: z has nothing to do with x and y
     bool operator==(const Recipe&) const = default;
 };
 
@@ -39,7 +41,7 @@ std::shared_ptr<const Picture> paint(const Recipe& r) {
     auto picture = std::make_shared<Picture>();
     picture->width = r.width;
     picture->height = r.height;
-    picture->space = r.slot == Slot::base_color ? ColorSpace::srgb : ColorSpace::linear;
+    picture->space = r.space;
     picture->rgba8.resize(std::size_t{4} * static_cast<std::size_t>(r.width) * static_cast<std::size_t>(r.height), 255);
     Numbers noise(r.seed);
     std::size_t at = 0;
@@ -53,7 +55,7 @@ std::shared_ptr<const Picture> paint(const Recipe& r) {
                                                                  : noise.real(0, 1);
                 value[c] = r.low[c] + (r.high[c] - r.low[c]) * t;
             }
-            if (r.slot == Slot::normal && !r.odd)
+            if (r.normals && !r.odd)
                 value[2] = 0.5 + 0.5 * std::sqrt(std::max(
                                            0.0, 1 - 4 * (value[0] - 0.5) * (value[0] - 0.5) - 4 * (value[1] - 0.5) * (value[1] - 0.5)));
             for (std::size_t c = 0; c < 3; ++c) picture->rgba8[at + c] = static_cast<std::uint8_t>(value[c] * 255.0 + 0.5);
@@ -77,26 +79,27 @@ std::shared_ptr<const Picture> painted(const Recipe& recipe) {
 
 }  // namespace
 
-std::shared_ptr<const Picture> some_texture(Genes& genes, Slot slot, AvoidSet avoid, TextureUse& use) {
-    const double probability = slot == Slot::base_color ? 0.5 : slot == Slot::occlusion ? 0.1 : 0.25;
+std::shared_ptr<const Picture> some_texture(Genes& genes, TextureSlot slot, AvoidSet avoid, TextureUse& use) {
+    const double probability = slot == TextureSlot::base_color ? 0.5 : slot == TextureSlot::occlusion ? 0.1 : 0.25;
     if (!genes.chance(probability)) {
         genes.skip(kTextureGenes - 1);
         return nullptr;
     }
     Recipe r{};
-    r.slot = slot;
+    r.space = shading::info_of(slot).space;
+    r.normals = shading::holds_normals(slot);
     const double size = genes.octaves(1, 10), shape = genes.next();
     r.width = std::clamp(static_cast<int>(size), 1, 1000);
     r.height = shape < 0.6 ? r.width : std::clamp(static_cast<int>(size * (shape - 0.5) * 4), 1, 1000);
     r.pattern = static_cast<Pattern>(genes.pick(4));
     r.seed = genes.seed();
     // Contrast, tint and level: base colours and roughness from nearly nothing to 1, normals about (1/2, 1/2, 1).
-    const bool flat = slot == Slot::normal && (avoid & kAvoidShortNormals) != 0;
+    const bool flat = r.normals && (avoid & kAvoidShortNormals) != 0;
     const double contrast = genes.real(0, flat ? 0.5 : 1.0), level = genes.real(1, 0), tint = genes.real(0, 1);
     for (int c = 0; c < 3; ++c) {
         const double top = level * (c == 0 ? 1.0 : 1.0 - 0.5 * tint * c);
-        r.high[c] = slot == Slot::normal ? 0.5 + 0.5 * contrast * level : top;
-        r.low[c] = slot == Slot::normal ? 1.0 - r.high[c] : top * (1 - contrast);
+        r.high[c] = r.normals ? 0.5 + 0.5 * contrast * level : top;
+        r.low[c] = r.normals ? 1.0 - r.high[c] : top * (1 - contrast);
     }
     r.odd = genes.chance(0.15) && !flat;
     use = {};

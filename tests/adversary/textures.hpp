@@ -9,13 +9,10 @@
 
 namespace halflit::adversary {
 
-/// What a texture's channels mean to a material.
-enum class Slot { base_color, metallic_roughness, normal, occlusion };
-
 /// Genes that one use of a texture reads.
 inline constexpr int kTextureGenes = 16;
 
 /// A texture and how it is used. Null if the genes say none.
-[[nodiscard]] std::shared_ptr<const Picture> some_texture(Genes& genes, Slot slot, AvoidSet avoid, TextureUse& use);
+[[nodiscard]] std::shared_ptr<const Picture> some_texture(Genes& genes, TextureSlot slot, AvoidSet avoid, TextureUse& use);
 
 }  // namespace halflit::adversary

@@ -43,9 +43,22 @@ struct Trial {
 };
 
 /// Sections of a genome.
-enum Section : int { kFrame, kView, kSky, kMaterial, kMaterialTextures = kMaterial + 2, kBody = kMaterialTextures + 4, kLight = kBody + 2 };
 inline constexpr int kMaterials = 2, kBodies = 2, kLightKinds = 4;
-static_assert(kLight + kLightKinds <= kSections);
+/// A section of textures has two slots. The first four slots were there first, and have their sections among the others.
+inline constexpr int kFirstSlots = 4, kLayerSections = 2, kSlotSections = (kTextureSlots - kFirstSlots + 1) / 2;
+enum Section : int {
+    kFrame,
+    kView,
+    kSky,
+    kMaterial,
+    kMaterialTextures = kMaterial + kMaterials,
+    kBody = kMaterialTextures + kMaterials * kFirstSlots / 2,
+    kLight = kBody + kBodies,
+    kLayers = kLight + kLightKinds,
+    kLayerTextures = kLayers + kMaterials * kLayerSections,
+    kSectionEnd = kLayerTextures + kMaterials * kSlotSections
+};
+static_assert(kSectionEnd <= kSections);
 
 [[nodiscard]] Trial make_trial(const Genome& genome, AvoidSet avoid);
 

@@ -95,8 +95,8 @@ bool whole_sky_applies(const Trial& trial) {
     for (const Mesh& mesh : trial.scene.meshes)
         if (!mesh.colors.empty()) return false;
     return std::all_of(trial.scene.materials.begin(), trial.scene.materials.end(), [](const Material& m) {
-        return !m.base_color_texture.used() && !m.occlusion_texture.used() && !m.normal_texture.used() && !m.unlit &&
-               m.alpha_mode == AlphaMode::opaque;
+        return !m.textures[TextureSlot::base_color].used() && !m.textures[TextureSlot::occlusion].used() &&
+               !m.textures[TextureSlot::normal].used() && !m.unlit && m.alpha_mode == AlphaMode::opaque;
     });
 }
 

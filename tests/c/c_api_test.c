@@ -570,6 +570,43 @@ static void test_tangents_and_normals_follow_the_material(void) {
     CHECK(hashes[0] != 0 && hashes[0] == hashes[1]);
 }
 
+static void test_coats_have_normals_of_their_own(void) {
+    // A coat's normal texture counts on a mesh without tangents.
+    static const float square[4 * 3] = {-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0}, uv[4 * 2] = {0, 1, 1, 1, 0, 0, 1, 0};
+    static const uint32_t two[6] = {0, 1, 2, 2, 1, 3};
+    const uint8_t tilted[4] = {200, 128, 200, 255};
+    uint64_t hashes[2] = {0, 0};
+    int32_t with;
+    for (with = 0; with < 2; ++with) {
+        halflit_scene* scene;
+        halflit_material material;
+        halflit_mesh mesh;
+        halflit_camera camera;
+        halflit_settings settings;
+        CHECK_OK(halflit_scene_create(&scene));
+        CHECK_OK(halflit_scene_add_texture(scene, tilted, 1, 1, 0, HALFLIT_COLOR_LINEAR, NULL));
+        halflit_material_init(&material, sizeof material);
+        material.metallic = 0;
+        material.clearcoat = 1;
+        material.clearcoat_roughness = 0.3f;
+        material.clearcoat_normal_texture.texture = with - 1;
+        CHECK_OK(halflit_scene_add_material(scene, &material, NULL));
+        halflit_mesh_init(&mesh, sizeof mesh);
+        mesh.positions = square;
+        mesh.uv0 = uv;
+        mesh.vertex_count = 4;
+        mesh.indices = two;
+        mesh.index_count = 6;
+        mesh.material = 0;
+        CHECK_OK(halflit_scene_add_mesh(scene, &mesh, NULL));
+        CHECK_OK(halflit_scene_add_instance(scene, 0, NULL, NULL));
+        init_setup(scene, &camera, &settings);
+        hashes[with] = draw(NULL, scene, &camera, &settings);
+        halflit_scene_destroy(scene);
+    }
+    CHECK(hashes[0] != 0 && hashes[0] != hashes[1]);
+}
+
 static void test_environments(void) {
     Cube cube = make_cube();
     static float grey[16 * 8 * 3];
@@ -1038,6 +1075,7 @@ int main(void) {
     test_same_as_cpp();
     test_changes();
     test_tangents_and_normals_follow_the_material();
+    test_coats_have_normals_of_their_own();
     test_environments();
     test_points_and_lines();
     if (HAS_FILES) {

@@ -19,18 +19,26 @@ Sized<halflit_material> Session::material() {
     Sized<halflit_material> material(in_);
     const std::int32_t code = halflit_material_init(material.get(), material.size());
     check(code);
-    material.set(&halflit_material::base_color, floats<4>());
-    material.set(&halflit_material::metallic, in_.real());
-    material.set(&halflit_material::roughness, in_.real());
+    // As many numbers as the member has.
+    const auto numbers = [&](const auto& member) {
+        using Member = std::remove_cvref_t<decltype(member)>;
+        if constexpr (std::is_array_v<Member>)
+            return floats<std::extent_v<Member>>();
+        else
+            return in_.real();
+    };
+#define HALFLIT_NUMBER(member, ...) \
+    if (in_.one_in(2)) material.set(&halflit_material::member, numbers(halflit_material{}.member));
+#define HALFLIT_TEXTURE(slot, ...) \
+    if (in_.one_in(4)) material.set(&halflit_material::slot##_texture, texture_use());
+#include "shading/material_properties.def"
+#undef HALFLIT_NUMBER
+#undef HALFLIT_TEXTURE
     material.set(&halflit_material::alpha_mode, choice(3));
     material.set(&halflit_material::double_sided, in_.flag());
     material.set(&halflit_material::unlit, in_.one_in(8));
     material.set(&halflit_material::lobe, halflit_lobe{in_.real(), in_.real(), in_.flag()});
-    if (in_.one_in(2))
-        for (auto member : {&halflit_material::base_color_texture, &halflit_material::metallic_roughness_texture,
-                            &halflit_material::normal_texture, &halflit_material::occlusion_texture, &halflit_material::emissive_texture})
-            material.set(member, texture_use());
-    if (in_.one_in(4)) material.damage(in_, offsetof(halflit_material, base_color));
+    if (in_.one_in(4)) material.damage(in_, offsetof(halflit_material, alpha_mode));
     return material;
 }
 

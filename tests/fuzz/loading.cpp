@@ -30,7 +30,7 @@ void check_loaded(const LoadedScene& loaded) {
         HALFLIT_PROMISE(instance.mesh >= 0 && instance.mesh < static_cast<int>(scene.meshes.size()));
     for (const Material& m : scene.materials) {
         for (const TextureUse* use :
-             {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.occlusion_texture, &m.emissive_texture})
+             {&m.textures[TextureSlot::base_color], &m.textures[TextureSlot::metallic_roughness], &m.textures[TextureSlot::normal], &m.textures[TextureSlot::occlusion], &m.textures[TextureSlot::emissive]})
             HALFLIT_PROMISE(in_range(use->texture, scene.textures.size()) && (use->uv_set == 0 || use->uv_set == 1));
         HALFLIT_PROMISE(check_lobe(m.lobe).has_value());
     }

@@ -109,8 +109,8 @@ Material read_material(Input& input, std::size_t textures) {
     material.unlit = input.one_in(8);
     material.lobe = read_lobe(input);
     material.has_own_lobe = input.flag();
-    for (TextureUse* use : {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
-                            &material.occlusion_texture, &material.emissive_texture})
+    for (TextureUse* use : {&material.textures[TextureSlot::base_color], &material.textures[TextureSlot::metallic_roughness], &material.textures[TextureSlot::normal],
+                            &material.textures[TextureSlot::occlusion], &material.textures[TextureSlot::emissive]})
         *use = read_texture_use(input, textures);
     if (input.one_in(4)) material.dielectric_reflectance = input.real();
     return material;

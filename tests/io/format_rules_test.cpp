@@ -125,11 +125,11 @@ TEST_CASE("OBJ: materials of an MTL file become halflit's", "[io]") {
     REQUIRE(textured);
     const Material& picture = textured->scene.materials.at(0);
     CHECK(picture.base_color == Vec4f{1, 1, 1, 1});
-    CHECK(picture.base_color_texture.row_u == Vec3f{2, 0, 0.5f});
-    CHECK(picture.base_color_texture.row_v == Vec3f{0, 3, -2.25f});  // 1 - (3 (1 - v) + 0.25)
-    CHECK(picture.normal_texture.used());
+    CHECK(picture.textures[TextureSlot::base_color].row_u == Vec3f{2, 0, 0.5f});
+    CHECK(picture.textures[TextureSlot::base_color].row_v == Vec3f{0, 3, -2.25f});  // 1 - (3 (1 - v) + 0.25)
+    CHECK(picture.textures[TextureSlot::normal].used());
     CHECK(picture.normal_scale == 2.0f);
-    CHECK_FALSE(textured->scene.materials.at(1).normal_texture.used());
+    CHECK_FALSE(textured->scene.materials.at(1).textures[TextureSlot::normal].used());
     REQUIRE(textured->warnings.size() == 1);
     CHECK(textured->warnings[0].find("holds heights, expected a normal map") != std::string::npos);
     CHECK_FALSE(refused);  // outside of the model's folder

@@ -120,7 +120,8 @@ TEST_CASE("fuzz: damaged files give a sound scene or an error", "[io]") {
             if (instance.mesh < 0 || instance.mesh >= static_cast<int>(result->scene.meshes.size())) FAIL("mesh " << instance.mesh);
         for (const Material& m : result->scene.materials)
             for (const TextureUse& use :
-                 {m.base_color_texture, m.metallic_roughness_texture, m.normal_texture, m.occlusion_texture, m.emissive_texture})
+                 {m.textures[TextureSlot::base_color], m.textures[TextureSlot::metallic_roughness], m.textures[TextureSlot::normal],
+                  m.textures[TextureSlot::occlusion], m.textures[TextureSlot::emissive]})
                 if (use.texture >= static_cast<int>(result->scene.textures.size())) FAIL("texture " << use.texture);
     }
     INFO(loaded_count << " loaded, " << refused_count << " refused");

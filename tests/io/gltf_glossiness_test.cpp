@@ -124,8 +124,8 @@ TEST_CASE("glossiness: textures of two sizes are converted texel by texel, and t
                {random_png(4, 7), random_png(2, 90)}));
     REQUIRE(loaded.scene.textures.size() == 2);
     const Material& m = loaded.scene.materials.at(0);
-    const Texture& base = loaded.scene.textures[static_cast<std::size_t>(m.base_color_texture.texture)];
-    const Texture& rough = loaded.scene.textures[static_cast<std::size_t>(m.metallic_roughness_texture.texture)];
+    const Texture& base = loaded.scene.textures[static_cast<std::size_t>(m.textures[TextureSlot::base_color].texture)];
+    const Texture& rough = loaded.scene.textures[static_cast<std::size_t>(m.textures[TextureSlot::metallic_roughness].texture)];
     REQUIRE(base.width() == 4);
     REQUIRE(rough.width() == 4);
     for (int y = 0; y < 4; ++y)
@@ -149,7 +149,7 @@ TEST_CASE("glossiness: textures of two sizes are converted texel by texel, and t
 TEST_CASE("glossiness: textures that lie differently are each converted with the mean of the other, with a warning", "[io]") {
     const LoadedScene loaded = load_ok(glossy(R"("diffuseTexture":{"index":0},"specularGlossinessTexture":{"index":1,"texCoord":1})",
                                               {plain_png(1, 1, 200, 100, 50), plain_png(1, 1, 60, 60, 60)}));
-    CHECK(loaded.scene.materials.at(0).metallic_roughness_texture.uv_set == 1);
+    CHECK(loaded.scene.materials.at(0).textures[TextureSlot::metallic_roughness].uv_set == 1);
     CHECK(std::any_of(loaded.warnings.begin(), loaded.warnings.end(),
                       [](const std::string& text) { return text.find("lie differently") != std::string::npos; }));
 }

@@ -45,15 +45,15 @@ TEST_CASE("materials: transmission and absorption are read", "[io]") {
                     R"("KHR_materials_volume":{"thicknessFactor":0.5,"attenuationDistance":3,"attenuationColor":[0.1,0.2,0.3],)"
                     R"("thicknessTexture":{"index":0,"texCoord":1}}})",
                     {one});
-    const Transmission inside = material_of(file).transmission;
-    CHECK(inside.share == 0.75f);
+    const Material inside = material_of(file);
+    CHECK(inside.transmission == 0.75f);
     CHECK(inside.thickness == Approx(0.5f));
     CHECK(inside.attenuation_distance == 3.0f);
     CHECK(inside.attenuation_color == Vec3f{0.1f, 0.2f, 0.3f});
-    CHECK(inside.texture.texture == 0);
-    CHECK(inside.thickness_texture.texture == 0);
-    CHECK(inside.thickness_texture.uv_set == 1);
-    CHECK(material_of(with_material("")).transmission.share == 0.0f);
+    CHECK(inside.textures[TextureSlot::transmission].texture == 0);
+    CHECK(inside.textures[TextureSlot::thickness].texture == 0);
+    CHECK(inside.textures[TextureSlot::thickness].uv_set == 1);
+    CHECK(material_of(with_material("")).transmission == 0.0f);
 }
 
 constexpr const char* kUsesClearcoat = R"(,"extensionsUsed":["KHR_materials_clearcoat"])";
@@ -65,18 +65,19 @@ TEST_CASE("materials: clearcoat is read, and a normal texture of its own gets ta
                                      R"("clearcoatNormalTexture":{"index":0,"scale":0.5}}})",
                                      {one}, "", kUsesClearcoat);
     const LoadedScene loaded = load_ok(file);
-    const Clearcoat coat = loaded.scene.materials.at(0).clearcoat;
-    CHECK(coat.factor == 0.75f);
-    CHECK(coat.roughness == 0.25f);
-    CHECK(coat.normal_scale == 0.5f);
-    CHECK(coat.texture.used());
-    CHECK(coat.roughness_texture.uv_set == 1);
-    REQUIRE(coat.normal_texture.used());
-    CHECK(loaded.scene.textures.at(static_cast<std::size_t>(coat.normal_texture.texture)).rule() == MipRule::normal);
+    const Material coat = loaded.scene.materials.at(0);
+    CHECK(coat.clearcoat == 0.75f);
+    CHECK(coat.clearcoat_roughness == 0.25f);
+    CHECK(coat.clearcoat_normal_scale == 0.5f);
+    CHECK(coat.textures[TextureSlot::clearcoat].used());
+    CHECK(coat.textures[TextureSlot::clearcoat_roughness].uv_set == 1);
+    REQUIRE(coat.textures[TextureSlot::clearcoat_normal].used());
+    CHECK(loaded.scene.textures.at(static_cast<std::size_t>(coat.textures[TextureSlot::clearcoat_normal].texture)).rule() ==
+          MipRule::normal);
     CHECK(loaded.scene.meshes.at(0).tangents.size() == 3);
     INFO((loaded.warnings.empty() ? "" : loaded.warnings[0]));
     CHECK(loaded.warnings.empty());
-    CHECK(material_of(with_material("")).clearcoat.factor == 0.0f);
+    CHECK(material_of(with_material("")).clearcoat == 0.0f);
 }
 
 TEST_CASE("materials: hostile values of clearcoat are refused, or held in range with a warning", "[io]") {
@@ -91,10 +92,10 @@ TEST_CASE("materials: hostile values of clearcoat are refused, or held in range 
     for (const char* odd :
          {R"("clearcoatFactor":-3)", R"("clearcoatFactor":1e30)", R"("clearcoatFactor":1,"clearcoatRoughnessFactor":9)"}) {
         const LoadedScene loaded = load_ok(coated(odd));
-        const Clearcoat coat = loaded.scene.materials.at(0).clearcoat;
+        const Material coat = loaded.scene.materials.at(0);
         INFO(odd);
         CHECK(!loaded.warnings.empty());
-        CHECK((coat.factor >= 0.0f && coat.factor <= 1.0f && coat.roughness >= 0.0f && coat.roughness <= 1.0f));
+        CHECK((coat.clearcoat >= 0.0f && coat.clearcoat <= 1.0f && coat.clearcoat_roughness >= 0.0f && coat.clearcoat_roughness <= 1.0f));
     }
 }
 
@@ -107,12 +108,12 @@ TEST_CASE("materials: sheen is read, and its hostile values are refused or held 
         load_ok(sheen(R"("sheenColorFactor":[0.25,0.5,1],"sheenRoughnessFactor":0.75,"sheenColorTexture":{"index":0},)"
                       R"("sheenRoughnessTexture":{"index":0,"texCoord":1})"));
     CHECK(loaded.warnings.empty());
-    const Sheen s = loaded.scene.materials.at(0).sheen;
-    CHECK(s.color == Vec3f{0.25f, 0.5f, 1});
-    CHECK(s.roughness == 0.75f);
-    REQUIRE((s.color_texture.used() && s.roughness_texture.used()));
-    CHECK(s.color_texture.texture != s.roughness_texture.texture);  // sRGB, and linear
-    CHECK(s.roughness_texture.uv_set == 1);
+    const Material s = loaded.scene.materials.at(0);
+    CHECK(s.sheen_color == Vec3f{0.25f, 0.5f, 1});
+    CHECK(s.sheen_roughness == 0.75f);
+    REQUIRE((s.textures[TextureSlot::sheen_color].used() && s.textures[TextureSlot::sheen_roughness].used()));
+    CHECK(s.textures[TextureSlot::sheen_color].texture != s.textures[TextureSlot::sheen_roughness].texture);  // sRGB, and linear
+    CHECK(s.textures[TextureSlot::sheen_roughness].uv_set == 1);
     CHECK(!material_of(with_material("")).has_sheen());
     for (const char* wrong : {R"("sheenColorFactor":1)", R"("sheenColorFactor":[1,1])", R"("sheenRoughnessFactor":"1")",
                               R"("sheenColorTexture":{"index":7})"}) {
@@ -121,21 +122,20 @@ TEST_CASE("materials: sheen is read, and its hostile values are refused or held 
     }
     for (const char* odd : {R"("sheenColorFactor":[-1,2,1e30])", R"("sheenColorFactor":[1,1,1],"sheenRoughnessFactor":-9)"}) {
         const LoadedScene held = load_ok(sheen(odd));
-        const Sheen got = held.scene.materials.at(0).sheen;
+        const Material got = held.scene.materials.at(0);
         INFO(odd);
         CHECK(!held.warnings.empty());
-        CHECK((got.color.x >= 0.0f && got.color.y <= 1.0f && got.color.z <= 1.0f && got.roughness >= 0.0f));
+        CHECK((got.sheen_color.x >= 0.0f && got.sheen_color.y <= 1.0f && got.sheen_color.z <= 1.0f && got.sheen_roughness >= 0.0f));
     }
 }
 
 TEST_CASE("materials: thickness is taken to world space by the scale of the first instance", "[io]") {
     io::detail::file::File file;
-    file.extended.emplace_back().thickness_factor = 0.5;
     file.materials.resize(2);
-    for (auto& material : file.materials) material.extended = 0;
+    for (auto& material : file.materials) material.numbers[shading::kFirstFloats[shading::number_row("thickness")]] = 0.5;
     Scene scene;
     scene.materials.resize(2);
-    for (Material& material : scene.materials) material.transmission.thickness = 0.5f;
+    for (Material& material : scene.materials) material.thickness = 0.5f;
     scene.meshes.resize(3);
     scene.meshes[0].material = 1, scene.meshes[1].material = 1;
     Instance first{0, {}}, second{1, {}};
@@ -145,8 +145,8 @@ TEST_CASE("materials: thickness is taken to world space by the scale of the firs
     for (const Instance& instance : scene.instances) places.push_back(instance.world_from_object);
     CHECK(io::detail::set_thickness(file, scene, places));
     CHECK(!io::detail::set_thickness(file, scene, places));
-    CHECK(scene.materials[0].transmission.thickness == 0.5f);
-    CHECK(scene.materials[1].transmission.thickness == Approx(2.0f));
+    CHECK(scene.materials[0].thickness == 0.5f);
+    CHECK(scene.materials[1].thickness == Approx(2.0f));
 }
 
 TEST_CASE("materials: factors, alpha mode and sides are read", "[io]") {
@@ -192,16 +192,16 @@ TEST_CASE("materials: one texture for each picture and colour space", "[io]") {
         {red, grey}, textures, R"(,"samplers":[{"wrapS":33071,"wrapT":33648,"magFilter":9728,"minFilter":9985}])"));
     const Material& m = loaded.scene.materials[0];
     CHECK(loaded.scene.textures.size() == 4);  // that of normals has levels of its own
-    CHECK(m.base_color_texture.texture == m.emissive_texture.texture);
-    CHECK(m.base_color_texture.texture != m.metallic_roughness_texture.texture);
-    CHECK(m.occlusion_texture.texture != m.normal_texture.texture);
-    CHECK(m.base_color_texture.uv_set == 1);
+    CHECK(m.textures[TextureSlot::base_color].texture == m.textures[TextureSlot::emissive].texture);
+    CHECK(m.textures[TextureSlot::base_color].texture != m.textures[TextureSlot::metallic_roughness].texture);
+    CHECK(m.textures[TextureSlot::occlusion].texture != m.textures[TextureSlot::normal].texture);
+    CHECK(m.textures[TextureSlot::base_color].uv_set == 1);
     CHECK(m.occlusion_strength == 0.5f);
     CHECK(m.normal_scale == 2.0f);
-    CHECK(m.base_color_texture.sampler == Sampler{});
-    CHECK(m.emissive_texture.sampler ==
+    CHECK(m.textures[TextureSlot::base_color].sampler == Sampler{});
+    CHECK(m.textures[TextureSlot::emissive].sampler ==
           Sampler{TextureWrap::clamp, TextureWrap::mirror, TextureFilter::nearest, TextureFilter::linear, MipFilter::nearest});
-    const Texture& texture = loaded.scene.textures[static_cast<std::size_t>(m.occlusion_texture.texture)];
+    const Texture& texture = loaded.scene.textures[static_cast<std::size_t>(m.textures[TextureSlot::occlusion].texture)];
     CHECK(texture.width() == 4);
     CHECK(texture.height() == 2);
     CHECK(texture.data()[0] == 128 * 257);               // linear: 8 bits widened to 16
@@ -216,7 +216,7 @@ TEST_CASE("materials: every minification filter of glTF is understood", "[io]") 
     for (const auto& [code, wanted] : kinds) {
         const Bytes file = with_material(R"("emissiveTexture":{"index":0})", {plain_png(1, 1, 0, 0, 0)}, R"({"source":0,"sampler":0})",
                                          ",\"samplers\":[{\"minFilter\":" + std::to_string(code) + "}]");
-        const Sampler sampler = material_of(file).emissive_texture.sampler;
+        const Sampler sampler = material_of(file).textures[TextureSlot::emissive].sampler;
         CHECK(sampler.min == wanted.first);
         CHECK(sampler.mip == wanted.second);
         CHECK(sampler.mag == TextureFilter::linear);
@@ -227,7 +227,7 @@ TEST_CASE("materials: a texture transform turns, scales and shifts as its test m
     const auto use = [](const std::string& members) {
         return material_of(with_material(R"("emissiveTexture":{"index":0,"extensions":{"KHR_texture_transform":{)" + members + "}}}",
                                          {plain_png(1, 1, 0, 0, 0)}))
-            .emissive_texture;
+            .textures[TextureSlot::emissive];
     };
     const TextureUse shifted = use(R"("offset":[0.5,-0.25],"scale":[2,3],"texCoord":1)");
     CHECK(apply(shifted, {1, 1}) == Vec2f{2.5f, 2.75f});

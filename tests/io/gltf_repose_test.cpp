@@ -2,12 +2,15 @@
 #include "halflit/auto_setup.hpp"
 #include "halflit/renderer.hpp"
 #include "sh/trig.hpp"
+#include "shading/material_properties.hpp"
 #include "tests/io/animated_file.hpp"
 #include "tests/io/png_maker.hpp"
 #include "tests/support/assets.hpp"
 #include "tests/support/skip.hpp"
 
 #include "tests/support/catch.hpp"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -65,9 +68,9 @@ void check_same(const Scene& a, const Scene& b) {
         CHECK(x.roughness == y.roughness);
         CHECK(x.emissive == y.emissive);
         CHECK(x.alpha_cutoff == y.alpha_cutoff);
-        CHECK(x.transmission.thickness == y.transmission.thickness);
-        CHECK(x.base_color_texture.row_u == y.base_color_texture.row_u);
-        CHECK(x.base_color_texture.row_v == y.base_color_texture.row_v);
+        CHECK(x.thickness == y.thickness);
+        CHECK(x.textures[TextureSlot::base_color].row_u == y.textures[TextureSlot::base_color].row_u);
+        CHECK(x.textures[TextureSlot::base_color].row_v == y.textures[TextureSlot::base_color].row_v);
     }
     REQUIRE(a.lights.size() == b.lights.size());
     for (std::size_t i = 0; i < a.lights.size(); ++i) CHECK(a.lights[i] == b.lights[i]);  // bytes between its members mean nothing
@@ -193,11 +196,11 @@ TEST_CASE("pose_at: pointers move materials, texture transforms, lights, cameras
     CHECK(m.emissive == Vec3f{2, 1, 0});
     CHECK(m.alpha_cutoff == 0.5f);
     const double c = std::cos(0.5), s = std::sin(0.5);
-    CHECK(m.base_color_texture.row_u.x == Approx(2 * c));
-    CHECK(m.base_color_texture.row_u.y == Approx(3 * s));
-    CHECK(m.base_color_texture.row_u.z == 0.25f);
-    CHECK(m.base_color_texture.row_v.x == Approx(-2 * s));
-    CHECK(m.base_color_texture.row_v.z == 0.5f);
+    CHECK(m.textures[TextureSlot::base_color].row_u.x == Approx(2 * c));
+    CHECK(m.textures[TextureSlot::base_color].row_u.y == Approx(3 * s));
+    CHECK(m.textures[TextureSlot::base_color].row_u.z == 0.25f);
+    CHECK(m.textures[TextureSlot::base_color].row_v.x == Approx(-2 * s));
+    CHECK(m.textures[TextureSlot::base_color].row_v.z == 0.5f);
     const Light& hidden = loaded.scene.lights.at(0);  // below the node that is hidden from 1 s to 1.5 s
     CHECK(hidden.color_linear == Vec3f{0, 0, 0});
     CHECK(loaded.scene.meshes.at(1).indices.empty());
@@ -231,6 +234,56 @@ TEST_CASE("pose_at: pointers move materials, texture transforms, lights, cameras
     CHECK(loaded.scene.materials[1].base_color == Vec4f{0.5f, 0.5f, 0, 1});
     CHECK(loaded.scene.materials[0].metallic == 1.0f);
     CHECK(loaded.scene.lights[0].range == 0.0f);
+}
+
+TEST_CASE("pose_at: pointers move every number and texture transform of the table of materials", "[io]") {
+    FilePieces pieces;
+    AnimationText all;
+    const int quad = pieces.floats({-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, -1, 0, 1, 1, 0, -1, 1, 0}, "VEC3", 3);
+    const int uv = pieces.floats({0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 0, 1}, "VEC2", 2);
+    const int picture = pieces.accessor(plain_png(3, 2, 200, 100, 50), R"("componentType":5121,"type":"SCALAR","count":1)");
+    nlohmann::json material;
+    const auto place = [&](std::string_view path) -> nlohmann::json& {
+        return material[nlohmann::json::json_pointer("/" + std::string(path))];
+    };
+    const auto moves = [&](const std::string& path, std::size_t count, std::vector<float> values) {
+        constexpr const char* kTypes[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
+        all.add_pointer(sampler_of(pieces, {Keys::linear, count, {0, 2}, std::move(values)}, kTypes[count], count), "/materials/0/" + path);
+    };
+    for (const TextureSlot slot : shading::kAllTextureSlots) {
+        const std::string path(shading::info_of(slot).gltf);
+        place(path)["index"] = 0;
+        moves(path + "/extensions/KHR_texture_transform/offset", 2, {0, 0, 0.5f, 1});
+    }
+    constexpr float kMoved[] = {0.25f, 0.5f, 0.75f, 0.125f};
+    for (const shading::MaterialNumber& number : shading::kMaterialNumbers) {
+        if (number.gltf.empty()) continue;
+        const auto count = static_cast<std::size_t>(number.count);
+        std::vector<float> values(kMoved, kMoved + count);
+        values.insert(values.end(), kMoved, kMoved + count);
+        moves(std::string(number.gltf), count, values);
+    }
+    const Bytes file =
+        pieces.file(R"("extensionsUsed":["KHR_animation_pointer","KHR_texture_transform"],"nodes":[{"mesh":0}],"images":[{"bufferView":)" +
+                    std::to_string(picture) + R"(,"mimeType":"image/png"}],"textures":[{"source":0}],"materials":[)" + material.dump() +
+                    R"(],"meshes":[{"primitives":[{"material":0,"attributes":{"POSITION":)" + std::to_string(quad) +
+                    ",\"TEXCOORD_0\":" + std::to_string(uv) + R"(}}]}],"animations":[)" + all.json("all") + "]");
+    const LoadedScene loaded = load_ok(file, at(1, "", true));
+    INFO((loaded.warnings.empty() ? "" : loaded.warnings[0]));
+    const Material& m = loaded.scene.materials.at(0);
+    for (const shading::MaterialNumber& number : shading::kMaterialNumbers) {
+        if (number.gltf.empty()) continue;
+        INFO(number.name);
+        float values[4];
+        number.get(m, values);
+        CHECK(std::equal(values, values + number.count, kMoved));
+    }
+    for (const TextureSlot slot : shading::kAllTextureSlots) {
+        INFO(shading::info_of(slot).name);
+        CHECK(m.textures[slot].used());
+        CHECK(m.textures[slot].row_u.z == 0.25f);
+        CHECK(m.textures[slot].row_v.z == 0.5f);
+    }
 }
 
 TEST_CASE("pose_at: what a host has set stays where no animation moves it", "[io]") {

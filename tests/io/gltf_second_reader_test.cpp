@@ -37,15 +37,16 @@ double number_of(const tinygltf::ExtensionMap& extensions, const char* extension
 }
 
 template <class Info>
-void compare_place(const file::TexturePlace& a, const Info& b) {
+void compare_place(const file::File& file, const file::TexturePlace& a, const Info& b) {
     CHECK(a.index == b.index);
     CHECK(a.tex_coord == b.texCoord);
     constexpr const char* kTransform = "KHR_texture_transform";
-    CHECK(a.transform.has_value() == (b.extensions.count(kTransform) != 0));
-    if (a.transform) {
-        CHECK(a.transform->rotation == number_of(b.extensions, kTransform, "rotation", 0));
-        CHECK(a.transform->tex_coord == static_cast<int>(number_of(b.extensions, kTransform, "texCoord", -1)));
-        for (const auto& [key, values] : {std::pair("offset", &a.transform->offset), std::pair("scale", &a.transform->scale)})
+    const file::TextureTransform* const transform = file.transform_of(a);
+    CHECK((transform != nullptr) == (b.extensions.count(kTransform) != 0));
+    if (transform != nullptr) {
+        CHECK(transform->rotation == number_of(b.extensions, kTransform, "rotation", 0));
+        CHECK(transform->tex_coord == static_cast<int>(number_of(b.extensions, kTransform, "texCoord", -1)));
+        for (const auto& [key, values] : {std::pair("offset", &transform->offset), std::pair("scale", &transform->scale)})
             for (std::size_t i = 0; i < values->size(); ++i)
                 CHECK((*values)[i] == b.extensions.at(kTransform).Get(key).Get(static_cast<int>(i)).GetNumberAsDouble());
     }
@@ -143,22 +144,26 @@ void compare_materials(const file::File& a, const tinygltf::Model& b) {
         const tinygltf::Material& y = b.materials[i];
         CHECK(x.name == y.name);
         CHECK(x.alpha_mode == y.alphaMode);
-        CHECK(x.alpha_cutoff == y.alphaCutoff);
+        const auto numbers = [&](std::string_view name) {
+            const std::size_t row = shading::number_row(name);
+            return std::vector<double>(&x.numbers[shading::kFirstFloats[row]],
+                                       &x.numbers[shading::kFirstFloats[row]] + shading::kMaterialNumbers[row].count);
+        };
+        CHECK(numbers("alpha_cutoff")[0] == y.alphaCutoff);
         CHECK(x.double_sided == y.doubleSided);
-        CHECK((x.base_color_factor.empty() ? std::vector<double>{1, 1, 1, 1} : x.base_color_factor) ==
-              y.pbrMetallicRoughness.baseColorFactor);
+        CHECK(numbers("base_color") == y.pbrMetallicRoughness.baseColorFactor);
         CHECK((x.emissive_factor.empty() ? std::vector<double>{0, 0, 0} : x.emissive_factor) == y.emissiveFactor);
-        CHECK(x.metallic_factor == y.pbrMetallicRoughness.metallicFactor);
-        CHECK(x.roughness_factor == y.pbrMetallicRoughness.roughnessFactor);
+        CHECK(numbers("metallic")[0] == y.pbrMetallicRoughness.metallicFactor);
+        CHECK(numbers("roughness")[0] == y.pbrMetallicRoughness.roughnessFactor);
         CHECK(x.emissive_strength == number_of(y.extensions, "KHR_materials_emissive_strength", "emissiveStrength", 1));
         CHECK(x.unlit == (y.extensions.count("KHR_materials_unlit") != 0));
-        compare_place(x.base_color_texture, y.pbrMetallicRoughness.baseColorTexture);
-        compare_place(x.metallic_roughness_texture, y.pbrMetallicRoughness.metallicRoughnessTexture);
-        compare_place(x.normal_texture, y.normalTexture);
-        compare_place(x.occlusion_texture, y.occlusionTexture);
-        compare_place(x.emissive_texture, y.emissiveTexture);
-        if (y.normalTexture.index >= 0) CHECK(x.normal_texture.scale == y.normalTexture.scale);
-        if (y.occlusionTexture.index >= 0) CHECK(x.occlusion_texture.strength == y.occlusionTexture.strength);
+        compare_place(a, x.places[TextureSlot::base_color], y.pbrMetallicRoughness.baseColorTexture);
+        compare_place(a, x.places[TextureSlot::metallic_roughness], y.pbrMetallicRoughness.metallicRoughnessTexture);
+        compare_place(a, x.places[TextureSlot::normal], y.normalTexture);
+        compare_place(a, x.places[TextureSlot::occlusion], y.occlusionTexture);
+        compare_place(a, x.places[TextureSlot::emissive], y.emissiveTexture);
+        if (y.normalTexture.index >= 0) CHECK(numbers("normal_scale")[0] == y.normalTexture.scale);
+        if (y.occlusionTexture.index >= 0) CHECK(numbers("occlusion_strength")[0] == y.occlusionTexture.strength);
     }
     REQUIRE(a.textures.size() == b.textures.size());
     for (std::size_t i = 0; i < a.textures.size(); ++i) {

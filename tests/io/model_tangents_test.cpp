@@ -27,7 +27,7 @@ Comparison compare(const Scene& scene) {
     Comparison out;
     for (const Mesh& given : scene.meshes) {
         const TextureUse* normal_map =
-            given.material < 0 ? nullptr : &scene.materials[static_cast<std::size_t>(given.material)].normal_texture;
+            given.material < 0 ? nullptr : &scene.materials[static_cast<std::size_t>(given.material)].textures[TextureSlot::normal];
         const int uv_set = normal_map == nullptr || !normal_map->used() ? 0 : normal_map->uv_set;
         if (given.tangents.empty() || (uv_set == 1 ? given.uv1 : given.uv0).empty()) continue;
         Mesh made = given;

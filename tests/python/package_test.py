@@ -37,6 +37,10 @@ class Header(unittest.TestCase):
         command = "apps/python/declarations.py apps/c/include/halflit/halflit.h apps/python/halflit/_declarations.py"
         self.assertTrue(made == stored, "run: " + command)
 
+    def test_members_of_materials_are_those_of_the_table(self):
+        done = subprocess.run([sys.executable, os.path.join(APPS, "c", "material_members.py"), "--check"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
     def test_structs_have_the_sizes_of_the_library(self):
         # A struct of any other size would be refused, or its last member would not be set.
         sizes = {name: ctypes.sizeof(struct) for name, struct in _c.STRUCT.items()}

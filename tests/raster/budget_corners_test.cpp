@@ -59,7 +59,7 @@ TEST_CASE("error budget: highlights opposite a light at grazing angles keep to t
                     if (textured) {
                         const std::vector<std::uint8_t> white(16, 255);
                         scene.textures.push_back(*Texture::from_rgba8(white, 2, 2, ColorSpace::linear));
-                        scene.materials[0].metallic_roughness_texture.texture = 0;
+                        scene.materials[0].textures[TextureSlot::metallic_roughness].texture = 0;
                     }
                     scene.meshes = {make_plane(100, 1)};
                     scene.meshes[0].material = 0;
@@ -147,8 +147,8 @@ TEST_CASE("error budget: highlights times a textured colour or metallic factor k
                         scene.materials.resize(1);
                         scene.materials[0].metallic = 1.0f;
                         scene.materials[0].roughness = roughness;
-                        TextureUse& use =
-                            metallic_texture ? scene.materials[0].metallic_roughness_texture : scene.materials[0].base_color_texture;
+                        TextureUse& use = metallic_texture ? scene.materials[0].textures[TextureSlot::metallic_roughness]
+                                                           : scene.materials[0].textures[TextureSlot::base_color];
                         use.texture = 0;
                         use.row_u = {repeats, 0, 0};
                         use.row_v = {0, repeats, 0};

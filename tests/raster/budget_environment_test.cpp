@@ -148,8 +148,8 @@ TEST_CASE("reference: texture coordinates that are NaN read as 0, infinite ones 
         Scene scene;
         scene.textures.push_back(*Texture::from_rgba8(rgba, 8, 8, ColorSpace::linear));
         scene.materials.resize(1);
-        scene.materials[0].normal_texture.texture = 0;
-        scene.materials[0].base_color_texture.texture = 0;
+        scene.materials[0].textures[TextureSlot::normal].texture = 0;
+        scene.materials[0].textures[TextureSlot::base_color].texture = 0;
         scene.meshes = {make_sphere(1, 24, 16)};
         scene.meshes[0].material = 0;
         generate_tangents(scene.meshes[0], 0);

@@ -27,7 +27,7 @@ Shot many_lamps(std::uint64_t seed) {
         shot.settings.shading.specular = SpecularModel::blinn;  // no light in cells with ggx
     shot.settings.shading.max_error_codes = kCodes[random.index(3)];
     for (Material& material : shot.scene.materials) {
-        if (random.chance(0.8)) material.normal_texture = {};
+        if (random.chance(0.8)) material.textures[TextureSlot::normal] = {};
         if (random.chance(0.5)) material.has_own_lobe = true, material.lobe = Lobe::sloan(random.real32(0, 1));
     }
     const float spread = random.chance(0.5) ? 4.0f : 20.0f;

@@ -45,7 +45,8 @@ TEST_CASE("demo scene: every index, array and reference is valid", "[raster][dem
         CHECK(std::all_of(mesh.normals.begin(), mesh.normals.end(), [](Vec3f v) { return std::abs(length(v) - 1.0f) < 1e-6f; }));
     }
     for (const Material& m : scene.materials)
-        for (const TextureUse& use : {m.base_color_texture, m.normal_texture, m.metallic_roughness_texture})
+        for (const TextureUse& use :
+             {m.textures[TextureSlot::base_color], m.textures[TextureSlot::normal], m.textures[TextureSlot::metallic_roughness]})
             CHECK((!use.used() || refers(use.texture, scene.textures.size())));
     for (const Light& light : scene.lights) CHECK(length(light.direction_ws) == Approx(1.0f).epsilon(1e-6));
     CHECK(scene.textures.size() == 3);

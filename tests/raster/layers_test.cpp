@@ -44,11 +44,11 @@ void add_layers(Trial& trial, std::uint32_t seed) {
     Numbers make(seed + 9000);
     for (Material& material : trial.scene.materials) {
         if (make.below(4) != 0)
-            material.clearcoat.factor = make.below(2) == 0 ? 1.0f : make.in(0, 1), material.clearcoat.roughness = make.in(0.15f, 1);
-        if (make.below(2) == 0) material.sheen.color = make.color(1), material.sheen.roughness = make.in(0.2f, 1);
+            material.clearcoat = make.below(2) == 0 ? 1.0f : make.in(0, 1), material.clearcoat_roughness = make.in(0.15f, 1);
+        if (make.below(2) == 0) material.sheen_color = make.color(1), material.sheen_roughness = make.in(0.2f, 1);
         if (make.below(4) == 0) material.emissive = make.color(0.5f);
         if (trial.scene.textures.empty() || make.below(2) == 0) continue;
-        material.clearcoat.normal_texture.texture = material.normal_texture.used() ? 0 : -1;
+        material.textures[TextureSlot::clearcoat_normal].texture = material.textures[TextureSlot::normal].used() ? 0 : -1;
     }
 }
 
@@ -63,7 +63,7 @@ TEST_CASE("layers: coats and sheen are as accuracy reference computes them, with
         trial.settings.shading.specular = static_cast<SpecularModel>(1 + seed % 3);
         if (trial.settings.shading.specular == SpecularModel::ggx)
             for (Material& m : trial.scene.materials)
-                m.roughness = std::max(m.roughness, 0.3f), m.clearcoat.roughness = std::max(m.clearcoat.roughness, 0.3f);
+                m.roughness = std::max(m.roughness, 0.3f), m.clearcoat_roughness = std::max(m.clearcoat_roughness, 0.3f);
         if (seed % 8 == 0) trial.settings.sky_shadows = 32;
         const Picture exact = draw(trial.scene, trial.camera, trial.settings);
         trial.settings.shading.accuracy = Accuracy::reference;
@@ -99,8 +99,8 @@ TEST_CASE("layers: with light at vertices or triangles, layers are lit as with l
     Scene scene;
     Material material;
     material.metallic = 0, material.base_color = {0.25f, 0.5f, 0.75f, 1};
-    material.clearcoat.factor = 0.75f, material.clearcoat.roughness = 0.6f;
-    material.sheen.color = {0.5f, 0.4f, 0.3f}, material.sheen.roughness = 0.5f;
+    material.clearcoat = 0.75f, material.clearcoat_roughness = 0.6f;
+    material.sheen_color = {0.5f, 0.4f, 0.3f}, material.sheen_roughness = 0.5f;
     scene.materials.push_back(material);
     scene.meshes.push_back(make_plane(4, 2));
     scene.meshes[0].material = 0;

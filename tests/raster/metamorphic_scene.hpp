@@ -87,8 +87,8 @@ inline Material random_material(Random& random) {
     material.metallic = random.chance(0.3) ? random.real32(0, 1) : 0.0f;
     material.roughness = random.real32(0.2, 1);
     if (random.chance(0.2)) material.emissive = {random.real32(0, 0.3), 0, random.real32(0, 0.3)};
-    if (random.chance(0.5)) material.base_color_texture.texture = 0;
-    if (random.chance(0.2)) material.normal_texture.texture = 1;
+    if (random.chance(0.5)) material.textures[TextureSlot::base_color].texture = 0;
+    if (random.chance(0.2)) material.textures[TextureSlot::normal].texture = 1;
     if (random.chance(0.2)) material.alpha_mode = AlphaMode::mask;
     material.unlit = random.chance(0.05);
     material.lobe = random.chance(0.3)   ? Lobe::lambert()

@@ -21,7 +21,7 @@ inline Shot any_shot(std::uint64_t seed) {
     Shot shot;
     for (int i = 0; i < 3; ++i) shot.scene.materials.push_back(random_material(random));
     for (Material& material : shot.scene.materials) {
-        material.base_color_texture = material.normal_texture = {};
+        material.textures[TextureSlot::base_color] = material.textures[TextureSlot::normal] = {};
         material.double_sided = random.chance(0.5);
         if (random.chance(0.2)) material.alpha_mode = AlphaMode::blend, material.base_color.w = 0.5f;
     }

@@ -86,7 +86,7 @@ TEST_CASE("metamorphic: a mesh baked into the world gives nearly the same pictur
         Shot shot = separate_bodies(seed);
         shot.settings.shadows = ShadowMode::off;
         for (Material& material : shot.scene.materials) {
-            material.base_color_texture.texture = material.normal_texture.texture = -1;
+            material.textures[TextureSlot::base_color].texture = material.textures[TextureSlot::normal].texture = -1;
             material.alpha_mode = AlphaMode::opaque;
         }
         const Pixels placed = draw(shot);

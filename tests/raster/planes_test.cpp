@@ -450,9 +450,9 @@ TEST_CASE("planes: masked surfaces count where they are, and blended ones nowher
     // Four columns: the first and the third are there.
     const std::vector<std::uint8_t> rgba{255, 255, 255, 255, 0, 0, 0, 0, 255, 255, 255, 255, 0, 0, 0, 0};
     scene.textures.push_back(Texture::from_rgba8(rgba, 4, 1, ColorSpace::linear).value());
-    fence.base_color_texture.texture = 0;
-    fence.base_color_texture.sampler = {TextureWrap::clamp, TextureWrap::clamp, TextureFilter::nearest, TextureFilter::nearest,
-                                        MipFilter::none};
+    fence.textures[TextureSlot::base_color].texture = 0;
+    fence.textures[TextureSlot::base_color].sampler = {TextureWrap::clamp, TextureWrap::clamp, TextureFilter::nearest,
+                                                       TextureFilter::nearest, MipFilter::none};
     Material& glass = add(scene, square(2), translation({0, 0, 1}));
     glass.alpha_mode = AlphaMode::blend;
     glass.base_color.w = 0.5f;

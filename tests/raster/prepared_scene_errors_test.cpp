@@ -18,7 +18,7 @@ Scene good_scene() {
     scene.materials.resize(2);
     const std::vector<std::uint8_t> gray(4 * 4, 128);
     scene.textures.push_back(*Texture::from_rgba8(gray, 2, 2, ColorSpace::srgb));
-    scene.materials[0].base_color_texture.texture = 0;
+    scene.materials[0].textures[TextureSlot::base_color].texture = 0;
     scene.meshes = {make_box({1, 1, 1}), make_sphere(1, 8, 5)};
     scene.meshes[0].material = 0;
     scene.meshes[1].material = 1;
@@ -54,7 +54,7 @@ const std::vector<Fault>& faults() {
         {"one colour", [](Scene& s) { s.meshes[1].colors.resize(1); }, kMesh},
         {"material of the mesh", [](Scene& s) { s.meshes[1].material = 2; }, kMesh},
         {"largest material of the mesh", [](Scene& s) { s.meshes[1].material = std::numeric_limits<int>::max(); }, kMesh},
-        {"texture", [](Scene& s) { s.materials[1].emissive_texture.texture = 1; }, kMaterials},
+        {"texture", [](Scene& s) { s.materials[1].textures[TextureSlot::emissive].texture = 1; }, kMaterials},
         {"textures gone", [](Scene& s) { s.textures.clear(); }, kMaterials},
         {"wrap", [](Scene& s) { s.materials[1].lobe.wrap = 1.5f; }, kMaterials},
         {"wrap that is none", [](Scene& s) { s.materials[1].lobe.wrap = std::numeric_limits<float>::quiet_NaN(); }, kMaterials},

@@ -94,7 +94,7 @@ inline Trial random_trial(std::uint32_t seed) {
         if (make.below(3) == 0) material.dielectric_reflectance = make.in(0, 1);
         material.lobe = some_lobe(make);
         material.has_own_lobe = true;
-        if (bumpy && i == 1) material.normal_texture.texture = 0;
+        if (bumpy && i == 1) material.textures[TextureSlot::normal].texture = 0;
         scene.materials.push_back(material);
     }
     Mesh bodies[] = {make_plane(6, 4), make_sphere(1, 24, 16), make_torus(1, 0.4f, 24, 12), make_box({0.7f, 0.7f, 0.7f})};

@@ -119,7 +119,7 @@ void change_material(Random& random, Scene& scene) {
         [&] { m.alpha_mode = static_cast<AlphaMode>(random.index(3)); },
         [&] { m.lobe = Lobe::sloan(random.real32(0, 1)); },
         [&] { m.unlit = !m.unlit; },
-        [&] { m.base_color_texture.texture = m.base_color_texture.used() ? -1 : 0; },
+        [&] { m.textures[TextureSlot::base_color].texture = m.textures[TextureSlot::base_color].used() ? -1 : 0; },
         [&] { m.roughness = random.real32(0, 1); },
         [&] { m.alpha_cutoff = random.real32(0.2, 0.8); },
         [&] { scene.textures[static_cast<std::size_t>(random.index(static_cast<int>(scene.textures.size())))] = noise(random); },

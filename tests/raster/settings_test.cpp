@@ -132,8 +132,8 @@ TEST_CASE("scene: an index out of range is bad input", "[raster][settings]") {
     CHECK(refused(changed([](Scene& s) { s.meshes[0].material = 1; }), ErrorCode::bad_input));
     CHECK(refused(changed([](Scene& s) { s.instances[0].mesh = 1; }), ErrorCode::bad_input));
     CHECK(refused(changed([](Scene& s) { s.instances[0].mesh = -1; }), ErrorCode::bad_input));
-    CHECK(refused(changed([](Scene& s) { s.materials[0].base_color_texture.texture = 0; }), ErrorCode::bad_input));
-    CHECK(refused(changed([](Scene& s) { s.materials[0].normal_texture.texture = kMost; }), ErrorCode::bad_input));
+    CHECK(refused(changed([](Scene& s) { s.materials[0].textures[TextureSlot::base_color].texture = 0; }), ErrorCode::bad_input));
+    CHECK(refused(changed([](Scene& s) { s.materials[0].textures[TextureSlot::normal].texture = kMost; }), ErrorCode::bad_input));
     CHECK(changed([](Scene& s) { s.meshes[0].material = -1; }).ok);
     CHECK(changed([](Scene& s) { s.meshes[0].normals.clear(); }).ok);
     CHECK(changed([](Scene& s) { s.meshes.emplace_back(); }).ok);

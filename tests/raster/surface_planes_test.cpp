@@ -150,7 +150,7 @@ TEST_CASE("surface planes: the shading normal follows the normal map, with any l
             Material& material = add(scene, std::move(mesh));
             material.double_sided = true;
             material.normal_scale = 0.5f;
-            material.normal_texture.texture = add_texture(scene, {191, 128, 220, 255}, 1, 1);
+            material.textures[TextureSlot::normal].texture = add_texture(scene, {191, 128, 220, 255}, 1, 1);
             if (lit) scene.lights.push_back({});
             Camera camera = camera_flat();
             if (back) camera.world_from_camera = {{{-1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, -1, 0}, {0, 0, -10, 1}}};
@@ -177,8 +177,8 @@ TEST_CASE("surface planes: the albedo is factor times texture times vertex colou
                 material.base_color = {1, 0.5f, 0.5f, 1};
                 material.metallic = 1;  // the base colour, not the matt part of it
                 // The left half is masked away.
-                material.base_color_texture.texture = add_texture(scene, {255, 0, 0, 0, 0, 255, 51, 255}, 2, 1);
-                material.base_color_texture.sampler = {.mag = TextureFilter::nearest, .min = TextureFilter::nearest};
+                material.textures[TextureSlot::base_color].texture = add_texture(scene, {255, 0, 0, 0, 0, 255, 51, 255}, 2, 1);
+                material.textures[TextureSlot::base_color].sampler = {.mag = TextureFilter::nearest, .min = TextureFilter::nearest};
                 if (lit) scene.lights.push_back({});
                 Planes p;
                 p.draw(scene, camera_flat());

@@ -78,10 +78,10 @@ NamedScene materials_scene() {
     const int rough = add_texture(s, 16, 64, ColorSpace::linear, 3, false), odd = add_texture(s, 7, 5, ColorSpace::srgb, 4, false);
 
     Material tiles;
-    tiles.base_color_texture.texture = color;
-    tiles.base_color_texture.row_u = {6, 0.5f, 0.1f};
-    tiles.base_color_texture.row_v = {-0.5f, 6, 0.3f};
-    tiles.base_color_texture.sampler.wrap_u = TextureWrap::mirror;
+    tiles.textures[TextureSlot::base_color].texture = color;
+    tiles.textures[TextureSlot::base_color].row_u = {6, 0.5f, 0.1f};
+    tiles.textures[TextureSlot::base_color].row_v = {-0.5f, 6, 0.3f};
+    tiles.textures[TextureSlot::base_color].sampler.wrap_u = TextureWrap::mirror;
     tiles.metallic = 0;
     tiles.roughness = 0.4f;
     tiles.lobe = Lobe::sloan(0.5f);
@@ -90,15 +90,16 @@ NamedScene materials_scene() {
     Material metal;
     metal.base_color = {0.9f, 0.7f, 0.4f, 1};
     metal.roughness = 0.9f;
-    metal.metallic_roughness_texture.texture = metal.occlusion_texture.texture = rough;
-    metal.normal_texture.texture = bumps;
+    metal.textures[TextureSlot::metallic_roughness].texture = metal.textures[TextureSlot::occlusion].texture = rough;
+    metal.textures[TextureSlot::normal].texture = bumps;
     metal.normal_scale = 0.7f;
     metal.emissive = {0.1f, 0.1f, 0.2f};
-    metal.emissive_texture = {odd,
-                              0,
-                              {TextureWrap::clamp, TextureWrap::repeat, TextureFilter::nearest, TextureFilter::nearest, MipFilter::none},
-                              {4, 0, 0},
-                              {0, 4, 0}};
+    metal.textures[TextureSlot::emissive] = {
+        odd,
+        0,
+        {TextureWrap::clamp, TextureWrap::repeat, TextureFilter::nearest, TextureFilter::nearest, MipFilter::none},
+        {4, 0, 0},
+        {0, 4, 0}};
     Mesh ball = make_sphere(0.6f, 24, 14);
     generate_tangents(ball, 0);
     const int metal_index = add_material(s, metal);
@@ -110,11 +111,12 @@ NamedScene materials_scene() {
     clay.metallic = 0;
     clay.roughness = 0.2f;
     clay.lobe = {0.4f, 3.3f, true};
-    clay.base_color_texture = {color,
-                               1,
-                               {TextureWrap::clamp, TextureWrap::mirror, TextureFilter::nearest, TextureFilter::linear, MipFilter::nearest},
-                               {3, 0, 0},
-                               {0, 3, 0}};
+    clay.textures[TextureSlot::base_color] = {
+        color,
+        1,
+        {TextureWrap::clamp, TextureWrap::mirror, TextureFilter::nearest, TextureFilter::linear, MipFilter::nearest},
+        {3, 0, 0},
+        {0, 3, 0}};
     Mesh torus = make_torus(0.5f, 0.2f, 20, 12);
     torus.uv1 = torus.uv0;
     for (std::size_t i = 0; i < torus.positions.size(); ++i) {
@@ -128,7 +130,7 @@ NamedScene materials_scene() {
     grate.alpha_cutoff = 0.45f;
     grate.double_sided = true;
     grate.metallic = 0;
-    grate.base_color_texture.texture = color;
+    grate.textures[TextureSlot::base_color].texture = color;
     add(s, make_box({0.35f, 0.35f, 0.35f}), add_material(s, grate), translation({1.4f, 0.1f, 0.8f}) * turned(0.1f, 0.4f, 0.2f, 0.9f));
 
     Material glass;
@@ -160,7 +162,7 @@ NamedScene small_triangles_scene() {
     Material back;
     back.metallic = 0;
     back.roughness = 0.3f;
-    back.base_color_texture.texture = add_texture(s, 128, 128, ColorSpace::srgb, 9, false);
+    back.textures[TextureSlot::base_color].texture = add_texture(s, 128, 128, ColorSpace::srgb, 9, false);
     add(s, make_plane(40, 1), add_material(s, back), translation({0, -0.5f, 0}));
     return out;
 }
@@ -173,8 +175,8 @@ NamedScene layers_scene() {
     fence.alpha_mode = AlphaMode::mask;
     fence.double_sided = true;
     fence.unlit = true;
-    fence.base_color_texture.texture = add_texture(s, 32, 32, ColorSpace::srgb, 12, false);
-    fence.base_color_texture.row_u = {5, 0, 0};
+    fence.textures[TextureSlot::base_color].texture = add_texture(s, 32, 32, ColorSpace::srgb, 12, false);
+    fence.textures[TextureSlot::base_color].row_u = {5, 0, 0};
     add(s, make_plane(1.2f, 1), add_material(s, fence), translation({0, 0, -0.4f}) * turned(0.7f, 0, 0, 0.7f));
     Random random(13);
     for (int i = 0; i < 12; ++i) {
@@ -262,37 +264,37 @@ NamedScene coats_scene() {
     lacquer.base_color = {0.5f, 0.02f, 0.03f, 1};
     lacquer.metallic = 0;
     lacquer.roughness = 0.7f;
-    lacquer.clearcoat.factor = 1;
+    lacquer.clearcoat = 1;
     place(lacquer, -1.3f, 0.3f);
     // A rough metal with bumps below a smooth coat.
     Material flakes = lacquer;
     flakes.base_color = {0.1f, 0.3f, 0.6f, 1};
     flakes.metallic = 0.8f;
-    flakes.normal_texture.texture = bumps;
+    flakes.textures[TextureSlot::normal].texture = bumps;
     place(flakes, 0, 0.5f);
     Material peel = lacquer;
     peel.base_color = {0.1f, 0.4f, 0.15f, 1};
-    peel.clearcoat.roughness = 0.3f;
-    peel.clearcoat.normal_texture.texture = bumps;
-    peel.clearcoat.normal_scale = 0.4f;
-    peel.clearcoat.roughness_texture.texture = peel.clearcoat.texture.texture = patches;
+    peel.clearcoat_roughness = 0.3f;
+    peel.textures[TextureSlot::clearcoat_normal].texture = bumps;
+    peel.clearcoat_normal_scale = 0.4f;
+    peel.textures[TextureSlot::clearcoat_roughness].texture = peel.textures[TextureSlot::clearcoat].texture = patches;
     place(peel, 1.3f, 0.3f);
     Material lamp = lacquer;
     lamp.base_color = {0.1f, 0.1f, 0.1f, 1};
     lamp.emissive = {0.5f, 0.4f, 0.1f};
-    lamp.clearcoat.factor = 0.6f;
-    lamp.clearcoat.roughness = 1;
+    lamp.clearcoat = 0.6f;
+    lamp.clearcoat_roughness = 1;
     lamp.double_sided = true;
     place(lamp, -0.7f, -0.9f);
     Material glass = lacquer;
     glass.base_color = {0.6f, 0.8f, 0.9f, 1};
-    glass.transmission.share = 0.8f;
-    glass.clearcoat.roughness = 0.2f;
+    glass.transmission = 0.8f;
+    glass.clearcoat_roughness = 0.2f;
     place(glass, 0.7f, 1.2f);
     Material floor = lacquer;
     floor.base_color = {0.4f, 0.3f, 0.2f, 1};
-    floor.clearcoat.factor = 0.5f;
-    floor.clearcoat.roughness = 0.5f;
+    floor.clearcoat = 0.5f;
+    floor.clearcoat_roughness = 0.5f;
     add(s, make_plane(7, 3), add_material(s, floor), translation({0, -0.55f, 0}));
     return out;
 }
@@ -311,34 +313,34 @@ NamedScene fabrics_scene() {
     Material velvet;
     velvet.base_color = {0.2f, 0.01f, 0.05f, 1};
     velvet.metallic = 0;
-    velvet.sheen = {{0.9f, 0.3f, 0.4f}, 0.3f, {}, {}};
+    velvet.sheen_color = {0.9f, 0.3f, 0.4f}, velvet.sheen_roughness = 0.3f;
     place(velvet, -1.3f, 0.3f);
     Material wool = velvet;
     wool.base_color = {0.3f, 0.3f, 0.25f, 1};
-    wool.sheen = {{1, 1, 1}, 1, {}, {}};
-    wool.sheen.color_texture.texture = wool.sheen.roughness_texture.texture = weave;
-    wool.normal_texture.texture = bumps;
+    wool.sheen_color = {1, 1, 1}, wool.sheen_roughness = 1;
+    wool.textures[TextureSlot::sheen_color].texture = wool.textures[TextureSlot::sheen_roughness].texture = weave;
+    wool.textures[TextureSlot::normal].texture = bumps;
     place(wool, 0, 0.5f);
     Material dust = velvet;
     dust.base_color = {0.8f, 0.5f, 0.2f, 1};
     dust.metallic = 1;
     dust.roughness = 0.3f;
-    dust.sheen = {{0.3f, 0.3f, 0.5f}, 0, {}, {}};
+    dust.sheen_color = {0.3f, 0.3f, 0.5f}, dust.sheen_roughness = 0;
     place(dust, 1.3f, 0.3f);
     Material lacquered = velvet;
-    lacquered.clearcoat.factor = 0.7f;
-    lacquered.clearcoat.roughness = 0.15f;
+    lacquered.clearcoat = 0.7f;
+    lacquered.clearcoat_roughness = 0.15f;
     lacquered.emissive = {0, 0.1f, 0};
     lacquered.double_sided = true;
     place(lacquered, -0.7f, -0.9f);
     Material gauze = velvet;
     gauze.base_color = {0.7f, 0.8f, 0.9f, 1};
-    gauze.transmission.share = 0.7f;
-    gauze.sheen.roughness = 0.6f;
+    gauze.transmission = 0.7f;
+    gauze.sheen_roughness = 0.6f;
     place(gauze, 0.7f, 1.2f);
     Material carpet = velvet;
     carpet.base_color = {0.1f, 0.12f, 0.3f, 1};
-    carpet.sheen = {{0.3f, 0.3f, 0.8f}, 0.7f, {}, {}};
+    carpet.sheen_color = {0.3f, 0.3f, 0.8f}, carpet.sheen_roughness = 0.7f;
     add(s, make_plane(7, 3), add_material(s, carpet), translation({0, -0.55f, 0}));
     return out;
 }

@@ -27,7 +27,8 @@ std::vector<float> draw(const Scene& scene, const Camera& camera, const Settings
 /// The mean of side x side points a pixel, textures without smaller levels.
 std::vector<float> many_samples(Scene scene, const Camera& camera, const Settings& settings, int width, int height, int side) {
     for (Material& material : scene.materials)
-        for (TextureUse* use : {&material.base_color_texture, &material.normal_texture}) use->sampler.mip = MipFilter::none;
+        for (TextureUse* use : {&material.textures[TextureSlot::base_color], &material.textures[TextureSlot::normal]})
+            use->sampler.mip = MipFilter::none;
     Settings one = settings;
     one.samples = 1;
     one.shading.anisotropy = 1;
@@ -86,7 +87,7 @@ Scene checker_floor() {
         for (int x = 0; x < 128; ++x) rgba.insert(rgba.end(), 4, static_cast<std::uint8_t>((x / 16 + y / 16) % 2 == 0 ? 230 : 20));
     Material material;
     material.unlit = true;
-    material.base_color_texture.texture = 0;
+    material.textures[TextureSlot::base_color].texture = 0;
     return scene_of(rectangle(100, 100, false), material, {Texture::from_rgba8(rgba, 128, 128, ColorSpace::srgb).value()});
 }
 const Camera kGrazing = camera_at({0, 1, 0}, {0, 0.88f, -1}, 0.7f, 0.01f);
@@ -103,7 +104,7 @@ Scene leaf(int side) {
     Material material;
     material.unlit = true;
     material.alpha_mode = AlphaMode::mask;
-    material.base_color_texture.texture = 0;
+    material.textures[TextureSlot::base_color].texture = 0;
     return scene_of(rectangle(0.9f, 1, true), material, {Texture::from_rgba8(rgba, side, side, ColorSpace::srgb, MipRule::alpha).value()});
 }
 
@@ -142,7 +143,7 @@ TEST_CASE("normal maps: minified bumps keep their gloss about half as far off as
         }
     Material material;
     material.roughness = 0.35f;
-    material.normal_texture.texture = 0;
+    material.textures[TextureSlot::normal].texture = 0;
     const auto scene_by = [&](MipRule rule) {
         Scene scene = scene_of(rectangle(1, 4, true), material, {Texture::from_rgba8(map, 128, 128, ColorSpace::linear, rule).value()});
         scene.lights.resize(1);

@@ -46,7 +46,7 @@ void add_pane(Scene& scene, const Material& material, float z, double tilt, floa
 Material glass(float share) {
     Material material;
     material.metallic = 0, material.roughness = 0.1f;
-    material.transmission.share = share;
+    material.transmission = share;
     return material;
 }
 
@@ -66,16 +66,13 @@ PaneModel model_of(const Material& m, double tilt, double ambient) {
         const double rough = std::max(0.07, double{m.roughness});
         return f0 + (std::max(1 - rough, f0) - f0) * std::pow(1 - std::cos(tilt), 5);
     };
-    const double k = double{m.dielectric_reflectance}, metallic = double{m.metallic}, t = double{m.transmission.share};
+    const double k = double{m.dielectric_reflectance}, metallic = double{m.metallic}, t = double{m.transmission};
     const double a = m.alpha_mode == AlphaMode::blend ? double{m.base_color.w} : 1.0;
     const double colors[] = {double{m.base_color.x}, double{m.base_color.y}, double{m.base_color.z}};
-    const double inside[] = {double{m.transmission.attenuation_color.x}, double{m.transmission.attenuation_color.y},
-                             double{m.transmission.attenuation_color.z}};
+    const double inside[] = {double{m.attenuation_color.x}, double{m.attenuation_color.y}, double{m.attenuation_color.z}};
     PaneModel out{};
     for (std::size_t c = 0; c < 3; ++c) {
-        const double passed = m.transmission.attenuation_distance > 0
-                                  ? std::pow(inside[c], double{m.transmission.thickness} / double{m.transmission.attenuation_distance})
-                                  : 1.0;
+        const double passed = m.attenuation_distance > 0 ? std::pow(inside[c], double{m.thickness} / double{m.attenuation_distance}) : 1.0;
         const double matt = colors[c] * (1 - metallic) * (1 - k) * (1 - t), f0 = k * (1 - metallic) + metallic * colors[c];
         out.light[c] = a * ambient * (matt + schlick(f0));
         out.keep[c] = 1 - a + a * t * (1 - schlick(k)) * (1 - metallic) * colors[c] * passed;
@@ -98,9 +95,9 @@ Material random_glass(Random& random) {
     material.alpha_mode = random.index(2) == 0 ? AlphaMode::opaque : AlphaMode::blend;
     material.double_sided = random.index(2) == 0;
     if (random.index(2) == 0) {
-        material.transmission.thickness = random.real32(0, 2);
-        material.transmission.attenuation_distance = random.real32(0.3, 3);
-        material.transmission.attenuation_color = {random.real32(0, 1), random.real32(0.2, 1), 1};
+        material.thickness = random.real32(0, 2);
+        material.attenuation_distance = random.real32(0.3, 3);
+        material.attenuation_color = {random.real32(0, 1), random.real32(0.2, 1), 1};
     }
     return material;
 }
@@ -112,7 +109,7 @@ Scene random_panes(Random& random, int count) {
     add_pane(scene, panel({0.9f, 0.5f, 0.3f, 1}), -5, 0);
     for (int i = 0; i < count; ++i) {
         Material material = random_glass(random);
-        if (random.index(4) == 0) material.transmission.share = 0, material.alpha_mode = AlphaMode::blend;
+        if (random.index(4) == 0) material.transmission = 0, material.alpha_mode = AlphaMode::blend;
         const float left = random.real32(-1.5, 0.5);
         add_pane(scene, material, random.real32(-4, 4), random.real(0, 1.2), left, left + random.real32(0.5, 2));
     }
@@ -267,10 +264,10 @@ TEST_CASE("transmission: thickness follows its texture by Beer's law, once in a 
     for (int i = 0; i < 4; ++i) texels.insert(texels.end(), {0, static_cast<std::uint16_t>(65535 * i / 3), 0, 65535});
     scene.textures.push_back(Texture::from_rgba16(texels, 4, 1).value());
     Material material = glass(1);
-    material.transmission.thickness = 3, material.transmission.attenuation_distance = 1.5f;
-    material.transmission.attenuation_color = {0.8f, 0.3f, 0};
-    material.transmission.thickness_texture.texture = 0;
-    material.transmission.thickness_texture.sampler = {
+    material.thickness = 3, material.attenuation_distance = 1.5f;
+    material.attenuation_color = {0.8f, 0.3f, 0};
+    material.textures[TextureSlot::thickness].texture = 0;
+    material.textures[TextureSlot::thickness].sampler = {
         .mag = TextureFilter::nearest, .min = TextureFilter::nearest, .mip = MipFilter::none};
     material.double_sided = true;
     add_pane(scene, panel({1, 1, 1, 1}), -5, 0);
@@ -351,7 +348,7 @@ TEST_CASE("transmission: a change of the share alone is drawn", "[raster][blend]
     std::vector<std::uint8_t> codes(4 * 8 * 8);
     REQUIRE(renderer.render(*prepared, camera_flat(), settings, {8, 8, codes.data()}));
     CHECK(codes[0] == 0);
-    scene.materials[1].transmission.share = 1;
+    scene.materials[1].transmission = 1;
     REQUIRE(prepared->update({.materials = true}));
     REQUIRE(renderer.render(*prepared, camera_flat(), settings, {8, 8, codes.data()}));
     CHECK(codes[0] == 255);

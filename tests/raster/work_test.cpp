@@ -5,6 +5,7 @@
 #include "halflit/shapes.hpp"
 #include "shading/environment.hpp"
 #include "shading/fragment_block.hpp"
+#include "shading/material_properties.hpp"
 #include "tests/raster/test_scenes.hpp"
 #include "tests/support/cameras.hpp"
 #include "tests/support/isas.hpp"
@@ -127,31 +128,24 @@ TEST_CASE("work: shadow look-ups are those of the lights that have a map, none w
 }
 
 TEST_CASE("work: each texture is a stage of its own, and runs only where the material has it", "[raster][work]") {
-    struct Use {
-        TextureUse Material::*texture;
-        Stage stage;
-    };
-    const Use uses[] = {{&Material::base_color_texture, kStageBaseColorTexture},
-                        {&Material::metallic_roughness_texture, kStageMetallicRoughnessTexture},
-                        {&Material::normal_texture, kStageNormalMap},
-                        {&Material::occlusion_texture, kStageOcclusionTexture},
-                        {&Material::emissive_texture, kStageEmissiveTexture}};
     const std::uint32_t always = kStageLights | kStageSpecular | kStageAmbient;
-    for (const Use& use : uses) {
+    for (const TextureSlot slot : shading::kAllTextureSlots) {
+        const Stage stage = shading::info_of(slot).stage;
+        if (stage >= kStageTransmission) continue;  // a layer's textures belong to its stage
         Material material;
         material.emissive = {1, 1, 1};
-        (material.*use.texture).texture = 0;
-        (material.*use.texture).sampler.mip = MipFilter::none;  // no gradients
+        material.textures[slot].texture = 0;
+        material.textures[slot].sampler.mip = MipFilter::none;  // no gradients
         Square square(material);
         square.add_texture();
         square.add_light(LightType::directional);
         square.scene.ambient.sky_linear = {1, 1, 1};
         generate_tangents(square.scene.meshes[0], 0);
-        check_stages(square.work(), always | use.stage);
-        (square.scene.materials[0].*use.texture).sampler.mip = MipFilter::linear;
-        check_stages(square.work(), always | use.stage | kStageGradients);
+        check_stages(square.work(), always | stage);
+        square.scene.materials[0].textures[slot].sampler.mip = MipFilter::linear;
+        check_stages(square.work(), always | stage | kStageGradients);
         square.scene.meshes[0].colors.assign(4, {1, 1, 1, 1});
-        check_stages(square.work(), always | use.stage | kStageGradients | kStageVertexColor);
+        check_stages(square.work(), always | stage | kStageGradients | kStageVertexColor);
     }
 }
 

@@ -45,8 +45,8 @@ struct Unlit {
 Unlit unlit(const Texture& texture, int anisotropy, const TextureUse& use = {}) {
     Unlit out;
     out.material.unlit = true;
-    out.material.base_color_texture = use;
-    out.material.base_color_texture.texture = 0;
+    out.material.textures[TextureSlot::base_color] = use;
+    out.material.textures[TextureSlot::base_color].texture = 0;
     const std::vector<SlotMask> available{3u, 3u};
     ShadingSettings options;
     options.anisotropy = anisotropy;
@@ -73,7 +73,7 @@ TEST_CASE("anisotropy: filtered channels are within their bound of float64, and 
                 if (mode / 3 == 1) use.row_u = {0.7f, 1.9f, 0.3f}, use.row_v = {-1.9f, 0.7f, -0.1f};
                 for (const int anisotropy : {2, 3, 16}) {
                     const Unlit surface = unlit(texture, anisotropy, use);
-                    REQUIRE(surface.plan.materials[0].base_color_texture.anisotropy == anisotropy);
+                    REQUIRE(surface.plan.materials[0].textures[TextureSlot::base_color].anisotropy == anisotropy);
                     ShadingSettings options;
                     options.anisotropy = anisotropy;
                     const reference::FrameInputs frame{std::span(&texture, 1), {}, {}, options};
@@ -89,7 +89,7 @@ TEST_CASE("anisotropy: filtered channels are within their bound of float64, and 
                         }
                         for (int lane = 0; lane < kBlockSize; ++lane) {
                             const reference::Rgba want = reference::shade(frame, surface.material, 3u, block, lane);
-                            const double bound = filter_error(surface.plan.materials[0].base_color_texture, 1, 2.5);
+                            const double bound = filter_error(surface.plan.materials[0].textures[TextureSlot::base_color], 1, 2.5);
                             const double error = std::fabs(static_cast<double>(block.green[lane]) - want.g);
                             closest = std::max(closest, error / bound);
                             if (error > bound)

@@ -33,7 +33,7 @@ struct Bench {
     std::shared_ptr<const Environment> environment;
     ShadingSettings options;
 
-    Bench() { material.metallic = 0, material.clearcoat.factor = 1; }
+    Bench() { material.metallic = 0, material.clearcoat = 1; }
     void add_light(Vec3d to_light, float color = 1) {
         lights.push_back({.color_linear = {color, color, color}, .direction_ws = to_float(to_light * -1.0)});
     }
@@ -99,7 +99,7 @@ TEST_CASE("clearcoat: base and emission keep 1 - c F(N.V), and the coat adds its
                 for (const double light : {0.1, 0.9, 1.4}) {
                     const Vec3d v = at_angle(view), l = at_angle(light, 2.5);
                     Bench bench;
-                    bench.material.clearcoat.factor = share, bench.material.clearcoat.roughness = roughness;
+                    bench.material.clearcoat = share, bench.material.clearcoat_roughness = roughness;
                     bench.material.base_color = {0.5f, 0, 0, 1}, bench.material.emissive = {0, 0, 0.75f};
                     bench.material.dielectric_reflectance = 0;
                     bench.add_light(l);
@@ -129,8 +129,8 @@ TEST_CASE("clearcoat: with ggx the coat's highlight is that of a black-bodied di
             coated.material.dielectric_reflectance = 0, coated.material.metallic = 1;
             coated.material.specular = 0;  // no grazing part below either
             coated.material.metallic = 0;
-            coated.material.clearcoat.roughness = roughness;
-            body.material.clearcoat.factor = 0, body.material.roughness = roughness;
+            coated.material.clearcoat_roughness = roughness;
+            body.material.clearcoat = 0, body.material.roughness = roughness;
             for (Bench* bench : {&coated, &body}) bench->add_light(at_angle(0.5, 1.0), 3);
             const Vec3d v = at_angle(view);
             INFO("roughness " << roughness << ", view " << view);
@@ -140,10 +140,10 @@ TEST_CASE("clearcoat: with ggx the coat's highlight is that of a black-bodied di
 
 TEST_CASE("clearcoat: factor and roughness follow the red and the green channel of their textures", "[shading][clearcoat]") {
     Bench plain, textured;
-    plain.material.clearcoat.factor = 0.5f, plain.material.clearcoat.roughness = 0.4f;
-    textured.material.clearcoat.roughness = 0.8f;
-    textured.material.clearcoat.texture.texture = textured.add_texel(0.5, 0.1, 0.2);
-    textured.material.clearcoat.roughness_texture.texture = textured.add_texel(0.9, 0.5, 0.3);
+    plain.material.clearcoat = 0.5f, plain.material.clearcoat_roughness = 0.4f;
+    textured.material.clearcoat_roughness = 0.8f;
+    textured.material.textures[TextureSlot::clearcoat].texture = textured.add_texel(0.5, 0.1, 0.2);
+    textured.material.textures[TextureSlot::clearcoat_roughness].texture = textured.add_texel(0.9, 0.5, 0.3);
     for (Bench* bench : {&plain, &textured}) bench->add_light(at_angle(0.3));
     CHECK(textured.seen_from(at_angle(0.3)).x == Approx(plain.seen_from(at_angle(0.3)).x).epsilon(1e-4));
 }
@@ -154,9 +154,9 @@ TEST_CASE("clearcoat: without a normal texture of its own the coat ignores the b
     for (const bool own : {false, true}) {
         Bench bench;
         bench.material.base_color = {0, 0, 0, 1}, bench.material.dielectric_reflectance = 0;
-        bench.material.clearcoat.roughness = 0.5f;
+        bench.material.clearcoat_roughness = 0.5f;
         const int texture = bench.add_texel(0.5 + 0.5 * bent.x, 0.5 + 0.5 * bent.y, 0.5 + 0.5 * bent.z);
-        (own ? bench.material.clearcoat.normal_texture : bench.material.normal_texture).texture = texture;
+        (own ? bench.material.textures[TextureSlot::clearcoat_normal] : bench.material.textures[TextureSlot::normal]).texture = texture;
         bench.add_light(l);
         const Vec3d n = own ? bent : Vec3d{0, 0, 1};
         INFO(own);
@@ -174,7 +174,7 @@ TEST_CASE(
     for (int i = 0; i <= 20; ++i)
         for (int j = 1; j <= 20; ++j) {
             Bench bench;
-            bench.material.clearcoat.roughness = static_cast<float>(i / 20.0);
+            bench.material.clearcoat_roughness = static_cast<float>(i / 20.0);
             bench.add_sky(1.0f);
             const double cosine = j / 20.0, got = bench.seen_from(at_angle(std::acos(cosine))).x;
             most = std::max(most, got), least = std::min(least, got);
@@ -193,8 +193,8 @@ TEST_CASE("clearcoat: a coat mirrors an environment as a black dielectric of its
         for (const double view : {0.2, 1.0, 1.5}) {
             Bench coated, body;
             coated.material.base_color = body.material.base_color = {0, 0, 0, 1};
-            coated.material.specular = 0, coated.material.clearcoat.roughness = roughness;
-            body.material.clearcoat.factor = 0, body.material.roughness = roughness;
+            coated.material.specular = 0, coated.material.clearcoat_roughness = roughness;
+            body.material.clearcoat = 0, body.material.roughness = roughness;
             EnvironmentOptions options;
             options.extract_suns = false;
             const auto sky = std::make_shared<Environment>(make_environment(painted_sky(64, 32,
@@ -221,9 +221,9 @@ TEST_CASE("clearcoat: materials without a coat, unlit ones, and frames without h
     CHECK(stages() == 0);
     bench.material.unlit = false, bench.options.specular = SpecularModel::none;
     CHECK(stages() == 0);
-    bench.options.specular = SpecularModel::blinn, bench.material.clearcoat.factor = 0;
+    bench.options.specular = SpecularModel::blinn, bench.material.clearcoat = 0;
     CHECK(stages() == 0);
-    bench.material.clearcoat.factor = std::numeric_limits<float>::quiet_NaN();
+    bench.material.clearcoat = std::numeric_limits<float>::quiet_NaN();
     CHECK(stages() == 0);
 }
 
@@ -234,7 +234,7 @@ TEST_CASE("clearcoat: extremes of share, roughness and angle are finite, and the
                 for (const float roughness : {-1.0f, 0.0f, 1e-30f, 0.5f, 1.0f, 1e30f}) {
                     Bench bench;
                     bench.options.specular = model;
-                    bench.material.clearcoat.factor = share, bench.material.clearcoat.roughness = roughness;
+                    bench.material.clearcoat = share, bench.material.clearcoat_roughness = roughness;
                     for (const double angle : {0.0, 0.7, 1.5707, 1.570797, 3.0}) bench.add_light(at_angle(angle, 2.0));
                     if (sky)
                         bench.add_sky(1.0f);

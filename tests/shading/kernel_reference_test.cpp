@@ -21,14 +21,14 @@ TEST_CASE("kernels: shade agrees with the float64 reference for every kind of sc
     for (int round = 0; round < 400; ++round) {
         Case c = make_case(make, true);
         Material& material = c.materials[0];
-        for (TextureUse* use : texture_uses(material)) {
-            use->sampler.mag = use->sampler.min = TextureFilter::linear;
-            if (use->sampler.mip == MipFilter::nearest) use->sampler.mip = MipFilter::linear;
+        for (TextureUse& use : material.textures) {
+            use.sampler.mag = use.sampler.min = TextureFilter::linear;
+            if (use.sampler.mip == MipFilter::nearest) use.sampler.mip = MipFilter::linear;
         }
         // A lobe with a power below 1 has an unbounded slope at its edge, so its error is unbounded too.
         material.lobe.power = std::max(material.lobe.power, 1.0f);
         if (c.options.lobe) c.options.lobe->power = std::max(c.options.lobe->power, 1.0f);
-        material.clearcoat.roughness = std::max(material.clearcoat.roughness, 0.2f);
+        material.clearcoat_roughness = std::max(material.clearcoat_roughness, 0.2f);
         material.roughness = std::max(material.roughness, 0.2f);  // exponents up to 1250: above, the last bit of a normal is visible
         const ShadingPlan old = c.plan;
         c.plan = plan_shading({c.materials, c.textures, c.available, plan_lights(c.lights), c.ambient, c.options});

@@ -53,7 +53,7 @@ TEST_CASE("plan: a lit material needs position and normal, tangents only for a n
     Scene scene;
     scene.available[0] = kPlain | 4u;
     CHECK(scene.first().slots == kPlain);
-    scene.materials[0].normal_texture.texture = 0;
+    scene.materials[0].textures[TextureSlot::normal].texture = 0;
     CHECK(scene.first().slots == (kPlain | 4u));
     CHECK((scene.first().stages & kStageNormalMap) != 0);
     scene.available[0] = kPlain;  // no primitive brings tangents
@@ -68,23 +68,23 @@ TEST_CASE("plan: vertex colours and the second coordinate set only where they ex
     scene.available[0] = kPlain | 8u;
     CHECK((scene.first().stages & kStageVertexColor) != 0);
     CHECK(scene.first().slots == (kPlain | 8u));
-    scene.materials[0].base_color_texture.texture = 0;
-    scene.materials[0].base_color_texture.uv_set = 1;
+    scene.materials[0].textures[TextureSlot::base_color].texture = 0;
+    scene.materials[0].textures[TextureSlot::base_color].uv_set = 1;
     scene.available[0] = kPlain | 16u;
     CHECK(scene.first().slots == (kPlain | 16u));
     scene.available[0] = kPlain;  // the set is missing: read as (0, 0)
     CHECK(scene.first().slots == kPlain);
-    CHECK(scene.first().base_color_texture.uv_set == 0);
-    CHECK(scene.first().base_color_texture.row_u[0] == 0.0f);
+    CHECK(scene.first().textures[TextureSlot::base_color].uv_set == 0);
+    CHECK(scene.first().textures[TextureSlot::base_color].row_u[0] == 0.0f);
 }
 
 TEST_CASE("plan: without light a material only emits", "[shading][plan]") {
     Scene scene;
     scene.lights.clear();
     scene.materials[0].emissive = {1, 0, 0};
-    scene.materials[0].base_color_texture.texture = 0;
+    scene.materials[0].textures[TextureSlot::base_color].texture = 0;
     CHECK(scene.first().stages == 0u);
-    scene.materials[0].emissive_texture.texture = 1;  // one level, one filter: no gradients
+    scene.materials[0].textures[TextureSlot::emissive].texture = 1;  // one level, one filter: no gradients
     CHECK(scene.first().stages == kStageEmissiveTexture);
     CHECK(scene.first().slots == 2u);
     scene.materials[0].alpha_mode = AlphaMode::mask;  // alpha still decides what is drawn
@@ -93,22 +93,22 @@ TEST_CASE("plan: without light a material only emits", "[shading][plan]") {
 
 TEST_CASE("plan: a texture without effect is not fetched", "[shading][plan]") {
     Scene scene;
-    scene.materials[0].emissive_texture.texture = 0;   // emissive factor 0
-    scene.materials[0].occlusion_texture.texture = 0;  // no ambient light
-    scene.materials[0].metallic_roughness_texture.texture = 0;
+    scene.materials[0].textures[TextureSlot::emissive].texture = 0;   // emissive factor 0
+    scene.materials[0].textures[TextureSlot::occlusion].texture = 0;  // no ambient light
+    scene.materials[0].textures[TextureSlot::metallic_roughness].texture = 0;
     CHECK((scene.first().stages & (kStageEmissiveTexture | kStageOcclusionTexture)) == 0);
     CHECK((scene.first().stages & kStageMetallicRoughnessTexture) != 0);
     scene.options.specular = SpecularModel::none;
     CHECK((scene.first().stages & (kStageMetallicRoughnessTexture | kStageSpecular)) == 0);
     scene.ambient.sky_linear = {0.1f, 0.1f, 0.1f};
     CHECK((scene.first().stages & (kStageOcclusionTexture | kStageAmbient)) == (kStageOcclusionTexture | kStageAmbient));
-    scene.materials[0].occlusion_texture.texture = 7;  // there is no such texture
+    scene.materials[0].textures[TextureSlot::occlusion].texture = 7;  // there is no such texture
     CHECK((scene.first().stages & kStageOcclusionTexture) == 0);
 }
 
 TEST_CASE("plan: gradients only where a texture has levels or two filters", "[shading][plan]") {
     Scene scene;
-    TextureUse& use = scene.materials[0].base_color_texture;
+    TextureUse& use = scene.materials[0].textures[TextureSlot::base_color];
     use.texture = 0;
     CHECK((scene.first().stages & kStageGradients) != 0);
     use.sampler.mip = MipFilter::none;
@@ -123,9 +123,9 @@ TEST_CASE("plan: gradients only where a texture has levels or two filters", "[sh
 TEST_CASE("plan: occlusion in the metallic-roughness texture is fetched once", "[shading][plan]") {
     Scene scene;
     scene.ambient.sky_linear = {1, 1, 1};
-    scene.materials[0].metallic_roughness_texture.texture = scene.materials[0].occlusion_texture.texture = 0;
+    scene.materials[0].textures[TextureSlot::metallic_roughness].texture = scene.materials[0].textures[TextureSlot::occlusion].texture = 0;
     CHECK(scene.first().occlusion_is_metallic_roughness);
-    scene.materials[0].occlusion_texture.sampler.wrap_u = TextureWrap::clamp;
+    scene.materials[0].textures[TextureSlot::occlusion].sampler.wrap_u = TextureWrap::clamp;
     CHECK(!scene.first().occlusion_is_metallic_roughness);
 }
 

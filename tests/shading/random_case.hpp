@@ -3,6 +3,7 @@
 
 #include "floats.hpp"
 #include "shading/budget/power_fit.hpp"
+#include "shading/material_properties.hpp"
 #include "shading/planner.hpp"
 #include "shading/reference/reference.hpp"
 
@@ -72,52 +73,35 @@ inline Lobe make_lobe(FloatMaker& make) {
     return lobe;
 }
 
+/// Any material: each property of the table is its default, an end of its range, or between.
 inline Material make_material(FloatMaker& make) {
     using namespace shading;
     Material material;
-    material.base_color = {make.ordinary(0, 1), make.ordinary(0, 1), make.ordinary(0, 1), make.ordinary(0, 1)};
-    material.metallic = make.below(2) == 0 ? 0.0f : make.ordinary(0, 1);
-    material.roughness = make.ordinary(0, 1);
-    if (make.below(2) == 0) material.emissive = {make.ordinary(0, 1), make.ordinary(0, 2), 0.0f};
-    material.normal_scale = make.ordinary(0, 2);
-    material.occlusion_strength = make.ordinary(0, 1);
+    for (const MaterialNumber& number : kMaterialNumbers) {
+        if (make.below(2) == 0) continue;
+        float values[4];
+        const float low = std::max(number.low, 0.0f), high = std::min(number.high, 2.0f);
+        for (int c = 0; c < number.count; ++c)
+            values[c] = make.below(4) == 0 ? (make.below(2) == 0 ? low : high) : make.ordinary(low, high);
+        number.set(material, values);
+    }
+    if (make.below(8) == 0) material.specular_color.z = make.ordinary(0, 40);
+    for (TextureUse& use : material.textures)
+        if (make.below(2) == 0) use = make_use(make);
+    // Each kind of layer is absent from half of the materials.
+    if (make.below(2) == 0) material.transmission = 0;
+    if (make.below(2) == 0) material.clearcoat = 0;
+    if (make.below(2) == 0) material.sheen_color = {0, 0, 0};
+    if (make.below(3) != 0) {
+        material.specular = 1, material.specular_color = {1, 1, 1};
+        material.textures[TextureSlot::specular] = material.textures[TextureSlot::specular_color] = {};
+    }
     material.alpha_mode = static_cast<AlphaMode>(make.below(3));
     material.double_sided = make.below(2) == 0;
     material.unlit = make.below(8) == 0;
     material.lobe = make_lobe(make);
     material.has_own_lobe = make.below(2) == 0;
-    for (TextureUse* use : {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
-                            &material.occlusion_texture, &material.emissive_texture})
-        if (make.below(2) == 0) *use = make_use(make);
-    if (make.below(3) == 0) material.occlusion_texture = material.metallic_roughness_texture;
-    if (make.below(2) == 0) material.dielectric_reflectance = make.ordinary(0, 1);
-    if (make.below(3) == 0) {
-        material.specular = make.ordinary(0, 1);
-        if (make.below(2) == 0) material.specular_color = {make.ordinary(0, 2), make.ordinary(0, 2), make.ordinary(0, 40)};
-        for (TextureUse* use : {&material.specular_texture, &material.specular_color_texture})
-            if (make.below(2) == 0) *use = make_use(make);
-    }
-    if (make.below(3) == 0) {
-        Clearcoat& coat = material.clearcoat;
-        coat.factor = make.below(3) == 0 ? 1.0f : make.ordinary(0, 1), coat.roughness = make.ordinary(0, 1);
-        coat.normal_scale = make.ordinary(0, 2);
-        for (TextureUse* use : {&coat.texture, &coat.roughness_texture, &coat.normal_texture})
-            if (make.below(2) == 0) *use = make_use(make);
-    }
-    if (make.below(3) == 0) {
-        Sheen& sheen = material.sheen;
-        sheen.color = {make.ordinary(0, 1), make.ordinary(0, 1), make.below(2) == 0 ? 1.0f : 0.0f}, sheen.roughness = make.ordinary(0, 1);
-        for (TextureUse* use : {&sheen.color_texture, &sheen.roughness_texture})
-            if (make.below(2) == 0) *use = make_use(make);
-    }
-    if (make.below(3) == 0) {
-        Transmission& inside = material.transmission;
-        inside.share = make.ordinary(0, 1);
-        if (make.below(2) == 0) inside.thickness = make.ordinary(0, 2), inside.attenuation_distance = make.ordinary(0, 2);
-        inside.attenuation_color = {make.ordinary(0, 1), make.ordinary(0, 1), make.below(2) == 0 ? 0.0f : 1.0f};
-        for (TextureUse* use : {&inside.texture, &inside.thickness_texture})
-            if (make.below(2) == 0) *use = make_use(make);
-    }
+    if (make.below(3) == 0) material.textures[TextureSlot::occlusion] = material.textures[TextureSlot::metallic_roughness];
     return material;
 }
 

@@ -30,7 +30,7 @@ std::vector<reference::Rgba> sample_all(const Texture& texture, const TextureUse
     Material material;
     material.unlit = true;
     material.alpha_mode = AlphaMode::blend;
-    material.base_color_texture = use;
+    material.textures[TextureSlot::base_color] = use;
     const std::vector<SlotMask> available{3u, 3u};
     const ShadingPlan plan = plan_shading({std::span(&material, 1), std::span(&texture, 1), available, {}, {}, {}});
     FragmentBlock block{};

@@ -79,7 +79,7 @@ struct Bench {
 
     Bench() {
         material.metallic = 0, material.base_color = {0, 0, 0, 1}, material.specular = 0;
-        material.sheen.color = {1, 1, 1};
+        material.sheen_color = {1, 1, 1};
     }
     void add_light(Vec3d to_light, float color = 1) {
         lights.push_back({.color_linear = {color, color, color}, .direction_ws = to_float(to_light * -1.0)});
@@ -143,8 +143,8 @@ TEST_CASE("sheen: a light gives D V2 N.L, divided by the albedo where that is ab
                 for (const double turn : {0.0, 1.5, 3.1}) {
                     const Vec3d v = at_angle(view), l = at_angle(light, turn);
                     Bench bench;
-                    bench.material.sheen.color = {0.8f, 0.4f, 0};
-                    bench.material.sheen.roughness = roughness;
+                    bench.material.sheen_color = {0.8f, 0.4f, 0};
+                    bench.material.sheen_roughness = roughness;
                     bench.material.base_color = {0, 0, 0.5f, 1};
                     bench.add_light(l);
                     const Vec3d got = bench.seen_from(v);
@@ -162,7 +162,7 @@ TEST_CASE("sheen: lights all around reflect the table's albedo, and at most all 
         for (const double view : {0.3, 1.0, 1.4}) {
             const Vec3d v = at_angle(view);
             Bench bench;
-            bench.material.sheen.roughness = static_cast<float>(roughness);
+            bench.material.sheen_roughness = static_cast<float>(roughness);
             // The weights of a uniform sky: lights of the cosine's solid angle, without D V2.
             constexpr int kRings = 60;
             for (int i = 0; i < kRings; ++i)
@@ -185,7 +185,7 @@ TEST_CASE("sheen: in a white furnace a white surface with white sheen reflects a
         Bench bench;
         bench.material = Material{};
         bench.material.metallic = 0;
-        bench.material.sheen = {{1, 1, 1}, static_cast<float>(i / 10.0), {}, {}};
+        bench.material.sheen_color = {1, 1, 1}, bench.material.sheen_roughness = static_cast<float>(i / 10.0);
         bench.set_sky(painted_sky(64, 32, [](Vec3d) { return Vec3d{0.75, 0.75, 0.75}; }));
         for (int j = 1; j <= 20; ++j)
             worst = std::max(worst, std::fabs(bench.seen_from(at_angle(std::acos(j / 20.0), 0.4 * j)).x / 0.75 - 1));
@@ -194,7 +194,7 @@ TEST_CASE("sheen: in a white furnace a white surface with white sheen reflects a
     CHECK(worst < 1e-5);
     Bench black;
     black.add_light({0, 0, 1});
-    black.material.sheen.color = {0, 0, 0};
+    black.material.sheen_color = {0, 0, 0};
     CHECK((black.plan().materials[0].stages & kStageSheen) == 0);
 }
 
@@ -228,7 +228,7 @@ TEST_CASE("sheen: light of an environment is near the integral, and nearer than 
                 }
             mean /= weights;
             Bench bench;
-            bench.material.sheen.roughness = static_cast<float>(roughness);
+            bench.material.sheen_roughness = static_cast<float>(roughness);
             bench.set_sky(sky);
             for (int i = 0; i < 24; ++i) {
                 const double n_dot_v = 0.04 * (i + 1);
@@ -272,9 +272,9 @@ TEST_CASE("sheen: extremes of colour, roughness and angle are finite, and the sa
         for (const float color : {1e-30f, 0.5f, 1.0f, 7.0f})
             for (const float roughness : {-1.0f, 0.0f, 1e-30f, 0.5f, 1.0f, 1e30f}) {
                 Bench bench;
-                bench.material.sheen = {{color, color, color}, roughness, {}, {}};
+                bench.material.sheen_color = {color, color, color}, bench.material.sheen_roughness = roughness;
                 bench.material.base_color = {1, 1, 1, 1};
-                bench.material.clearcoat.factor = roughness == 0.5f ? 0.5f : 0.0f;
+                bench.material.clearcoat = roughness == 0.5f ? 0.5f : 0.0f;
                 for (const double angle : {0.0, 0.7, 1.5707, 1.570797, 3.0}) bench.add_light(at_angle(angle, 2.0));
                 if (sky)
                     bench.set_sky(painted_sky(16, 8, [](Vec3d d) { return Vec3d{1 + d.y, 1, 1}; }));
@@ -296,10 +296,10 @@ TEST_CASE("sheen: colour and roughness follow their textures, and emission is no
         return Texture::from_rgba16(rgba, 1, 1).value();
     };
     Bench plain, textured;
-    plain.material.sheen = {{0.4f, 0.1f, 0}, 0.4f, {}, {}};
-    textured.material.sheen = {{0.8f, 0.5f, 0.7f}, 0.8f, {}, {}};
+    plain.material.sheen_color = {0.4f, 0.1f, 0}, plain.material.sheen_roughness = 0.4f;
+    textured.material.sheen_color = {0.8f, 0.5f, 0.7f}, textured.material.sheen_roughness = 0.8f;
     textured.textures = {texel(0.5, 0.2, 0, 1), texel(1, 1, 1, 0.5)};
-    textured.material.sheen.color_texture.texture = 0, textured.material.sheen.roughness_texture.texture = 1;
+    textured.material.textures[TextureSlot::sheen_color].texture = 0, textured.material.textures[TextureSlot::sheen_roughness].texture = 1;
     for (Bench* bench : {&plain, &textured}) bench->add_light(at_angle(1.0)), bench->material.emissive = {0, 0, 0.5f};
     const Vec3d want = plain.seen_from(at_angle(1.2)), got = textured.seen_from(at_angle(1.2));
     CHECK(got.x == Approx(want.x).epsilon(1e-4));

@@ -116,14 +116,14 @@ TEST_CASE("texture bounds: no filtered channel is off by more than its bound", "
                 Material material;
                 material.unlit = true;
                 material.alpha_mode = AlphaMode::blend;
-                TextureUse& use = material.base_color_texture;
+                TextureUse& use = material.textures[TextureSlot::base_color];
                 use.texture = 0;
                 use.sampler.wrap_u = use.sampler.wrap_v = static_cast<TextureWrap>(mode % 3);
                 use.sampler.mip = mode / 3 % 2 == 0 ? MipFilter::none : MipFilter::linear;
                 if (mode / 6 == 1) use.row_u = {0.7f, 1.9f, 0.3f}, use.row_v = {-1.9f, 0.7f, -0.1f};
                 const std::vector<SlotMask> available{3u, 3u};
                 const ShadingPlan plan = plan_shading({std::span(&material, 1), std::span(&texture, 1), available, {}, {}, {}});
-                const TexturePlan& planned = plan.materials[0].base_color_texture;
+                const TexturePlan& planned = plan.materials[0].textures[TextureSlot::base_color];
                 constexpr float kLargest = 2.5f;
                 for (int round = 0; round < 20; ++round) {
                     FragmentBlock block{};

@@ -80,8 +80,8 @@ Texture noise(ColorSpace space) {
 
 void add_textures(Scene& scene) {
     scene.textures = {noise(ColorSpace::srgb), noise(ColorSpace::linear)};
-    scene.materials[0].base_color_texture.texture = 0;
-    scene.materials[0].normal_texture.texture = 1;
+    scene.materials[0].textures[TextureSlot::base_color].texture = 0;
+    scene.materials[0].textures[TextureSlot::normal].texture = 1;
 }
 
 void add_lamps(Scene& scene, int count) {

@@ -2,6 +2,7 @@
 
 #include "halflit/image.hpp"
 #include "sh/trig.hpp"
+#include "shading/material_properties.hpp"
 #include "tests/support/cameras.hpp"
 
 #include <nlohmann/json.hpp>
@@ -9,6 +10,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace halflit::test {
 namespace {
@@ -23,8 +28,11 @@ public:
 
     Result<std::string> file() {
         root_["asset"] = {{"version", "2.0"}, {"generator", content_.generator}};
-        root_["extensionsUsed"] = {"KHR_lights_punctual", "KHR_texture_transform", "KHR_materials_unlit", "KHR_materials_emissive_strength",
+        std::set<std::string> used{"KHR_lights_punctual", "KHR_texture_transform", "KHR_materials_unlit", "KHR_materials_emissive_strength",
                                    "KHR_materials_ior"};
+        for (const shading::MaterialNumber& number : shading::kMaterialNumbers)
+            if (number.gltf.starts_with("extensions/")) used.emplace(number.gltf.substr(11, number.gltf.find('/', 11) - 11));
+        root_["extensionsUsed"] = used;
         for (const GlbPicture& picture : content_.pictures) {
             const std::vector<std::uint8_t> rgba8(picture.rgba8.begin(), picture.rgba8.end());
             const auto png = encode_image({picture.width, picture.height, rgba8, {}}, OutputFormat::png);
@@ -109,16 +117,22 @@ private:
             {"offset", {use.row_u.z, use.row_v.z}}, {"scale", {su, sv}}, {"rotation", std::atan2(-use.row_v.x, use.row_u.x)}};
         return out;
     }
+    static Json::json_pointer pointer_to(std::string_view gltf) { return Json::json_pointer(std::string("/").append(gltf)); }
+    static Json& at(Json& of, std::string_view gltf) { return of[pointer_to(gltf)]; }
     Json material(const Material& m) {
         Json out;
-        Json& pbr = out["pbrMetallicRoughness"];
-        pbr = {{"baseColorFactor", {m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w}},
-               {"metallicFactor", m.metallic},
-               {"roughnessFactor", m.roughness}};
-        if (m.base_color_texture.used()) pbr["baseColorTexture"] = texture(m.base_color_texture);
-        if (m.metallic_roughness_texture.used()) pbr["metallicRoughnessTexture"] = texture(m.metallic_roughness_texture);
-        if (m.normal_texture.used()) (out["normalTexture"] = texture(m.normal_texture))["scale"] = m.normal_scale;
-        if (m.occlusion_texture.used()) (out["occlusionTexture"] = texture(m.occlusion_texture))["strength"] = m.occlusion_strength;
+        const Material usual;
+        for (const TextureSlot slot : shading::kAllTextureSlots)
+            if (m.textures[slot].used()) at(out, shading::info_of(slot).gltf) = texture(m.textures[slot]);
+        for (const shading::MaterialNumber& number : shading::kMaterialNumbers) {
+            float values[4], otherwise[4];
+            number.get(m, values);
+            number.get(usual, otherwise);
+            if (number.gltf.empty() || std::equal(values, values + number.count, otherwise)) continue;
+            const std::string_view place = number.gltf.substr(0, number.gltf.rfind('/'));
+            if (place.ends_with("Texture") && !out.contains(pointer_to(place))) continue;
+            at(out, number.gltf) = number.count == 1 ? Json(values[0]) : Json(std::vector<float>(values, values + number.count));
+        }
         const float glow = std::max({m.emissive.x, m.emissive.y, m.emissive.z});
         if (glow > 0) {
             out["emissiveFactor"] = {m.emissive.x / glow, m.emissive.y / glow, m.emissive.z / glow};
@@ -129,7 +143,7 @@ private:
             out["extensions"]["KHR_materials_ior"] = {{"ior", root < 1 ? (1 + root) / (1 - root) : 0.0}};
         }
         out["doubleSided"] = m.double_sided;
-        if (m.alpha_mode == AlphaMode::mask) out["alphaMode"] = "MASK", out["alphaCutoff"] = m.alpha_cutoff;
+        if (m.alpha_mode == AlphaMode::mask) out["alphaMode"] = "MASK";
         if (m.alpha_mode == AlphaMode::blend) out["alphaMode"] = "BLEND";
         if (m.unlit) out["extensions"]["KHR_materials_unlit"] = Json::object();
         out["extras"]["halflit"] = {{"lobe", "mcauley"}, {"wrap", m.lobe.wrap}, {"power", m.lobe.power}, {"normalize", m.lobe.normalize}};

@@ -22,9 +22,17 @@ bool is_of_vertices(std::string_view attribute) { return is_drawn(attribute) || 
 
 bool is_of_instances(std::string_view attribute) { return attribute == "TRANSLATION" || attribute == "ROTATION" || attribute == "SCALE"; }
 
-const MaterialExtensions& File::extensions_of(const Material& material) const {
-    static const MaterialExtensions kNone;
-    return material.extended < 0 ? kNone : extended[static_cast<std::size_t>(material.extended)];
+const MaterialNumbers& default_numbers() {
+    static const MaterialNumbers kDefaults = [] {
+        MaterialNumbers numbers{};
+        for (std::size_t i = 0; i < shading::kMaterialNumberCount; ++i) {
+            float row[4];
+            shading::kMaterialNumbers[i].get(halflit::Material{}, row);
+            std::copy_n(row, shading::kMaterialNumbers[i].count, &numbers[shading::kFirstFloats[i]]);
+        }
+        return numbers;
+    }();
+    return kDefaults;
 }
 
 bool File::uses(std::string_view extension) const {

@@ -5,7 +5,9 @@
 
 #include "apps/io/detail/gltf_transform.hpp"
 #include "apps/io/lobe_name.hpp"
+#include "shading/material_properties.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -169,9 +171,7 @@ struct TextureTransform {
 
 struct TexturePlace {
     int index = -1, tex_coord = 0;
-    double scale = 1;     ///< scale of a normal texture
-    double strength = 1;  ///< strength of an occlusion texture
-    std::optional<TextureTransform> transform;
+    int transform = -1;  ///< into File::texture_transforms; -1: none
 };
 
 /// extras.halflit, this project's own: the lobe of a material.
@@ -180,51 +180,30 @@ struct OwnLobe {
     LobeParameters parameters;
 };
 
-/// Extensions that few materials have.
-struct MaterialExtensions {
-    double transmission_factor = 0;                         ///< KHR_materials_transmission
-    double thickness_factor = 0, attenuation_distance = 0;  ///< KHR_materials_volume; distance 0: infinite
-    std::vector<double> attenuation_color;                  ///< 3, or empty
-    TexturePlace transmission_texture, thickness_texture;
-    double specular_factor = 1;  ///< KHR_materials_specular
-    std::vector<double> specular_color_factor;
-    TexturePlace specular_texture, specular_color_texture;
-    double clearcoat_factor = 0, clearcoat_roughness_factor = 0;  ///< KHR_materials_clearcoat
-    TexturePlace clearcoat_texture, clearcoat_roughness_texture, clearcoat_normal_texture;
-    std::vector<double> sheen_color_factor;  ///< KHR_materials_sheen; 3, or empty
-    double sheen_roughness_factor = 0;
-    TexturePlace sheen_color_texture, sheen_roughness_texture;
-    bool specular_glossiness = false;  ///< KHR_materials_pbrSpecularGlossiness, which replaces the metallic-roughness parameters
-    std::vector<double> diffuse_factor, glossy_specular_factor;  ///< 4 and 3, or empty
+/// KHR_materials_pbrSpecularGlossiness, which replaces the metallic-roughness parameters.
+struct SpecularGlossiness {
+    std::vector<double> diffuse_factor, specular_factor;  ///< 4 and 3, or empty
     double glossiness_factor = 1;
     TexturePlace diffuse_texture, specular_glossiness_texture;
 };
 
+/// Numbers of a material, by shading::kFirstFloats; those without a place in glTF are not used.
+using MaterialNumbers = std::array<double, shading::kMaterialFloats>;
+[[nodiscard]] const MaterialNumbers& default_numbers();
+
 struct Material {
     std::string_view name;
     std::string_view alpha_mode = "OPAQUE";
-    std::vector<double> base_color_factor, emissive_factor;  ///< 4 and 3, or empty
-    double metallic_factor = 1, roughness_factor = 1, alpha_cutoff = 0.5;
-    double emissive_strength = 1;  ///< KHR_materials_emissive_strength
-    double ior = 1.5;              ///< KHR_materials_ior; 0: everything is mirrored
+    MaterialNumbers numbers = default_numbers();
+    BySlot<TexturePlace> places;
+    std::vector<double> emissive_factor;  ///< 3, or empty
+    double emissive_strength = 1;         ///< KHR_materials_emissive_strength
+    double ior = 1.5;                     ///< KHR_materials_ior; 0: everything is mirrored
     bool double_sided = false;
     bool unlit = false;  ///< KHR_materials_unlit
-    TexturePlace base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;
     std::optional<OwnLobe> own_lobe;
-    int extended = -1;  ///< into File::extended; -1: none of those extensions
+    int glossy = -1;  ///< into File::glossy; -1: not of specular and glossiness
 };
-
-/// The texture places of a material.
-inline constexpr TexturePlace Material::*kTexturePlaces[] = {&Material::base_color_texture, &Material::metallic_roughness_texture,
-                                                             &Material::normal_texture, &Material::occlusion_texture,
-                                                             &Material::emissive_texture};
-inline constexpr TexturePlace MaterialExtensions::*kExtendedPlaces[] = {
-    &MaterialExtensions::transmission_texture,       &MaterialExtensions::thickness_texture,
-    &MaterialExtensions::specular_texture,           &MaterialExtensions::specular_color_texture,
-    &MaterialExtensions::clearcoat_texture,          &MaterialExtensions::clearcoat_roughness_texture,
-    &MaterialExtensions::clearcoat_normal_texture,   &MaterialExtensions::sheen_color_texture,
-    &MaterialExtensions::sheen_roughness_texture,    &MaterialExtensions::diffuse_texture,
-    &MaterialExtensions::specular_glossiness_texture};
 
 struct Scene {
     std::string_view name;
@@ -271,8 +250,9 @@ struct File {
     std::vector<Image> images;
     std::vector<Sampler> samplers;
     std::vector<Texture> textures;
+    std::vector<TextureTransform> texture_transforms;
     std::vector<Material> materials;
-    std::vector<MaterialExtensions> extended;
+    std::vector<SpecularGlossiness> glossy;
     std::vector<Scene> scenes;
     std::vector<Animation> animations;
     std::vector<std::string_view> variants;  ///< names of KHR_materials_variants
@@ -280,9 +260,11 @@ struct File {
     std::size_t primitives = 0, morph_targets = 0;
     std::deque<std::string> texts;  ///< strings that had escapes, decoded; all others point into the JSON text
 
-    /// Extensions of a material, or their defaults.
-    [[nodiscard]] const MaterialExtensions& extensions_of(const Material& material) const;
     [[nodiscard]] bool uses(std::string_view extension) const;
+    /// Null: the place has none.
+    [[nodiscard]] const TextureTransform* transform_of(const TexturePlace& place) const {
+        return place.transform < 0 ? nullptr : &texture_transforms[static_cast<std::size_t>(place.transform)];
+    }
 };
 
 }  // namespace halflit::io::detail::file

@@ -53,10 +53,10 @@ double factor_at(const std::vector<double>& values, std::size_t index) {
     return index < values.size() ? std::clamp(values[index], 0.0, 1.0) : 1.0;
 }
 
-Factors factors_of(const file::MaterialExtensions& m) {
+Factors factors_of(const file::SpecularGlossiness& m) {
     Factors f{};
     for (std::size_t c = 0; c < 4; ++c) f.diffuse[c] = factor_at(m.diffuse_factor, c);
-    for (std::size_t c = 0; c < 3; ++c) f.specular[c] = factor_at(m.glossy_specular_factor, c);
+    for (std::size_t c = 0; c < 3; ++c) f.specular[c] = factor_at(m.specular_factor, c);
     f.glossiness = std::clamp(m.glossiness_factor, 0.0, 1.0);
     return f;
 }
@@ -119,14 +119,11 @@ public:
 
     void run() {
         for (std::size_t i = 0; i < scene_.materials.size(); ++i)
-            if (extensions(i).specular_glossiness) convert_material(i);
+            if (document_.file.materials[i].glossy >= 0) convert_material(i);
         drop_unused();
     }
 
 private:
-    [[nodiscard]] const file::MaterialExtensions& extensions(std::size_t material) const {
-        return document_.file.extensions_of(document_.file.materials[material]);
-    }
     [[nodiscard]] const Texture* texture(const TextureUse& use) const {
         if (!use.used()) return nullptr;
         const Texture& found = scene_.textures[static_cast<std::size_t>(use.texture)];
@@ -135,8 +132,9 @@ private:
 
     void convert_material(std::size_t index) {
         Material& material = scene_.materials[index];
-        const Factors factors = factors_of(extensions(index));
-        const TextureUse diffuse = material.base_color_texture, specular = material.metallic_roughness_texture;
+        const Factors factors = factors_of(document_.file.glossy[static_cast<std::size_t>(document_.file.materials[index].glossy)]);
+        const TextureUse diffuse = material.textures[TextureSlot::base_color],
+                         specular = material.textures[TextureSlot::metallic_roughness];
         const Texture *const matt = texture(diffuse), *const shiny = texture(specular);
         material.base_color = {1, 1, 1, 1};
         material.metallic = material.roughness = 1;
@@ -153,10 +151,10 @@ private:
         originals_.push_back(specular.texture);
         if (matt == nullptr || shiny == nullptr || same_place(diffuse, specular)) {
             const auto [base, rough] = converted(factors, diffuse.texture, specular.texture, matt, shiny);
-            material.base_color_texture = matt != nullptr ? diffuse : specular;
-            material.metallic_roughness_texture = shiny != nullptr ? specular : diffuse;
-            material.base_color_texture.texture = base;
-            material.metallic_roughness_texture.texture = rough;
+            material.textures[TextureSlot::base_color] = matt != nullptr ? diffuse : specular;
+            material.textures[TextureSlot::metallic_roughness] = shiny != nullptr ? specular : diffuse;
+            material.textures[TextureSlot::base_color].texture = base;
+            material.textures[TextureSlot::metallic_roughness].texture = rough;
             return;
         }
         document_.warn(
@@ -166,8 +164,8 @@ private:
         const Texture mean_matt = mean_of(*matt), mean_shiny = mean_of(*shiny);
         Texture base = convert(factors, matt, &mean_shiny).base_color;
         Texture rough = convert(factors, &mean_matt, shiny).metallic_roughness;
-        material.base_color_texture.texture = add(std::move(base));
-        material.metallic_roughness_texture.texture = add(std::move(rough));
+        material.textures[TextureSlot::base_color].texture = add(std::move(base));
+        material.textures[TextureSlot::metallic_roughness].texture = add(std::move(rough));
     }
 
     std::pair<int, int> converted(const Factors& f, int diffuse, int specular, const Texture* matt, const Texture* shiny) {
@@ -189,8 +187,8 @@ private:
         if (originals_.empty()) return;
         std::vector<bool> used(scene_.textures.size(), false), original(scene_.textures.size(), false);
         for (const Material& material : scene_.materials)
-            for (const TextureUse* use : texture_uses(material))
-                if (use->used()) used[static_cast<std::size_t>(use->texture)] = true;
+            for (const TextureUse& use : material.textures)
+                if (use.used()) used[static_cast<std::size_t>(use.texture)] = true;
         for (const int index : originals_)
             if (index >= 0) original[static_cast<std::size_t>(index)] = true;
         std::vector<int> number(scene_.textures.size(), -1);
@@ -202,8 +200,8 @@ private:
         }
         scene_.textures = std::move(kept);
         for (Material& material : scene_.materials)
-            for (TextureUse* use : texture_uses(material))
-                if (use->used()) use->texture = number[static_cast<std::size_t>(use->texture)];
+            for (TextureUse& use : material.textures)
+                if (use.used()) use.texture = number[static_cast<std::size_t>(use.texture)];
     }
 
     using Key = std::tuple<int, int, double, double, double, double, double, double, double, double>;

@@ -62,9 +62,11 @@ void for_each_index(file::File& file, const Visit& visit) {
         visit(Target::images, texture.basisu);
     }
     for (file::Material& material : file.materials)
-        for (const auto place : file::kTexturePlaces) visit(Target::textures, (material.*place).index);
-    for (file::MaterialExtensions& more : file.extended)
-        for (const auto place : file::kExtendedPlaces) visit(Target::textures, (more.*place).index);
+        for (file::TexturePlace& place : material.places) visit(Target::textures, place.index);
+    for (file::SpecularGlossiness& glossy : file.glossy) {
+        visit(Target::textures, glossy.diffuse_texture.index);
+        visit(Target::textures, glossy.specular_glossiness_texture.index);
+    }
 }
 
 /// list[index]. Throws LoadFailure where the list has no such element.

@@ -5,6 +5,7 @@
 #include "sh/power.hpp"
 #include "sh/trig.hpp"
 #include "sh/vec3d.hpp"
+#include "shading/material_properties.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +17,7 @@ namespace {
 
 float clamp01(double value) { return static_cast<float>(std::clamp(value, 0.0, 1.0)); }
 
-constexpr double kMostScale = 1e6;  // beyond it, float texture coordinates have no fraction left
+constexpr double kMostScale = shading::kMostScale;
 
 /// values[index], held within kMostScale, or `otherwise` if the list is shorter.
 double number_at(const std::vector<double>& values, std::size_t index, double otherwise) {
@@ -64,7 +65,24 @@ Sampler sampler_of(const Document& document, int index) {
     return sampler;
 }
 
-float thickness_of(const file::MaterialExtensions& source) { return static_cast<float>(std::clamp(source.thickness_factor, 0.0, 1e18)); }
+constexpr std::size_t kThickness = shading::number_row("thickness");
+
+/// Numbers of a row, held within its range.
+void held_numbers(const file::Material& source, std::size_t row, float* to) {
+    const shading::MaterialNumber& number = shading::kMaterialNumbers[row];
+    for (int c = 0; c < number.count; ++c) {
+        const double value = source.numbers[shading::kFirstFloats[row] + static_cast<std::size_t>(c)];
+        to[c] = static_cast<float>(std::clamp(value, static_cast<double>(number.low), static_cast<double>(number.high)));
+    }
+}
+
+float thickness_of(const file::Material& source) {
+    float thickness = 0.0f;
+    held_numbers(source, kThickness, &thickness);
+    return thickness;
+}
+
+bool is_metallic_roughness(std::string_view gltf) { return gltf.starts_with("pbrMetallicRoughness/"); }
 
 /// Sets a value. Returns true if it changes.
 template <class T>
@@ -74,14 +92,20 @@ bool put(T& to, const T& value) {
     return changes;
 }
 
-/// All numbers of a material but those of its textures.
-bool set_factors(const file::Material& source, const file::MaterialExtensions& more, Material& material) {
+/// All numbers of a material but its thickness, which its instances scale, and those of its textures.
+bool set_factors(const file::Material& source, Material& material) {
     bool changed = false;
-    if (!more.specular_glossiness) {
-        const auto base = [&](std::size_t c) { return clamp01(number_at(source.base_color_factor, c, 1.0)); };
-        changed |= put(material.base_color, {base(0), base(1), base(2), base(3)});
-        changed |= put(material.metallic, clamp01(source.metallic_factor));
-        changed |= put(material.roughness, clamp01(source.roughness_factor));
+    for (std::size_t row = 0; row < shading::kMaterialNumberCount; ++row) {
+        const shading::MaterialNumber& number = shading::kMaterialNumbers[row];
+        if (number.gltf.empty() || row == kThickness || (source.glossy >= 0 && is_metallic_roughness(number.gltf))) continue;
+        float now[4], before[4];
+        held_numbers(source, row, now);
+        number.get(material, before);
+        if (std::equal(now, now + number.count, before)) continue;
+        number.set(material, now);
+        changed = true;
+    }
+    if (source.glossy < 0) {
         const double root = (source.ior - 1.0) / (source.ior + 1.0);  // Fresnel, straight on; -1 for the index 0, as the extension asks
         changed |= put(material.dielectric_reflectance, clamp01(root * root));
     }
@@ -89,26 +113,7 @@ bool set_factors(const file::Material& source, const file::MaterialExtensions& m
     const auto emissive = [&](std::size_t c) {
         return static_cast<float>(std::clamp(number_at(source.emissive_factor, c, 0.0), 0.0, 1.0) * glow);
     };
-    changed |= put(material.emissive, {emissive(0), emissive(1), emissive(2)});
-    changed |= put(material.normal_scale, static_cast<float>(std::clamp(source.normal_texture.scale, -kMostScale, kMostScale)));
-    changed |= put(material.occlusion_strength, clamp01(source.occlusion_texture.strength));
-    changed |= put(material.alpha_cutoff, static_cast<float>(std::clamp(source.alpha_cutoff, 0.0, 1e6)));
-    Transmission& t = material.transmission;
-    changed |= put(t.share, clamp01(more.transmission_factor));
-    changed |= put(t.attenuation_distance, static_cast<float>(std::clamp(more.attenuation_distance, 0.0, 1e18)));
-    const auto attenuation = [&](std::size_t c) { return clamp01(number_at(more.attenuation_color, c, 1.0)); };
-    changed |= put(t.attenuation_color, {attenuation(0), attenuation(1), attenuation(2)});
-    changed |= put(material.specular, clamp01(more.specular_factor));
-    const auto specular = [&](std::size_t c) { return static_cast<float>(std::max(0.0, number_at(more.specular_color_factor, c, 1.0))); };
-    changed |= put(material.specular_color, {specular(0), specular(1), specular(2)});
-    Clearcoat& coat = material.clearcoat;
-    changed |= put(coat.factor, clamp01(more.clearcoat_factor));
-    changed |= put(coat.roughness, clamp01(more.clearcoat_roughness_factor));
-    changed |= put(coat.normal_scale, static_cast<float>(std::clamp(more.clearcoat_normal_texture.scale, -kMostScale, kMostScale)));
-    const auto sheen = [&](std::size_t c) { return clamp01(number_at(more.sheen_color_factor, c, 0.0)); };
-    changed |= put(material.sheen.color, {sheen(0), sheen(1), sheen(2)});
-    changed |= put(material.sheen.roughness, clamp01(more.sheen_roughness_factor));
-    return changed;
+    return put(material.emissive, {emissive(0), emissive(1), emissive(2)}) || changed;
 }
 
 /// KHR_texture_transform: uv' = T R S uv, with rows R = [cos sin; -sin cos]: counter-clockwise as seen, where v points down.
@@ -130,12 +135,11 @@ public:
 
     Material make(std::size_t index, bool used) {
         const file::Material& source = document_.file.materials[index];
-        const file::MaterialExtensions& more = document_.file.extensions_of(source);
         where_ = fmt::format("materials[{}]", index);
         Material material;
         material.name = source.name;
-        set_factors(source, more, material);
-        material.transmission.thickness = thickness_of(more);
+        set_factors(source, material);
+        material.thickness = thickness_of(source);
         if (source.alpha_mode == "MASK")
             material.alpha_mode = AlphaMode::mask;
         else if (source.alpha_mode == "BLEND")
@@ -143,52 +147,31 @@ public:
         material.double_sided = source.double_sided;
         material.unlit = source.unlit;
         if (source.own_lobe) own_lobe(*source.own_lobe, material, used);
-        if (used) {
-            const MipRule color_rule = material.alpha_mode == AlphaMode::opaque ? MipRule::equal : MipRule::alpha;
-            if (more.specular_glossiness) {
-                constexpr const char* kWhere = "extensions.KHR_materials_pbrSpecularGlossiness.";
-                material.base_color_texture =
-                    use(more.diffuse_texture, fmt::format("{}diffuseTexture", kWhere), ColorSpace::srgb, color_rule);
-                material.metallic_roughness_texture =
-                    use(more.specular_glossiness_texture, fmt::format("{}specularGlossinessTexture", kWhere), ColorSpace::srgb);
-            } else {
-                material.base_color_texture =
-                    use(source.base_color_texture, "pbrMetallicRoughness.baseColorTexture", ColorSpace::srgb, color_rule);
-                material.metallic_roughness_texture =
-                    use(source.metallic_roughness_texture, "pbrMetallicRoughness.metallicRoughnessTexture", ColorSpace::linear);
-            }
-            material.specular_texture = use(more.specular_texture, "extensions.KHR_materials_specular.specularTexture", ColorSpace::linear);
-            material.specular_color_texture =
-                use(more.specular_color_texture, "extensions.KHR_materials_specular.specularColorTexture", ColorSpace::srgb);
-            material.emissive_texture = use(source.emissive_texture, "emissiveTexture", ColorSpace::srgb);
-            material.normal_texture = use(source.normal_texture, "normalTexture", ColorSpace::linear, MipRule::normal);
-            material.occlusion_texture = use(source.occlusion_texture, "occlusionTexture", ColorSpace::linear);
-            if (material.has_sheen()) {
-                constexpr const char* kWhere = "extensions.KHR_materials_sheen.";
-                material.sheen.color_texture = use(more.sheen_color_texture, fmt::format("{}sheenColorTexture", kWhere), ColorSpace::srgb);
-                material.sheen.roughness_texture =
-                    use(more.sheen_roughness_texture, fmt::format("{}sheenRoughnessTexture", kWhere), ColorSpace::linear);
-            }
-            if (material.is_coated()) read_coat(more, material.clearcoat);
-            material.transmission.texture =
-                use(more.transmission_texture, "extensions.KHR_materials_transmission.transmissionTexture", ColorSpace::linear);
-            material.transmission.thickness_texture =
-                use(more.thickness_texture, "extensions.KHR_materials_volume.thicknessTexture", ColorSpace::linear);
-        }
+        for (const TextureSlot slot : shading::kAllTextureSlots)
+            // What an animation moves may show later.
+            if (used && (document_.options.keep_animations || shading::shows(material, slot)))
+                material.textures[slot] = texture_of(source, slot, material.alpha_mode);
         return material;
     }
 
 private:
-    void read_coat(const file::MaterialExtensions& source, Clearcoat& coat) {
-        constexpr const char* kWhere = "extensions.KHR_materials_clearcoat.";
-        coat.texture = use(source.clearcoat_texture, fmt::format("{}clearcoatTexture", kWhere), ColorSpace::linear);
-        coat.roughness_texture =
-            use(source.clearcoat_roughness_texture, fmt::format("{}clearcoatRoughnessTexture", kWhere), ColorSpace::linear);
-        coat.normal_texture =
-            use(source.clearcoat_normal_texture, fmt::format("{}clearcoatNormalTexture", kWhere), ColorSpace::linear, MipRule::normal);
+    TextureUse texture_of(const file::Material& source, TextureSlot slot, AlphaMode alpha) {
+        const shading::TextureSlotInfo& info = shading::info_of(slot);
+        const MipRule rule = info.rule == MipRule::alpha && alpha == AlphaMode::opaque ? MipRule::equal : info.rule;
+        if (source.glossy >= 0 && is_metallic_roughness(info.gltf)) {
+            const file::SpecularGlossiness& glossy = document_.file.glossy[static_cast<std::size_t>(source.glossy)];
+            return slot == TextureSlot::base_color
+                       ? use(glossy.diffuse_texture, "extensions.KHR_materials_pbrSpecularGlossiness.diffuseTexture", ColorSpace::srgb,
+                             rule)
+                       : use(glossy.specular_glossiness_texture, "extensions.KHR_materials_pbrSpecularGlossiness.specularGlossinessTexture",
+                             ColorSpace::srgb, rule);
+        }
+        std::string place(info.gltf);
+        std::replace(place.begin(), place.end(), '/', '.');
+        return use(source.places[slot], place, info.space, rule);
     }
 
-    TextureUse use(const file::TexturePlace& info, std::string_view key, ColorSpace space, MipRule rule = MipRule::equal) {
+    TextureUse use(const file::TexturePlace& info, std::string_view key, ColorSpace space, MipRule rule) {
         TextureUse use;
         if (info.index < 0) return use;
         const file::Texture& texture = document_.file.textures[static_cast<std::size_t>(info.index)];
@@ -199,9 +182,10 @@ private:
             return use;
         }
         int uv_set = info.tex_coord;
-        if (info.transform) apply_transform(*info.transform, use, uv_set);
+        const file::TextureTransform* const transform = document_.file.transform_of(info);
+        if (transform != nullptr) apply_transform(*transform, use, uv_set);
         if (uv_set > 1) {
-            const bool own = !info.transform || info.transform->tex_coord < 0;
+            const bool own = transform == nullptr || transform->tex_coord < 0;
             document_.warn(fmt::format("{}.{}.{}texCoord: set {} is not supported (0 and 1 are), the texture is left out", where_, key,
                                        own ? "" : "extensions.KHR_texture_transform.", uv_set));
             return use;
@@ -238,26 +222,16 @@ std::vector<Material> make_materials(Document& document, ImageStore& images, con
 
 bool set_material(const file::File& file, std::size_t index, Material& material) {
     const file::Material& source = file.materials[index];
-    const file::MaterialExtensions& more = file.extensions_of(source);
-    bool changed = set_factors(source, more, material);
-    const auto transform = [&](const file::TexturePlace& place, TextureUse& use) {
-        if (!place.transform || !use.used()) return;
+    bool changed = set_factors(source, material);
+    for (const TextureSlot slot : shading::kAllTextureSlots) {
+        TextureUse& use = material.textures[slot];
+        const file::TextureTransform* const transform = file.transform_of(source.places[slot]);
+        if (transform == nullptr || !use.used() || (source.glossy >= 0 && is_metallic_roughness(shading::info_of(slot).gltf))) continue;
         const TextureUse before = use;
         int uv_set = use.uv_set;
-        apply_transform(*place.transform, use, uv_set);
+        apply_transform(*transform, use, uv_set);
         changed |= !(use.row_u == before.row_u && use.row_v == before.row_v);
-    };
-    if (!more.specular_glossiness) {
-        transform(source.base_color_texture, material.base_color_texture);
-        transform(source.metallic_roughness_texture, material.metallic_roughness_texture);
     }
-    transform(source.normal_texture, material.normal_texture);
-    transform(source.occlusion_texture, material.occlusion_texture);
-    transform(source.emissive_texture, material.emissive_texture);
-    transform(more.transmission_texture, material.transmission.texture);
-    transform(more.thickness_texture, material.transmission.thickness_texture);
-    transform(more.specular_texture, material.specular_texture);
-    transform(more.specular_color_texture, material.specular_color_texture);
     return changed;
 }
 
@@ -269,12 +243,12 @@ bool set_thickness(const file::File& file, Scene& scene, std::span<const Mat4> w
         if (index < 0 || static_cast<std::size_t>(index) >= done.size() || done[static_cast<std::size_t>(index)]) continue;
         const auto material = static_cast<std::size_t>(index);
         done[material] = true;
-        const float thickness = thickness_of(file.extensions_of(file.materials[material]));
+        const float thickness = thickness_of(file.materials[material]);
         const Mat4& m = world_from_object[i];
         const auto column = [&](int c) { return Vec3d{m.c[c].x, m.c[c].y, m.c[c].z}; };
         const double volume = dot(column(0), cross(column(1), column(2)));
         const double scaled = thickness == 0.0f ? 0.0 : static_cast<double>(thickness) * power_of(volume < 0 ? -volume : volume, 1.0 / 3);
-        changed |= put(scene.materials[material].transmission.thickness, static_cast<float>(std::min(1e18, scaled)));
+        changed |= put(scene.materials[material].thickness, static_cast<float>(std::min(1e18, scaled)));
     }
     return changed;
 }

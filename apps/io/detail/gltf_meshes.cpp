@@ -4,6 +4,7 @@
 #include "apps/io/detail/gltf_skin.hpp"
 #include "halflit/mesh.hpp"
 #include "sh/time_limit.hpp"
+#include "shading/material_properties.hpp"
 
 #include <fmt/format.h>
 
@@ -193,11 +194,11 @@ private:
         check_texture_coordinates(read);
         if (!mesh.tangents.empty()) return;
         const Material& material = scene_.materials[static_cast<std::size_t>(mesh.material)];
-        const TextureUse& normal_map = material.normal_texture.used() ? material.normal_texture : material.clearcoat.normal_texture;
-        if (!normal_map.used()) return;
-        if ((normal_map.uv_set == 1 ? mesh.uv1 : mesh.uv0).empty()) return;
+        const TextureUse* const normal_map = shading::normal_map_of(material);
+        if (normal_map == nullptr) return;
+        if ((normal_map->uv_set == 1 ? mesh.uv1 : mesh.uv0).empty()) return;
         document_.geometry.take(corners * 16);
-        source.tangents_of = normal_map.uv_set;
+        source.tangents_of = normal_map->uv_set;
     }
 
     /// Index of a material without light.
@@ -212,28 +213,17 @@ private:
     /// Warns of textures of the material for which the mesh has no coordinates.
     void check_texture_coordinates(const ReadMesh& read) {
         const Material& material = scene_.materials[static_cast<std::size_t>(read.source.mesh.material)];
-        const std::pair<const TextureUse*, const char*> places[] = {
-            {&material.base_color_texture, "pbrMetallicRoughness.baseColorTexture"},
-            {&material.metallic_roughness_texture, "pbrMetallicRoughness.metallicRoughnessTexture"},
-            {&material.normal_texture, "normalTexture"},
-            {&material.occlusion_texture, "occlusionTexture"},
-            {&material.emissive_texture, "emissiveTexture"},
-            {&material.specular_texture, "extensions.KHR_materials_specular.specularTexture"},
-            {&material.specular_color_texture, "extensions.KHR_materials_specular.specularColorTexture"},
-            {&material.clearcoat.texture, "extensions.KHR_materials_clearcoat.clearcoatTexture"},
-            {&material.clearcoat.roughness_texture, "extensions.KHR_materials_clearcoat.clearcoatRoughnessTexture"},
-            {&material.clearcoat.normal_texture, "extensions.KHR_materials_clearcoat.clearcoatNormalTexture"},
-            {&material.sheen.color_texture, "extensions.KHR_materials_sheen.sheenColorTexture"},
-            {&material.sheen.roughness_texture, "extensions.KHR_materials_sheen.sheenRoughnessTexture"},
-            {&material.transmission.texture, "extensions.KHR_materials_transmission.transmissionTexture"},
-            {&material.transmission.thickness_texture, "extensions.KHR_materials_volume.thicknessTexture"}};
-        for (const auto& [use, key] : places)
-            if (use->used() && (use->uv_set == 1 ? read.source.mesh.uv1 : read.source.mesh.uv0).empty() && !document_.warnings_are_full())
-                document_.warn(fmt::format(
-                    "materials[{}].{}: {} has no TEXCOORD_{}, {}", read.source.mesh.material, key, read.where, use->uv_set,
-                    (use == &material.normal_texture || use == &material.clearcoat.normal_texture) && read.source.mesh.tangents.empty()
-                        ? "drawn without it"
-                        : "drawn with the colour at (0, 0)"));
+        for (const TextureSlot slot : shading::kAllTextureSlots) {
+            const TextureUse& use = material.textures[slot];
+            if (!use.used() || !(use.uv_set == 1 ? read.source.mesh.uv1 : read.source.mesh.uv0).empty() || document_.warnings_are_full())
+                continue;
+            std::string place(shading::info_of(slot).gltf);
+            std::replace(place.begin(), place.end(), '/', '.');
+            document_.warn(
+                fmt::format("materials[{}].{}: {} has no TEXCOORD_{}, {}", read.source.mesh.material, place, read.where, use.uv_set,
+                            shading::holds_normals(slot) && read.source.mesh.tangents.empty() ? "drawn without it"
+                                                                                              : "drawn with the colour at (0, 0)"));
+        }
     }
 
     Document& document_;

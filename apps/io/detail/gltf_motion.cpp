@@ -56,7 +56,8 @@ file::File rest_of(const file::File& file) {
     rest.transforms = file.transforms;
     rest.weights = file.weights;
     rest.materials = file.materials;
-    rest.extended = file.extended;
+    rest.glossy = file.glossy;
+    rest.texture_transforms = file.texture_transforms;
     rest.lights = file.lights;
     rest.cameras = file.cameras;
     for (file::Node& node : rest.nodes) node.name = {};

@@ -1,7 +1,11 @@
 #include "apps/io/detail/gltf_property.hpp"
 
+#include "shading/material_properties.hpp"
+
+#include <array>
 #include <charconv>
 #include <iterator>
+#include <utility>
 #include <vector>
 
 namespace halflit::io::detail {
@@ -20,11 +24,6 @@ double* numbers(std::vector<double>& list, std::size_t count, double otherwise) 
 file::Transform* transform_of(File& f, I node) {
     const int transform = f.nodes[node].transform;
     return transform < 0 ? nullptr : &f.transforms[static_cast<std::size_t>(transform)];
-}
-
-file::MaterialExtensions* extensions_of(File& f, I material) {
-    const int at = f.materials[material].extended;
-    return at < 0 ? nullptr : &f.extended[static_cast<std::size_t>(at)];
 }
 
 template <auto Member>
@@ -49,25 +48,12 @@ template <auto Member>
 double* of_orthographic(File& f, I camera) {
     return of_camera<&file::Camera::orthographic, Member>(f, camera);
 }
-/// Metal and roughness, which KHR_materials_pbrSpecularGlossiness replaces.
-template <auto Member>
-double* of_metal(File& f, I material) {
-    const file::MaterialExtensions* const more = extensions_of(f, material);
-    return more != nullptr && more->specular_glossiness ? nullptr : &(f.materials[material].*Member);
-}
-template <auto Member>
+/// Numbers of material_properties.def. KHR_materials_pbrSpecularGlossiness replaces metal and roughness.
+template <std::size_t Row>
 double* of_material(File& f, I material) {
-    return &(f.materials[material].*Member);
-}
-template <auto Member>
-double* of_extension(File& f, I material) {
-    file::MaterialExtensions* const more = extensions_of(f, material);
-    return more == nullptr ? nullptr : &(more->*Member);
-}
-template <auto Member>
-double* color_of_extension(File& f, I material) {
-    file::MaterialExtensions* const more = extensions_of(f, material);
-    return more == nullptr ? nullptr : numbers(more->*Member, 3, 1.0);
+    file::Material& m = f.materials[material];
+    const bool replaced = m.glossy >= 0 && shading::kMaterialNumbers[Row].gltf.starts_with("pbrMetallicRoughness/");
+    return replaced ? nullptr : &m.numbers[shading::kFirstFloats[Row]];
 }
 
 using file::Projection;
@@ -96,68 +82,20 @@ constexpr Property kProperties[] = {
     {kCameras, "/orthographic/ymag", Part::camera, 1, of_orthographic<&Projection::ymag>},
     {kCameras, "/orthographic/znear", Part::camera, 1, of_orthographic<&Projection::znear>},
     {kCameras, "/orthographic/zfar", Part::camera, 1, of_orthographic<&Projection::zfar>},
-    {kMaterials, "/pbrMetallicRoughness/baseColorFactor", Part::material, 4,
-     [](File& f, I i) {
-         auto* const list = &f.materials[i].base_color_factor;
-         const file::MaterialExtensions* const more = extensions_of(f, i);
-         return more != nullptr && more->specular_glossiness ? nullptr : numbers(*list, 4, 1.0);
-     }},
-    {kMaterials, "/pbrMetallicRoughness/metallicFactor", Part::material, 1, of_metal<&file::Material::metallic_factor>},
-    {kMaterials, "/pbrMetallicRoughness/roughnessFactor", Part::material, 1, of_metal<&file::Material::roughness_factor>},
-    {kMaterials, "/alphaCutoff", Part::material, 1, of_material<&file::Material::alpha_cutoff>},
     {kMaterials, "/emissiveFactor", Part::material, 3, [](File& f, I i) { return numbers(f.materials[i].emissive_factor, 3, 0.0); }},
     {kMaterials, "/extensions/KHR_materials_emissive_strength/emissiveStrength", Part::material, 1,
-     of_material<&file::Material::emissive_strength>},
-    {kMaterials, "/extensions/KHR_materials_ior/ior", Part::material, 1, of_metal<&file::Material::ior>},
-    {kMaterials, "/normalTexture/scale", Part::material, 1, [](File& f, I i) { return &f.materials[i].normal_texture.scale; }},
-    {kMaterials, "/occlusionTexture/strength", Part::material, 1, [](File& f, I i) { return &f.materials[i].occlusion_texture.strength; }},
-    {kMaterials, "/extensions/KHR_materials_transmission/transmissionFactor", Part::material, 1,
-     of_extension<&file::MaterialExtensions::transmission_factor>},
-    {kMaterials, "/extensions/KHR_materials_volume/thicknessFactor", Part::material, 1,
-     of_extension<&file::MaterialExtensions::thickness_factor>},
-    {kMaterials, "/extensions/KHR_materials_volume/attenuationDistance", Part::material, 1,
-     of_extension<&file::MaterialExtensions::attenuation_distance>},
-    {kMaterials, "/extensions/KHR_materials_volume/attenuationColor", Part::material, 3,
-     color_of_extension<&file::MaterialExtensions::attenuation_color>},
-    {kMaterials, "/extensions/KHR_materials_specular/specularFactor", Part::material, 1,
-     of_extension<&file::MaterialExtensions::specular_factor>},
-    {kMaterials, "/extensions/KHR_materials_specular/specularColorFactor", Part::material, 3,
-     color_of_extension<&file::MaterialExtensions::specular_color_factor>},
-    {kMaterials, "/extensions/KHR_materials_clearcoat/clearcoatFactor", Part::material, 1,
-     of_extension<&file::MaterialExtensions::clearcoat_factor>},
-    {kMaterials, "/extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor", Part::material, 1,
-     of_extension<&file::MaterialExtensions::clearcoat_roughness_factor>},
-    {kMaterials, "/extensions/KHR_materials_sheen/sheenColorFactor", Part::material, 3,
-     color_of_extension<&file::MaterialExtensions::sheen_color_factor>},
-    {kMaterials, "/extensions/KHR_materials_sheen/sheenRoughnessFactor", Part::material, 1,
-     of_extension<&file::MaterialExtensions::sheen_roughness_factor>},
+     [](File& f, I i) { return &f.materials[i].emissive_strength; }},
+    {kMaterials, "/extensions/KHR_materials_ior/ior", Part::material, 1,
+     [](File& f, I i) { return f.materials[i].glossy >= 0 ? nullptr : &f.materials[i].ior; }},
 };
 
-/// A place where a material names a texture.
-struct Place {
-    std::string_view path;
-    file::TexturePlace* (*at)(File& file, I material);
-};
-template <auto Member>
-file::TexturePlace* place(File& f, I material) {
-    return &(f.materials[material].*Member);
+/// Properties of materials by their table; those without a place have a path that no pointer ends with.
+template <std::size_t... Rows>
+constexpr auto make_material_properties(std::index_sequence<Rows...>) {
+    return std::array{Property{kMaterials, shading::kMaterialNumbers[Rows].gltf, Part::material,
+                               static_cast<std::size_t>(shading::kMaterialNumbers[Rows].count), of_material<Rows>}...};
 }
-template <auto Member>
-file::TexturePlace* extended_place(File& f, I material) {
-    file::MaterialExtensions* const more = extensions_of(f, material);
-    return more == nullptr ? nullptr : &(more->*Member);
-}
-constexpr Place kPlaces[] = {
-    {"/pbrMetallicRoughness/baseColorTexture", place<&file::Material::base_color_texture>},
-    {"/pbrMetallicRoughness/metallicRoughnessTexture", place<&file::Material::metallic_roughness_texture>},
-    {"/normalTexture", place<&file::Material::normal_texture>},
-    {"/occlusionTexture", place<&file::Material::occlusion_texture>},
-    {"/emissiveTexture", place<&file::Material::emissive_texture>},
-    {"/extensions/KHR_materials_transmission/transmissionTexture", extended_place<&file::MaterialExtensions::transmission_texture>},
-    {"/extensions/KHR_materials_volume/thicknessTexture", extended_place<&file::MaterialExtensions::thickness_texture>},
-    {"/extensions/KHR_materials_specular/specularTexture", extended_place<&file::MaterialExtensions::specular_texture>},
-    {"/extensions/KHR_materials_specular/specularColorTexture", extended_place<&file::MaterialExtensions::specular_color_texture>},
-};
+constexpr auto kMaterialProperties = make_material_properties(std::make_index_sequence<shading::kMaterialNumberCount>{});
 
 /// Of KHR_texture_transform, below a place.
 constexpr Property kTransforms[] = {
@@ -166,11 +104,15 @@ constexpr Property kTransforms[] = {
     {kMaterials, "/extensions/KHR_texture_transform/scale", Part::material, 2, nullptr},
 };
 
-double* of_texture_transform(file::TexturePlace& place, const Property& property) {
-    if (!place.transform) place.transform.emplace();
-    if (&property == &kTransforms[0]) return numbers(place.transform->offset, 2, 0.0);
-    if (&property == &kTransforms[1]) return &place.transform->rotation;
-    return numbers(place.transform->scale, 2, 1.0);
+double* of_texture_transform(File& file, file::TexturePlace& place, const Property& property) {
+    if (place.transform < 0) {
+        place.transform = static_cast<int>(file.texture_transforms.size());
+        file.texture_transforms.emplace_back();
+    }
+    file::TextureTransform& transform = file.texture_transforms[static_cast<std::size_t>(place.transform)];
+    if (&property == &kTransforms[0]) return numbers(transform.offset, 2, 0.0);
+    if (&property == &kTransforms[1]) return &transform.rotation;
+    return numbers(transform.scale, 2, 1.0);
 }
 
 std::size_t size_of_list(const File& file, std::string_view list) {
@@ -190,11 +132,15 @@ std::optional<int> take_index(const File& file, std::string_view list, std::stri
     return index;
 }
 
-std::optional<Slot> find_texture_slot(int material, std::string_view path) {
-    for (std::size_t p = 0; p < std::size(kPlaces); ++p) {
-        if (!path.starts_with(kPlaces[p].path)) continue;
+/// `path`: below a material, without the first '/'.
+std::optional<Slot> find_material_slot(int material, std::string_view path) {
+    for (const Property& property : kMaterialProperties)
+        if (!property.path.empty() && property.path == path) return Slot{&property, material, -1, property.count};
+    for (const TextureSlot slot : shading::kAllTextureSlots) {
+        const std::string_view place = shading::info_of(slot).gltf;
+        if (!path.starts_with(place)) continue;
         for (const Property& property : kTransforms)
-            if (path.substr(kPlaces[p].path.size()) == property.path) return Slot{&property, material, static_cast<int>(p), property.count};
+            if (path.substr(place.size()) == property.path) return Slot{&property, material, static_cast<int>(slot), property.count};
     }
     return std::nullopt;
 }
@@ -212,7 +158,7 @@ std::optional<Slot> find_slot(const File& file, std::string_view pointer) {
         if (!element) continue;
         for (const Property& property : kProperties)
             if (property.list == list && property.path == rest) return Slot{&property, *element, -1, property.count};
-        if (list == kMaterials) return find_texture_slot(*element, rest);
+        if (list == kMaterials && rest.starts_with('/')) return find_material_slot(*element, rest.substr(1));
     }
     return std::nullopt;
 }
@@ -227,8 +173,8 @@ std::optional<Slot> node_slot(const File& file, int node, std::string_view path)
 double* locate(File& file, const Slot& slot) {
     const auto element = static_cast<std::size_t>(slot.element);
     if (slot.place < 0) return slot.property->at(file, element);
-    file::TexturePlace* const place = kPlaces[slot.place].at(file, element);
-    return place == nullptr || place->index < 0 ? nullptr : of_texture_transform(*place, *slot.property);
+    file::TexturePlace& place = file.materials[element].places[static_cast<TextureSlot>(slot.place)];
+    return place.index < 0 ? nullptr : of_texture_transform(file, place, *slot.property);
 }
 
 }  // namespace halflit::io::detail

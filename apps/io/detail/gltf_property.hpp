@@ -25,7 +25,7 @@ struct Property {
 struct Slot {
     const Property* property = nullptr;
     int element = -1;  ///< of the property's list
-    int place = -1;    ///< of the places where a material names a texture; -1: the property is not one of a texture
+    int place = -1;    ///< a TextureSlot; -1: the property is not one of a texture
     std::size_t count = 0;
 
     [[nodiscard]] Part part() const { return property->part; }

@@ -119,29 +119,37 @@ void put_zfar(F f, V value) {
     (Which == &file::Camera::perspective ? f.perspective_zfar : f.orthographic_zfar) = value.offset;
 }
 
-template <auto Member>
+template <std::size_t Slot>
 void begin_place(F f, V) {
-    f.place = &(f.file.materials.back().*Member);
+    f.place = &f.file.materials.back().places[Slot];
 }
 
-/// Extensions of the material that is being read.
-inline file::MaterialExtensions& extended(F f) {
+/// A number of the material that is being read, or the next one of a few.
+template <std::size_t Row>
+void put_material_number(F f, V value) {
+    constexpr auto kCount = static_cast<std::size_t>(shading::kMaterialNumbers[Row].count);
+    const std::size_t at = kCount == 1 ? 0 : f.component++;
+    if (at < kCount) f.file.materials.back().numbers[shading::kFirstFloats[Row] + at] = value.number;
+}
+
+/// Specular and glossiness of the material that is being read.
+inline file::SpecularGlossiness& glossy(F f) {
     file::Material& material = f.file.materials.back();
-    if (material.extended < 0) {
-        f.append(f.file.extended);
-        material.extended = static_cast<int>(f.file.extended.size() - 1);
+    if (material.glossy < 0) {
+        f.append(f.file.glossy);
+        material.glossy = static_cast<int>(f.file.glossy.size() - 1);
     }
-    return f.file.extended.back();
+    return f.file.glossy.back();
 }
 
 template <auto Member>
-void put_extended(F f, V value) {
-    assign(f, extended(f).*Member, value);
+void put_glossy(F f, V value) {
+    assign(f, glossy(f).*Member, value);
 }
 
 template <auto Member>
-void begin_extended_place(F f, V) {
-    f.place = &(extended(f).*Member);
+void begin_glossy_place(F f, V) {
+    f.place = &(glossy(f).*Member);
 }
 
 template <auto Member>
@@ -149,9 +157,14 @@ void put_place(F f, V value) {
     assign(f, f.place->*Member, value);
 }
 
+inline void begin_texture_transform(F f, V) {
+    f.append(f.file.texture_transforms);
+    f.place->transform = static_cast<int>(f.file.texture_transforms.size() - 1);
+}
+
 template <auto Member>
 void put_texture_transform(F f, V value) {
-    assign(f, (*f.place->transform).*Member, value);
+    assign(f, f.file.texture_transforms.back().*Member, value);
 }
 
 template <auto Member>

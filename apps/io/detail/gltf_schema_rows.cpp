@@ -1,6 +1,11 @@
 #include "apps/io/detail/gltf_schema_rows.hpp"
 
 #include "apps/io/detail/gltf_schema_actions.hpp"
+#include "shading/material_properties.hpp"
+
+#include <deque>
+#include <string>
+#include <utility>
 
 namespace halflit::io::detail {
 
@@ -233,49 +238,20 @@ constexpr SchemaRow kRows[] = {
     {"materials/#/emissiveFactor", array, nullptr, Target::none, nullptr, 3},
     within(0, 1, {"materials/#/emissiveFactor/#", number, put<&File::materials, &file::Material::emissive_factor>}),
     {"materials/#/alphaMode", string, put_alpha_mode},
-    at_least(0, {"materials/#/alphaCutoff", number, put<&File::materials, &file::Material::alpha_cutoff>}),
     {"materials/#/doubleSided", boolean, put<&File::materials, &file::Material::double_sided>},
-    {"materials/#/pbrMetallicRoughness/baseColorFactor", array, nullptr, Target::none, nullptr, 4},
-    within(0, 1, {"materials/#/pbrMetallicRoughness/baseColorFactor/#", number, put<&File::materials, &file::Material::base_color_factor>}),
-    within(0, 1, {"materials/#/pbrMetallicRoughness/metallicFactor", number, put<&File::materials, &file::Material::metallic_factor>}),
-    within(0, 1, {"materials/#/pbrMetallicRoughness/roughnessFactor", number, put<&File::materials, &file::Material::roughness_factor>}),
     {"materials/#/extensions/KHR_materials_unlit", object, [](F f, V) { f.file.materials.back().unlit = true; }},
     at_least(0, {"materials/#/extensions/KHR_materials_emissive_strength/emissiveStrength", number,
      put<&File::materials, &file::Material::emissive_strength>}),
     at_least(0, {"materials/#/extensions/KHR_materials_ior/ior", number, put<&File::materials, &file::Material::ior>}),
-    within(0, 1, {"materials/#/extensions/KHR_materials_transmission/transmissionFactor", number,
-     put_extended<&file::MaterialExtensions::transmission_factor>}),
-    at_least(0, {"materials/#/extensions/KHR_materials_volume/thicknessFactor", number,
-     put_extended<&file::MaterialExtensions::thickness_factor>}),
-    above(0, "drawn as if nothing were absorbed", {"materials/#/extensions/KHR_materials_volume/attenuationDistance", number,
-     put_extended<&file::MaterialExtensions::attenuation_distance>}),
-    {"materials/#/extensions/KHR_materials_volume/attenuationColor", array, nullptr, Target::none, nullptr, 3},
-    within(0, 1, {"materials/#/extensions/KHR_materials_volume/attenuationColor/#", number,
-     put_extended<&file::MaterialExtensions::attenuation_color>}),
-    within(0, 1, {"materials/#/extensions/KHR_materials_specular/specularFactor", number,
-     put_extended<&file::MaterialExtensions::specular_factor>}),
-    {"materials/#/extensions/KHR_materials_specular/specularColorFactor", array, nullptr, Target::none, nullptr, 3},
-    at_least(0, {"materials/#/extensions/KHR_materials_specular/specularColorFactor/#", number,
-     put_extended<&file::MaterialExtensions::specular_color_factor>}),
-    within(0, 1, {"materials/#/extensions/KHR_materials_clearcoat/clearcoatFactor", number,
-     put_extended<&file::MaterialExtensions::clearcoat_factor>}),
-    within(0, 1, {"materials/#/extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor", number,
-     put_extended<&file::MaterialExtensions::clearcoat_roughness_factor>}),
-    {"materials/#/extensions/KHR_materials_sheen/sheenColorFactor", array, nullptr, Target::none, nullptr, 3},
-    within(0, 1, {"materials/#/extensions/KHR_materials_sheen/sheenColorFactor/#", number,
-     put_extended<&file::MaterialExtensions::sheen_color_factor>}),
-    within(0, 1, {"materials/#/extensions/KHR_materials_sheen/sheenRoughnessFactor", number,
-     put_extended<&file::MaterialExtensions::sheen_roughness_factor>}),
-    {"materials/#/extensions/KHR_materials_pbrSpecularGlossiness", object,
-     [](F f, V) { extended(f).specular_glossiness = true; }},
+    {"materials/#/extensions/KHR_materials_pbrSpecularGlossiness", object, [](F f, V) { glossy(f); }},
     {"materials/#/extensions/KHR_materials_pbrSpecularGlossiness/diffuseFactor", array, nullptr, Target::none, nullptr, 4},
     within(0, 1, {"materials/#/extensions/KHR_materials_pbrSpecularGlossiness/diffuseFactor/#", number,
-     put_extended<&file::MaterialExtensions::diffuse_factor>}),
+     put_glossy<&file::SpecularGlossiness::diffuse_factor>}),
     {"materials/#/extensions/KHR_materials_pbrSpecularGlossiness/specularFactor", array, nullptr, Target::none, nullptr, 3},
     within(0, 1, {"materials/#/extensions/KHR_materials_pbrSpecularGlossiness/specularFactor/#", number,
-     put_extended<&file::MaterialExtensions::glossy_specular_factor>}),
+     put_glossy<&file::SpecularGlossiness::specular_factor>}),
     within(0, 1, {"materials/#/extensions/KHR_materials_pbrSpecularGlossiness/glossinessFactor", number,
-     put_extended<&file::MaterialExtensions::glossiness_factor>}),
+     put_glossy<&file::SpecularGlossiness::glossiness_factor>}),
     {"materials/#/extras", open},
     {.path = "materials/#/extras/halflit",
      .rule = object,
@@ -287,42 +263,58 @@ constexpr SchemaRow kRows[] = {
     {"materials/#/extras/halflit/normalize", boolean, [](F f, V v) { f.file.materials.back().own_lobe->parameters.normalize = v.truth; }},
 };
 
-constexpr SchemaRow kTexturePlaces[] = {
-    {"materials/#/pbrMetallicRoughness/baseColorTexture", object, begin_place<&file::Material::base_color_texture>},
-    {"materials/#/pbrMetallicRoughness/metallicRoughnessTexture", object, begin_place<&file::Material::metallic_roughness_texture>},
-    {"materials/#/normalTexture", object, begin_place<&file::Material::normal_texture>},
-    {"materials/#/occlusionTexture", object, begin_place<&file::Material::occlusion_texture>},
-    {"materials/#/emissiveTexture", object, begin_place<&file::Material::emissive_texture>},
-    {"materials/#/extensions/KHR_materials_transmission/transmissionTexture", object,
-     begin_extended_place<&file::MaterialExtensions::transmission_texture>},
-    {"materials/#/extensions/KHR_materials_volume/thicknessTexture", object,
-     begin_extended_place<&file::MaterialExtensions::thickness_texture>},
-    {"materials/#/extensions/KHR_materials_specular/specularTexture", object,
-     begin_extended_place<&file::MaterialExtensions::specular_texture>},
-    {"materials/#/extensions/KHR_materials_specular/specularColorTexture", object,
-     begin_extended_place<&file::MaterialExtensions::specular_color_texture>},
-    {"materials/#/extensions/KHR_materials_clearcoat/clearcoatTexture", object,
-     begin_extended_place<&file::MaterialExtensions::clearcoat_texture>},
-    {"materials/#/extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture", object,
-     begin_extended_place<&file::MaterialExtensions::clearcoat_roughness_texture>},
-    {"materials/#/extensions/KHR_materials_clearcoat/clearcoatNormalTexture", object,
-     begin_extended_place<&file::MaterialExtensions::clearcoat_normal_texture>},
-    {"materials/#/extensions/KHR_materials_sheen/sheenColorTexture", object,
-     begin_extended_place<&file::MaterialExtensions::sheen_color_texture>},
-    {"materials/#/extensions/KHR_materials_sheen/sheenRoughnessTexture", object,
-     begin_extended_place<&file::MaterialExtensions::sheen_roughness_texture>},
-    {"materials/#/extensions/KHR_materials_pbrSpecularGlossiness/diffuseTexture", object,
-     begin_extended_place<&file::MaterialExtensions::diffuse_texture>},
-    {"materials/#/extensions/KHR_materials_pbrSpecularGlossiness/specularGlossinessTexture", object,
-     begin_extended_place<&file::MaterialExtensions::specular_glossiness_texture>},
-};
+/// Values of a file that the table of materials allows, and glTF does not.
+constexpr std::pair<std::string_view, Range> kStricter[] = {
+    {"extensions/KHR_materials_volume/attenuationDistance", {.low = 0, .low_open = true, .instead = "drawn as if nothing were absorbed"}}};
+
+Range range_of(const shading::MaterialNumber& row) {
+    for (const auto& [gltf, range] : kStricter)
+        if (row.gltf == gltf) return range;
+    Range range;
+    if (row.low > -shading::kMostScale) range.low = static_cast<double>(row.low);
+    if (row.high < shading::kMostScale) range.high = static_cast<double>(row.high);
+    return range;
+}
+
+/// Adds the rows of a number of material_properties.def: one number, or an array of them.
+template <std::size_t Row>
+void add_number(std::vector<SchemaRow>& rows, std::deque<std::string>& paths) {
+    const shading::MaterialNumber& of = shading::kMaterialNumbers[Row];
+    if (of.gltf.empty()) return;
+    std::string path = "materials/#/" + std::string(of.gltf);
+    if (of.count > 1) {
+        rows.push_back(
+            {paths.emplace_back(path), array, [](F f, V) { f.component = 0; }, Target::none, nullptr, static_cast<std::size_t>(of.count)});
+        path += "/#";
+    }
+    rows.push_back(restricted({paths.emplace_back(path), number, put_material_number<Row>}, range_of(of)));
+}
+
+template <std::size_t... Rows, std::size_t... Slots>
+std::pair<std::vector<SchemaRow>, std::vector<SchemaRow>> make_rows(std::index_sequence<Rows...>, std::index_sequence<Slots...>) {
+    static std::deque<std::string> paths;  // the rows point into them
+    std::vector<SchemaRow> rows(std::begin(kRows), std::end(kRows));
+    (add_number<Rows>(rows, paths), ...);
+    std::vector<SchemaRow> places{{"materials/#/extensions/KHR_materials_pbrSpecularGlossiness/diffuseTexture", object,
+                                   begin_glossy_place<&file::SpecularGlossiness::diffuse_texture>},
+                                  {"materials/#/extensions/KHR_materials_pbrSpecularGlossiness/specularGlossinessTexture", object,
+                                   begin_glossy_place<&file::SpecularGlossiness::specular_glossiness_texture>}};
+    (places.push_back(
+         {paths.emplace_back("materials/#/" + std::string(shading::kTextureSlotInfos[Slots].gltf)), object, begin_place<Slots>}),
+     ...);
+    return {std::move(rows), std::move(places)};
+}
+
+const auto& all_rows() {
+    static const auto rows =
+        make_rows(std::make_index_sequence<shading::kMaterialNumberCount>{}, std::make_index_sequence<kTextureSlots>{});
+    return rows;
+}
 
 constexpr SchemaRow kTextureRows[] = {
     {"index!", index, put_place<&file::TexturePlace::index>, Target::textures},
     {"texCoord", code, put_place<&file::TexturePlace::tex_coord>},
-    {"scale", number, put_place<&file::TexturePlace::scale>},
-    within(0, 1, {"strength", number, put_place<&file::TexturePlace::strength>}),
-    {"extensions/KHR_texture_transform", object, [](F f, V) { f.place->transform.emplace(); }},
+    {"extensions/KHR_texture_transform", object, begin_texture_transform},
     {"extensions/KHR_texture_transform/offset", array, nullptr, Target::none, nullptr, 2},
     {"extensions/KHR_texture_transform/offset/#", number, put_texture_transform<&file::TextureTransform::offset>},
     {"extensions/KHR_texture_transform/rotation", number, put_texture_transform<&file::TextureTransform::rotation>},
@@ -333,8 +325,8 @@ constexpr SchemaRow kTextureRows[] = {
 
 }  // namespace
 
-std::span<const SchemaRow> schema_rows() { return kRows; }
-std::span<const SchemaRow> texture_place_rows() { return kTexturePlaces; }
+std::span<const SchemaRow> schema_rows() { return all_rows().first; }
+std::span<const SchemaRow> texture_place_rows() { return all_rows().second; }
 std::span<const SchemaRow> texture_rows() { return kTextureRows; }
 
 }  // namespace halflit::io::detail

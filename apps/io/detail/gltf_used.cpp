@@ -97,9 +97,11 @@ private:
         if (primitive.draco >= 0) view(file_.draco[static_cast<std::size_t>(primitive.draco)].buffer_view);
         if (!mark(Target::materials, primitive.material)) return;
         const file::Material& m = file_.materials[static_cast<std::size_t>(primitive.material)];
-        const file::MaterialExtensions& more = file_.extensions_of(m);
-        for (const auto place : file::kTexturePlaces) texture((m.*place).index);
-        for (const auto place : file::kExtendedPlaces) texture((more.*place).index);
+        for (const file::TexturePlace& place : m.places) texture(place.index);
+        if (m.glossy < 0) return;
+        const file::SpecularGlossiness& glossy = file_.glossy[static_cast<std::size_t>(m.glossy)];
+        texture(glossy.diffuse_texture.index);
+        texture(glossy.specular_glossiness_texture.index);
     }
 
     /// Morph targets with a weight other than 0.

@@ -5,6 +5,7 @@
 #include "apps/io/detail/model_text.hpp"
 #include "apps/io/detail/uri.hpp"
 #include "apps/io/text.hpp"
+#include "shading/material_properties.hpp"
 #include "shading/model/srgb.hpp"
 
 #include <fmt/format.h>
@@ -127,13 +128,13 @@ std::vector<PartMesh> ModelBuilder::add_meshes(Soup&& soup, std::span<const std:
         document_->geometry.take(sizeof(Mesh) + mesh.name.size());
         if (mesh.material >= 0) {
             const Material& material = scene.materials[static_cast<std::size_t>(mesh.material)];
-            if (mesh.uv0.empty() &&
-                (material.base_color_texture.used() || material.normal_texture.used() || material.emissive_texture.used()))
+            const auto used = [](const TextureUse& use) { return use.used(); };
+            if (mesh.uv0.empty() && std::any_of(material.textures.begin(), material.textures.end(), used))
                 document_->warn(
                     fmt::format("material \"{}\": the surface has no texture coordinates, its textures are drawn with the colour at "
                                 "(0, 0)",
                                 printable(material.name, 80)));
-            if (material.normal_texture.used() && !mesh.uv0.empty()) {
+            if (shading::normal_map_of(material) != nullptr && !mesh.uv0.empty()) {
                 document_->geometry.take(std::uint64_t{mesh.indices.size()} * 16);
                 generate_tangents(mesh, 0);
             }

@@ -123,7 +123,7 @@ public:
         set_roughness(m);
         if (from_.ke) m.emissive = {factor((*from_.ke)[0], 1e6), factor((*from_.ke)[1], 1e6), factor((*from_.ke)[2], 1e6)};
         if (!from_.map_ke.file.empty()) {
-            m.emissive_texture = use(from_.map_ke, "map_Ke", ColorSpace::srgb, MipRule::equal);
+            m.textures[TextureSlot::emissive] = use(from_.map_ke, "map_Ke", ColorSpace::srgb, MipRule::equal);
             if (m.emissive == Vec3f{}) m.emissive = {1, 1, 1};
         }
         set_normal_map(m);
@@ -167,9 +167,9 @@ private:
         if (has_mask && mask.file != color.file) {
             const MtlTexture& first = has_color ? color : mask;
             check_same_place(first, mask, "map_Kd and map_d");
-            m.base_color_texture = placed(first, pictures_.with_alpha(color.file, mask.file, where("map_d", mask.file)));
+            m.textures[TextureSlot::base_color] = placed(first, pictures_.with_alpha(color.file, mask.file, where("map_d", mask.file)));
         } else if (has_color) {
-            m.base_color_texture =
+            m.textures[TextureSlot::base_color] =
                 use(color, "map_Kd", ColorSpace::srgb, m.alpha_mode == AlphaMode::blend ? MipRule::alpha : MipRule::equal);
         }
     }
@@ -188,13 +188,13 @@ private:
         if (has_roughness || has_metal) {
             const MtlTexture& first = has_roughness ? roughness : metal;
             check_same_place(first, metal, "map_Pr and map_Pm");
-            m.metallic_roughness_texture = placed(
+            m.textures[TextureSlot::metallic_roughness] = placed(
                 first, pictures_.roughness_metal(roughness.file, metal.file, where(has_roughness ? "map_Pr" : "map_Pm", first.file)));
         }
         if (from_.pr || from_.pm || has_roughness || has_metal) return;
         if (from_.ks) set_specular(m, *from_.ks);
         if (!from_.map_ks.file.empty() && m.specular > 0.0f)
-            m.specular_color_texture = use(from_.map_ks, "map_Ks", ColorSpace::srgb, MipRule::equal);
+            m.textures[TextureSlot::specular_color] = use(from_.map_ks, "map_Ks", ColorSpace::srgb, MipRule::equal);
     }
 
     static void set_specular(Material& m, const std::array<double, 3>& ks) {
@@ -211,7 +211,7 @@ private:
         if (!is_norm && pictures_.is_grey(map.file))
             return builder_.document().warn(fmt::format("material \"{}\": {} holds heights, expected a normal map; drawn without it",
                                                         printable(m.name, 80), printable(map.file, 120)));
-        m.normal_texture = use(map, is_norm ? "norm" : "map_Bump", ColorSpace::linear, MipRule::normal);
+        m.textures[TextureSlot::normal] = use(map, is_norm ? "norm" : "map_Bump", ColorSpace::linear, MipRule::normal);
         m.normal_scale = static_cast<float>(map.bump);
     }
 

@@ -230,7 +230,7 @@ private:
         const std::uint32_t part = current_part();
         const bool drops_colors =
             parts_[part].material >= 0 &&
-            builder_.loaded().scene.materials[static_cast<std::size_t>(parts_[part].material)].base_color_texture.used();
+            builder_.loaded().scene.materials[static_cast<std::size_t>(parts_[part].material)].textures[TextureSlot::base_color].used();
         builder_.take_triangles(face_.size() - 2);
         cutter_.cut(points_, triangles_);
         soup_.part_of.insert(soup_.part_of.end(), triangles_.size() / 3, part);

@@ -127,7 +127,7 @@ public:
                 material.metallic = 0.0f;
                 material.roughness = 0.6f;
                 material.double_sided = true;
-                material.base_color_texture.texture =
+                material.textures[TextureSlot::base_color].texture =
                     builder_.texture(name, fmt::format("TextureFile {}", printable(name, 80)), ColorSpace::srgb);
                 materials.push_back(builder_.add_material(material));
             }

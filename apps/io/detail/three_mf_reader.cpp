@@ -167,13 +167,13 @@ private:
         auto picture = package_.read(texture->second.path);
         if (!picture) refuse(where, fmt::format("\"{}\" is not in the ZIP file", printable(texture->second.path, 120)));
         Material material = builder_.loaded().scene.materials[static_cast<std::size_t>(builder_.colored_material())];
-        material.base_color_texture.texture =
+        material.textures[TextureSlot::base_color].texture =
             builder_.texture(*std::move(picture), fmt::format("{} \"{}\"", where, printable(texture->second.path, 120)), ColorSpace::srgb);
         const auto wrap = [](std::string_view style) {
             return style == "mirror" ? TextureWrap::mirror : style == "clamp" || style == "none" ? TextureWrap::clamp : TextureWrap::repeat;
         };
-        material.base_color_texture.sampler.wrap_u = wrap(texture->second.wrap_u);
-        material.base_color_texture.sampler.wrap_v = wrap(texture->second.wrap_v);
+        material.textures[TextureSlot::base_color].sampler.wrap_u = wrap(texture->second.wrap_u);
+        material.textures[TextureSlot::base_color].sampler.wrap_v = wrap(texture->second.wrap_v);
         return entry->second = builder_.add_material(material);
     }
 

@@ -23,16 +23,17 @@ STRUCTS = {
         float wrap; float power; int32_t normalize;
 """,
     "halflit_material": """
-        size_t size; const char* name; float base_color[4]; float metallic, roughness; float emissive[3]; float normal_scale;
-        float occlusion_strength; float alpha_cutoff; int32_t alpha_mode; int32_t double_sided; int32_t unlit; int32_t own_lobe;
-        halflit_lobe lobe; halflit_texture_use base_color_texture; halflit_texture_use metallic_roughness_texture;
-        halflit_texture_use normal_texture; halflit_texture_use occlusion_texture; halflit_texture_use emissive_texture; float
-        dielectric_reflectance; float transmission; float thickness; float attenuation_distance; float attenuation_color[3];
-        halflit_texture_use transmission_texture; halflit_texture_use thickness_texture; float specular; float specular_color[3];
-        halflit_texture_use specular_texture; halflit_texture_use specular_color_texture; int32_t shadow_catcher; float clearcoat;
-        float clearcoat_roughness; float clearcoat_normal_scale; halflit_texture_use clearcoat_texture; halflit_texture_use
-        clearcoat_roughness_texture; halflit_texture_use clearcoat_normal_texture; float sheen_color[3]; float sheen_roughness;
-        halflit_texture_use sheen_color_texture; halflit_texture_use sheen_roughness_texture;
+        size_t size; const char* name; int32_t alpha_mode; int32_t double_sided; int32_t unlit; int32_t own_lobe; int32_t
+        shadow_catcher; halflit_lobe lobe; float base_color[4]; float metallic; float roughness; float dielectric_reflectance;
+        float emissive[3]; float normal_scale; float occlusion_strength; float alpha_cutoff; float specular; float
+        specular_color[3]; float transmission; float thickness; float attenuation_distance; float attenuation_color[3]; float
+        clearcoat; float clearcoat_roughness; float clearcoat_normal_scale; float sheen_color[3]; float sheen_roughness;
+        halflit_texture_use base_color_texture; halflit_texture_use metallic_roughness_texture; halflit_texture_use
+        normal_texture; halflit_texture_use occlusion_texture; halflit_texture_use emissive_texture; halflit_texture_use
+        specular_texture; halflit_texture_use specular_color_texture; halflit_texture_use transmission_texture;
+        halflit_texture_use thickness_texture; halflit_texture_use clearcoat_texture; halflit_texture_use
+        clearcoat_roughness_texture; halflit_texture_use clearcoat_normal_texture; halflit_texture_use sheen_color_texture;
+        halflit_texture_use sheen_roughness_texture;
 """,
     "halflit_mesh": """
         size_t size; const char* name; const float* positions; const float* normals; const float* tangents; const float* uv0;

@@ -91,103 +91,122 @@ class TextureUse(Record):
 class Material(Record):
     """glTF's metallic-roughness material, and a lobe. Defaults in parentheses; textures: none.
 
-    Textures are indices that Scene.add_texture() gave, or TextureUse. Colours are linear light with Rec. 709 primaries, "#rrggbb", or
-    uint8 sRGB codes.
+    Textures are indices that Scene.add_texture() gave, or TextureUse; textures of normals are added with color="normal". A number is
+    multiplied by the texture that is named after it. Colours are linear light with Rec. 709 primaries, "#rrggbb", or uint8 sRGB codes.
+
+    glTF and halflit.h begin with metallic = 1, for the texture's sake. Here it is 0, and becomes 1 when a metallic_roughness_texture is set,
+    unless metallic was set.
 
     Members:
         name: for messages ("")
-        base_color: 0 to 1; 3 numbers, or 4 with alpha (1, 1, 1, 1)
-        metallic: 0 to 1, times the texture's. glTF and halflit.h begin with 1, for the texture's sake (0; it becomes 1 when a
-            metallic_roughness_texture is set, unless metallic was set)
-        roughness: 0 to 1, times the texture's (1)
-        emissive: light of its own, from 0 (0, 0, 0)
-        normal_scale: factor on x and y of the normal texture (1)
-        occlusion_strength: 0 to 1; 0 ignores the occlusion texture (1)
-        alpha_cutoff: for "mask": drawn where alpha is at least this (0.5)
         alpha_mode: "opaque", "mask" or "blend" (opaque)
         double_sided: back faces are drawn too; without it, what is clockwise as seen is left out (False)
         unlit: base colour alone, without light (False)
         own_lobe: render(lobe=...) does not replace this material's lobe (False)
         lobe: of diffuse light (lambert)
-        base_color_texture: sRGB
+        shadow_catcher: invisible but for the shadows on it (False)
+        base_color: linear, in [0, 1]; the fourth number is alpha (1, 1, 1, 1)
+        metallic: in [0, 1] (1)
+        roughness: in [0, 1] (1)
+        dielectric_reflectance: F0 of dielectrics: reflectance at normal incidence where not metallic, in [0, 1] (0.04)
+        emissive: light of its own, linear, from 0 (0, 0, 0)
+        normal_scale: factor on x and y of the normal texture (1)
+        occlusion_strength: in [0, 1]; 0 ignores the occlusion texture; ambient light alone is occluded (1)
+        alpha_cutoff: from 0; where the alpha mode is mask: drawn where alpha is at least this (0.5)
+        specular: weight of the specular reflection of dielectrics, in [0, 1] (1)
+        specular_color: factor on F0 of dielectrics, linear, from 0; F0 is at most 1 (1, 1, 1)
+        transmission: share of light from behind that passes through, in [0, 1]; the rest is diffuse (0)
+        thickness: path length of that light inside, world units, from 0 (0)
+        attenuation_distance: path length after which white light has attenuation_color, world units; 0: no absorption (0)
+        attenuation_color: linear, in [0, 1] (1, 1, 1)
+        clearcoat: share of the surface that is coated, in [0, 1] (0)
+        clearcoat_roughness: in [0, 1] (0)
+        clearcoat_normal_scale: factor on x and y of the coat's normal texture (1)
+        sheen_color: of fibres above the surface, linear, in [0, 1]; black: none (0, 0, 0)
+        sheen_roughness: in [0, 1]; rougher fibres glow less at grazing views and more elsewhere (0)
+        base_color_texture: sRGB, alpha linear
         metallic_roughness_texture: linear: green is roughness, blue metallic
-        normal_texture: linear, in tangent space; add it with color="normal"
+        normal_texture: linear, in tangent space: (2c - 1) * (normal_scale, normal_scale, 1)
         occlusion_texture: linear: red
         emissive_texture: sRGB
-        dielectric_reflectance: F0 of dielectrics: reflectance at normal incidence where not metallic, 0 to 1 (0.04)
-        transmission: share of light from behind that passes through, 0 to 1 (0)
-        thickness: path length of that light inside, world units (0)
-        attenuation_distance: path length after which white light has attenuation_color, world units; 0: nothing is absorbed (0)
-        attenuation_color: 0 to 1 (1, 1, 1)
-        transmission_texture: linear: red
-        thickness_texture: linear: green
-        specular: weight of the specular reflection of dielectrics, 0 to 1 (1)
-        specular_color: factor on F0 of dielectrics, from 0 (1, 1, 1)
         specular_texture: linear: alpha
         specular_color_texture: sRGB
-        shadow_catcher: invisible but for the shadows on it (False)
-        clearcoat: weight of a clear coat, 0 to 1 (0)
-        clearcoat_roughness: 0 to 1 (0)
-        clearcoat_normal_scale: factor on x and y of the coat's normal texture (1)
+        transmission_texture: linear: red
+        thickness_texture: linear: green
         clearcoat_texture: linear: red
         clearcoat_roughness_texture: linear: green
-        clearcoat_normal_texture: linear, in tangent space
-        sheen_color: of fibres above the surface, 0 to 1; black: none (0, 0, 0)
-        sheen_roughness: 0 to 1 (0)
+        clearcoat_normal_texture: linear, in tangent space; without it the coat has the mesh's normals, not the base's normal map
         sheen_color_texture: sRGB
         sheen_roughness_texture: linear: alpha
     """
 
     _kind, _choices = "material", {"alpha_mode": "ALPHA"}
     _truths = frozenset({"double_sided", "unlit", "own_lobe", "shadow_catcher"})
-    _colors = {"base_color": 1.0, "emissive": None, "attenuation_color": 1.0, "specular_color": math.inf, "sheen_color": 1.0}
-    _ranges = {
-        **dict.fromkeys(("metallic", "roughness", "occlusion_strength", "dielectric_reflectance", "transmission", "specular"), (0.0, 1.0)),
-        **dict.fromkeys(("clearcoat", "clearcoat_roughness", "sheen_roughness"), (0.0, 1.0)),
-        **dict.fromkeys(("alpha_cutoff", "thickness", "attenuation_distance", "emissive"), (0.0, math.inf)),
-    }
     _nested = {"halflit_lobe": Lobe, "halflit_texture_use": TextureUse}
     _metallic_given = False
-    name: str
+    # Ranges and members: written by apps/c/material_members.py.
+    _colors = {
+        "base_color": 1.0,
+        "emissive": None,
+        "specular_color": math.inf,
+        "attenuation_color": 1.0,
+        "sheen_color": 1.0,
+    }
+    _ranges = {
+        "metallic": (0.0, 1.0),
+        "roughness": (0.0, 1.0),
+        "dielectric_reflectance": (0.0, 1.0),
+        "occlusion_strength": (0.0, 1.0),
+        "alpha_cutoff": (0.0, math.inf),
+        "specular": (0.0, 1.0),
+        "transmission": (0.0, 1.0),
+        "thickness": (0.0, math.inf),
+        "attenuation_distance": (0.0, math.inf),
+        "clearcoat": (0.0, 1.0),
+        "clearcoat_roughness": (0.0, 1.0),
+        "sheen_roughness": (0.0, 1.0),
+    }
     base_color: Color
     metallic: float
     roughness: float
+    dielectric_reflectance: float
     emissive: Color
     normal_scale: float
     occlusion_strength: float
     alpha_cutoff: float
-    alpha_mode: str
-    double_sided: bool
-    unlit: bool
-    own_lobe: bool
-    lobe: Union[Lobe, str, Tuple[str, float]]
+    specular: float
+    specular_color: Color
+    transmission: float
+    thickness: float
+    attenuation_distance: float
+    attenuation_color: Color
+    clearcoat: float
+    clearcoat_roughness: float
+    clearcoat_normal_scale: float
+    sheen_color: Color
+    sheen_roughness: float
     base_color_texture: Union[TextureUse, int]
     metallic_roughness_texture: Union[TextureUse, int]
     normal_texture: Union[TextureUse, int]
     occlusion_texture: Union[TextureUse, int]
     emissive_texture: Union[TextureUse, int]
-    dielectric_reflectance: float
-    transmission: float
-    thickness: float
-    attenuation_distance: float
-    attenuation_color: Color
-    transmission_texture: Union[TextureUse, int]
-    thickness_texture: Union[TextureUse, int]
-    specular: float
-    specular_color: Color
     specular_texture: Union[TextureUse, int]
     specular_color_texture: Union[TextureUse, int]
-    shadow_catcher: bool
-    clearcoat: float
-    clearcoat_roughness: float
-    clearcoat_normal_scale: float
+    transmission_texture: Union[TextureUse, int]
+    thickness_texture: Union[TextureUse, int]
     clearcoat_texture: Union[TextureUse, int]
     clearcoat_roughness_texture: Union[TextureUse, int]
     clearcoat_normal_texture: Union[TextureUse, int]
-    sheen_color: Color
-    sheen_roughness: float
     sheen_color_texture: Union[TextureUse, int]
     sheen_roughness_texture: Union[TextureUse, int]
+    # Other members.
+    name: str
+    alpha_mode: str
+    double_sided: bool
+    unlit: bool
+    own_lobe: bool
+    lobe: Union[Lobe, str, Tuple[str, float]]
+    shadow_catcher: bool
 
     def __init__(self, **members: Any):
         super().__init__()

@@ -177,48 +177,84 @@ typedef struct halflit_lobe {
 /// A lobe of the literature: lambert, green, half-lambert, valve, sloan or mcauley. wrap is for those that take one.
 HALFLIT_C_API int32_t halflit_lobe_by_name(const char* name, float wrap, halflit_lobe* lobe);
 
-/// The parameters of glTF's metallic-roughness materials, and a lobe. Defaults: white, metallic 1, roughness 1, Lambert.
+/// The parameters of glTF's metallic-roughness materials, and a lobe; defaults in parentheses. A number is multiplied by the texture that
+/// is named after it, where there is one. Textures are made with the encoding that is named.
 typedef struct halflit_material {
     size_t size;
-    const char* name;           ///< may be null. From halflit_scene_get_material: valid until the scene is changed or destroyed
-    float base_color[4];        ///< with alpha
-    float metallic, roughness;  ///< 0 to 1, times the texture's
-    float emissive[3];          ///< light of its own
-    float normal_scale;         ///< factor on x and y of the normal texture
-    float occlusion_strength;   ///< 0 to 1; 0 ignores the occlusion texture
-    float alpha_cutoff;         ///< for HALFLIT_ALPHA_MASK: drawn where alpha is at least this
-    int32_t alpha_mode;         ///< HALFLIT_ALPHA
-    int32_t double_sided;       ///< draw back faces too
-    int32_t unlit;              ///< base colour alone, without light
-    int32_t own_lobe;           ///< halflit_settings.override_lobe does not replace this material's lobe
-    halflit_lobe lobe;          ///< of diffuse light
-    halflit_texture_use base_color_texture;          ///< sRGB
-    halflit_texture_use metallic_roughness_texture;  ///< linear: green is roughness, blue metallic
-    halflit_texture_use normal_texture;              ///< linear, in tangent space
-    halflit_texture_use occlusion_texture;           ///< linear: red
-    halflit_texture_use emissive_texture;            ///< sRGB
-    float dielectric_reflectance;                    ///< where not metallic: light mirrored straight on, 0 to 1; default 0.04
-    float transmission;          ///< share of light from behind that passes through, 0 to 1, times the texture's; above 0: a layer
-    float thickness;             ///< way of that light inside, in world units, times the texture's
-    float attenuation_distance;  ///< way after which white light has attenuation_color, in world units; 0: nothing is absorbed
-    float attenuation_color[3];  ///< 0 to 1
-    halflit_texture_use transmission_texture;    ///< linear: red
-    halflit_texture_use thickness_texture;       ///< linear: green
-    float specular;                              ///< factor of what is mirrored where not metallic, 0 to 1
-    float specular_color[3];                     ///< factor of the light mirrored straight on there, from 0
-    halflit_texture_use specular_texture;        ///< linear: alpha, times specular
-    halflit_texture_use specular_color_texture;  ///< sRGB, times specular_color
-    int32_t shadow_catcher;                      ///< invisible but for the shadows on it, which are black with the hidden share as alpha
-    float clearcoat;                             ///< share that is coated with varnish, 0 to 1, times the texture's
-    float clearcoat_roughness;                   ///< 0 to 1, times the texture's
-    float clearcoat_normal_scale;                ///< factor on x and y of the coat's normal texture
-    halflit_texture_use clearcoat_texture;       ///< linear: red
-    halflit_texture_use clearcoat_roughness_texture;  ///< linear: green
-    halflit_texture_use clearcoat_normal_texture;     ///< linear, in tangent space
-    float sheen_color[3];                             ///< of fibres above the surface, 0 to 1, times the texture's; black: none
-    float sheen_roughness;                            ///< 0 to 1, times the texture's
-    halflit_texture_use sheen_color_texture;          ///< sRGB
-    halflit_texture_use sheen_roughness_texture;      ///< linear: alpha
+    const char* name;        ///< may be null. From halflit_scene_get_material: valid until the scene is changed or destroyed
+    int32_t alpha_mode;      ///< HALFLIT_ALPHA
+    int32_t double_sided;    ///< draw back faces too
+    int32_t unlit;           ///< base colour alone, without light
+    int32_t own_lobe;        ///< halflit_settings.override_lobe does not replace this material's lobe
+    int32_t shadow_catcher;  ///< invisible but for the shadows on it, which are black with the hidden share as alpha
+    halflit_lobe lobe;       ///< of diffuse light
+    // From here on written by apps/c/material_members.py.
+    /// linear, in [0, 1]; the fourth number is alpha (1, 1, 1, 1)
+    float base_color[4];
+    /// in [0, 1] (1)
+    float metallic;
+    /// in [0, 1] (1)
+    float roughness;
+    /// F0 of dielectrics: reflectance at normal incidence where not metallic, in [0, 1] (0.04)
+    float dielectric_reflectance;
+    /// light of its own, linear, from 0 (0, 0, 0)
+    float emissive[3];
+    /// factor on x and y of the normal texture (1)
+    float normal_scale;
+    /// in [0, 1]; 0 ignores the occlusion texture; ambient light alone is occluded (1)
+    float occlusion_strength;
+    /// from 0; where the alpha mode is mask: drawn where alpha is at least this (0.5)
+    float alpha_cutoff;
+    /// weight of the specular reflection of dielectrics, in [0, 1] (1)
+    float specular;
+    /// factor on F0 of dielectrics, linear, from 0; F0 is at most 1 (1, 1, 1)
+    float specular_color[3];
+    /// share of light from behind that passes through, in [0, 1]; the rest is diffuse (0)
+    float transmission;
+    /// path length of that light inside, world units, from 0 (0)
+    float thickness;
+    /// path length after which white light has attenuation_color, world units; 0: no absorption (0)
+    float attenuation_distance;
+    /// linear, in [0, 1] (1, 1, 1)
+    float attenuation_color[3];
+    /// share of the surface that is coated, in [0, 1] (0)
+    float clearcoat;
+    /// in [0, 1] (0)
+    float clearcoat_roughness;
+    /// factor on x and y of the coat's normal texture (1)
+    float clearcoat_normal_scale;
+    /// of fibres above the surface, linear, in [0, 1]; black: none (0, 0, 0)
+    float sheen_color[3];
+    /// in [0, 1]; rougher fibres glow less at grazing views and more elsewhere (0)
+    float sheen_roughness;
+    /// sRGB, alpha linear
+    halflit_texture_use base_color_texture;
+    /// linear: green is roughness, blue metallic
+    halflit_texture_use metallic_roughness_texture;
+    /// linear, in tangent space: (2c - 1) * (normal_scale, normal_scale, 1)
+    halflit_texture_use normal_texture;
+    /// linear: red
+    halflit_texture_use occlusion_texture;
+    /// sRGB
+    halflit_texture_use emissive_texture;
+    /// linear: alpha
+    halflit_texture_use specular_texture;
+    /// sRGB
+    halflit_texture_use specular_color_texture;
+    /// linear: red
+    halflit_texture_use transmission_texture;
+    /// linear: green
+    halflit_texture_use thickness_texture;
+    /// linear: red
+    halflit_texture_use clearcoat_texture;
+    /// linear: green
+    halflit_texture_use clearcoat_roughness_texture;
+    /// linear, in tangent space; without it the coat has the mesh's normals, not the base's normal map
+    halflit_texture_use clearcoat_normal_texture;
+    /// sRGB
+    halflit_texture_use sheen_color_texture;
+    /// linear: alpha
+    halflit_texture_use sheen_roughness_texture;
 } halflit_material;
 HALFLIT_C_API int32_t halflit_material_init(halflit_material* material, size_t size);
 

@@ -1,0 +1,124 @@
+// The tables of material_properties.def.
+#pragma once
+
+#include "halflit/material.hpp"
+#include "halflit/shading.hpp"
+
+#include <array>
+#include <cstddef>
+#include <iterator>
+#include <string_view>
+
+namespace halflit::shading {
+
+inline constexpr float kMostScale = 1e6f;    ///< beyond it, float texture coordinates have no fraction left
+inline constexpr float kMostNumber = 1e18f;  ///< its square is a float
+
+/// Numbers of a member: one, three or four floats.
+[[nodiscard]] constexpr int count_of(float) { return 1; }
+[[nodiscard]] constexpr int count_of(Vec3f) { return 3; }
+[[nodiscard]] constexpr int count_of(Vec4f) { return 4; }
+constexpr void get_numbers(float from, float* to) { to[0] = from; }
+constexpr void get_numbers(Vec3f from, float* to) { to[0] = from.x, to[1] = from.y, to[2] = from.z; }
+constexpr void get_numbers(Vec4f from, float* to) { to[0] = from.x, to[1] = from.y, to[2] = from.z, to[3] = from.w; }
+constexpr void set_numbers(float& to, const float* from) { to = from[0]; }
+constexpr void set_numbers(Vec3f& to, const float* from) { to = {from[0], from[1], from[2]}; }
+constexpr void set_numbers(Vec4f& to, const float* from) { to = {from[0], from[1], from[2], from[3]}; }
+
+/// A number of a material, or a few.
+struct MaterialNumber {
+    std::string_view name;
+    int count;              ///< 1, 3 or 4
+    float low, high;        ///< range of each
+    std::string_view gltf;  ///< place below a material, with '/' between keys; empty: derived from others
+    void (*get)(const Material& from, float* to);
+    void (*set)(Material& to, const float* from);
+};
+
+inline constexpr MaterialNumber kMaterialNumbers[] = {
+#define HALFLIT_NUMBER(member, low, high, gltf)                             \
+    {#member,                                                               \
+     count_of(decltype(Material::member){}),                                \
+     low,                                                                   \
+     high,                                                                  \
+     gltf,                                                                  \
+     [](const Material& from, float* to) { get_numbers(from.member, to); }, \
+     [](Material& to, const float* from) { set_numbers(to.member, from); }},
+#define HALFLIT_TEXTURE(...)
+#include "shading/material_properties.def"
+#undef HALFLIT_NUMBER
+#undef HALFLIT_TEXTURE
+};
+inline constexpr std::size_t kMaterialNumberCount = std::size(kMaterialNumbers);
+
+/// Where each row's floats begin in a list of all floats of a material, and how many these are.
+inline constexpr auto kFirstFloats = [] {
+    std::array<std::size_t, kMaterialNumberCount + 1> first{};
+    for (std::size_t i = 0; i < kMaterialNumberCount; ++i) first[i + 1] = first[i] + static_cast<std::size_t>(kMaterialNumbers[i].count);
+    return first;
+}();
+inline constexpr std::size_t kMaterialFloats = kFirstFloats.back();
+/// Row of a member; kMaterialNumberCount if there is none.
+[[nodiscard]] constexpr std::size_t number_row(std::string_view name) {
+    std::size_t row = 0;
+    while (row < kMaterialNumberCount && kMaterialNumbers[row].name != name) ++row;
+    return row;
+}
+
+/// A place where a material may use a texture.
+struct TextureSlotInfo {
+    std::string_view name;
+    ColorSpace space;
+    MipRule rule;  ///< of smaller levels; alpha: unless the material is opaque; normal: the texels are normals
+    Stage stage;   ///< reads the texture
+    std::string_view gltf;
+};
+
+inline constexpr TextureSlotInfo kTextureSlotInfos[] = {
+#define HALFLIT_NUMBER(...)
+#define HALFLIT_TEXTURE(slot, space, rule, stage, gltf) {#slot, ColorSpace::space, MipRule::rule, stage, gltf},
+#include "shading/material_properties.def"
+#undef HALFLIT_NUMBER
+#undef HALFLIT_TEXTURE
+};
+static_assert(std::size(kTextureSlotInfos) == kTextureSlots);
+
+inline constexpr TextureSlot kAllTextureSlots[] = {
+#define HALFLIT_NUMBER(...)
+#define HALFLIT_TEXTURE(slot, ...) TextureSlot::slot,
+#include "shading/material_properties.def"
+#undef HALFLIT_NUMBER
+#undef HALFLIT_TEXTURE
+};
+static_assert([] {
+    for (int i = 0; i < kTextureSlots; ++i)
+        if (static_cast<int>(kAllTextureSlots[i]) != i) return false;
+    return true;
+}());
+
+[[nodiscard]] constexpr const TextureSlotInfo& info_of(TextureSlot slot) { return kTextureSlotInfos[static_cast<std::size_t>(slot)]; }
+/// True if the slot's texels are normals.
+[[nodiscard]] constexpr bool holds_normals(TextureSlot slot) { return info_of(slot).rule == MipRule::normal; }
+
+/// True if the material's numbers do not hide what the slot's texture says.
+[[nodiscard]] inline bool shows(const Material& material, TextureSlot slot) {
+    switch (info_of(slot).stage) {
+        case kStageTransmission:
+            return material.transmits();
+        case kStageClearcoat:
+            return material.is_coated();
+        case kStageSheen:
+            return material.has_sheen();
+        default:
+            return true;
+    }
+}
+
+/// The first texture of normals that the material uses, whose coordinates tangents are made from. Null: there is none.
+[[nodiscard]] inline const TextureUse* normal_map_of(const Material& material) {
+    for (const TextureSlot slot : kAllTextureSlots)
+        if (holds_normals(slot) && material.textures[slot].used()) return &material.textures[slot];
+    return nullptr;
+}
+
+}  // namespace halflit::shading
