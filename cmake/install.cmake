@@ -87,7 +87,8 @@ if(TARGET halflit)
             set(root \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}\")
             execute_process(COMMAND ${CMAKE_COMMAND} \"-DBUNDLE=\${root}/${CMAKE_INSTALL_LIBDIR}/halflit\"
                 \"-DINTO=\${root}/${CMAKE_INSTALL_DOCDIR}/licences\" \"-DDEPENDENCIES=${PROJECT_SOURCE_DIR}/cmake/dependencies.cmake\"
-                \"-DLIBRARIES=${libraries}\" -P \"${PROJECT_SOURCE_DIR}/cmake/licences.cmake\" COMMAND_ERROR_IS_FATAL ANY)" COMPONENT program)
+                \"-DLIBRARIES=${libraries}\" -P \"${PROJECT_SOURCE_DIR}/cmake/licences.cmake\"
+                COMMAND_ERROR_IS_FATAL ANY)" COMPONENT program)
     else()
         install(TARGETS halflit RUNTIME COMPONENT program)
     endif()

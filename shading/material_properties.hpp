@@ -65,6 +65,14 @@ inline constexpr std::size_t kMaterialFloats = kFirstFloats.back();
     return row;
 }
 
+/// "KHR_materials_sheen" of "extensions/KHR_materials_sheen/sheenColorFactor"; empty for what is no extension's.
+[[nodiscard]] constexpr std::string_view extension_of(std::string_view gltf) {
+    constexpr std::string_view kExtensions = "extensions/";
+    if (!gltf.starts_with(kExtensions)) return {};
+    gltf.remove_prefix(kExtensions.size());
+    return gltf.substr(0, gltf.find('/'));
+}
+
 /// A place where a material may use a texture.
 struct TextureSlotInfo {
     std::string_view name;

@@ -1,5 +1,5 @@
-// Smaller levels that are more than the mean of each channel (MipRule): colours that count by their alpha, and what the mean of a normal
-// map's normals loses. Means are kept in double from level to level, and rounded once.
+// Smaller levels of textures for MipRule::alpha and MipRule::normal: colours weighted by their alpha, and the length that the mean of a
+// normal map's normals loses. Means are kept in double from level to level, and rounded once.
 #pragma once
 
 #include "halflit/texture.hpp"

@@ -16,8 +16,8 @@ inline constexpr int kLeastSkyDirections = 16, kMostSkyDirections = 1024;
 [[nodiscard]] std::vector<Vec3d> sky_directions(int n);
 
 /// Directional lights from sky_directions(n). Each has the light of the part of the sphere that is nearest to it, mean radiance times solid
-/// angle over pi. Of an environment it is the image's without its suns, turned as the environment is; of ambient light, which lobes have
-/// been applied to, it is the radiance that a Lambert lobe makes it of, or 0 where that would be negative.
+/// angle over pi. An environment gives the radiance of its image without the suns, turned by its rotation. Ambient light is light through a
+/// Lambert lobe already: it gives the radiance that this lobe would make it of, or 0 where that is negative.
 [[nodiscard]] std::vector<Light> sky_lights(int n, const Environment* environment, const Ambient& ambient);
 
 }  // namespace halflit::shading

@@ -263,7 +263,8 @@ FlagGroup shadow_flags(RenderOptions& o) {
              {"--sun-size", "DEG",
               "Soft shadows: angle from the middle to the rim of directional lights, the studio's too, 0 to 40 (default 0; the sun: 0.27)",
               number(o.sun_size_deg, 0.0f, 40.0f)},
-             {"--lamp-size", "R", "Soft shadows: radius of lamps, in the scene's units (default 0)", number(o.lamp_size, 0.0f, 1e9f)},
+             {"--lamp-size", "R", "Soft shadows: radius of point and spot lights, in the scene's units (default 0)",
+              number(o.lamp_size, 0.0f, 1e9f)},
              {"--soft-shadow-maps", "N",
               fmt::format("Points of a light that has a size, each with a shadow map of half the side, 4 to 64 (default {})",
                           s.soft_shadow_maps),
@@ -394,7 +395,7 @@ Positional scene_argument(RenderOptions& o, bool required) {
     return {.name = "SCENE",
             .help =
                 "A .glb, .gltf, .stl, .ply, .obj or .3mf file, - for standard input, or a built-in scene: demo, sphere:N (N triangles), "
-                "lights:N (N lamps)",
+                "lights:N (N point lights)",
             .read = read_text(o.scene),
             .required = required,
             .form = "FILE"};

@@ -96,7 +96,7 @@ bool whole_sky_applies(const Trial& trial) {
         if (!mesh.colors.empty()) return false;
     return std::all_of(trial.scene.materials.begin(), trial.scene.materials.end(), [](const Material& m) {
         return !m.textures[TextureSlot::base_color].used() && !m.textures[TextureSlot::occlusion].used() &&
-               !m.textures[TextureSlot::normal].used() && !m.unlit && m.alpha_mode == AlphaMode::opaque;
+               !m.textures[TextureSlot::normal].used() && !m.unlit && !m.is_layer();
     });
 }
 

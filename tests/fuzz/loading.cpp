@@ -1,5 +1,7 @@
 #include "tests/fuzz/loading.hpp"
 
+#include "shading/material_properties.hpp"
+
 #include <algorithm>
 #include <cstring>
 
@@ -29,9 +31,13 @@ void check_loaded(const LoadedScene& loaded) {
     for (const Instance& instance : scene.instances)
         HALFLIT_PROMISE(instance.mesh >= 0 && instance.mesh < static_cast<int>(scene.meshes.size()));
     for (const Material& m : scene.materials) {
-        for (const TextureUse* use :
-             {&m.textures[TextureSlot::base_color], &m.textures[TextureSlot::metallic_roughness], &m.textures[TextureSlot::normal], &m.textures[TextureSlot::occlusion], &m.textures[TextureSlot::emissive]})
-            HALFLIT_PROMISE(in_range(use->texture, scene.textures.size()) && (use->uv_set == 0 || use->uv_set == 1));
+        for (const TextureUse& use : m.textures)
+            HALFLIT_PROMISE(in_range(use.texture, scene.textures.size()) && (use.uv_set == 0 || use.uv_set == 1));
+        for (const shading::MaterialNumber& number : shading::kMaterialNumbers) {
+            float values[4];
+            number.get(m, values);
+            for (int c = 0; c < number.count; ++c) HALFLIT_PROMISE(values[c] >= number.low && values[c] <= number.high);
+        }
         HALFLIT_PROMISE(check_lobe(m.lobe).has_value());
     }
     for (const Node& node : loaded.nodes) {

@@ -1,5 +1,7 @@
 #include "tests/fuzz/render_flags.hpp"
 
+#include "shading/material_properties.hpp"
+
 #include <algorithm>
 #include <array>
 
@@ -100,19 +102,19 @@ TextureUse read_texture_use(Input& input, std::size_t textures) {
 
 Material read_material(Input& input, std::size_t textures) {
     Material material;
-    material.base_color = {input.real(), input.real(), input.real(), input.real()};
-    material.metallic = input.real();
-    material.roughness = input.real();
-    if (input.one_in(4)) material.emissive = {input.real(), input.real(), input.real()};
+    for (const shading::MaterialNumber& number : shading::kMaterialNumbers) {
+        if (!input.one_in(3)) continue;
+        float values[4];
+        for (int c = 0; c < number.count; ++c) values[c] = input.real();
+        number.set(material, values);
+    }
     material.alpha_mode = one_of<AlphaMode>(input, 3);
     material.double_sided = input.flag();
     material.unlit = input.one_in(8);
     material.lobe = read_lobe(input);
     material.has_own_lobe = input.flag();
-    for (TextureUse* use : {&material.textures[TextureSlot::base_color], &material.textures[TextureSlot::metallic_roughness], &material.textures[TextureSlot::normal],
-                            &material.textures[TextureSlot::occlusion], &material.textures[TextureSlot::emissive]})
-        *use = read_texture_use(input, textures);
-    if (input.one_in(4)) material.dielectric_reflectance = input.real();
+    for (TextureUse& use : material.textures)
+        if (input.flag()) use = read_texture_use(input, textures);
     return material;
 }
 

@@ -31,7 +31,7 @@ public:
         std::set<std::string> used{"KHR_lights_punctual", "KHR_texture_transform", "KHR_materials_unlit", "KHR_materials_emissive_strength",
                                    "KHR_materials_ior"};
         for (const shading::MaterialNumber& number : shading::kMaterialNumbers)
-            if (number.gltf.starts_with("extensions/")) used.emplace(number.gltf.substr(11, number.gltf.find('/', 11) - 11));
+            if (const auto name = shading::extension_of(number.gltf); !name.empty()) used.emplace(name);
         root_["extensionsUsed"] = used;
         for (const GlbPicture& picture : content_.pictures) {
             const std::vector<std::uint8_t> rgba8(picture.rgba8.begin(), picture.rgba8.end());

@@ -6,6 +6,7 @@
 #include "apps/io/image_reader.hpp"
 #include "apps/io/text.hpp"
 #include "sh/time_limit.hpp"
+#include "shading/material_properties.hpp"
 
 #include <fmt/format.h>
 
@@ -20,12 +21,19 @@ namespace halflit::io::detail {
 
 namespace {
 
-/// Extensions that a file may require. Their values are read; for quantised data, the reading of accessors covers it.
-constexpr std::string_view kSupportedExtensions[] = {
-    "KHR_lights_punctual",    "KHR_materials_unlit",     "KHR_texture_transform",      "KHR_materials_emissive_strength",
-    "KHR_materials_ior",      "KHR_mesh_quantization",   "KHR_materials_transmission", "KHR_materials_volume",
-    "KHR_materials_specular", "KHR_materials_clearcoat", "KHR_materials_sheen",        "KHR_materials_pbrSpecularGlossiness",
-    "KHR_animation_pointer",  "KHR_node_visibility",     "KHR_materials_variants",     "EXT_mesh_gpu_instancing"};
+/// Extensions that a file may require, beside those of the table of materials. Their values are read; for quantised data, the reading of
+/// accessors covers it.
+constexpr std::string_view kSupportedExtensions[] = {"KHR_lights_punctual",
+                                                     "KHR_materials_unlit",
+                                                     "KHR_texture_transform",
+                                                     "KHR_materials_emissive_strength",
+                                                     "KHR_materials_ior",
+                                                     "KHR_mesh_quantization",
+                                                     "KHR_materials_pbrSpecularGlossiness",
+                                                     "KHR_animation_pointer",
+                                                     "KHR_node_visibility",
+                                                     "KHR_materials_variants",
+                                                     "EXT_mesh_gpu_instancing"};
 
 /// "2.0" as {2, 0}.
 std::optional<std::pair<int, int>> parse_version(std::string_view text) {
@@ -95,7 +103,9 @@ void choose_forms(file::File& file) {
 
 bool is_supported(std::string_view extension) {
     if (const Decoder* decoder = decoder_of(extension)) return decoder->is_there();
-    return std::find(std::begin(kSupportedExtensions), std::end(kSupportedExtensions), extension) != std::end(kSupportedExtensions);
+    const auto has = [&](const shading::MaterialNumber& number) { return shading::extension_of(number.gltf) == extension; };
+    return std::find(std::begin(kSupportedExtensions), std::end(kSupportedExtensions), extension) != std::end(kSupportedExtensions) ||
+           (!extension.empty() && std::any_of(std::begin(shading::kMaterialNumbers), std::end(shading::kMaterialNumbers), has));
 }
 
 void check_versions(const file::File& file) {

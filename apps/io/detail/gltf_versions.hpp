@@ -18,8 +18,8 @@ void check_versions(const file::File& file);
 /// does not list as used.
 void check_extensions(Document& document);
 
-/// Of what an extension and the file itself hold, chooses what this build reads: the pictures of EXT_texture_webp and the compressed views
-/// of EXT_meshopt_compression where the libraries are there, otherwise the file's other pictures and its views without compression.
+/// Chooses between the two forms of a picture or a buffer view that a file may hold: WebP (EXT_texture_webp) and meshopt
+/// (EXT_meshopt_compression) where this build has the library, otherwise the file's other picture or uncompressed view.
 void choose_forms(file::File& file);
 
 }  // namespace halflit::io::detail

@@ -40,9 +40,9 @@ class PictureOptions(ViewOptions, total=False):
         exposure: factor on all light, above 0 (chosen)
         ev: the same in stops, as the program's --exposure: exposure is 2 ** ev
         ambient: light from all around (none)
-        studio: when the built-in studio lights the scene: "for_dark", where nothing lights it from all around; "under_lights", a share of
-            it under lights too; "always", in the place of other light from all around; "never" (for_dark; under_lights after
-            add_light(); never with ambient)
+        studio: when the built-in studio lights the scene: "for_dark", if it has neither ambient light nor an environment; "under_lights",
+            a share of it where the scene has lights, too; "always", in place of ambient light and environment; "never" (for_dark;
+            under_lights after add_light(); never with ambient)
         studio_turn: degrees about the vertical, counter-clockwise seen from above (0)
 
     The picture:

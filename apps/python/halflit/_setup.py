@@ -188,7 +188,7 @@ def kept(scene, size, options: dict) -> Setup:
     if size is not None and checked_size(size) != setup.size:
         raise UsageError(f"setup: made for {setup.size[0]} x {setup.size[1]} pixels")
     if scene._lit_by is not setup:
-        # By its camera, as the light is chosen for a viewer, who has stayed where he was.
+        # The studio turns with the camera, so the light is chosen for the camera of this setup.
         set_up(scene, setup.size, setup._request.by(scene._world.into(setup._camera)))
         scene._lit_by = setup
     return setup

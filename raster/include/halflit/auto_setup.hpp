@@ -46,7 +46,8 @@ struct AutoSetup {
 /// Chooses camera, lights, ambient light and exposure for a picture of width x height pixels. Adds to the scene the light that it lacks:
 ///   - no light at all: the studio with a key light (add_studio; StudioUse::never: add_default_lights), exposure 1;
 ///   - lights of a file (Scene::calibrated is false): an exposure from the lights (auto_exposure), and where nothing else lights it from
-///     all around, 0.15 of the studio if there is a directional light, 0.5 if there are lamps alone (StudioUse::never: soft_ambient);
+///     all around, 0.15 of the studio if there is a directional light, 0.5 if there are point and spot lights alone (StudioUse::never:
+///     soft_ambient);
 ///   - an environment: an exposure by which its mean light makes a white surface 0.5, or 1 if its image is calibrated.
 /// Nothing depends on pixels. Call it once for each scene: a second call finds the light that the first one added.
 [[nodiscard]] HALFLIT_API AutoSetup auto_setup(Scene& scene, int width, int height, const AutoOptions& options = {});

@@ -40,8 +40,8 @@ struct Settings {
     int soft_shadow_maps = 16;
     /// soft_split: distance to the blocker from which on wrapped light is 0, world units; 0: from object size and wrap.
     float shadow_fade = 0.0f;
-    /// Directions in which it is looked up how much of the surroundings a surface sees, by shadow maps of 256 texels: 16 to 1024; 0: light
-    /// from all around reaches every surface. ShadowMode::off: the same.
+    /// Number of directions in which ambient light and the environment cast shadows, by shadow maps of 256 texels: 16 to 1024. 0, or
+    /// ShadowMode::off: they cast none.
     int sky_shadows = 0;
     bool shadow_terminator_offset = false;  ///< look-ups on the smooth surface given by the vertex normals, for coarse meshes
     friend bool operator==(const Settings&, const Settings&) = default;

@@ -42,7 +42,9 @@ inline constexpr int kTextureSlots = 14;
 template <class T>
 struct BySlot : std::array<T, kTextureSlots> {
     using std::array<T, kTextureSlots>::operator[];
+    /// The value of a slot.
     constexpr T& operator[](TextureSlot slot) { return (*this)[static_cast<std::size_t>(slot)]; }
+    /// The value of a slot.
     constexpr const T& operator[](TextureSlot slot) const { return (*this)[static_cast<std::size_t>(slot)]; }
 };
 

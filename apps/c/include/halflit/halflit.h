@@ -452,8 +452,8 @@ HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t s
 HALFLIT_C_API int32_t halflit_auto_setup(halflit_scene* scene, int32_t width, int32_t height, halflit_camera* camera,
                                          halflit_settings* settings);
 
-/// When halflit_setup() puts the scene into the built-in studio: where nothing lights it from all around; always, instead of its ambient
-/// light and environment; never; where nothing does, and a share of it under lights whose unit is known too.
+/// When halflit_setup() lights the scene by the built-in studio. FOR_DARK: if it has neither ambient light nor an environment. ALWAYS: in
+/// place of both. NEVER. UNDER_LIGHTS: as FOR_DARK, and a share of the studio where the scene has lights of a known unit.
 enum { HALFLIT_STUDIO_FOR_DARK = 0, HALFLIT_STUDIO_ALWAYS = 1, HALFLIT_STUDIO_NEVER = 2, HALFLIT_STUDIO_UNDER_LIGHTS = 3 };
 
 /// What the caller of halflit_setup() decides; the rest is chosen. Defaults in parentheses.

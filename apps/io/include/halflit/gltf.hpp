@@ -47,9 +47,9 @@ struct LoadOptions {
     /// up to 64 MB, or a whole JPEG or WebP picture, beside the texture.
     int threads = 0;
     /// Moves a scene to the origin if it lies farther from it than 1024 times its radius, and scales it by a power of two if its radius is
-    /// below 2^-10 or above 2^30, so that float32 keeps its shape and the least distance of lamps (Light::source_radius) is small beside
-    /// it. LoadedScene::origin and scale say what was done. pose() places nodes in the file's own world, so a host that poses such a scene
-    /// leaves this off.
+    /// below 2^-10 or above 2^30, so that float32 keeps its shape and the least distance of a point light (Light::source_radius) is small
+    /// beside it. LoadedScene::origin and scale say what was done. pose() places nodes in the file's own world, so a host that poses such a
+    /// scene leaves this off.
     bool recentre = false;
     /// Scene of the file: its name, or else its index in the file; empty: the file's default scene, or else its first. One that the file
     /// does not have is an error (usage).
@@ -101,7 +101,7 @@ struct SceneInfo {
     std::vector<std::string> scene_names;       ///< of all scenes in the file, by their numbers in it; may be empty
     int scene = -1;                             ///< the scene that is drawn; -1: the file has none, all nodes are drawn
     std::vector<std::string> variants;          ///< names of KHR_materials_variants
-    std::vector<std::string> files;             ///< where files may lie that the model refers to, drawn or not, there or not
+    std::vector<std::string> files;             ///< paths of the files that the model names, whether or not they exist or are drawn
     /// Names in the file's order, each once.
     std::vector<std::string> extensions_used;
     /// Those without which the file must not be drawn.
