@@ -13,9 +13,9 @@ halflit::Result<void> render_file(const char* model, const char* picture) {
     auto loaded = load_gltf(model);
     if (!loaded) return tl::unexpected(loaded.error());
 
-    Image image{640, 480, std::vector<std::uint8_t>(640 * 480 * 4), {}};
+    Image image = Image::make(640, 480);
     const AutoSetup setup = auto_setup(loaded->scene, image.width, image.height);
-    const auto report = render(loaded->scene, setup.camera, setup.settings, {image.width, image.height, image.rgba8.data()});
+    const auto report = render(loaded->scene, setup.camera, setup.settings, image.target());
     if (!report) return tl::unexpected(report.error());
     return write_image(picture, image);
 }

@@ -46,9 +46,9 @@ int main(int argc, char** argv) {
 
     Camera camera;
     camera.world_from_camera = look_at({1.5f, 2.4f, 4.6f}, {0, -0.2f, 0});
-    Image image{480, 300, std::vector<std::uint8_t>(480 * 300 * 4), {}};
+    Image image = Image::make(480, 300);
     const Settings settings{.samples = 8, .background_linear = {0.35f, 0.5f, 0.75f, 1}};
-    const auto report = render(scene, camera, settings, {image.width, image.height, image.rgba8.data()});
+    const auto report = render(scene, camera, settings, image.target());
     const auto done = report ? write_image(argc > 1 ? argv[1] : "geometry.png", image) : tl::unexpected(report.error());
     if (!done) std::fprintf(stderr, "%s\n", done.error().message.c_str());
     return done ? 0 : static_cast<int>(done.error().code);

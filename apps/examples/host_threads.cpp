@@ -26,7 +26,7 @@ void run_on_host_threads(int count, const std::function<void(int)>& body) {
 
 int main(int argc, char** argv) {
     const Scene scene = demo_scene();
-    Image image{480, 270, std::vector<std::uint8_t>(480 * 270 * 4), {}};
+    Image image = Image::make(480, 270);
 
     std::atomic<int> tiles{0}, pixels{0};
     std::atomic<bool> stop{false};  // a host sets it from any thread, for example when its window closes
@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
     };
     execution.progress = [](double share) { std::fprintf(stderr, "\r%3.0f %%", 100 * share); };
 
-    const auto report = render(scene, scene.cameras[0], {.samples = 4}, {image.width, image.height, image.rgba8.data()}, execution);
+    const auto report = render(scene, scene.cameras[0], {.samples = 4}, image.target(), execution);
     if (!report) {
         std::fprintf(stderr, "%s\n", report.error().message.c_str());
         return static_cast<int>(report.error().code);

@@ -42,8 +42,8 @@ int main(int argc, char** argv) {
     Settings settings{.samples = 8, .background_linear = {0.03f, 0.035f, 0.04f, 1}};
     settings.shading.specular = SpecularModel::none;  // the diffuse lobes alone
     settings.shadows = ShadowMode::off;
-    Image image{760, 132, std::vector<std::uint8_t>(760 * 132 * 4), {}};
-    const auto report = render(scene, camera, settings, {image.width, image.height, image.rgba8.data()});
+    Image image = Image::make(760, 132);
+    const auto report = render(scene, camera, settings, image.target());
     const auto done = report ? write_image(argc > 1 ? argv[1] : "lobes.png", image) : tl::unexpected(report.error());
     if (!done) std::fprintf(stderr, "%s\n", done.error().message.c_str());
     return done ? 0 : static_cast<int>(done.error().code);

@@ -35,7 +35,7 @@ Result<void> draw_all(const std::string& folder) {
     auto prepared = PreparedScene::make(scene);
     if (!prepared) return tl::unexpected(prepared.error());
     Renderer renderer;  // keeps its memory, and all that did not change, from frame to frame
-    Image image{320, 240, std::vector<std::uint8_t>(320 * 240 * 4), {}};
+    Image image = Image::make(320, 240);
     for (int frame = 0; frame < kFrames; ++frame) {
         SceneChanges changes;
         for (std::size_t i = 1; i < scene.instances.size(); ++i) {
@@ -43,7 +43,7 @@ Result<void> draw_all(const std::string& folder) {
             changes.moved_instances.push_back(i);
         }
         if (const auto updated = prepared->update(changes); !updated) return updated;
-        const auto report = renderer.render(*prepared, camera, {.samples = 4}, {image.width, image.height, image.rgba8.data()});
+        const auto report = renderer.render(*prepared, camera, {.samples = 4}, image.target());
         if (!report) return tl::unexpected(report.error());
         const std::string name = (frame < 10 ? "frame-0" : "frame-") + std::to_string(frame) + ".png";
         if (const auto written = write_image(folder + "/" + name, image); !written) return written;

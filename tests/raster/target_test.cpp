@@ -370,3 +370,17 @@ TEST_CASE("target: a stride that a negative number became is refused", "[raster]
         CHECK(report.error().code == ErrorCode::usage);
     }
 }
+
+TEST_CASE("target: a picture makes its own memory, and gives what is not empty of it", "[raster][target]") {
+    Image image = Image::make(7, 5);
+    CHECK(image.rgba8 == std::vector<std::uint8_t>(7 * 5 * 4, 0));
+    CHECK(image.target().width == 7);
+    CHECK(image.target().height == 5);
+    CHECK(image.target().pixels == image.rgba8.data());
+    CHECK(image.target().linear == nullptr);
+    image.rgba_linear.resize(image.rgba8.size());
+    image.rgba8.clear();
+    CHECK(image.target().pixels == nullptr);
+    CHECK(image.target().linear == image.rgba_linear.data());
+    for (const int side : {0, -1, -2147483647 - 1}) CHECK(Image::make(side, 4).rgba8.empty());
+}

@@ -58,6 +58,18 @@ struct Image {
     int width = 0, height = 0;        ///< pixels
     std::vector<std::uint8_t> rgba8;  ///< width * height * 4 sRGB codes, alpha linear and not premultiplied
     std::vector<float> rgba_linear;   ///< width * height * 4, linear light, alpha not premultiplied
+
+    /// A picture with rgba8, of transparent black. Sides below 1 count as 0.
+    [[nodiscard]] static Image make(int width, int height) {
+        const auto side = [](int n) { return static_cast<std::size_t>(n > 0 ? n : 0); };
+        return {width, height, std::vector<std::uint8_t>(side(width) * side(height) * 4), {}};
+    }
+    /// The arrays that are not empty, as what is drawn into. Valid until they are resized.
+    [[nodiscard]] Target target() {
+        Target target{width, height, rgba8.empty() ? nullptr : rgba8.data()};
+        target.linear = rgba_linear.empty() ? nullptr : rgba_linear.data();
+        return target;
+    }
 };
 
 /// 64-bit hash of the bytes: the picture's identity in reports and golden tables. XXH64 with seed 0, the same on every machine.
