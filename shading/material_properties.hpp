@@ -65,7 +65,7 @@ inline constexpr std::size_t kMaterialFloats = kFirstFloats.back();
     return row;
 }
 
-/// "KHR_materials_sheen" of "extensions/KHR_materials_sheen/sheenColorFactor"; empty for what is no extension's.
+/// "KHR_materials_sheen" of "extensions/KHR_materials_sheen/sheenColorFactor"; empty if the path is not below an extension.
 [[nodiscard]] constexpr std::string_view extension_of(std::string_view gltf) {
     constexpr std::string_view kExtensions = "extensions/";
     if (!gltf.starts_with(kExtensions)) return {};
@@ -77,7 +77,7 @@ inline constexpr std::size_t kMaterialFloats = kFirstFloats.back();
 struct TextureSlotInfo {
     std::string_view name;
     ColorSpace space;
-    MipRule rule;  ///< of smaller levels; alpha: unless the material is opaque; normal: the texels are normals
+    MipRule rule;  ///< of smaller levels; alpha: counts as equal for opaque materials; normal: the texels are normals
     Stage stage;   ///< reads the texture
     std::string_view gltf;
 };
@@ -108,7 +108,7 @@ static_assert([] {
 /// True if the slot's texels are normals.
 [[nodiscard]] constexpr bool holds_normals(TextureSlot slot) { return info_of(slot).rule == MipRule::normal; }
 
-/// True if the material's numbers do not hide what the slot's texture says.
+/// False if the texture cannot be seen because its layer (transmission, coat, sheen) is absent.
 [[nodiscard]] inline bool shows(const Material& material, TextureSlot slot) {
     switch (info_of(slot).stage) {
         case kStageTransmission:
@@ -122,7 +122,7 @@ static_assert([] {
     }
 }
 
-/// The first texture of normals that the material uses, whose coordinates tangents are made from. Null: there is none.
+/// The first texture of normals that the material uses. Tangents are made from its texture coordinates. Null: there is none.
 [[nodiscard]] inline const TextureUse* normal_map_of(const Material& material) {
     for (const TextureSlot slot : kAllTextureSlots)
         if (holds_normals(slot) && material.textures[slot].used()) return &material.textures[slot];

@@ -13,7 +13,7 @@
 
 namespace halflit::adversary {
 
-inline constexpr int kSections = 40;      ///< parts of a scene: see the constants in scene.hpp
+inline constexpr int kSections = 40;      ///< parts of a scene: see Section in trial.hpp
 inline constexpr int kSectionGenes = 32;  ///< genes of each; a part reads at most as many
 inline constexpr std::size_t kGenes = std::size_t{kSections} * kSectionGenes;
 inline constexpr std::uint32_t kGeneEnd = 1u << 24;  ///< genes lie below; this would be 1

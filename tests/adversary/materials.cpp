@@ -67,6 +67,9 @@ namespace {
 
 /// Numbers of the extensions' properties: each is the default, or anything up to twice white.
 void add_layers(const Genome& genome, int index, Trial& trial, Material& m) {
+    constexpr auto kExtended = std::count_if(std::begin(shading::kMaterialNumbers), std::end(shading::kMaterialNumbers),
+                                             [](const auto& number) { return number.gltf.starts_with("extensions/"); });
+    static_assert(kExtended <= 8 * kLayerSections);
     int row = 0;
     for (const shading::MaterialNumber& number : shading::kMaterialNumbers) {
         if (!number.gltf.starts_with("extensions/")) continue;

@@ -52,6 +52,7 @@ void make_plain(Trial& trial) {
     for (Material& m : trial.scene.materials) {
         m.textures[TextureSlot::base_color] = m.textures[TextureSlot::occlusion] = m.textures[TextureSlot::normal] = {};
         m.alpha_mode = AlphaMode::opaque;
+        m.transmission = 0;
         m.unlit = false;
     }
 }

@@ -18,7 +18,7 @@ struct Recipe {
     std::uint64_t seed;
     double low[3], high[3];  ///< by channel
     ColorSpace space;
-    bool normals, odd;  ///< odd: z has nothing to do with x and y
+    bool normals, alpha_read, odd;  ///< odd: z has nothing to do with x and y
     bool operator==(const Recipe&) const = default;
 };
 
@@ -59,6 +59,7 @@ std::shared_ptr<const Picture> paint(const Recipe& r) {
                 value[2] = 0.5 + 0.5 * std::sqrt(std::max(
                                            0.0, 1 - 4 * (value[0] - 0.5) * (value[0] - 0.5) - 4 * (value[1] - 0.5) * (value[1] - 0.5)));
             for (std::size_t c = 0; c < 3; ++c) picture->rgba8[at + c] = static_cast<std::uint8_t>(value[c] * 255.0 + 0.5);
+            if (r.alpha_read) picture->rgba8[at + 3] = picture->rgba8[at];
         }
     picture->texture = *Texture::from_rgba8(picture->rgba8, r.width, r.height, picture->space);
     return picture;
@@ -88,6 +89,7 @@ std::shared_ptr<const Picture> some_texture(Genes& genes, TextureSlot slot, Avoi
     Recipe r{};
     r.space = shading::info_of(slot).space;
     r.normals = shading::holds_normals(slot);
+    r.alpha_read = slot == TextureSlot::specular || slot == TextureSlot::sheen_roughness;
     const double size = genes.octaves(1, 10), shape = genes.next();
     r.width = std::clamp(static_cast<int>(size), 1, 1000);
     r.height = shape < 0.6 ? r.width : std::clamp(static_cast<int>(size * (shape - 0.5) * 4), 1, 1000);

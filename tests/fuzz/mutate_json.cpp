@@ -1,4 +1,5 @@
 // Mutations of JSON nodes. The order of an object's members is kept.
+#include "shading/material_properties.hpp"
 #include "tests/fuzz/base64.hpp"
 #include "tests/fuzz/gltf_words.hpp"
 #include "tests/fuzz/mutate.hpp"
@@ -198,7 +199,34 @@ void mutate_place(Json& root, const Place& place, Random& random) {
     }
 }
 
+/// Gives a material a property of the table: a number, as many as it has or one more, or a texture.
+void set_material_property(Json& root, Random& random) {
+    const auto materials = root.find("materials");
+    if (materials == root.end() || !materials->is_array() || materials->empty()) return;
+    const bool texture = random.one_in(2);
+    const shading::MaterialNumber& number = random.pick(shading::kMaterialNumbers);
+    const std::string_view place = texture ? random.pick(shading::kTextureSlotInfos).gltf : number.gltf;
+    Json* node = &random.pick(*materials);
+    for (std::size_t at = 0; at < place.size();) {
+        const std::size_t end = std::min(place.find('/', at), place.size());
+        if (!node->is_object()) *node = Json::object();
+        node = &(*node)[std::string(place.substr(at, end - at))];
+        at = end + 1;
+    }
+    const auto value = [&] { return random.one_in(8) ? -1.0 : static_cast<double>(random.below(9)) / 4; };
+    if (texture) {
+        *node = Json{{"index", random.below(4)}, {"texCoord", random.below(3)}};
+    } else if (number.count == 1) {
+        *node = value();
+    } else {
+        *node = Json::array();
+        const std::size_t count = static_cast<std::size_t>(number.count) + (random.one_in(8) ? 1 : 0);
+        for (std::size_t c = 0; c < count; ++c) node->push_back(value());
+    }
+}
+
 void mutate_node(Json& root, std::size_t max_bytes, Random& random) {
+    if (root.is_object() && random.one_in(12)) return set_material_property(root, random);
     const auto places = places_of(root);
     const Place place = places[random.below(places.size())];
     Json& node = *place.node;

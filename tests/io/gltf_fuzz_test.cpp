@@ -119,9 +119,7 @@ TEST_CASE("fuzz: damaged files give a sound scene or an error", "[io]") {
         for (const Instance& instance : result->scene.instances)
             if (instance.mesh < 0 || instance.mesh >= static_cast<int>(result->scene.meshes.size())) FAIL("mesh " << instance.mesh);
         for (const Material& m : result->scene.materials)
-            for (const TextureUse& use :
-                 {m.textures[TextureSlot::base_color], m.textures[TextureSlot::metallic_roughness], m.textures[TextureSlot::normal],
-                  m.textures[TextureSlot::occlusion], m.textures[TextureSlot::emissive]})
+            for (const TextureUse& use : m.textures)
                 if (use.texture >= static_cast<int>(result->scene.textures.size())) FAIL("texture " << use.texture);
     }
     INFO(loaded_count << " loaded, " << refused_count << " refused");

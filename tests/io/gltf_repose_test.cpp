@@ -63,14 +63,19 @@ void check_same(const Scene& a, const Scene& b) {
     REQUIRE(a.materials.size() == b.materials.size());
     for (std::size_t i = 0; i < a.materials.size(); ++i) {
         const Material &x = a.materials[i], &y = b.materials[i];
-        CHECK(x.base_color == y.base_color);
-        CHECK(x.metallic == y.metallic);
-        CHECK(x.roughness == y.roughness);
-        CHECK(x.emissive == y.emissive);
-        CHECK(x.alpha_cutoff == y.alpha_cutoff);
-        CHECK(x.thickness == y.thickness);
-        CHECK(x.textures[TextureSlot::base_color].row_u == y.textures[TextureSlot::base_color].row_u);
-        CHECK(x.textures[TextureSlot::base_color].row_v == y.textures[TextureSlot::base_color].row_v);
+        for (const shading::MaterialNumber& number : shading::kMaterialNumbers) {
+            INFO(number.name);
+            float of_x[4], of_y[4];
+            number.get(x, of_x);
+            number.get(y, of_y);
+            CHECK(std::equal(of_x, of_x + number.count, of_y));
+        }
+        for (const TextureSlot slot : shading::kAllTextureSlots) {
+            INFO(shading::info_of(slot).name);
+            CHECK(x.textures[slot].texture == y.textures[slot].texture);
+            CHECK(x.textures[slot].row_u == y.textures[slot].row_u);
+            CHECK(x.textures[slot].row_v == y.textures[slot].row_v);
+        }
     }
     REQUIRE(a.lights.size() == b.lights.size());
     for (std::size_t i = 0; i < a.lights.size(); ++i) CHECK(a.lights[i] == b.lights[i]);  // bytes between its members mean nothing

@@ -18,8 +18,8 @@ struct MetalSurface {
 /// and specular brightness stay; the base colour is taken from the diffuse colour where not metallic, from the specular one where metallic.
 [[nodiscard]] MetalSurface to_metal(const GlossySurface& surface);
 
-/// Converts the materials with that extension. Until then base_color_texture and metallic_roughness_texture of a material are its diffuse
-/// and its specular-glossiness texture. Throws LoadFailure.
+/// Converts the materials with that extension. Until then the slots base_color and metallic_roughness of a material have its
+/// diffuse and its specular-glossiness texture. Throws LoadFailure.
 void convert_specular_glossiness(Document& document, Scene& scene);
 
 }  // namespace halflit::io::detail

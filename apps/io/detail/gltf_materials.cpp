@@ -66,6 +66,7 @@ Sampler sampler_of(const Document& document, int index) {
 }
 
 constexpr std::size_t kThickness = shading::number_row("thickness");
+static_assert(kThickness < shading::kMaterialNumberCount);
 
 /// Numbers of a row, held within its range.
 void held_numbers(const file::Material& source, std::size_t row, float* to) {
@@ -147,9 +148,10 @@ public:
         material.double_sided = source.double_sided;
         material.unlit = source.unlit;
         if (source.own_lobe) own_lobe(*source.own_lobe, material, used);
+        // An animation may make a layer visible later.
+        const bool may_change = document_.options.keep_animations && !document_.file.animations.empty() && !material.unlit;
         for (const TextureSlot slot : shading::kAllTextureSlots)
-            // What an animation moves may show later.
-            if (used && (document_.options.keep_animations || shading::shows(material, slot)))
+            if (used && (may_change || shading::shows(material, slot)))
                 material.textures[slot] = texture_of(source, slot, material.alpha_mode);
         return material;
     }

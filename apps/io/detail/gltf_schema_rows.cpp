@@ -263,9 +263,10 @@ constexpr SchemaRow kRows[] = {
     {"materials/#/extras/halflit/normalize", boolean, [](F f, V v) { f.file.materials.back().own_lobe->parameters.normalize = v.truth; }},
 };
 
-/// Values of a file that the table of materials allows, and glTF does not.
+/// Ranges in which glTF is stricter than the table of materials.
 constexpr std::pair<std::string_view, Range> kStricter[] = {
     {"extensions/KHR_materials_volume/attenuationDistance", {.low = 0, .low_open = true, .instead = "drawn as if nothing were absorbed"}}};
+static_assert(shading::kMaterialNumbers[shading::number_row("attenuation_distance")].gltf == kStricter[0].first);
 
 Range range_of(const shading::MaterialNumber& row) {
     for (const auto& [gltf, range] : kStricter)

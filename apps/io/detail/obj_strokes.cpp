@@ -21,7 +21,7 @@ int ObjStrokes::unlit(int material) {
     if (!is_new) return entry->second;
     Material plain = builder_.loaded().scene.materials[static_cast<std::size_t>(material)];
     plain.unlit = true;
-    plain.textures[TextureSlot::base_color] = plain.textures[TextureSlot::normal] = plain.textures[TextureSlot::emissive] = {};
+    plain.textures = {};
     return entry->second = builder_.add_material(plain);
 }
 

@@ -91,8 +91,9 @@ class TextureUse(Record):
 class Material(Record):
     """glTF's metallic-roughness material, and a lobe. Defaults in parentheses; textures: none.
 
-    Textures are indices that Scene.add_texture() gave, or TextureUse; textures of normals are added with color="normal". A number is
-    multiplied by the texture that is named after it. Colours are linear light with Rec. 709 primaries, "#rrggbb", or uint8 sRGB codes.
+    Textures are indices that Scene.add_texture() gave, or TextureUse; textures of normals are added with color="normal". Numbers are
+    multiplied by the textures with their names, metallic and roughness by channels of metallic_roughness_texture; c is a texel's colour.
+    Colours are linear light with Rec. 709 primaries, "#rrggbb", or uint8 sRGB codes.
 
     glTF and halflit.h begin with metallic = 1, for the texture's sake. Here it is 0, and becomes 1 when a metallic_roughness_texture is set,
     unless metallic was set.

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <new>
 #include <span>
 #include <vector>
 
@@ -59,12 +60,15 @@ struct Image {
     std::vector<std::uint8_t> rgba8;  ///< width * height * 4 sRGB codes, alpha linear and not premultiplied
     std::vector<float> rgba_linear;   ///< width * height * 4, linear light, alpha not premultiplied
 
-    /// A picture with rgba8, of transparent black. Sides below 1 count as 0.
+    /// A picture with rgba8, of transparent black. Sides below 0 count as 0. Throws std::bad_alloc if memory lacks.
     [[nodiscard]] static Image make(int width, int height) {
-        const auto side = [](int n) { return static_cast<std::size_t>(n > 0 ? n : 0); };
-        return {width, height, std::vector<std::uint8_t>(side(width) * side(height) * 4), {}};
+        if (width < 0) width = 0;
+        if (height < 0) height = 0;
+        const std::uint64_t bytes = std::uint64_t{4} * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+        if (bytes > SIZE_MAX / 2) throw std::bad_alloc();
+        return {width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(bytes)), {}};
     }
-    /// The arrays that are not empty, as what is drawn into. Valid until they are resized.
+    /// A target that draws into the arrays that are not empty. Valid until they are resized.
     [[nodiscard]] Target target() {
         Target target{width, height, rgba8.empty() ? nullptr : rgba8.data()};
         target.linear = rgba_linear.empty() ? nullptr : rgba_linear.data();

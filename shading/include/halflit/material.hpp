@@ -48,7 +48,8 @@ struct BySlot : std::array<T, kTextureSlots> {
     constexpr const T& operator[](TextureSlot slot) const { return (*this)[static_cast<std::size_t>(slot)]; }
 };
 
-/// A surface. The defaults are glTF's: white, metallic and rough. A number is multiplied by its slot's texture, where there is one.
+/// A surface. The defaults are glTF's: white, metallic and rough. Numbers are multiplied by the
+/// textures of the slots with their names, metallic and roughness by the channels of TextureSlot::metallic_roughness.
 struct Material {
     std::string name;                          ///< for messages; may be empty
     Vec4f base_color{1, 1, 1, 1};              ///< linear, in [0, 1]; the fourth number is alpha

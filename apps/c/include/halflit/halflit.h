@@ -177,8 +177,9 @@ typedef struct halflit_lobe {
 /// A lobe of the literature: lambert, green, half-lambert, valve, sloan or mcauley. wrap is for those that take one.
 HALFLIT_C_API int32_t halflit_lobe_by_name(const char* name, float wrap, halflit_lobe* lobe);
 
-/// The parameters of glTF's metallic-roughness materials, and a lobe; defaults in parentheses. A number is multiplied by the texture that
-/// is named after it, where there is one. Textures are made with the encoding that is named.
+/// The parameters of glTF's metallic-roughness materials, and a lobe; defaults in parentheses. Numbers are multiplied by the textures
+/// with their names, metallic and roughness by channels of metallic_roughness_texture. The encoding that a texture is made with is named
+/// there; c is a texel's colour.
 typedef struct halflit_material {
     size_t size;
     const char* name;        ///< may be null. From halflit_scene_get_material: valid until the scene is changed or destroyed
