@@ -1,5 +1,8 @@
 // Conversions of a scene's parts.
 #include "apps/c/convert_parts.hpp"
+#include "shading/material_properties.hpp"
+
+#include <type_traits>
 
 namespace halflit::c {
 namespace {
@@ -111,12 +114,14 @@ Result<TextureColor> texture_color(std::int32_t given) {
 
 // ---- parts of a scene --------------------------------------------------------------------------------------------------
 
-void put_number(float from, float& to) { to = from; }
-void put_number(Vec3f from, float (&to)[3]) { put(from, to); }
-void put_number(Vec4f from, float (&to)[4]) { put(from, to); }
-void take_number(float from, float& to) { to = from; }
-void take_number(const float (&from)[3], Vec3f& to) { to = vec3(from); }
-void take_number(const float (&from)[4], Vec4f& to) { to = vec4(from); }
+/// The first float of a member that is one number or a few.
+template <class Numbers>
+auto* first(Numbers& numbers) {
+    if constexpr (std::is_array_v<Numbers>)
+        return &numbers[0];
+    else
+        return &numbers;
+}
 
 halflit_material to_c(const Material& from) {
     halflit_material material{};
@@ -128,7 +133,7 @@ halflit_material to_c(const Material& from) {
     material.own_lobe = from.has_own_lobe;
     material.shadow_catcher = from.shadow_catcher;
     material.lobe = to_c(from.lobe);
-#define HALFLIT_NUMBER(member, ...) put_number(from.member, material.member);
+#define HALFLIT_NUMBER(member, ...) shading::get_numbers(from.member, first(material.member));
 #define HALFLIT_TEXTURE(slot, ...) material.slot##_texture = to_c(from.textures[TextureSlot::slot]);
 #include "shading/material_properties.def"
 #undef HALFLIT_NUMBER
@@ -153,7 +158,7 @@ Result<Material> material(const halflit_material* given) {
     members.read(read->alpha_mode, AlphaMode::blend, "alpha_mode", material.alpha_mode);
 #define HALFLIT_NUMBER(member, ...)        \
     members.finite(#member, read->member); \
-    take_number(read->member, material.member);
+    shading::set_numbers(material.member, first(read->member));
 #define HALFLIT_TEXTURE(slot, ...) \
     material.textures[TextureSlot::slot] = texture_use(read->slot##_texture, "a value of " #slot "_texture", members);
 #include "shading/material_properties.def"

@@ -369,15 +369,14 @@ Execution RenderJob::timed_execution() const {
 
 Image make_image(const RenderJob& job, bool linear) {
     const Region& region = job.settings.region;
-    Image image{region.width, region.height, {}, {}};
-    const std::size_t values = static_cast<std::size_t>(region.width) * static_cast<std::size_t>(region.height) * 4;
-    image.rgba8.resize(values);
-    if (linear) image.rgba_linear.resize(values);
+    Image image = Image::make(region.width, region.height);
+    if (linear) image.rgba_linear.resize(image.rgba8.size());
     return image;
 }
 
 Target target_of(const RenderJob& job, Image& image) {
-    Target target{job.width, job.height, image.rgba8.data(), image.rgba_linear.empty() ? nullptr : image.rgba_linear.data()};
+    Target target = image.target();
+    target.width = job.width, target.height = job.height;
     target.region_alone = true;
     return target;
 }

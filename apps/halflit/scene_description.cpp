@@ -50,32 +50,27 @@ Json names_json(const std::vector<std::string>& names) {
 }
 
 Json file_json(const SceneInfo& file) {
-    Json json{{"format", file.format},
-              {"version", file.version},
-              {"generator", file.generator},
-              {"scenes", file.scenes},
-              {"scene_names", Json::array()},
-              {"scene", file.scene < 0 ? Json() : Json(file.scene)},
-              {"variants", Json::array()},
-              {"nodes", file.nodes},
-              {"meshes", file.meshes},
-              {"primitives", file.primitives},
-              {"materials", file.materials},
-              {"textures", file.textures},
-              {"images", file.images},
-              {"cameras", file.cameras},
-              {"lights", file.lights},
-              {"animations", file.animations},
-              {"skins", file.skins},
-              {"morph_targets", file.morph_targets},
-              {"point_and_line_primitives", file.point_and_line_primitives},
-              {"extensions_used", Json::array()},
-              {"extensions_required", Json::array()}};
-    json["scene_names"] = names_json(file.scene_names);
-    json["variants"] = names_json(file.variants);
-    json["extensions_used"] = names_json(file.extensions_used);
-    json["extensions_required"] = names_json(file.extensions_required);
-    return json;
+    return {{"format", file.format},
+            {"version", file.version},
+            {"generator", file.generator},
+            {"scenes", file.scenes},
+            {"scene_names", names_json(file.scene_names)},
+            {"scene", file.scene < 0 ? Json() : Json(file.scene)},
+            {"variants", names_json(file.variants)},
+            {"nodes", file.nodes},
+            {"meshes", file.meshes},
+            {"primitives", file.primitives},
+            {"materials", file.materials},
+            {"textures", file.textures},
+            {"images", file.images},
+            {"cameras", file.cameras},
+            {"lights", file.lights},
+            {"animations", file.animations},
+            {"skins", file.skins},
+            {"morph_targets", file.morph_targets},
+            {"point_and_line_primitives", file.point_and_line_primitives},
+            {"extensions_used", names_json(file.extensions_used)},
+            {"extensions_required", names_json(file.extensions_required)}};
 }
 
 Json counts_json(const Scene& scene) {

@@ -529,41 +529,50 @@ static void test_changes(void) {
     halflit_scene_destroy(cube.scene);
 }
 
+static const float kSquare[4 * 3] = {-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0};
+
+/// A square of the material, without normals and tangents. Texture 0 is of tilted normals.
+static halflit_scene* make_square(const halflit_material* material) {
+    static const float uv[4 * 2] = {0, 1, 1, 1, 0, 0, 1, 0};
+    static const uint32_t two[6] = {0, 1, 2, 2, 1, 3};
+    static const uint8_t tilted[4] = {200, 128, 200, 255};
+    halflit_scene* scene;
+    halflit_mesh mesh;
+    CHECK_OK(halflit_scene_create(&scene));
+    CHECK_OK(halflit_scene_add_texture(scene, tilted, 1, 1, 0, HALFLIT_COLOR_LINEAR, NULL));
+    CHECK_OK(halflit_scene_add_material(scene, material, NULL));
+    halflit_mesh_init(&mesh, sizeof mesh);
+    mesh.positions = kSquare;
+    mesh.uv0 = uv;
+    mesh.vertex_count = 4;
+    mesh.indices = two;
+    mesh.index_count = 6;
+    mesh.material = 0;
+    CHECK_OK(halflit_scene_add_mesh(scene, &mesh, NULL));
+    CHECK_OK(halflit_scene_add_instance(scene, 0, NULL, NULL));
+    return scene;
+}
+
 static void test_tangents_and_normals_follow_the_material(void) {
     // A material that becomes a normal map's after the mesh was added gives the same pixels as one that was from the start.
-    static const float square[4 * 3] = {-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0}, uv[4 * 2] = {0, 1, 1, 1, 0, 0, 1, 0};
-    static const uint32_t two[6] = {0, 1, 2, 2, 1, 3};
-    const uint8_t tilted[4] = {200, 128, 200, 255};
     uint64_t hashes[2] = {0, 1};
     int32_t late;
     for (late = 0; late < 2; ++late) {
         halflit_scene* scene;
         halflit_material material;
-        halflit_mesh mesh;
         halflit_camera camera;
         halflit_settings settings;
-        CHECK_OK(halflit_scene_create(&scene));
-        CHECK_OK(halflit_scene_add_texture(scene, tilted, 1, 1, 0, HALFLIT_COLOR_LINEAR, NULL));
         halflit_material_init(&material, sizeof material);
         material.metallic = 0;
         material.unlit = late;
         material.normal_texture.texture = late ? -1 : 0;
-        CHECK_OK(halflit_scene_add_material(scene, &material, NULL));
-        halflit_mesh_init(&mesh, sizeof mesh);
-        mesh.positions = square;
-        mesh.uv0 = uv;
-        mesh.vertex_count = 4;
-        mesh.indices = two;
-        mesh.index_count = 6;
-        mesh.material = 0;
-        CHECK_OK(halflit_scene_add_mesh(scene, &mesh, NULL));
-        CHECK_OK(halflit_scene_add_instance(scene, 0, NULL, NULL));
+        scene = make_square(&material);
         init_setup(scene, &camera, &settings);
         CHECK(draw(NULL, scene, &camera, &settings) != 0);
         material.unlit = 0;
         material.normal_texture.texture = 0;
         CHECK_OK(halflit_scene_set_material(scene, 0, &material));
-        CHECK_OK(halflit_scene_set_vertices(scene, 0, square, NULL, 4));
+        CHECK_OK(halflit_scene_set_vertices(scene, 0, kSquare, NULL, 4));
         hashes[late] = draw(NULL, scene, &camera, &settings);
         halflit_scene_destroy(scene);
     }
@@ -572,34 +581,19 @@ static void test_tangents_and_normals_follow_the_material(void) {
 
 static void test_coats_have_normals_of_their_own(void) {
     // A coat's normal texture counts on a mesh without tangents.
-    static const float square[4 * 3] = {-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0}, uv[4 * 2] = {0, 1, 1, 1, 0, 0, 1, 0};
-    static const uint32_t two[6] = {0, 1, 2, 2, 1, 3};
-    const uint8_t tilted[4] = {200, 128, 200, 255};
     uint64_t hashes[2] = {0, 0};
     int32_t with;
     for (with = 0; with < 2; ++with) {
         halflit_scene* scene;
         halflit_material material;
-        halflit_mesh mesh;
         halflit_camera camera;
         halflit_settings settings;
-        CHECK_OK(halflit_scene_create(&scene));
-        CHECK_OK(halflit_scene_add_texture(scene, tilted, 1, 1, 0, HALFLIT_COLOR_LINEAR, NULL));
         halflit_material_init(&material, sizeof material);
         material.metallic = 0;
         material.clearcoat = 1;
         material.clearcoat_roughness = 0.3f;
         material.clearcoat_normal_texture.texture = with - 1;
-        CHECK_OK(halflit_scene_add_material(scene, &material, NULL));
-        halflit_mesh_init(&mesh, sizeof mesh);
-        mesh.positions = square;
-        mesh.uv0 = uv;
-        mesh.vertex_count = 4;
-        mesh.indices = two;
-        mesh.index_count = 6;
-        mesh.material = 0;
-        CHECK_OK(halflit_scene_add_mesh(scene, &mesh, NULL));
-        CHECK_OK(halflit_scene_add_instance(scene, 0, NULL, NULL));
+        scene = make_square(&material);
         init_setup(scene, &camera, &settings);
         hashes[with] = draw(NULL, scene, &camera, &settings);
         halflit_scene_destroy(scene);

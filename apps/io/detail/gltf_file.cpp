@@ -22,6 +22,12 @@ bool is_of_vertices(std::string_view attribute) { return is_drawn(attribute) || 
 
 bool is_of_instances(std::string_view attribute) { return attribute == "TRANSLATION" || attribute == "ROTATION" || attribute == "SCALE"; }
 
+std::string place_of(TextureSlot slot) {
+    std::string place(shading::info_of(slot).gltf);
+    std::replace(place.begin(), place.end(), '/', '.');
+    return place;
+}
+
 const MaterialNumbers& default_numbers() {
     static const MaterialNumbers kDefaults = [] {
         MaterialNumbers numbers{};

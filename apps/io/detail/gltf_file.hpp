@@ -191,6 +191,9 @@ struct SpecularGlossiness {
 using MaterialNumbers = std::array<double, shading::kMaterialFloats>;
 [[nodiscard]] const MaterialNumbers& default_numbers();
 
+/// "extensions.KHR_materials_sheen.sheenColorTexture", for messages.
+[[nodiscard]] std::string place_of(TextureSlot slot);
+
 struct Material {
     std::string_view name;
     std::string_view alpha_mode = "OPAQUE";
@@ -203,6 +206,9 @@ struct Material {
     bool unlit = false;  ///< KHR_materials_unlit
     std::optional<OwnLobe> own_lobe;
     int glossy = -1;  ///< into File::glossy; -1: not of specular and glossiness
+
+    /// True if KHR_materials_pbrSpecularGlossiness replaces what is at a place below the material.
+    [[nodiscard]] bool replaces(std::string_view gltf) const { return glossy >= 0 && gltf.starts_with("pbrMetallicRoughness/"); }
 };
 
 struct Scene {

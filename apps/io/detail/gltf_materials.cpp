@@ -83,8 +83,6 @@ float thickness_of(const file::Material& source) {
     return thickness;
 }
 
-bool is_metallic_roughness(std::string_view gltf) { return gltf.starts_with("pbrMetallicRoughness/"); }
-
 /// Sets a value. Returns true if it changes.
 template <class T>
 bool put(T& to, const T& value) {
@@ -98,7 +96,7 @@ bool set_factors(const file::Material& source, Material& material) {
     bool changed = false;
     for (std::size_t row = 0; row < shading::kMaterialNumberCount; ++row) {
         const shading::MaterialNumber& number = shading::kMaterialNumbers[row];
-        if (number.gltf.empty() || row == kThickness || (source.glossy >= 0 && is_metallic_roughness(number.gltf))) continue;
+        if (number.gltf.empty() || row == kThickness || source.replaces(number.gltf)) continue;
         float now[4], before[4];
         held_numbers(source, row, now);
         number.get(material, before);
@@ -160,7 +158,7 @@ private:
     TextureUse texture_of(const file::Material& source, TextureSlot slot, AlphaMode alpha) {
         const shading::TextureSlotInfo& info = shading::info_of(slot);
         const MipRule rule = info.rule == MipRule::alpha && alpha == AlphaMode::opaque ? MipRule::equal : info.rule;
-        if (source.glossy >= 0 && is_metallic_roughness(info.gltf)) {
+        if (source.replaces(info.gltf)) {
             const file::SpecularGlossiness& glossy = document_.file.glossy[static_cast<std::size_t>(source.glossy)];
             return slot == TextureSlot::base_color
                        ? use(glossy.diffuse_texture, "extensions.KHR_materials_pbrSpecularGlossiness.diffuseTexture", ColorSpace::srgb,
@@ -168,9 +166,7 @@ private:
                        : use(glossy.specular_glossiness_texture, "extensions.KHR_materials_pbrSpecularGlossiness.specularGlossinessTexture",
                              ColorSpace::srgb, rule);
         }
-        std::string place(info.gltf);
-        std::replace(place.begin(), place.end(), '/', '.');
-        return use(source.places[slot], place, info.space, rule);
+        return use(source.places[slot], file::place_of(slot), info.space, rule);
     }
 
     TextureUse use(const file::TexturePlace& info, std::string_view key, ColorSpace space, MipRule rule) {
@@ -228,7 +224,7 @@ bool set_material(const file::File& file, std::size_t index, Material& material)
     for (const TextureSlot slot : shading::kAllTextureSlots) {
         TextureUse& use = material.textures[slot];
         const file::TextureTransform* const transform = file.transform_of(source.places[slot]);
-        if (transform == nullptr || !use.used() || (source.glossy >= 0 && is_metallic_roughness(shading::info_of(slot).gltf))) continue;
+        if (transform == nullptr || !use.used() || source.replaces(shading::info_of(slot).gltf)) continue;
         const TextureUse before = use;
         int uv_set = use.uv_set;
         apply_transform(*transform, use, uv_set);

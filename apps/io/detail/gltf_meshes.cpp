@@ -217,12 +217,10 @@ private:
             const TextureUse& use = material.textures[slot];
             if (!use.used() || !(use.uv_set == 1 ? read.source.mesh.uv1 : read.source.mesh.uv0).empty() || document_.warnings_are_full())
                 continue;
-            std::string place(shading::info_of(slot).gltf);
-            std::replace(place.begin(), place.end(), '/', '.');
-            document_.warn(
-                fmt::format("materials[{}].{}: {} has no TEXCOORD_{}, {}", read.source.mesh.material, place, read.where, use.uv_set,
-                            shading::holds_normals(slot) && read.source.mesh.tangents.empty() ? "drawn without it"
-                                                                                              : "drawn with the colour at (0, 0)"));
+            document_.warn(fmt::format(
+                "materials[{}].{}: {} has no TEXCOORD_{}, {}", read.source.mesh.material, file::place_of(slot), read.where, use.uv_set,
+                shading::holds_normals(slot) && read.source.mesh.tangents.empty() ? "drawn without it"
+                                                                                  : "drawn with the colour at (0, 0)"));
         }
     }
 

@@ -52,8 +52,7 @@ double* of_orthographic(File& f, I camera) {
 template <std::size_t Row>
 double* of_material(File& f, I material) {
     file::Material& m = f.materials[material];
-    const bool replaced = m.glossy >= 0 && shading::kMaterialNumbers[Row].gltf.starts_with("pbrMetallicRoughness/");
-    return replaced ? nullptr : &m.numbers[shading::kFirstFloats[Row]];
+    return m.replaces(shading::kMaterialNumbers[Row].gltf) ? nullptr : &m.numbers[shading::kFirstFloats[Row]];
 }
 
 using file::Projection;
