@@ -108,7 +108,7 @@ static_assert([] {
 /// True if the slot's texels are normals.
 [[nodiscard]] constexpr bool holds_normals(TextureSlot slot) { return info_of(slot).rule == MipRule::normal; }
 
-/// False if the texture cannot be seen because its layer (transmission, coat, sheen) is absent.
+/// False if the texture cannot be seen because its layer (transmission, coat, sheen, film) is absent.
 [[nodiscard]] inline bool shows(const Material& material, TextureSlot slot) {
     switch (info_of(slot).stage) {
         case kStageTransmission:
@@ -117,6 +117,8 @@ static_assert([] {
             return material.is_coated();
         case kStageSheen:
             return material.has_sheen();
+        case kStageIridescence:
+            return material.is_iridescent();
         default:
             return true;
     }

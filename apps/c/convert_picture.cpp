@@ -16,7 +16,6 @@ constexpr bool ends_with(std::size_t offset, Last T::*) {
 HALFLIT_ENDS_WITH(halflit_load_options, reserved);
 HALFLIT_ENDS_WITH(halflit_animation, channels);
 HALFLIT_ENDS_WITH(halflit_counts, animations);
-HALFLIT_ENDS_WITH(halflit_material, sheen_roughness_texture);
 HALFLIT_ENDS_WITH(halflit_mesh, topology);
 HALFLIT_ENDS_WITH(halflit_light, shadow_radius);
 HALFLIT_ENDS_WITH(halflit_environment_options, reserved);

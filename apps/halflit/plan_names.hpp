@@ -26,7 +26,8 @@ inline constexpr std::string_view kStageNames[kStageCount] = {"base colour textu
                                                               "specular colour",
                                                               "shadow catcher",
                                                               "clearcoat",
-                                                              "sheen"};
+                                                              "sheen",
+                                                              "iridescence"};
 
 /// Indexed by LightType.
 inline constexpr std::string_view kLightTypeNames[] = {"directional", "point", "spot"};

@@ -6,10 +6,10 @@
 
 namespace halflit::raster {
 
-/// Stages that ShadeKernels::light runs if light is not evaluated at fragments.
-inline constexpr std::uint32_t kLightStages = kStageNormalMap | kStageMetallicRoughnessTexture | kStageOcclusionTexture | kStageLights |
-                                              kStageSpecular | kStageAmbient | kStageEnvironment | kStageSpecularColor | kStageClearcoat |
-                                              kStageSheen;
+/// Stages that ShadeKernels::light runs if light is not evaluated at fragments: all but those of base colours, emission and alpha.
+inline constexpr std::uint32_t kLightStages =
+    ~std::uint32_t{kStageBaseColorTexture | kStageVertexColor | kStageEmissiveTexture | kStageUnlit | kStageGradients | kStagePrelit |
+                   kStageTransmission | kStageShadowCatcher};
 /// Stages that ShadeKernels::alpha runs.
 inline constexpr std::uint32_t kAlphaStages = kStageBaseColorTexture | kStageVertexColor | kStageGradients;
 

@@ -5,6 +5,7 @@
 #include "shading/budget/texture_bounds.hpp"
 #include "shading/model/reflection_tables.hpp"
 #include "shading/model/scalar.hpp"
+#include "shading/model/thin_film.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -129,6 +130,31 @@ double ggx_codes(const CodeCosts& costs, const Surface& s, double light_sum) {
            costs.absolute(strength * s.cosine_error() / least) + costs.absolute(strength * kSchlickError);
 }
 
+/// Error of F0 below a thin film, for errors of N.V and of the F0 without it. Schlick's curve is turned around at N.V = 0.1 at the most,
+/// where a change of the film's reflectance I counts 1 / (1 - 0.9^5) = 2.44 times, and N.V itself at most 20 times. I changes with the way
+/// of the light by at most 2 (0.08 + 0.16) per nanometre: the sum of the waves' amplitudes is 5.3, twice for light that went twice.
+double film_error(const MaterialPlan& material, double cosine_error, double f0_error, const SceneFacts& facts) {
+    constexpr double kTurned = 2.45, kPerNm = 0.5, kWaves = 5.3;
+    const IridescencePlan& film = material.iridescence;
+    const double ior = film.ior;
+    const double most = std::max(film.thickness_nm, film.thickness_nm + film.thickness_range_nm);
+    double thickness_error = 2e-7 * most, share_error = 0.0;
+    if (const TexturePlan& texture = material.textures[TextureSlot::iridescence_thickness]; texture.data != nullptr)
+        thickness_error += std::fabs(double{film.thickness_range_nm}) * filter_error(texture, 1, facts.largest_uv);
+    if (const TexturePlan& texture = material.textures[TextureSlot::iridescence]; texture.data != nullptr)
+        share_error += static_cast<double>(film.factor) * filter_error(texture, 0, facts.largest_uv);
+    if (std::min(film.thickness_nm, film.thickness_nm + film.thickness_range_nm) < 2.0f * kThinFilmNm)
+        share_error += thickness_error / double{kThinFilmNm};
+    // The waves' turns are rounded: 45 of them at most.
+    const double turns = kWaves * 2.0 * (3e-7 * 45.0 * 6.3 * 0.05 + 2e-6);
+    // Ways change by at most 2 d with N.V, and Fresnel's shares by at most 60. The amplitude that the inner side reflects changes n times as
+    // fast as the one without a film, and its sign within 1 / kFilmSignSlope.
+    const double amplitude = std::min(1.0, std::sqrt(f0_error) + 1e-6);
+    const double reflectance = (kPerNm * 2.0 * std::min(most, 1e4) + 60.0) * cosine_error + kPerNm * 2.0 * ior * thickness_error + turns +
+                               2.0 * kWaves * double{kFilmSignSlope} * ior * amplitude;
+    return std::min(1.0, kTurned * reflectance + 20.0 * cosine_error + share_error);
+}
+
 }  // namespace
 
 Factor factor_of(double error, double least) { return {error, error < least ? std::min(error / (least - error), kAnyShare) : kAnyShare}; }
@@ -181,6 +207,23 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
     }
     constexpr double kLeastReflectance = 1e-6;  // costs are divided by it
     s.reflectance = std::max({kLeastReflectance, dielectric, s.metallic > 0.0 ? s.albedo : 0.0});
+    s.normal_error = kNormalError;
+    if (has(kStageNormalMap)) {
+        // The three components are in [-1, 1], each off by twice its channel's error. The vector is no shorter than its z. Where z may be 0
+        // there is no bound: between texels that point away from each other a normal may be as short as one likes.
+        const double z = 2.0 * least_value(material.textures[TextureSlot::normal], 2) - 1.0;
+        const double error = 2.0 * 1.7320508 * filtered(material.textures[TextureSlot::normal], {0, 1, 2}) *
+                             std::max(1.0, std::fabs(double{material.normal_scale}));
+        s.normal_error += error < z ? error / (z - error) : 2.0;
+        if (material.normal_roughness) {
+            // (r^4 + u^2)^(1/4), u being what the normals lost, has the slope u / (2 (r^4 + u^2)^(3/4)) in u, which is at most 1 / (2 r).
+            const double held = std::max(roughness, double{kMinRoughness});
+            const double lost =
+                filtered(material.textures[TextureSlot::normal], {3}) * std::fabs(double{material.normal_scale}) / (2.0 * held);
+            s.roughness.absolute += lost;
+            s.roughness.relative += lost / held;
+        }
+    }
     if (has(kStageOcclusionTexture)) {
         const double strength = material.occlusion_strength;
         s.occlusion = factor_of(strength * filtered(material.textures[TextureSlot::occlusion], {0}),
@@ -194,6 +237,13 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
                      filtered(material.textures[TextureSlot::specular_color], {0, 1, 2});
         if (material.textures[TextureSlot::specular].data != nullptr) error += filtered(material.textures[TextureSlot::specular], {3});
         s.dielectric = {error, error > 0.0 ? kAnyShare : 0.0};
+        s.least_albedo = 0.0;
+    }
+    if (has(kStageIridescence)) {
+        s.reflectance = 1.0;
+        s.shiny = {s.shiny.absolute > 0.0 ? s.matt.absolute : 0.0, s.shiny.absolute > 0.0 ? kAnyShare : 0.0};
+        const double f0_error = s.dielectric.absolute + (s.metallic > 0.0 ? s.base_color.absolute : 0.0);
+        s.dielectric = {film_error(material, s.cosine_error(), f0_error, facts), kAnyShare};
         s.least_albedo = 0.0;
     }
     if (has(kStageTransmission)) {
@@ -220,23 +270,6 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
     if (material.ggx) {
         s.reflectance = std::max(1.0, s.reflectance);  // at grazing views
         s.normalization = ggx_most(roughness) * most_bounced() * s.reflectance;
-    }
-    s.normal_error = kNormalError;
-    if (has(kStageNormalMap)) {
-        // The three components are in [-1, 1], each off by twice its channel's error. The vector is no shorter than its z. Where z may be 0
-        // there is no bound: between texels that point away from each other a normal may be as short as one likes.
-        const double z = 2.0 * least_value(material.textures[TextureSlot::normal], 2) - 1.0;
-        const double error = 2.0 * 1.7320508 * filtered(material.textures[TextureSlot::normal], {0, 1, 2}) *
-                             std::max(1.0, std::fabs(double{material.normal_scale}));
-        s.normal_error += error < z ? error / (z - error) : 2.0;
-        if (material.normal_roughness) {
-            // (r^4 + u^2)^(1/4), u being what the normals lost, has the slope u / (2 (r^4 + u^2)^(3/4)) in u, which is at most 1 / (2 r).
-            const double held = std::max(roughness, double{kMinRoughness});
-            const double lost =
-                filtered(material.textures[TextureSlot::normal], {3}) * std::fabs(double{material.normal_scale}) / (2.0 * held);
-            s.roughness.absolute += lost;
-            s.roughness.relative += lost / held;
-        }
     }
     return s;
 }

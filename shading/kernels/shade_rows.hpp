@@ -29,6 +29,10 @@ struct alignas(64) ShadeRows {
     Row3 layers;                       ///< light of the layers above the base, which is added to the base's
     Row passed_layers;                 ///< share of light from below that passes through all of them
     Row passed_coat;                   ///< share of the base's light that passes through a coat; with kStageClearcoat
+    Row film_share, film_r0;           ///< share of the surface below a thin film; (n - 1) / (n + 1) of the film; with kStageIridescence
+    Row film_outer, film_grazing;      ///< what the film's outer side reflects; (1 - cos)^5 at its inner side
+    Row film_schlick;                  ///< (1 - N.V)^5, N.V from kLeastFilmCosine
+    Row3 film_once, film_twice;        ///< how light that went through the film once, or twice, interferes
     Row3 passed;                       ///< share of that light which is not absorbed
 };
 HALFLIT_INLINE V3 load3(const ShadeRows::Row3& rows, int lane) {

@@ -8,6 +8,7 @@
 #include "shading/kernels/environment_kernel.hpp"
 #include "shading/kernels/ggx_kernel.hpp"
 #include "shading/kernels/highlight_sums.hpp"
+#include "shading/kernels/iridescence_kernel.hpp"
 #include "shading/kernels/reflection_kernel.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 #include "shading/kernels/shade_rows.hpp"
@@ -190,6 +191,7 @@ HALFLIT_INLINE void add_light(const shading::ShadingPlan& frame, const shading::
         if (!frame.sky.empty()) hide_sky<kSpecular>(frame, material, block, count, rows);
     }
     if (has(material, kStageSpecularColor)) fetch_specular_color(material, block, count, rows);
+    if (has(material, kStageIridescence)) fetch_film(material, block, count, rows);
     if (has(material, kStageTransmission)) {
         fetch_transmission(material, block, count, rows);
         dim_matt_light(material, count, rows);

@@ -3,6 +3,7 @@
 #include "sh/power.hpp"
 #include "shading/material_properties.hpp"
 #include "shading/model/numbers.hpp"
+#include "shading/model/thin_film.hpp"
 
 #include <algorithm>
 
@@ -44,6 +45,17 @@ void plan_specular_color(const Material& material, MaterialPlan& plan) {
     }
     plan.dielectric = std::min(largest, 1.0f) * plan.specular_weight;
     plan.refracted = 1.0f - plan.dielectric;
+}
+
+void plan_iridescence(const Material& material, MaterialPlan& plan) {
+    IridescencePlan& film = plan.iridescence;
+    film.factor = clamp_or_low(material.iridescence, 0.0f, 1.0f);
+    film.ior = clamp_or_low(material.iridescence_ior, 1.0f, kMostFilmIor);
+    const float least = clamp_or_low(material.iridescence_thickness_min_nm, 0.0f, kMostFilmNm),
+                most = clamp_or_low(material.iridescence_thickness_max_nm, 0.0f, kMostFilmNm);
+    const bool textured = plan.textures[TextureSlot::iridescence_thickness].data != nullptr;
+    film.thickness_nm = textured ? least : most;
+    film.thickness_range_nm = textured ? most - least : 0.0f;
 }
 
 /// True if the levels of a texture of normals keep what they lose as roughness.
@@ -128,7 +140,8 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
     use_texture(lit && has_tangents, TextureSlot::normal);
     use_texture(lit && kinds.ambient && plan.occlusion_strength > 0.0f, TextureSlot::occlusion);
     use_texture(!material.unlit && !zero(material.emissive), TextureSlot::emissive);
-    if (lit && kinds.specular && material.has_specular_color()) {
+    const bool film = lit && kinds.specular && material.is_iridescent();
+    if (lit && kinds.specular && (material.has_specular_color() || film)) {
         plan.stages |= kStageSpecularColor;
         plan_specular_color(material, plan);
         use_texture(true, TextureSlot::specular);
@@ -158,6 +171,12 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
         plan.sheen.roughness = clamp_or_low(material.sheen_roughness, 0.0f, 1.0f);
         use_texture(true, TextureSlot::sheen_color);
         use_texture(true, TextureSlot::sheen_roughness);
+    }
+    if (film) {
+        plan.stages |= kStageIridescence;
+        use_texture(true, TextureSlot::iridescence);
+        use_texture(true, TextureSlot::iridescence_thickness);
+        plan_iridescence(material, plan);
     }
     plan.normal_roughness = kinds.specular && loses_normals(plan.textures[TextureSlot::normal]);
     if (gradients) plan.stages |= kStageGradients;

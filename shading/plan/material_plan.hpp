@@ -49,6 +49,12 @@ struct SheenPlan {
     float roughness = 0;
 };
 
+/// A thin film as planned; used with kStageIridescence.
+struct IridescencePlan {
+    float factor = 0, ior = 1;
+    float thickness_nm = 0, thickness_range_nm = 0;  ///< without a texture; by which a texture of 1 exceeds it
+};
+
 struct MaterialPlan {
     std::uint32_t stages = 0;  ///< bits of Stage; a block runs only these
     SlotMask slots = 0;        ///< vertex slots that raster interpolates
@@ -83,6 +89,7 @@ struct MaterialPlan {
     TransmissionPlan transmission;
     ClearcoatPlan clearcoat;
     SheenPlan sheen;
+    IridescencePlan iridescence;
 };
 
 /// True if the roughness may differ from fragment to fragment.

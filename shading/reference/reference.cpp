@@ -5,6 +5,7 @@
 #include "shading/model/reflection_tables.hpp"
 #include "shading/model/sheen_table.hpp"
 #include "shading/model/srgb.hpp"
+#include "shading/model/thin_film.hpp"
 
 #include <algorithm>
 #include <array>
@@ -443,6 +444,48 @@ double transmitted(const FrameInputs& frame, const Material& material, SlotMask 
            material_texture(frame, material.textures[TextureSlot::transmission], available, block, lane, {1, 1, 1, 1}).r;
 }
 
+/// F0 of a surface below a thin film, by the formulas of KHR_materials_iridescence: indices of refraction, phases, and Schlick's curve
+/// turned around. The phase belongs to the channel, not to X, Y or Z.
+double below_film(double f0, double ior, double thickness_nm, double n_dot_v, int channel) {
+    const double cosine = std::clamp(n_dot_v, double{kLeastFilmCosine}, 1.0), n2 = ior, cosine2 = std::sqrt(1 - (1 - cosine * cosine) / (n2 * n2));
+    const auto schlick = [](double f, double c) { return f + (1 - f) * std::pow(1 - c, 5.0); };
+    const double n3 = (1 + std::sqrt(std::clamp(f0, 0.0, 0.999999))) / (1 - std::sqrt(std::clamp(f0, 0.0, 0.999999)));
+    const double amplitude = (n3 - n2) / (n3 + n2), r12 = schlick(std::pow((n2 - 1) / (n2 + 1), 2.0), cosine), t121 = 1 - r12;
+    const double r23 = schlick(amplitude * amplitude, cosine2), r123 = std::sqrt(r12 * r23), rs = t121 * t121 * r23 / (1 - r12 * r23);
+    const double way = std::min(2 * n2 * thickness_nm * cosine2, double{kMostFilmWay});
+    const auto sensitivity = [&](int times) {
+        double sum = 0;
+        for (const FilmWave& wave : kFilmWaves)
+            sum += double{wave.rgb[channel]} * std::cos(2 * kPi * double{wave.waves_per_nm} * times * way) *
+                   std::exp2(-double{wave.fade_per_nm2} * std::pow(times * way, 2.0));
+        return sum;
+    };
+    const double sign = std::clamp(amplitude * double{kFilmSignSlope}, -1.0, 1.0);  // -cos of the phase, 1 or -1 but about 0
+    const double seen = r12 + rs - 2 * (rs - t121) * r123 * sign * sensitivity(1) + 2 * (rs - t121) * r123 * r123 * sensitivity(2);
+    const double grazing = std::pow(1 - cosine, 5.0);
+    return std::clamp((seen - grazing) / (1 - grazing), 0.0, 1.0);
+}
+
+/// Puts a thin film above a surface.
+void add_film(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
+              Surface& surface) {
+    const Rgba white{1, 1, 1, 1};
+    const double least = std::clamp(double{material.iridescence_thickness_min_nm}, 0.0, double{kMostFilmNm}),
+                 most = std::clamp(double{material.iridescence_thickness_max_nm}, 0.0, double{kMostFilmNm});
+    const double thickness =
+        least + (most - least) *
+                    material_texture(frame, material.textures[TextureSlot::iridescence_thickness], available, block, lane, white).g;
+    const double share = std::clamp(double{material.iridescence}, 0.0, 1.0) * std::clamp(thickness / double{kThinFilmNm}, 0.0, 1.0) *
+                         material_texture(frame, material.textures[TextureSlot::iridescence], available, block, lane, white).r;
+    const double ior = std::clamp(double{material.iridescence_ior}, 1.0, double{kMostFilmIor}),
+                 n_dot_v = dot(surface.normal, surface.to_eye);
+    const auto with_film = [&](double f0, int channel) { return f0 + share * (below_film(f0, ior, thickness, n_dot_v, channel) - f0); };
+    const auto each = [&](Vec3d f0) { return Vec3d{with_film(f0.x, 0), with_film(f0.y, 1), with_film(f0.z, 2)}; };
+    surface.dielectric = each(surface.dielectric);
+    surface.f0 = scale(each(surface.base), surface.metallic) + scale(surface.dielectric, 1 - surface.metallic);
+    surface.albedo = scale(surface.matt, 1 - surface.largest_dielectric());
+}
+
 Surface surface_of(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane) {
     const Rgba white{1, 1, 1, 1}, base = base_color(frame, material, available, block, lane);
     const Rgba mr = material_texture(frame, material.textures[TextureSlot::metallic_roughness], available, block, lane, white);
@@ -471,6 +514,7 @@ Surface surface_of(const FrameInputs& frame, const Material& material, SlotMask 
                               channel(material.specular_color.z, color.b)};
         surface.albedo = scale(surface.matt, 1 - surface.largest_dielectric());
         surface.f0 = scale(surface.base, surface.metallic) + scale(surface.dielectric, 1 - surface.metallic);
+        if (material.is_iridescent()) add_film(frame, material, available, block, lane, surface);
     }
     return surface;
 }

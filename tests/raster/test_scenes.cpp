@@ -345,6 +345,51 @@ NamedScene fabrics_scene() {
     return out;
 }
 
+NamedScene films_scene() {
+    NamedScene out{"films", {}, camera_at({0.4f, 1.7f, 4.2f}, {0, 0.1f, 0}, 0.75f, 0.05f)};
+    Scene& s = out.scene;
+    add_lights(s);
+    const int patches = add_texture(s, 32, 32, ColorSpace::linear, 24, false), bumps = add_texture(s, 48, 48, ColorSpace::linear, 25, true);
+    Mesh ball = make_sphere(0.55f, 28, 16);
+    generate_tangents(ball, 0);
+    const auto place = [&](Material material, float x, float z) {
+        add(s, ball, add_material(s, std::move(material)), translation({x, 0, z}));
+    };
+
+    Material soap;
+    soap.base_color = {0.9f, 0.9f, 0.95f, 1};
+    soap.metallic = 0, soap.roughness = 0.1f, soap.transmission = 0.9f;
+    soap.iridescence = 1, soap.iridescence_thickness_max_nm = 480;
+    place(soap, 0.7f, 1.2f);
+    Material steel;
+    steel.base_color = {0.6f, 0.58f, 0.55f, 1};
+    steel.roughness = 0.25f;
+    steel.iridescence = 1, steel.iridescence_ior = 1.8f;
+    steel.iridescence_thickness_min_nm = 50, steel.iridescence_thickness_max_nm = 600;
+    steel.textures[TextureSlot::iridescence_thickness].texture = patches;
+    steel.textures[TextureSlot::normal].texture = bumps;
+    place(steel, -1.3f, 0.3f);
+    Material beetle = steel;
+    beetle.base_color = {0.02f, 0.1f, 0.05f, 1};
+    beetle.metallic = 0.4f;
+    beetle.specular_color = {1, 0.5f, 0.7f};
+    beetle.textures[TextureSlot::iridescence].texture = patches;
+    beetle.clearcoat = 0.5f, beetle.clearcoat_roughness = 0.2f;
+    place(beetle, 1.3f, 0.3f);
+    Material pearl;
+    pearl.base_color = {0.8f, 0.75f, 0.7f, 1};
+    pearl.metallic = 0, pearl.roughness = 0.4f;
+    pearl.iridescence = 0.7f, pearl.iridescence_thickness_max_nm = 300;
+    pearl.sheen_color = {0.2f, 0.2f, 0.2f}, pearl.sheen_roughness = 0.5f;
+    pearl.double_sided = true;
+    place(pearl, -0.5f, -0.8f);
+    Material oil = pearl;
+    oil.base_color = {0.05f, 0.05f, 0.05f, 1};
+    oil.sheen_color = {0, 0, 0};
+    add(s, make_plane(7, 3), add_material(s, oil), translation({0, -0.55f, 0}));
+    return out;
+}
+
 std::vector<NamedScene> all_scenes() {
     std::vector<NamedScene> scenes;
     Scene demo = demo_scene();
@@ -357,6 +402,7 @@ std::vector<NamedScene> all_scenes() {
     scenes.push_back(many_lights_scene());
     scenes.push_back(coats_scene());
     scenes.push_back(fabrics_scene());
+    scenes.push_back(films_scene());
     return scenes;
 }
 

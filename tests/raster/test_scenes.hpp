@@ -36,6 +36,8 @@ struct NamedScene {
 
 /// Bodies with sheen: smooth, rough, coloured by textures, below coats, above metal and glass.
 [[nodiscard]] NamedScene fabrics_scene();
+/// Objects below thin films: on glass, metal and plastic, thickness and share by textures, below coats and sheen.
+[[nodiscard]] NamedScene films_scene();
 
 /// All above, and the built-in demo scene.
 [[nodiscard]] std::vector<NamedScene> all_scenes();

@@ -1,14 +1,12 @@
 // KHR_materials_clearcoat: against the extension's formulas in float64, the white furnace, extremes, and every instruction set.
 #include "random_case.hpp"
-#include "shading/kernels/shade_kernels.hpp"
-#include "tests/sh/sky_images.hpp"
+#include "tests/shading/surface_bench.hpp"
 #include "tests/support/isas.hpp"
 
 #include "tests/support/catch.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 using namespace halflit;
 using namespace halflit::shading;
@@ -17,71 +15,10 @@ using halflit::test::painted_sky;
 
 namespace {
 
-Vec3d unit(Vec3d v) { return v * (1 / std::sqrt(dot(v, v))); }
-Vec3f to_float(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
-Vec3d at_angle(double from_normal, double turn = 0) {
-    return {std::sin(from_normal) * std::cos(turn), std::sin(from_normal) * std::sin(turn), std::cos(from_normal)};
-}
 double schlick(double cosine) { return 0.04 + 0.96 * std::pow(1 - cosine, 5); }
 
-/// A coated surface at the origin with the normal +z and the tangent +x, seen from `to_eye`.
-struct Bench {
-    Material material;
-    std::vector<Texture> textures;
-    std::vector<Light> lights;
-    Ambient ambient;
-    std::shared_ptr<const Environment> environment;
-    ShadingSettings options;
-
+struct Bench : SurfaceBench {
     Bench() { material.metallic = 0, material.clearcoat = 1; }
-    void add_light(Vec3d to_light, float color = 1) {
-        lights.push_back({.color_linear = {color, color, color}, .direction_ws = to_float(to_light * -1.0)});
-    }
-    void add_sky(float radiance) {
-        EnvironmentOptions sky;
-        sky.extract_suns = false;
-        environment = std::make_shared<Environment>(make_environment(painted_sky(64, 32,
-                                                                                 [&](Vec3d) {
-                                                                                     return Vec3d{radiance, radiance, radiance};
-                                                                                 })
-                                                                         .view(),
-                                                                     sky));
-    }
-    /// A texture of one texel, linear.
-    int add_texel(double r, double g, double b) {
-        const auto code = [](double v) { return static_cast<std::uint16_t>(std::lround(v * 65535)); };
-        const std::uint16_t texel[] = {code(r), code(g), code(b), 65535};
-        textures.push_back(Texture::from_rgba16(texel, 1, 1).value());
-        return static_cast<int>(textures.size()) - 1;
-    }
-    [[nodiscard]] ShadingPlan plan() const {
-        const std::vector<SlotMask> slots{7u, 7u};
-        PlanMemory memory;
-        return plan_shading({.materials = {&material, 1},
-                             .textures = textures,
-                             .available_slots = slots,
-                             .lights = plan_lights(lights),
-                             .ambient = ambient,
-                             .options = options,
-                             .environment = environment},
-                            memory);
-    }
-    [[nodiscard]] Vec3d seen_from(Vec3d to_eye, Isa isa = Isa::scalar) const {
-        ShadingPlan frame = plan();
-        return seen_from(to_eye, isa, frame);
-    }
-    /// `frame` is plan()'s, of which only the eye is changed.
-    static Vec3d seen_from(Vec3d to_eye, Isa isa, ShadingPlan& frame) {
-        frame.orthographic = true;
-        frame.view_direction_ws = to_float(to_eye * -1.0);
-        FragmentBlock block{};
-        for (int lane = 0; lane < kBlockSize; ++lane) {
-            block.lane[kNormalZ][lane] = 1, block.lane[kTangentX][lane] = 1, block.lane[kTangentW][lane] = 1;
-            block.lane[kFacing][lane] = 1;
-        }
-        shade_kernels(isa).shade(frame, frame.materials[0], all_lights(frame), block, kBlockSize);
-        return {block.red[0], block.green[0], block.blue[0]};
-    }
 };
 
 double blinn(Vec3d n, Vec3d l, Vec3d v, double roughness) {
@@ -175,7 +112,7 @@ TEST_CASE(
         for (int j = 1; j <= 20; ++j) {
             Bench bench;
             bench.material.clearcoat_roughness = static_cast<float>(i / 20.0);
-            bench.add_sky(1.0f);
+            bench.set_sky(1.0);
             const double cosine = j / 20.0, got = bench.seen_from(at_angle(std::acos(cosine))).x;
             most = std::max(most, got), least = std::min(least, got);
             if (cosine > 0.29) least_facing = std::min(least_facing, got);
@@ -237,16 +174,16 @@ TEST_CASE("clearcoat: extremes of share, roughness and angle are finite, and the
                     bench.material.clearcoat = share, bench.material.clearcoat_roughness = roughness;
                     for (const double angle : {0.0, 0.7, 1.5707, 1.570797, 3.0}) bench.add_light(at_angle(angle, 2.0));
                     if (sky)
-                        bench.add_sky(1.0f);
+                        bench.set_sky(1.0);
                     else
                         bench.ambient = {{0.5f, 0.6f, 0.7f}, {0.1f, 0.1f, 0.1f}};
                     ShadingPlan frame = bench.plan();
                     for (const double view : {0.0, 0.7, 1.5707, 1.570796, 1.6, 3.1}) {
-                        const Vec3d want = Bench::seen_from(at_angle(view), Isa::scalar, frame);
+                        const Vec3d want = bench.seen_from(at_angle(view), Isa::scalar, frame);
                         INFO("share " << share << ", roughness " << roughness << ", view " << view);
                         REQUIRE((std::isfinite(want.x) && want.x >= 0));
                         for (const Isa isa : halflit::test::available_isas())
-                            CHECK(Bench::seen_from(at_angle(view), isa, frame).x == want.x);
+                            CHECK(bench.seen_from(at_angle(view), isa, frame).x == want.x);
                     }
                 }
 }

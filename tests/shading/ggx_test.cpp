@@ -1,7 +1,6 @@
 // Highlights of lights by GGX: against the textbook's formulas in float64, the white furnace, and extremes.
 #include "random_case.hpp"
-#include "sh/vec3d.hpp"
-#include "shading/kernels/shade_kernels.hpp"
+#include "tests/shading/surface_bench.hpp"
 #include "tests/support/isas.hpp"
 
 #include "tests/support/catch.hpp"
@@ -17,36 +16,12 @@ namespace {
 
 constexpr double kPiHere = 3.14159265358979323846;
 
-Vec3d unit(Vec3d v) { return v * (1 / std::sqrt(dot(v, v))); }
-
-/// A surface at the origin with the normal +z, seen from `to_eye`, under directional lights.
-struct Bench {
-    std::vector<Light> lights;
-    Material material;
-    ShadingSettings options;
-    std::vector<SlotMask> available{3u, 3u};
-
+struct Bench : SurfaceBench {
     Bench() { options.specular = SpecularModel::ggx; }
-    void add_light(Vec3d to_light, double color) {
-        const auto c = static_cast<float>(color);
-        lights.push_back(
-            {.color_linear = {c, c, c},
-             .direction_ws = {static_cast<float>(-to_light.x), static_cast<float>(-to_light.y), static_cast<float>(-to_light.z)}});
-    }
     [[nodiscard]] float seen_from(Vec3d to_eye, Isa isa = Isa::scalar) const {
-        ShadingPlan plan = plan_shading({std::span(&material, 1), {}, available, plan_lights(lights), {}, options});
-        plan.orthographic = true;
-        plan.view_direction_ws = {static_cast<float>(-to_eye.x), static_cast<float>(-to_eye.y), static_cast<float>(-to_eye.z)};
-        FragmentBlock block{};
-        for (int lane = 0; lane < kBlockSize; ++lane) block.lane[kNormalZ][lane] = 1.0f;
-        shade_kernels(isa).shade(plan, plan.materials[0], all_lights(plan), block, kBlockSize);
-        return block.red[0];
+        return static_cast<float>(SurfaceBench::seen_from(to_eye, isa).x);
     }
 };
-
-Vec3d at_angle(double from_normal, double turn = 0) {
-    return {std::sin(from_normal) * std::cos(turn), std::sin(from_normal) * std::sin(turn), std::cos(from_normal)};
-}
 
 /// pi D V (N.L) [Walter07, Heitz14], without the Fresnel factor.
 double single_bounce(Vec3d l, Vec3d v, double roughness) {

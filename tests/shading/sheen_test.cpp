@@ -1,8 +1,7 @@
 // KHR_materials_sheen: against Charlie's distribution integrated in float64, the white furnace, extremes, and every instruction set.
 #include "random_case.hpp"
-#include "shading/kernels/shade_kernels.hpp"
 #include "shading/model/sheen_table.hpp"
-#include "tests/sh/sky_images.hpp"
+#include "tests/shading/surface_bench.hpp"
 #include "tests/support/isas.hpp"
 
 #include "tests/support/catch.hpp"
@@ -10,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <string>
 #include <utility>
 
@@ -22,12 +20,6 @@ using halflit::test::Random;
 using halflit::test::Sky;
 
 namespace {
-
-Vec3d unit(Vec3d v) { return v * (1 / std::sqrt(dot(v, v))); }
-Vec3f to_float(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
-Vec3d at_angle(double from_normal, double turn = 0) {
-    return {std::sin(from_normal) * std::cos(turn), std::sin(from_normal) * std::sin(turn), std::cos(from_normal)};
-}
 
 /// D V2 of the extension's text, for the normal n.
 double charlie(Vec3d n, Vec3d l, Vec3d v, double roughness) {
@@ -67,55 +59,11 @@ double table_albedo(double roughness, double n_dot_v) {
     return (at(0, 0) * (1 - u) + at(1, 0) * u) * (1 - w) + (at(0, 1) * (1 - u) + at(1, 1) * u) * w;
 }
 
-/// A surface at the origin with sheen above it.
-struct Bench {
-    Material material;
-    std::vector<Texture> textures;
-    std::vector<Light> lights;
-    Ambient ambient;
-    std::shared_ptr<const Environment> environment;
-    ShadingSettings options;
-    Vec3d normal{0, 0, 1};
-
+struct Bench : SurfaceBench {
     Bench() {
         material.metallic = 0, material.base_color = {0, 0, 0, 1}, material.specular = 0;
         material.sheen_color = {1, 1, 1};
     }
-    void add_light(Vec3d to_light, float color = 1) {
-        lights.push_back({.color_linear = {color, color, color}, .direction_ws = to_float(to_light * -1.0)});
-    }
-    void set_sky(const Sky& sky) {
-        EnvironmentOptions keep;
-        keep.extract_suns = false;
-        environment = std::make_shared<Environment>(make_environment(sky.view(), keep));
-        memory_ = std::make_shared<PlanMemory>();
-    }
-    [[nodiscard]] ShadingPlan plan() const {
-        const std::vector<SlotMask> slots{3u, 3u};
-        PlanMemory own;
-        return plan_shading({.materials = {&material, 1},
-                             .textures = textures,
-                             .available_slots = slots,
-                             .lights = plan_lights(lights),
-                             .ambient = ambient,
-                             .options = options,
-                             .environment = environment},
-                            memory_ ? *memory_ : own);
-    }
-    [[nodiscard]] Vec3d seen_from(Vec3d to_eye, Isa isa = Isa::scalar) const {
-        ShadingPlan frame = plan();
-        frame.orthographic = true;
-        frame.view_direction_ws = to_float(to_eye * -1.0);
-        FragmentBlock block{};
-        const Vec3f n = to_float(normal);
-        for (int lane = 0; lane < kBlockSize; ++lane)
-            block.lane[kNormalX][lane] = n.x, block.lane[kNormalX + 1][lane] = n.y, block.lane[kNormalX + 2][lane] = n.z;
-        shade_kernels(isa).shade(frame, frame.materials[0], all_lights(frame), block, kBlockSize);
-        return {block.red[0], block.green[0], block.blue[0]};
-    }
-
-private:
-    std::shared_ptr<PlanMemory> memory_;
 };
 
 }  // namespace
@@ -186,7 +134,7 @@ TEST_CASE("sheen: in a white furnace a white surface with white sheen reflects a
         bench.material = Material{};
         bench.material.metallic = 0;
         bench.material.sheen_color = {1, 1, 1}, bench.material.sheen_roughness = static_cast<float>(i / 10.0);
-        bench.set_sky(painted_sky(64, 32, [](Vec3d) { return Vec3d{0.75, 0.75, 0.75}; }));
+        bench.set_sky(0.75);
         for (int j = 1; j <= 20; ++j)
             worst = std::max(worst, std::fabs(bench.seen_from(at_angle(std::acos(j / 20.0), 0.4 * j)).x / 0.75 - 1));
     }
@@ -290,16 +238,11 @@ TEST_CASE("sheen: extremes of colour, roughness and angle are finite, and the sa
 }
 
 TEST_CASE("sheen: colour and roughness follow their textures, and emission is not dimmed", "[shading][sheen]") {
-    const auto texel = [](double r, double g, double b, double a) {
-        const auto code = [](double v) { return static_cast<std::uint16_t>(std::lround(v * 65535)); };
-        const std::uint16_t rgba[] = {code(r), code(g), code(b), code(a)};
-        return Texture::from_rgba16(rgba, 1, 1).value();
-    };
     Bench plain, textured;
     plain.material.sheen_color = {0.4f, 0.1f, 0}, plain.material.sheen_roughness = 0.4f;
     textured.material.sheen_color = {0.8f, 0.5f, 0.7f}, textured.material.sheen_roughness = 0.8f;
-    textured.textures = {texel(0.5, 0.2, 0, 1), texel(1, 1, 1, 0.5)};
-    textured.material.textures[TextureSlot::sheen_color].texture = 0, textured.material.textures[TextureSlot::sheen_roughness].texture = 1;
+    textured.material.textures[TextureSlot::sheen_color].texture = textured.add_texel(0.5, 0.2, 0);
+    textured.material.textures[TextureSlot::sheen_roughness].texture = textured.add_texel(1, 1, 1, 0.5);
     for (Bench* bench : {&plain, &textured}) bench->add_light(at_angle(1.0)), bench->material.emissive = {0, 0, 0.5f};
     const Vec3d want = plain.seen_from(at_angle(1.2)), got = textured.seen_from(at_angle(1.2));
     CHECK(got.x == Approx(want.x).epsilon(1e-4));

@@ -125,6 +125,10 @@ class Material(Record):
         clearcoat_normal_scale: factor on x and y of the coat's normal texture (1)
         sheen_color: of fibres above the surface, linear, in [0, 1]; black: none (0, 0, 0)
         sheen_roughness: in [0, 1]; rougher fibres glow less at grazing views and more elsewhere (0)
+        iridescence: share of the surface that the film covers, in [0, 1] (0)
+        iridescence_ior: index of refraction of the film, from 1 (1.3)
+        iridescence_thickness_min_nm: of the film where its texture is 0, nanometres, from 0 (100)
+        iridescence_thickness_max_nm: of the film where its texture is 1, or without a texture (400)
         base_color_texture: sRGB, alpha linear
         metallic_roughness_texture: linear: green is roughness, blue metallic
         normal_texture: linear, in tangent space: (2c - 1) * (normal_scale, normal_scale, 1)
@@ -139,6 +143,7 @@ class Material(Record):
         clearcoat_normal_texture: linear, in tangent space; without it the coat has the mesh's normals, not the base's normal map
         sheen_color_texture: sRGB
         sheen_roughness_texture: linear: alpha
+        iridescence_texture: linear: red
     """
 
     _kind, _choices = "material", {"alpha_mode": "ALPHA"}
@@ -166,6 +171,10 @@ class Material(Record):
         "clearcoat": (0.0, 1.0),
         "clearcoat_roughness": (0.0, 1.0),
         "sheen_roughness": (0.0, 1.0),
+        "iridescence": (0.0, 1.0),
+        "iridescence_ior": (1.0, math.inf),
+        "iridescence_thickness_min_nm": (0.0, math.inf),
+        "iridescence_thickness_max_nm": (0.0, math.inf),
     }
     base_color: Color
     metallic: float
@@ -186,6 +195,10 @@ class Material(Record):
     clearcoat_normal_scale: float
     sheen_color: Color
     sheen_roughness: float
+    iridescence: float
+    iridescence_ior: float
+    iridescence_thickness_min_nm: float
+    iridescence_thickness_max_nm: float
     base_color_texture: Union[TextureUse, int]
     metallic_roughness_texture: Union[TextureUse, int]
     normal_texture: Union[TextureUse, int]
@@ -200,6 +213,7 @@ class Material(Record):
     clearcoat_normal_texture: Union[TextureUse, int]
     sheen_color_texture: Union[TextureUse, int]
     sheen_roughness_texture: Union[TextureUse, int]
+    iridescence_texture: Union[TextureUse, int]
     # Other members.
     name: str
     alpha_mode: str

@@ -33,10 +33,12 @@ enum class TextureSlot : std::uint8_t {
     clearcoat_roughness,  ///< linear: green
     clearcoat_normal,     ///< linear, in tangent space; without it the coat has the mesh's normals, not the base's normal map
     sheen_color,          ///< sRGB
-    sheen_roughness       ///< linear: alpha
+    sheen_roughness,      ///< linear: alpha
+    iridescence,          ///< linear: red
+    iridescence_thickness  ///< linear: green, from the least thickness to the greatest
 };
 /// Number of slots.
-inline constexpr int kTextureSlots = 14;
+inline constexpr int kTextureSlots = 16;
 
 /// A value for each slot.
 template <class T>
@@ -93,6 +95,13 @@ struct Material {
     Vec3f sheen_color{0, 0, 0};  ///< of fibres above the surface, linear, in [0, 1]; black: none
     float sheen_roughness = 0;   ///< in [0, 1]; rougher fibres glow less at grazing views and more elsewhere
 
+    // KHR_materials_iridescence: a thin film on the surface, below a coat. Light that its two sides reflect interferes, so what the surface
+    // mirrors has colours that change with the angle, as those of soap bubbles and of coated glass.
+    float iridescence = 0;                     ///< share of the surface that the film covers, in [0, 1]
+    float iridescence_ior = 1.3f;              ///< index of refraction of the film, from 1
+    float iridescence_thickness_min_nm = 100;  ///< of the film where its texture is 0, nanometres, from 0
+    float iridescence_thickness_max_nm = 400;  ///< of the film where its texture is 1, or without a texture
+
     /// True if F0 where not metallic is more than one number.
     [[nodiscard]] bool has_specular_color() const {
         return specular != 1.0f || specular_color != Vec3f{1, 1, 1} || textures[TextureSlot::specular].used() ||
@@ -104,6 +113,8 @@ struct Material {
     [[nodiscard]] bool has_sheen() const {
         return (sheen_color.x > 0.0f || sheen_color.y > 0.0f || sheen_color.z > 0.0f) && !unlit && !shadow_catcher;
     }
+    /// True if there is a thin film that may be seen.
+    [[nodiscard]] bool is_iridescent() const { return iridescence > 0.0f && !unlit && !shadow_catcher; }
     /// True if light passes through.
     [[nodiscard]] bool transmits() const { return transmission > 0.0f && !unlit && !shadow_catcher; }
     /// True if the surface is drawn over what is behind it.

@@ -113,7 +113,8 @@ enum Stage : std::uint32_t {
     kStageShadowCatcher = 1u << 15,  ///< alpha is the share of light that is hidden; nothing else is seen
     kStageClearcoat = 1u << 16,      ///< a coat above the surface mirrors
     kStageSheen = 1u << 17,          ///< fibres above the surface glow at grazing views
-    kStageCount = 18
+    kStageIridescence = 1u << 18,    ///< a thin film colours what the surface mirrors
+    kStageCount = 19
 };
 
 }  // namespace halflit

@@ -228,6 +228,14 @@ typedef struct halflit_material {
     float sheen_color[3];
     /// in [0, 1]; rougher fibres glow less at grazing views and more elsewhere (0)
     float sheen_roughness;
+    /// share of the surface that the film covers, in [0, 1] (0)
+    float iridescence;
+    /// index of refraction of the film, from 1 (1.3)
+    float iridescence_ior;
+    /// of the film where its texture is 0, nanometres, from 0 (100)
+    float iridescence_thickness_min_nm;
+    /// of the film where its texture is 1, or without a texture (400)
+    float iridescence_thickness_max_nm;
     /// sRGB, alpha linear
     halflit_texture_use base_color_texture;
     /// linear: green is roughness, blue metallic
@@ -256,6 +264,8 @@ typedef struct halflit_material {
     halflit_texture_use sheen_color_texture;
     /// linear: alpha
     halflit_texture_use sheen_roughness_texture;
+    /// linear: red
+    halflit_texture_use iridescence_texture;
 } halflit_material;
 HALFLIT_C_API int32_t halflit_material_init(halflit_material* material, size_t size);
 
