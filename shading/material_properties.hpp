@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <iterator>
+#include <optional>
 #include <string_view>
 
 namespace halflit::shading {
@@ -108,7 +109,7 @@ static_assert([] {
 /// True if the slot's texels are normals.
 [[nodiscard]] constexpr bool holds_normals(TextureSlot slot) { return info_of(slot).rule == MipRule::normal; }
 
-/// False if the texture cannot be seen because its layer (transmission, coat, sheen, film) is absent.
+/// False if the texture cannot be seen because its layer (transmission, coat, sheen, film, brush) is absent.
 [[nodiscard]] inline bool shows(const Material& material, TextureSlot slot) {
     switch (info_of(slot).stage) {
         case kStageTransmission:
@@ -119,16 +120,22 @@ static_assert([] {
             return material.has_sheen();
         case kStageIridescence:
             return material.is_iridescent();
+        case kStageAnisotropy:
+            return material.is_anisotropic();
         default:
             return true;
     }
 }
 
-/// The first texture of normals that the material uses. Tangents are made from its texture coordinates. Null: there is none.
-[[nodiscard]] inline const TextureUse* normal_map_of(const Material& material) {
+/// True if the slot's texels are directions in tangent space.
+[[nodiscard]] constexpr bool needs_tangents(TextureSlot slot) { return holds_normals(slot) || slot == TextureSlot::anisotropy; }
+
+/// Set of texture coordinates by which tangents are made: of the first texture in tangent space, else 0 for a brushed surface. Nothing: the
+/// material needs no tangents.
+[[nodiscard]] inline std::optional<int> tangent_uv_set(const Material& material) {
     for (const TextureSlot slot : kAllTextureSlots)
-        if (holds_normals(slot) && material.textures[slot].used()) return &material.textures[slot];
-    return nullptr;
+        if (needs_tangents(slot) && material.textures[slot].used()) return material.textures[slot].uv_set;
+    return material.is_anisotropic() ? std::optional(0) : std::nullopt;
 }
 
 }  // namespace halflit::shading

@@ -33,8 +33,8 @@ namespace {
 std::optional<Mesh> completed(const Scene& scene, const Mesh& mesh) {
     const Material no_material;
     const Material& material = mesh.material >= 0 ? scene.materials[static_cast<std::size_t>(mesh.material)] : no_material;
-    const TextureUse* const normal_map = shading::normal_map_of(material);
-    const bool has_uv = normal_map != nullptr && !(normal_map->uv_set == 0 ? mesh.uv0 : mesh.uv1).empty();
+    const std::optional<int> uv_set = shading::tangent_uv_set(material);
+    const bool has_uv = uv_set && !(*uv_set == 0 ? mesh.uv0 : mesh.uv1).empty();
     if (mesh.topology != Topology::triangles) return {};
     const bool needs_normals = mesh.normals.empty() && !material.unlit;
     // Flat normals remove the tangents, which belong to other normals.
@@ -42,7 +42,7 @@ std::optional<Mesh> completed(const Scene& scene, const Mesh& mesh) {
     if (!needs_normals && !needs_tangents) return {};
     Mesh full = mesh;
     if (needs_normals) generate_flat_normals(full);
-    if (needs_tangents) generate_tangents(full, normal_map->uv_set);
+    if (needs_tangents) generate_tangents(full, *uv_set);
     return full;
 }
 

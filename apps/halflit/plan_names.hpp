@@ -27,7 +27,8 @@ inline constexpr std::string_view kStageNames[kStageCount] = {"base colour textu
                                                               "shadow catcher",
                                                               "clearcoat",
                                                               "sheen",
-                                                              "iridescence"};
+                                                              "iridescence",
+                                                              "anisotropy"};
 
 /// Indexed by LightType.
 inline constexpr std::string_view kLightTypeNames[] = {"directional", "point", "spot"};

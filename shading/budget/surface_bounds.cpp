@@ -147,8 +147,8 @@ double film_error(const MaterialPlan& material, double cosine_error, double f0_e
         share_error += thickness_error / double{kThinFilmNm};
     // The waves' turns are rounded: 45 of them at most.
     const double turns = kWaves * 2.0 * (3e-7 * 45.0 * 6.3 * 0.05 + 2e-6);
-    // Ways change by at most 2 d with N.V, and Fresnel's shares by at most 60. The amplitude that the inner side reflects changes n times as
-    // fast as the one without a film, and its sign within 1 / kFilmSignSlope.
+    // Ways change by at most 2 d with N.V, and Fresnel's shares by at most 60. The amplitude that the inner side reflects changes n times
+    // as fast as the one without a film, and its sign within 1 / kFilmSignSlope.
     const double amplitude = std::min(1.0, std::sqrt(f0_error) + 1e-6);
     const double reflectance = (kPerNm * 2.0 * std::min(most, 1e4) + 60.0) * cosine_error + kPerNm * 2.0 * ior * thickness_error + turns +
                                2.0 * kWaves * double{kFilmSignSlope} * ior * amplitude;
@@ -223,6 +223,20 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
             s.roughness.absolute += lost;
             s.roughness.relative += lost / held;
         }
+    }
+    if (has(kStageAnisotropy)) {
+        // A direction of the length l is off by its error over l. Where l is below 1 / 2 the strength falls with l^2, and the difference of
+        // alpha along and across with its square, so that the error counts most where 32 l^4 is alpha. It turns highlights as an error of N
+        // does, and the mirrors that lean along it.
+        const double width = held_alpha(roughness);
+        double direction = 4e-7 + 2.0 * s.normal_error, strength = 8.0 * direction;
+        if (const TexturePlan& texture = material.textures[TextureSlot::anisotropy]; texture.data != nullptr) {
+            direction += 2.0 * 1.4142136 * filtered(texture, {0, 1});
+            strength = 8.0 * direction + filtered(texture, {2});
+        }
+        const double wider = strength / (2.0 * std::sqrt(width));  // of the root of alpha along
+        s.roughness.absolute += wider, s.roughness.relative += wider;
+        s.normal_error += 1.1 * std::pow(32.0 / width, 0.25) * direction;
     }
     if (has(kStageOcclusionTexture)) {
         const double strength = material.occlusion_strength;

@@ -9,6 +9,7 @@
 
 #include "shading/kernels/light_kernel.hpp"
 #include "shading/kernels/reflection_kernel.hpp"
+#include "shading/kernels/shade_kernels.hpp"
 #include "shading/kernels/shade_rows.hpp"
 #include "shading/model/constants.hpp"
 
@@ -100,6 +101,13 @@ HALFLIT_INLINE void sum_ggx(const shading::LightPlan* lights, int count, const s
     }
 }
 
+/// Sets the row `share_more`, if the surroundings do not.
+HALFLIT_INLINE void store_bounced(const shading::MaterialPlan& material, ShadeRows& rows, int lane, F n_dot_v) {
+    if ((material.stages & kStageEnvironment) != 0) return;
+    const MirrorShape shape = mirror_shape(load(rows.roughness + lane), n_dot_v);
+    store(rows.share_more + lane, vdiv(F(1.0f), shape.a + shape.b) - F(1.0f));
+}
+
 /// The stage of lights, for materials with GGX highlights. `shadow_point(lane)`: where shadows are looked up.
 template <class ShadowPoint>
 HALFLIT_INLINE void add_ggx_lights(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, shading::LightList lights,
@@ -118,9 +126,7 @@ HALFLIT_INLINE void add_ggx_lights(const shading::ShadingPlan& frame, const shad
         store3(rows.diffuse, lane, sums.diffuse * F(material.lobe.scale));
         store3(rows.specular, lane, sums.straight);
         store3(rows.specular_grazing, lane, sums.grazing);
-        if ((material.stages & kStageEnvironment) != 0) continue;  // set with the surroundings
-        const MirrorShape shape = mirror_shape(roughness, view.n_dot_v);
-        store(rows.share_more + lane, vdiv(F(1.0f), shape.a + shape.b) - F(1.0f));
+        store_bounced(material, rows, lane, view.n_dot_v);
     }
 }
 

@@ -1,5 +1,5 @@
-// KHR_materials_iridescence: interference in a thin film above the base (model/thin_film.hpp). These stages run only for materials that have
-// one. What the film reflects at the view's angle becomes the F0 by which Schlick's curve gives as much there:
+// KHR_materials_iridescence: interference in a thin film above the base (model/thin_film.hpp). These stages run only for materials that
+// have one. What the film reflects at the view's angle becomes the F0 by which Schlick's curve gives as much there:
 //
 //     F0' = (I - (1 - N.V)^5) / (1 - (1 - N.V)^5), held to [0, 1];        I: the film's reflectance above a surface of F0
 #pragma once

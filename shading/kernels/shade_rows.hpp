@@ -33,6 +33,8 @@ struct alignas(64) ShadeRows {
     Row film_outer, film_grazing;      ///< what the film's outer side reflects; (1 - cos)^5 at its inner side
     Row film_schlick;                  ///< (1 - N.V)^5, N.V from kLeastFilmCosine
     Row3 film_once, film_twice;        ///< how light that went through the film once, or twice, interferes
+    Row3 along;                        ///< unit, in the plane of the normal: the direction of a brushed surface; with kStageAnisotropy
+    Row alpha_along, alpha_across;     ///< widths of its facets; `roughness` is that of their geometric mean
     Row3 passed;                       ///< share of that light which is not absorbed
 };
 HALFLIT_INLINE V3 load3(const ShadeRows::Row3& rows, int lane) {

@@ -3,6 +3,7 @@
 // longer than the processor looks ahead, and roots and divisions would be waited for.
 #pragma once
 
+#include "shading/kernels/anisotropy_kernel.hpp"
 #include "shading/kernels/cell_kernel.hpp"
 #include "shading/kernels/clearcoat_kernel.hpp"
 #include "shading/kernels/environment_kernel.hpp"
@@ -142,8 +143,10 @@ static void add_surroundings(const shading::ShadingPlan& frame, const shading::M
             continue;
         }
         const MirrorShape shape = mirror_shape(load(rows.roughness + lane), clamp(n_dot_v, F(0.0f), F(1.0f)));
-        store3(rows.mirrored, lane,
-               mirrored_radiance(frame.reflections, material.reflection_lobes, shape, normal, n_dot_v, reflection) * occlusion);
+        const V3 mirrored = has(material, kStageAnisotropy)
+                                ? stretched_radiance(frame, rows, lane)
+                                : mirrored_radiance(frame.reflections, material.reflection_lobes, shape, normal, n_dot_v, reflection);
+        store3(rows.mirrored, lane, mirrored * occlusion);
         store(rows.share_a + lane, shape.a);
         store(rows.share_b + lane, shape.b);
         store(rows.share_more + lane, vdiv(F(1.0f), shape.a + shape.b) - F(1.0f));
@@ -180,8 +183,12 @@ template <bool kSpecular>
 HALFLIT_INLINE void add_light(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, shading::LightList lights,
                               const shading::FragmentBlock& block, int count, ShadeRows& rows) {
     find_directions<kSpecular>(frame, material, block, count, rows);
+    const bool stretched = kSpecular && has(material, kStageAnisotropy);
+    if (stretched) fetch_anisotropy(frame, material, block, count, rows);
     if (has(material, kStageLights)) {
-        if (kSpecular && material.ggx)
+        if (stretched)
+            add_stretched_lights(frame, material, lights, block, count, rows);
+        else if (kSpecular && material.ggx)
             add_lights_by_ggx(frame, material, lights, block, count, rows);
         else
             add_lights<kSpecular>(frame, material, lights, block, count, rows);

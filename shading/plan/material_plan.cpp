@@ -1,6 +1,7 @@
 #include "shading/plan/material_plan.hpp"
 
 #include "sh/power.hpp"
+#include "sh/trig.hpp"
 #include "shading/material_properties.hpp"
 #include "shading/model/numbers.hpp"
 #include "shading/model/thin_film.hpp"
@@ -13,6 +14,7 @@ namespace {
 SlotMask slots_of(const MaterialPlan& plan, bool lit) {
     SlotMask slots = lit ? kBaseSlots : 0u;
     if ((plan.stages & kStageVertexColor) != 0) slots |= kColorSlot;
+    if ((plan.stages & kStageAnisotropy) != 0) slots |= kTangentSlot;
     for (const TextureSlot slot : kAllTextureSlots) {
         const TexturePlan& texture = plan.textures[slot];
         if (texture.data == nullptr) continue;
@@ -177,6 +179,13 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
         use_texture(true, TextureSlot::iridescence);
         use_texture(true, TextureSlot::iridescence_thickness);
         plan_iridescence(material, plan);
+    }
+    if (lit && kinds.specular && has_tangents && material.is_anisotropic()) {
+        plan.stages |= kStageAnisotropy;
+        plan.anisotropy.strength = clamp_or_low(material.anisotropy_strength, 0.0f, 1.0f);
+        const SinCos turn = sin_cos(static_cast<double>(clamp_or_low(material.anisotropy_rotation_rad, -kMostScale, kMostScale)));
+        plan.anisotropy.sine = static_cast<float>(turn.sin), plan.anisotropy.cosine = static_cast<float>(turn.cos);
+        use_texture(true, TextureSlot::anisotropy);
     }
     plan.normal_roughness = kinds.specular && loses_normals(plan.textures[TextureSlot::normal]);
     if (gradients) plan.stages |= kStageGradients;

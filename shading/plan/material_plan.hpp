@@ -55,6 +55,11 @@ struct IridescencePlan {
     float thickness_nm = 0, thickness_range_nm = 0;  ///< without a texture; by which a texture of 1 exceeds it
 };
 
+/// A brushed surface as planned; used with kStageAnisotropy.
+struct AnisotropyPlan {
+    float strength = 0, cosine = 1, sine = 0;  ///< of the direction from the tangent
+};
+
 struct MaterialPlan {
     std::uint32_t stages = 0;  ///< bits of Stage; a block runs only these
     SlotMask slots = 0;        ///< vertex slots that raster interpolates
@@ -90,11 +95,12 @@ struct MaterialPlan {
     ClearcoatPlan clearcoat;
     SheenPlan sheen;
     IridescencePlan iridescence;
+    AnisotropyPlan anisotropy;
 };
 
 /// True if the roughness may differ from fragment to fragment.
 [[nodiscard]] inline bool roughness_varies(const MaterialPlan& material) {
-    return (material.stages & kStageMetallicRoughnessTexture) != 0 || material.normal_roughness;
+    return (material.stages & (kStageMetallicRoughnessTexture | kStageAnisotropy)) != 0 || material.normal_roughness;
 }
 
 /// Kinds of light in the frame, which decide what a material needs.

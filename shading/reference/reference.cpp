@@ -139,6 +139,10 @@ struct Surface {
     Vec3d matt;        ///< base colour where not metallic, and where light does not pass through
     Vec3d dielectric;  ///< F0 there
     double weight;     ///< factor of what is mirrored at grazing views there
+    bool brushed;      ///< longer facets along a direction
+    Vec3d along;       ///< unit; with alpha_across and alpha_along, whose geometric mean is roughness^2
+    double alpha_along, alpha_across;
+    [[nodiscard]] Vec3d beside() const { return cross(normal, along); }
     [[nodiscard]] double largest_dielectric() const { return std::max({dielectric.x, dielectric.y, dielectric.z}); }
     [[nodiscard]] double at_grazing() const { return metallic + (1 - metallic) * weight; }
 };
@@ -261,6 +265,23 @@ struct Mirrored {
     Vec3d radiance;
 };
 Mirrored mirrored_environment(const ReflectionPlan& map, int lobes, const Surface& surface) {
+    if (surface.brushed) {
+        const MirrorTable all(surface.roughness, dot(surface.normal, surface.to_eye));
+        Mirrored out{all(&ReflectionShape::a), all(&ReflectionShape::b), {}};
+        const double spread =
+            std::sqrt(std::max(0.0, surface.alpha_along * surface.alpha_along - surface.alpha_across * surface.alpha_across));
+        for (const StretchTap& tap : kStretchTaps) {
+            Surface mirror = surface;
+            mirror.brushed = false;
+            mirror.normal = unit(surface.normal + scale(surface.along, spread * double{tap.place}));
+            const double turned = std::max(0.0, double{kStretchEdge} - dot(mirror.normal, surface.to_eye));
+            mirror.normal = unit(mirror.normal + scale(surface.to_eye, 2 * turned));
+            const double wide = double{kStretchWidth} * spread;
+            mirror.roughness = std::pow(std::min(1.0, surface.alpha_across * surface.alpha_across + wide * wide), 0.25);
+            out.radiance = out.radiance + scale(mirrored_environment(map, 1, mirror).radiance, double{tap.weight});
+        }
+        return out;
+    }
     const double n_dot_v = dot(surface.normal, surface.to_eye);
     const MirrorTable at(surface.roughness, n_dot_v);
     const Vec3d reflection = scale(surface.normal, 2 * n_dot_v) - surface.to_eye;
@@ -314,8 +335,17 @@ Vec3d ggx_highlight(const Surface& surface, Vec3d to_light) {
     const Vec3d sine = cross(surface.normal, half);
     const double n_dot_h = dot(surface.normal, half), d = dot(sine, sine) + a2 * n_dot_h * n_dot_h;
     const auto root = [&](double x) { return std::sqrt(x * x * (1 - a2) + a2); };
-    const double masking = 0.5 / (n_dot_l * root(n_dot_v) + n_dot_v * root(n_dot_l));
-    const double value = a2 / (d * d) * masking * n_dot_l, schlick = std::pow(1 - std::min(dot(surface.to_eye, half), 1.0), 5.0);
+    double masking = 0.5 / (n_dot_l * root(n_dot_v) + n_dot_v * root(n_dot_l)), facets = a2 / (d * d);
+    if (surface.brushed) {
+        const double t = surface.alpha_along, b = surface.alpha_across, x = dot(surface.along, half) / t,
+                     y = dot(surface.beside(), half) / b;
+        facets = 1 / (t * b * std::pow(x * x + y * y + n_dot_h * n_dot_h, 2.0));
+        const auto size = [&](Vec3d w, double n_dot_w) {
+            return length(Vec3d{t * dot(surface.along, w), b * dot(surface.beside(), w), n_dot_w});
+        };
+        masking = 0.5 / (n_dot_l * size(surface.to_eye, n_dot_v) + n_dot_v * size(to_light, n_dot_l));
+    }
+    const double value = facets * masking * n_dot_l, schlick = std::pow(1 - std::min(dot(surface.to_eye, half), 1.0), 5.0);
     const MirrorTable at(roughness, n_dot_v);
     const double more = 1.0 / (at(&ReflectionShape::a) + at(&ReflectionShape::b)) - 1.0;
     const auto channel = [&](double f0) { return value * (f0 * (1 - schlick) + surface.at_grazing() * schlick) * (1 + f0 * more); };
@@ -345,6 +375,17 @@ Vec3d lit(const FrameInputs& frame, const Material& material, const Surface& sur
         Vec3d reflected = surface.albedo * through_lobe;
         if (frame.options.specular == SpecularModel::ggx) {
             reflected = reflected + color * scale(ggx_highlight(surface, at.direction), 1.0 - hidden.hard);
+        } else if (specular && n_dot_l > 0 && surface.brushed) {
+            const Vec3d half = unit(at.direction + surface.to_eye);
+            const double cosine = dot(surface.normal, half), x = dot(surface.along, half), y = dot(surface.beside(), half);
+            const auto exponent = [](double width) { return 2 / (width * width) - 2; };
+            const double by_side = x * x + y * y > 0
+                                       ? (x * x * exponent(surface.alpha_along) + y * y * exponent(surface.alpha_across)) / (x * x + y * y)
+                                       : 0.0;
+            const double factor = frame.options.normalize_specular ? (s * s + 10 * s + 32) / (8 * (s + 4)) : 1.0;
+            if (cosine > 0)
+                reflected = reflected +
+                            color * scale(surface.f0, factor * std::pow(std::min(cosine, 1.0), by_side) * n_dot_l * (1.0 - hidden.hard));
         } else if (specular && n_dot_l > 0) {
             const bool phong = frame.options.specular == SpecularModel::phong;
             const Vec3d reflection = scale(surface.normal, 2 * n_dot_l) - at.direction;
@@ -447,7 +488,8 @@ double transmitted(const FrameInputs& frame, const Material& material, SlotMask 
 /// F0 of a surface below a thin film, by the formulas of KHR_materials_iridescence: indices of refraction, phases, and Schlick's curve
 /// turned around. The phase belongs to the channel, not to X, Y or Z.
 double below_film(double f0, double ior, double thickness_nm, double n_dot_v, int channel) {
-    const double cosine = std::clamp(n_dot_v, double{kLeastFilmCosine}, 1.0), n2 = ior, cosine2 = std::sqrt(1 - (1 - cosine * cosine) / (n2 * n2));
+    const double cosine = std::clamp(n_dot_v, double{kLeastFilmCosine}, 1.0), n2 = ior,
+                 cosine2 = std::sqrt(1 - (1 - cosine * cosine) / (n2 * n2));
     const auto schlick = [](double f, double c) { return f + (1 - f) * std::pow(1 - c, 5.0); };
     const double n3 = (1 + std::sqrt(std::clamp(f0, 0.0, 0.999999))) / (1 - std::sqrt(std::clamp(f0, 0.0, 0.999999)));
     const double amplitude = (n3 - n2) / (n3 + n2), r12 = schlick(std::pow((n2 - 1) / (n2 + 1), 2.0), cosine), t121 = 1 - r12;
@@ -473,8 +515,8 @@ void add_film(const FrameInputs& frame, const Material& material, SlotMask avail
     const double least = std::clamp(double{material.iridescence_thickness_min_nm}, 0.0, double{kMostFilmNm}),
                  most = std::clamp(double{material.iridescence_thickness_max_nm}, 0.0, double{kMostFilmNm});
     const double thickness =
-        least + (most - least) *
-                    material_texture(frame, material.textures[TextureSlot::iridescence_thickness], available, block, lane, white).g;
+        least +
+        (most - least) * material_texture(frame, material.textures[TextureSlot::iridescence_thickness], available, block, lane, white).g;
     const double share = std::clamp(double{material.iridescence}, 0.0, 1.0) * std::clamp(thickness / double{kThinFilmNm}, 0.0, 1.0) *
                          material_texture(frame, material.textures[TextureSlot::iridescence], available, block, lane, white).r;
     const double ior = std::clamp(double{material.iridescence_ior}, 1.0, double{kMostFilmIor}),
@@ -484,6 +526,24 @@ void add_film(const FrameInputs& frame, const Material& material, SlotMask avail
     surface.dielectric = each(surface.dielectric);
     surface.f0 = scale(each(surface.base), surface.metallic) + scale(surface.dielectric, 1 - surface.metallic);
     surface.albedo = scale(surface.matt, 1 - surface.largest_dielectric());
+}
+
+/// Gives a surface its direction, and the two widths of its facets.
+void brush(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane, Surface& surface) {
+    const Rgba texel = material_texture(frame, material.textures[TextureSlot::anisotropy], available, block, lane, {1, 0.5, 1, 1});
+    const double turn = double{material.anisotropy_rotation_rad}, x = 2 * texel.r - 1, y = 2 * texel.g - 1;
+    const Vec3d normal = unit(row3(block, kNormalX, lane)), tangent = unit(row3(block, kTangentX, lane));
+    const Vec3d bitangent = scale(cross(normal, tangent), block.lane[kTangentW][lane]);
+    const Vec3d turned =
+        scale(tangent, std::cos(turn) * x - std::sin(turn) * y) + scale(bitangent, std::sin(turn) * x + std::cos(turn) * y);
+    const Vec3d flat = turned - scale(surface.normal, dot(turned, surface.normal));
+    const double size = dot(flat, flat), strength = std::clamp(double{material.anisotropy_strength}, 0.0, 1.0) * texel.b *
+                                                    std::min(1.0, double{kShortDirection} * size);
+    surface.brushed = size > 1e-12;
+    surface.along = unit(flat);
+    surface.alpha_across = std::pow(std::max(surface.roughness, kHeldRoughness), 2.0);
+    surface.alpha_along = surface.alpha_across + (1 - surface.alpha_across) * strength * strength;
+    surface.roughness = std::pow(surface.alpha_along * surface.alpha_across, 0.25);
 }
 
 Surface surface_of(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane) {
@@ -514,6 +574,7 @@ Surface surface_of(const FrameInputs& frame, const Material& material, SlotMask 
                               channel(material.specular_color.z, color.b)};
         surface.albedo = scale(surface.matt, 1 - surface.largest_dielectric());
         surface.f0 = scale(surface.base, surface.metallic) + scale(surface.dielectric, 1 - surface.metallic);
+        if (material.is_anisotropic() && (available & 4u) != 0) brush(frame, material, available, block, lane, surface);
         if (material.is_iridescent()) add_film(frame, material, available, block, lane, surface);
     }
     return surface;
@@ -587,7 +648,7 @@ Coat coat_of(const FrameInputs& frame, const Material& material, SlotMask availa
                              material_texture(frame, material.textures[TextureSlot::clearcoat_roughness], available, block, lane, white).g;
     out.surface.roughness = rougher(frame, material.textures[TextureSlot::clearcoat_normal], material.clearcoat_normal_scale, roughness,
                                     available, block, lane);
-    out.surface.metallic = 0, out.surface.weight = 1;
+    out.surface.metallic = 0, out.surface.weight = 1, out.surface.brushed = false;
     out.surface.f0 = {0.04, 0.04, 0.04};
     return out;
 }

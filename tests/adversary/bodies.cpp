@@ -137,7 +137,7 @@ Aim add_bodies(const Genome& genome, AvoidSet avoid, Trial& trial) {
         const Material& material = trial.scene.materials[static_cast<std::size_t>(i)];
         mesh.uv1 = mesh.uv0;
         for (Vec2f& uv : mesh.uv1) uv = {uv.y * 3.0f, uv.x + 0.5f};
-        if (const TextureUse* const map = shading::normal_map_of(material)) generate_tangents(mesh, map->uv_set);
+        if (const auto uv_set = shading::tangent_uv_set(material)) generate_tangents(mesh, *uv_set);
         change_coordinates(genes, avoid, mesh);
         trial.scene.meshes.push_back(std::move(mesh));
         trial.scene.instances.push_back({i, place});

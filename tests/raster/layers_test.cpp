@@ -47,6 +47,7 @@ void add_layers(Trial& trial, std::uint32_t seed) {
             material.clearcoat = make.below(2) == 0 ? 1.0f : make.in(0, 1), material.clearcoat_roughness = make.in(0.15f, 1);
         if (make.below(2) == 0) material.sheen_color = make.color(1), material.sheen_roughness = make.in(0.2f, 1);
         if (make.below(3) == 0) material.iridescence = make.in(0, 1), material.iridescence_thickness_max_nm = make.in(10, 700);
+        if (make.below(3) == 0) material.anisotropy_strength = make.in(0, 1), material.anisotropy_rotation_rad = make.in(-4, 4);
         if (make.below(4) == 0) material.emissive = make.color(0.5f);
         if (trial.scene.textures.empty() || make.below(2) == 0) continue;
         material.textures[TextureSlot::clearcoat_normal].texture = material.textures[TextureSlot::normal].used() ? 0 : -1;
@@ -122,7 +123,7 @@ TEST_CASE("layers: with light at vertices or triangles, layers are lit as with l
 }
 
 TEST_CASE("layers: instruction sets, threads and tiles do not show in coats and sheen", "[raster][layers]") {
-    const NamedScene named = GENERATE(coats_scene(), fabrics_scene(), films_scene());
+    const NamedScene named = GENERATE(coats_scene(), fabrics_scene(), films_scene(), brushed_scene());
     Settings settings;
     settings.samples = 4, settings.shadow_size = 128;
     const Picture first = draw(named.scene, named.camera, settings);

@@ -390,6 +390,50 @@ NamedScene films_scene() {
     return out;
 }
 
+NamedScene brushed_scene() {
+    NamedScene out{"brushed", {}, camera_at({0.5f, 1.8f, 4.1f}, {0, 0.1f, 0}, 0.75f, 0.05f)};
+    Scene& s = out.scene;
+    add_lights(s);
+    const int swirl = add_texture(s, 32, 32, ColorSpace::linear, 26, false), bumps = add_texture(s, 48, 48, ColorSpace::linear, 27, true);
+    Mesh ball = make_sphere(0.55f, 28, 16);
+    generate_tangents(ball, 0);
+    const auto place = [&](Material material, float x, float z) {
+        add(s, ball, add_material(s, std::move(material)), translation({x, 0, z}));
+    };
+
+    Material pan;
+    pan.base_color = {0.8f, 0.78f, 0.75f, 1};
+    pan.roughness = 0.3f;
+    pan.anisotropy_strength = 0.8f;
+    place(pan, -1.3f, 0.3f);
+    Material across = pan;
+    across.anisotropy_rotation_rad = 1.2f;
+    across.textures[TextureSlot::normal].texture = bumps;
+    across.double_sided = true;
+    place(across, 0, 0.6f);
+    Material hair = pan;
+    hair.base_color = {0.2f, 0.1f, 0.05f, 1};
+    hair.metallic = 0.2f;
+    hair.textures[TextureSlot::anisotropy].texture = hair.textures[TextureSlot::metallic_roughness].texture = swirl;
+    place(hair, 1.3f, 0.3f);
+    Material disc = pan;
+    disc.anisotropy_strength = 1, disc.roughness = 0;
+    disc.iridescence = 1;
+    disc.clearcoat = 1;
+    place(disc, -0.6f, -0.9f);
+    Material silk = pan;
+    silk.metallic = 0, silk.roughness = 0.5f;
+    silk.base_color = {0.5f, 0.1f, 0.3f, 1};
+    silk.sheen_color = {0.3f, 0.2f, 0.3f}, silk.sheen_roughness = 0.4f;
+    place(silk, 0.7f, 1.3f);
+    Mesh plane = make_plane(7, 3);
+    generate_tangents(plane, 0);
+    Material floor = pan;
+    floor.base_color = {0.3f, 0.3f, 0.32f, 1};
+    add(s, plane, add_material(s, floor), translation({0, -0.55f, 0}));
+    return out;
+}
+
 std::vector<NamedScene> all_scenes() {
     std::vector<NamedScene> scenes;
     Scene demo = demo_scene();
@@ -403,6 +447,7 @@ std::vector<NamedScene> all_scenes() {
     scenes.push_back(coats_scene());
     scenes.push_back(fabrics_scene());
     scenes.push_back(films_scene());
+    scenes.push_back(brushed_scene());
     return scenes;
 }
 

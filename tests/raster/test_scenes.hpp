@@ -38,6 +38,8 @@ struct NamedScene {
 [[nodiscard]] NamedScene fabrics_scene();
 /// Objects below thin films: on glass, metal and plastic, thickness and share by textures, below coats and sheen.
 [[nodiscard]] NamedScene films_scene();
+/// Brushed objects: turned, by textures, with bumps, below a film and a coat, under sheen.
+[[nodiscard]] NamedScene brushed_scene();
 
 /// All above, and the built-in demo scene.
 [[nodiscard]] std::vector<NamedScene> all_scenes();

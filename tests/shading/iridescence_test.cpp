@@ -80,8 +80,7 @@ TEST_CASE("iridescence: luminance is that of a film, wavelength by wavelength", 
                     bench.material.iridescence_ior = static_cast<float>(n);
                     bench.material.iridescence_thickness_max_nm = static_cast<float>(nm);
                     const Vec3d got = bench.f0(angle);
-                    const double c = std::cos(angle),
-                                 want = turned(luminance(f0, n, nm, c), c);
+                    const double c = std::cos(angle), want = turned(luminance(f0, n, nm, c), c);
                     // Colours out of the display's range are cut off; where a channel is, there is nothing to compare.
                     if (std::min({got.x, got.y, got.z}) <= 0) continue;
                     const double error = std::fabs(luminance(got) - want);
@@ -129,7 +128,8 @@ TEST_CASE("iridescence: share and thickness follow their textures, and the least
     CHECK(got.z == Approx(want.z).epsilon(1e-3));
 }
 
-TEST_CASE("iridescence: what is mirrored is not scattered, and a white metal stays within all light", "[shading][iridescence][environment]") {
+TEST_CASE("iridescence: what is mirrored is not scattered, and a white metal stays within all light",
+          "[shading][iridescence][environment]") {
     for (const float metallic : {0.0f, 0.5f, 1.0f})
         for (const float nm : {50.0f, 180.0f, 333.0f, 600.0f})
             for (const double view : {0.0, 0.7, 1.2, 1.5}) {

@@ -118,7 +118,7 @@ void check_cases(int case_count) {
     CHECK(all.differing == 0);
     // All stages that materials and lights alone can bring into a plan.
     CHECK(all.stages_seen == ((2u * kStageGradients - 1u) | kStageTransmission | kStageSpecularColor | kStageClearcoat | kStageSheen |
-                             kStageIridescence));
+                              kStageIridescence | kStageAnisotropy));
     CHECK(all.fragments > std::int64_t{case_count} * kBlocksPerCase * kBlockSize / 2);
     CHECK(all.nan_fragments > all.fragments / 1000);
     CHECK(all.nan_fragments < all.fragments / 2);

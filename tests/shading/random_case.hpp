@@ -93,6 +93,7 @@ inline Material make_material(FloatMaker& make) {
     if (make.below(2) == 0) material.clearcoat = 0;
     if (make.below(2) == 0) material.sheen_color = {0, 0, 0};
     if (make.below(2) == 0) material.iridescence = 0;
+    if (make.below(2) == 0) material.anisotropy_strength = 0;
     if (make.below(3) != 0) {
         material.specular = 1, material.specular_color = {1, 1, 1};
         material.textures[TextureSlot::specular] = material.textures[TextureSlot::specular_color] = {};

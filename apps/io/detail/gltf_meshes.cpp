@@ -194,11 +194,18 @@ private:
         check_texture_coordinates(read);
         if (!mesh.tangents.empty()) return;
         const Material& material = scene_.materials[static_cast<std::size_t>(mesh.material)];
-        const TextureUse* const normal_map = shading::normal_map_of(material);
-        if (normal_map == nullptr) return;
-        if ((normal_map->uv_set == 1 ? mesh.uv1 : mesh.uv0).empty()) return;
+        const std::optional<int> uv_set = shading::tangent_uv_set(material);
+        if (!uv_set) return;
+        if ((*uv_set == 1 ? mesh.uv1 : mesh.uv0).empty()) {
+            if (material.is_anisotropic() && !material.textures[TextureSlot::anisotropy].used() && !document_.warnings_are_full())
+                document_.warn(
+                    fmt::format("materials[{}].extensions.KHR_materials_anisotropy: {} has no tangents and no TEXCOORD_{}, drawn "
+                                "without it",
+                                mesh.material, read.where, *uv_set));
+            return;
+        }
         document_.geometry.take(corners * 16);
-        source.tangents_of = normal_map->uv_set;
+        source.tangents_of = *uv_set;
     }
 
     /// Index of a material without light.
@@ -219,8 +226,8 @@ private:
                 continue;
             document_.warn(fmt::format(
                 "materials[{}].{}: {} has no TEXCOORD_{}, {}", read.source.mesh.material, file::place_of(slot), read.where, use.uv_set,
-                shading::holds_normals(slot) && read.source.mesh.tangents.empty() ? "drawn without it"
-                                                                                  : "drawn with the colour at (0, 0)"));
+                shading::needs_tangents(slot) && read.source.mesh.tangents.empty() ? "drawn without it"
+                                                                                   : "drawn with the colour at (0, 0)"));
         }
     }
 

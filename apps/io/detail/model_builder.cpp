@@ -134,7 +134,7 @@ std::vector<PartMesh> ModelBuilder::add_meshes(Soup&& soup, std::span<const std:
                     fmt::format("material \"{}\": the surface has no texture coordinates, its textures are drawn with the colour at "
                                 "(0, 0)",
                                 printable(material.name, 80)));
-            if (shading::normal_map_of(material) != nullptr && !mesh.uv0.empty()) {
+            if (shading::tangent_uv_set(material) && !mesh.uv0.empty()) {
                 document_->geometry.take(std::uint64_t{mesh.indices.size()} * 16);
                 generate_tangents(mesh, 0);
             }

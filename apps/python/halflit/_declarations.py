@@ -28,13 +28,14 @@ STRUCTS = {
         float emissive[3]; float normal_scale; float occlusion_strength; float alpha_cutoff; float specular; float
         specular_color[3]; float transmission; float thickness; float attenuation_distance; float attenuation_color[3]; float
         clearcoat; float clearcoat_roughness; float clearcoat_normal_scale; float sheen_color[3]; float sheen_roughness; float
-        iridescence; float iridescence_ior; float iridescence_thickness_min_nm; float iridescence_thickness_max_nm;
-        halflit_texture_use base_color_texture; halflit_texture_use metallic_roughness_texture; halflit_texture_use
-        normal_texture; halflit_texture_use occlusion_texture; halflit_texture_use emissive_texture; halflit_texture_use
-        specular_texture; halflit_texture_use specular_color_texture; halflit_texture_use transmission_texture;
-        halflit_texture_use thickness_texture; halflit_texture_use clearcoat_texture; halflit_texture_use
+        iridescence; float iridescence_ior; float iridescence_thickness_min_nm; float iridescence_thickness_max_nm; float
+        anisotropy_strength; float anisotropy_rotation_rad; halflit_texture_use base_color_texture; halflit_texture_use
+        metallic_roughness_texture; halflit_texture_use normal_texture; halflit_texture_use occlusion_texture; halflit_texture_use
+        emissive_texture; halflit_texture_use specular_texture; halflit_texture_use specular_color_texture; halflit_texture_use
+        transmission_texture; halflit_texture_use thickness_texture; halflit_texture_use clearcoat_texture; halflit_texture_use
         clearcoat_roughness_texture; halflit_texture_use clearcoat_normal_texture; halflit_texture_use sheen_color_texture;
-        halflit_texture_use sheen_roughness_texture; halflit_texture_use iridescence_texture;
+        halflit_texture_use sheen_roughness_texture; halflit_texture_use iridescence_texture; halflit_texture_use
+        anisotropy_texture;
 """,
     "halflit_mesh": """
         size_t size; const char* name; const float* positions; const float* normals; const float* tangents; const float* uv0;

@@ -129,6 +129,8 @@ class Material(Record):
         iridescence_ior: index of refraction of the film, from 1 (1.3)
         iridescence_thickness_min_nm: of the film where its texture is 0, nanometres, from 0 (100)
         iridescence_thickness_max_nm: of the film where its texture is 1, or without a texture (400)
+        anisotropy_strength: in [0, 1]: alpha along the direction is roughness^2 + (1 - roughness^2) strength^2 (0)
+        anisotropy_rotation_rad: of the direction from the tangent, counter-clockwise, radians (0)
         base_color_texture: sRGB, alpha linear
         metallic_roughness_texture: linear: green is roughness, blue metallic
         normal_texture: linear, in tangent space: (2c - 1) * (normal_scale, normal_scale, 1)
@@ -144,6 +146,7 @@ class Material(Record):
         sheen_color_texture: sRGB
         sheen_roughness_texture: linear: alpha
         iridescence_texture: linear: red
+        anisotropy_texture: linear: red and green (2c - 1) turn the direction in tangent space, blue is the strength
     """
 
     _kind, _choices = "material", {"alpha_mode": "ALPHA"}
@@ -175,6 +178,7 @@ class Material(Record):
         "iridescence_ior": (1.0, math.inf),
         "iridescence_thickness_min_nm": (0.0, math.inf),
         "iridescence_thickness_max_nm": (0.0, math.inf),
+        "anisotropy_strength": (0.0, 1.0),
     }
     base_color: Color
     metallic: float
@@ -199,6 +203,8 @@ class Material(Record):
     iridescence_ior: float
     iridescence_thickness_min_nm: float
     iridescence_thickness_max_nm: float
+    anisotropy_strength: float
+    anisotropy_rotation_rad: float
     base_color_texture: Union[TextureUse, int]
     metallic_roughness_texture: Union[TextureUse, int]
     normal_texture: Union[TextureUse, int]
@@ -214,6 +220,7 @@ class Material(Record):
     sheen_color_texture: Union[TextureUse, int]
     sheen_roughness_texture: Union[TextureUse, int]
     iridescence_texture: Union[TextureUse, int]
+    anisotropy_texture: Union[TextureUse, int]
     # Other members.
     name: str
     alpha_mode: str

@@ -20,25 +20,26 @@ enum class AlphaMode : std::uint8_t {
 
 /// Places of a material where a texture may be used, with the channels that are read.
 enum class TextureSlot : std::uint8_t {
-    base_color,           ///< sRGB, alpha linear
-    metallic_roughness,   ///< linear: green is roughness, blue metallic
-    normal,               ///< linear, in tangent space: (2c - 1) * (normal_scale, normal_scale, 1)
-    occlusion,            ///< linear: red
-    emissive,             ///< sRGB
-    specular,             ///< linear: alpha
-    specular_color,       ///< sRGB
-    transmission,         ///< linear: red
-    thickness,            ///< linear: green
-    clearcoat,            ///< linear: red
-    clearcoat_roughness,  ///< linear: green
-    clearcoat_normal,     ///< linear, in tangent space; without it the coat has the mesh's normals, not the base's normal map
-    sheen_color,          ///< sRGB
-    sheen_roughness,      ///< linear: alpha
-    iridescence,          ///< linear: red
-    iridescence_thickness  ///< linear: green, from the least thickness to the greatest
+    base_color,             ///< sRGB, alpha linear
+    metallic_roughness,     ///< linear: green is roughness, blue metallic
+    normal,                 ///< linear, in tangent space: (2c - 1) * (normal_scale, normal_scale, 1)
+    occlusion,              ///< linear: red
+    emissive,               ///< sRGB
+    specular,               ///< linear: alpha
+    specular_color,         ///< sRGB
+    transmission,           ///< linear: red
+    thickness,              ///< linear: green
+    clearcoat,              ///< linear: red
+    clearcoat_roughness,    ///< linear: green
+    clearcoat_normal,       ///< linear, in tangent space; without it the coat has the mesh's normals, not the base's normal map
+    sheen_color,            ///< sRGB
+    sheen_roughness,        ///< linear: alpha
+    iridescence,            ///< linear: red
+    iridescence_thickness,  ///< linear: green, from the least thickness to the greatest
+    anisotropy              ///< linear: red and green (2c - 1) turn the direction in tangent space, blue is the strength
 };
 /// Number of slots.
-inline constexpr int kTextureSlots = 16;
+inline constexpr int kTextureSlots = 17;
 
 /// A value for each slot.
 template <class T>
@@ -102,6 +103,11 @@ struct Material {
     float iridescence_thickness_min_nm = 100;  ///< of the film where its texture is 0, nanometres, from 0
     float iridescence_thickness_max_nm = 400;  ///< of the film where its texture is 1, or without a texture
 
+    // KHR_materials_anisotropy: a brushed surface, rougher along a direction than across it. The direction is the mesh's tangent, turned; a
+    // mesh without tangents is drawn without it.
+    float anisotropy_strength = 0;      ///< in [0, 1]: alpha along the direction is roughness^2 + (1 - roughness^2) strength^2
+    float anisotropy_rotation_rad = 0;  ///< of the direction from the tangent, counter-clockwise, radians
+
     /// True if F0 where not metallic is more than one number.
     [[nodiscard]] bool has_specular_color() const {
         return specular != 1.0f || specular_color != Vec3f{1, 1, 1} || textures[TextureSlot::specular].used() ||
@@ -115,6 +121,8 @@ struct Material {
     }
     /// True if there is a thin film that may be seen.
     [[nodiscard]] bool is_iridescent() const { return iridescence > 0.0f && !unlit && !shadow_catcher; }
+    /// True if the surface is brushed.
+    [[nodiscard]] bool is_anisotropic() const { return anisotropy_strength > 0.0f && !unlit && !shadow_catcher; }
     /// True if light passes through.
     [[nodiscard]] bool transmits() const { return transmission > 0.0f && !unlit && !shadow_catcher; }
     /// True if the surface is drawn over what is behind it.

@@ -114,7 +114,8 @@ enum Stage : std::uint32_t {
     kStageClearcoat = 1u << 16,      ///< a coat above the surface mirrors
     kStageSheen = 1u << 17,          ///< fibres above the surface glow at grazing views
     kStageIridescence = 1u << 18,    ///< a thin film colours what the surface mirrors
-    kStageCount = 19
+    kStageAnisotropy = 1u << 19,     ///< highlights and reflections are longer along a direction
+    kStageCount = 20
 };
 
 }  // namespace halflit

@@ -236,6 +236,10 @@ typedef struct halflit_material {
     float iridescence_thickness_min_nm;
     /// of the film where its texture is 1, or without a texture (400)
     float iridescence_thickness_max_nm;
+    /// in [0, 1]: alpha along the direction is roughness^2 + (1 - roughness^2) strength^2 (0)
+    float anisotropy_strength;
+    /// of the direction from the tangent, counter-clockwise, radians (0)
+    float anisotropy_rotation_rad;
     /// sRGB, alpha linear
     halflit_texture_use base_color_texture;
     /// linear: green is roughness, blue metallic
@@ -266,6 +270,8 @@ typedef struct halflit_material {
     halflit_texture_use sheen_roughness_texture;
     /// linear: red
     halflit_texture_use iridescence_texture;
+    /// linear: red and green (2c - 1) turn the direction in tangent space, blue is the strength
+    halflit_texture_use anisotropy_texture;
 } halflit_material;
 HALFLIT_C_API int32_t halflit_material_init(halflit_material* material, size_t size);
 
