@@ -37,13 +37,15 @@ def comments(source):
 
 def properties():
     """(name, C++ type, default, documentation, least, greatest), numbers first."""
-    known, rows = comments(text_of(SOURCE)), []
-    for kind, arguments in re.findall(r"^HALFLIT_(NUMBER|TEXTURE)\((.*)\)$", text_of(TABLE), re.M):
+    known, rows, table = comments(text_of(SOURCE)), [], text_of(TABLE)
+    for kind, arguments in re.findall(r"^HALFLIT_(NUMBER|TEXTURE)\((.*)\)$", table, re.M):
         name, low, high = arguments.split(", ")[:3]
         name += "_texture" if kind == "TEXTURE" else ""
         if name not in known:
             sys.exit(f"material_members.py: {SOURCE} has no comment of {name}, in one line")
         rows.append((name, *known[name], low, high))
+    if len(rows) != len(re.findall(r"^HALFLIT_", table, re.M)):
+        sys.exit(f"material_members.py: {TABLE} has a row of more than one line")
     return rows
 
 

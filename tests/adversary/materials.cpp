@@ -65,11 +65,8 @@ Material some_material(Genes& genes) {
 
 namespace {
 
-/// Numbers of the extensions' properties: each is the default, or anything up to twice white.
+/// Numbers of the extensions' properties: each is the default, or anything up to twice white, or twice the default.
 void add_layers(const Genome& genome, int index, Trial& trial, Material& m) {
-    constexpr auto kExtended = std::count_if(std::begin(shading::kMaterialNumbers), std::end(shading::kMaterialNumbers),
-                                             [](const auto& number) { return number.gltf.starts_with("extensions/"); });
-    static_assert(kExtended <= 8 * kLayerSections);
     int row = 0;
     for (const shading::MaterialNumber& number : shading::kMaterialNumbers) {
         if (!number.gltf.starts_with("extensions/")) continue;
@@ -78,7 +75,9 @@ void add_layers(const Genome& genome, int index, Trial& trial, Material& m) {
         genes.skip(row++ % 8 * 4);
         if (!genes.chance(0.2)) continue;
         float values[4];
-        for (int c = 0; c < number.count; ++c) values[c] = genes.real32(std::max(number.low, -1.0f), std::min(number.high, 2.0f));
+        number.get(m, values);
+        const float high = std::max(2.0f, 2.0f * values[0]);
+        for (int c = 0; c < number.count; ++c) values[c] = genes.real32(std::max(number.low, -1.0f), std::min(number.high, high));
         number.set(m, values);
     }
 }

@@ -4,6 +4,7 @@
 #include "halflit/environment.hpp"
 #include "halflit/scene.hpp"
 #include "halflit/settings.hpp"
+#include "shading/material_properties.hpp"
 #include "tests/adversary/genome.hpp"
 
 #include <cstdint>
@@ -44,8 +45,14 @@ struct Trial {
 
 /// Sections of a genome.
 inline constexpr int kMaterials = 2, kBodies = 2, kLightKinds = 4;
+/// A section of numbers of materials' extensions has eight.
+inline constexpr int kLayerSections = [] {
+    int rows = 0;
+    for (const shading::MaterialNumber& number : shading::kMaterialNumbers) rows += number.gltf.starts_with("extensions/") ? 1 : 0;
+    return (rows + 7) / 8;
+}();
 /// A section of textures has two slots. The first four slots were there first, and have their sections among the others.
-inline constexpr int kFirstSlots = 4, kLayerSections = 2, kSlotSections = (kTextureSlots - kFirstSlots + 1) / 2;
+inline constexpr int kFirstSlots = 4, kSlotSections = (kTextureSlots - kFirstSlots + 1) / 2;
 enum Section : int {
     kFrame,
     kView,

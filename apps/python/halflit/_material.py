@@ -146,6 +146,7 @@ class Material(Record):
         sheen_color_texture: sRGB
         sheen_roughness_texture: linear: alpha
         iridescence_texture: linear: red
+        iridescence_thickness_texture: linear: green, from the least thickness to the greatest
         anisotropy_texture: linear: red and green (2c - 1) turn the direction in tangent space, blue is the strength
     """
 
@@ -220,6 +221,7 @@ class Material(Record):
     sheen_color_texture: Union[TextureUse, int]
     sheen_roughness_texture: Union[TextureUse, int]
     iridescence_texture: Union[TextureUse, int]
+    iridescence_thickness_texture: Union[TextureUse, int]
     anisotropy_texture: Union[TextureUse, int]
     # Other members.
     name: str

@@ -270,6 +270,8 @@ typedef struct halflit_material {
     halflit_texture_use sheen_roughness_texture;
     /// linear: red
     halflit_texture_use iridescence_texture;
+    /// linear: green, from the least thickness to the greatest
+    halflit_texture_use iridescence_thickness_texture;
     /// linear: red and green (2c - 1) turn the direction in tangent space, blue is the strength
     halflit_texture_use anisotropy_texture;
 } halflit_material;
