@@ -46,7 +46,7 @@ PictureRectangle rectangle_in_picture(const Camera& camera, const Bounds& bounds
         double x, y, w;
         double inside[2];  ///< distances to the near and the far plane, negative outside
     };
-    const Mat4 m = raster::clip_from_world(camera, camera.aspect > 0.0f ? camera.aspect : 1.0f);
+    const Mat4 m = raster::clip_from_world(camera, camera.made_for_aspect() > 0.0f ? camera.made_for_aspect() : 1.0f);
     Corner corners[8];
     for (unsigned i = 0; i < 8; ++i) {
         const double p[3] = {i & 1 ? bounds.max.x : bounds.min.x, i & 2 ? bounds.max.y : bounds.min.y, i & 4 ? bounds.max.z : bounds.min.z};

@@ -191,6 +191,7 @@ Result<std::vector<LightPlan>> plan_sky(const PreparedData& scene, const Setting
 Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, const Settings& settings, int width, int height,
                             int tile_size, FramePlanMemory& memory) {
     if (auto ok = check_settings(settings, width, height); !ok) return tl::unexpected<Error>(ok.error());
+    if (auto ok = check_camera(camera); !ok) return tl::unexpected<Error>(ok.error());
     if (!prepared.up_to_date()) return fail(ErrorCode::usage, "the last update of the scene failed; no frame is drawn until one succeeds");
     const Scene& scene = prepared.scene();
     const ShadingSettings options = effective(settings.shading);

@@ -3,39 +3,28 @@
 #include "raster/check_execution.hpp"
 
 #include "raster/kernels/raster_kernels.hpp"
+#include "raster/settings_table.hpp"
 #include "sh/fp_environment.hpp"
 #include "shading/planner.hpp"
-#include "shading/sky_lights.hpp"
 
 #include <algorithm>
 #include <string>
 
 namespace halflit {
-
 Result<void> check_settings(const Settings& settings, int width, int height) {
     const FpEnvironment environment_of_host;
     if (width < 1 || height < 1) return fail(ErrorCode::usage, "the picture has no pixels");
     if (width > 2 * raster::kGuardBandPx || height > 2 * raster::kGuardBandPx)
         return fail(ErrorCode::limit, "picture size: " + std::to_string(width) + " x " + std::to_string(height) +
                                           " pixels, expected at most " + std::to_string(2 * raster::kGuardBandPx) + " on a side");
-    if (settings.samples != 1 && settings.samples != 4 && settings.samples != 8 && settings.samples != 16)
-        return fail(ErrorCode::usage, "samples: " + std::to_string(settings.samples) + ", expected 1, 4, 8 or 16");
-    if (!(settings.exposure > 0.0f && settings.exposure < 3e38f)) return fail(ErrorCode::usage, "the exposure is not a positive number");
-    const auto in_range = [](float pixels) { return pixels >= 0.0625f && pixels <= 256.0f; };
-    if (!in_range(settings.point_size)) return fail(ErrorCode::usage, "point size: expected 1/16 to 256 pixels");
-    if (!in_range(settings.line_width)) return fail(ErrorCode::usage, "line width: expected 1/16 to 256 pixels");
-    const int side = settings.shadow_size;
-    if (side < 64 || side > 4096 || (side & (side - 1)) != 0)
-        return fail(ErrorCode::usage, "shadow size: " + std::to_string(side) + ", expected a power of two from 64 to 4096");
-    if (!(settings.shadow_fade >= 0.0f && settings.shadow_fade < 3e38f))
-        return fail(ErrorCode::usage, "shadow fade: expected a distance, or 0");
-    if (settings.soft_shadow_maps < 4 || settings.soft_shadow_maps > 64)
-        return fail(ErrorCode::usage, "soft shadow maps: " + std::to_string(settings.soft_shadow_maps) + ", expected 4 to 64");
-    if (settings.sky_shadows != 0 &&
-        (settings.sky_shadows < shading::kLeastSkyDirections || settings.sky_shadows > shading::kMostSkyDirections))
-        return fail(ErrorCode::usage, "sky shadows: " + std::to_string(settings.sky_shadows) + ", expected 0, or 16 to 1024 directions");
-    if (settings.tone_curve > ToneCurve::neutral) return fail(ErrorCode::usage, "tone curve: found a value that no name stands for");
-    if (settings.shadows > ShadowMode::soft_split) return fail(ErrorCode::usage, "shadows: found a value that no name stands for");
+    for (const raster::Setting& setting : raster::kSettings) {
+        const double value = setting.get(settings);
+        if (setting.values.contains(value)) continue;
+        std::string name(setting.name);
+        std::replace(name.begin(), name.end(), '_', ' ');
+        return fail(ErrorCode::usage,
+                    name.append(": ").append(raster::number_text(value)).append(", expected ") + setting.values.expected());
+    }
     if (auto ok = shading::check_options(settings.shading); !ok) return ok;
     const Region& r = settings.region;
     if (r.width != 0 && (r.x < 0 || r.y < 0 || r.width < 1 || r.height < 1 || r.width > width - r.x || r.height > height - r.y))

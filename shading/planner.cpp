@@ -108,19 +108,9 @@ void plan_highlights(ShadingPlan& plan, PowerFits& fits) {
 }  // namespace
 
 Result<void> check_options(const ShadingSettings& options) {
-    if (options.rate > ShadingRate::pixel || options.specular > SpecularModel::ggx || options.accuracy > Accuracy::exact ||
-        options.texture_detail > TextureDetail::nearest)
-        return fail(ErrorCode::usage, "shading settings: found a value that no name stands for");
-    if (options.anisotropy < 1 || options.anisotropy > kMostAnisotropy)
-        return fail(ErrorCode::usage, "anisotropy: expected 1 to 16, found " + std::to_string(options.anisotropy));
     if (options.lobe)
         if (const auto lobe = check_lobe(*options.lobe); !lobe) return fail(ErrorCode::usage, "lobe: " + lobe.error().message);
-    if (options.environment_bands < 0 || options.environment_bands > sh::kMaxBands)
-        return fail(ErrorCode::usage, "sh-order: expected auto or 1 to 10, found " + std::to_string(options.environment_bands));
-    if (!(options.environment_tolerance >= 0.0)) return fail(ErrorCode::usage, "environment_tolerance: expected a number from 0");
     if (options.max_error_codes == 0.0) return {};
-    if (!(options.max_error_codes > 0.0 && options.max_error_codes <= 255.0))
-        return fail(ErrorCode::usage, "max-error: expected a number of codes above 0, up to 255");
     if (options.accuracy != Accuracy::exact)
         return fail(ErrorCode::usage, "max-error: cannot be combined with an accuracy other than exact");
     if (options.rate != ShadingRate::pixel)

@@ -59,7 +59,8 @@ struct PlanInputs {
     ForEachRow for_each_row = in_turn;
 };
 
-/// Fails (usage) for a lobe that check_lobe refuses, and for an error budget with options whose error has no bound.
+/// Fails (usage) for a lobe that check_lobe refuses, and for an error budget with options whose error has no bound. Ranges of single
+/// options are raster/settings_table.def's.
 [[nodiscard]] Result<void> check_options(const ShadingSettings& options);
 
 [[nodiscard]] ShadingPlan plan_shading(const PlanInputs& inputs, PlanMemory& memory);

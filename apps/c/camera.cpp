@@ -5,6 +5,9 @@
 
 #include <halflit/auto_setup.hpp>
 
+#include <algorithm>
+#include <array>
+
 using namespace halflit;
 using namespace halflit::c;
 
@@ -28,6 +31,23 @@ int32_t halflit_camera_look_at(const float eye[3], const float target[3], const 
         auto made = camera(to);
         if (!made) return tl::unexpected<Error>(made.error());
         made->world_from_camera = look_at(vec3(eye), vec3(target), up != nullptr ? vec3(up) : Vec3f{0, 1, 0});
+        return write_struct(nameless(*made), to, "halflit_camera");
+    });
+}
+
+int32_t halflit_camera_from_intrinsics(const double k[9], int32_t width, int32_t height, const double rotation[9],
+                                       const double translation[3], double first_pixel, halflit_camera* to) {
+    return guarded(__func__, {{k, "k"}, {rotation, "rotation"}, {translation, "translation"}, {to, "camera"}}, [&]() -> Result<void> {
+        const auto before = camera(to);
+        if (!before) return tl::unexpected<Error>(before.error());
+        if (k[1] != 0 || k[3] != 0 || k[6] != 0 || k[7] != 0 || k[8] != 1)
+            return fail(ErrorCode::usage, "k: expected fx, 0, cx, 0, fy, cy, 0, 0, 1");
+        const Intrinsics lens{k[0], k[4], k[2], k[5], width, height, first_pixel};
+        std::array<double, 9> turn{};
+        std::copy_n(rotation, 9, turn.begin());
+        auto made = Camera::from_intrinsics(lens, turn, {translation[0], translation[1], translation[2]});
+        if (!made) return tl::unexpected<Error>(made.error());
+        made->near_z = before->near_z, made->far_z = before->far_z;
         return write_struct(nameless(*made), to, "halflit_camera");
     });
 }

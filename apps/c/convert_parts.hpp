@@ -35,6 +35,9 @@ public:
     void elevation(float degrees) {
         if (!(degrees >= -90.0f && degrees <= 90.0f)) wrong("elevation_deg", "is not from -90 to 90");
     }
+    void wrong(const char* member, const std::string& what) {
+        if (result_) result_ = fail(ErrorCode::usage, std::string(of_) + ": " + member + " " + what);
+    }
     [[nodiscard]] const Result<void>& result() const { return result_; }
 
 private:
@@ -44,10 +47,6 @@ private:
     static bool all_finite(const T (&numbers)[N]) {
         return std::all_of(numbers, numbers + N, [](T number) { return all_finite(number); });
     }
-    void wrong(const char* member, const std::string& what) {
-        if (result_) result_ = fail(ErrorCode::usage, std::string(of_) + ": " + member + " " + what);
-    }
-
     const char* of_;
     Result<void> result_;
 };

@@ -1,8 +1,10 @@
 // Conversions of what describes a picture. The constants and the layout of halflit.h are checked here too.
 #include "apps/c/convert_parts.hpp"
+#include "raster/settings_table.hpp"
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 
 namespace halflit::c {
 namespace {
@@ -20,8 +22,8 @@ HALFLIT_ENDS_WITH(halflit_mesh, topology);
 HALFLIT_ENDS_WITH(halflit_light, shadow_radius);
 HALFLIT_ENDS_WITH(halflit_environment_options, reserved);
 HALFLIT_ENDS_WITH(halflit_camera, reserved);
-HALFLIT_ENDS_WITH(halflit_settings, line_width);
-HALFLIT_ENDS_WITH(halflit_setup_options, studio);
+HALFLIT_ENDS_WITH(halflit_settings, reserved);
+HALFLIT_ENDS_WITH(halflit_setup_options, reserved);
 HALFLIT_ENDS_WITH(halflit_execution, memory_limit);
 HALFLIT_ENDS_WITH(halflit_target, coverage_row_bytes);
 HALFLIT_ENDS_WITH(halflit_report, reserved);
@@ -58,6 +60,10 @@ halflit_camera to_c(const Camera& from) {
     camera.half_width = from.half_width;
     camera.near_z = from.near_z;
     camera.far_z = from.far_z;
+    if (from.sides) {
+        const float sides[] = {from.sides->left, from.sides->right, from.sides->bottom, from.sides->top};
+        std::copy_n(sides, 4, camera.sides);
+    }
     return camera;
 }
 
@@ -74,38 +80,22 @@ Result<Camera> camera(const halflit_camera* given) {
     camera.half_width = read->half_width;
     camera.near_z = read->near_z;
     camera.far_z = read->far_z;
+    const auto& [left, right, bottom, top] = read->sides;
+    if (left != 0 || right != 0 || bottom != 0 || top != 0) camera.sides = ViewSides{left, right, bottom, top};
     return camera;
 }
 
 halflit_settings to_c(const Settings& from) {
     halflit_settings settings{};
     settings.size = sizeof settings;
-    settings.max_error_codes = from.shading.max_error_codes;
-    settings.environment_tolerance = from.shading.environment_tolerance;
-    settings.shadow_memory_limit = from.shadow_memory_limit;
     settings.region = {from.region.x, from.region.y, from.region.width, from.region.height};
-    settings.samples = from.samples;
     put(from.background_linear, settings.background);
     settings.background_environment = from.background_environment;
-    settings.exposure = from.exposure;
-    settings.accuracy = static_cast<std::int32_t>(from.shading.accuracy);
-    settings.shading_rate = static_cast<std::int32_t>(from.shading.rate);
-    settings.texture_detail = static_cast<std::int32_t>(from.shading.texture_detail);
-    settings.specular = static_cast<std::int32_t>(from.shading.specular);
-    settings.normalize_specular = from.shading.normalize_specular;
-    settings.environment_bands = from.shading.environment_bands;
     settings.override_lobe = from.shading.lobe.has_value();
     settings.lobe = to_c(from.shading.lobe.value_or(Lobe{}));
-    settings.shadows = static_cast<std::int32_t>(from.shadows);
-    settings.shadow_size = from.shadow_size;
-    settings.shadow_fade = from.shadow_fade;
-    settings.shadow_terminator_offset = from.shadow_terminator_offset;
-    settings.tone_curve = static_cast<std::int32_t>(from.tone_curve);
-    settings.sky_shadows = from.sky_shadows;
-    settings.anisotropy = from.shading.anisotropy;
-    settings.soft_shadow_maps = from.soft_shadow_maps;
-    settings.point_size = from.point_size;
-    settings.line_width = from.line_width;
+#define HALFLIT_SETTING(place, name, ...) settings.name = static_cast<decltype(settings.name)>(from.place);
+#include "raster/settings_table.def"
+#undef HALFLIT_SETTING
     return settings;
 }
 
@@ -115,33 +105,26 @@ Result<Settings> settings(const halflit_settings* given) {
     const auto read = read_struct(given, to_c(settings), "halflit_settings");
     if (!read) return tl::unexpected<Error>(read.error());
     settings.region = {read->region.x, read->region.y, read->region.width, read->region.height};
-    settings.samples = read->samples;
     settings.background_linear = vec4(read->background);
     settings.background_environment = read->background_environment != 0;
-    settings.exposure = read->exposure;
-    settings.shadow_size = read->shadow_size;
-    settings.shadow_memory_limit = read->shadow_memory_limit;
-    settings.shadow_fade = read->shadow_fade;
-    settings.shadow_terminator_offset = read->shadow_terminator_offset != 0;
-    settings.sky_shadows = read->sky_shadows;
-    settings.soft_shadow_maps = read->soft_shadow_maps;
-    settings.point_size = read->point_size;
-    settings.line_width = read->line_width;
-    ShadingSettings& shading = settings.shading;
-    if (read->override_lobe != 0) shading.lobe = lobe(read->lobe);
-    shading.normalize_specular = read->normalize_specular != 0;
-    shading.environment_bands = read->environment_bands;
-    shading.environment_tolerance = read->environment_tolerance;
-    shading.max_error_codes = read->max_error_codes;
-    shading.anisotropy = read->anisotropy;
+    if (read->override_lobe != 0) settings.shading.lobe = lobe(read->lobe);
     Members members("halflit_settings");
-    members.read(read->accuracy, Accuracy::exact, "accuracy", shading.accuracy);
-    members.read(read->shading_rate, ShadingRate::pixel, "shading_rate", shading.rate);
-    members.read(read->texture_detail, TextureDetail::nearest, "texture_detail", shading.texture_detail);
-    members.read(read->specular, SpecularModel::ggx, "specular", shading.specular);
-    members.read(read->shadows, ShadowMode::soft_split, "shadows", settings.shadows);
-    members.read(read->tone_curve, ToneCurve::neutral, "tone_curve", settings.tone_curve);
     members.finite("background", read->background);
+    const double values[] = {
+#define HALFLIT_SETTING(place, name, ...) static_cast<double>(read->name),
+#include "raster/settings_table.def"
+#undef HALFLIT_SETTING
+    };
+    for (std::size_t i = 0; i < std::size(values); ++i) {
+        const raster::Setting& setting = raster::kSettings[i];
+        if (setting.values.is_truth())
+            setting.set(settings, values[i] != 0.0 ? 1.0 : 0.0);
+        else if (setting.values.kind == raster::SettingValues::Kind::named && !setting.values.contains(values[i]))
+            members.wrong(std::string(setting.name).c_str(), "is " + std::to_string(static_cast<int>(values[i])) + ", expected 0 to " +
+                                                                 std::to_string(setting.values.names.size() - 1));
+        else
+            setting.set(settings, values[i]);
+    }
     if (!members.result()) return tl::unexpected<Error>(members.result().error());
     return settings;
 }
@@ -154,6 +137,7 @@ halflit_setup_options default_setup_options() {
     options.elevation_deg = defaults.view.elevation_deg;
     options.zoom = defaults.view.zoom;
     options.fov_y_deg = defaults.view.fov_y_deg;
+    options.orthographic = defaults.view.orthographic;
     options.add_lights = defaults.add_lights;
     return options;
 }
@@ -171,7 +155,7 @@ Result<AutoOptions> setup_options(const halflit_setup_options* given) {
     if (!(read->exposure >= 0.0f && read->exposure < 1e18f))
         return fail(ErrorCode::usage, "halflit_setup_options: exposure is not 0 or a positive number");
     options.frame = read->frame != 0;
-    options.view = {read->azimuth_deg, read->elevation_deg, read->zoom, read->fov_y_deg};
+    options.view = {read->azimuth_deg, read->elevation_deg, read->zoom, read->fov_y_deg, read->orthographic != 0};
     if (read->own_ambient != 0) options.ambient_linear = vec3(read->ambient_color);
     if (read->exposure > 0.0f) options.exposure = read->exposure;
     options.add_lights = read->add_lights != 0;

@@ -1,6 +1,7 @@
 // Names for the plan's enumerators, in flags and reports.
 #pragma once
 
+#include "raster/settings_table.hpp"
 #include "shading/plan/plan.hpp"
 
 #include <cstddef>
@@ -33,11 +34,10 @@ inline constexpr std::string_view kStageNames[kStageCount] = {"base colour textu
 /// Indexed by LightType.
 inline constexpr std::string_view kLightTypeNames[] = {"directional", "point", "spot"};
 
-inline constexpr std::string_view kAccuracyNames[] = {"reference", "exact"};
+using raster::kAccuracyNames;
 constexpr std::string_view accuracy_name(Accuracy accuracy) { return kAccuracyNames[static_cast<std::size_t>(accuracy)]; }
 
-/// Indexed by SpecularModel.
-inline constexpr std::string_view kSpecularNames[] = {"none", "phong", "blinn", "ggx"};
+using raster::kSpecularNames;
 
 constexpr std::string_view tier_name(shading::PowTier tier) {
     constexpr std::string_view kNames[] = {"exact", "degrees 5, 4", "degrees 3, 3"};
@@ -55,17 +55,16 @@ constexpr std::string_view lobe_path_name(shading::LobePath path) {
     return kNames[static_cast<std::size_t>(path)];
 }
 
-inline constexpr std::string_view kRateNames[] = {"flat", "gouraud", "pixel"};
+using raster::kRateNames;
 constexpr std::string_view rate_name(ShadingRate rate) { return kRateNames[static_cast<std::size_t>(rate)]; }
 
-/// Indexed by ToneCurve.
-inline constexpr std::string_view kToneCurveNames[] = {"none", "reinhard", "aces", "neutral"};
+using raster::kToneCurveNames;
 constexpr std::string_view tone_curve_name(ToneCurve curve) { return kToneCurveNames[static_cast<std::size_t>(curve)]; }
 
-inline constexpr std::string_view kTextureDetailNames[] = {"full", "bilinear", "nearest"};
+using raster::kTextureDetailNames;
 constexpr std::string_view texture_detail_name(TextureDetail detail) { return kTextureDetailNames[static_cast<std::size_t>(detail)]; }
 
-inline constexpr std::string_view kShadowModeNames[] = {"off", "hard", "soft-split"};
+using raster::kShadowModeNames;
 constexpr std::string_view shadow_mode_name(ShadowMode mode) { return kShadowModeNames[static_cast<std::size_t>(mode)]; }
 
 }  // namespace halflit::cli

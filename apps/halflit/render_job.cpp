@@ -37,8 +37,7 @@ Result<void> check_size(PictureSize size, const Region& region) {
 
 /// The largest size with the camera's aspect ratio that fits into the usual one.
 PictureSize shaped(PictureSize usual, const Camera& camera) {
-    double aspect = static_cast<double>(camera.aspect);
-    if (camera.orthographic) aspect = camera.half_width > 0.0f ? static_cast<double>(camera.half_width / camera.half_height) : 0.0;
+    const auto aspect = static_cast<double>(camera.made_for_aspect());
     if (!(aspect > 1e-3 && aspect < 1e3)) return usual;
     const double fitted = std::min(static_cast<double>(usual.width), static_cast<double>(usual.height) * aspect);
     const auto side = [](double pixels) { return std::max(1, static_cast<int>(pixels + 0.5)); };
@@ -164,7 +163,8 @@ Result<void> choose_setup(RenderJob& job, const RenderOptions& options, const st
         return fail(ErrorCode::usage, "--background: environment needs --env");
     job.camera = setup.camera;
     job.settings.exposure = setup.settings.exposure;
-    if (!options.shadow_size_given) job.settings.shadow_size = setup.settings.shadow_size;
+    const auto& chosen = options.given_settings;
+    if (std::find(chosen.begin(), chosen.end(), "shadow_size") == chosen.end()) job.settings.shadow_size = setup.settings.shadow_size;
     job.choices.push_back(fmt::format("lights: {}{}{}{}", scene.lights.size(), scene.lights.size() > given ? ", added by default" : "",
                                       scene.environment == nullptr  ? ""
                                       : options.environment.empty() ? ", and the environment studio"

@@ -4,6 +4,7 @@
 #include "apps/halflit/file_flags.hpp"
 #include "apps/halflit/lobe_model.hpp"
 #include "apps/halflit/plan_names.hpp"
+#include "apps/halflit/setting_flags.hpp"
 #include "apps/halflit/spelling.hpp"
 #include "halflit/scene.hpp"
 #include "sh/vec3d.hpp"
@@ -17,34 +18,16 @@
 namespace halflit::cli {
 namespace {
 
-constexpr std::string_view kOffOn[] = {"off", "on"};
+using raster::kOffOn;
 constexpr const char* kUsualBackground = "#3a3f47";
-
-tl::unexpected<Error> expected_one_of(const std::vector<std::string>& names, const std::string& found) {
-    return fail(ErrorCode::usage, fmt::format("expected one of {}, found '{}'{}", joined(names, ", "), found, did_you_mean(found, names)));
-}
-
-/// Reads one of the allowed whole numbers.
-ReadValue choice(int& target, std::vector<int> allowed) {
-    return [&target, allowed = std::move(allowed)](const std::string& text) -> Result<void> {
-        const auto value = parse_int(text, 1, std::numeric_limits<int>::max());
-        if (!value || std::find(allowed.begin(), allowed.end(), *value) == allowed.end())
-            return fail(ErrorCode::usage, fmt::format("expected one of {}, found '{}'", fmt::join(allowed, ", "), text));
-        target = static_cast<int>(*value);
-        return {};
-    };
-}
 
 using Names = std::span<const std::string_view>;
 
 /// Reads one of the names; the value is the name's index in the list.
 template <class T>
 ReadValue named(T& target, Names names) {
-    return [&target, names](const std::string& text) -> Result<void> {
-        const auto found = std::find(names.begin(), names.end(), text);
-        if (found == names.end()) return expected_one_of({names.begin(), names.end()}, text);
-        target = static_cast<T>(found - names.begin());
-        return {};
+    return [&target, names](const std::string& text) {
+        return read_value(raster::named(names), text).map([&](double index) { target = static_cast<T>(static_cast<int>(index)); });
     };
 }
 
@@ -84,22 +67,11 @@ FlagGroup picture_flags(RenderOptions& o, PictureSize usual) {
           fmt::format("Size in pixels (default {}x{}, reduced to the aspect ratio of the file's camera)", usual.width, usual.height),
           parsed(o.size, parse_size)},
          {"--region", "X,Y,W,H", "Draw and write only this part of the picture", parsed(s.region, parse_region)},
-         {"--samples", "1|4|8|16", fmt::format("Samples per pixel, which smooth edges (default {})", s.samples),
-          choice(s.samples, {1, 4, 8, 16})},
-         {"--point-size", "PX", fmt::format("Side of points in pixels, 1/16 to 256 (default {})", s.point_size),
-          number(s.point_size, 0.0625f, 256.0f)},
-         {"--line-width", "PX", fmt::format("Width of lines in pixels, 1/16 to 256 (default {})", s.line_width),
-          number(s.line_width, 0.0625f, 256.0f)},
          {"--background", "COLOR|environment",
           fmt::format("transparent, #rgb, #rrggbb, #rrggbbaa or a name (default {}); environment: the image of --env", kUsualBackground),
           [&s](const std::string& text) { return read_background(s, text); }},
          {"--exposure", "EV|auto", "Multiply all light by 2^EV; auto: chosen from the file's lights or the environment (default)",
-          [&o](const std::string& text) { return read_exposure(o.exposure, text); }},
-         {"--tonemap", form_of(kToneCurveNames),
-          fmt::format("Tone curve from light to the picture's colours (default {}); the background colour and files of floats (.exr .pfm "
-                      ".hdr) do without",
-                      name_of(s.tone_curve, kToneCurveNames)),
-          named(s.tone_curve, kToneCurveNames)}}};
+          [&o](const std::string& text) { return read_exposure(o.exposure, text); }}}};
 }
 
 /// A flag of the view of the whole scene. Sets `given`.
@@ -137,6 +109,11 @@ FlagGroup camera_flags(RenderOptions& o) {
                    90),
          view_flag(o.whole_scene, "--zoom", "N", "Enlarge it by this factor", o.view.zoom, 1e-3f, 1e3f),
          view_flag(o.fov_given, "--fov", "DEG", "Vertical field of view, 1 to 170", o.view.fov_y_deg, 1, 170),
+         {"--orthographic", "", "View the whole scene by parallel rays, without perspective",
+          [&o](const std::string&) -> Result<void> {
+              o.whole_scene = o.view.orthographic = true;
+              return {};
+          }},
          {"--camera-position", "X,Y,Z", "Place the camera here", parsed(o.camera_position, parse_point)},
          {"--camera-target", "X,Y,Z", "Point that a placed camera looks at (default: the centre of the scene)",
           parsed(o.camera_target, parse_point)},
@@ -208,17 +185,7 @@ FlagGroup light_flags(RenderOptions& o) {
           [&o](const std::string& text) { return read_ambient(o.ambient_linear, text); }}}};
 }
 
-Result<void> read_bands(int& bands, const std::string& text) {
-    bands = 0;
-    if (text == "auto") return {};
-    const auto number = parse_int(text, 1, sh::kMaxBands);
-    if (!number) return fail(ErrorCode::usage, fmt::format("expected auto or 1 to {}, found '{}'", sh::kMaxBands, text));
-    bands = static_cast<int>(*number);
-    return {};
-}
-
 FlagGroup environment_flags(RenderOptions& o) {
-    int& bands = o.settings.shading.environment_bands;
     return {"Environment",
             {{"--env", "FILE|sky|studio|none",
               "Environment, an image of light from all directions: a picture of floats (.hdr .exr .pfm), or the built-in sky or studio "
@@ -232,73 +199,19 @@ FlagGroup environment_flags(RenderOptions& o) {
               number(o.environment_rotate_deg, -3600.0f, 3600.0f)},
              {"--env-sun", form_of(kOffOn),
               fmt::format("Replace suns in the environment by directional lights (default {})", name_of(o.environment_sun, kOffOn)),
-              named(o.environment_sun, kOffOn)},
-             {"--sh-order", fmt::format("auto|1..{}", sh::kMaxBands),
-              "Bands of spherical harmonics for the environment; auto: as few as keep the error within 1/510 of white (default)",
-              [&bands](const std::string& text) { return read_bands(bands, text); }}}};
-}
-
-Result<void> read_shadow_memory(std::size_t& bytes, const std::string& text) {
-    const auto mib = parse_int(text, 1, 65536);
-    if (!mib) return tl::unexpected(mib.error());
-    bytes = static_cast<std::size_t>(*mib) * kMib;
-    return {};
+              named(o.environment_sun, kOffOn)}}};
 }
 
 FlagGroup shadow_flags(RenderOptions& o) {
-    Settings& s = o.settings;
     return {"Shadows",
-            {{"--shadows", form_of(kShadowModeNames),
-              fmt::format("hard: shadows cut off wrapped light; soft-split: it fades with the distance to the blocker (default {})",
-                          name_of(s.shadows, kShadowModeNames)),
-              named(s.shadows, kShadowModeNames)},
-             {"--shadow-size", "N",
-              fmt::format("Side of a shadow map in texels, a power of two from 64 to 4096 (default: twice the picture's longer side or "
-                          "more, 256 to {})",
-                          s.shadow_size),
-              [&o, read = choice(s.shadow_size, {64, 128, 256, 512, 1024, 2048, 4096})](const std::string& text) {
-                  o.shadow_size_given = true;
-                  return read(text);
-              }},
-             {"--sun-size", "DEG",
+            {{"--sun-size", "DEG",
               "Soft shadows: angle from the middle to the rim of directional lights, the studio's too, 0 to 40 (default 0; the sun: 0.27)",
               number(o.sun_size_deg, 0.0f, 40.0f)},
              {"--lamp-size", "R", "Soft shadows: radius of point and spot lights, in the scene's units (default 0)",
-              number(o.lamp_size, 0.0f, 1e9f)},
-             {"--soft-shadow-maps", "N",
-              fmt::format("Points of a light that has a size, each with a shadow map of half the side, 4 to 64 (default {})",
-                          s.soft_shadow_maps),
-              [&s](const std::string& text) -> Result<void> {
-                  const auto n = parse_int(text, 4, 64);
-                  if (!n) return tl::unexpected(n.error());
-                  s.soft_shadow_maps = static_cast<int>(*n);
-                  return {};
-              }},
-             {"--shadow-fade", "D",
-              "soft-split: distance to the blocker from which on no wrapped light is left (default: from object size and wrap)",
-              number(s.shadow_fade, 1e-6f, 1e9f)},
-             {"--shadow-memory", "MIB",
-              fmt::format("Memory limit of all shadow maps, 1 to 65536 MiB: they are halved in size until they fit (default {})",
-                          s.shadow_memory_limit / kMib),
-              [&s](const std::string& text) { return read_shadow_memory(s.shadow_memory_limit, text); }},
-             {"--sky-shadows", "N",
-              fmt::format("Look up in N directions, 16 to 1024, how much of the sky, the studio or ambient light reaches a surface; 0: all "
-                          "of it (default {}; 64 is a good number)",
-                          s.sky_shadows),
-              [&s](const std::string& text) -> Result<void> {
-                  const auto n = parse_int(text, 0, 1024);
-                  if (!n || (*n > 0 && *n < 16)) return fail(ErrorCode::usage, fmt::format("expected 0, or 16 to 1024, found '{}'", text));
-                  s.sky_shadows = static_cast<int>(*n);
-                  return {};
-              }},
-             {"--shadow-terminator", form_of(kOffOn),
-              fmt::format("Look shadows of coarse meshes up on the smooth surface given by the vertex normals (default {})",
-                          name_of(s.shadow_terminator_offset, kOffOn)),
-              named(s.shadow_terminator_offset, kOffOn)}}};
+              number(o.lamp_size, 0.0f, 1e9f)}}};
 }
 
 FlagGroup surface_flags(RenderOptions& o) {
-    ShadingSettings& s = o.settings.shading;
     return {
         "Surface",
         {{"--lobe", joined(lobe_name_list(), "|"), "Diffuse lobe, reflected light over the angle to the light (default lambert)",
@@ -318,11 +231,6 @@ FlagGroup surface_flags(RenderOptions& o) {
           fmt::format("Let materials that have lobes of their own keep them (default {}); off: --lobe, --wrap and --power count for all",
                       name_of(o.own_lobes, kOffOn)),
           named(o.own_lobes, kOffOn)},
-         {"--specular", form_of(kSpecularNames), fmt::format("Model of the highlights (default {})", name_of(s.specular, kSpecularNames)),
-          named(s.specular, kSpecularNames)},
-         {"--specular-normalize", form_of(kOffOn),
-          fmt::format("Make sharper highlights brighter (default {})", name_of(s.normalize_specular, kOffOn)),
-          named(s.normalize_specular, kOffOn)},
          {"--kd", "X", "Diffuse factor of all lit materials, 0 to 1, times their base colour", number(o.classic.diffuse, 0.0f, 1.0f)},
          {"--ks", "X",
           "Specular factor of all lit materials, 0 to 1: the light mirrored straight on (default 0.04). What is mirrored is not diffuse: "
@@ -337,28 +245,7 @@ FlagGroup surface_flags(RenderOptions& o) {
           fmt::format("STL, PLY, OBJ and 3MF without normals: smooth across edges up to this angle between their triangles, 0 to 180 "
                       "(default {})",
                       o.load.crease_deg),
-          number(o.load.crease_deg, 0.0f, 180.0f)},
-         {"--shading", form_of(kRateNames),
-          fmt::format("Compute light once per triangle (flat), vertex (gouraud) or pixel (default {})", name_of(s.rate, kRateNames)),
-          named(s.rate, kRateNames)}}};
-}
-
-FlagGroup accuracy_flags(ShadingSettings& s) {
-    return {"Accuracy",
-            {{"--accuracy", form_of(kAccuracyNames),
-              fmt::format("reference: float64, slow; exact: float32 (default {})", name_of(s.accuracy, kAccuracyNames)),
-              named(s.accuracy, kAccuracyNames)},
-             {"--max-error", "CODES",
-              "Instead of --accuracy: the cheapest computation with a proven error below this many 8-bit codes, such as 0.5",
-              number(s.max_error_codes, 1e-3f, 255.0f)},
-             {"--texture-filter", form_of(kTextureDetailNames),
-              fmt::format("full: as the file asks; bilinear: one mip level; nearest: one texel of it (default {})",
-                          name_of(s.texture_detail, kTextureDetailNames)),
-              named(s.texture_detail, kTextureDetailNames)},
-             {"--anisotropy", "1|2|4|8|16",
-              fmt::format("Filter textures along a footprint up to so many times as long as wide, as floors have it (default {})",
-                          s.anisotropy),
-              choice(s.anisotropy, {1, 2, 4, 8, 16})}}};
+          number(o.load.crease_deg, 0.0f, 180.0f)}}};
 }
 
 Result<void> read_isa(std::optional<Isa>& target, const std::string& text) {
@@ -370,11 +257,14 @@ Result<void> read_isa(std::optional<Isa>& target, const std::string& text) {
 }
 
 FlagGroup machine_flags(Execution& e) {
-    return {"Speed (never changes a pixel)",
-            {{"--isa", "NAME", "Instruction set: auto, " + isa_names(), [&e](const std::string& text) { return read_isa(e.isa, text); }},
-             {"--threads", "N", "Number of threads, 0 for one per core (default)", read_int(e.threads, 0, 1024)},
-             {"--tile", "N", fmt::format("Side of a tile in pixels: 16, 32 or 64 (default {})", e.tile_size),
-              choice(e.tile_size, {16, 32, 64})}}};
+    return {
+        "Speed (never changes a pixel)",
+        {{"--isa", "NAME", "Instruction set: auto, " + isa_names(), [&e](const std::string& text) { return read_isa(e.isa, text); }},
+         {"--threads", "N", "Number of threads, 0 for one per core (default)", read_int(e.threads, 0, 1024)},
+         {"--tile", "N", fmt::format("Side of a tile in pixels: 16, 32 or 64 (default {})", e.tile_size), [&e](const std::string& text) {
+              static constexpr int kTileSizes[] = {16, 32, 64};
+              return read_value(raster::one_of(kTileSizes), text).map([&](double side) { e.tile_size = static_cast<int>(side); });
+          }}}};
 }
 
 }  // namespace
@@ -405,9 +295,11 @@ namespace {
 
 /// The flags that decide the picture and its speed.
 std::vector<FlagGroup> scene_flags(RenderOptions& o, PictureSize usual) {
-    return {picture_flags(o, usual),    camera_flags(o),        pose_flags(o),    light_flags(o),
-            environment_flags(o),       shadow_flags(o),        surface_flags(o), accuracy_flags(o.settings.shading),
-            machine_flags(o.execution), untrusted_file_flags(o)};
+    std::vector<FlagGroup> groups{picture_flags(o, usual),    camera_flags(o),        pose_flags(o),    light_flags(o),
+                                  environment_flags(o),       shadow_flags(o),        surface_flags(o), {"Accuracy", {}},
+                                  machine_flags(o.execution), untrusted_file_flags(o)};
+    for (FlagGroup& group : groups) add_setting_flags(group, o.settings, o.given_settings);
+    return groups;
 }
 
 }  // namespace

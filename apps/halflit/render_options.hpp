@@ -26,7 +26,8 @@ inline constexpr PictureSize kRenderSize{1280, 720};
 struct RenderOptions {
     std::string scene;  ///< a file, "-" for standard input, or a built-in scene
     std::optional<PictureSize> size;
-    Settings settings = usual_settings();  ///< the flags' values; lobe and exposure are chosen later, with the scene
+    Settings settings = usual_settings();            ///< the flags' values; lobe and exposure are chosen later, with the scene
+    std::vector<std::string_view> given_settings{};  ///< names of settings whose flags were given
     Execution execution;
 
     std::optional<std::string> camera;  ///< a camera of the file: its index or name
@@ -53,7 +54,6 @@ struct RenderOptions {
     bool environment_sun = true;
     float environment_rotate_deg = 0.0f;
     bool may_want_reference = false;  ///< the environment keeps what --accuracy reference needs, though the accuracy is another
-    bool shadow_size_given = false;   ///< false: chosen for the picture's size
     std::optional<float> exposure;    ///< a factor; none: chosen from the lights
 
     LoadOptions load;

@@ -1,6 +1,6 @@
 #include "apps/viewer/controls.hpp"
 
-#include "apps/halflit/plan_names.hpp"
+#include "apps/halflit/setting_flags.hpp"
 #include "halflit/scene.hpp"
 #include "sh/arc.hpp"
 #include "sh/trig.hpp"
@@ -131,16 +131,9 @@ std::string as_flags(const Controls& now, const Controls& started, float exposur
         if (now.lobe.normalize) flags += " --normalize";
     }
     if (!now.own_lobes && now.over_own_lobes && !started.over_own_lobes) add("--own-lobes", "off");
-    if (now.specular != started.specular) add("--specular", cli::kSpecularNames[static_cast<std::size_t>(now.specular)]);
-    if (now.normalize_specular != started.normalize_specular) add("--specular-normalize", now.normalize_specular ? "on" : "off");
-    if (now.shadows != started.shadows) add("--shadows", cli::shadow_mode_name(now.shadows));
-    if (now.sky_shadows != started.sky_shadows) add("--sky-shadows", now.sky_shadows);
+    flags += cli::differing_flags(settings_of(now, {}), settings_of(started, {}));
     if (now.sky.sky != Sky::as_started) add("--env", kSkyNames[static_cast<std::size_t>(now.sky.sky)]);
     if (now.sky.rotate_deg != started.sky.rotate_deg) add("--env-rotate", now.sky.rotate_deg);
-    if (now.sh_order != started.sh_order) add("--sh-order", now.sh_order == 0 ? "auto" : std::to_string(now.sh_order));
-    if (now.tone_curve != started.tone_curve) add("--tonemap", cli::tone_curve_name(now.tone_curve));
-    if (now.samples != started.samples) add("--samples", now.samples);
-    if (now.max_error_codes != started.max_error_codes) add("--max-error", now.max_error_codes);
     if (now.exposure_ev != 0.0f) add("--exposure", std::log2(static_cast<double>(exposure)) + static_cast<double>(now.exposure_ev));
     return flags.empty() ? flags : flags.substr(1);
 }

@@ -74,6 +74,13 @@ struct Extent {
     [[nodiscard]] double nearest(double o, double d) const { return clamped(o, low - tangent * d, high + tangent * d); }
 };
 
+/// Least and largest of the numbers added.
+struct Span {
+    double low = 1e300, high = -1e300;
+    [[nodiscard]] bool has(double x) const { return low <= x && x <= high; }
+    void add(double x) { low = x < low ? x : low, high = larger(high, x); }
+};
+
 /// Finds the nearest camera in a given direction that sees a set of points, then a place for it that has equal margins left and right, and
 /// above and below. Each step is a pass over the points.
 class ViewFit {
@@ -84,12 +91,13 @@ public:
           axes_(orbit_axes(view)),
           tan_y_(half_angle_tangent(usable_fov(static_cast<float>(view.fov_y_deg * (kPi / 180.0))))),
           x_{tan_y_ * usable_aspect(aspect) * (1.0 - kFrameMargin)},
-          y_{tan_y_ * (1.0 - kFrameMargin)} {}
+          y_{tan_y_ * (1.0 - kFrameMargin)},
+          aspect_(usable_aspect(aspect)) {}
 
     /// True if adding the point would change nothing.
     [[nodiscard]] bool has(Vec3d p) const {
         const double x = dot(p, axes_.right), y = dot(p, axes_.up), z = dot(p, axes_.back);
-        return x_.has(x, z) && y_.has(y, z) && front_ >= z;
+        return x_.has(x, z) && y_.has(y, z) && front_ >= z && (!view_.orthographic || (wide_.has(x) && tall_.has(y) && back_ <= z));
     }
 
     /// Adds a point, given relative to the origin.
@@ -98,6 +106,7 @@ public:
         x_.add(x, z);
         y_.add(y, z);
         front_ = larger(front_, z);
+        if (view_.orthographic) wide_.add(x), tall_.add(y), back_ = back_ < z ? back_ : z;
     }
 
     /// Sets the distance. radius: size of the set of points; keeps the camera off a set that is seen edge on.
@@ -132,15 +141,35 @@ public:
         // Near plane: half way to the nearest point, or 1e-4 of the camera's distance if that is more.
         camera.near_z = static_cast<float>(larger(0.5 * (distance_ - front_), 1e-4 * distance_));
         camera.far_z = 0.0f;
+        if (view_.orthographic) make_parallel(seen, zoom, camera);
         return camera;
     }
 
 private:
+    /// Parallel rays: the extents of the points themselves, in the middle of the picture.
+    void make_parallel(const ViewFit& seen, double zoom, Camera& camera) const {
+        const double x = 0.5 * (seen.wide_.low + seen.wide_.high), y = 0.5 * (seen.tall_.low + seen.tall_.high);
+        const double half_x = 0.5 * (seen.wide_.high - seen.wide_.low), half_y = 0.5 * (seen.tall_.high - seen.tall_.low);
+        const double depth = front_ - back_, aspect = aspect_;
+        const double half = larger(larger(half_y, half_x / aspect), 1e-9 * larger(depth, 1e-9)) / (1.0 - kFrameMargin);
+        // The eye is as far from the nearest point as the set is deep: both planes keep clear of it.
+        const double room = larger(depth, half);
+        const Vec3d eye = ((origin_ + axes_.right * x) + axes_.up * y) + axes_.back * (front_ + room);
+        camera.world_from_camera.c[3] = {static_cast<float>(eye.x), static_cast<float>(eye.y), static_cast<float>(eye.z), 1};
+        camera.orthographic = true;
+        camera.half_height = static_cast<float>(half / zoom);
+        camera.near_z = 0.0f;
+        camera.far_z = static_cast<float>(2.0 * room + depth);
+    }
+
     ViewSettings view_;
     Vec3d origin_;
     Axes axes_;
     double tan_y_;
     Extent x_, y_;
+    double aspect_;
+    Span wide_, tall_;       // of orthographic views
+    double back_ = 1e300;    // coordinate of the farthest point along `back`, of orthographic views
     double front_ = -1e300;  // coordinate of the nearest point along `back`
     double distance_ = 0.0;  // of the eye along `back`, from the origin
 };

@@ -31,6 +31,24 @@ HalfView half_view(const Camera& camera, double aspect) {
     return widen_to(asked, aspect);
 }
 
+/// The sides as the middle of the picture, right and up of the axis, and half the extents.
+struct SeenSides {
+    double middle_x = 0, middle_y = 0;
+    HalfView half;
+};
+SeenSides seen_sides(const Camera& camera, double aspect) {
+    if (!camera.sides) return {0, 0, half_view(camera, aspect)};
+    const auto span = [](double low, double high, double& middle) {
+        middle = 0.5 * (low + high);
+        return larger(0.5 * (high - low), 1e-30);
+    };
+    const ViewSides& s = *camera.sides;
+    SeenSides out;
+    out.half.x = span(s.left, s.right, out.middle_x);
+    out.half.y = span(s.bottom, s.top, out.middle_y);
+    return out;
+}
+
 DepthMap perspective_depth(const Camera& camera) {
     const bool has_far = finite(camera.far_z) && camera.far_z > 0.0f;
     double near_z = camera.near_z;
@@ -52,11 +70,12 @@ DepthMap orthographic_depth(const Camera& camera, HalfView half) {
 
 DepthMap depth_map(const Camera& camera, float picture_aspect) {
     if (!camera.orthographic) return perspective_depth(camera);
-    return orthographic_depth(camera, half_view(camera, usable_aspect(picture_aspect)));
+    return orthographic_depth(camera, seen_sides(camera, usable_aspect(picture_aspect)).half);
 }
 
 Mat4 clip_from_world(const Camera& camera, float picture_aspect) {
-    const HalfView half = half_view(camera, usable_aspect(picture_aspect));
+    const SeenSides seen = seen_sides(camera, usable_aspect(picture_aspect));
+    const HalfView half = seen.half;
     const DepthMap depth = depth_map(camera, picture_aspect);
 
     // Projection times the inverse of the rigid world_from_camera, in double and rounded once.
@@ -65,6 +84,7 @@ Mat4 clip_from_world(const Camera& camera, float picture_aspect) {
     const Vec3d eye{m.c[3].x, m.c[3].y, m.c[3].z};
     const auto clip_column = [&](double x_vs, double y_vs, double z_vs, double one) {
         const double w = camera.orthographic ? one : -z_vs;
+        if (camera.sides) x_vs -= seen.middle_x * w, y_vs -= seen.middle_y * w;
         return Vec4f{static_cast<float>(x_vs / half.x), static_cast<float>(y_vs / half.y),
                      static_cast<float>(depth.z_scale * z_vs + depth.z_offset * one), static_cast<float>(w)};
     };
@@ -77,8 +97,10 @@ ViewRays view_rays(const Camera& camera, float picture_aspect) {
     const Mat4& m = camera.world_from_camera;
     const auto axis = [&](int i) { return Vec3d{m.c[i].x, m.c[i].y, m.c[i].z}; };
     if (camera.orthographic) return {axis(2) * -1.0, {}, {}};
-    const HalfView half = half_view(camera, usable_aspect(picture_aspect));
-    return {axis(2) * -1.0, axis(0) * half.x, axis(1) * half.y};
+    const SeenSides seen = seen_sides(camera, usable_aspect(picture_aspect));
+    const Vec3d right = axis(0) * seen.half.x, up = axis(1) * seen.half.y;
+    if (!camera.sides) return {axis(2) * -1.0, right, up};
+    return {(axis(0) * seen.middle_x + axis(1) * seen.middle_y) - axis(2), right, up};
 }
 
 }  // namespace halflit::raster

@@ -236,7 +236,7 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
         }
         const double wider = strength / (2.0 * std::sqrt(width));  // of the root of alpha along
         s.roughness.absolute += wider, s.roughness.relative += wider;
-        s.normal_error += 1.1 * std::pow(32.0 / width, 0.25) * direction;
+        s.normal_error += 1.1 * power_of(32.0 / width, 0.25) * direction;
     }
     if (has(kStageOcclusionTexture)) {
         const double strength = material.occlusion_strength;

@@ -21,7 +21,7 @@ inline constexpr float kShortDirection = 4.0f;
 struct StretchTap {
     float place, weight;
 };
-inline constexpr StretchTap kStretchTaps[] = {{-1.035f, 0.204f}, {-0.524f, 0.296f}, {0.524f, 0.296f}, {1.035f, 0.204f}};
+constexpr StretchTap kStretchTaps[] = {{-1.035f, 0.204f}, {-0.524f, 0.296f}, {0.524f, 0.296f}, {1.035f, 0.204f}};
 /// alpha^2 of each of these mirrors, besides across^2, is the square of this share.
 inline constexpr float kStretchWidth = 0.152f;
 /// Least N.V of these mirrors.

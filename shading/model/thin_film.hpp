@@ -14,7 +14,7 @@ struct FilmWave {
     float waves_per_nm, fade_per_nm2;
     float rgb[3];
 };
-inline constexpr FilmWave kFilmWaves[] = {{1.6810e-3f, 2.464912e-7f, {2.743336f, -0.8205709f, 0.04710715f}},
+constexpr FilmWave kFilmWaves[] = {{1.6810e-3f, 2.464912e-7f, {2.743336f, -0.8205709f, 0.04710715f}},
                                           {1.7953e-3f, 5.299464e-7f, {-1.5374796f, 1.8764271f, -0.20407117f}},
                                           {2.2084e-3f, 3.765943e-7f, {-0.49909099f, 0.041602647f, 1.0584119f}},
                                           {2.2399e-3f, 2.579051e-7f, {0.4986032f, -0.14913932f, 0.0085617557f}}};

@@ -1,5 +1,6 @@
 #include "tests/fuzz/render_flags.hpp"
 
+#include "raster/settings_table.hpp"
 #include "shading/material_properties.hpp"
 
 #include <algorithm>
@@ -31,19 +32,24 @@ Lobe read_lobe(Input& input) {
     }
 }
 
-ShadingSettings read_shading(Input& input) {
-    ShadingSettings shading;
-    shading.rate = input.one_in(2) ? one_of<ShadingRate>(input, 3) : ShadingRate::pixel;
-    if (input.one_in(3)) shading.lobe = read_lobe(input);
-    shading.specular = one_of<SpecularModel>(input, 4);
-    shading.normalize_specular = input.flag();
-    shading.environment_bands = static_cast<int>(input.below(11));
-    shading.accuracy = one_of<Accuracy>(input, 2);
-    if (input.one_in(3)) shading.anisotropy = input.pick(std::array{1, 2, 3, 16});
-    shading.texture_detail = input.one_in(3) ? one_of<TextureDetail>(input, 3) : TextureDetail::full;
-    if (input.one_in(4)) shading.max_error_codes = std::array{0.01, 0.5, 4.0, -1.0}[input.below(4)];
-    if (input.one_in(16)) shading.environment_tolerance = static_cast<double>(input.real());
-    return shading;
+/// Values of all settings: mostly those of its range, some of them beside it.
+void read_setting_values(Input& input, Settings& settings) {
+    for (const raster::Setting& setting : raster::kSettings) {
+        if (!input.one_in(3)) continue;
+        const raster::SettingValues& values = setting.values;
+        if (input.one_in(64)) {
+            setting.set(settings, static_cast<double>(input.real()));
+        } else if (!values.list.empty()) {
+            setting.set(settings, static_cast<double>(values.list[input.below(values.list.size())]));
+        } else if (values.kind == raster::SettingValues::Kind::number) {
+            setting.set(settings, values.low + (std::min(values.high, 8.0) - values.low) * static_cast<double>(input.byte()) / 255.0);
+        } else {
+            // Whole numbers near the least, which cost least: of names all.
+            const auto step = static_cast<double>(input.below(4));
+            const double value = values.powers_of_two ? values.low * static_cast<double>(1 << static_cast<int>(step)) : values.low + step;
+            setting.set(settings, std::min(value, values.high));
+        }
+    }
 }
 
 Region read_region(Input& input, const RenderFlags& flags) {
@@ -74,18 +80,10 @@ Camera read_camera(Input& input) {
 Settings read_settings(Input& input, const RenderFlags& flags) {
     Settings settings;
     settings.region = read_region(input, flags);
-    settings.samples = input.pick(std::array{1, 4, 1, 16, 8, 3});
+    read_setting_values(input, settings);
+    if (input.one_in(3)) settings.shading.lobe = read_lobe(input);
     settings.background_linear = {input.real(), input.real(), input.real(), input.flag() ? 1.0f : input.real()};
     settings.background_environment = flags.environment && input.flag();
-    if (input.one_in(8)) settings.exposure = input.real();
-    settings.shading = read_shading(input);
-    settings.shadows = one_of<ShadowMode>(input, 3);
-    settings.shadow_size = input.pick(std::array{64, 128, 64, 256});
-    settings.shadow_terminator_offset = input.flag();
-    if (input.one_in(8)) settings.shadow_fade = input.real();
-    if (input.one_in(16)) settings.shadow_memory_limit = input.number<std::uint16_t>();
-    if (input.one_in(4)) settings.point_size = settings.line_width = input.pick(std::array{0.0625f, 1.0f, 7.3f, 256.0f});
-    settings.sky_shadows = input.pick(std::array{0, 0, 0, 16, 33});
     return settings;
 }
 

@@ -117,7 +117,7 @@ values("KHR_texture_transform", T, [{}], [5, []])
 
 # ---- extensions that are not drawn are said, once --------------------------------------------------------------------------------------
 SIMPLE = "KHR_materials_"
-for name in [SIMPLE + n for n in ("anisotropy", "iridescence",
+for name in [SIMPLE + n for n in (
                                   "dispersion",
                                   "diffuse_transmission")] + [
         "KHR_texture_basisu", "EXT_texture_avif",

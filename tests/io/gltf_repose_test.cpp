@@ -264,8 +264,8 @@ TEST_CASE("pose_at: pointers move every number and texture transform of the tabl
     for (const shading::MaterialNumber& number : shading::kMaterialNumbers) {
         if (number.gltf.empty()) continue;
         const auto count = static_cast<std::size_t>(number.count);
-        std::vector<float> values(kMoved, kMoved + count);
-        values.insert(values.end(), kMoved, kMoved + count);
+        std::vector<float> values;
+        for (std::size_t i = 0; i < 2 * count; ++i) values.push_back(std::clamp(kMoved[i % count], number.low, number.high));
         moves(std::string(number.gltf), count, values);
     }
     const Bytes file =
@@ -281,7 +281,7 @@ TEST_CASE("pose_at: pointers move every number and texture transform of the tabl
         INFO(number.name);
         float values[4];
         number.get(m, values);
-        CHECK(std::equal(values, values + number.count, kMoved));
+        for (int c = 0; c < number.count; ++c) CHECK(values[c] == std::clamp(kMoved[c], number.low, number.high));
     }
     for (const TextureSlot slot : shading::kAllTextureSlots) {
         INFO(shading::info_of(slot).name);

@@ -38,7 +38,7 @@ class Header(unittest.TestCase):
         self.assertTrue(made == stored, "run: " + command)
 
     def test_members_of_materials_are_those_of_the_table(self):
-        done = subprocess.run([sys.executable, os.path.join(APPS, "c", "material_members.py"), "--check"], capture_output=True, text=True)
+        done = subprocess.run([sys.executable, os.path.join(APPS, "c", "members.py"), "--check"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_structs_have_the_sizes_of_the_library(self):
@@ -56,7 +56,7 @@ class Header(unittest.TestCase):
         self.assertEqual(_c.make("environment_options").keep_image, 1)
 
     def test_keywords_are_typed(self):
-        members = {_options._NAMES.get(name, name) for name in _options.SETTINGS}
+        members = {member for member, _ in _options.SETTINGS.values()}
         chosen = {"size", "reserved", "region", "exposure", "override_lobe", "background_environment"}
         self.assertEqual(members, {name for name, _ in _c.STRUCT["halflit_settings"]._fields_} - chosen)
         for kind in (halflit.Material, halflit.Light, halflit.Camera, halflit.Lobe, halflit.TextureUse):

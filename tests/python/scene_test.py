@@ -305,6 +305,24 @@ class Parts(unittest.TestCase):
         with self.assertRaisesRegex(halflit.UsageError, "setup: made for 80 x 60"):
             scene.render(64, setup=setup)
 
+    def test_a_calibration_places_pixels(self):
+        turn = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0], [0.48, 0.64, 0.6]])
+        k, move = [[600, 0, 331.3], [0, 590, 247.9], [0, 0, 1]], np.array([0.1, -0.2, 5])
+        camera = halflit.Camera.from_intrinsics(k, (640, 480), turn, move)
+        points = np.random.default_rng(2).uniform(-1, 1, (1000, 3))
+        seen = points @ turn.T + move
+        want = seen[:, :2] / seen[:, 2:] * (600, 590) + (331.3, 247.9) + 0.5  # the first pixel's middle is at 0
+        left, right, bottom, top = camera.sides
+        own = (points - camera.matrix[:3, 3]) @ camera.matrix[:3, :3]
+        x, y = own[:, 0] / -own[:, 2], own[:, 1] / -own[:, 2]
+        got = np.stack([(x - left) / (right - left) * 640, (top - y) / (top - bottom) * 480], 1)
+        self.assertLess(np.abs(got - want).max(), 1e-3)
+        self.assertEqual(halflit.Camera(**camera.to_dict()).sides, camera.sides)
+        with self.assertRaisesRegex(halflit.UsageError, "mirrors"):
+            halflit.Camera.from_intrinsics(k, (640, 480), turn * [[1], [-1], [1]], move)
+        with self.assertRaisesRegex(halflit.UsageError, "K: expected"):
+            halflit.Camera.from_intrinsics([600, 590], (640, 480), turn, move)
+
     def test_cameras(self):
         scene = halflit.Scene()
         scene.add_mesh(CORNERS, FACES)
@@ -326,8 +344,11 @@ class Parts(unittest.TestCase):
         self.assertAlmostEqual(flat.far_z, 11, places=4)
         by_matrix = render(scene, camera=camera.matrix)
         self.assertEqual(by_matrix.camera.matrix.tolist(), camera.matrix.tolist())
-        with self.assertRaisesRegex(halflit.UsageError, "middle of the picture"):
-            halflit.Camera.from_matrices(view, [[1, 0, 0.2, 0], [0, 1, 0, 0], [0, 0, -1, -1], [0, 0, -1, 0]])
+        shifted = halflit.Camera.from_matrices(view, [[1, 0, 0.2, 0], [0, 2, 0, 0], [0, 0, -1, -1], [0, 0, -1, 0]])
+        self.assertTrue(np.allclose(shifted.sides, (-0.8, 1.2, -0.5, 0.5)))
+        mirrored = np.diag([1.0, 1, -1, 1])
+        with self.assertRaisesRegex(halflit.UsageError, "mirrors"):
+            halflit.Camera(mirrored)
         with self.assertRaisesRegex(halflit.UsageError, "cannot be combined with azimuth"):
             render(scene, camera=camera, azimuth=3)
         with self.assertRaisesRegex(halflit.UsageError, "index below 0"):

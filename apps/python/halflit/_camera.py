@@ -3,21 +3,22 @@ from __future__ import annotations
 
 import ctypes
 import math
-from typing import Any, Callable
+from typing import Any, Callable, Optional, Tuple
 
 from . import _c
 from ._errors import UsageError
 from ._lazy import np
 from ._record import Record
 from ._types import Point
-from ._values import reals
+from ._values import reals, shown
 
 
 class Camera(Record):
     """A camera is at the origin of its own space and looks along -z, with +x to the right and +y up.
 
     Camera(matrix, fov_y_rad=0.8): matrix is world_from_camera, 4 x 4, rigid, its translation in the last column.
-    Camera.look_at(eye, target), Camera.from_matrices(view, projection), Scene.frame() and Scene.cameras give others.
+    Camera.look_at(eye, target), Camera.from_intrinsics(K, size, R, t), Camera.from_matrices(view, projection), Scene.frame() and
+    Scene.cameras give others.
 
     Members:
         name: of a camera of a file ("")
@@ -29,6 +30,8 @@ class Camera(Record):
         half_width: orthographic: half its width; 0: from the picture's aspect (0)
         near_z: above 0 for perspective, world units (0.1)
         far_z: above near_z; 0: no limit (perspective alone) (0)
+        sides: left, right, bottom, top of the picture: tangents of the angles from the axis, or (orthographic) distances from it, in
+            place of fov_y_rad, aspect, half_height and half_width, whatever the picture's aspect; None: none (None)
     """
 
     _kind, _truths = "camera", frozenset({"orthographic"})
@@ -56,6 +59,20 @@ class Camera(Record):
         return [name for name in super()._members() if name != "world_from_camera"] + ["matrix"]
 
     @property
+    def sides(self) -> Optional[Tuple[float, float, float, float]]:
+        """left, right, bottom, top of the picture in place of the angles and sizes above, or None."""
+        sides = tuple(self._c.sides)
+        return sides if any(sides) else None
+
+    @sides.setter
+    def sides(self, value) -> None:
+        sides = (0.0, 0.0, 0.0, 0.0) if value is None else tuple(reals(value, 4, "sides"))
+        if value is not None and not (sides[0] < sides[1] and sides[2] < sides[3]):
+            raise UsageError(f"sides: expected left below right and bottom below top, found {shown(value)}")
+        self._c.sides[:] = sides
+        object.__setattr__(self, "_drawn", None)
+
+    @property
     def matrix(self) -> np.ndarray:
         """world_from_camera, float64 (4, 4): the translation is matrix[:3, 3]."""
         if "matrix" in self._exact:
@@ -70,6 +87,11 @@ class Camera(Record):
         turn = array[:3, :3]
         if not np.abs(turn.T @ turn - np.eye(3)).max() < 1e-3:
             raise UsageError("matrix: expected a rigid one, a rotation and a translation alone")
+        if np.linalg.det(turn) < 0:
+            raise UsageError(
+                "matrix: expected a rotation, found one that mirrors: it would show things inside out (cameras of computer vision look "
+                "along +z with y down: Camera.from_intrinsics takes them)"
+            )
         self._place(array)
 
     def _place(self, matrix: np.ndarray) -> None:
@@ -78,7 +100,7 @@ class Camera(Record):
         object.__setattr__(self, "_drawn", None)
 
     def __setattr__(self, name: str, value) -> None:
-        if name == "matrix":
+        if name in ("matrix", "sides"):
             object.__setattr__(self, name, value)
         else:
             super().__setattr__(name, value)
@@ -105,11 +127,36 @@ class Camera(Record):
         return camera
 
     @classmethod
+    def from_intrinsics(cls, K, size, R, t, first_pixel: float = 0, **members: Any) -> Camera:
+        """A camera of computer vision, which looks along +z with y down.
+
+        K: fx, 0, cx; 0, fy, cy; 0, 0, 1 in pixels of a picture of size (width, height). A point X of the world is at R X + t in the
+        camera's space. first_pixel: the coordinate of the middle of the first pixel: 0 for OpenCV, 0.5 for COLMAP and wherever pixels
+        have their corners at whole numbers. Draw pictures of that size, or of its shape.
+        """
+        from ._arrays import numbers
+
+        given = []
+        for value, shape, name in ((K, (3, 3), "K"), (R, (3, 3), "R"), (t, (3,), "t")):
+            array = numbers(value, np.float64, name)
+            if array.size != math.prod(shape) or not np.isfinite(array).all():
+                raise UsageError(f"{name}: expected finite numbers of shape {shape}, found shape {array.shape}")
+            given.append((ctypes.c_double * array.size)(*array.ravel()))
+        width, height = (int(x) for x in reals(size, 2, "size"))
+        camera = cls(**members)
+        k, turn, move = given
+        _c.call("camera_from_intrinsics", k, width, height, turn, move, float(first_pixel), ctypes.byref(camera._c))
+        matrix = np.eye(4)
+        matrix[:3, :3] = np.array(turn).reshape(3, 3).T * (1, -1, -1)
+        matrix[:3, 3] = -np.array(turn).reshape(3, 3).T @ np.array(move)
+        camera._place(matrix)
+        return camera
+
+    @classmethod
     def from_matrices(cls, view, projection) -> Camera:
         """A camera by the two matrices of OpenGL: view is camera_from_world and rigid, projection is clip_from_camera, both 4 x 4.
 
-        The projection may be perspective, with or without a far plane, or orthographic; its axis must go through the middle of the
-        picture.
+        The projection may be perspective, with or without a far plane, or orthographic; its axis may be anywhere in the picture.
         """
         from ._arrays import matrix, numbers
 
@@ -121,9 +168,11 @@ class Camera(Record):
         except np.linalg.LinAlgError:
             raise UsageError("view: expected a rigid matrix, found one without an inverse") from None
         a, b = p[2, 2], p[2, 3]
-        off_centre = abs(p[0, 2]) + abs(p[1, 2]) if p[3, 2] == -1 else abs(p[0, 3]) + abs(p[1, 3])
-        if not (off_centre <= 1e-6 and p[0, 0] > 0 and p[1, 1] > 0):
-            raise UsageError("projection: expected an axis through the middle of the picture")
+        if not (p[0, 0] > 0 and p[1, 1] > 0):
+            raise UsageError("projection: expected x to the right and y up")
+        x, y = (-p[0, 2], -p[1, 2]) if p[3, 2] == -1 else (p[0, 3], p[1, 3])  # of the axis, as the picture's are from -1 to 1
+        if abs(x) + abs(y) > 1e-6:
+            camera.sides = (-1 - x) / p[0, 0], (1 - x) / p[0, 0], (-1 - y) / p[1, 1], (1 - y) / p[1, 1]
         if p[3, 2] == -1:
             camera.fov_y_rad = 2 * math.atan(1 / p[1, 1])
             camera.aspect = p[1, 1] / p[0, 0]
@@ -148,6 +197,8 @@ class Camera(Record):
         made._place(matrix)
         for name in ("half_height", "half_width", "near_z", "far_z"):
             setattr(made._c, name, getattr(made._c, name) * scale)
+        if self.orthographic and self.sides:
+            made.sides = [side * scale for side in self.sides]
         return made
 
     def _check(self) -> None:
@@ -161,6 +212,8 @@ class Camera(Record):
     def _shape(self) -> float:
         """Width / height that the camera is made for; 0 if it is made for any."""
         c = self._c
+        if self.sides:
+            return (c.sides[1] - c.sides[0]) / (c.sides[3] - c.sides[2])
         if c.orthographic:
             return c.half_width / c.half_height if c.half_width > 0 else 0.0
         return c.aspect

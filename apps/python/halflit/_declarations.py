@@ -44,7 +44,7 @@ STRUCTS = {
 """,
     "halflit_camera": """
         size_t size; const char* name; float world_from_camera[16]; int32_t orthographic; float fov_y_rad; float aspect; float
-        half_height, half_width; float near_z; float far_z; int32_t reserved;
+        half_height, half_width; float near_z; float far_z; float sides[4]; int32_t reserved;
 """,
     "halflit_light": """
         size_t size; int32_t type; float color[3]; float position[3]; float direction[3]; float range; float source_radius; float
@@ -58,16 +58,16 @@ STRUCTS = {
 """,
     "halflit_settings": """
         size_t size; double max_error_codes; double environment_tolerance; uint64_t shadow_memory_limit; halflit_region region;
-        int32_t samples; float background[4]; int32_t background_environment; float exposure; int32_t accuracy; int32_t
-        shading_rate; int32_t texture_detail; int32_t specular; int32_t normalize_specular; int32_t environment_bands; int32_t
-        override_lobe; halflit_lobe lobe; int32_t shadows; int32_t shadow_size; float shadow_fade; int32_t
-        shadow_terminator_offset; int32_t tone_curve; int32_t sky_shadows; int32_t anisotropy; int32_t soft_shadow_maps; int32_t
-        reserved; float point_size; float line_width;
+        float background[4]; int32_t background_environment; int32_t override_lobe; halflit_lobe lobe; int32_t samples; float
+        exposure; int32_t tone_curve; float point_size; float line_width; int32_t accuracy; int32_t texture_detail; int32_t
+        anisotropy; int32_t specular; int32_t normalize_specular; int32_t shading_rate; int32_t environment_bands; int32_t
+        shadows; int32_t shadow_size; int32_t soft_shadow_maps; float shadow_fade; int32_t sky_shadows; int32_t
+        shadow_terminator_offset; int32_t reserved;
 """,
     "halflit_setup_options": """
         size_t size; const halflit_camera* camera; double studio_turn_rad; int32_t frame; float azimuth_deg; float elevation_deg;
         float zoom; float fov_y_deg; int32_t own_ambient; float ambient_color[3]; float exposure; int32_t add_lights; int32_t
-        studio;
+        studio; int32_t orthographic; int32_t reserved;
 """,
     "halflit_execution": """
         size_t size; const char* isa; void* user; int32_t (*cancelled)(void* user); void (*on_tile)(void* user, int32_t x, int32_t
@@ -180,6 +180,7 @@ int32_t halflit_scene_get_instance(const halflit_scene* scene, int32_t index, in
 int32_t halflit_scene_set_instance(halflit_scene* scene, int32_t index, const float world_from_object[16]);
 int32_t halflit_camera_init(halflit_camera* camera, size_t size);
 int32_t halflit_camera_look_at(const float eye[3], const float target[3], const float up[3], halflit_camera* camera);
+int32_t halflit_camera_from_intrinsics(const double k[9], int32_t width, int32_t height, const double rotation[9], const double translation[3], double first_pixel, halflit_camera* camera);
 int32_t halflit_camera_frame(const halflit_scene* scene, float aspect, float azimuth_deg, float elevation_deg, float zoom, halflit_camera* camera);
 int32_t halflit_scene_get_camera(const halflit_scene* scene, int32_t index, halflit_camera* camera);
 int32_t halflit_light_init(halflit_light* light, size_t size);

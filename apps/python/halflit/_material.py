@@ -154,7 +154,7 @@ class Material(Record):
     _truths = frozenset({"double_sided", "unlit", "own_lobe", "shadow_catcher"})
     _nested = {"halflit_lobe": Lobe, "halflit_texture_use": TextureUse}
     _metallic_given = False
-    # Ranges and members: written by apps/c/material_members.py.
+    # Ranges and members: written by apps/c/members.py.
     _colors = {
         "base_color": 1.0,
         "emissive": None,

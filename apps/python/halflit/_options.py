@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Dict, Iterable
+from typing import Any, Dict, Iterable, Tuple
 
 from . import _c
 from ._color import BRIGHTEST, color
@@ -26,25 +26,33 @@ PLANES = {
 #: Names of the planes: render(aovs=...).
 AOVS = tuple(PLANES)
 
-VIEW = ("camera", "azimuth", "elevation", "zoom", "fov", "setup", "exposure", "ev", "ambient", "studio", "studio_turn")
+VIEW = ("camera", "azimuth", "elevation", "zoom", "fov", "orthographic", "setup", "exposure", "ev", "ambient", "studio", "studio_turn")
 PIXELS = ("dtype", "premultiplied", "out", "aovs", "region")
 EXECUTION = ("threads", "isa", "tile_size", "time_limit", "memory_limit", "progress", "cancelled")
-_NAMES = {"max_error": "max_error_codes"}  # keyword -> member of halflit_settings, where they differ
-_TRUTHS = ("normalize_specular", "shadow_terminator_offset")
-_CHOICES = {
-    "accuracy": "ACCURACY",
-    "shading_rate": "RATE",
-    "texture_detail": "DETAIL",
-    "specular": "SPECULAR",
-    "shadows": "SHADOWS",
-    "tone_curve": "TONE",
+#: Keyword -> (member of halflit_settings, type or enumeration). Written by apps/c/members.py.
+SETTINGS: Dict[str, Tuple[str, str]] = {
+    "max_error": ("max_error_codes", "float"),
+    "environment_tolerance": ("environment_tolerance", "float"),
+    "shadow_memory_limit": ("shadow_memory_limit", "int"),
+    "samples": ("samples", "int"),
+    "tone_curve": ("tone_curve", "TONE"),
+    "point_size": ("point_size", "float"),
+    "line_width": ("line_width", "float"),
+    "accuracy": ("accuracy", "ACCURACY"),
+    "texture_detail": ("texture_detail", "DETAIL"),
+    "anisotropy": ("anisotropy", "int"),
+    "specular": ("specular", "SPECULAR"),
+    "normalize_specular": ("normalize_specular", "bool"),
+    "shading_rate": ("shading_rate", "RATE"),
+    "environment_bands": ("environment_bands", "int"),
+    "shadows": ("shadows", "SHADOWS"),
+    "shadow_size": ("shadow_size", "int"),
+    "soft_shadow_maps": ("soft_shadow_maps", "int"),
+    "shadow_fade": ("shadow_fade", "float"),
+    "sky_shadows": ("sky_shadows", "int"),
+    "shadow_terminator_offset": ("shadow_terminator_offset", "bool"),
 }
-SETTINGS = (
-    "samples background max_error accuracy shading_rate texture_detail anisotropy specular normalize_specular lobe environment_bands"
-    " environment_tolerance point_size line_width shadows shadow_size shadow_fade shadow_terminator_offset shadow_memory_limit"
-    " soft_shadow_maps sky_shadows tone_curve"
-).split()
-KNOWN = frozenset((*VIEW, *PIXELS, *EXECUTION, *SETTINGS))
+KNOWN = frozenset((*VIEW, *PIXELS, *EXECUTION, *SETTINGS, "background", "lobe"))
 
 
 def check_names(options: Iterable[str], known: Iterable[str] = KNOWN, function: str = "render") -> None:
@@ -59,18 +67,19 @@ def check_names(options: Iterable[str], known: Iterable[str] = KNOWN, function: 
 
 def apply_settings(settings, options: dict) -> None:
     """Writes the keywords that were given into a halflit_settings."""
-    for name in SETTINGS:
-        if options.get(name) is None:
+    for name in (*SETTINGS, "background", "lobe"):
+        value = options.get(name)
+        if value is None:
             continue
-        value = options[name]
         if name == "background":
             set_background(settings, value)
         elif name == "lobe":
             settings.lobe, settings.override_lobe = Lobe._from(value)._c, 1
-        elif name in _CHOICES and isinstance(value, str):
-            settings.put(name, chosen(value, _CHOICES[name], name), name)
         else:
-            settings.put(_NAMES.get(name, name), truth(value, name) if name in _TRUTHS else value, name)
+            member, kind = SETTINGS[name]
+            if kind.isupper() and isinstance(value, str):
+                value = chosen(value, kind, name)
+            settings.put(member, truth(value, name) if kind == "bool" else value, name)
 
 
 def set_background(settings, value) -> None:
@@ -85,12 +94,13 @@ def set_background(settings, value) -> None:
 def settings_dict(settings) -> Dict[str, Any]:
     """All settings by the names of halflit_settings."""
     values: Dict[str, Any] = {}
+    kinds = dict(SETTINGS.values())
     for name, _ in settings._fields_:
         value = getattr(settings, name)
         if name in ("size", "reserved"):
             continue
-        if name in _CHOICES:
-            value = {number: text for text, number in _c.choices(_CHOICES[name]).items()}[value]
+        if kinds.get(name, "").isupper():
+            value = {number: text for text, number in _c.choices(kinds[name]).items()}[value]
         elif name == "lobe":
             value = Lobe._of(value).to_dict()
         elif isinstance(value, ctypes.Structure):

@@ -18,6 +18,7 @@ class ViewOptions(TypedDict, total=False):
     elevation: float
     zoom: float
     fov: float
+    orthographic: bool
     exposure: float
     ev: float
     ambient: Color
@@ -34,6 +35,7 @@ class PictureOptions(ViewOptions, total=False):
         elevation: degrees above the horizon (20)
         zoom: 2 makes things twice as large (1)
         fov: full vertical angle of that view, degrees (35)
+        orthographic: that view has parallel rays, and no fov (False)
         setup: what Scene.setup() chose for an earlier picture, instead of all of the above and of the light below but exposure and ev
 
     The light that is chosen:
@@ -46,37 +48,41 @@ class PictureOptions(ViewOptions, total=False):
         studio_turn: degrees about the vertical, counter-clockwise seen from above (0)
 
     The picture:
-        samples: a pixel: 1, 4, 8 or 16 (4)
         background: "transparent", "environment", "#rrggbb", "#rrggbbaa" or linear numbers ("#3a3f47")
-        tone_curve: "none", "reinhard", "aces" or "neutral" (neutral)
         region: x, y, width, height: draws this part alone, as the array's whole (all)
         dtype: numpy.uint8 (sRGB codes) or numpy.float32 (linear light) (uint8, or that of out)
         premultiplied: colours are multiplied by alpha (False)
         out: the array to draw into, (height, width, 4); rows may have gaps (a new one)
         aovs: names of AOVS, or "all" (none)
-
-    Shading:
-        max_error: error budget in 8-bit codes; halflit chooses the cheapest way within it (0: none)
-        accuracy: "exact" or "reference" (exact)
-        shading_rate: "flat", "gouraud" or "pixel" (pixel)
-        texture_detail: "full", "bilinear" or "nearest" (full)
-        anisotropy: 1 to 16 (4)
-        specular: "none", "phong", "blinn" or "ggx" (blinn)
-        normalize_specular: sharper highlights are brighter (True)
         lobe: of materials without a lobe of their own (lambert)
-        environment_bands: of spherical harmonics, 1 to 10; 0: as many as environment_tolerance requires (0)
-        environment_tolerance: error of leaving out bands, relative to white (1/510)
-        point_size: side of points, pixels (2)
-        line_width: pixels (1.5)
 
-    Shadows:
-        shadows: "off", "hard" or "soft_split" (soft_split)
-        shadow_size: texels on a side of a shadow map, a power of two from 64 to 4096 (chosen)
-        shadow_fade: distance to the blocker at which wrapped light ends, world units; 0: chosen (0)
-        shadow_terminator_offset: moves look-ups onto the smooth surface, for coarse meshes (False)
-        shadow_memory_limit: bytes (256 MiB)
-        soft_shadow_maps: shadow maps of a light with a shadow_radius, 4 to 64 (16)
-        sky_shadows: directions in which light from all around may be hidden, 16 to 1024; 0: none (0)
+    Settings:
+        max_error: error budget in 8-bit codes: the cheapest way whose proven bound is below it, for light once a pixel, full
+            texture filters and exact arithmetic alone; 0: none (0)
+        environment_tolerance: of bands that are left out, relative to white, in linear light; half an 8-bit code (1/510)
+        shadow_memory_limit: bytes; shadow maps are halved in size until all fit (256 MiB)
+        samples: per pixel: 1, 4, 8 or 16 (4)
+        tone_curve: from light to codes, for each sample, after exposure; pictures of floats and the background colour do without:
+            "none", "reinhard", "aces", "neutral" (neutral)
+        point_size: side of points, pixels, 1/16 to 256; rounded to 1/256 (2)
+        line_width: width of lines, likewise (1.5)
+        accuracy: arithmetic; exact if there is an error budget: "reference", "exact" (exact)
+        texture_detail: upper limit of the texture filters: "full", "bilinear", "nearest" (full)
+        anisotropy: largest ratio of a footprint's length to its width that is filtered along its length, 1 to 16; 1: footprints
+            count as squares; for textures that are linear within and between levels (4)
+        specular: model of highlights; none: albedo is the base colour itself: "none", "phong", "blinn", "ggx" (blinn)
+        normalize_specular: sharper highlights are brighter, for the same light in all; off: a peak of 1 for every exponent; ggx
+            always is (True)
+        shading_rate: how often light is evaluated: "flat", "gouraud", "pixel" (pixel)
+        environment_bands: of spherical harmonics, 1 to 10; 0: the fewest whose error is within environment_tolerance (0)
+        shadows: effect of shadows on wrapped light; off: no shadow maps are drawn: "off", "hard", "soft_split" (soft_split)
+        shadow_size: texels on a side of a shadow map, a power of two from 64 to 4096; a cube's faces have half (chosen)
+        soft_shadow_maps: points of a light that has a shadow_radius, each with maps of half that side: 4 to 64 (16)
+        shadow_fade: soft_split: distance to the blocker from which on wrapped light is 0, world units; 0: from object size and wrap
+            (0)
+        sky_shadows: number of directions in which ambient light and the environment cast shadows, by shadow maps of 256 texels: 16
+            to 1024; 0, or without shadows: they cast none (0)
+        shadow_terminator_offset: look-ups on the smooth surface given by the vertex normals, for coarse meshes (False)
 
     How it is computed: nothing of this changes a pixel:
         threads: 0: one for each core (0)
@@ -89,33 +95,35 @@ class PictureOptions(ViewOptions, total=False):
     """
 
     setup: Setup
-    samples: int
     background: Union[str, Color]
-    tone_curve: str
     region: Tuple[int, int, int, int]
     dtype: Any
     premultiplied: bool
     out: np.ndarray
     aovs: Union[Sequence[str], str]
+    lobe: Union[Lobe, str, Tuple[str, float]]
+    # Settings: written by apps/c/members.py.
     max_error: float
+    environment_tolerance: float
+    shadow_memory_limit: int
+    samples: int
+    tone_curve: str
+    point_size: float
+    line_width: float
     accuracy: str
-    shading_rate: str
     texture_detail: str
     anisotropy: int
     specular: str
     normalize_specular: bool
-    lobe: Union[Lobe, str, Tuple[str, float]]
+    shading_rate: str
     environment_bands: int
-    environment_tolerance: float
-    point_size: float
-    line_width: float
     shadows: str
     shadow_size: int
-    shadow_fade: float
-    shadow_terminator_offset: bool
-    shadow_memory_limit: int
     soft_shadow_maps: int
+    shadow_fade: float
     sky_shadows: int
+    shadow_terminator_offset: bool
+    # How it is computed.
     threads: int
     isa: str
     tile_size: int

@@ -12,7 +12,7 @@ from ._errors import UsageError
 from ._lazy import np
 from ._options import VIEW, check_names
 from ._record import chosen
-from ._values import real, shown, sized
+from ._values import real, shown, sized, truth
 from ._world import World
 
 USUAL = (1280, 720)  # the program's size
@@ -101,7 +101,7 @@ def exposure_of(options: dict) -> Optional[float]:
 
 def request_of(scene, options: dict) -> Request:
     struct, given = _c.make("setup_options"), options.get("camera")
-    whole_scene = [name for name in ("azimuth", "elevation", "zoom", "fov") if options.get(name) is not None]
+    whole_scene = [name for name in ("azimuth", "elevation", "zoom", "fov", "orthographic") if options.get(name) is not None]
     struct.frame = bool(whole_scene) or (isinstance(given, str) and given == "frame")
     camera = None
     if given is not None and not (isinstance(given, str) and given == "frame"):
@@ -111,6 +111,7 @@ def request_of(scene, options: dict) -> Request:
     for name, member in (("azimuth", "azimuth_deg"), ("elevation", "elevation_deg"), ("zoom", "zoom"), ("fov", "fov_y_deg")):
         if name in whole_scene:
             struct.put(member, options[name], name)
+    struct.orthographic = truth(options.get("orthographic") or False, "orthographic")
     struct.exposure = exposure_of(options) or 0.0
     light_of(scene, options, struct)
     return Request(struct, camera)

@@ -1,15 +1,34 @@
 // Cameras. A camera sits at the origin of its own space, looks along -z, with +x to the right and +y up (glTF).
 #pragma once
 
+#include "halflit/error.hpp"
 #include "halflit/export.hpp"
 #include "halflit/math.hpp"
 #include "halflit/mesh.hpp"
 
+#include <array>
+#include <optional>
 #include <string>
 
 namespace halflit {
 
 struct Scene;
+
+/// The four sides of a picture, seen from the camera: tangents of the angles from its axis (perspective), or distances from it in world
+/// units (orthographic). The axis need not meet the middle of the picture, nor the picture at all.
+struct ViewSides {
+    float left = -1, right = 1, bottom = -1, top = 1;  ///< left < right, bottom < top
+    friend bool operator==(const ViewSides&, const ViewSides&) = default;
+};
+
+/// What a calibration says of a lens without distortion, in pixels of a picture of width x height: u = fx x / z + cx, v = fy y / z + cy,
+/// with x to the right, y down and z ahead.
+struct Intrinsics {
+    double fx = 0, fy = 0, cx = 0, cy = 0;
+    int width = 0, height = 0;
+    /// u and v in the middle of the upper left pixel: 0 for OpenCV, 0.5 for COLMAP and wherever pixels have their corners at whole numbers
+    double first_pixel = 0;
+};
 
 /// A view of the world. Distances are world units.
 struct Camera {
@@ -22,6 +41,16 @@ struct Camera {
     float half_width = 0.0f;         ///< orthographic: half its width; 0: from the picture's aspect
     float near_z = 0.1f;             ///< distance along -z from which on things are drawn; > 0 for perspective
     float far_z = 0.0f;              ///< distance up to which they are drawn, > near_z; 0: no far limit (perspective only)
+    /// in place of fov_y_rad, aspect, half_height and half_width: the picture's sides, whatever its aspect, so pixels need not be square
+    std::optional<ViewSides> sides{};
+
+    /// Width / height that the view is made for; 0: any.
+    [[nodiscard]] HALFLIT_API float made_for_aspect() const;
+    /// A camera of computer vision: a point X of the world is at R X + t in the camera's space, x to the right, y down and z ahead.
+    /// rotation: R, row by row. Each number of the camera is rounded once. Fails (usage) for intrinsics that are no lens, and for an R that
+    /// is no rotation or mirrors: then two of its axes are usually swapped, or one has the wrong sign.
+    [[nodiscard]] HALFLIT_API static Result<Camera> from_intrinsics(const Intrinsics& lens, const std::array<double, 9>& rotation,
+                                                                    const std::array<double, 3>& translation);
     friend bool operator==(const Camera&, const Camera&) = default;
 };
 
@@ -31,9 +60,13 @@ struct ViewSettings {
     float elevation_deg = 20.0f;  ///< above the horizon
     float zoom = 1.0f;            ///< 2 makes things twice as large
     float fov_y_deg = 35.0f;      ///< full vertical angle before the zoom
+    bool orthographic = false;    ///< parallel rays: no perspective, and no fov_y_deg
 };
 
-/// Perspective camera that sees all of `bounds` at the given aspect ratio, by default in a three-quarter view. In the tighter direction the
+/// Fails (usage) for a camera whose world_from_camera mirrors, or whose sides are not in order: it would show things inside out.
+[[nodiscard]] HALFLIT_API Result<void> check_camera(const Camera& camera);
+
+/// Camera that sees all of `bounds` at the given aspect ratio, by default in a three-quarter view. In the tighter direction the
 /// eight corners leave a margin of 8 % of the half picture. zoom changes the field of view, not the position. Empty bounds are
 /// framed as a unit cube at the origin, a point as a small box. Angles that are not finite count as 0, the zoom as 1, the field of view as
 /// 45 degrees.

@@ -26,22 +26,22 @@ struct Settings {
     int samples = 1;                      ///< per pixel: 1, 4, 8 or 16
     Vec4f background_linear{0, 0, 0, 0};  ///< linear colour, not premultiplied; w = 0 is transparent, without a colour
     bool background_environment = false;  ///< true: the scene's environment, if it kept its image
-    float exposure = 1.0f;                ///< factor on all light, > 0
-    /// Applied to the light of each sample, after exposure and before codes. Target::linear and background_linear do without it.
+    float exposure = 1.0f;                ///< factor on all light, above 0
+    /// from light to codes, for each sample, after exposure; pictures of floats and the background colour do without
     ToneCurve tone_curve = kDefaultToneCurve;
     ShadingSettings shading{};  ///< light and textures
     float point_size = 2.0f;    ///< side of points, pixels, 1/16 to 256; rounded to 1/256
     float line_width = 1.5f;    ///< width of lines, likewise
-    /// Effect of shadows on wrapped light; off: no shadow maps are drawn.
+    /// effect of shadows on wrapped light; off: no shadow maps are drawn
     ShadowMode shadows = ShadowMode::soft_split;
     int shadow_size = 2048;  ///< texels on a side of a shadow map, a power of two from 64 to 4096; a cube's faces have half
     std::size_t shadow_memory_limit = std::size_t{256} << 20;  ///< bytes; shadow maps are halved in size until all fit
-    /// Points of a light that has a shadow_radius, each with maps of half that side: 4 to 64.
+    /// points of a light that has a shadow_radius, each with maps of half that side: 4 to 64
     int soft_shadow_maps = 16;
-    /// soft_split: distance to the blocker from which on wrapped light is 0, world units; 0: from object size and wrap.
+    /// soft-split: distance to the blocker from which on wrapped light is 0, world units; 0: from object size and wrap
     float shadow_fade = 0.0f;
-    /// Number of directions in which ambient light and the environment cast shadows, by shadow maps of 256 texels: 16 to 1024. 0, or
-    /// ShadowMode::off: they cast none.
+    /// number of directions in which ambient light and the environment cast shadows, by shadow maps of 256 texels: 16 to 1024; 0, or
+    /// without shadows: they cast none
     int sky_shadows = 0;
     bool shadow_terminator_offset = false;  ///< look-ups on the smooth surface given by the vertex normals, for coarse meshes
     friend bool operator==(const Settings&, const Settings&) = default;

@@ -67,18 +67,18 @@ enum class ShadingRate : std::uint8_t {
 struct ShadingSettings {
     ShadingRate rate = ShadingRate::pixel;          ///< how often light is evaluated
     std::optional<Lobe> lobe;                       ///< replaces the lobe of all materials but those with Material::has_own_lobe
-    SpecularModel specular = SpecularModel::blinn;  ///< none: no specular stage, albedo is the base colour itself
-    /// Sharper highlights are brighter, for the same light in all; off: a peak of 1 for every exponent. ggx always is.
+    SpecularModel specular = SpecularModel::blinn;  ///< model of highlights; none: albedo is the base colour itself
+    /// sharper highlights are brighter, for the same light in all; off: a peak of 1 for every exponent; ggx always is
     bool normalize_specular = true;
-    int environment_bands = 0;  ///< of spherical harmonics, 1..10; 0: the fewest whose error is within environment_tolerance
-    double environment_tolerance = 1.0 / 510.0;  ///< relative to display white, in linear light; the default is half an 8-bit code
-    Accuracy accuracy = Accuracy::exact;         ///< exact if there is an error budget
-    /// An error budget in 8-bit codes. 0: `accuracy` decides. Above 0: the cheapest way whose proven bound is below this (ErrorBound), for
-    /// ShadingRate::pixel, TextureDetail::full and Accuracy::exact alone.
+    int environment_bands = 0;  ///< of spherical harmonics, 1 to 10; 0: the fewest whose error is within environment_tolerance
+    double environment_tolerance = 1.0 / 510.0;  ///< of bands that are left out, relative to white, in linear light; half an 8-bit code
+    Accuracy accuracy = Accuracy::exact;         ///< arithmetic; exact if there is an error budget
+    /// error budget in 8-bit codes: the cheapest way whose proven bound is below it, for light once a pixel, full texture filters and
+    /// exact arithmetic alone; 0: none
     double max_error_codes = 0.0;
-    TextureDetail texture_detail = TextureDetail::full;  ///< upper limit of the filters
-    /// Largest ratio of a footprint's length to its width that is filtered along its length, 1 to 16; 1: footprints count as squares.
-    /// For textures that are linear within and between levels.
+    TextureDetail texture_detail = TextureDetail::full;  ///< upper limit of the texture filters
+    /// largest ratio of a footprint's length to its width that is filtered along its length, 1 to 16; 1: footprints count as squares;
+    /// for textures that are linear within and between levels
     int anisotropy = 1;
     friend bool operator==(const ShadingSettings&, const ShadingSettings&) = default;
 };

@@ -189,7 +189,7 @@ typedef struct halflit_material {
     int32_t own_lobe;        ///< halflit_settings.override_lobe does not replace this material's lobe
     int32_t shadow_catcher;  ///< invisible but for the shadows on it, which are black with the hidden share as alpha
     halflit_lobe lobe;       ///< of diffuse light
-    // From here on written by apps/c/material_members.py.
+    // From here on written by apps/c/members.py.
     /// linear, in [0, 1]; the fourth number is alpha (1, 1, 1, 1)
     float base_color[4];
     /// in [0, 1] (1)
@@ -337,12 +337,21 @@ typedef struct halflit_camera {
     float half_height, half_width;  ///< orthographic: half the view's size, world units; half_width 0: from the picture's aspect
     float near_z;                   ///< above 0 for perspective
     float far_z;                    ///< above near_z; 0: no limit (perspective alone)
+    /// left, right, bottom, top: tangents of the angles from the axis, or (orthographic) distances from it, in place of fov_y_rad, aspect,
+    /// half_height and half_width, whatever the picture's aspect; all 0: none
+    float sides[4];
     int32_t reserved;
 } halflit_camera;
 HALFLIT_C_API int32_t halflit_camera_init(halflit_camera* camera, size_t size);
 
 /// Places the camera at `eye`, looking at `target`, with `up` upwards in the picture. up may be null: +y. The lens stays.
 HALFLIT_C_API int32_t halflit_camera_look_at(const float eye[3], const float target[3], const float up[3], halflit_camera* camera);
+/// A camera of computer vision, which looks along +z with y down, in place of `camera`'s matrix and lens. k: fx, 0, cx, 0, fy, cy, 0, 0, 1
+/// in pixels of a picture of width x height. A point X of the world is at rotation X + translation; rotation is row by row. first_pixel:
+/// the coordinate of the middle of the first pixel: 0 for OpenCV, 0.5 for COLMAP. Fails (usage) for a matrix that is no lens or no
+/// rotation.
+HALFLIT_C_API int32_t halflit_camera_from_intrinsics(const double k[9], int32_t width, int32_t height, const double rotation[9],
+                                                     const double translation[3], double first_pixel, halflit_camera* camera);
 /// A view of the whole scene. aspect: width / height of the picture. azimuth_deg: around +y, 0 from +z, positive from the right.
 /// elevation_deg: above the horizon, -90 to 90. zoom: 2 makes things twice as large. 35, 20 and 1 give the usual three-quarter view.
 HALFLIT_C_API int32_t halflit_camera_frame(const halflit_scene* scene, float aspect, float azimuth_deg, float elevation_deg, float zoom,
@@ -436,33 +445,60 @@ typedef struct halflit_region {
 /// Everything besides scene, camera and size that decides a pixel. Defaults in parentheses.
 typedef struct halflit_settings {
     size_t size;
-    double max_error_codes;          ///< error budget in 8-bit codes; halflit chooses the cheapest way within it (0: accuracy decides)
-    double environment_tolerance;    ///< error of leaving out bands of the environment, relative to white (1/510)
-    uint64_t shadow_memory_limit;    ///< bytes; shadow maps are made smaller until all fit (256 MiB)
+    // Settings of eight bytes: written by apps/c/members.py.
+    /// error budget in 8-bit codes: the cheapest way whose proven bound is below it, for light once a pixel, full texture filters
+    /// and exact arithmetic alone; 0: none (0)
+    double max_error_codes;
+    /// of bands that are left out, relative to white, in linear light; half an 8-bit code (1/510)
+    double environment_tolerance;
+    /// bytes; shadow maps are halved in size until all fit (256 MiB)
+    uint64_t shadow_memory_limit;
     halflit_region region;           ///< the part to draw; pixels outside are not touched (all)
-    int32_t samples;                 ///< a pixel: 1, 4, 8 or 16 (1)
     float background[4];             ///< alpha 0 is transparent, not premultiplied (0, 0, 0, 0)
     int32_t background_environment;  ///< show the environment behind the scene (0)
-    float exposure;                  ///< factor on all light, above 0 (1)
-    int32_t accuracy;                ///< HALFLIT_ACCURACY (exact)
-    int32_t shading_rate;            ///< HALFLIT_RATE: light once a triangle, a vertex or a pixel (pixel)
-    int32_t texture_detail;          ///< HALFLIT_DETAIL: upper limit of the texture filters (full)
-    int32_t specular;                ///< HALFLIT_SPECULAR: shape of highlights (Blinn)
-    int32_t normalize_specular;      ///< sharper highlights are brighter (1)
-    int32_t environment_bands;       ///< of spherical harmonics, 1 to 10; 0: as many as environment_tolerance requires (0)
     int32_t override_lobe;           ///< `lobe` replaces the lobe of materials without own_lobe (0)
     halflit_lobe lobe;               ///< (Lambert)
-    int32_t shadows;                 ///< HALFLIT_SHADOWS (soft-split)
-    int32_t shadow_size;             ///< texels on a side of a shadow map, a power of two from 64 to 4096 (2048)
-    float shadow_fade;  ///< soft-split: distance to the blocker at which wrapped light ends, world units; 0: from the objects' size (0)
-    int32_t shadow_terminator_offset;  ///< moves look-ups onto the smooth surface of the vertex normals, for coarse meshes (0)
-    int32_t tone_curve;                ///< HALFLIT_TONE: from light to codes; floats and `background` do without (none)
-    int32_t sky_shadows;               ///< directions in which light from all around may be hidden, 16 to 1024; 0: it never is (0)
-    int32_t anisotropy;                ///< largest ratio of a texture's footprint that is filtered along its length, 1 to 16 (1)
-    int32_t soft_shadow_maps;          ///< points of a light with a shadow_radius, each with maps of half that side: 4 to 64 (16)
+    // Settings of four bytes: written by apps/c/members.py.
+    /// per pixel: 1, 4, 8 or 16 (1)
+    int32_t samples;
+    /// factor on all light, above 0 (1)
+    float exposure;
+    /// HALFLIT_TONE: from light to codes, for each sample, after exposure; pictures of floats and the background colour do without
+    /// (none)
+    int32_t tone_curve;
+    /// side of points, pixels, 1/16 to 256; rounded to 1/256 (2)
+    float point_size;
+    /// width of lines, likewise (1.5)
+    float line_width;
+    /// HALFLIT_ACCURACY: arithmetic; exact if there is an error budget (exact)
+    int32_t accuracy;
+    /// HALFLIT_DETAIL: upper limit of the texture filters (full)
+    int32_t texture_detail;
+    /// largest ratio of a footprint's length to its width that is filtered along its length, 1 to 16; 1: footprints count as
+    /// squares; for textures that are linear within and between levels (1)
+    int32_t anisotropy;
+    /// HALFLIT_SPECULAR: model of highlights; none: albedo is the base colour itself (blinn)
+    int32_t specular;
+    /// sharper highlights are brighter, for the same light in all; off: a peak of 1 for every exponent; ggx always is (1)
+    int32_t normalize_specular;
+    /// HALFLIT_RATE: how often light is evaluated (pixel)
+    int32_t shading_rate;
+    /// of spherical harmonics, 1 to 10; 0: the fewest whose error is within environment_tolerance (0)
+    int32_t environment_bands;
+    /// HALFLIT_SHADOWS: effect of shadows on wrapped light; off: no shadow maps are drawn (soft-split)
+    int32_t shadows;
+    /// texels on a side of a shadow map, a power of two from 64 to 4096; a cube's faces have half (2048)
+    int32_t shadow_size;
+    /// points of a light that has a shadow_radius, each with maps of half that side: 4 to 64 (16)
+    int32_t soft_shadow_maps;
+    /// soft-split: distance to the blocker from which on wrapped light is 0, world units; 0: from object size and wrap (0)
+    float shadow_fade;
+    /// number of directions in which ambient light and the environment cast shadows, by shadow maps of 256 texels: 16 to 1024; 0,
+    /// or without shadows: they cast none (0)
+    int32_t sky_shadows;
+    /// look-ups on the smooth surface given by the vertex normals, for coarse meshes (0)
+    int32_t shadow_terminator_offset;
     int32_t reserved;
-    float point_size;  ///< side of points, pixels, 1/16 to 256 (2)
-    float line_width;  ///< width of lines, likewise (1.5)
 } halflit_settings;
 HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t size);
 
@@ -490,6 +526,8 @@ typedef struct halflit_setup_options {
     float exposure;                ///< factor on all light; 0: chosen (0)
     int32_t add_lights;            ///< a scene without any light gets some (1)
     int32_t studio;                ///< HALFLIT_STUDIO (for dark)
+    int32_t orthographic;          ///< of a view of the whole scene: parallel rays (0)
+    int32_t reserved;
 } halflit_setup_options;
 HALFLIT_C_API int32_t halflit_setup_options_init(halflit_setup_options* options, size_t size);
 

@@ -1,0 +1,71 @@
+// Cameras by calibrations, and the check of a camera.
+#include "halflit/camera.hpp"
+
+#include "raster/detail/view_math.hpp"
+#include "sh/fp_environment.hpp"
+#include "sh/vec3d.hpp"
+
+namespace halflit {
+namespace {
+
+Vec3d axis(const Mat4& m, int i) { return {m.c[i].x, m.c[i].y, m.c[i].z}; }
+double determinant(Vec3d a, Vec3d b, Vec3d c) { return dot(a, cross(b, c)); }
+
+constexpr const char* kMirrors = "expected a rotation, found a matrix that mirrors: it would show things inside out";
+
+}  // namespace
+
+float Camera::made_for_aspect() const {
+    if (sides) return (sides->right - sides->left) / (sides->top - sides->bottom);
+    if (orthographic) return half_width > 0.0f && half_height > 0.0f ? half_width / half_height : 0.0f;
+    return aspect > 0.0f ? aspect : 0.0f;
+}
+
+Result<Camera> Camera::from_intrinsics(const Intrinsics& lens, const std::array<double, 9>& rotation,
+                                       const std::array<double, 3>& translation) {
+    const FpEnvironment environment_of_host;
+    const auto usable = [](double x) { return raster::magnitude(x) < 1e12; };
+    if (!(lens.fx > 0 && lens.fy > 0 && usable(lens.fx) && usable(lens.fy) && usable(lens.cx) && usable(lens.cy) &&
+          usable(lens.first_pixel)))
+        return fail(ErrorCode::usage, "intrinsics: expected fx and fy above 0, and finite numbers");
+    if (lens.width < 1 || lens.height < 1) return fail(ErrorCode::usage, "intrinsics: the picture has no pixels");
+    const Vec3d rows[] = {
+        {rotation[0], rotation[1], rotation[2]}, {rotation[3], rotation[4], rotation[5]}, {rotation[6], rotation[7], rotation[8]}};
+    constexpr double kRigid = 1e-3;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            if (!(raster::magnitude(dot(rows[i], rows[j]) - (i == j ? 1.0 : 0.0)) < kRigid))
+                return fail(ErrorCode::usage, "rotation: expected rows of length 1 at right angles to each other");
+    if (determinant(rows[0], rows[1], rows[2]) < 0) return fail(ErrorCode::usage, std::string("rotation: ") + kMirrors);
+    const Vec3d t{translation[0], translation[1], translation[2]};
+    if (!(usable(t.x) && usable(t.y) && usable(t.z))) return fail(ErrorCode::usage, "translation: expected finite numbers");
+    const Vec3d eye = ((rows[0] * t.x + rows[1] * t.y) + rows[2] * t.z) * -1.0;
+    const auto column = [](Vec3d v, float w) {
+        return Vec4f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), w};
+    };
+    Camera camera;
+    camera.world_from_camera = {{column(rows[0], 0), column(rows[1] * -1.0, 0), column(rows[2] * -1.0, 0), column(eye, 1)}};
+    // The first pixel's corner is half a pixel before its middle.
+    const double first = lens.first_pixel - 0.5;
+    const auto tangent = [](double pixel, double centre, double f) { return static_cast<float>((pixel - centre) / f); };
+    camera.sides = ViewSides{tangent(first, lens.cx, lens.fx), tangent(first + lens.width, lens.cx, lens.fx),
+                             -tangent(first + lens.height, lens.cy, lens.fy), -tangent(first, lens.cy, lens.fy)};
+    if (auto ok = check_camera(camera); !ok) return tl::unexpected<Error>(ok.error());
+    return camera;
+}
+
+Result<void> check_camera(const Camera& camera) {
+    const FpEnvironment environment_of_host;
+    const Mat4& m = camera.world_from_camera;
+    if (determinant(axis(m, 0), axis(m, 1), axis(m, 2)) < 0)
+        return fail(ErrorCode::usage, std::string("camera: ") + kMirrors +
+                                          " (cameras of computer vision look along +z with y down: Camera::from_intrinsics takes them)");
+    if (camera.sides) {
+        const ViewSides& s = *camera.sides;
+        if (!(s.left < s.right && s.bottom < s.top && raster::finite(s.right - s.left) && raster::finite(s.top - s.bottom)))
+            return fail(ErrorCode::usage, "camera: expected sides with left below right and bottom below top");
+    }
+    return {};
+}
+
+}  // namespace halflit
