@@ -99,36 +99,37 @@ bool is_dark(const Ambient& ambient) { return ambient.sky_linear == Vec3f{} && a
 /// alone seldom reach all of a scene.
 constexpr float kStudioUnderSun = 0.15f, kStudioUnderLamps = 0.5f;
 
-/// Adds the light that the scene lacks. Returns the exposure.
-float light_scene(Scene& scene, const Bounds& bounds, const Camera& camera, const AutoOptions& options) {
-    const bool in_studio = scene.environment != nullptr && scene.environment->studio;
+/// Adds the light that is lacking. Returns the exposure.
+float complete(Lighting& light, const Bounds& bounds, const Camera& camera, const AutoOptions& options) {
+    const bool in_studio = light.environment != nullptr && light.environment->studio;
     const bool always = options.studio == StudioUse::always && !options.ambient_linear;
-    if (scene.environment != nullptr && !in_studio && !always) return environment_exposure(*scene.environment);
-    const bool dark = scene.environment == nullptr && is_dark(scene.ambient);
-    const bool has_lights = std::any_of(scene.lights.begin(), scene.lights.end(), gives_light);
+    if (light.environment != nullptr && !in_studio && !always) return environment_exposure(*light.environment);
+    const bool dark = light.environment == nullptr && is_dark(light.ambient);
+    const bool has_lights = std::any_of(light.lights.begin(), light.lights.end(), gives_light);
     if (!has_lights && dark && options.add_lights) {
-        scene.calibrated = true;
+        light.calibrated = true;
         if (options.studio == StudioUse::never || options.ambient_linear)
-            add_default_lights(scene, camera);
+            add_default_lights(light, camera);
         else
-            add_studio(scene, camera, options.studio_turn_rad);
+            add_studio(light, camera, options.studio_turn_rad);
     }
-    const bool unknown_unit = !scene.calibrated && has_lights;
-    const float exposure = unknown_unit ? auto_exposure(scene, bounds) : 1.0f;
+    const bool unknown_unit = !light.calibrated && has_lights;
+    const float exposure = unknown_unit ? auto_exposure(light, bounds) : 1.0f;
     const auto add_share = [&](float share) {
-        set_environment(scene, studio_environment(camera, options.studio_turn_rad, share / exposure));
+        light.ambient = {};
+        light.environment = studio_environment(camera, options.studio_turn_rad, share / exposure);
     };
     if (options.ambient_linear) {
-        scene.ambient = {*options.ambient_linear, *options.ambient_linear};
+        light.ambient = {*options.ambient_linear, *options.ambient_linear};
     } else if (always) {
-        if (scene.environment == nullptr || !scene.environment->studio) add_share(1.0f);
+        if (light.environment == nullptr || !light.environment->studio) add_share(1.0f);
     } else if (has_lights && dark &&
                (options.studio == StudioUse::under_lights || (unknown_unit && options.studio == StudioUse::for_dark))) {
         const bool sun =
-            std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) { return light.type == LightType::directional; });
+            std::any_of(light.lights.begin(), light.lights.end(), [](const Light& one) { return one.type == LightType::directional; });
         add_share(sun || !unknown_unit ? kStudioUnderSun : kStudioUnderLamps);
     } else if (unknown_unit && dark) {
-        scene.ambient = soft_ambient(scene, bounds);
+        light.ambient = soft_ambient(light, bounds);
     }
     return exposure;
 }
@@ -155,7 +156,7 @@ const Camera* choose_camera(const Scene& scene, const Bounds& bounds) {
     return filled.share() >= kLeastShare || filled.reach() >= kLeastReach ? &first : nullptr;
 }
 
-AutoSetup auto_setup(Scene& scene, const Bounds& bounds, int width, int height, const AutoOptions& options) {
+AutoSetup auto_setup(const Scene& scene, const Bounds& bounds, int width, int height, const AutoOptions& options) {
     const FpEnvironment environment_of_host;
     AutoSetup setup;
     const Camera* chosen = options.camera ? &*options.camera : options.frame ? nullptr : choose_camera(scene, bounds);
@@ -164,12 +165,13 @@ AutoSetup auto_setup(Scene& scene, const Bounds& bounds, int width, int height, 
     setup.camera = chosen != nullptr ? *chosen : frame_scene(scene, bounds, aspect, options.view);
     setup.settings = usual_settings();
     setup.settings.shadow_size = shadow_size_for(width, height);
-    const float exposure = light_scene(scene, bounds, setup.camera, options);
+    setup.light = options.light ? *options.light : static_cast<const Lighting&>(scene);
+    const float exposure = complete(setup.light, bounds, setup.camera, options);
     setup.settings.exposure = options.exposure.value_or(exposure);
     return setup;
 }
 
-AutoSetup auto_setup(Scene& scene, int width, int height, const AutoOptions& options) {
+AutoSetup auto_setup(const Scene& scene, int width, int height, const AutoOptions& options) {
     const FpEnvironment environment_of_host;
     return auto_setup(scene, scene_bounds(scene), width, height, options);
 }

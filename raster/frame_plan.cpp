@@ -157,14 +157,14 @@ std::optional<SeenVolume> looked_up_where_seen(const PreparedData& scene, const 
 
 constexpr int kSkyMapSize = 256;
 
-bool has_sky_shadows(const Scene& scene, const Settings& settings) {
-    const bool ambient = scene.environment != nullptr || !(scene.ambient.sky_linear == Vec3f{} && scene.ambient.ground_linear == Vec3f{});
+bool has_sky_shadows(const Lighting& light, const Settings& settings) {
+    const bool ambient = light.environment != nullptr || !(light.ambient.sky_linear == Vec3f{} && light.ambient.ground_linear == Vec3f{});
     return settings.sky_shadows > 0 && settings.shadows != ShadowMode::off && ambient;
 }
 
 /// The settings for the shadow maps of lights: sky shadows, if there are any, need a part of the memory, at most a half.
-Settings beside_sky(const Scene& scene, Settings settings) {
-    if (!has_sky_shadows(scene, settings)) return settings;
+Settings beside_sky(const Lighting& light, Settings settings) {
+    if (!has_sky_shadows(light, settings)) return settings;
     const std::size_t needed = static_cast<std::size_t>(settings.sky_shadows) * kSkyMapSize * kSkyMapSize * sizeof(float);
     settings.shadow_memory_limit -= std::min(needed, settings.shadow_memory_limit / 2);
     return settings;
@@ -172,11 +172,9 @@ Settings beside_sky(const Scene& scene, Settings settings) {
 
 /// Lights for sky shadows, with their maps, which are added to `shadows`. Light from all around reaches all of the scene, so its maps are
 /// not cut to what is seen.
-Result<std::vector<LightPlan>> plan_sky(const PreparedData& scene, const Settings& settings, ShadowViews& shadows) {
-    const Scene& source = scene.scene();
-    if (!has_sky_shadows(source, settings)) return std::vector<LightPlan>{};
-    std::vector<LightPlan> lights =
-        shading::plan_lights(shading::sky_lights(settings.sky_shadows, source.environment.get(), source.ambient));
+Result<std::vector<LightPlan>> plan_sky(const PreparedData& scene, const Lighting& light, const Settings& settings, ShadowViews& shadows) {
+    if (!has_sky_shadows(light, settings)) return std::vector<LightPlan>{};
+    std::vector<LightPlan> lights = shading::plan_lights(shading::sky_lights(settings.sky_shadows, light.environment.get(), light.ambient));
     Settings of_sky = settings;
     of_sky.shadow_size = std::min(settings.shadow_size, kSkyMapSize);
     of_sky.shadow_memory_limit -= std::min(of_sky.shadow_memory_limit, shadows.texel_count * sizeof(float));
@@ -188,22 +186,22 @@ Result<std::vector<LightPlan>> plan_sky(const PreparedData& scene, const Setting
     return lights;
 }
 
-Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, const Settings& settings, int width, int height,
-                            int tile_size, FramePlanMemory& memory) {
+Result<FramePlan> make_plan(const PreparedData& prepared, const Lighting& light, const Camera& camera, const Settings& settings, int width,
+                            int height, int tile_size, FramePlanMemory& memory) {
     if (auto ok = check_settings(settings, width, height); !ok) return tl::unexpected<Error>(ok.error());
     if (auto ok = check_camera(camera); !ok) return tl::unexpected<Error>(ok.error());
     if (!prepared.up_to_date()) return fail(ErrorCode::usage, "the last update of the scene failed; no frame is drawn until one succeeds");
     const Scene& scene = prepared.scene();
     const ShadingSettings options = effective(settings.shading);
-    std::vector<LightPlan> lights = shading::plan_lights(scene.lights);
+    std::vector<LightPlan> lights = shading::plan_lights(light.all_lights());
 
     FramePlan plan;
     plan.options = options;
     plan.picture = picture_view(camera, width, height, settings.region, tile_size, settings);
     const std::optional<SeenVolume> seen = looked_up_where_seen(prepared, camera, options, settings, plan.picture);
-    auto shadows = plan_light_shadows(lights, prepared, seen ? &*seen : nullptr, beside_sky(scene, settings));
+    auto shadows = plan_light_shadows(lights, prepared, seen ? &*seen : nullptr, beside_sky(light, settings));
     if (!shadows) return tl::unexpected<Error>(shadows.error());
-    auto sky = plan_sky(prepared, settings, *shadows);
+    auto sky = plan_sky(prepared, light, settings, *shadows);
     if (!sky) return tl::unexpected<Error>(sky.error());
     bool finite_views = all_finite(plan.picture.clip_from_world);
     for (const ShadowView& face : shadows->views) finite_views &= !face.sees_casters || all_finite(face.view.clip_from_world);
@@ -222,9 +220,9 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, 
          .textures = scene.textures,
          .available_slots = prepared.available_slots(),
          .lights = lights,
-         .ambient = scene.ambient,
+         .ambient = light.ambient,
          .options = options,
-         .environment = scene.environment,
+         .environment = light.environment,
          .exposure = static_cast<double>(settings.exposure),
          .tone_curve = settings.tone_curve,
          .viewer = viewer_of(camera),
@@ -240,9 +238,9 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, 
     if (!plan.shadow_views.empty()) plan.casters = plan_casters(prepared, options);
     plan.light_culler = LightCuller(plan.shading.lights);
     if (settings.background_environment) {
-        if (scene.environment == nullptr || scene.environment->rgb.empty())
+        if (light.environment == nullptr || light.environment->rgb.empty())
             return fail(ErrorCode::usage, "background_environment: the scene has no environment that kept its image (keep_image)");
-        plan.background = Background(*scene.environment, camera, width, height, settings.exposure);
+        plan.background = Background(*light.environment, camera, width, height, settings.exposure);
     }
     plan.background_linear = settings.background_linear;
     plan.exposure = settings.exposure;
@@ -259,15 +257,15 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Camera& camera, 
 
 }  // namespace
 
-Result<FramePlan> plan_frame(const PreparedData& scene, const Camera& camera, const Settings& settings, int width, int height,
-                             int tile_size, FramePlanMemory& memory) {
-    return guarded("planning a frame", {}, [&] { return make_plan(scene, camera, settings, width, height, tile_size, memory); });
+Result<FramePlan> plan_frame(const PreparedData& scene, const Lighting& light, const Camera& camera, const Settings& settings, int width,
+                             int height, int tile_size, FramePlanMemory& memory) {
+    return guarded("planning a frame", {}, [&] { return make_plan(scene, light, camera, settings, width, height, tile_size, memory); });
 }
 
 Result<FramePlan> plan_frame(const PreparedData& scene, const Camera& camera, const Settings& settings, int width, int height,
-                             int tile_size) {
+                             int tile_size, const Lighting* light) {
     FramePlanMemory memory;
-    return plan_frame(scene, camera, settings, width, height, tile_size, memory);
+    return plan_frame(scene, light != nullptr ? *light : scene.scene(), camera, settings, width, height, tile_size, memory);
 }
 
 }  // namespace halflit::raster

@@ -55,11 +55,11 @@ struct FramePlanMemory {
 
 /// Plans a picture of width x height pixels. Fails for settings that are out of range or exclude each other, and for a camera without a
 /// finite matrix.
-Result<FramePlan> plan_frame(const PreparedData& scene, const Camera& camera, const Settings& settings, int width, int height,
-                             int tile_size, FramePlanMemory& memory);
+Result<FramePlan> plan_frame(const PreparedData& scene, const Lighting& light, const Camera& camera, const Settings& settings, int width,
+                             int height, int tile_size, FramePlanMemory& memory);
 
-/// The same for callers that only read the plan: its shadow maps have no texels.
+/// The same for callers that only read the plan: its shadow maps have no texels. light: null: the scene's own.
 Result<FramePlan> plan_frame(const PreparedData& scene, const Camera& camera, const Settings& settings, int width, int height,
-                             int tile_size = Execution{}.tile_size);
+                             int tile_size = Execution{}.tile_size, const Lighting* light = nullptr);
 
 }  // namespace halflit::raster

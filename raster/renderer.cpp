@@ -21,6 +21,7 @@ namespace {
 /// Inputs of a plan.
 struct PlanKey {
     SceneRevision scene;
+    Lighting light;
     Camera camera;
     Settings settings;
     int width, height, tile_size;
@@ -69,11 +70,12 @@ struct Renderer::Impl {
 
     Impl() { plan_memory.shadow_texels.emplace(); }
 
-    Result<void> make_plan(const PreparedData& scene, const Camera& camera, const Settings& settings, const Target& target, int tile_size) {
-        PlanKey key{scene.revision(), camera, settings, target.width, target.height, tile_size};
+    Result<void> make_plan(const PreparedData& scene, const Lighting& light, const Camera& camera, const Settings& settings,
+                           const Target& target, int tile_size) {
+        PlanKey key{scene.revision(), light, camera, settings, target.width, target.height, tile_size};
         if (plan_key && *plan_key == key) return {};
         plan_key.reset();
-        auto made = plan_frame(scene, camera, settings, target.width, target.height, tile_size, plan_memory);
+        auto made = plan_frame(scene, light, camera, settings, target.width, target.height, tile_size, plan_memory);
         if (!made) return tl::unexpected<Error>(made.error());
         plan = std::move(*made);
         plan_key = std::move(key);
@@ -116,18 +118,18 @@ struct Renderer::Impl {
         return sum;
     }
 
-    Result<RenderReport> render(const PreparedData& scene, const Camera& camera, const Settings& settings, const Target& target,
-                                const Execution& execution, Isa isa, RenderReport report) {
+    Result<RenderReport> render(const PreparedData& scene, const Lighting& light, const Camera& camera, const Settings& settings,
+                                const Target& target, const Execution& execution, Isa isa, RenderReport report) {
         Stopwatch watch;
         executor.configure(execution);
         plan_memory.stop = &executor.stop();
         plan_memory.for_each_row = [this](int count, const std::function<void(int)>& body) { executor.run(count, body); };
-        if (auto ok = make_plan(scene, camera, settings, target, execution.tile_size); !ok) return tl::unexpected<Error>(ok.error());
+        if (auto ok = make_plan(scene, light, camera, settings, target, execution.tile_size); !ok) return tl::unexpected<Error>(ok.error());
         const RasterKernels& raster = raster_kernels(isa);
         const shading::ShadeKernels& shade = shading::shade_kernels(isa);
         const bool by_reference = plan.options.accuracy == Accuracy::reference;
         if (by_reference)
-            if (auto ok = reference.build(scene, plan.shading, plan.options); !ok) return tl::unexpected<Error>(ok.error());
+            if (auto ok = reference.build(scene, light, plan.shading, plan.options); !ok) return tl::unexpected<Error>(ok.error());
         report.ms.plan = watch.lap();
 
         if (auto ok = shadow_maps.draw(scene, plan, *plan_memory.shadow_texels, raster, shade, executor); !ok)
@@ -174,18 +176,18 @@ struct Renderer::Impl {
 
     /// The same within Execution::memory_limit. What a renderer keeps of other frames may be more than the limit leaves: then it is
     /// replaced by a fresh one, so that only the frame itself decides.
-    static Result<RenderReport> render_within_memory(std::unique_ptr<Impl>& impl, const PreparedData& scene, const Camera& camera,
-                                                     const Settings& settings, const Target& target, const Execution& execution, Isa isa,
-                                                     const RenderReport& report) {
+    static Result<RenderReport> render_within_memory(std::unique_ptr<Impl>& impl, const PreparedData& scene, const Lighting& light,
+                                                     const Camera& camera, const Settings& settings, const Target& target,
+                                                     const Execution& execution, Isa isa, const RenderReport& report) {
         const std::size_t held = impl->executor.stop().memory();
         if (execution.memory_limit > 0 && held > execution.memory_limit) impl = std::make_unique<Impl>();
         try {
-            return impl->render(scene, camera, settings, target, execution, isa, report);
+            return impl->render(scene, light, camera, settings, target, execution, isa, report);
         } catch (const MemoryStopped&) {
             impl = std::make_unique<Impl>();
             if (held == 0) throw;
         }
-        return impl->render(scene, camera, settings, target, execution, isa, report);
+        return impl->render(scene, light, camera, settings, target, execution, isa, report);
     }
 };
 
@@ -217,17 +219,22 @@ Result<RenderReport> timed(const Execution& execution, const Body& body) {
 
 }  // namespace
 
-Result<RenderReport> Renderer::render(const PreparedScene& scene, const Camera& camera, const Settings& settings, const Target& target,
-                                      const Execution& execution) {
+Result<RenderReport> Renderer::render(const PreparedScene& scene, const Lighting& light, const Camera& camera, const Settings& settings,
+                                      const Target& target, const Execution& execution) {
     return timed(execution, [&]() -> Result<RenderReport> {
         const auto isa = check_call(settings, target, execution);
         if (!isa) return tl::unexpected<Error>(isa.error());
-        return Impl::render_within_memory(impl_, scene.data(), camera, settings, target, execution, *isa, {});
+        return Impl::render_within_memory(impl_, scene.data(), light, camera, settings, target, execution, *isa, {});
     });
 }
 
-Result<RenderReport> Renderer::render(const Scene& scene, const Camera& camera, const Settings& settings, const Target& target,
+Result<RenderReport> Renderer::render(const PreparedScene& scene, const Camera& camera, const Settings& settings, const Target& target,
                                       const Execution& execution) {
+    return render(scene, scene.scene(), camera, settings, target, execution);
+}
+
+Result<RenderReport> Renderer::render(const Scene& scene, const Lighting& light, const Camera& camera, const Settings& settings,
+                                      const Target& target, const Execution& execution) {
     return timed(execution, [&]() -> Result<RenderReport> {
         Stopwatch watch;
         RenderReport report;
@@ -237,13 +244,23 @@ Result<RenderReport> Renderer::render(const Scene& scene, const Camera& camera, 
         if (!prepared) return tl::unexpected<Error>(prepared.error());
         report.ms.prepare = watch.lap();
         const Execution rest = with_time_left(execution, report.ms.prepare / 1000.0);
-        return Impl::render_within_memory(impl_, *prepared, camera, settings, target, rest, *isa, report);
+        return Impl::render_within_memory(impl_, *prepared, light, camera, settings, target, rest, *isa, report);
     });
+}
+
+Result<RenderReport> Renderer::render(const Scene& scene, const Camera& camera, const Settings& settings, const Target& target,
+                                      const Execution& execution) {
+    return render(scene, scene, camera, settings, target, execution);
+}
+
+Result<RenderReport> render(const Scene& scene, const Lighting& light, const Camera& camera, const Settings& settings, const Target& target,
+                            const Execution& execution) {
+    return guarded("rendering", execution, [&] { return Renderer().render(scene, light, camera, settings, target, execution); });
 }
 
 Result<RenderReport> render(const Scene& scene, const Camera& camera, const Settings& settings, const Target& target,
                             const Execution& execution) {
-    return guarded("rendering", execution, [&] { return Renderer().render(scene, camera, settings, target, execution); });
+    return render(scene, scene, camera, settings, target, execution);
 }
 
 }  // namespace halflit

@@ -75,19 +75,16 @@ int32_t halflit_settings_init(halflit_settings* settings, size_t size) {
 
 namespace {
 
-/// Chooses camera, light and settings. The light that the last halflit_setup() added is taken back first.
-Result<void> choose(halflit_scene& scene, int32_t width, int32_t height, const AutoOptions& options, bool keep_light,
-                    halflit_camera* to_camera, halflit_settings* to_settings) {
+/// Chooses camera, light and settings, in the place of those of the last setup.
+Result<void> choose(halflit_scene& scene, int32_t width, int32_t height, const AutoOptions& options, halflit_camera* to_camera,
+                    halflit_settings* to_settings) {
     if (auto ok = check_settings({}, width, height); !ok) return ok;
     if (auto ok = check_size(to_camera->size, sizeof(halflit_camera), "halflit_camera"); !ok) return ok;
     if (auto ok = check_size(to_settings->size, sizeof(halflit_settings), "halflit_settings"); !ok) return ok;
-    scene.take_back_setup();
-    if (keep_light) scene.keep_light();
+    AutoSetup setup = auto_setup(scene.scene, width, height, options);
+    scene.chosen_light = std::move(setup.light);
     scene.changes.lights();
-    const std::shared_ptr<const Environment> before = scene.scene.environment;
-    const AutoSetup setup = auto_setup(scene.scene, width, height, options);
-    if (scene.scene.environment != before) scene.sun_count = 0;               // the studio has none
-    (void)write_struct(nameless(setup.camera), to_camera, "halflit_camera");  // the sizes were checked before the scene was changed
+    (void)write_struct(nameless(setup.camera), to_camera, "halflit_camera");  // the sizes were checked before
     return write_struct(to_c(setup.settings), to_settings, "halflit_settings");
 }
 
@@ -95,7 +92,7 @@ Result<void> choose(halflit_scene& scene, int32_t width, int32_t height, const A
 
 int32_t halflit_auto_setup(halflit_scene* scene, int32_t width, int32_t height, halflit_camera* camera, halflit_settings* settings) {
     return changing(__func__, scene, {{camera, "camera"}, {settings, "settings"}},
-                    [&] { return choose(*scene, width, height, {}, false, camera, settings); });
+                    [&] { return choose(*scene, width, height, {}, camera, settings); });
 }
 
 int32_t halflit_setup_options_init(halflit_setup_options* options, size_t size) {
@@ -108,6 +105,6 @@ int32_t halflit_setup(halflit_scene* scene, int32_t width, int32_t height, const
     return changing(__func__, scene, {{camera, "camera"}, {settings, "settings"}}, [&]() -> Result<void> {
         const auto options = setup_options(given);
         if (!options) return tl::unexpected<Error>(options.error());
-        return choose(*scene, width, height, *options, true, camera, settings);
+        return choose(*scene, width, height, *options, camera, settings);
     });
 }

@@ -21,12 +21,10 @@ bool is_dark(const Scene& scene) {
 Result<void> light_by(halflit_scene& scene, EnvironmentImage image, const EnvironmentOptions& options) {
     auto made = make_environment(std::move(image), options);
     if (!made) return tl::unexpected<Error>(made.error());
-    const std::size_t suns = environment_suns(**made).size();
-    scene.take_back_setup();
+    scene.chosen_light.reset();
     scene.changes.lights();
-    scene.scene.lights.reserve(scene.lights().size() + suns);
-    set_environment(scene.scene, std::move(*made));
-    scene.sun_count = suns;
+    scene.scene.ambient = {};
+    scene.scene.environment = std::move(*made);
     return {};
 }
 
@@ -40,10 +38,10 @@ int32_t halflit_scene_add_light(halflit_scene* scene, const halflit_light* given
     return changing(__func__, scene, {{given, "light"}}, [&]() -> Result<void> {
         const auto made = light(given);
         if (!made) return tl::unexpected<Error>(made.error());
-        scene->take_back_setup();
-        const std::size_t at = scene->lights().size();
+        scene->chosen_light.reset();
+        const std::size_t at = scene->scene.lights.size();
         scene->changes.lights();
-        scene->scene.lights.insert(scene->scene.lights.end() - static_cast<std::ptrdiff_t>(scene->sun_count), *made);
+        scene->scene.lights.push_back(*made);
         if (index != nullptr) *index = static_cast<std::int32_t>(at);
         return {};
     });
@@ -53,9 +51,9 @@ int32_t halflit_scene_set_light(halflit_scene* scene, int32_t index, const halfl
     return changing(__func__, scene, {{given, "light"}}, [&]() -> Result<void> {
         const auto made = light(given);
         if (!made) return tl::unexpected<Error>(made.error());
-        const auto at = check_index(index, scene->lights().size(), "light");
+        const auto at = check_index(index, scene->scene.lights.size(), "light");
         if (!at) return tl::unexpected<Error>(at.error());
-        scene->take_back_setup();
+        scene->chosen_light.reset();
         scene->changes.lights();
         scene->scene.lights[*at] = *made;
         return {};
@@ -68,7 +66,7 @@ int32_t halflit_scene_set_ambient(halflit_scene* scene, const float sky[3], cons
         members.finite("sky", sky[0], sky[1], sky[2]);
         members.finite("ground", ground[0], ground[1], ground[2]);
         if (!members.result()) return members.result();
-        scene->take_back_setup();
+        scene->chosen_light.reset();
         scene->changes.lights();
         scene->scene.ambient = {vec3(sky), vec3(ground)};
         return {};
@@ -79,7 +77,7 @@ int32_t halflit_scene_add_default_lights(halflit_scene* scene, const halflit_cam
     return changing(__func__, scene, {{given, "camera"}}, [&]() -> Result<void> {
         const auto made = camera(given);
         if (!made) return tl::unexpected<Error>(made.error());
-        scene->take_back_setup();
+        scene->chosen_light.reset();
         if (!is_dark(scene->scene)) return {};
         scene->changes.lights();
         add_default_lights(scene->scene, *made);
@@ -91,7 +89,7 @@ int32_t halflit_scene_add_studio(halflit_scene* scene, const halflit_camera* giv
     return changing(__func__, scene, {{given, "camera"}}, [&]() -> Result<void> {
         const auto made = camera(given);
         if (!made) return tl::unexpected<Error>(made.error());
-        scene->take_back_setup();
+        scene->chosen_light.reset();
         if (!is_dark(scene->scene)) return {};
         scene->changes.lights();
         add_studio(scene->scene, *made);
@@ -101,13 +99,9 @@ int32_t halflit_scene_add_studio(halflit_scene* scene, const halflit_camera* giv
 
 int32_t halflit_scene_clear_lights(halflit_scene* scene) {
     return changing(__func__, scene, {}, [&]() -> Result<void> {
-        scene->own_light.reset();
+        scene->chosen_light.reset();
         scene->changes.lights();
-        scene->scene.lights.clear();
-        scene->sun_count = 0;
-        scene->scene.ambient = {};
-        scene->scene.environment.reset();
-        scene->scene.calibrated = true;  // what is added from now on is made for exposure 1
+        static_cast<Lighting&>(scene->scene) = {};  // what is added from now on is made for exposure 1
         return {};
     });
 }

@@ -62,7 +62,7 @@ Result<RenderReport> draw(halflit_renderer& by, const halflit_scene& scene, cons
     const DrawingScene drawing(scene);
     if (auto ok = scene.prepare(by.execution); !ok) return tl::unexpected<Error>(ok.error());
     const double prepare_ms = ms_since(start);
-    auto report = by.renderer.render(*scene.prepared, camera, settings, target, by.execution);
+    auto report = by.renderer.render(*scene.prepared, scene.light(), camera, settings, target, by.execution);
     if (!report) return report;
     report->ms.prepare = prepare_ms;
     report->total_ms += prepare_ms;

@@ -21,8 +21,8 @@ Result<void> hand_over(Result<LoadedScene> loaded, halflit_scene** scene) {
     made->warnings = std::move(loaded->warnings);
     made->animations = std::move(loaded->animations);
     made->motion = std::move(loaded->motion);
-    made->origin = loaded->origin;
-    made->scale = loaded->scale;
+    made->origin = loaded->placement.origin;
+    made->scale = loaded->placement.scale;
     *scene = made.release();
     return {};
 }
@@ -80,9 +80,10 @@ void halflit_scene_destroy(halflit_scene* scene) { delete scene; }
 int32_t halflit_scene_get_counts(const halflit_scene* scene, halflit_counts* counts) {
     return reading(__func__, scene, {{counts, "counts"}}, [&] {
         const Scene& from = scene->scene;
-        const halflit_counts found{sizeof(halflit_counts),    triangle_count(from),       count_of(from.meshes),  count_of(from.instances),
-                                   count_of(from.materials),  count_of(from.textures),    count_of(from.cameras), count_of(scene->lights()),
-                                   count_of(scene->warnings), count_of(scene->animations)};
+        const halflit_counts found{sizeof(halflit_counts),     triangle_count(from),          count_of(from.meshes),
+                                   count_of(from.instances),   count_of(from.materials),      count_of(from.textures),
+                                   count_of(from.cameras),     count_of(scene->scene.lights), count_of(scene->warnings),
+                                   count_of(scene->animations)};
         return write_struct(found, counts, "halflit_counts");
     });
 }
@@ -165,9 +166,9 @@ int32_t halflit_scene_get_instance(const halflit_scene* scene, int32_t index, in
 
 int32_t halflit_scene_get_light(const halflit_scene* scene, int32_t index, halflit_light* light) {
     return reading(__func__, scene, {{light, "light"}}, [&]() -> Result<void> {
-        const auto at = check_index(index, scene->lights().size(), "light");
+        const auto at = check_index(index, scene->scene.lights.size(), "light");
         if (!at) return tl::unexpected<Error>(at.error());
-        return write_struct(to_c(scene->lights()[*at]), light, "halflit_light");
+        return write_struct(to_c(scene->scene.lights[*at]), light, "halflit_light");
     });
 }
 

@@ -80,26 +80,10 @@ void halflit_scene::complete_meshes_of(std::size_t material) {
     }
 }
 
-void halflit_scene::keep_light() {
-    own_light = halflit::c::SceneLight{scene.lights, scene.ambient, scene.environment, scene.calibrated, sun_count};
-}
-
-void halflit_scene::take_back_setup() {
-    if (!own_light) return;
-    changes.lights();
-    scene.lights = std::move(own_light->lights);
-    scene.ambient = own_light->ambient;
-    scene.environment = std::move(own_light->environment);
-    scene.calibrated = own_light->calibrated;
-    sun_count = own_light->sun_count;
-    own_light.reset();
-}
-
 void halflit_scene::follow_pose() {
-    if (!own_light) return;
-    // A setup adds its lights behind those of the file.
-    const std::size_t count = std::min(own_light->lights.size() - own_light->sun_count, scene.lights.size());
-    std::copy_n(scene.lights.begin(), count, own_light->lights.begin());
+    if (!chosen_light) return;
+    // A setup adds its lights behind those of the scene.
+    std::copy_n(scene.lights.begin(), std::min(scene.lights.size(), chosen_light->lights.size()), chosen_light->lights.begin());
 }
 
 Result<void> halflit_scene::prepare(const Execution& execution) const {

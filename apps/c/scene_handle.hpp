@@ -50,15 +50,6 @@ private:
 /// A mesh as it was given, if the scene's mesh has normals or tangents that the library made: its vertices may be split.
 using GivenMeshes = std::unordered_map<std::size_t, Mesh>;
 
-/// The light of a scene, all that halflit_setup() may change.
-struct SceneLight {
-    std::vector<Light> lights;
-    Ambient ambient;
-    std::shared_ptr<const Environment> environment;
-    bool calibrated = true;
-    std::size_t sun_count = 0;
-};
-
 }  // namespace halflit::c
 
 struct halflit_scene {
@@ -66,10 +57,8 @@ struct halflit_scene {
     std::vector<std::string> warnings;
     std::vector<halflit::AnimationInfo> animations;
     std::shared_ptr<const halflit::Motion> motion;  ///< null: not kept
-    /// The last lights of the scene are the environment's suns; callers do not see them.
-    std::size_t sun_count = 0;
-    std::optional<halflit::c::SceneLight> own_light;  ///< the light before halflit_setup() added some; empty: it did not
-    halflit::Vec3d origin{0, 0, 0};                   ///< a point p of the file is drawn at (p - origin) * scale
+    std::optional<halflit::Lighting> chosen_light;  ///< by the last setup; empty: the scene's own is drawn
+    halflit::Vec3d origin{0, 0, 0};                 ///< a point p of the file is drawn at (p - origin) * scale
     double scale = 1.0;
     std::size_t file_meshes = 0;       ///< the first meshes, which a file or the library brought
     std::set<std::size_t> added_flat;  ///< meshes that the caller added without normals
@@ -81,11 +70,8 @@ struct halflit_scene {
     mutable std::mutex preparing;  ///< held while `prepared` is made or updated
     mutable std::optional<halflit::PreparedScene> prepared;
 
-    /// The lights that callers see: without suns, and without what halflit_setup() added.
-    [[nodiscard]] std::span<const halflit::Light> lights() const {
-        const std::vector<halflit::Light>& all = own_light ? own_light->lights : scene.lights;
-        return {all.data(), all.size() - (own_light ? own_light->sun_count : sun_count)};
-    }
+    /// The light that is drawn.
+    [[nodiscard]] const halflit::Lighting& light() const { return chosen_light ? *chosen_light : scene; }
 
     /// Makes `given` the mesh at `index`, which may be the next one. Adds the normals and tangents that its material requires. Requires:
     /// indices and material in range.
@@ -95,12 +81,7 @@ struct halflit_scene {
     /// Adds what a material, which has changed, requires of its meshes.
     void complete_meshes_of(std::size_t material);
 
-    /// Remembers the light, so that take_back_setup() restores it.
-    void keep_light();
-    /// Removes the light that halflit_setup() added.
-    void take_back_setup();
-
-    /// Moves the lights that keep_light() remembers as those of the scene were moved.
+    /// Moves the scene's lights in the light that a setup chose as they were moved in the scene.
     void follow_pose();
 
     /// Brings `prepared` up to date. Called for a frame that counts in `drawing`.

@@ -15,7 +15,7 @@ halflit::Result<void> render_file(const char* model, const char* picture) {
 
     Image image = Image::make(640, 480);
     const AutoSetup setup = auto_setup(loaded->scene, image.width, image.height);
-    const auto report = render(loaded->scene, setup.camera, setup.settings, image.target());
+    const auto report = render(loaded->scene, setup.light, setup.camera, setup.settings, image.target());
     if (!report) return tl::unexpected(report.error());
     return write_image(picture, image);
 }

@@ -39,7 +39,8 @@ Result<Measured> measure(const RenderJob& job, int frames, bool keep, Image& ima
     for (int i = 0; i < frames; ++i) {
         if (!keep) renderer.forget_frames();
         const Stopwatch watch;
-        const auto rendered = renderer.render(*job.prepared, job.camera, job.settings, target_of(job, image), job.timed_execution());
+        const auto rendered =
+            renderer.render(*job.prepared, job.light, job.camera, job.settings, target_of(job, image), job.timed_execution());
         const double ms = watch.ms();
         if (!rendered) return tl::unexpected(rendered.error());
         if (measured.ms.empty() || ms < *std::min_element(measured.ms.begin(), measured.ms.end())) measured.fastest = *rendered;

@@ -93,15 +93,13 @@ void add_vertices(const Scene& scene, Profile& profile) {
 
 Result<SceneChanges> pose_job(RenderJob& job, const RenderOptions& options, double time_s) {
     Scene& scene = job.scene();
-    // pose_at knows the file's scene: as it lay in the file, with its lights.
-    const bool left_out = !options.scene_lights && job.prepared;
-    if (left_out) std::swap(scene.lights, job.film.left_out);
+    // pose_at knows the file's scene as it lay in the file.
     turn_upright(scene, inverse(options.up));
     auto changes = pose_at(*job.source.motion, options.load.animation, time_s, scene);
     turn_upright(scene, options.up);
-    if (left_out) std::swap(scene.lights, job.film.left_out);
     if (!changes) return changes;
-    if (left_out) changes->lights = false;
+    if (changes->lights) follow_lights(job, options);
+    changes->lights = changes->lights && options.scene_lights;
     if (changes->materials && options.classic.any())
         return fail(ErrorCode::usage, "--kd, --ks, --shininess: cannot be combined with an animation that changes materials");
     if (changes->materials && !options.own_lobes) drop_own_lobes(scene);

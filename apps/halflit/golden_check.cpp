@@ -27,7 +27,8 @@ Result<Image> draw(const GoldenList& list, const GoldenScene& scene) {
     auto job = make_render_job(*options, kRenderSize);
     if (!job) return tl::unexpected(job.error());
     Image image = make_image(*job, false);
-    const auto rendered = Renderer().render(*job->prepared, job->camera, job->settings, target_of(*job, image), job->timed_execution());
+    const auto rendered =
+        Renderer().render(*job->prepared, job->light, job->camera, job->settings, target_of(*job, image), job->timed_execution());
     if (!rendered) return tl::unexpected(rendered.error());
     for (const auto& warnings : {job->warnings, rendered->warnings})
         for (const std::string& warning : warnings) print_warning(scene.name + ": " + warning);

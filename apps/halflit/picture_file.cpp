@@ -39,7 +39,7 @@ Result<RenderReport> draw(RenderJob& job, Image& image, AovPlanes& planes, bool 
     }
     Target target = target_of(job, image);
     planes.add_to(target);
-    return Renderer().render(*job.prepared, job.camera, job.settings, target, job.timed_execution());
+    return Renderer().render(*job.prepared, job.light, job.camera, job.settings, target, job.timed_execution());
 }
 
 /// No fragment was drawn, or all pixels have the same colour, within two codes: the background's.

@@ -174,7 +174,7 @@ private:
         }
         if (film.turntable > 0) {
             camera = turned_camera(camera, job_->film.bounds, number, film.turntable);
-            changes.lights |= relight(*job_, camera);
+            (void)relight(*job_, camera);
         }
         const bool still = changes.moved_instances.empty() && changes.deformed_meshes.empty() && !changes.materials && !changes.lights;
         if (still) return {};
@@ -193,8 +193,8 @@ private:
         drawn.pose_time_s = job_->pose_time_s;
         drawn.file = file_at(i);
         drawn.picture = &pictures_[drawn_count_ % pictures_.size()];
-        const auto rendered =
-            renderer_.render(*job_->prepared, camera, job_->settings, target_of(*job_, *drawn.picture), job_->timed_execution());
+        const auto rendered = renderer_.render(*job_->prepared, job_->light, camera, job_->settings, target_of(*job_, *drawn.picture),
+                                               job_->timed_execution());
         if (!rendered)
             return fail(rendered.error().code, fmt::format("{}: frame {}: {}", job_->source.name, number, rendered.error().message));
         drawn.rendered = *rendered;

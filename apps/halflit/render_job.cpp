@@ -98,8 +98,8 @@ Result<std::optional<Camera>> choose_view(RenderJob& job, const RenderOptions& o
     return placed_camera(to_float(*options.camera_position), to_float(target), options.view.fov_y_deg, bounds);
 }
 
-/// Replaces the ambient light by the environment, and adds its suns as lights.
-Result<void> add_environment(Scene& scene, const RenderOptions& options) {
+/// Replaces the ambient light by the environment.
+Result<void> add_environment(Lighting& light, const RenderOptions& options) {
     auto image = find_environment(options.environment);
     if (!image) return tl::unexpected(image.error());
     const auto environment =
@@ -107,18 +107,9 @@ Result<void> add_environment(Scene& scene, const RenderOptions& options) {
                                              options.settings.background_environment,
                                              options.may_want_reference || options.settings.shading.accuracy == Accuracy::reference});
     if (!environment) return tl::unexpected(environment.error());
-    set_environment(scene, *environment);
+    light.ambient = {};
+    light.environment = *environment;
     return {};
-}
-
-/// The scene's light, without anything to draw.
-Scene light_of(const Scene& scene) {
-    Scene light;
-    light.lights = scene.lights;
-    light.ambient = scene.ambient;
-    light.environment = scene.environment;
-    light.calibrated = scene.calibrated;
-    return light;
 }
 
 /// Gives a light the size that the flags say, unless it has one.
@@ -129,17 +120,14 @@ void soften(Light& light, const Film& film) {
 
 /// Chooses camera, lights, ambient light and exposure: what the flags say, and auto_setup for the rest.
 Result<void> choose_setup(RenderJob& job, const RenderOptions& options, const std::optional<Camera>& camera) {
-    Scene& scene = job.scene();
     AutoOptions choice;
-    if (!options.scene_lights) {
-        job.film.left_out = std::move(scene.lights);
-        scene.lights.clear();
-        scene.ambient = {};
-        scene.calibrated = true;
+    Lighting light;
+    if (options.scene_lights)
+        light = job.scene();
+    else
         choice.add_lights = !options.ambient_linear;
-    }
     if (!options.environment.empty())
-        if (const auto added = add_environment(scene, options); !added) return added;
+        if (const auto added = add_environment(light, options); !added) return added;
     choice.camera = camera;
     choice.frame = !camera;
     choice.view = options.view;
@@ -149,27 +137,30 @@ Result<void> choose_setup(RenderJob& job, const RenderOptions& options, const st
     if (choice.studio == StudioUse::for_dark && !options.lights.empty()) choice.studio = StudioUse::under_lights;
     if (options.ambient_linear && options.studio == StudioUse::for_dark) choice.studio = StudioUse::never;
     choice.studio_turn_rad = static_cast<double>(options.environment_rotate_deg) * (kPi / 180.0);
-    for (const GivenLight& given : options.lights) scene.lights.push_back(given.light);
-    const std::size_t given = scene.lights.size();
+    for (const GivenLight& given : options.lights) light.lights.push_back(given.light);
+    const std::size_t given = light.lights.size();
     Film& film = job.film;
-    film.sun_radius = static_cast<float>(static_cast<double>(options.sun_size_deg) * (kPi / 180.0));
+    film.sun_radius = light.sun_shadow_radius_rad = static_cast<float>(static_cast<double>(options.sun_size_deg) * (kPi / 180.0));
     film.lamp_radius = options.lamp_size;
-    for (Light& light : scene.lights) soften(light, film);
-    film.light = light_of(scene);
+    for (Light& one : light.lights) soften(one, film);
+    film.light = light;
+    choice.light = std::move(light);
     film.choice = choice;
-    const AutoSetup setup = auto_setup(scene, film.bounds, job.width, job.height, choice);
-    for (Light& light : scene.lights) soften(light, film);
-    if (options.settings.background_environment && scene.environment == nullptr)
+    AutoSetup setup = auto_setup(job.scene(), film.bounds, job.width, job.height, choice);
+    job.light = std::move(setup.light);
+    for (Light& one : job.light.lights) soften(one, film);
+    if (options.settings.background_environment && job.light.environment == nullptr)
         return fail(ErrorCode::usage, "--background: environment needs --env");
     job.camera = setup.camera;
     job.settings.exposure = setup.settings.exposure;
     const auto& chosen = options.given_settings;
     if (std::find(chosen.begin(), chosen.end(), "shadow_size") == chosen.end()) job.settings.shadow_size = setup.settings.shadow_size;
-    job.choices.push_back(fmt::format("lights: {}{}{}{}", scene.lights.size(), scene.lights.size() > given ? ", added by default" : "",
-                                      scene.environment == nullptr  ? ""
-                                      : options.environment.empty() ? ", and the environment studio"
-                                                                    : ", and the environment " + options.environment,
-                                      scene.ambient.sky_linear == Vec3f{} ? "" : ", and ambient light"));
+    job.choices.push_back(fmt::format("lights: {}{}{}{}", job.light.all_lights().size(),
+                                      job.light.lights.size() > given ? ", added by default" : "",
+                                      job.light.environment == nullptr ? ""
+                                      : options.environment.empty()    ? ", and the environment studio"
+                                                                       : ", and the environment " + options.environment,
+                                      job.light.ambient.sky_linear == Vec3f{} ? "" : ", and ambient light"));
     job.choices.push_back(fmt::format("exposure: {}{}", job.settings.exposure, options.exposure ? "" : ", chosen"));
     return {};
 }
@@ -247,8 +238,8 @@ Result<RenderJob> make_job(const RenderOptions& options, PictureSize usual) {
     const Stopwatch loading;
     RenderOptions timed = options;
     timed.load = options.timed_load();
-    timed.load.recentre = true;
     timed.load.keep_animations = options.film.animates();
+    timed.load.recentre = true;
     auto source = load_scene(timed);
     if (!source) return tl::unexpected(source.error());
     job.load_ms = loading.ms();
@@ -281,10 +272,7 @@ Result<RenderJob> make_job(const RenderOptions& options, PictureSize usual) {
     job.settings.shadow_fade = placed.settings.shadow_fade;
     const auto camera = choose_view(job, placed, options, usual);
     if (!camera) return tl::unexpected(camera.error());
-    job.own_light = light_of(job.scene());
     if (const auto set_up = choose_setup(job, placed, *camera); !set_up) return tl::unexpected(set_up.error());
-    if (const auto updated = job.prepared->update({.lights = true}, job.timed_execution()); !updated)
-        return tl::unexpected(updated.error());
     job.settings.region = options.settings.region.width > 0 ? options.settings.region : Region{0, 0, job.width, job.height};
     return job;
 }
@@ -301,41 +289,33 @@ void drop_own_lobes(Scene& scene) {
 
 bool relight(RenderJob& job, const Camera& camera) {
     const Film& film = job.film;
-    Scene& scene = job.scene();
-    const bool for_viewer = scene.environment != film.light.environment || scene.lights.size() > film.light.lights.size();
-    if (!for_viewer) return false;
-    Scene lit = film.light;
+    Lighting& drawn = job.light;
+    if (drawn.environment == film.light.environment && drawn.lights.size() == film.light.lights.size()) return false;
     AutoOptions choice = film.choice;
     choice.camera = camera;
     choice.frame = false;
-    (void)auto_setup(lit, film.bounds, job.width, job.height, choice);
-    scene.ambient = lit.ambient;
-    scene.environment = lit.environment;
-    for (std::size_t i = film.light.lights.size(); i < lit.lights.size() && i < scene.lights.size(); ++i) {
-        scene.lights[i] = lit.lights[i];
-        soften(scene.lights[i], film);
+    const Lighting lit = auto_setup(job.scene(), film.bounds, job.width, job.height, choice).light;
+    drawn.ambient = lit.ambient;
+    drawn.environment = lit.environment;
+    for (std::size_t i = film.light.lights.size(); i < lit.lights.size() && i < drawn.lights.size(); ++i) {
+        drawn.lights[i] = lit.lights[i];
+        soften(drawn.lights[i], film);
     }
     return true;
 }
 
-namespace {
-
-/// Lights the scene anew, from its own light.
-Result<void> light_anew(RenderJob& job, const RenderOptions& placed, const std::optional<Camera>& camera) {
-    Scene& scene = job.scene();
-    scene.lights = job.own_light.lights;
-    scene.ambient = job.own_light.ambient;
-    scene.environment = job.own_light.environment;
-    scene.calibrated = job.own_light.calibrated;
-    if (const auto set_up = choose_setup(job, placed, camera); !set_up) return set_up;
-    return job.prepared->update({.lights = true}, job.timed_execution());
+void follow_lights(RenderJob& job, const RenderOptions& options) {
+    if (!options.scene_lights) return;
+    const std::vector<Light>& lights = job.scene().lights;
+    for (std::size_t i = 0; i < std::min(lights.size(), job.light.lights.size()); ++i) {
+        job.light.lights[i] = lights[i];
+        soften(job.light.lights[i], job.film);
+    }
 }
-
-}  // namespace
 
 Result<void> change_light(RenderJob& job, const RenderOptions& options) {
     const std::size_t choices = job.choices.size();
-    auto lit = light_anew(job, in_drawn_world(options, job.source), job.camera);
+    auto lit = choose_setup(job, in_drawn_world(options, job.source), job.camera);
     job.choices.resize(std::min(choices, job.choices.size()));  // they were told for the start
     return lit;
 }
@@ -352,13 +332,13 @@ Result<void> change_job(RenderJob& job, const RenderOptions& options, PictureSiz
     const auto camera = choose_view(job, placed, options, usual);
     if (!camera) return tl::unexpected(camera.error());
     job.settings.region = options.settings.region.width > 0 ? options.settings.region : Region{0, 0, job.width, job.height};
-    if (!same_light) return light_anew(job, placed, *camera);
+    if (!same_light) return choose_setup(job, placed, *camera);
     job.settings.exposure = exposure;
     job.settings.shadow_size = shadow_size;
     const float aspect = static_cast<float>(job.width) / static_cast<float>(job.height);
     job.camera = *camera ? **camera : frame_scene(job.scene(), job.film.bounds, aspect, placed.view);
-    if (!relight(job, job.camera)) return {};
-    return job.prepared->update({.lights = true}, job.timed_execution());
+    (void)relight(job, job.camera);
+    return {};
 }
 
 Execution RenderJob::timed_execution() const {

@@ -18,15 +18,15 @@ namespace halflit::cli {
 struct Film {
     Bounds bounds;                          ///< of all poses; of the scene, if it stands still
     int file_camera = -1;                   ///< index into Scene::cameras of the view; -1: another
-    Scene light;                            ///< the scene's light before auto_setup, without anything to draw
+    Lighting light;                         ///< the scene's and the flags', before auto_setup
     AutoOptions choice;                     ///< of auto_setup
     float sun_radius = 0, lamp_radius = 0;  ///< Light::shadow_radius of lights that have none
-    std::vector<Light> left_out;            ///< lights of the file that --no-scene-lights left out, which an animation moves
 };
 
 struct RenderJob {
-    SceneSource source;                     ///< has the job's lights and ambient light
+    SceneSource source;
     std::optional<PreparedScene> prepared;  ///< made from that scene
+    Lighting light;                         ///< that is drawn: the scene's, the flags', and what auto_setup adds
     Camera camera;
     Settings settings;  ///< the region is never empty
     Execution execution;
@@ -36,7 +36,6 @@ struct RenderJob {
     Stopwatch started;       ///< with the job's loading
     double timeout_s = 0.0;  ///< from then on; 0: none
     Film film;               ///< what the frames of a moving picture share
-    Scene own_light;         ///< the scene's light before flags and auto_setup, without anything to draw
     std::vector<std::string> warnings;
     std::vector<std::string> choices;  ///< what was chosen, one line each
 
@@ -60,7 +59,11 @@ void drop_own_lobes(Scene& scene);
 /// Turns the light that was chosen for the viewer, such as the studio, with another camera. The exposure stays. False: there is none.
 bool relight(RenderJob& job, const Camera& camera);
 
-/// Lights the scene anew, from its own light, by the flags' lights, environment and exposure. The camera stays; other flags do not count.
+/// Moves the file's lights in the job's light to where they are in the scene.
+void follow_lights(RenderJob& job, const RenderOptions& options);
+
+/// Chooses the light anew, from the scene's own, by the flags' lights, environment and exposure. The camera stays; other flags do not
+/// count.
 [[nodiscard]] Result<void> change_light(RenderJob& job, const RenderOptions& options);
 
 /// Makes of the job what make_render_job would make of the flags, if they differ from the job's in settings, view, lights and environment

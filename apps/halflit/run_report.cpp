@@ -111,7 +111,7 @@ void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered,
     report["fragments_shaded"] = rendered.fragments_shaded;
     report["nan_pixels"] = rendered.nan_pixels;
     report["lanes"] = work_json(rendered.work);
-    if (job.scene().environment != nullptr) {
+    if (job.light.environment != nullptr) {
         Json uses = Json::array();
         for (const EnvironmentUse& use : rendered.environment) {
             Json one{{"light", "diffuse"}};

@@ -192,7 +192,8 @@ Json materials_json(const RenderJob& job, const shading::ShadingPlan& plan) {
 
 /// What the frame's plan decides.
 Result<Json> plan_json(const RenderJob& job) {
-    const auto frame = raster::plan_frame(job.prepared->data(), job.camera, job.settings, job.width, job.height);
+    const auto frame =
+        raster::plan_frame(job.prepared->data(), job.camera, job.settings, job.width, job.height, Execution{}.tile_size, &job.light);
     if (!frame) return tl::unexpected(frame.error());
     const shading::ShadingPlan& plan = frame->shading;
     Json json;

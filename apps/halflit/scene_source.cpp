@@ -34,8 +34,8 @@ Result<SceneSource> load_scene(const RenderOptions& options) {
                        std::move(loaded->warnings),
                        std::move(loaded->animations),
                        loaded->animation,
-                       loaded->origin,
-                       loaded->scale,
+                       loaded->placement.origin,
+                       loaded->placement.scale,
                        std::move(loaded->motion)};
 }
 

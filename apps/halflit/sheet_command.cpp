@@ -92,7 +92,8 @@ Result<Image> draw(const SheetOptions& options, const std::string& name, Picture
         auto job = make_render_job(options, size);
         if (!job) return tl::unexpected(job.error());
         Image image = make_image(*job, false);
-        const auto rendered = Renderer().render(*job->prepared, job->camera, job->settings, target_of(*job, image), job->timed_execution());
+        const auto rendered =
+            Renderer().render(*job->prepared, job->light, job->camera, job->settings, target_of(*job, image), job->timed_execution());
         if (!rendered) return fail(rendered.error().code, job->source.name + ": " + rendered.error().message);
         for (const auto& warnings : {job->warnings, rendered->warnings})
             for (const std::string& warning : warnings) print_warning(name + ": " + warning);

@@ -1,5 +1,6 @@
 #include "apps/io/detail/gltf_placed.hpp"
 #include "apps/io/detail/gltf_transform.hpp"
+#include "apps/io/detail/gltf_world.hpp"
 #include "apps/io/detail/replace.hpp"
 #include "halflit/gltf.hpp"
 #include "sh/fp_environment.hpp"
@@ -71,7 +72,7 @@ NodeTransform::NodeTransform(const Mat4& m)
       z{m.c[2].x, m.c[2].y, m.c[2].z},
       origin{m.c[3].x, m.c[3].y, m.c[3].z} {}
 
-Result<SceneChanges> pose(std::span<const Node> nodes, Scene& scene) {
+Result<SceneChanges> pose(std::span<const Node> nodes, Scene& scene, const Placement& placement) {
     const FpEnvironment environment_of_host;
     try {
         if (const auto ok = check_nodes(nodes, scene); !ok) return tl::unexpected(ok.error());
@@ -79,12 +80,14 @@ Result<SceneChanges> pose(std::span<const Node> nodes, Scene& scene) {
         if (!world) return tl::unexpected(world.error());
         SceneChanges changes;
         for (std::size_t i = 0; i < nodes.size(); ++i) {
-            const Affine& place_ws = (*world)[i];
+            const Affine place_ws = drawn((*world)[i], placement.origin, placement.scale);
             const std::vector<NodeTransform>& placings = nodes[i].node_from_instance;
             for (std::size_t k = 0; k < nodes[i].instances.size(); ++k) {
                 const auto instance = static_cast<std::size_t>(nodes[i].instances[k]);
                 const Affine placed = placings.empty() ? place_ws : place_ws * to_affine(placings[k]);
-                if (replace(scene.instances[instance].world_from_object, to_mat4(placed))) changes.moved_instances.push_back(instance);
+                const int mesh = scene.instances[instance].mesh;
+                if (replace(scene.instances[instance].world_from_object, to_mat4(in_scaled_mesh(placed, placement.mesh_scales, mesh))))
+                    changes.moved_instances.push_back(instance);
             }
             if (nodes[i].camera >= 0) scene.cameras[static_cast<std::size_t>(nodes[i].camera)].world_from_camera = rigid_part(place_ws);
             if (nodes[i].light >= 0) {

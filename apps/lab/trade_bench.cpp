@@ -58,7 +58,7 @@ Result<void> TradeBench::choose(const TradeChoice& choice) {
 Result<Image> TradeBench::draw(const TradeChoice& choice) {
     if (const auto chosen = choose(choice); !chosen) return tl::unexpected(chosen.error());
     Image image = make_image(job_, true);
-    auto drawn = renderer_.render(*job_.prepared, job_.camera, settings_, target_of(job_, image), job_.timed_execution());
+    auto drawn = renderer_.render(*job_.prepared, job_.light, job_.camera, settings_, target_of(job_, image), job_.timed_execution());
     if (!drawn) return tl::unexpected(drawn.error());
     drawn_ = std::move(*drawn);
     return image;
@@ -69,7 +69,8 @@ Result<TradeBench::Times> TradeBench::time_of(Renderer& renderer, const TradeCho
     renderer.forget_frames();  // draws complete frames, as when the scene moves
     const Stopwatch watch;
     const CpuStopwatch cpu_watch;
-    const auto rendered = renderer.render(*job_.prepared, job_.camera, settings_, target_of(job_, timed_), job_.timed_execution());
+    const auto rendered =
+        renderer.render(*job_.prepared, job_.light, job_.camera, settings_, target_of(job_, timed_), job_.timed_execution());
     const Times times{watch.ms(), cpu_watch.ms()};
     if (!rendered) return tl::unexpected(rendered.error());
     return times;
@@ -82,7 +83,8 @@ Result<void> TradeBench::describe(TradeRow& row) {
     for (const EnvironmentUse& use : drawn_.environment) add_once(row.orders, use.bands);
     std::sort(row.orders.begin(), row.orders.end());
     if (row.choice.accuracy == Accuracy::reference) return {};
-    const auto frame = raster::plan_frame(job_.prepared->data(), job_.camera, settings_, job_.width, job_.height);
+    const auto frame =
+        raster::plan_frame(job_.prepared->data(), job_.camera, settings_, job_.width, job_.height, Execution{}.tile_size, &job_.light);
     if (!frame) return tl::unexpected(frame.error());
     const std::vector<bool>& drawn = job_.prepared->data().drawn_materials();
     shading::PowTier tier = shading::PowTier::exact;

@@ -60,7 +60,7 @@ Controls controls_of(const cli::RenderJob& job, const cli::RenderOptions& option
     controls.tone_curve = settings.tone_curve;
     controls.samples = settings.samples;
     controls.max_error_codes = static_cast<float>(settings.shading.max_error_codes);
-    controls.lights = light_controls(job.scene().lights);
+    controls.lights = light_controls(job.light.lights);
     return controls;
 }
 

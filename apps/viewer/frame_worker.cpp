@@ -18,6 +18,12 @@ std::vector<bool> own_lobes_of(const Scene& scene) {
     return own;
 }
 
+/// Makes lights of the environment's suns, so that each has its controls.
+void spread_suns(Lighting& light) {
+    light.lights = light.all_lights();
+    light.suns = false;
+}
+
 }  // namespace
 
 FrameWorker::FrameWorker(cli::RenderJob job, const cli::RenderOptions& options, std::function<void()> notify)
@@ -27,7 +33,7 @@ FrameWorker::FrameWorker(cli::RenderJob job, const cli::RenderOptions& options, 
       start_camera_(job_.camera),
       start_settings_(job_.settings),
       own_lobes_(own_lobes_of(job_.scene())),
-      start_lights_(job_.scene().lights),
+      start_lights_((spread_suns(job_.light), job_.light.lights)),
       sky_{Sky::as_started, options.environment_rotate_deg} {
     job_.timeout_s = 0.0;  // it was for loading
     job_.execution.cancelled = [this] { return given_up_.load(std::memory_order_relaxed); };
@@ -123,10 +129,11 @@ Result<void> FrameWorker::apply_lobes(const Controls& controls) {
 
 Result<void> FrameWorker::apply(const FrameRequest& request, DrawnFrame& frame) {
     const Controls& controls = request.controls;
-    std::vector<Light>& lights = job_.scene().lights;
+    std::vector<Light>& lights = job_.light.lights;
     if (!(controls.sky == sky_)) {
         job_.camera = start_camera_;  // the studio stands as it did at the start
         if (const auto changed = cli::change_light(job_, with_sky(options_, controls.sky)); !changed) return changed;
+        spread_suns(job_.light);
         sky_ = controls.sky;
         start_lights_ = lights;
         start_settings_.exposure = job_.settings.exposure;
@@ -135,10 +142,7 @@ Result<void> FrameWorker::apply(const FrameRequest& request, DrawnFrame& frame) 
     }
     Controls now = controls;
     if (frame.lights) now.lights = *frame.lights;
-    if (std::vector<Light> wanted = lights_of(now, start_lights_); wanted != lights) {
-        lights = std::move(wanted);
-        if (const auto updated = job_.prepared->update({.lights = true}, job_.execution); !updated) return updated;
-    }
+    lights = lights_of(now, start_lights_);
     if (const auto applied = apply_lobes(now); !applied) return applied;
     job_.settings = settings_of(now, start_settings_);
     job_.camera = request.camera;
@@ -159,7 +163,8 @@ Result<void> FrameWorker::draw(const FrameRequest& request, DrawnFrame& frame) {
     const int all_samples = job_.settings.samples;
     job_.settings.samples = request.step.samples;
     frame.picture = cli::make_image(job_, false);
-    const auto rendered = renderer_.render(*job_.prepared, job_.camera, job_.settings, cli::target_of(job_, frame.picture), job_.execution);
+    const auto rendered =
+        renderer_.render(*job_.prepared, job_.light, job_.camera, job_.settings, cli::target_of(job_, frame.picture), job_.execution);
     if (!rendered) return tl::unexpected(rendered.error());
     frame.exposure = start_settings_.exposure;
     frame.size_ms = rendered->total_ms - rendered->ms.prepare - rendered->ms.plan - rendered->ms.shadows;

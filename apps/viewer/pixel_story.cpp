@@ -51,7 +51,7 @@ public:
             target.albedo = planes->albedo.data();
             target.position = planes->position.data();
         }
-        auto report = renderer_.render(*job_.prepared, job_.camera, settings_, target, job_.timed_execution());
+        auto report = renderer_.render(*job_.prepared, job_.light, job_.camera, settings_, target, job_.timed_execution());
         for (std::size_t i = 0; i < 3; ++i) linear[i] = static_cast<double>(light[i]);
         if (codes != nullptr) std::copy(pixel.begin(), pixel.end(), codes->begin());
         return report;
@@ -63,30 +63,26 @@ private:
     Settings settings_;
 };
 
-/// Changes the scene's light; what it was comes back at the end.
+/// Changes the light that is drawn; what it was comes back at the end.
 class LightSwitch {
 public:
-    explicit LightSwitch(cli::RenderJob& job)
-        : job_(job), lights_(job.scene().lights), ambient_(job.scene().ambient), environment_(job.scene().environment) {}
-    ~LightSwitch() { (void)set(lights_, true); }
+    explicit LightSwitch(cli::RenderJob& job) : job_(job), started_(job.light), lights_(job.light.all_lights()) {}
+    ~LightSwitch() { job_.light = started_; }
     LightSwitch(const LightSwitch&) = delete;
     LightSwitch& operator=(const LightSwitch&) = delete;
 
     /// around: with ambient light and environment.
-    Result<void> set(std::vector<Light> lights, bool around) {
-        Scene& scene = job_.scene();
-        scene.lights = std::move(lights);
-        scene.ambient = around ? ambient_ : Ambient{};
-        scene.environment = around ? environment_ : nullptr;
-        return job_.prepared->update({.lights = true}, job_.execution);
+    void set(std::vector<Light> lights, bool around) {
+        job_.light = around ? started_ : Lighting{};
+        job_.light.lights = std::move(lights);
+        job_.light.suns = false;
     }
     [[nodiscard]] const std::vector<Light>& lights() const { return lights_; }
 
 private:
     cli::RenderJob& job_;
-    std::vector<Light> lights_;
-    Ambient ambient_;
-    std::shared_ptr<const Environment> environment_;
+    Lighting started_;
+    std::vector<Light> lights_;  ///< suns too
 };
 
 void tell_surface(const cli::RenderJob& job, const Planes& planes, PixelStory& story) {
@@ -159,7 +155,7 @@ Result<void> tell_lights(cli::RenderJob& job, Probe& probe, PixelStory& story) {
     settings.background_environment = false;
     LightSwitch light(job);
     const auto part = [&](const std::vector<Light>& lights, bool around, Rgb3& linear) -> Result<void> {
-        if (const auto set = light.set(lights, around); !set) return set;
+        light.set(lights, around);
         const auto drawn = probe.draw(linear);
         if (!drawn) return tl::unexpected(drawn.error());
         return {};

@@ -97,7 +97,7 @@ Result<void> PictureSession::apply(const std::string& scene, const std::vector<s
 
 Result<Image> PictureSession::render(const Settings& settings, bool linear) {
     Image image = cli::make_image(*job_, linear);
-    auto report = renderer_.render(*job_->prepared, job_->camera, settings, cli::target_of(*job_, image), job_->execution);
+    auto report = renderer_.render(*job_->prepared, job_->light, job_->camera, settings, cli::target_of(*job_, image), job_->execution);
     if (!report) return tl::unexpected(report.error());
     last_ = std::move(*report);
     return image;

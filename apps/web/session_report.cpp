@@ -88,8 +88,8 @@ std::string picture_report(const cli::RenderJob& job, const RenderReport& report
         R"("view":{},"lobes":{},"animations":{},)"
         R"("choices":{},"warnings":{}}})",
         picture.width, picture.height, pixel_hash(picture.rgba8), isa_name(report.isa), apply_ms, report.total_ms, report.ms.shadows,
-        report.ms.tiles, report.triangles_submitted, job.scene().lights.size(), number(static_cast<double>(job.settings.exposure)), bands,
-        number(report.error.codes), report.error.within, job.settings.samples, view_of(job), own_lobes(job.scene()),
+        report.ms.tiles, report.triangles_submitted, job.light.all_lights().size(), number(static_cast<double>(job.settings.exposure)),
+        bands, number(report.error.codes), report.error.within, job.settings.samples, view_of(job), own_lobes(job.scene()),
         list_of(job.source.animations,
                 [](const AnimationInfo& a) { return fmt::format(R"({{"name":{},"end":{}}})", json_text(a.name), number(a.end_s)); }),
         list_of(job.choices, json_text), list_of(warnings, json_text));

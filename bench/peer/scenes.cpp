@@ -146,7 +146,7 @@ void finish(BenchScene& bench) {
     bench.scene.meshes[0].material = 0;
     auto sky = make_environment(built_in_sky());
     if (!sky) std::abort();  // no memory
-    set_environment(bench.scene, *sky);
+    bench.scene.environment = *sky;
 }
 
 int number_after(std::string_view name, std::string_view prefix) {

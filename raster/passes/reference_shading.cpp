@@ -14,29 +14,21 @@ std::shared_ptr<const reference::Irradiance> ReferenceShading::diffuse(const Lob
     return known_.back().light;
 }
 
-Result<void> ReferenceShading::build(const PreparedData& prepared, const shading::ShadingPlan& plan, const ShadingSettings& options) {
-    const Scene& scene = prepared.scene();
-    if (scene.environment != nullptr && !scene.environment->kept_light)
+Result<void> ReferenceShading::build(const PreparedData& prepared, const Lighting& light, const shading::ShadingPlan& plan,
+                                     const ShadingSettings& options) {
+    if (light.environment != nullptr && !light.environment->kept_light)
         return fail(ErrorCode::usage, "accuracy reference: the environment was made without keep_light");
     scene_ = &prepared;
-    frame_ = {scene.textures, scene.lights,           scene.ambient,     options,
-              plan.eye_ws,    plan.view_direction_ws, plan.orthographic, plan.shadow_mode};
-    suns_.assign(scene.lights.size(), nullptr);
-    if (scene.environment != nullptr)
-        for (std::size_t i = 0; i < scene.environment->suns.size(); ++i) {
-            // The last one that is equal: set_environment() adds suns at the end.
-            const auto is_sun = [&](Light light) {
-                light.shadow_radius = scene.environment->suns[i].shadow_radius;  // a sun may be given a size
-                return light == scene.environment->suns[i];
-            };
-            const auto found = std::find_if(scene.lights.rbegin(), scene.lights.rend(), is_sun);
-            if (found != scene.lights.rend())
-                suns_[static_cast<std::size_t>(scene.lights.rend() - found - 1)] = &scene.environment->sun_shapes[i];
-        }
+    lights_ = light.all_lights();
+    frame_ = {prepared.scene().textures, lights_,           light.ambient,   options, plan.eye_ws,
+              plan.view_direction_ws,    plan.orthographic, plan.shadow_mode};
+    suns_.assign(light.lights.size(), nullptr);
+    if (light.environment != nullptr && light.suns)
+        for (const SunShape& sun : light.environment->sun_shapes) suns_.push_back(&sun);
     frame_.suns = suns_;
-    if (environment_.replace(scene.environment)) known_.clear();
+    if (environment_.replace(light.environment)) known_.clear();
     diffuse_.assign(plan.materials.size(), nullptr);
-    if (scene.environment == nullptr) return {};
+    if (light.environment == nullptr) return {};
     for (std::size_t i = 0; i < plan.materials.size(); ++i) diffuse_[i] = diffuse(shading::lobe_of(prepared.material(i), options));
     return {};
 }
@@ -45,7 +37,7 @@ void ReferenceShading::shade(const shading::ShadeKernels& kernels, const shading
                              shading::FragmentBlock& block, int count) const {
     const auto index = static_cast<std::size_t>(material);
     const shading::MaterialPlan& material_plan = plan.materials[index];
-    const std::size_t light_count = scene_->scene().lights.size();
+    const std::size_t light_count = lights_.size();
     std::vector<reference::Hidden> hidden(plan.shadow_maps.empty() ? 0 : light_count * shading::kBlockSize);
     for (const shading::LightPlan& light : plan.lights) {
         if (light.shadow_map < 0) continue;

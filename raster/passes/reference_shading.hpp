@@ -14,7 +14,7 @@ class ReferenceShading {
 public:
     /// Prepares a frame of `scene` by `plan`. Keeps the irradiance of each lobe while the environment stays the same.
     /// options: those in effect (FramePlan::options).
-    Result<void> build(const PreparedData& scene, const shading::ShadingPlan& plan, const ShadingSettings& options);
+    Result<void> build(const PreparedData& scene, const Lighting& light, const shading::ShadingPlan& plan, const ShadingSettings& options);
 
     /// Writes the colour rows of lanes [0, count). The visibility of lights is that of the kernels' shadow maps.
     void shade(const shading::ShadeKernels& kernels, const shading::ShadingPlan& plan, int material, shading::FragmentBlock& block,
@@ -31,7 +31,8 @@ private:
     const PreparedData* scene_ = nullptr;
     shading::reference::FrameInputs frame_;
     shading::EnvironmentSlot environment_;
-    std::vector<const SunShape*> suns_;                                           ///< for each of the scene's lights, or null
+    std::vector<Light> lights_;                                                   ///< suns at the end
+    std::vector<const SunShape*> suns_;                                           ///< for each of them, or null
     std::vector<Around> known_;                                                   ///< of environment_
     std::vector<std::shared_ptr<const shading::reference::Irradiance>> diffuse_;  ///< per material
 };

@@ -12,11 +12,11 @@ namespace {
 
 constexpr float kSkyShare = 0.10f, kGroundShare = 0.05f;  // keeps unlit sides readable, but clearly dark
 
-Vec3d level(const Scene& scene, const Bounds& bounds) {
+Vec3d level(const Lighting& of, const Bounds& bounds) {
     const Vec3d center = bounds.empty ? Vec3d{} : to_double(bounds.center());
     const double radius = bounds.empty ? 0.0 : static_cast<double>(bounds.radius());
     Vec3d sum{};
-    for (const Light& light : scene.lights) {
+    for (const Light& light : of.all_lights()) {
         double share = 1.0;
         if (light.type != LightType::directional) {
             const double distance = length(to_double(light.position_ws) - center);
@@ -32,23 +32,23 @@ Vec3d level(const Scene& scene, const Bounds& bounds) {
 
 }  // namespace
 
-Vec3f light_level(const Scene& scene, const Bounds& bounds) {
+Vec3f light_level(const Lighting& of, const Bounds& bounds) {
     const FpEnvironment environment_of_host;
-    const Vec3d sum = level(scene, bounds);
+    const Vec3d sum = level(of, bounds);
     return {static_cast<float>(sum.x), static_cast<float>(sum.y), static_cast<float>(sum.z)};
 }
 
-float auto_exposure(const Scene& scene, const Bounds& bounds) {
+float auto_exposure(const Lighting& of, const Bounds& bounds) {
     const FpEnvironment environment_of_host;
-    const double luminance = sh::luminance(level(scene, bounds));
+    const double luminance = sh::luminance(level(of, bounds));
     // Beyond these limits the factor or its product with the light would leave the range of float.
     if (!(luminance > 1e-24 && luminance < 1e24)) return 1.0f;
     return static_cast<float>(1.0 / luminance);
 }
 
-Ambient soft_ambient(const Scene& scene, const Bounds& bounds) {
+Ambient soft_ambient(const Lighting& of, const Bounds& bounds) {
     const FpEnvironment environment_of_host;
-    const Vec3f sum = light_level(scene, bounds);
+    const Vec3f sum = light_level(of, bounds);
     if (!(dot(sum, sum) < 1e36f)) return {};  // NaN, infinite, or beyond what can be squared
     return {sum * kSkyShare, sum * kGroundShare};
 }

@@ -7,8 +7,7 @@
 #include "sh/mat4.hpp"
 #include "sh/time_limit.hpp"
 
-#include <algorithm>
-#include <iterator>
+#include <span>
 
 namespace halflit {
 
@@ -47,19 +46,20 @@ Light key_light(const Camera& camera, Vec3f color_linear) {
 
 }  // namespace
 
-void add_studio(Scene& scene, const Camera& camera, double turn_rad) {
+void add_studio(Lighting& light, const Camera& camera, double turn_rad) {
     const FpEnvironment environment_of_host;
     // A white surface that faces the key light reaches 1 with the studio's light, 0.91 after the neutral tone curve.
-    scene.lights.push_back(key_light(camera, {0.52f, 0.51f, 0.49f}));
-    set_environment(scene, studio_environment(camera, turn_rad));
+    light.lights.push_back(key_light(camera, {0.52f, 0.51f, 0.49f}));
+    light.ambient = {};
+    light.environment = studio_environment(camera, turn_rad);
 }
 
-void add_default_lights(Scene& scene, const Camera& camera) {
+void add_default_lights(Lighting& light, const Camera& camera) {
     const FpEnvironment environment_of_host;
     // A white Lambert surface that faces the key light reaches 0.82 of the display's white, and about 1 with the ambient light.
-    scene.lights.push_back(key_light(camera, {0.84f, 0.82f, 0.78f}));
-    scene.ambient.sky_linear = {0.23f, 0.25f, 0.28f};
-    scene.ambient.ground_linear = {0.13f, 0.12f, 0.105f};
+    light.lights.push_back(key_light(camera, {0.84f, 0.82f, 0.78f}));
+    light.ambient.sky_linear = {0.23f, 0.25f, 0.28f};
+    light.ambient.ground_linear = {0.13f, 0.12f, 0.105f};
 }
 
 void add_ground(Scene& scene, const Bounds& bounds) {
@@ -84,20 +84,14 @@ void add_ground(Scene& scene, const Bounds& bounds) {
     scene.instances.push_back(instance);
 }
 
-void set_environment(Scene& scene, std::shared_ptr<const Environment> environment) {
-    const FpEnvironment environment_of_host;
-    scene.ambient = {};
-    if (scene.environment != nullptr)
-        for (const Light& sun : environment_suns(*scene.environment)) {
-            // The last one: suns are added at the end, and the host may have added an equal light before.
-            const auto found = std::find(scene.lights.rbegin(), scene.lights.rend(), sun);
-            if (found != scene.lights.rend()) scene.lights.erase(std::next(found).base());
-        }
-    if (environment != nullptr) {
-        const std::span<const Light> suns = environment_suns(*environment);
-        scene.lights.insert(scene.lights.end(), suns.begin(), suns.end());
-    }
-    scene.environment = std::move(environment);
+std::vector<Light> Lighting::all_lights() const {
+    std::vector<Light> all = lights;
+    if (environment == nullptr || !suns) return all;
+    const std::span<const Light> added = environment_suns(*environment);
+    all.insert(all.end(), added.begin(), added.end());
+    for (std::size_t i = lights.size(); i < all.size(); ++i)
+        if (!(all[i].shadow_radius > 0.0f)) all[i].shadow_radius = sun_shadow_radius_rad;
+    return all;
 }
 
 }  // namespace halflit

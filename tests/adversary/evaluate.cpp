@@ -108,7 +108,7 @@ Verdict Judge::judge(const Trial& trial) {
         return verdict;
     }
     Scene without_sky = trial.scene;
-    set_environment(without_sky, nullptr);
+    without_sky.environment = nullptr;
     const auto rest = draw(rest_, trial, without_sky, Accuracy::reference, 0);
     if (!rest) return verdict;
     std::vector<float> sum = rest->linear;

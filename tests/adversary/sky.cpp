@@ -104,7 +104,7 @@ void add_sky(const Genome& genome, AvoidSet avoid, Trial& trial) {
         trial.sky = made.image;
         trial.sky_options = made.options;
         if (alone) trial.scene.lights.clear();
-        set_environment(trial.scene, made.environment);
+        trial.scene.environment = made.environment;
         trial.width = 24, trial.height = 18;  // sums over images take long
         // One lobe for all, the default material's too, because the reference takes seconds for each.
         // No sharper than what the truth resolves.

@@ -17,7 +17,7 @@ std::uint64_t draw(Scene& scene, int width, int height, float moves) {
     const AutoSetup setup = auto_setup(scene, width, height);
     if (moves != 0.0f) scene.instances[0].world_from_object = translation({moves, 0, 0});
     std::vector<std::uint8_t> pixels(static_cast<std::size_t>(width * height) * 4);
-    return render(scene, setup.camera, setup.settings, {width, height, pixels.data()}) ? pixel_hash(pixels) : 0;
+    return render(scene, setup.light, setup.camera, setup.settings, {width, height, pixels.data()}) ? pixel_hash(pixels) : 0;
 }
 
 }  // namespace

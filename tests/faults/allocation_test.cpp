@@ -46,7 +46,9 @@ struct Run {
         if (!keep(loaded, [&] { return load_gltf_bytes(model, "model", ""); })) return;
         Scene& scene = (*loaded)->scene;
         try {
-            camera = auto_setup(scene, kSide, kSide).camera;
+            AutoSetup setup = auto_setup(scene, kSide, kSide);
+            camera = setup.camera;
+            static_cast<Lighting&>(scene) = std::move(setup.light);
             renderer.emplace();
         } catch (const std::bad_alloc&) {
             threw = true;

@@ -47,7 +47,7 @@ void check_loaded(const LoadedScene& loaded) {
     }
     for (const std::string& warning : loaded.warnings) HALFLIT_PROMISE(is_plain(warning));
     Scene posed = scene;
-    HALFLIT_PROMISE(pose(loaded.nodes, posed).has_value());
+    HALFLIT_PROMISE(pose(loaded.nodes, posed, loaded.placement).has_value());
     for (std::size_t i = 0; i < posed.instances.size(); ++i)  // nodes as loaded give the same bits
         HALFLIT_PROMISE(std::memcmp(&posed.instances[i].world_from_object, &scene.instances[i].world_from_object, sizeof(Mat4)) == 0);
     if (loaded.motion == nullptr) return;

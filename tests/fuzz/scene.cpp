@@ -50,7 +50,7 @@ void render(Scene& scene, RenderFlags flags, Input& input) {
     if (flags.environment) {
         const auto environment = make_environment(small_environment(input), {true, 0.5, true, true});
         HALFLIT_PROMISE(environment.has_value());
-        set_environment(scene, *environment);
+        scene.environment = *environment;
     }
     AutoOptions choice;
     if (flags.own_camera) choice.camera = flags.camera;
@@ -59,6 +59,7 @@ void render(Scene& scene, RenderFlags flags, Input& input) {
     choice.studio = reference || flags.width % 4 != 0 ? StudioUse::never : StudioUse::for_dark;
     const AutoSetup setup = auto_setup(scene, flags.width, flags.height, choice);
     flags.camera = setup.camera;
+    static_cast<Lighting&>(scene) = setup.light;
     if (flags.settings.exposure == 1.0f) flags.settings.exposure = setup.settings.exposure;
 
     Execution execution;

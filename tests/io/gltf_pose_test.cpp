@@ -95,7 +95,7 @@ TEST_CASE("pose: the tree as loaded gives the same bits, and nothing has moved",
     LoadedScene loaded = load_arm();
     const Scene before = loaded.scene;
     for (int i = 0; i < 2; ++i) {
-        const auto posed = pose(loaded.nodes, loaded.scene);
+        const auto posed = pose(loaded.nodes, loaded.scene, loaded.placement);
         REQUIRE(posed);
         CHECK(posed->moved_instances.empty());
         CHECK(posed->deformed_meshes.empty());
@@ -115,7 +115,7 @@ TEST_CASE("pose: the tree as loaded gives the same bits, and nothing has moved",
     LoadedScene chain = load_ok(with_nodes(nodes, R"({"nodes":[0]})"));
     REQUIRE(chain.scene.instances.size() == 120);
     const Scene chain_before = chain.scene;
-    const auto posed = pose(chain.nodes, chain.scene);
+    const auto posed = pose(chain.nodes, chain.scene, chain.placement);
     REQUIRE(posed);
     CHECK(posed->moved_instances.empty());
     CHECK(same_places(chain.scene, chain_before));
@@ -125,7 +125,7 @@ TEST_CASE("pose: a moved node moves all that hangs on it, and is reported", "[io
     LoadedScene loaded = load_arm();
     const Mat4 shoulder = loaded.scene.instances[0].world_from_object;
     loaded.nodes[1].parent_from_node = translation({1, 2, 3}) * rotation({0, 1, 1}, 0.3f);
-    const auto posed = pose(loaded.nodes, loaded.scene);
+    const auto posed = pose(loaded.nodes, loaded.scene, loaded.placement);
     REQUIRE(posed);
     CHECK(posed->moved_instances == std::vector<std::size_t>{2, 3});
     CHECK(posed->lights);
@@ -142,7 +142,7 @@ TEST_CASE("pose: a moved node moves all that hangs on it, and is reported", "[io
         }
     const Vec4f lamp = hand * Vec4f{0.3f, 0.3f, 0.3f, 1};
     CHECK(length(loaded.scene.lights[0].position_ws - Vec3f{lamp.x, lamp.y, lamp.z}) < 3e-6f);
-    const auto again = pose(loaded.nodes, loaded.scene);
+    const auto again = pose(loaded.nodes, loaded.scene, loaded.placement);
     REQUIRE(again);
     CHECK(again->moved_instances.empty());
     CHECK(!again->lights);
@@ -157,10 +157,10 @@ TEST_CASE("pose: it is what a file in that pose loads", "[io]") {
     elbow.z = {0, 0, -1};
     elbow.origin = {0, 1.7, 0};
     loaded.nodes[1].parent_from_node = elbow;
-    REQUIRE(pose(loaded.nodes, loaded.scene));
+    REQUIRE(pose(loaded.nodes, loaded.scene, loaded.placement));
     CHECK(same_places(loaded.scene, straight.scene));
     loaded.nodes[1].parent_from_node = load_arm().nodes[1].parent_from_node;
-    REQUIRE(pose(loaded.nodes, loaded.scene));
+    REQUIRE(pose(loaded.nodes, loaded.scene, loaded.placement));
     CHECK(same_places(loaded.scene, load_arm().scene));
 }
 
@@ -176,7 +176,7 @@ TEST_CASE("pose: a prepared scene that is told the changes draws as a new one", 
     std::vector<std::vector<std::uint8_t>> pictures;
     for (const float angle : {0.0f, 0.5f, 1.1f}) {
         loaded.nodes[1].parent_from_node = translation({0.5f, 1, 0}) * rotation({1, 0, 1}, angle);
-        const auto changes = pose(loaded.nodes, loaded.scene);
+        const auto changes = pose(loaded.nodes, loaded.scene, loaded.placement);
         REQUIRE(changes);
         REQUIRE(prepared->update(*changes));
         std::vector<std::uint8_t> kept(4 * 80 * 60), fresh(kept.size());
@@ -192,7 +192,7 @@ TEST_CASE("pose: a prepared scene that is told the changes draws as a new one", 
 TEST_CASE("pose: cameras stay rigid under any scale", "[io]") {
     LoadedScene loaded = load_arm();
     loaded.nodes[0].parent_from_node = scaling({3, 0.1f, -7});
-    REQUIRE(pose(loaded.nodes, loaded.scene));
+    REQUIRE(pose(loaded.nodes, loaded.scene, loaded.placement));
     const Mat4 m = loaded.scene.cameras[0].world_from_camera;
     const auto column = [&](int j) { return Vec3d{m.c[j].x, m.c[j].y, m.c[j].z}; };
     for (int j = 0; j < 3; ++j) {
@@ -218,7 +218,7 @@ TEST_CASE("pose: skinned meshes stay as loaded", "[io]") {
     CHECK(loaded.nodes[0].instances.empty());
     const std::vector<Vec3f> positions = loaded.scene.meshes[0].positions;
     loaded.nodes[0].parent_from_node = loaded.nodes[1].parent_from_node = translation({5, 5, 5});
-    const auto posed = pose(loaded.nodes, loaded.scene);
+    const auto posed = pose(loaded.nodes, loaded.scene, loaded.placement);
     REQUIRE(posed);
     CHECK(posed->moved_instances.empty());
     CHECK(loaded.scene.instances[0].world_from_object == Mat4{});
@@ -262,7 +262,7 @@ TEST_CASE("pose: numbers beyond float are the renderer's to drop", "[io]") {
     LoadedScene loaded = load_arm();
     loaded.nodes[2].parent_from_node.x = {1e300, 0, 0};
     loaded.nodes[2].parent_from_node.origin.y = std::numeric_limits<double>::quiet_NaN();
-    const auto posed = pose(loaded.nodes, loaded.scene);
+    const auto posed = pose(loaded.nodes, loaded.scene, loaded.placement);
     REQUIRE(posed);
     CHECK(posed->moved_instances.size() == 4);
     const auto report = render(loaded.scene, Camera{}, {}, {.width = 8, .height = 8});

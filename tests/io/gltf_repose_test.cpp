@@ -182,7 +182,7 @@ TEST_CASE("pose_at: each pose has the bits and the pixels of the file loaded at 
             // Without what is kept, hidden meshes and shared ones may be other meshes, and the picture is the same.
             CHECK(picture_of(*prepared, camera) == picture_of(load_ok(file, at(time, animation)).scene, camera));
             // The nodes have the pose too.
-            const auto posed = pose(loaded.nodes, loaded.scene);
+            const auto posed = pose(loaded.nodes, loaded.scene, loaded.placement);
             REQUIRE(posed);
             CHECK(posed->moved_instances.empty());
             CHECK(!posed->lights);
@@ -344,14 +344,15 @@ TEST_CASE("pose_at: a scene that was moved to the origin is posed where it is dr
     LoadOptions far = at(0.4, "", true);
     far.recentre = true;
     LoadedScene loaded = load_ok(file, far);
-    REQUIRE(loaded.origin.x > 9e7);
+    REQUIRE(loaded.placement.origin.x > 9e7);
     const Scene before = loaded.scene;
     REQUIRE(pose_at(*loaded.motion, "", 1.3, loaded.scene));
     const LoadedScene near_by = load_ok(arm.file, at(1.3));
     const Bounds bounds = scene_bounds(near_by.scene), found = scene_bounds(loaded.scene);
     const double tolerance = 1e-5 * static_cast<double>(bounds.radius());  // rounding at 1e8 in double, and of the shift in float
-    CHECK(static_cast<double>(found.min.x) + loaded.origin.x - 1e8 == Approx(static_cast<double>(bounds.min.x)).margin(tolerance));
-    CHECK(static_cast<double>(found.max.y) + loaded.origin.y == Approx(static_cast<double>(bounds.max.y)).margin(tolerance));
+    CHECK(static_cast<double>(found.min.x) + loaded.placement.origin.x - 1e8 ==
+          Approx(static_cast<double>(bounds.min.x)).margin(tolerance));
+    CHECK(static_cast<double>(found.max.y) + loaded.placement.origin.y == Approx(static_cast<double>(bounds.max.y)).margin(tolerance));
     const auto back = pose_at(*loaded.motion, "", 0.4, loaded.scene);
     REQUIRE(back);
     check_same(loaded.scene, before);

@@ -91,7 +91,7 @@ int largest_difference(const Drawn& a, const Drawn& b) {
 
 TEST_CASE("world: a scene of any size and place has the picture that it has at the origin", "[io]") {
     const LoadedScene usual = load_ok(sheet(1, 1, 0), recentred());
-    CHECK(usual.scale == 1.0);
+    CHECK(usual.placement.scale == 1.0);
     CHECK(usual.warnings.empty());
     const Drawn expected = draw(usual.scene);
     CHECK(expected.report.pixels_visible > kSide * kSide / 4);
@@ -116,8 +116,9 @@ TEST_CASE("world: a scene of any size and place has the picture that it has at t
         CHECK(found.report.triangles_drawn == expected.report.triangles_drawn);
         CHECK(largest_difference(found, expected) <= 1);
         // (p - origin) * scale, of the camera's place.
-        const double unit = c.positions * c.scale, there = ((c.offset + 0.25) * unit - loaded.origin.x) * loaded.scale;
-        CHECK(static_cast<double>(loaded.scene.cameras[0].world_from_camera.c[3].x) == Approx(there).margin(1e-6 * unit * loaded.scale));
+        const double unit = c.positions * c.scale, there = ((c.offset + 0.25) * unit - loaded.placement.origin.x) * loaded.placement.scale;
+        CHECK(static_cast<double>(loaded.scene.cameras[0].world_from_camera.c[3].x) ==
+              Approx(there).margin(1e-6 * unit * loaded.placement.scale));
     }
 }
 
@@ -129,7 +130,8 @@ TEST_CASE("world: the smallest and the largest positions that float32 holds are 
         loaded.scene.calibrated = true;
         const AutoSetup setup = auto_setup(loaded.scene, kSide, kSide, {.frame = true});
         std::vector<std::uint8_t> pixels(4 * kSide * kSide);
-        const auto report = render(loaded.scene, setup.camera, setup.settings, {.width = kSide, .height = kSide, .pixels = pixels.data()});
+        const auto report =
+            render(loaded.scene, setup.light, setup.camera, setup.settings, {.width = kSide, .height = kSide, .pixels = pixels.data()});
         REQUIRE(report);
         CHECK(report->nan_pixels == 0);
         CHECK(report->pixels_visible > kSide * kSide / 4);
@@ -144,14 +146,14 @@ TEST_CASE("world: a stray vertex near float32's end does not shrink a scene to n
             const std::size_t bin = 20 + u32_of(file, 12) + 8;
             put(file, bin + 12 * vertex, far);
             LoadedScene loaded = load_ok(file, recentred());
-            CHECK(loaded.scale == 1.0);
+            CHECK(loaded.placement.scale == 1.0);
             REQUIRE(loaded.warnings.size() == 1);
             INFO(loaded.warnings[0]);
             CHECK(loaded.warnings[0].find("vertices lie more than 1e12") != std::string::npos);
             const AutoSetup setup = auto_setup(loaded.scene, kSide, kSide, {.frame = true});
             std::vector<std::uint8_t> pixels(4 * kSide * kSide);
             const auto report =
-                render(loaded.scene, setup.camera, setup.settings, {.width = kSide, .height = kSide, .pixels = pixels.data()});
+                render(loaded.scene, setup.light, setup.camera, setup.settings, {.width = kSide, .height = kSide, .pixels = pixels.data()});
             REQUIRE(report);
             CHECK(report->nan_pixels == 0);
             CHECK(report->triangles_drawn > 100);
@@ -161,6 +163,6 @@ TEST_CASE("world: a stray vertex near float32's end does not shrink a scene to n
 
 TEST_CASE("world: without the option a scene stays where the file has it", "[io]") {
     const LoadedScene loaded = load_ok(sheet(1, 1, 1e7));
-    CHECK(loaded.scale == 1.0);
+    CHECK(loaded.placement.scale == 1.0);
     CHECK(loaded.scene.instances[0].world_from_object.c[3].x == 1e7f);
 }

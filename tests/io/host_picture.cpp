@@ -30,7 +30,7 @@ std::uint64_t HALFLIT_HOST(const std::string& path) {
     Target target;
     target.width = target.height = kSide;
     target.pixels = pixels.data();
-    const auto report = render(scene, setup.camera, setup.settings, target);
+    const auto report = render(scene, setup.light, setup.camera, setup.settings, target);
     return report ? pixel_hash(pixels) : 0;
 }
 

@@ -32,7 +32,7 @@ std::vector<std::uint8_t> draw(LoadedScene loaded) {
     for (Mesh& mesh : loaded.scene.meshes) mesh.material = 0;
     const AutoSetup setup = auto_setup(loaded.scene, kSize, kSize);
     std::vector<std::uint8_t> rgba(std::size_t{kSize} * kSize * 4);
-    REQUIRE(render(loaded.scene, setup.camera, setup.settings, {kSize, kSize, rgba.data()}));
+    REQUIRE(render(loaded.scene, setup.light, setup.camera, setup.settings, {kSize, kSize, rgba.data()}));
     return rgba;
 }
 

@@ -25,7 +25,7 @@ inline PictureDifference compare_pictures(Scene a, const Scene& twin) {
     b.instances = twin.instances;
     const auto draw = [&](const Scene& scene) {
         std::vector<std::uint8_t> rgba(std::size_t{4} * kWidth * kHeight);
-        const auto report = render(scene, setup.camera, setup.settings, {kWidth, kHeight, rgba.data()});
+        const auto report = render(scene, setup.light, setup.camera, setup.settings, {kWidth, kHeight, rgba.data()});
         if (!report) FAIL(report.error().message);
         return rgba;
     };

@@ -13,6 +13,13 @@ using namespace halflit;
 
 namespace {
 
+/// auto_setup(), whose light becomes the scene's.
+AutoSetup set_up(Scene& scene, int width, int height, const AutoOptions& options = {}) {
+    AutoSetup setup = auto_setup(scene, width, height, options);
+    static_cast<Lighting&>(scene) = setup.light;
+    return setup;
+}
+
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
@@ -47,7 +54,7 @@ bool chosen(const Camera& camera, Scene scene = box_scene()) {
     scene.cameras.assign(1, camera);
     const Camera* found = choose_camera(scene, scene_bounds(scene));
     CHECK((found == nullptr || found == scene.cameras.data()));
-    const AutoSetup setup = auto_setup(scene, 200, 100);
+    const AutoSetup setup = set_up(scene, 200, 100);
     CHECK(setup.framed == (found == nullptr));
     if (found != nullptr) CHECK(setup.camera == camera);
     return found != nullptr;
@@ -75,7 +82,7 @@ TEST_CASE("setup: a scene without light gets the studio with a key light, and ex
     for (const bool calibrated : {true, false}) {
         Scene scene = box_scene(), wanted = box_scene();
         scene.calibrated = calibrated;
-        const AutoSetup setup = auto_setup(scene, 200, 100);
+        const AutoSetup setup = set_up(scene, 200, 100);
         add_studio(wanted, setup.camera);
         CHECK(setup.settings.exposure == 1.0f);
         CHECK(scene.lights == wanted.lights);
@@ -85,14 +92,14 @@ TEST_CASE("setup: a scene without light gets the studio with a key light, and ex
         CHECK(same(scene.ambient, Ambient{}));
         // A second call finds light, and leaves it: the same view and exposure.
         const std::shared_ptr<const Environment> studio = scene.environment;
-        const AutoSetup again = auto_setup(scene, 200, 100);
+        const AutoSetup again = set_up(scene, 200, 100);
         CHECK(scene.lights.size() == 1);
         CHECK(scene.environment == studio);
         CHECK(again.camera == setup.camera);
         CHECK(again.settings == setup.settings);
     }
     Scene scene = box_scene();
-    static_cast<void>(auto_setup(scene, 200, 100, {.add_lights = false}));
+    static_cast<void>(set_up(scene, 200, 100, {.add_lights = false}));
     CHECK(scene.lights.empty());
     CHECK(scene.environment == nullptr);
     CHECK(same(scene.ambient, Ambient{}));
@@ -102,7 +109,7 @@ TEST_CASE("setup: lights that give no light count as none", "[raster][setup]") {
     Scene scene = box_scene(), wanted = box_scene();
     scene.lights = {sun({0, 0, 0})};
     scene.calibrated = false;
-    const AutoSetup setup = auto_setup(scene, 200, 100);
+    const AutoSetup setup = set_up(scene, 200, 100);
     add_studio(wanted, setup.camera);
     REQUIRE(scene.lights.size() == 2);
     CHECK(scene.lights[1] == wanted.lights[0]);
@@ -113,7 +120,7 @@ TEST_CASE("setup: lights that give no light count as none", "[raster][setup]") {
 
 TEST_CASE("setup: without the studio, a scene without light gets the default lights", "[raster][setup]") {
     Scene scene = box_scene(), wanted = box_scene();
-    const AutoSetup setup = auto_setup(scene, 200, 100, {.studio = StudioUse::never});
+    const AutoSetup setup = set_up(scene, 200, 100, {.studio = StudioUse::never});
     add_default_lights(wanted, setup.camera);
     CHECK(scene.environment == nullptr);
     CHECK(scene.lights == wanted.lights);
@@ -123,14 +130,14 @@ TEST_CASE("setup: without the studio, a scene without light gets the default lig
 
 TEST_CASE("setup: lights of a file get an exposure that makes them 1, and a share of the studio", "[raster][setup]") {
     Scene dark = box_scene();
-    static_cast<void>(auto_setup(dark, 200, 100));
+    static_cast<void>(set_up(dark, 200, 100));
     const double whole = environment_level(*dark.environment);
     for (const LightType type : {LightType::directional, LightType::point}) {
         Scene scene = box_scene();
         scene.lights = {sun({300, 200, 100}), sun({50, 0, 0})};
         for (Light& light : scene.lights) light.type = type, light.position_ws = {2, 0, 0};
         scene.calibrated = false;
-        const AutoSetup setup = auto_setup(scene, 200, 100);
+        const AutoSetup setup = set_up(scene, 200, 100);
         const double falloff = type == LightType::point ? 0.25 : 1.0;                     // at a distance of 2 from the centre
         const double luminance = falloff * (0.2126 * 350 + 0.7152 * 200 + 0.0722 * 100);  // Rec. 709
         CHECK(double{setup.settings.exposure} == Approx(1 / luminance).epsilon(1e-4));
@@ -140,7 +147,7 @@ TEST_CASE("setup: lights of a file get an exposure that makes them 1, and a shar
         CHECK(same(scene.ambient, Ambient{}));
         CHECK(scene.lights.size() == 2);
         const std::shared_ptr<const Environment> studio = scene.environment;
-        const AutoSetup again = auto_setup(scene, 200, 100);
+        const AutoSetup again = set_up(scene, 200, 100);
         CHECK(scene.environment == studio);
         CHECK(again.settings == setup.settings);
     }
@@ -149,34 +156,34 @@ TEST_CASE("setup: lights of a file get an exposure that makes them 1, and a shar
     own.lights = {sun({300, 200, 100})};
     own.calibrated = false;
     own.ambient = {{1, 2, 3}, {0, 0, 0}};
-    static_cast<void>(auto_setup(own, 200, 100));
+    static_cast<void>(set_up(own, 200, 100));
     CHECK(same(own.ambient, {{1, 2, 3}, {0, 0, 0}}));
     CHECK(own.environment == nullptr);
 }
 
 TEST_CASE("setup: lights whose unit is known get a share of the studio on request, and nothing otherwise", "[raster][setup]") {
     Scene dark = box_scene();
-    static_cast<void>(auto_setup(dark, 200, 100));
+    static_cast<void>(set_up(dark, 200, 100));
     const double whole = environment_level(*dark.environment);
     for (const LightType type : {LightType::directional, LightType::point}) {
         Scene scene = box_scene(), plain = box_scene();
         scene.lights = {sun({0.5f, 0.5f, 0.5f})};
         scene.lights[0].type = type, scene.lights[0].position_ws = {2, 0, 0};
         plain.lights = scene.lights;
-        const AutoSetup setup = auto_setup(scene, 200, 100, {.studio = StudioUse::under_lights});
+        const AutoSetup setup = set_up(scene, 200, 100, {.studio = StudioUse::under_lights});
         REQUIRE(scene.environment != nullptr);
         CHECK(environment_level(*scene.environment) == Approx(0.15 * whole).epsilon(1e-5));
         CHECK(setup.settings.exposure == 1.0f);
         CHECK(scene.lights.size() == 1);
-        static_cast<void>(auto_setup(plain, 200, 100));
+        static_cast<void>(set_up(plain, 200, 100));
         CHECK(plain.environment == nullptr);
         // Ambient light that is there stays.
         plain.ambient = {{1, 2, 3}, {0, 0, 0}};
-        static_cast<void>(auto_setup(plain, 200, 100, {.studio = StudioUse::under_lights}));
+        static_cast<void>(set_up(plain, 200, 100, {.studio = StudioUse::under_lights}));
         CHECK(plain.environment == nullptr);
     }
     Scene none = box_scene();
-    static_cast<void>(auto_setup(none, 200, 100, {.studio = StudioUse::under_lights}));
+    static_cast<void>(set_up(none, 200, 100, {.studio = StudioUse::under_lights}));
     REQUIRE(none.environment != nullptr);
     CHECK(environment_level(*none.environment) == Approx(whole).epsilon(1e-6));
 }
@@ -185,7 +192,7 @@ TEST_CASE("setup: without the studio, lights of a file get soft ambient light", 
     Scene scene = box_scene();
     scene.lights = {sun({300, 200, 100}), sun({50, 0, 0})};
     scene.calibrated = false;
-    static_cast<void>(auto_setup(scene, 200, 100, {.studio = StudioUse::never}));
+    static_cast<void>(set_up(scene, 200, 100, {.studio = StudioUse::never}));
     CHECK(double{scene.ambient.sky_linear.x} == Approx(35.0));
     CHECK(double{scene.ambient.sky_linear.z} == Approx(10.0));
     CHECK(double{scene.ambient.ground_linear.y} == Approx(10.0));
@@ -194,57 +201,57 @@ TEST_CASE("setup: without the studio, lights of a file get soft ambient light", 
 
 TEST_CASE("setup: on request the studio lights a scene in full, whatever lights it has", "[raster][setup]") {
     Scene dark = box_scene();
-    static_cast<void>(auto_setup(dark, 200, 100));
+    static_cast<void>(set_up(dark, 200, 100));
     const double whole = environment_level(*dark.environment);
     for (const bool calibrated : {true, false}) {
         Scene scene = box_scene();
         scene.lights = {sun({300, 200, 100})};
         scene.calibrated = calibrated;
-        const AutoSetup setup = auto_setup(scene, 200, 100, {.studio = StudioUse::always});
+        const AutoSetup setup = set_up(scene, 200, 100, {.studio = StudioUse::always});
         CHECK(scene.lights.size() == 1);
         CHECK((setup.settings.exposure == 1.0f) == calibrated);
         CHECK(environment_level(*scene.environment) * double{setup.settings.exposure} == Approx(whole).epsilon(1e-5));
     }
     Scene outdoors = box_scene();
-    set_environment(outdoors, grey(5, false));
-    CHECK(auto_setup(outdoors, 200, 100, {.studio = StudioUse::always}).settings.exposure == 1.0f);
+    outdoors.environment = grey(5, false);
+    CHECK(set_up(outdoors, 200, 100, {.studio = StudioUse::always}).settings.exposure == 1.0f);
     CHECK(environment_level(*outdoors.environment) == Approx(whole).epsilon(1e-5));
 }
 
 TEST_CASE("setup: calibrated lights stay as they are", "[raster][setup]") {
     Scene scene = box_scene();
     scene.lights = {sun({300, 200, 100})};
-    const AutoSetup setup = auto_setup(scene, 200, 100);
+    const AutoSetup setup = set_up(scene, 200, 100);
     CHECK(setup.settings.exposure == 1.0f);
     CHECK(scene.lights.size() == 1);
     CHECK(same(scene.ambient, Ambient{}));
     Scene dim = box_scene();
     dim.ambient.sky_linear = {0.1f, 0.1f, 0.1f};  // is light too
-    CHECK(auto_setup(dim, 200, 100).settings.exposure == 1.0f);
+    CHECK(set_up(dim, 200, 100).settings.exposure == 1.0f);
     CHECK(dim.lights.empty());
 }
 
 TEST_CASE("setup: an environment is exposed to 0.5, or to 1 where it is calibrated", "[raster][setup]") {
     for (const float radiance : {0.01f, 1.0f, 250.0f}) {
         Scene scene = box_scene();
-        set_environment(scene, grey(radiance, false));
-        CHECK(double{auto_setup(scene, 200, 100).settings.exposure} == Approx(0.5 / double{radiance}).epsilon(1e-6));
+        scene.environment = grey(radiance, false);
+        CHECK(double{set_up(scene, 200, 100).settings.exposure} == Approx(0.5 / double{radiance}).epsilon(1e-6));
         CHECK(scene.lights.empty());
         CHECK(same(scene.ambient, Ambient{}));
-        set_environment(scene, grey(radiance, true));
-        CHECK(auto_setup(scene, 200, 100).settings.exposure == 1.0f);
+        scene.environment = grey(radiance, true);
+        CHECK(set_up(scene, 200, 100).settings.exposure == 1.0f);
     }
     Scene dark = box_scene();
-    set_environment(dark, grey(0, false));
-    CHECK(auto_setup(dark, 200, 100).settings.exposure == 1.0f);
+    dark.environment = grey(0, false);
+    CHECK(set_up(dark, 200, 100).settings.exposure == 1.0f);
 
     // What the rule says of pixels: a white surface under it is 0.5.
     Scene scene = box_scene();
     scene.materials.resize(1);
     scene.materials[0].metallic = 0;
     scene.meshes[0].material = 0;
-    set_environment(scene, grey(3, false));
-    AutoSetup setup = auto_setup(scene, 40, 40);
+    scene.environment = grey(3, false);
+    AutoSetup setup = set_up(scene, 40, 40);
     setup.settings.shading.specular = SpecularModel::none;
     std::vector<float> linear(4 * 40 * 40);
     REQUIRE(render(scene, setup.camera, setup.settings, {.width = 40, .height = 40, .linear = linear.data()}));
@@ -271,34 +278,34 @@ TEST_CASE("setup: what the caller decides is not chosen", "[raster][setup]") {
     scene.lights = {sun({300, 200, 100})};
     scene.calibrated = false;
     const Camera own = seen_from({50, 50, 50}, {90, 90, 90});
-    AutoSetup setup = auto_setup(scene, 200, 100, {.camera = own, .frame = true, .ambient_linear = Vec3f{1, 2, 3}, .exposure = 0.25f});
+    AutoSetup setup = set_up(scene, 200, 100, {.camera = own, .frame = true, .ambient_linear = Vec3f{1, 2, 3}, .exposure = 0.25f});
     CHECK(setup.camera == own);
     CHECK(!setup.framed);
     CHECK(setup.settings.exposure == 0.25f);
     CHECK(same(scene.ambient, {{1, 2, 3}, {1, 2, 3}}));
 
-    setup = auto_setup(scene, 200, 100);
+    setup = set_up(scene, 200, 100);
     CHECK(setup.camera == scene.cameras[0]);
     CHECK(!setup.framed);
     const ViewSettings view{.azimuth_deg = 10, .elevation_deg = 70, .zoom = 2, .fov_y_deg = 20};
-    setup = auto_setup(scene, 200, 100, {.frame = true, .view = view});
+    setup = set_up(scene, 200, 100, {.frame = true, .view = view});
     CHECK(setup.framed);
     CHECK(setup.camera == frame_scene(scene, 2.0f, view));
 
     // Ambient light beside the default lights, instead of theirs, and alone.
     Scene bare = box_scene();
-    static_cast<void>(auto_setup(bare, 200, 100, {.ambient_linear = Vec3f{1, 2, 3}}));
+    static_cast<void>(set_up(bare, 200, 100, {.ambient_linear = Vec3f{1, 2, 3}}));
     CHECK(bare.lights.size() == 1);
     CHECK(same(bare.ambient, {{1, 2, 3}, {1, 2, 3}}));
     bare = box_scene();
-    static_cast<void>(auto_setup(bare, 200, 100, {.ambient_linear = Vec3f{1, 2, 3}, .add_lights = false}));
+    static_cast<void>(set_up(bare, 200, 100, {.ambient_linear = Vec3f{1, 2, 3}, .add_lights = false}));
     CHECK(bare.lights.empty());
     CHECK(same(bare.ambient, {{1, 2, 3}, {1, 2, 3}}));
     // Black is a decision too.
     bare = box_scene();
     bare.lights = {sun({9, 9, 9})};
     bare.calibrated = false;
-    static_cast<void>(auto_setup(bare, 200, 100, {.ambient_linear = Vec3f{0, 0, 0}}));
+    static_cast<void>(set_up(bare, 200, 100, {.ambient_linear = Vec3f{0, 0, 0}}));
     CHECK(same(bare.ambient, Ambient{}));
 }
 
@@ -360,7 +367,7 @@ TEST_CASE("setup: a box that reaches behind the camera fills what lies before it
 
 TEST_CASE("setup: scenes without anything to see are set up too", "[raster][setup]") {
     Scene empty;
-    const AutoSetup setup = auto_setup(empty, 200, 100);
+    const AutoSetup setup = set_up(empty, 200, 100);
     CHECK(setup.framed);
     CHECK(setup.camera == frame_bounds({}, 2.0f, {}));
     std::vector<std::uint8_t> pixels(4 * 8);
@@ -368,7 +375,7 @@ TEST_CASE("setup: scenes without anything to see are set up too", "[raster][setu
 
     Scene with_camera;
     with_camera.cameras = {seen_from({0, 0, 5}, {0, 0, 0})};
-    const AutoSetup kept = auto_setup(with_camera, 200, 100);
+    const AutoSetup kept = set_up(with_camera, 200, 100);
     CHECK(!kept.framed);
     CHECK(kept.camera == with_camera.cameras[0]);
 }
@@ -385,7 +392,7 @@ TEST_CASE("setup: vertices and lights that are not finite leave a finite setup",
         lamp.color_linear = {bad, 1, 1};
         scene.lights = {lamp};
         scene.calibrated = false;
-        const AutoSetup setup = auto_setup(scene, 40, 30);
+        const AutoSetup setup = set_up(scene, 40, 30);
         CHECK(std::isfinite(setup.settings.exposure));
         CHECK(setup.settings.exposure > 0);
         for (const Vec4f& c : setup.camera.world_from_camera.c) CHECK(std::isfinite(c.x + c.y + c.z + c.w));
@@ -395,5 +402,5 @@ TEST_CASE("setup: vertices and lights that are not finite leave a finite setup",
     }
     Scene scene = box_scene();
     for (const auto& [width, height] : {std::pair{0, 0}, {0, 5}, {-3, 2}, {1, 100000}})
-        for (const Vec4f& c : auto_setup(scene, width, height).camera.world_from_camera.c) CHECK(std::isfinite(c.x + c.y + c.z + c.w));
+        for (const Vec4f& c : set_up(scene, width, height).camera.world_from_camera.c) CHECK(std::isfinite(c.x + c.y + c.z + c.w));
 }

@@ -72,7 +72,7 @@ Scene lit_ball(const std::vector<float>& rgb, int width, bool suns, const Lobe& 
     EnvironmentOptions options;
     options.extract_suns = suns;
     options.keep_light = true;
-    set_environment(scene, *make_environment({width, width / 2, rgb}, options));
+    scene.environment = *make_environment({width, width / 2, rgb}, options);
     return scene;
 }
 
@@ -99,7 +99,7 @@ TEST_CASE("environment budget: a sun drawn as a directional light keeps to the b
         constexpr int kColumns = 256;
         const std::vector<float> rgb = sky(kColumns, 0.1f, static_cast<float>(0.5 / (radius * radius)), radius);
         const Scene scene = lit_ball(rgb, kColumns, true, lobe), whole = lit_ball(rgb, kColumns, false, lobe);
-        REQUIRE(scene.lights.size() == 1);
+        REQUIRE(scene.all_lights().size() == 1);
         Settings settings = plain();
         Picture truth = draw(scene, settings, Accuracy::reference);
         // The sun as a part of the image, which is summed in patches of 0.7 degrees.

@@ -342,8 +342,12 @@ TEST_CASE("execution: an error budget with settings whose error has no bound is 
     const std::string filter = "max-error: expected texture-filter full; the error of other filters has no bound";
     check([](ShadingSettings& s) { s.texture_detail = TextureDetail::nearest; }, filter);
     check([](ShadingSettings& s) { s.texture_detail = TextureDetail::bilinear; }, filter);
-    for (const double codes : {-1.0, 256.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
-        check([&](ShadingSettings& s) { s.max_error_codes = codes; }, "max-error: expected a number of codes above 0, up to 255");
+    for (const auto& [codes, text] : {std::pair{-1.0, "-1"},
+                                      {256.0, "256"},
+                                      {std::numeric_limits<double>::quiet_NaN(), "nan"},
+                                      {std::numeric_limits<double>::infinity(), "inf"}})
+        check([&, codes = codes](ShadingSettings& s) { s.max_error_codes = codes; },
+              std::string("max error codes: ") + text + ", expected 0, or a number above 0 to 255");
     // For the command line as for a host: the budget belongs to accuracy exact alone, and reference measures, it has no budget.
     check([](ShadingSettings& s) { s.accuracy = Accuracy::reference; }, accuracy);
 }

@@ -14,6 +14,13 @@ using namespace halflit;
 
 namespace {
 
+/// auto_setup(), whose light becomes the scene's.
+AutoSetup set_up(Scene& scene, int width, int height, const AutoOptions& options = {}) {
+    AutoSetup setup = auto_setup(scene, width, height, options);
+    static_cast<Lighting&>(scene) = setup.light;
+    return setup;
+}
+
 constexpr int kSize = 256;
 
 struct Drawn {
@@ -155,7 +162,7 @@ TEST_CASE("ground: views, exposure and other objects are those without it", "[ra
     const auto prepared = PreparedScene::make(scene);
     REQUIRE(prepared);
     CHECK(same_bounds(prepared->bounds(), scene_bounds(bare)));
-    const AutoSetup with = auto_setup(scene, kSize, kSize), without = auto_setup(bare, kSize, kSize);
+    const AutoSetup with = set_up(scene, kSize, kSize), without = set_up(bare, kSize, kSize);
     CHECK(with.camera == without.camera);
     CHECK(with.settings.exposure == without.settings.exposure);
     Settings settings = with.settings;
@@ -185,6 +192,6 @@ TEST_CASE("ground: it is not seen from below, nor without light, and an empty sc
     Scene empty;
     add_ground(empty, scene_bounds(empty));
     CHECK(scene_bounds(empty).empty);
-    const AutoSetup setup = auto_setup(empty, kSize, kSize);
+    const AutoSetup setup = set_up(empty, kSize, kSize);
     for (const float v : drawn(empty, setup.camera, transparent()).linear) CHECK_FALSE(v != 0.0f);
 }

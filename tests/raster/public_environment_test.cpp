@@ -2,6 +2,7 @@
 #include "halflit/environment.hpp"
 #include "halflit/renderer.hpp"
 #include "halflit/scene.hpp"
+#include "halflit/shapes.hpp"
 
 #include "tests/support/catch.hpp"
 
@@ -115,32 +116,59 @@ TEST_CASE("environment: a sun is where the image has it, turned as the image is"
         }
 }
 
-TEST_CASE("environment: a scene that is lit by one has its suns and no ambient light", "[raster][environment]") {
-    Scene scene;
-    scene.lights.resize(2);
-    scene.ambient = {{1, 1, 1}, {1, 1, 1}};
+TEST_CASE("environment: its suns shine behind the lights, unless they are switched off", "[raster][environment]") {
+    Lighting light;
+    light.lights.resize(2);
     const std::shared_ptr<const Environment> sky = make_environment(with_sun(40, 8)).value();
-    set_environment(scene, sky);
-    CHECK(scene.environment == sky);
-    REQUIRE(scene.lights.size() == 3);  // the scene's own first
-    CHECK(scene.lights[2].direction_ws == environment_suns(*sky)[0].direction_ws);
-    CHECK(scene.lights[2].color_linear == environment_suns(*sky)[0].color_linear);
-    CHECK(scene.ambient.sky_linear == Vec3f{});
-    CHECK(scene.ambient.ground_linear == Vec3f{});
+    light.environment = sky;
+    light.sun_shadow_radius_rad = 0.01f;
+    std::vector<Light> all = light.all_lights();
+    REQUIRE(all.size() == 3);
+    CHECK(all[2].shadow_radius == 0.01f);
+    all[2].shadow_radius = 0;
+    CHECK(all[2] == environment_suns(*sky)[0]);
+    light.suns = false;
+    CHECK(light.all_lights() == light.lights);
+    CHECK(Lighting{}.all_lights().empty());
+}
 
-    Scene none;
-    none.ambient = {{1, 1, 1}, {1, 1, 1}};
-    set_environment(none, nullptr);
-    CHECK(none.environment == nullptr);
-    CHECK(none.lights.empty());
-    CHECK(none.ambient.sky_linear == Vec3f{});
+TEST_CASE("environment: light that is given is drawn in the place of the scene's own", "[raster][environment]") {
+    Scene scene;
+    scene.meshes.push_back(make_sphere(1, 16, 8));
+    scene.instances.push_back({0, {}});
+    scene.lights.resize(1);
+    Lighting other;
+    other.environment = make_environment(with_sun(40, 8)).value();
+    Scene lit = scene;
+    static_cast<Lighting&>(lit) = other;
+    const auto draw = [&](const Scene& drawn, const Lighting& light) {
+        std::vector<float> linear(std::size_t{4} * 32 * 32);
+        Camera camera;
+        camera.world_from_camera.c[3] = {0, 0, 4, 1};
+        REQUIRE(render(drawn, light, camera, {}, {.width = 32, .height = 32, .linear = linear.data()}));
+        return linear;
+    };
+    CHECK(draw(scene, other) == draw(lit, lit));
+    CHECK(draw(scene, scene) != draw(lit, lit));
+    // A renderer draws one prepared scene by any light in turn.
+    const auto prepared = PreparedScene::make(scene);
+    REQUIRE(prepared);
+    Renderer renderer;
+    for (int i = 0; i < 2; ++i)
+        for (const Lighting& light : {static_cast<const Lighting&>(scene), static_cast<const Lighting&>(other)}) {
+            std::vector<float> linear(std::size_t{4} * 32 * 32);
+            Camera camera;
+            camera.world_from_camera.c[3] = {0, 0, 4, 1};
+            REQUIRE(renderer.render(*prepared, light, camera, {}, {.width = 32, .height = 32, .linear = linear.data()}));
+            CHECK(linear == draw(scene, light));
+        }
 }
 
 TEST_CASE("environment: it outlives the image and the pointer that a scene was given", "[raster][environment]") {
     Scene scene;
     {
         EnvironmentImage image = constant(16, 8, {0.25f, 0.5f, 0.75f});
-        set_environment(scene, make_environment(image, {.keep_image = true}).value());
+        scene.environment = make_environment(image, {.keep_image = true}).value();
         image.rgb.assign(image.rgb.size(), 9.0f);
     }
     Settings settings;
@@ -152,24 +180,4 @@ TEST_CASE("environment: it outlives the image and the pointer that a scene was g
         CHECK(double{linear[i + 2]} == Approx(0.75).epsilon(1e-5));
         CHECK(linear[i + 3] == 1.0f);
     }
-}
-
-TEST_CASE("environment: a second one replaces the first one's suns, and no light of the host", "[raster][environment]") {
-    const auto first = make_environment(with_sun(10, 5)), second = make_environment(with_sun(40, 8));
-    REQUIRE(first);
-    REQUIRE(second);
-    REQUIRE(environment_suns(**first).size() == 1);
-    Light lamp;
-    lamp.type = LightType::point;
-    Scene scene;
-    scene.lights = {environment_suns(**first)[0], lamp};  // the host's own light equals the sun
-    const std::vector<Light> own = scene.lights;
-    set_environment(scene, *first);
-    set_environment(scene, *second);
-    REQUIRE(scene.lights.size() == 3);
-    CHECK(scene.lights[0] == own[0]);
-    CHECK(scene.lights[1] == own[1]);
-    CHECK(scene.lights[2] == environment_suns(**second)[0]);
-    set_environment(scene, nullptr);
-    CHECK(scene.lights == own);
 }

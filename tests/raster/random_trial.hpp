@@ -125,7 +125,6 @@ inline Trial random_trial(std::uint32_t seed) {
     if (make.below(5) == 0) {
         scene.environment = some_sky(make);
         for (Material& material : scene.materials) material.lobe = scene.materials[0].lobe;  // the reference takes a second each
-        scene.lights.insert(scene.lights.end(), scene.environment->suns.begin(), scene.environment->suns.end());
     } else if (make.below(2) == 0) {
         scene.ambient = {make.color(0.4f), make.color(0.2f)};
     }

@@ -45,7 +45,7 @@ Scene white_scene(const EnvironmentImage& sky) {
     Scene scene;
     scene.materials.resize(1);
     scene.materials[0].metallic = 0;
-    set_environment(scene, make_environment(sky, {.extract_suns = false, .keep_light = true}).value());
+    scene.environment = make_environment(sky, {.extract_suns = false, .keep_light = true}).value();
     return scene;
 }
 

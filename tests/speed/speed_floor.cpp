@@ -113,7 +113,7 @@ std::vector<Subject> subjects() {
     add_textures(all.back().scene);
     all.push_back(subject_of("environment", make_sphere_of(1.0f, 500), 2.5f));
     all.back().scene.lights.clear();
-    set_environment(all.back().scene, sky());
+    all.back().scene.environment = sky();
     all.back().settings.shading.environment_bands = 3;
     all.push_back(subject_of("shadows", make_torus(1.0f, 0.4f, 80, 40), 4.0f));
     all.back().settings.shadows = ShadowMode::soft_split;

@@ -32,7 +32,7 @@ TEST_CASE("controls: untouched, they change neither settings nor lights", "[view
         const OpenedJob opened = open_job("demo", flags);
         const Controls controls = controls_of(opened.job, opened.options);
         CHECK(settings_of(controls, opened.job.settings) == opened.job.settings);
-        CHECK(lights_of(controls, opened.job.scene().lights) == opened.job.scene().lights);
+        CHECK(lights_of(controls, opened.job.light.lights) == opened.job.light.lights);
         CHECK(as_flags(controls, controls, 1.0f).empty());
     }
 }

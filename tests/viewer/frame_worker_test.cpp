@@ -74,7 +74,7 @@ TEST_CASE("frame worker: another sky is that of its flag, and the first one come
             open_job("demo", sky == Sky::as_started ? std::vector<std::string>{}
                                                     : std::vector<std::string>{"--env", kSkyNames[static_cast<std::size_t>(sky)]});
         CHECK(frame.picture.rgba8 == drawn(flagged.job).rgba8);
-        CHECK(*frame.lights == light_controls(flagged.job.scene().lights));
+        CHECK(*frame.lights == light_controls(flagged.job.light.all_lights()));
         if (sky == Sky::as_started) CHECK(frame.picture.rgba8 == first.rgba8);
     }
 }
@@ -82,8 +82,7 @@ TEST_CASE("frame worker: another sky is that of its flag, and the first one come
 TEST_CASE("frame worker: controls change the light and settings of the picture", "[viewer]") {
     Started started = start("sphere:2000", {});
     OpenedJob expected = open_job("sphere:2000", {"--lobe", "half-lambert", "--specular", "none", "--samples", "8"});
-    for (Light& light : expected.job.scene().lights) light.color_linear = light.color_linear * 0.5f;
-    REQUIRE(expected.job.prepared->update({.lights = true}));
+    for (Light& light : expected.job.light.lights) light.color_linear = light.color_linear * 0.5f;
     FrameWorker worker(std::move(started.opened.job), started.opened.options, ignore);
     Controls& controls = started.request.controls;
     choose_model(controls, 2);

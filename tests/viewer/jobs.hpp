@@ -30,7 +30,7 @@ inline OpenedJob open_job(const std::string& scene, std::vector<std::string> fla
 inline Image drawn(const cli::RenderJob& job, bool linear = false) {
     Image image = cli::make_image(job, linear);
     Renderer renderer;
-    REQUIRE(renderer.render(*job.prepared, job.camera, job.settings, cli::target_of(job, image), job.execution));
+    REQUIRE(renderer.render(*job.prepared, job.light, job.camera, job.settings, cli::target_of(job, image), job.execution));
     return image;
 }
 

@@ -102,8 +102,8 @@ void Motion::finish(const LoadedScene& loaded, std::vector<Animation> animations
     for (const AnimationInfo& info : loaded.animations) names_.push_back(info.name);
     animations_ = std::move(animations);
     hides_ = hides;
-    origin_ = loaded.origin;
-    scale_ = loaded.scale;
+    origin_ = loaded.placement.origin;
+    scale_ = loaded.placement.scale;
     for (std::size_t n = 0; n < loaded.nodes.size(); ++n) {
         if (loaded.nodes[n].camera >= 0) cameras_.emplace_back(static_cast<int>(n), loaded.nodes[n].camera);
         if (loaded.nodes[n].light >= 0) lights_.emplace_back(static_cast<int>(n), loaded.nodes[n].light);

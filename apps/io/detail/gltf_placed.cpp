@@ -95,7 +95,7 @@ void place_cameras(Document& document, const NodeTree& tree, LoadedScene& loaded
         const file::Camera& source = document.file.cameras[static_cast<std::size_t>(node.camera)];
         Camera camera;
         const Affine& world = tree.world_from_node[static_cast<std::size_t>(n)];
-        if (!is_finite(world) || !set_projection(source, loaded.scale, camera)) {
+        if (!is_finite(world) || !set_projection(source, loaded.placement.scale, camera)) {
             // A value of the projection that is out of range has been warned of.
             const std::string of_values = fmt::format("cameras[{}].", node.camera);
             if (std::none_of(document.warnings.begin(), document.warnings.end(),
@@ -117,7 +117,7 @@ void place_lights(Document& document, const NodeTree& tree, LoadedScene& loaded)
         const file::Node& node = document.file.nodes[static_cast<std::size_t>(n)];
         if (node.light < 0) continue;
         const file::Light& source = document.file.lights[static_cast<std::size_t>(node.light)];
-        std::optional<Light> light = light_of(source, loaded.scale);
+        std::optional<Light> light = light_of(source, loaded.placement.scale);
         const Affine& world = tree.world_from_node[static_cast<std::size_t>(n)];
         if (!light || !is_finite(world)) {
             if (light) document.warn(fmt::format("nodes[{}]: its transform is not finite, its light is left out", n));

@@ -88,6 +88,12 @@ Affine drawn(const Affine& world, Vec3d origin, double scale) {
     return {{world.c[0] * scale, world.c[1] * scale, world.c[2] * scale, (world.c[3] - origin) * scale}};
 }
 
+Affine in_scaled_mesh(Affine m, std::span<const double> mesh_scales, int mesh) {
+    if (mesh < 0 || static_cast<std::size_t>(mesh) >= mesh_scales.size()) return m;
+    for (int k = 0; k < 3; ++k) m.c[k] = m.c[k] * (1.0 / mesh_scales[static_cast<std::size_t>(mesh)]);
+    return m;
+}
+
 void scale_positions(Mesh& mesh, double factor) {
     for (Vec3f& p : mesh.positions) p = to_float(to_double(p) * factor);
 }
@@ -120,15 +126,13 @@ std::vector<double> recentre(Document& document, NodeTree& tree, LoadedScene& lo
     if (!far && scale == 1.0 && std::all_of(in_mesh.begin(), in_mesh.end(), [](double s) { return s == 1.0; })) return {};
 
     for (std::size_t i = 0; i < transforms.size(); ++i) {
-        Affine m = drawn(transforms[i], origin, scale);
-        for (int k = 0; k < 3; ++k) m.c[k] = m.c[k] * (1.0 / in_mesh[static_cast<std::size_t>(scene.instances[i].mesh)]);
-        scene.instances[i].world_from_object = to_mat4(m);
+        const Affine m = drawn(transforms[i], origin, scale);
+        scene.instances[i].world_from_object = to_mat4(in_scaled_mesh(m, in_mesh, scene.instances[i].mesh));
     }
     for (std::size_t m = 0; m < scene.meshes.size(); ++m)
         if (in_mesh[m] != 1.0) scale_positions(scene.meshes[m], in_mesh[m]);
     for (Affine& m : tree.world_from_node) m = drawn(m, origin, scale);
-    loaded.origin = origin;
-    loaded.scale = scale;
+    loaded.placement = {origin, scale, in_mesh};
     if (far)
         document.warn(fmt::format("the scene lies {:.3g} times its size away from the origin: it is drawn at the origin",
                                   length(origin) / std::max(2.0 * world.radius(), 1e-300)));

@@ -5,17 +5,20 @@
 #include "apps/io/detail/gltf_nodes.hpp"
 #include "halflit/mesh.hpp"
 
+#include <span>
 #include <vector>
 
 namespace halflit::io::detail {
 
 /// If LoadOptions::recentre asks for it and the scene needs it: moves and scales the scene's instances and meshes, and the transforms of
-/// `tree`, which place cameras and lights afterwards. Sets LoadedScene::origin and scale, and warns. Returns the factor that each mesh's
+/// `tree`, which place cameras and lights afterwards. Sets LoadedScene::placement, and warns. Returns the factor that each mesh's
 /// positions were multiplied by; empty: none were.
 std::vector<double> recentre(Document& document, NodeTree& tree, LoadedScene& loaded);
 
 /// World of the file to that of the drawn scene.
 [[nodiscard]] Affine drawn(const Affine& world, Vec3d origin, double scale);
+/// Transform of an instance of a mesh whose positions were multiplied by mesh_scales[mesh]; empty: none were.
+[[nodiscard]] Affine in_scaled_mesh(Affine m, std::span<const double> mesh_scales, int mesh);
 /// Multiplies a mesh's positions.
 void scale_positions(Mesh& mesh, double factor);
 

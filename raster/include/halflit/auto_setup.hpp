@@ -25,6 +25,7 @@ struct AutoOptions {
     std::optional<Camera> camera{};          ///< the view; empty: choose_camera()'s, or else a view of the whole scene
     bool frame = false;                      ///< a view of the whole scene, whatever cameras the scene has
     ViewSettings view{};                     ///< of a view of the whole scene
+    std::optional<Lighting> light{};         ///< the light to begin with; empty: the scene's own
     std::optional<Vec3f> ambient_linear{};   ///< ambient light from all directions; empty: chosen
     std::optional<float> exposure{};         ///< factor on all light; empty: chosen
     bool add_lights = true;                  ///< a scene without any light gets some
@@ -32,9 +33,10 @@ struct AutoOptions {
     double studio_turn_rad = 0.0;            ///< turns the studio about the vertical, counter-clockwise seen from above
 };
 
-/// What auto_setup() chose; render() takes both. The lights are in the scene.
+/// What auto_setup() chose; render() takes all of it.
 struct AutoSetup {
     Camera camera;        ///< the view to draw
+    Lighting light;       ///< the scene's own, with what it lacks
     Settings settings;    ///< usual_settings(), the exposure, and shadow maps for the picture's size: twice its longer side, 256 to 2048
     bool framed = false;  ///< the camera is a view of the whole scene
 };
@@ -43,16 +45,16 @@ struct AutoSetup {
 /// wide, and otherwise the defaults.
 [[nodiscard]] HALFLIT_API Settings usual_settings();
 
-/// Chooses camera, lights, ambient light and exposure for a picture of width x height pixels. Adds to the scene the light that it lacks:
+/// Chooses camera, light and exposure for a picture of width x height pixels. To the scene's own light it adds what that lacks:
 ///   - no light at all: the studio with a key light (add_studio; StudioUse::never: add_default_lights), exposure 1;
 ///   - lights of a file (Scene::calibrated is false): an exposure from the lights (auto_exposure), and where nothing else lights it from
 ///     all around, 0.15 of the studio if there is a directional light, 0.5 if there are point and spot lights alone (StudioUse::never:
 ///     soft_ambient);
 ///   - an environment: an exposure by which its mean light makes a white surface 0.5, or 1 if its image is calibrated.
-/// Nothing depends on pixels. Call it once for each scene: a second call finds the light that the first one added.
-[[nodiscard]] HALFLIT_API AutoSetup auto_setup(Scene& scene, int width, int height, const AutoOptions& options = {});
+/// Nothing depends on pixels.
+[[nodiscard]] HALFLIT_API AutoSetup auto_setup(const Scene& scene, int width, int height, const AutoOptions& options = {});
 /// The same. bounds: scene_bounds(scene).
-[[nodiscard]] HALFLIT_API AutoSetup auto_setup(Scene& scene, const Bounds& bounds, int width, int height, const AutoOptions& options);
+[[nodiscard]] HALFLIT_API AutoSetup auto_setup(const Scene& scene, const Bounds& bounds, int width, int height, const AutoOptions& options);
 
 /// The scene's first camera, or null if it has none, or if that camera shows it small or not at all: the box around the scene, between the
 /// camera's near and far plane, fills less than a sixth of its picture, unless it lies in it as a whole and spans two thirds of its width

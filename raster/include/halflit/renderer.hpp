@@ -27,13 +27,24 @@ public:
     HALFLIT_API Renderer& operator=(Renderer&&) noexcept;
     /// @}
 
-    /// Draws a prepared scene. For sequences of pictures: PreparedScene::update tells what changed.
+    /// @{
+    /// Draws a prepared scene. For sequences of pictures: PreparedScene::update tells what changed. The light is the scene's own, or
+    /// `light`, which need not stay the same.
+    [[nodiscard]] HALFLIT_API Result<RenderReport> render(const PreparedScene& scene, const Lighting& light, const Camera& camera,
+                                                          const Settings& settings, const Target& target, const Execution& execution = {});
     [[nodiscard]] HALFLIT_API Result<RenderReport> render(const PreparedScene& scene, const Camera& camera, const Settings& settings,
                                                           const Target& target, const Execution& execution = {});
 
+    /// @}
+
+    /// @{
     /// Prepares the scene and draws it. Anything in it may have changed since the last frame.
+    [[nodiscard]] HALFLIT_API Result<RenderReport> render(const Scene& scene, const Lighting& light, const Camera& camera,
+                                                          const Settings& settings, const Target& target, const Execution& execution = {});
     [[nodiscard]] HALFLIT_API Result<RenderReport> render(const Scene& scene, const Camera& camera, const Settings& settings,
                                                           const Target& target, const Execution& execution = {});
+
+    /// @}
 
     /// Drops the plan, light distances, shadow maps and geometry of earlier frames. Keeps their memory, and results that depend on an
     /// environment or a material alone. The next frame does the same work as after a change of the whole scene's geometry.
@@ -44,8 +55,12 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
+/// @{
 /// Draws one picture with a temporary Renderer.
+[[nodiscard]] HALFLIT_API Result<RenderReport> render(const Scene& scene, const Lighting& light, const Camera& camera,
+                                                      const Settings& settings, const Target& target, const Execution& execution = {});
 [[nodiscard]] HALFLIT_API Result<RenderReport> render(const Scene& scene, const Camera& camera, const Settings& settings,
                                                       const Target& target, const Execution& execution = {});
+/// @}
 
 }  // namespace halflit

@@ -2,9 +2,8 @@
 #pragma once
 
 #include "halflit/camera.hpp"
-#include "halflit/environment.hpp"
 #include "halflit/export.hpp"
-#include "halflit/light.hpp"
+#include "halflit/lighting.hpp"
 #include "halflit/material.hpp"
 #include "halflit/mesh.hpp"
 #include "halflit/texture.hpp"
@@ -14,27 +13,20 @@
 
 namespace halflit {
 
-/// Geometry, its materials, its lights, and views of it. Indices in it begin at 0.
-struct Scene {
+/// Geometry, its materials, its own light, and views of it. Indices in it begin at 0.
+struct Scene : Lighting {
     std::vector<Mesh> meshes;         ///< triangles; drawn where an instance places them
     std::vector<Instance> instances;  ///< drawn in this order
     std::vector<Material> materials;  ///< shared by meshes
     std::vector<Texture> textures;    ///< shared by materials
-    std::vector<Light> lights;        ///< summed in this order; empty: see add_studio
-    /// Light from all around, black by default.
-    Ambient ambient;
-    std::shared_ptr<const Environment> environment;  ///< replaces `ambient`; its suns must be in `lights` (see set_environment)
-    /// The lights are made for exposure 1. False: they come from a file, in a unit whose scale is not known; auto_setup() chooses the
-    /// exposure from them.
-    bool calibrated = true;
-    std::vector<Camera> cameras;  ///< views to choose from; none is in use by itself
+    std::vector<Camera> cameras;      ///< views to choose from; none is in use by itself
 };
 
 /// World-space bounds of everything drawn but shadow catchers. Vertices that are not finite are left out.
 [[nodiscard]] HALFLIT_API Bounds scene_bounds(const Scene& scene);
 
-/// Adds light to a scene that has none: a key light over the viewer's left shoulder, and ambient light from sky and ground.
-HALFLIT_API void add_default_lights(Scene& scene, const Camera& camera);
+/// Adds light where there is none: a key light over the viewer's left shoulder, and ambient light from sky and ground.
+HALFLIT_API void add_default_lights(Lighting& light, const Camera& camera);
 
 /// The built-in studio, made by code: a dim room with a bright horizon, soft boxes, and a floor that returns some light. 128 x 64 pixels,
 /// calibrated; a white Lambert surface in it reaches 0.1 (facing down) to 0.6 (facing up).
@@ -45,29 +37,25 @@ HALFLIT_API void add_default_lights(Scene& scene, const Camera& camera);
 [[nodiscard]] HALFLIT_API std::shared_ptr<const Environment> studio_environment(const Camera& camera, double turn_rad = 0.0,
                                                                                 float level = 1.0f);
 
-/// Adds light to a scene that has none: the studio, and a key light from its main soft box that casts shadows. Exposure 1.
-HALFLIT_API void add_studio(Scene& scene, const Camera& camera, double turn_rad = 0.0);
+/// Adds light where there is none: the studio, and a key light from its main soft box that casts shadows. Exposure 1.
+HALFLIT_API void add_studio(Lighting& light, const Camera& camera, double turn_rad = 0.0);
 
 /// Adds a ground that is invisible but for the shadows on it (Material::shadow_catcher): a horizontal square below the lowest point of the
 /// bounds, ten of their radii to each side. Views are framed as without it. bounds: scene_bounds(scene).
 HALFLIT_API void add_ground(Scene& scene, const Bounds& bounds);
 
-/// Lights the scene by an environment: sets it, removes the ambient light, and adds its suns to the scene's lights. The suns of the
-/// environment before, if there was one, are removed. Null: no environment.
-HALFLIT_API void set_environment(Scene& scene, std::shared_ptr<const Environment> environment);
-
 /// Estimate of the light at the centre of the bounds, irradiance / pi: the sum over the lights of what a surface there receives that faces
 /// the light. Directional: its colour. Point and spot: colour / max(distance from the centre, radius of the bounds / 2, 1e-4)^2, as if the
 /// centre were in the cone. A light whose range does not reach the bounds adds nothing.
-[[nodiscard]] HALFLIT_API Vec3f light_level(const Scene& scene, const Bounds& bounds);
+[[nodiscard]] HALFLIT_API Vec3f light_level(const Lighting& light, const Bounds& bounds);
 
 /// Exposure: the factor that scales the luminance (Rec. 709) of light_level to 1. So white surfaces come out near white, whatever unit the
 /// file's lights are in. 1 if there is no light, or if its luminance is outside (1e-24, 1e24). It depends on the lights and the scene's
 /// bounds, never on pixels: a crop, a tile or a second frame of the same scene keeps its values.
-[[nodiscard]] HALFLIT_API float auto_exposure(const Scene& scene, const Bounds& bounds);
+[[nodiscard]] HALFLIT_API float auto_exposure(const Lighting& light, const Bounds& bounds);
 
 /// Ambient light for a scene whose lights leave the far sides black: a tenth of light_level from above, a twentieth from below.
-[[nodiscard]] HALFLIT_API Ambient soft_ambient(const Scene& scene, const Bounds& bounds);
+[[nodiscard]] HALFLIT_API Ambient soft_ambient(const Lighting& light, const Bounds& bounds);
 
 /// 2^ev: each step of 1 doubles the light. Exact for whole numbers, otherwise within one float ulp. ev in [-64, 64], clamped.
 [[nodiscard]] HALFLIT_API float exposure_factor(float ev);

@@ -37,8 +37,7 @@ struct Environment;
 [[nodiscard]] HALFLIT_API Result<std::shared_ptr<const Environment>> make_environment(EnvironmentImage image,
                                                                                       const EnvironmentOptions& options = {});
 
-/// The suns that were taken out of the image, as directional lights. A scene that the environment lights must have them among its lights;
-/// set_environment() (halflit/scene.hpp) adds them.
+/// The suns that were taken out of the image, as directional lights. They shine with the environment.
 [[nodiscard]] HALFLIT_API std::span<const Light> environment_suns(const Environment& environment);
 
 /// Luminance (Rec. 709) of the mean radiance over the sphere, suns included.

@@ -39,6 +39,7 @@ struct Light {
 struct Ambient {
     Vec3f sky_linear{0, 0, 0};     ///< L(0, 1, 0)
     Vec3f ground_linear{0, 0, 0};  ///< L(0, -1, 0)
+    friend bool operator==(const Ambient&, const Ambient&) = default;
 };
 
 }  // namespace halflit

@@ -81,8 +81,8 @@ typedef struct halflit_load_options {
     float crease_deg;      ///< STL, PLY, OBJ, 3MF without normals: smooth across edges up to this angle; by default 30
     const char* scene;     ///< scene of the file: its name, or else its index; null or empty: the one that the file names, or the first
     const char* variant;   ///< variant of the file's materials, by name; null or empty: the materials without a variant
-    /// Moves a scene that is far from the origin to it, and scales a tiny or huge one, so that float32 keeps its shape; by default off. The
-    /// program does so. See halflit_scene_get_placement.
+    /// Moves a scene that is far from the origin to it, and scales a tiny or huge one, so that float32 keeps its shape; by default off.
+    /// See halflit_scene_get_placement.
     int32_t recentre;
     int32_t reserved;
 } halflit_load_options;

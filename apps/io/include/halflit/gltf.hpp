@@ -48,8 +48,7 @@ struct LoadOptions {
     int threads = 0;
     /// Moves a scene to the origin if it lies farther from it than 1024 times its radius, and scales it by a power of two if its radius is
     /// below 2^-10 or above 2^30, so that float32 keeps its shape and the least distance of a point light (Light::source_radius) is small
-    /// beside it. LoadedScene::origin and scale say what was done. pose() places nodes in the file's own world, so a host that poses such a
-    /// scene leaves this off.
+    /// beside it. LoadedScene::placement says what was done.
     bool recentre = false;
     /// Scene of the file: its name, or else its index in the file; empty: the file's default scene, or else its first. One that the file
     /// does not have is an error (usage).
@@ -119,6 +118,20 @@ struct NodeTransform {
     friend bool operator==(const NodeTransform&, const NodeTransform&) = default;
 };
 
+/// Where a model lies: a point p of its own world is drawn at (p - origin) * scale. What a host adds, a camera or a light of its own, goes
+/// through into(), and what it reads of the scene through out().
+struct Placement {
+    Vec3d origin{0, 0, 0};
+    double scale = 1.0;                 ///< a power of two
+    std::vector<double> mesh_scales{};  ///< by which positions in each mesh were multiplied; empty: by 1
+
+    /// A point of the model's world in the one that is drawn.
+    [[nodiscard]] Vec3d into(Vec3d p) const { return (p - origin) * scale; }
+    /// A point that is drawn in the model's world.
+    [[nodiscard]] Vec3d out(Vec3d p) const { return p * (1.0 / scale) + origin; }
+    friend bool operator==(const Placement&, const Placement&) = default;
+};
+
 /// A node of the file, and what it places in the scene: nothing if the scene that was loaded does not draw it.
 struct Node {
     std::string name;                ///< may be empty
@@ -140,10 +153,8 @@ struct LoadedScene {
     /// What the picture lacks, and values that the file must not have, by their JSON path: one line each, no file prefix, at most a hundred
     /// and one that counts the others.
     std::vector<std::string> warnings;
-    /// A point p of the file's world is drawn at (p - origin) * scale; see LoadOptions::recentre.
-    Vec3d origin{0, 0, 0};
-    double scale = 1.0;  ///< a power of two
-    SceneInfo info;      ///< counts for the user
+    Placement placement;  ///< where the scene lies; see LoadOptions::recentre
+    SceneInfo info;       ///< counts for the user
 };
 
 /// Loads the model at `path`; files that it refers to are read from its folder. Error messages begin with `path`. Thread-safe.
@@ -153,11 +164,12 @@ struct LoadedScene {
 [[nodiscard]] HALFLIT_API Result<LoadedScene> load_gltf_bytes(std::span<const std::byte> bytes, const std::string& name,
                                                               const std::string& base_dir, const LoadOptions& options = {});
 
-/// Places instances, cameras and lights as the nodes' transforms say: change parent_from_node of some, then call this. Nodes as loaded give
-/// the same bits as loading. Returns what moved, for PreparedScene::update. Skinned meshes stay as loaded: their vertices were moved then.
-/// Instances, cameras and lights that a host appends to the scene stay where they are. Fails (usage), with the scene unchanged, where a
-/// parent is out of range or its own ancestor, or the scene lacks what a node places.
-[[nodiscard]] HALFLIT_API Result<SceneChanges> pose(std::span<const Node> nodes, Scene& scene);
+/// Places instances, cameras and lights as the nodes' transforms, in the model's own world, say: change parent_from_node of some, then call
+/// this. placement: LoadedScene::placement. Nodes as loaded give the same bits as loading. Returns what moved, for PreparedScene::update.
+/// Skinned meshes stay as loaded: their vertices were moved then. Instances, cameras and lights that a host appends to the scene stay where
+/// they are. Fails (usage), with the scene unchanged, where a parent is out of range or its own ancestor, or the scene lacks what a node
+/// places.
+[[nodiscard]] HALFLIT_API Result<SceneChanges> pose(std::span<const Node> nodes, Scene& scene, const Placement& placement = {});
 
 /// Poses a scene by one of its file's animations, as LoadOptions::animation and time_s would: the scene then draws the same pixels as one
 /// that is loaded so (if it was not moved by LoadOptions::recentre, whose choice stays). Each call begins at the pose of the nodes, so the
