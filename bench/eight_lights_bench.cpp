@@ -101,7 +101,7 @@ int main(int argc, char** argv) {
         Settings settings;
         settings.shadows = ShadowMode::off;
         settings.shading.max_error_codes = codes;
-        const auto plan = raster::plan_frame(prepared->data(), scene.cameras.front(), settings, 1920, 1080);
+        const auto plan = raster::plan_frame(prepared->data(), scene, scene.cameras.front(), settings, 1920, 1080);
         if (!plan) {
             std::fprintf(stderr, "%s\n", plan.error().message.c_str());
             std::exit(1);

@@ -13,7 +13,7 @@ Result<VisibilityView> draw_view(const Scene& scene, const Camera& camera, const
                                  const Execution& execution) {
     const auto prepared = PreparedData::make(scene, execution);
     if (!prepared) return tl::unexpected<Error>(prepared.error());
-    const auto plan = plan_frame(*prepared, camera, settings, width, height, execution.tile_size);
+    const auto plan = plan_frame(*prepared, scene, camera, settings, width, height, execution.tile_size);
     if (!plan) return tl::unexpected<Error>(plan.error());
     const auto isa = check_execution(execution);
     if (!isa) return tl::unexpected<Error>(isa.error());

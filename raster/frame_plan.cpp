@@ -262,10 +262,10 @@ Result<FramePlan> plan_frame(const PreparedData& scene, const Lighting& light, c
     return guarded("planning a frame", {}, [&] { return make_plan(scene, light, camera, settings, width, height, tile_size, memory); });
 }
 
-Result<FramePlan> plan_frame(const PreparedData& scene, const Camera& camera, const Settings& settings, int width, int height,
-                             int tile_size, const Lighting* light) {
+Result<FramePlan> plan_frame(const PreparedData& scene, const Lighting& light, const Camera& camera, const Settings& settings, int width,
+                             int height, int tile_size) {
     FramePlanMemory memory;
-    return plan_frame(scene, light != nullptr ? *light : scene.scene(), camera, settings, width, height, tile_size, memory);
+    return plan_frame(scene, light, camera, settings, width, height, tile_size, memory);
 }
 
 }  // namespace halflit::raster

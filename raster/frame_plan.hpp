@@ -58,8 +58,8 @@ struct FramePlanMemory {
 Result<FramePlan> plan_frame(const PreparedData& scene, const Lighting& light, const Camera& camera, const Settings& settings, int width,
                              int height, int tile_size, FramePlanMemory& memory);
 
-/// The same for callers that only read the plan: its shadow maps have no texels. light: null: the scene's own.
-Result<FramePlan> plan_frame(const PreparedData& scene, const Camera& camera, const Settings& settings, int width, int height,
-                             int tile_size = Execution{}.tile_size, const Lighting* light = nullptr);
+/// The same for callers that only read the plan: its shadow maps have no texels.
+Result<FramePlan> plan_frame(const PreparedData& scene, const Lighting& light, const Camera& camera, const Settings& settings, int width,
+                             int height, int tile_size = Execution{}.tile_size);
 
 }  // namespace halflit::raster

@@ -21,7 +21,6 @@ namespace {
 /// Inputs of a plan.
 struct PlanKey {
     SceneRevision scene;
-    Lighting light;
     Camera camera;
     Settings settings;
     int width, height, tile_size;
@@ -57,6 +56,7 @@ struct Renderer::Impl {
     Executor executor;
     FramePlanMemory plan_memory;
     std::optional<PlanKey> plan_key;
+    Lighting plan_light;
     FramePlan plan;
     ShadowMaps shadow_maps;
     ViewGeometry geometry;
@@ -72,13 +72,14 @@ struct Renderer::Impl {
 
     Result<void> make_plan(const PreparedData& scene, const Lighting& light, const Camera& camera, const Settings& settings,
                            const Target& target, int tile_size) {
-        PlanKey key{scene.revision(), light, camera, settings, target.width, target.height, tile_size};
-        if (plan_key && *plan_key == key) return {};
+        PlanKey key{scene.revision(), camera, settings, target.width, target.height, tile_size};
+        if (plan_key && *plan_key == key && plan_light == light) return {};
         plan_key.reset();
         auto made = plan_frame(scene, light, camera, settings, target.width, target.height, tile_size, plan_memory);
         if (!made) return tl::unexpected<Error>(made.error());
         plan = std::move(*made);
         plan_key = std::move(key);
+        plan_light = light;
         return {};
     }
 

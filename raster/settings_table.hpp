@@ -23,7 +23,8 @@ inline constexpr std::string_view kSpecularNames[] = {"none", "phong", "blinn", 
 inline constexpr std::string_view kTextureDetailNames[] = {"full", "bilinear", "nearest"};
 inline constexpr std::string_view kToneCurveNames[] = {"none", "reinhard", "aces", "neutral"};
 inline constexpr std::string_view kOffOn[] = {"off", "on"};
-inline constexpr int kSampleCounts[] = {1, 4, 8, 16};
+inline constexpr int kSampleCounts[] = {1, 4, 8, 16}, kFootprintRatios[] = {1, 2, 4, 8, 16};
+inline constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 /// Up to six digits.
 inline std::string number_text(double x) {
@@ -42,6 +43,9 @@ struct SettingValues {
     std::span<const int> list{};  ///< of whole numbers; empty: all in the range
     std::span<const std::string_view> names{};
     double unit = 1;  ///< of the number that a flag takes
+    // What a flag takes, in its unit, where that is less than what a setting may be.
+    double flag_low = 0, flag_high = 0;  ///< equal: no other range
+    std::span<const int> flag_list{};    ///< empty: no other list
 
     [[nodiscard]] constexpr SettingValues or_zero(std::string_view word) const {
         SettingValues out = *this;
@@ -53,6 +57,23 @@ struct SettingValues {
         out.unit = size;
         return out;
     }
+    [[nodiscard]] constexpr SettingValues with_flag_from(double from, double to) const {
+        SettingValues out = *this;
+        out.flag_low = from, out.flag_high = to;
+        return out;
+    }
+    [[nodiscard]] constexpr SettingValues with_flag_one_of(std::span<const int> choices) const {
+        SettingValues out = *this;
+        out.flag_list = choices;
+        return out;
+    }
+    /// The values that a flag takes.
+    [[nodiscard]] constexpr SettingValues of_flag() const {
+        SettingValues out = *this;
+        if (flag_high > flag_low) out.low = flag_low * unit, out.high = flag_high * unit, out.open = out.zero_too = false;
+        if (!flag_list.empty()) out.list = flag_list;
+        return out;
+    }
     [[nodiscard]] constexpr bool is_truth() const { return names.data() == kOffOn; }
     [[nodiscard]] bool contains(double value) const;
     /// "1, 4, 8 or 16"; numbers in the flag's unit.
@@ -60,9 +81,7 @@ struct SettingValues {
 };
 constexpr SettingValues between(double low, double high) { return {.low = low, .high = high}; }
 constexpr SettingValues above_zero_to(double high) { return {.low = 0, .high = high, .open = true}; }
-constexpr SettingValues whole(int low, int high) {
-    return {.kind = SettingValues::Kind::whole, .low = static_cast<double>(low), .high = static_cast<double>(high)};
-}
+constexpr SettingValues whole(double low, double high) { return {.kind = SettingValues::Kind::whole, .low = low, .high = high}; }
 constexpr SettingValues power_of_two(int low, int high) {
     return {.kind = SettingValues::Kind::whole, .low = static_cast<double>(low), .high = static_cast<double>(high), .powers_of_two = true};
 }
@@ -81,7 +100,8 @@ inline bool SettingValues::contains(double value) const {
     if (zero_too && value == 0.0) return true;
     if (!(value >= low && value <= high) || (open && value == low)) return false;
     if (kind == Kind::number) return true;
-    if (value != static_cast<double>(static_cast<std::int64_t>(value))) return false;
+    constexpr double kAllWhole = 0x1p53;
+    if (value < kAllWhole && value != static_cast<double>(static_cast<std::int64_t>(value))) return false;
     if (powers_of_two && !std::has_single_bit(static_cast<std::uint64_t>(value))) return false;
     return list.empty() || std::find(list.begin(), list.end(), static_cast<int>(value)) != list.end();
 }
@@ -92,7 +112,7 @@ inline std::string SettingValues::expected() const {
         for (std::size_t i = 0; i < items.size(); ++i)
             text.append(i == 0 ? "" : i + 1 < items.size() ? ", " : " or ").append(text_of(items[i]));
     };
-    constexpr double kEndless = 1e18;
+    constexpr double kNoLimit = 1e18;
     if (kind == Kind::named)
         add_all(names, [](std::string_view name) { return name; });
     else if (!list.empty())
@@ -104,7 +124,7 @@ inline std::string SettingValues::expected() const {
                     : kind == Kind::whole ? "a whole number from "
                                           : "a number from ")
             .append(number_text(low / unit))
-            .append(high < kEndless ? " to " + number_text(high / unit) : "");
+            .append(high < kNoLimit ? " to " + number_text(high / unit) : "");
     return text;
 }
 

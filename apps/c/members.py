@@ -103,7 +103,7 @@ def settings():
             members[prefix + name] = (kind, default, doc)
     kinds = {"int": "int32_t", "bool": "int32_t", "float": "float", "double": "double", "std::size_t": "uint64_t"}
     rows = []
-    for place, name, values in re.findall(r"^HALFLIT_SETTING\(([\w.]+), (\w+), ([\w.()\", <]+?), \"", table, re.M):
+    for place, name, values in re.findall(r"^HALFLIT_SETTING\(([\w.]+), (\w+), ([\w.()\", <-]+?), \"", table, re.M):
         if place not in members or not members[place][2]:
             sys.exit(f"members.py: no comment of {place}")
         kind, default, doc = members[place]

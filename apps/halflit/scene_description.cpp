@@ -73,7 +73,7 @@ Json file_json(const SceneInfo& file) {
             {"extensions_required", names_json(file.extensions_required)}};
 }
 
-Json counts_json(const Scene& scene) {
+Json counts_json(const Scene& scene, const Lighting& light) {
     std::uint64_t vertices = 0, stored = 0, drawn = 0, closed = 0, lines = 0, points = 0;
     for (const Mesh& mesh : scene.meshes) {
         closed += raster::is_closed(mesh) ? 1 : 0;
@@ -92,7 +92,7 @@ Json counts_json(const Scene& scene) {
             {"materials", scene.materials.size()},
             {"textures", scene.textures.size()},
             {"cameras", scene.cameras.size()},
-            {"lights", scene.lights.size()},
+            {"lights", light.all_lights().size()},
             {"vertices", vertices},
             {"triangles_stored", stored},
             {"triangles_drawn", drawn},
@@ -100,9 +100,9 @@ Json counts_json(const Scene& scene) {
             {"points_drawn", points}};
 }
 
-Json lights_json(const Scene& scene) {
+Json lights_json(const Lighting& drawn) {
     Json lights = Json::array();
-    for (const Light& light : scene.lights) {
+    for (const Light& light : drawn.all_lights()) {
         Json one{{"type", kLightTypeNames[static_cast<std::size_t>(light.type)]}, {"color", vector_json(light.color_linear)}};
         if (light.type != LightType::directional) one["position"] = vector_json(light.position_ws);
         if (light.type != LightType::point) one["direction"] = vector_json(light.direction_ws);
@@ -192,8 +192,7 @@ Json materials_json(const RenderJob& job, const shading::ShadingPlan& plan) {
 
 /// What the frame's plan decides.
 Result<Json> plan_json(const RenderJob& job) {
-    const auto frame =
-        raster::plan_frame(job.prepared->data(), job.camera, job.settings, job.width, job.height, Execution{}.tile_size, &job.light);
+    const auto frame = raster::plan_frame(job.prepared->data(), job.light, job.camera, job.settings, job.width, job.height);
     if (!frame) return tl::unexpected(frame.error());
     const shading::ShadingPlan& plan = frame->shading;
     Json json;
@@ -211,7 +210,7 @@ Result<std::string> describe_scene(const RenderJob& job, bool json) {
     Json description = json ? report_head("info") : Json::object();
     description["scene"] = job.source.name;
     if (job.source.file) description["file"] = file_json(*job.source.file);
-    description["drawn"] = counts_json(scene);
+    description["drawn"] = counts_json(scene, job.light);
     const Bounds& bounds = job.prepared->bounds();
     description["bounds"] = bounds.empty ? Json(nullptr) : Json{{"min", vector_json(bounds.min)}, {"max", vector_json(bounds.max)}};
     Json cameras = Json::array();
@@ -227,8 +226,9 @@ Result<std::string> describe_scene(const RenderJob& job, bool json) {
     description["size"] = {job.width, job.height};
     description["exposure"] = number(job.settings.exposure);
     description["tone_curve"] = tone_curve_name(job.settings.tone_curve);
-    description["lights"] = lights_json(scene);
-    description["ambient"] = {{"sky", vector_json(scene.ambient.sky_linear)}, {"ground", vector_json(scene.ambient.ground_linear)}};
+    description["lights"] = lights_json(job.light);
+    const Ambient& ambient = job.light.ambient;
+    description["ambient"] = {{"sky", vector_json(ambient.sky_linear)}, {"ground", vector_json(ambient.ground_linear)}};
     const auto plan = plan_json(job);
     if (!plan) return tl::unexpected(plan.error());
     description.update(*plan);

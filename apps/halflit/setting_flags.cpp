@@ -16,16 +16,16 @@ using raster::SettingValues;
 std::string form_of(const Setting& setting) {
     if (!setting.form.empty()) return std::string(setting.form);
     if (setting.values.kind == SettingValues::Kind::named) return fmt::format("{}", fmt::join(setting.values.names, "|"));
-    return fmt::format("{}", fmt::join(setting.values.list, "|"));
+    return fmt::format("{}", fmt::join(setting.values.of_flag().list, "|"));
 }
 
 /// The help, with the range and the default.
 std::string help_of(const Setting& setting, const Settings& defaults) {
     std::string help(setting.help);
-    const SettingValues& values = setting.values;
+    const SettingValues values = setting.values.of_flag();
     const bool ranged = values.kind != SettingValues::Kind::named && values.list.empty() && values.high < 1e18 && values.zero.empty();
     if (ranged) help.insert(std::min(help.find(" (default"), help.size()), ", " + values.expected());
-    if (help.find("default") == std::string::npos && !values.zero_too)
+    if (help.find("default") == std::string::npos && !setting.values.zero_too)
         help += fmt::format(" (default {})", setting_text(setting, defaults));
     return help;
 }
@@ -70,7 +70,7 @@ void add_setting_flags(FlagGroup& group, Settings& settings, std::vector<std::st
             group.flags.push_back({std::string(setting.flag), form_of(setting), help_of(setting, settings),
                                    [&settings, &given, &setting](const std::string& text) {
                                        given.push_back(setting.name);
-                                       const auto value = read_value(setting.values, text);
+                                       const auto value = read_value(setting.values.of_flag(), text);
                                        if (value) setting.set(settings, *value);
                                        return value.map([](double) {});
                                    }});

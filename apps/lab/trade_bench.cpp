@@ -83,8 +83,7 @@ Result<void> TradeBench::describe(TradeRow& row) {
     for (const EnvironmentUse& use : drawn_.environment) add_once(row.orders, use.bands);
     std::sort(row.orders.begin(), row.orders.end());
     if (row.choice.accuracy == Accuracy::reference) return {};
-    const auto frame =
-        raster::plan_frame(job_.prepared->data(), job_.camera, settings_, job_.width, job_.height, Execution{}.tile_size, &job_.light);
+    const auto frame = raster::plan_frame(job_.prepared->data(), job_.light, job_.camera, settings_, job_.width, job_.height);
     if (!frame) return tl::unexpected(frame.error());
     const std::vector<bool>& drawn = job_.prepared->data().drawn_materials();
     shading::PowTier tier = shading::PowTier::exact;

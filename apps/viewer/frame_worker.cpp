@@ -18,10 +18,11 @@ std::vector<bool> own_lobes_of(const Scene& scene) {
     return own;
 }
 
-/// Makes lights of the environment's suns, so that each has its controls.
-void spread_suns(Lighting& light) {
+/// Makes lights of the environment's suns, so that each has its controls. Returns all lights.
+const std::vector<Light>& spread_suns(Lighting& light) {
     light.lights = light.all_lights();
     light.suns = false;
+    return light.lights;
 }
 
 }  // namespace
@@ -33,7 +34,7 @@ FrameWorker::FrameWorker(cli::RenderJob job, const cli::RenderOptions& options, 
       start_camera_(job_.camera),
       start_settings_(job_.settings),
       own_lobes_(own_lobes_of(job_.scene())),
-      start_lights_((spread_suns(job_.light), job_.light.lights)),
+      start_lights_(spread_suns(job_.light)),
       sky_{Sky::as_started, options.environment_rotate_deg} {
     job_.timeout_s = 0.0;  // it was for loading
     job_.execution.cancelled = [this] { return given_up_.load(std::memory_order_relaxed); };
@@ -133,9 +134,8 @@ Result<void> FrameWorker::apply(const FrameRequest& request, DrawnFrame& frame) 
     if (!(controls.sky == sky_)) {
         job_.camera = start_camera_;  // the studio stands as it did at the start
         if (const auto changed = cli::change_light(job_, with_sky(options_, controls.sky)); !changed) return changed;
-        spread_suns(job_.light);
         sky_ = controls.sky;
-        start_lights_ = lights;
+        start_lights_ = spread_suns(job_.light);
         start_settings_.exposure = job_.settings.exposure;
         start_settings_.background_environment = options_.settings.background_environment && sky_.sky == Sky::as_started;
         frame.lights = light_controls(lights);

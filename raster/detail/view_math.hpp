@@ -24,6 +24,9 @@ HALFLIT_INLINE double usable_aspect(float aspect) { return aspect > 0.0f && fini
 
 HALFLIT_INLINE double usable_fov(float fov_rad) { return finite(fov_rad) ? clamped(fov_rad, kMinFov, kMaxFov) : 0.25 * kPi; }
 
+/// A column of a matrix.
+HALFLIT_INLINE Vec4f column(Vec3d v, float w) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), w}; }
+
 /// The largest magnitude of a coordinate; 0 for an empty box.
 inline double largest_coordinate(const Bounds& b) {
     if (b.empty) return 0.0;

@@ -40,11 +40,9 @@ Result<Camera> Camera::from_intrinsics(const Intrinsics& lens, const std::array<
     const Vec3d t{translation[0], translation[1], translation[2]};
     if (!(usable(t.x) && usable(t.y) && usable(t.z))) return fail(ErrorCode::usage, "translation: expected finite numbers");
     const Vec3d eye = ((rows[0] * t.x + rows[1] * t.y) + rows[2] * t.z) * -1.0;
-    const auto column = [](Vec3d v, float w) {
-        return Vec4f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), w};
-    };
     Camera camera;
-    camera.world_from_camera = {{column(rows[0], 0), column(rows[1] * -1.0, 0), column(rows[2] * -1.0, 0), column(eye, 1)}};
+    camera.world_from_camera = {
+        {raster::column(rows[0], 0), raster::column(rows[1] * -1.0, 0), raster::column(rows[2] * -1.0, 0), raster::column(eye, 1)}};
     // The first pixel's corner is half a pixel before its middle.
     const double first = lens.first_pixel - 0.5;
     const auto tangent = [](double pixel, double centre, double f) { return static_cast<float>((pixel - centre) / f); };

@@ -132,9 +132,6 @@ public:
 
         // Zoom changes the field of view, not the position; the tangent scales exactly.
         const double zoom = finite(view_.zoom) && view_.zoom > 0.0f ? view_.zoom : 1.0;
-        const auto column = [](Vec3d v, float w) {
-            return Vec4f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), w};
-        };
         Camera camera;
         camera.world_from_camera = {{column(axes_.right, 0), column(axes_.up, 0), column(axes_.back, 0), column(eye, 1)}};
         camera.fov_y_rad = static_cast<float>(clamped(2.0 * arc_tangent(tan_y_ / zoom), kMinFov, kMaxFov));

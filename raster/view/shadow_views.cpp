@@ -15,9 +15,6 @@ using shading::LightPlan;
 using shading::ShadowMapPlan;
 
 Camera camera_at(const ViewAxes& axes, Vec3d eye) {
-    const auto column = [](Vec3d v, float w) {
-        return Vec4f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), w};
-    };
     Camera camera;
     camera.world_from_camera = {{column(axes.right, 0), column(axes.up, 0), column(axes.back, 0), column(eye, 1)}};
     return camera;

@@ -111,8 +111,7 @@ HALFLIT_INLINE F stretched_ggx(const StretchedView& view, V3 to_light, F n_dot_l
     const F l_x = view.alpha_along * dot(view.along, to_light), l_y = view.alpha_across * dot(view.beside, to_light);
     const F l = vsqrt((l_x * l_x + l_y * l_y) + n_dot_l * n_dot_l);
     const F masking = n_dot_l * view.v + view.n_dot_v * l;
-    const F away = one - vmin(half_of * vsqrt(squared), one), away2 = away * away;
-    grazing = (away2 * away2) * away;
+    grazing = fifth_power(one - vmin(half_of * vsqrt(squared), one));
     return sel(shines, vdiv((half_of * n_dot_l) * (both * (facets * facets)), masking), none);
 }
 

@@ -87,8 +87,8 @@ HALFLIT_INLINE V3 coat_highlights(const shading::ShadingPlan& frame, const shadi
     for (int lane = 0; lane < count; lane += kWidth) {
         const Coat coat = fetch_coat(material, block, lane, rows);
         const V3 to_eye = load3(rows.to_eye, lane);
-        const F n_dot_v = dot(coat.normal, to_eye), held = clamp(n_dot_v, none, one), away = one - held, away2 = away * away;
-        const F grazing = (away2 * away2) * away, fresnel = mad(one - f0, grazing, f0);
+        const F n_dot_v = dot(coat.normal, to_eye), held = clamp(n_dot_v, none, one);
+        const F grazing = fifth_power(one - held), fresnel = mad(one - f0, grazing, f0);
         const bool environment = has(material, kStageEnvironment);
         MirrorShape shape{};
         F more(0.0f);

@@ -12,6 +12,7 @@
 #include "shading/kernels/shade_kernels.hpp"
 #include "shading/kernels/shade_rows.hpp"
 #include "shading/model/constants.hpp"
+#include "shading/model/formulas.hpp"
 
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
@@ -41,8 +42,7 @@ HALFLIT_INLINE bool ggx_highlight(const GgxView& view, V3 to_light, F n_dot_l, F
     const F q = dot(sine, sine) + view.alpha_squared * (cosine * cosine);
     const F value = vdiv((n_dot_l * view.alpha_squared) * (squared * squared), (masking + masking) * (q * q));
     highlight = sel(shines, value, none);
-    const F away = one - vmin(F(0.5f) * vsqrt(squared), one), away2 = away * away;
-    grazing = (away2 * away2) * away;
+    grazing = fifth_power(one - vmin(F(0.5f) * vsqrt(squared), one));
     return true;
 }
 

@@ -7,6 +7,7 @@
 #include "shading/kernels/pow.hpp"
 #include "shading/kernels/shade_rows.hpp"
 #include "shading/kernels/surface_kernel.hpp"
+#include "shading/model/formulas.hpp"
 #include "shading/model/thin_film.hpp"
 
 namespace halflit {
@@ -17,11 +18,6 @@ HALFLIT_INLINE F cosine_of_turns(F turns) {
     constexpr float kSine[] = {6.283185005187988f, -41.34165573120117f, 81.60100555419922f, -76.5497817993164f, 39.536705017089844f};
     const F q = F(0.25f) - vabs(turns - round_near(turns));
     return q * horner(kSine, q * q);
-}
-
-HALFLIT_INLINE F fifth_power(F x) {
-    const F x2 = x * x;
-    return (x2 * x2) * x;
 }
 
 /// F0 of a surface of this F0 below the film.

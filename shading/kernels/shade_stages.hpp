@@ -134,8 +134,7 @@ static void add_surroundings(const shading::ShadingPlan& frame, const shading::M
         const F n_dot_v = dot(normal, to_eye);
         const F twice = n_dot_v + n_dot_v;
         const F away = F(1.0f) - clamp(n_dot_v, F(0.0f), F(1.0f));
-        const F away2 = away * away;
-        if (!environment) store(rows.grazing + lane, (away2 * away2) * away);
+        if (!environment) store(rows.grazing + lane, fifth_power(away));
         const V3 reflection{mad(twice, normal.x, F(0.0f) - to_eye.x), mad(twice, normal.y, F(0.0f) - to_eye.y),
                             mad(twice, normal.z, F(0.0f) - to_eye.z)};
         if (!environment) {

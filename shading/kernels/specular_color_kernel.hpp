@@ -50,7 +50,8 @@ struct SkyShare {
 /// As reflected(), of shade_stages.hpp.
 [[gnu::noinline]] static void reflect_colored(const shading::MaterialPlan& material, const ShadeRows& rows, int lane, V3 base, V3& color) {
     const F metallic = load(rows.metallic + lane), matt = F(1.0f) - metallic, weight = load(rows.specular_weight + lane);
-    const V3 dielectric = load3(rows.dielectric, lane), metal = has(material, kStageIridescence) ? below_film(rows, lane, base) : base;
+    const V3 dielectric = load3(rows.dielectric, lane),
+             metal = has(material, kStageIridescence) && material.metallic > 0.0f ? below_film(rows, lane, base) : base;
     const V3 f0 = metal * metallic + dielectric * matt;
     const F largest = vmax(dielectric.x, vmax(dielectric.y, dielectric.z));
     const V3 albedo = base * (matt * (F(1.0f) - largest));

@@ -56,8 +56,8 @@ HALFLIT_INLINE F mirrored_back(const shading::MaterialPlan& material, const Shad
     }
     if (has(material, kStageEnvironment))
         return sky_share(load(rows.share_a + lane), load(rows.share_b + lane) * weight, load(rows.share_more + lane), f0);
-    const F away = F(1.0f) - clamp(dot(load3(rows.normal, lane), load3(rows.to_eye, lane)), F(0.0f), F(1.0f)), away2 = away * away;
-    return mad(vmax((F(1.0f) - load(rows.roughness + lane)) * weight, f0) - f0, (away2 * away2) * away, f0);
+    const F away = F(1.0f) - clamp(dot(load3(rows.normal, lane), load3(rows.to_eye, lane)), F(0.0f), F(1.0f));
+    return mad(vmax((F(1.0f) - load(rows.roughness + lane)) * weight, f0) - f0, fifth_power(away), f0);
 }
 
 /// Sets the block's alpha and what it keeps of the light behind it: 1 - a + a t (1 - S) (1 - metallic) base passed.

@@ -23,6 +23,13 @@ HALFLIT_INLINE constexpr T specular_normalization(T half_exponent, bool phong) {
     return mad(T(0.25f), half_exponent, T(0.75f)) + vdiv(T(0.5f), half_exponent + T(2.0f));
 }
 
+/// Schlick's rise towards grazing views, of one minus a cosine.
+template <class T>
+HALFLIT_INLINE constexpr T fifth_power(T x) {
+    const T x2 = x * x;
+    return (x2 * x2) * x;
+}
+
 /// Share of the surroundings that a surface reflects: F0 seen straight on, rising towards 1 - roughness at grazing angles. `grazing` is
 /// Schlick's fifth power, (1 - N.V)^5.
 template <class T>

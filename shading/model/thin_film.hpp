@@ -15,9 +15,9 @@ struct FilmWave {
     float rgb[3];
 };
 constexpr FilmWave kFilmWaves[] = {{1.6810e-3f, 2.464912e-7f, {2.743336f, -0.8205709f, 0.04710715f}},
-                                          {1.7953e-3f, 5.299464e-7f, {-1.5374796f, 1.8764271f, -0.20407117f}},
-                                          {2.2084e-3f, 3.765943e-7f, {-0.49909099f, 0.041602647f, 1.0584119f}},
-                                          {2.2399e-3f, 2.579051e-7f, {0.4986032f, -0.14913932f, 0.0085617557f}}};
+                                   {1.7953e-3f, 5.299464e-7f, {-1.5374796f, 1.8764271f, -0.20407117f}},
+                                   {2.2084e-3f, 3.765943e-7f, {-0.49909099f, 0.041602647f, 1.0584119f}},
+                                   {2.2399e-3f, 2.579051e-7f, {0.4986032f, -0.14913932f, 0.0085617557f}}};
 /// A longer way counts as this: the waves are 1e-29 there.
 inline constexpr float kMostFilmWay = 2e4f;
 /// Limits of the index, and of the thickness. Thicker films have no colours.

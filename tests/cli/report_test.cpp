@@ -111,6 +111,23 @@ TEST_CASE("bench: nothing is encoded unless asked for", "[cli]") {
     CHECK(run({"bench", "sphere:500", "--frames", "1", "--size", "60x40", "--encode"}).out.find("ms (PNG)") != std::string::npos);
 }
 
+TEST_CASE("info: its lights are those that are drawn, of the scene, of flags and of the studio", "[cli]") {
+    const auto described = [](std::vector<std::string> flags) {
+        flags.insert(flags.begin(), {"info", "sphere:500", "--json"});
+        const Outcome outcome = run(flags);
+        REQUIRE(outcome.code == 0);
+        return json_of(outcome.out);
+    };
+    const auto own = described({});
+    const std::size_t count = own["lights"].size();
+    REQUIRE(count > 0);
+    CHECK(described({"--light", "point:pos=0,5,0"})["lights"].size() == count + 1);
+    CHECK(described({"--no-scene-lights"})["lights"].size() == 1);  // the studio's key light
+    const auto around = described({"--no-scene-lights", "--ambient", "0.5,0.5,0.5"});
+    CHECK(around["lights"].empty());
+    CHECK(around["ambient"]["sky"][0] == 0.5);
+}
+
 TEST_CASE("info: it counts the built-in sphere and plans its one material", "[cli]") {
     const auto info = json_of(run({"info", "sphere:1000000", "--json"}).out);
     CHECK(info["drawn"]["triangles_drawn"] == 1000000);

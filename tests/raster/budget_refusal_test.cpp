@@ -40,7 +40,7 @@ Result<RenderReport> drawn(ShadingRate rate, TextureDetail detail, double budget
     REQUIRE(prepared);
     const Camera camera = halflit::test::camera_at({2, 3, 4}, {0, 0, 0});
     const auto report = render(scene, camera, settings, {20, 15, pixels.data(), nullptr});
-    CHECK(plan_frame(*prepared, camera, settings, 20, 15).has_value() == report.has_value());
+    CHECK(plan_frame(*prepared, scene, camera, settings, 20, 15).has_value() == report.has_value());
     CHECK(check_settings(settings, 20, 15).has_value() == report.has_value());
     CHECK((report.has_value() || pixels == std::vector<std::uint8_t>(pixels.size(), 0xCD)));
     return report;

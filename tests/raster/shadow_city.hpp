@@ -47,7 +47,7 @@ struct City : ShadowSetup {
 inline raster::FramePlan plan_of(const ShadowSetup& setup, int width = kSide, int height = kSide) {
     const auto prepared = raster::PreparedData::make(setup.scene, {});
     REQUIRE(prepared);
-    auto plan = plan_frame(*prepared, setup.camera, setup.settings, width, height);
+    auto plan = plan_frame(*prepared, prepared->scene(), setup.camera, setup.settings, width, height);
     REQUIRE(plan);
     return std::move(*plan);
 }

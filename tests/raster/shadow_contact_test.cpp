@@ -93,7 +93,7 @@ Gap contact_gap(Random& random, Map kind, int size, bool wall) {
     setup.camera.near_z = 0.1f;
     const auto prepared = PreparedData::make(setup.scene);
     REQUIRE(prepared);
-    const auto plan = plan_frame(*prepared, setup.camera, setup.settings, 4, kHeight);
+    const auto plan = plan_frame(*prepared, prepared->scene(), setup.camera, setup.settings, 4, kHeight);
     REQUIRE(plan);
     const shading::ShadowMapPlan& map = plan->shading.shadow_maps[0];
     REQUIRE((map.kind == shading::ShadowMapPlan::Kind::cube) == (kind == Map::cube));

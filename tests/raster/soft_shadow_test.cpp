@@ -267,7 +267,7 @@ TEST_CASE("soft shadows: the maps of all lights and of the sky stay within the l
         Settings settings = matt();
         settings.sky_shadows = 64;
         settings.shadow_memory_limit = limit;
-        const auto plan = raster::plan_frame(prepared->data(), Camera{}, settings, 64, 64);
+        const auto plan = raster::plan_frame(prepared->data(), prepared->scene(), Camera{}, settings, 64, 64);
         REQUIRE(plan);
         REQUIRE(plan->shadow_views.size() > 64);
         std::size_t last = 0;  // texel with which the last map begins

@@ -48,6 +48,15 @@ Mat4 turned(float x, float y, float z, float w) {
     return rotation({x * inv, y * inv, z * inv, w * inv});
 }
 
+/// place(material, x, z) puts a ball that has tangents into the scene.
+auto balls_of(Scene& scene) {
+    Mesh ball = make_sphere(0.55f, 28, 16);
+    generate_tangents(ball, 0);
+    return [&scene, ball = std::move(ball)](Material material, float x, float z) {
+        add(scene, ball, add_material(scene, std::move(material)), translation({x, 0, z}));
+    };
+}
+
 void add_lights(Scene& scene) {
     Light sun;
     sun.direction_ws = {-0.3f, -1, -0.4f};
@@ -254,11 +263,7 @@ NamedScene coats_scene() {
     Scene& s = out.scene;
     add_lights(s);
     const int bumps = add_texture(s, 48, 48, ColorSpace::linear, 12, true), patches = add_texture(s, 32, 32, ColorSpace::linear, 13, false);
-    Mesh ball = make_sphere(0.55f, 28, 16);
-    generate_tangents(ball, 0);
-    const auto place = [&](Material material, float x, float z) {
-        add(s, ball, add_material(s, std::move(material)), translation({x, 0, z}));
-    };
+    const auto place = balls_of(s);
 
     Material lacquer;
     lacquer.base_color = {0.5f, 0.02f, 0.03f, 1};
@@ -304,11 +309,7 @@ NamedScene fabrics_scene() {
     Scene& s = out.scene;
     add_lights(s);
     const int weave = add_texture(s, 32, 32, ColorSpace::srgb, 22, false), bumps = add_texture(s, 48, 48, ColorSpace::linear, 23, true);
-    Mesh ball = make_sphere(0.55f, 28, 16);
-    generate_tangents(ball, 0);
-    const auto place = [&](Material material, float x, float z) {
-        add(s, ball, add_material(s, std::move(material)), translation({x, 0, z}));
-    };
+    const auto place = balls_of(s);
 
     Material velvet;
     velvet.base_color = {0.2f, 0.01f, 0.05f, 1};
@@ -350,11 +351,7 @@ NamedScene films_scene() {
     Scene& s = out.scene;
     add_lights(s);
     const int patches = add_texture(s, 32, 32, ColorSpace::linear, 24, false), bumps = add_texture(s, 48, 48, ColorSpace::linear, 25, true);
-    Mesh ball = make_sphere(0.55f, 28, 16);
-    generate_tangents(ball, 0);
-    const auto place = [&](Material material, float x, float z) {
-        add(s, ball, add_material(s, std::move(material)), translation({x, 0, z}));
-    };
+    const auto place = balls_of(s);
 
     Material soap;
     soap.base_color = {0.9f, 0.9f, 0.95f, 1};
@@ -395,11 +392,7 @@ NamedScene brushed_scene() {
     Scene& s = out.scene;
     add_lights(s);
     const int swirl = add_texture(s, 32, 32, ColorSpace::linear, 26, false), bumps = add_texture(s, 48, 48, ColorSpace::linear, 27, true);
-    Mesh ball = make_sphere(0.55f, 28, 16);
-    generate_tangents(ball, 0);
-    const auto place = [&](Material material, float x, float z) {
-        add(s, ball, add_material(s, std::move(material)), translation({x, 0, z}));
-    };
+    const auto place = balls_of(s);
 
     Material pan;
     pan.base_color = {0.8f, 0.78f, 0.75f, 1};

@@ -1,194 +1,152 @@
-// KHR_materials_anisotropy: against the extension's formulas in float64, integrals of environments, isotropic limits, extremes, and every
-// instruction set.
-#include "random_case.hpp"
-#include "tests/shading/surface_bench.hpp"
-#include "tests/support/isas.hpp"
-
+// Anisotropic filters: against float64 within the bound of budgets, alike on every instruction set, and off where they do not apply.
+#include "floats.hpp"
+#include "shading/budget/texture_bounds.hpp"
+#include "shading/kernels/shade_kernels.hpp"
+#include "shading/planner.hpp"
+#include "shading/reference/reference.hpp"
 #include "tests/support/catch.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <string>
+#include <cstring>
 
 using namespace halflit;
 using namespace halflit::shading;
 using namespace halflit::testing;
-using halflit::test::painted_sky;
-using halflit::test::Random;
-using halflit::test::Sky;
 
 namespace {
 
-struct Bench : SurfaceBench {
-    explicit Bench(double roughness = 0.4, double strength = 0.8) {
-        material.base_color = {1, 1, 1, 1};
-        material.roughness = static_cast<float>(roughness), material.anisotropy_strength = static_cast<float>(strength);
-    }
-};
-
-struct Widths {
-    double along, across;
-    Widths(double roughness, double strength) : along(0), across(roughness * roughness) {
-        along = across + (1 - across) * strength * strength;
-    }
-};
-
-/// D of the extension's text, with D of an isotropic surface at equal widths. h: of unit length, its x along the direction.
-double facets(Vec3d h, Widths w) {
-    const double q = h.x * h.x / (w.along * w.along) + h.y * h.y / (w.across * w.across) + h.z * h.z;
-    return 1 / (kPi * w.along * w.across * q * q);
+Texture noise(FloatMaker& make, int width, int height, bool smooth) {
+    std::vector<std::uint16_t> texels;
+    for (int i = 0; i < 4 * width * height; ++i)
+        texels.push_back(static_cast<std::uint16_t>(smooth ? 30000 + make.below(2000) : make.below(65536)));
+    return Texture::from_rgba16(texels, width, height).value();
 }
-double masking(Vec3d l, Vec3d v, Widths w) {
-    const auto size = [&](Vec3d d) { return std::sqrt(std::pow(w.along * d.x, 2) + std::pow(w.across * d.y, 2) + d.z * d.z); };
-    return 0.5 / (l.z * size(v) + v.z * size(l));
+
+/// Footprints of any shape and direction, from magnified to longer than the texture.
+void fill(FloatMaker& make, FragmentBlock& block, int width, int height) {
+    for (int lane = 0; lane < kBlockSize; ++lane) {
+        block.lane[kU0][lane] = make.ordinary(-2.5f, 2.5f);
+        block.lane[kV0][lane] = make.ordinary(-2.5f, 2.5f);
+        const float turn = make.ordinary(-1, 1), longer = std::exp2(make.ordinary(-2, 8)),
+                    shorter = longer * std::exp2(make.ordinary(-7, 0));
+        const float across = make.ordinary(-1, 1);
+        block.lane[kDu0Dx][lane] = longer / static_cast<float>(width);
+        block.lane[kDv0Dx][lane] = longer * turn / static_cast<float>(height);
+        block.lane[kDu0Dy][lane] = shorter * across / static_cast<float>(width);
+        block.lane[kDv0Dy][lane] = shorter / static_cast<float>(height);
+    }
 }
-double blinn(Vec3d h, Widths w, double n_dot_l) {
-    const double s = 2 / (w.along * w.across) - 2, side = h.x * h.x + h.y * h.y;
-    const auto exponent = [](double width) { return 2 / (width * width) - 2; };
-    const double e = side > 0 ? (h.x * h.x * exponent(w.along) + h.y * h.y * exponent(w.across)) / side : 0;
-    return (s * s + 10 * s + 32) / (8 * (s + 4)) * std::pow(h.z, e) * n_dot_l;
+
+struct Unlit {
+    Material material;
+    ShadingPlan plan;
+};
+Unlit unlit(const Texture& texture, int anisotropy, const TextureUse& use = {}) {
+    Unlit out;
+    out.material.unlit = true;
+    out.material.textures[TextureSlot::base_color] = use;
+    out.material.textures[TextureSlot::base_color].texture = 0;
+    const std::vector<SlotMask> available{3u, 3u};
+    ShadingSettings options;
+    options.anisotropy = anisotropy;
+    out.plan = plan_shading({std::span(&out.material, 1), std::span(&texture, 1), available, {}, {}, options});
+    return out;
+}
+
+void draw(const Unlit& unlit, FragmentBlock& block, Isa isa) {
+    shade_kernels(isa).shade(unlit.plan, unlit.plan.materials[0], all_lights(unlit.plan), block, kBlockSize);
 }
 
 }  // namespace
 
-TEST_CASE("anisotropy: highlights are the extension's, for any direction", "[shading][anisotropy]") {
-    for (const double roughness : {0.2, 0.5})
-        for (const double strength : {0.3, 1.0})
-            for (const double turn : {0.0, 0.7, 2.4})
-                for (const double light : {0.1, 0.6, 1.2})
-                    for (const double around : {0.0, 1.1, 3.0}) {
-                        const Widths w(roughness, strength);
-                        const Vec3d v = at_angle(0.5, 0.4), l = at_angle(light, around);
-                        const auto turned = [&](Vec3d d) {
-                            return Vec3d{std::cos(turn) * d.x + std::sin(turn) * d.y, std::cos(turn) * d.y - std::sin(turn) * d.x, d.z};
-                        };
-                        const Vec3d h = turned(unit(l + v));
-                        Bench bench(roughness, strength);
-                        bench.material.anisotropy_rotation_rad = static_cast<float>(turn);
-                        bench.add_light(l);
-                        INFO("roughness " << roughness << ", strength " << strength << ", turn " << turn << ", light " << light);
-                        CHECK(bench.seen_from(v).x == Approx(blinn(h, w, l.z)).epsilon(2e-5).margin(1e-7));
-                        bench.options.specular = SpecularModel::ggx;
-                        const double once = kPi * facets(h, w) * masking(turned(l), turned(v), w) * l.z;
-                        const double got = bench.seen_from(v).x;
-                        // The light that bounces between facets is that of an even surface with the same mean width.
-                        const double mean = std::pow(w.along * w.across, 0.25);
-                        const Widths same(mean, 0);
-                        Bench even(mean, 0);
-                        even.options.specular = SpecularModel::ggx;
-                        even.add_light(v);
-                        const double all = even.seen_from(v).x / (kPi * facets(v, same) * masking(v, v, same) * v.z);
-                        CHECK(got == Approx(once * all).epsilon(2e-4).margin(1e-7));
+TEST_CASE("anisotropy: filtered channels are within their bound of float64, and the same bits on every set",
+          "[shading][texture][sampling]") {
+    FloatMaker make(5);
+    double closest = 0;
+    for (const auto& [width, height] : {std::pair{64, 64}, {256, 32}, {300, 77}, {5, 3}})
+        for (const bool smooth : {true, false}) {
+            const Texture texture = noise(make, width, height, smooth);
+            for (int mode = 0; mode < 6; ++mode) {
+                TextureUse use;
+                use.sampler.wrap_u = use.sampler.wrap_v = static_cast<TextureWrap>(mode % 3);
+                if (mode / 3 == 1) use.row_u = {0.7f, 1.9f, 0.3f}, use.row_v = {-1.9f, 0.7f, -0.1f};
+                for (const int anisotropy : {2, 3, 16}) {
+                    const Unlit surface = unlit(texture, anisotropy, use);
+                    REQUIRE(surface.plan.materials[0].textures[TextureSlot::base_color].anisotropy == anisotropy);
+                    ShadingSettings options;
+                    options.anisotropy = anisotropy;
+                    const reference::FrameInputs frame{std::span(&texture, 1), {}, {}, options};
+                    for (int round = 0; round < 4; ++round) {
+                        FragmentBlock block{};
+                        fill(make, block, width, height);
+                        draw(surface, block, Isa::scalar);
+                        for (const Isa isa : built_isas()) {
+                            if (!isa_available(isa)) continue;
+                            FragmentBlock other = block;
+                            draw(surface, other, isa);
+                            CHECK(std::memcmp(&other, &block, sizeof block) == 0);
+                        }
+                        for (int lane = 0; lane < kBlockSize; ++lane) {
+                            const reference::Rgba want = reference::shade(frame, surface.material, 3u, block, lane);
+                            const double bound = filter_error(surface.plan.materials[0].textures[TextureSlot::base_color], 1, 2.5);
+                            const double error = std::fabs(static_cast<double>(block.green[lane]) - want.g);
+                            closest = std::max(closest, error / bound);
+                            if (error > bound)
+                                FAIL(width << " x " << height << ", lane " << lane << ": off by " << error << ", bound " << bound);
+                        }
                     }
+                }
+            }
+        }
+    INFO("closest to its bound: " << closest);
+    CHECK(closest > 0.01);
 }
 
-TEST_CASE("anisotropy: without strength, or where directions are averaged away, a surface is as it is without", "[shading][anisotropy]") {
-    for (const SpecularModel model : {SpecularModel::blinn, SpecularModel::ggx}) {
-        Bench plain(0.4, 0), lost(0.4, 1), leaning(0.4, 1);
-        lost.material.textures[TextureSlot::anisotropy].texture = lost.add_texel(0.5, 0.5, 1);
-        leaning.tangent = {0, 0, 1};
-        CHECK((plain.plan().materials[0].stages & kStageAnisotropy) == 0);
-        for (Bench* bench : {&plain, &lost, &leaning}) bench->options.specular = model, bench->add_light(at_angle(0.6, 2));
-        const double want = plain.seen_from(at_angle(0.5)).x;
-        CHECK(lost.seen_from(at_angle(0.5)).x == Approx(want).epsilon(1e-4));
-        CHECK(leaning.seen_from(at_angle(0.5)).x == Approx(want).epsilon(1e-4));
+TEST_CASE("anisotropy: a row of stripes along the footprint averages out, stripes across it stay", "[shading][texture][sampling]") {
+    // Stripes of one texel. The footprint is 8 texels long and one wide.
+    for (const bool along_u : {true, false}) {
+        std::vector<std::uint8_t> rgba;
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 64; ++x) rgba.insert(rgba.end(), 4, static_cast<std::uint8_t>((along_u ? x : y) % 2 == 0 ? 255 : 0));
+        const Texture texture = Texture::from_rgba8(rgba, 64, 64, ColorSpace::linear).value();
+        FragmentBlock block{};
+        for (int lane = 0; lane < kBlockSize; ++lane) {
+            block.lane[kU0][lane] = (static_cast<float>(lane % 8) + 20.5f) / 64.0f;
+            block.lane[kV0][lane] = (static_cast<float>(lane / 8) + 20.5f) / 64.0f;
+            block.lane[kDu0Dx][lane] = 8.0f / 64.0f;
+            block.lane[kDv0Dy][lane] = 1.0f / 64.0f;
+        }
+        FragmentBlock one = block;
+        draw(unlit(texture, 16), block, Isa::scalar);
+        draw(unlit(texture, 1), one, Isa::scalar);
+        for (int lane = 0; lane < kBlockSize; ++lane) {
+            CHECK(std::fabs(one.red[lane] - 0.5f) < 1e-4f);  // a level of 8 x 8 texels each
+            const float stripe = (along_u ? lane : lane / 8) % 2 == 0 ? 1.0f : 0.0f;
+            if (along_u)
+                CHECK(std::fabs(block.red[lane] - 0.5f) < 0.07f);  // 8 probes, all weights the same but the last half
+            else
+                CHECK(std::fabs(block.red[lane] - stripe) < 1e-4f);
+        }
     }
 }
 
-TEST_CASE("anisotropy: direction and strength follow the texture", "[shading][anisotropy]") {
-    Bench plain(0.3, 0.4), textured(0.3, 0.8);
-    plain.material.anisotropy_rotation_rad = 0.3f + 1.5707963f;
-    textured.material.anisotropy_rotation_rad = 0.3f;
-    textured.material.textures[TextureSlot::anisotropy].texture = textured.add_texel(0.5, 1, 0.5);
-    for (Bench* bench : {&plain, &textured}) bench->add_light(at_angle(0.4, 1.0));
-    CHECK(textured.seen_from(at_angle(0.3, 2)).x == Approx(plain.seen_from(at_angle(0.3, 2)).x).epsilon(1e-3));
-}
-
-TEST_CASE("anisotropy: a white furnace loses no light", "[shading][anisotropy][environment]") {
-    for (const double roughness : {0.0, 0.3, 0.8})
-        for (const double strength : {0.2, 1.0})
-            for (const double view : {0.1, 0.9, 1.5}) {
-                Bench bench(roughness, strength);
-                bench.set_sky(0.75);
-                CHECK(bench.seen_from(at_angle(view, 0.4)).x == Approx(0.75).epsilon(1e-5));
-            }
-}
-
-TEST_CASE("anisotropy: light of an environment is nearer the integral than an even surface's", "[shading][anisotropy][environment]") {
-    const auto grey = [](double v) { return Vec3d{v, v, v}; };
-    const auto panel = [](Vec3d d, Vec3d at, double size) {
-        return std::clamp((dot(d, unit(at)) - std::cos(size * 1.1)) / (std::cos(size) - std::cos(size * 1.1)), 0.0, 1.0);
-    };
-    const std::array<Sky, 3> skies{
-        painted_sky(
-            256, 128,
-            [&](Vec3d d) {
-                return grey(0.1 + 12 * panel(d, {1, 1, 1}, 0.35) + 6 * panel(d, {-1, 0.5, 0.4}, 0.25) + 4 * panel(d, {0, 1, -0.3}, 0.5));
-            }),
-        painted_sky(256, 128, [&](Vec3d d) { return grey(d.y > 0 ? 1 + d.y : 0.2); }),
-        painted_sky(256, 128, [&](Vec3d d) { return grey(1 + 0.9 * std::sin(5 * d.x + 2 * d.y) * std::cos(7 * d.z - d.x)); })};
-    Random random(11);
-    double squares = 0, even_squares = 0;
-    int compared = 0;
-    for (const Sky& sky : skies)
-        for (int i = 0; i < 24; ++i) {
-            const double roughness = 0.2 + 0.1 * (i % 4), strength = 0.5 + 0.25 * (i % 3);
-            const Widths w(roughness, strength);
-            Bench bench(roughness, strength), even(std::pow(w.along * w.across, 0.25), 0);
-            const auto direction = [&] { return Vec3d{random.real(-1, 1), random.real(-1, 1), random.real(-1, 1)}; };
-            const Vec3d n = unit(direction()), t = unit(cross(n, direction())), b = cross(n, t);
-            const double n_dot_v = random.real(0.15, 1), turn = random.real(0, 6.28), sine = std::sqrt(1 - n_dot_v * n_dot_v);
-            const Vec3d local{sine * std::cos(turn), sine * std::sin(turn), n_dot_v}, v = t * local.x + b * local.y + n * local.z;
-            for (Bench* one : {&bench, &even}) one->normal = n, one->tangent = t, one->set_sky(sky);
-            double sum = 0, weights = 0;
-            constexpr int kRings = 64;
-            for (int r = 0; r < kRings; ++r)
-                for (int k = 0; k < 2 * kRings; ++k) {
-                    const double s = (r + 0.5) / kRings, u = s * s * (3 - 2 * s), size = std::sqrt(u / (1 - u)),
-                                 angle = kPi * (k + 0.5) / kRings;
-                    const Vec3d h = unit({w.along * size * std::cos(angle), w.across * size * std::sin(angle), 1});
-                    const double v_dot_h = dot(local, h);
-                    const Vec3d l = h * (2 * v_dot_h) - local;
-                    if (v_dot_h <= 0 || l.z <= 0) continue;
-                    const double weight = 6 * s * (1 - s) * masking(l, local, w) * l.z * v_dot_h / h.z;
-                    const sh::EquirectPoint p = sh::equirect_point(t * l.x + b * l.y + n * l.z);
-                    sum += weight * sky.view()
-                                        .at(std::min(sky.width - 1, static_cast<int>(p.u * sky.width)),
-                                            std::min(sky.height - 1, static_cast<int>(p.v * sky.height)))
-                                        .x;
-                    weights += weight;
-                }
-            const double want = sum / weights;
-            squares += std::pow(bench.seen_from(v).x - want, 2), even_squares += std::pow(even.seen_from(v).x - want, 2), ++compared;
-        }
-    const double rms = std::sqrt(squares / compared), even_rms = std::sqrt(even_squares / compared);
-    INFO("rms " << rms << ", of even surfaces " << even_rms);
-    CHECK(rms < 0.85 * even_rms);  // measured: 0.336 of 0.414
-}
-
-TEST_CASE("anisotropy: extremes are finite, and the same bits on every set", "[shading][anisotropy][kernels]") {
-    for (const bool sky : {false, true})
-        for (const SpecularModel model : {SpecularModel::phong, SpecularModel::blinn, SpecularModel::ggx})
-            for (const float strength : {1e-30f, 0.5f, 1.0f, 7.0f})
-                for (const float roughness : {-1.0f, 0.0f, 0.5f, 1.0f})
-                    for (const Vec3d tangent : {Vec3d{1, 0, 0}, Vec3d{0, 0, 0}, Vec3d{1e-30, 0, 1}, Vec3d{0.3, 0.2, -0.9}}) {
-                        Bench bench;
-                        bench.material.roughness = roughness, bench.material.anisotropy_strength = strength;
-                        bench.material.anisotropy_rotation_rad = 1e5f * strength;
-                        bench.tangent = tangent, bench.options.specular = model;
-                        for (const double angle : {0.0, 0.7, 1.5707, 1.570797, 3.0}) bench.add_light(at_angle(angle, 2.0));
-                        if (sky)
-                            bench.set_sky(painted_sky(16, 8, [](Vec3d d) { return Vec3d{1 + d.y, 1, 1}; }));
-                        else
-                            bench.ambient = {{0.5f, 0.6f, 0.7f}, {0.1f, 0.1f, 0.1f}};
-                        for (const double view : {0.0, 0.7, 1.570796, 3.1}) {
-                            ShadingPlan frame = bench.plan();
-                            const Vec3d want = bench.seen_from(at_angle(view), Isa::scalar, frame);
-                            INFO("strength " << strength << ", roughness " << roughness << ", view " << view);
-                            REQUIRE((std::isfinite(want.x) && want.x >= 0));
-                            for (const Isa isa : halflit::test::available_isas())
-                                CHECK(bench.seen_from(at_angle(view), isa, frame).x == want.x);
-                        }
-                    }
+TEST_CASE("anisotropy: magnified textures and samplers without linear levels have the bits of 1", "[shading][texture][sampling]") {
+    FloatMaker make(6);
+    const Texture texture = noise(make, 64, 64, false);
+    for (int mode = 0; mode < 4; ++mode) {
+        TextureUse use;
+        if (mode == 1) use.sampler.mip = MipFilter::nearest;
+        if (mode == 2) use.sampler.mip = MipFilter::none;
+        if (mode == 3) use.sampler.min = TextureFilter::nearest;
+        FragmentBlock block{};
+        fill(make, block, 64, 64);
+        if (mode == 0)
+            for (int row = kDu0Dx; row <= kDv0Dy; ++row)
+                for (float& x : block.lane[row]) x *= 1e-3f;
+        FragmentBlock one = block;
+        draw(unlit(texture, 16, use), block, Isa::scalar);
+        draw(unlit(texture, 1, use), one, Isa::scalar);
+        CHECK(std::memcmp(&one, &block, sizeof block) == 0);
+    }
 }

@@ -148,18 +148,7 @@ TEST_CASE("sheen: in a white furnace a white surface with white sheen reflects a
 
 TEST_CASE("sheen: light of an environment is near the integral, and nearer than light through Lambert's lobe",
           "[shading][sheen][environment]") {
-    const auto grey = [](double v) { return Vec3d{v, v, v}; };
-    const auto panel = [](Vec3d d, Vec3d at, double size) {
-        return std::clamp((dot(d, unit(at)) - std::cos(size * 1.1)) / (std::cos(size) - std::cos(size * 1.1)), 0.0, 1.0);
-    };
-    const std::array<Sky, 3> skies{
-        painted_sky(
-            128, 64,
-            [&](Vec3d d) {
-                return grey(0.1 + 12 * panel(d, {1, 1, 1}, 0.35) + 6 * panel(d, {-1, 0.5, 0.4}, 0.25) + 4 * panel(d, {0, 1, -0.3}, 0.5));
-            }),
-        painted_sky(128, 64, [&](Vec3d d) { return grey(d.y > 0 ? 1 + d.y : 0.2); }),
-        painted_sky(128, 64, [&](Vec3d d) { return grey(1 + 0.9 * std::sin(5 * d.x + 2 * d.y) * std::cos(7 * d.z - d.x)); })};
+    const std::array<Sky, 3> skies = three_skies(64);
     Random random(5);
     std::string table;
     // Measured: 0.108, 0.059, 0.033, 0.033 and 0.034, and 0.231, 0.184, 0.164, 0.088 and 0.053 with Lambert's lobe.
@@ -189,11 +178,7 @@ TEST_CASE("sheen: light of an environment is near the integral, and nearer than 
                 const Vec3d v = n * n_dot_v + side * std::sqrt(1 - n_dot_v * n_dot_v);
                 double sum = 0, total = 0, lambert = 0, cosines = 0;
                 for_each_direction(n, v, roughness, 64, [&](Vec3d l, double w) {
-                    const sh::EquirectPoint p = sh::equirect_point(l);
-                    const double radiance = sky.view()
-                                                .at(std::min(sky.width - 1, static_cast<int>(p.u * sky.width)),
-                                                    std::min(sky.height - 1, static_cast<int>(p.v * sky.height)))
-                                                .x;
+                    const double radiance = radiance_at(sky, l);
                     const double cosine = w / charlie(n, l, v, roughness);
                     sum += w * radiance, total += w;
                     lambert += cosine * radiance, cosines += cosine;

@@ -6,6 +6,8 @@
 #include "shading/planner.hpp"
 #include "tests/sh/sky_images.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -17,6 +19,30 @@ inline Vec3d unit(Vec3d v) { return v * (1 / std::sqrt(dot(v, v))); }
 /// A direction at an angle from +z, in radians, turned about it from +x.
 inline Vec3d at_angle(double from_normal, double turn = 0) {
     return {std::sin(from_normal) * std::cos(turn), std::sin(from_normal) * std::sin(turn), std::cos(from_normal)};
+}
+
+/// Bright panels in a dark room, a horizon, and smooth noise; grey. Twice as wide as high.
+inline std::array<test::Sky, 3> three_skies(int height) {
+    const auto grey = [](double v) { return Vec3d{v, v, v}; };
+    const auto panel = [](Vec3d d, Vec3d at, double size) {
+        return std::clamp((dot(d, unit(at)) - std::cos(size * 1.1)) / (std::cos(size) - std::cos(size * 1.1)), 0.0, 1.0);
+    };
+    const auto sky = [&](const auto& radiance) {
+        return test::painted_sky(2 * height, height, [&](Vec3d d) { return grey(radiance(d)); });
+    };
+    return {sky([&](Vec3d d) {
+                return 0.1 + 12 * panel(d, {1, 1, 1}, 0.35) + 6 * panel(d, {-1, 0.5, 0.4}, 0.25) + 4 * panel(d, {0, 1, -0.3}, 0.5);
+            }),
+            sky([](Vec3d d) { return d.y > 0 ? 1 + d.y : 0.2; }),
+            sky([](Vec3d d) { return 1 + 0.9 * std::sin(5 * d.x + 2 * d.y) * std::cos(7 * d.z - d.x); })};
+}
+
+/// The sky's radiance of the pixel that a direction is in.
+inline double radiance_at(const test::Sky& sky, Vec3d d) {
+    const sh::EquirectPoint p = sh::equirect_point(d);
+    return sky.view()
+        .at(std::min(sky.width - 1, static_cast<int>(p.u * sky.width)), std::min(sky.height - 1, static_cast<int>(p.v * sky.height)))
+        .x;
 }
 
 /// The surface has a normal and a tangent.

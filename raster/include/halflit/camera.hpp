@@ -24,8 +24,9 @@ struct ViewSides {
 /// What a calibration says of a lens without distortion, in pixels of a picture of width x height: u = fx x / z + cx, v = fy y / z + cy,
 /// with x to the right, y down and z ahead.
 struct Intrinsics {
-    double fx = 0, fy = 0, cx = 0, cy = 0;
-    int width = 0, height = 0;
+    double fx = 0, fy = 0;      ///< focal lengths, above 0
+    double cx = 0, cy = 0;      ///< where the axis meets the picture
+    int width = 0, height = 0;  ///< of the picture
     /// u and v in the middle of the upper left pixel: 0 for OpenCV, 0.5 for COLMAP and wherever pixels have their corners at whole numbers
     double first_pixel = 0;
 };

@@ -503,7 +503,7 @@ typedef struct halflit_settings {
 HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t size);
 
 /// Chooses what a good picture of width x height pixels requires: the scene's camera or a view of the whole scene, four samples, a dark
-/// grey background, and an exposure. Adds to the scene the light that it lacks; call it again only after halflit_scene_clear_lights.
+/// grey background, and an exposure. Pictures are lit from then on by the scene's light and what that lacks, as after halflit_setup.
 HALFLIT_C_API int32_t halflit_auto_setup(halflit_scene* scene, int32_t width, int32_t height, halflit_camera* camera,
                                          halflit_settings* settings);
 

@@ -121,7 +121,7 @@ struct NodeTransform {
 /// Where a model lies: a point p of its own world is drawn at (p - origin) * scale. What a host adds, a camera or a light of its own, goes
 /// through into(), and what it reads of the scene through out().
 struct Placement {
-    Vec3d origin{0, 0, 0};
+    Vec3d origin{0, 0, 0};              ///< in the model's own world
     double scale = 1.0;                 ///< a power of two
     std::vector<double> mesh_scales{};  ///< by which positions in each mesh were multiplied; empty: by 1
 
