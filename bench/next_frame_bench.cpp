@@ -109,7 +109,7 @@ public:
     void move_object() {
         Instance& instance = scene_.instances[scene_.instances.size() / 2];
         instance.world_from_object = translation({0, 0.01f, 0}) * instance.world_from_object;
-        told({.moved_instances = {scene_.instances.size() / 2}});
+        told({.changed_instances = {scene_.instances.size() / 2}});
     }
     void move_camera() { camera_.world_from_camera = translation({0.001f, 0, 0}) * camera_.world_from_camera; }
     void change_light() {

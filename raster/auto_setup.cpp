@@ -6,6 +6,7 @@
 #include "shading/model/srgb.hpp"
 
 #include <algorithm>
+#include <charconv>
 
 namespace halflit {
 namespace {
@@ -134,6 +135,26 @@ float complete(Lighting& light, const Bounds& bounds, const Camera& camera, cons
     return exposure;
 }
 
+/// The largest size with the camera's aspect ratio that fits into the usual one.
+PictureSize shaped(PictureSize usual, const Camera& camera) {
+    const auto aspect = static_cast<double>(camera.made_for_aspect());
+    if (!(aspect > 1e-3 && aspect < 1e3)) return usual;
+    const double fitted = std::min(static_cast<double>(usual.width), static_cast<double>(usual.height) * aspect);
+    const auto side = [](double pixels) { return std::max(1, static_cast<int>(pixels + 0.5)); };
+    return {side(fitted), side(fitted / aspect)};
+}
+
+Result<const Camera*> find_camera(const std::vector<Camera>& cameras, const std::string& wanted) {
+    for (const Camera& camera : cameras)
+        if (camera.name == wanted) return &camera;
+    std::size_t index = 0;
+    const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
+    if (error == std::errc() && end == wanted.data() + wanted.size() && index < cameras.size()) return &cameras[index];
+    if (cameras.empty()) return fail(ErrorCode::usage, "camera: found no camera in the scene, expected '" + wanted + "'");
+    return fail(ErrorCode::usage,
+                "camera: expected an index below " + std::to_string(cameras.size()) + " or a camera's name, found '" + wanted + "'");
+}
+
 }  // namespace
 
 Settings usual_settings() {
@@ -169,6 +190,32 @@ AutoSetup auto_setup(const Scene& scene, const Bounds& bounds, int width, int he
     const float exposure = complete(setup.light, bounds, setup.camera, options);
     setup.settings.exposure = options.exposure.value_or(exposure);
     return setup;
+}
+
+Result<PictureChoice> choose_picture(const Scene& scene, const Bounds& bounds, const PictureRequest& request) {
+    const FpEnvironment environment_of_host;
+    const Camera* chosen = request.camera ? &*request.camera : request.frame ? nullptr : choose_camera(scene, bounds);
+    if (request.scene_camera && !request.camera) {
+        const auto found = find_camera(scene.cameras, *request.scene_camera);
+        if (!found) return tl::unexpected(found.error());
+        chosen = *found;
+    }
+    const PictureSize usual = request.usual_size;
+    const PictureSize size = request.size ? *request.size : chosen != nullptr ? shaped(usual, *chosen) : usual;
+    if (size.width < 1 || size.height < 1)
+        return fail(ErrorCode::usage,
+                    "size: expected at least 1 x 1 pixels, found " + std::to_string(size.width) + " x " + std::to_string(size.height));
+    AutoOptions options = request;
+    options.frame = chosen == nullptr;
+    if (chosen != nullptr) options.camera = *chosen;
+    PictureChoice choice{auto_setup(scene, bounds, size.width, size.height, options), size, -1};
+    if (chosen != nullptr && !request.camera) choice.scene_camera = static_cast<int>(chosen - scene.cameras.data());
+    return choice;
+}
+
+Result<PictureChoice> choose_picture(const Scene& scene, const PictureRequest& request) {
+    const FpEnvironment environment_of_host;
+    return choose_picture(scene, scene_bounds(scene), request);
 }
 
 AutoSetup auto_setup(const Scene& scene, int width, int height, const AutoOptions& options) {

@@ -100,8 +100,9 @@ void add_normal_warning(const PreparedData& scene, const shading::ShadingPlan& p
                         std::vector<std::string>& warnings) {
     if (options.rate == ShadingRate::flat) return;
     int first = -1, others = 0;
-    for (const int index : scene.meshes_without_normals()) {
-        const MaterialPlan& material = plan.materials[scene.material_of(scene.source_mesh(index))];
+    for (const std::size_t instance : scene.instances_without_normals()) {
+        const MaterialPlan& material = plan.materials[scene.material_of(instance)];
+        const int index = scene.scene().instances[instance].mesh;
         if ((material.stages & (kStageLights | kStageAmbient | kStageEnvironment)) == 0) continue;
         if (first < 0)
             first = index;
@@ -230,7 +231,8 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Lighting& light,
                      prepared.object_radii(), std::move(*sky), settings.sky_shadows, static_cast<double>(settings.shadow_fade)},
          .facts = budget ? &facts : nullptr,
          .drawn = &prepared.drawn_materials(),
-         .for_each_row = memory.for_each_row ? memory.for_each_row : shading::in_turn},
+         .for_each_row = memory.for_each_row ? memory.for_each_row : shading::in_turn,
+         .looks = prepared.looks()},
         memory.shading);
     plan.written = plan.picture.region;
     plan.cells = uses_cells(plan.shading);

@@ -121,7 +121,8 @@ Result<void> check_options(const ShadingSettings& options) {
 }
 
 ShadingPlan plan_shading(const PlanInputs& inputs, PlanMemory& memory) {
-    HALFLIT_ASSERT(inputs.available_slots.size() == inputs.materials.size() + 1);
+    const std::size_t count = inputs.materials.size();
+    HALFLIT_ASSERT(inputs.available_slots.size() == count + 1 + inputs.looks.size());
     const ShadingSettings& options = inputs.options;
     ShadingPlan plan;
     plan.lights = inputs.lights;
@@ -137,8 +138,10 @@ ShadingPlan plan_shading(const PlanInputs& inputs, PlanMemory& memory) {
     const Material no_material;
     plan.materials.reserve(inputs.available_slots.size());
     for (std::size_t i = 0; i < inputs.available_slots.size(); ++i)
-        plan.materials.push_back(plan_material(i < inputs.materials.size() ? inputs.materials[i] : no_material, inputs.textures,
-                                               inputs.available_slots[i], kinds, options));
+        plan.materials.push_back(plan_material(i < count    ? inputs.materials[i]
+                                               : i == count ? no_material
+                                                            : inputs.looks[i - count - 1],
+                                               inputs.textures, inputs.available_slots[i], kinds, options));
     plan_shadows(inputs.shadows, plan);
     plan_environments(inputs, memory, plan);
     HALFLIT_ASSERT((options.max_error_codes > 0.0) == (inputs.facts != nullptr));

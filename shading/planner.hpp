@@ -43,8 +43,8 @@ struct PlanMemory {
 struct PlanInputs {
     std::span<const Material> materials;
     std::span<const Texture> textures;
-    /// Attribute slots that the meshes of each material have: materials.size() + 1 entries, the last for "no material". The plan leaves out
-    /// texture coordinates, colours and tangents that the meshes lack.
+    /// Attribute slots that the meshes of each material have: of `materials`, of "no material", and of `looks`. The plan leaves out texture
+    /// coordinates, colours and tangents that the meshes lack.
     std::span<const SlotMask> available_slots;
     std::vector<LightPlan> lights;  ///< of plan_lights()
     Ambient ambient;
@@ -57,6 +57,7 @@ struct PlanInputs {
     const SceneFacts* facts = nullptr;         ///< needed for an error budget only
     const std::vector<bool>* drawn = nullptr;  ///< for each planned material, whether an object is made of it; null: all
     ForEachRow for_each_row = in_turn;
+    std::span<const Material> looks{};  ///< further materials: those of the scene in the colours of instances
 };
 
 /// Fails (usage) for a lobe that check_lobe refuses, and for an error budget with options whose error has no bound. Ranges of single

@@ -73,38 +73,25 @@ int32_t halflit_settings_init(halflit_settings* settings, size_t size) {
     return guarded(__func__, {{settings, "settings"}}, [&] { return write_struct(to_c(Settings{}), size, settings, "halflit_settings"); });
 }
 
-namespace {
-
-/// Chooses camera, light and settings, in the place of those of the last setup.
-Result<void> choose(halflit_scene& scene, int32_t width, int32_t height, const AutoOptions& options, halflit_camera* to_camera,
-                    halflit_settings* to_settings) {
-    if (auto ok = check_settings({}, width, height); !ok) return ok;
-    if (auto ok = check_size(to_camera->size, sizeof(halflit_camera), "halflit_camera"); !ok) return ok;
-    if (auto ok = check_size(to_settings->size, sizeof(halflit_settings), "halflit_settings"); !ok) return ok;
-    AutoSetup setup = auto_setup(scene.scene, width, height, options);
-    scene.chosen_light = std::move(setup.light);
-    scene.changes.lights();
-    (void)write_struct(nameless(setup.camera), to_camera, "halflit_camera");  // the sizes were checked before
-    return write_struct(to_c(setup.settings), to_settings, "halflit_settings");
+int32_t halflit_picture_request_init(halflit_picture_request* request, size_t size) {
+    return guarded(__func__, {{request, "request"}},
+                   [&] { return write_struct(default_picture_request(), size, request, "halflit_picture_request"); });
 }
 
-}  // namespace
-
-int32_t halflit_auto_setup(halflit_scene* scene, int32_t width, int32_t height, halflit_camera* camera, halflit_settings* settings) {
-    return changing(__func__, scene, {{camera, "camera"}, {settings, "settings"}},
-                    [&] { return choose(*scene, width, height, {}, camera, settings); });
-}
-
-int32_t halflit_setup_options_init(halflit_setup_options* options, size_t size) {
-    return guarded(__func__, {{options, "options"}},
-                   [&] { return write_struct(default_setup_options(), size, options, "halflit_setup_options"); });
-}
-
-int32_t halflit_setup(halflit_scene* scene, int32_t width, int32_t height, const halflit_setup_options* given, halflit_camera* camera,
-                      halflit_settings* settings) {
-    return changing(__func__, scene, {{camera, "camera"}, {settings, "settings"}}, [&]() -> Result<void> {
-        const auto options = setup_options(given);
-        if (!options) return tl::unexpected<Error>(options.error());
-        return choose(*scene, width, height, *options, camera, settings);
+int32_t halflit_choose_picture(const halflit_scene* scene, const halflit_picture_request* given, int32_t size[2], halflit_camera* to_camera,
+                               halflit_settings* to_settings, halflit_lighting** to_lighting) {
+    return reading(__func__, scene, {{to_camera, "camera"}, {to_settings, "settings"}}, [&]() -> Result<void> {
+        const auto request = picture_request(given);
+        if (!request) return tl::unexpected<Error>(request.error());
+        if (auto ok = check_size(to_camera->size, sizeof(halflit_camera), "halflit_camera"); !ok) return ok;
+        if (auto ok = check_size(to_settings->size, sizeof(halflit_settings), "halflit_settings"); !ok) return ok;
+        auto choice = choose_picture(scene->scene, *request);
+        if (!choice) return tl::unexpected<Error>(choice.error());
+        if (to_lighting != nullptr) *to_lighting = new halflit_lighting{std::move(choice->light), scene->scene.lights.size()};
+        if (size != nullptr) size[0] = choice->size.width, size[1] = choice->size.height;
+        (void)write_struct(nameless(choice->camera), to_camera, "halflit_camera");  // the sizes were checked before
+        return write_struct(to_c(choice->settings), to_settings, "halflit_settings");
     });
 }
+
+void halflit_lighting_destroy(halflit_lighting* lighting) { delete lighting; }

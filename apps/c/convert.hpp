@@ -7,10 +7,10 @@
 #include <halflit/camera.hpp>
 #include <halflit/environment.hpp>
 #include <halflit/error.hpp>
-#include <halflit/gltf.hpp>
 #include <halflit/light.hpp>
 #include <halflit/material.hpp>
 #include <halflit/math.hpp>
+#include <halflit/model.hpp>
 #include <halflit/report.hpp>
 #include <halflit/settings.hpp>
 #include <halflit/target.hpp>
@@ -30,7 +30,8 @@ void put(const Mat4& m, float to[16]);
 [[nodiscard]] Result<Light> light(const halflit_light* given);
 [[nodiscard]] Result<Camera> camera(const halflit_camera* given);
 [[nodiscard]] Result<Settings> settings(const halflit_settings* given);
-[[nodiscard]] Result<AutoOptions> setup_options(const halflit_setup_options* given);
+[[nodiscard]] Result<PictureRequest> picture_request(const halflit_picture_request* given);
+[[nodiscard]] Result<Instance> instance(const halflit_instance* given);
 [[nodiscard]] Result<Execution> execution(const halflit_execution* given);
 struct TextureColor {
     ColorSpace space;
@@ -67,7 +68,8 @@ struct EnvironmentRequest {
 [[nodiscard]] halflit_settings to_c(const Settings& from);
 [[nodiscard]] halflit_report to_c(const RenderReport& from);
 [[nodiscard]] halflit_environment_options default_environment_options();
-[[nodiscard]] halflit_setup_options default_setup_options();
+[[nodiscard]] halflit_picture_request default_picture_request();
+[[nodiscard]] halflit_instance to_c(const Instance& from);
 [[nodiscard]] halflit_execution default_execution();
 [[nodiscard]] halflit_target default_target();
 [[nodiscard]] halflit_mesh default_mesh();

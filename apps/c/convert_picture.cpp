@@ -17,13 +17,15 @@ constexpr bool ends_with(std::size_t offset, Last T::*) {
 #define HALFLIT_ENDS_WITH(type, member) static_assert(ends_with(offsetof(type, member), &type::member))
 HALFLIT_ENDS_WITH(halflit_load_options, reserved);
 HALFLIT_ENDS_WITH(halflit_animation, channels);
-HALFLIT_ENDS_WITH(halflit_counts, animations);
-HALFLIT_ENDS_WITH(halflit_mesh, topology);
+HALFLIT_ENDS_WITH(halflit_counts, reserved);
+HALFLIT_ENDS_WITH(halflit_node, light);
+HALFLIT_ENDS_WITH(halflit_mesh, reserved);
+HALFLIT_ENDS_WITH(halflit_instance, world_from_object);
 HALFLIT_ENDS_WITH(halflit_light, shadow_radius);
 HALFLIT_ENDS_WITH(halflit_environment_options, reserved);
 HALFLIT_ENDS_WITH(halflit_camera, reserved);
 HALFLIT_ENDS_WITH(halflit_settings, reserved);
-HALFLIT_ENDS_WITH(halflit_setup_options, reserved);
+HALFLIT_ENDS_WITH(halflit_picture_request, reserved);
 HALFLIT_ENDS_WITH(halflit_execution, memory_limit);
 HALFLIT_ENDS_WITH(halflit_target, coverage_row_bytes);
 HALFLIT_ENDS_WITH(halflit_report, reserved);
@@ -129,9 +131,9 @@ Result<Settings> settings(const halflit_settings* given) {
     return settings;
 }
 
-halflit_setup_options default_setup_options() {
-    const AutoOptions defaults;
-    halflit_setup_options options{};
+halflit_picture_request default_picture_request() {
+    const PictureRequest defaults;
+    halflit_picture_request options{};
     options.size = sizeof options;
     options.azimuth_deg = defaults.view.azimuth_deg;
     options.elevation_deg = defaults.view.elevation_deg;
@@ -142,10 +144,10 @@ halflit_setup_options default_setup_options() {
     return options;
 }
 
-Result<AutoOptions> setup_options(const halflit_setup_options* given) {
-    AutoOptions options;
+Result<PictureRequest> picture_request(const halflit_picture_request* given) {
+    PictureRequest options;
     if (given == nullptr) return options;
-    const auto read = read_struct(given, default_setup_options(), "halflit_setup_options");
+    const auto read = read_struct(given, default_picture_request(), "halflit_picture_request");
     if (!read) return tl::unexpected<Error>(read.error());
     if (read->camera != nullptr) {
         auto view = camera(read->camera);
@@ -153,14 +155,19 @@ Result<AutoOptions> setup_options(const halflit_setup_options* given) {
         options.camera = std::move(*view);
     }
     if (!(read->exposure >= 0.0f && read->exposure < 1e18f))
-        return fail(ErrorCode::usage, "halflit_setup_options: exposure is not 0 or a positive number");
+        return fail(ErrorCode::usage, "halflit_picture_request: exposure is not 0 or a positive number");
+    if (read->scene_camera != nullptr) options.scene_camera = read->scene_camera;
+    if (read->width != 0 || read->height != 0) {
+        if (auto ok = check_settings({}, read->width, read->height); !ok) return tl::unexpected<Error>(ok.error());
+        options.size = PictureSize{read->width, read->height};
+    }
     options.frame = read->frame != 0;
     options.view = {read->azimuth_deg, read->elevation_deg, read->zoom, read->fov_y_deg, read->orthographic != 0};
     if (read->own_ambient != 0) options.ambient_linear = vec3(read->ambient_color);
     if (read->exposure > 0.0f) options.exposure = read->exposure;
     options.add_lights = read->add_lights != 0;
     options.studio_turn_rad = read->studio_turn_rad;
-    Members members("halflit_setup_options");
+    Members members("halflit_picture_request");
     members.read(read->studio, StudioUse::under_lights, "studio", options.studio);
     members.finite("azimuth_deg or studio_turn_rad", read->azimuth_deg, read->studio_turn_rad);
     members.elevation(read->elevation_deg);

@@ -62,7 +62,8 @@ halflit_load_options to_c(const LoadOptions& from) {
     options.threads = from.threads;
     options.keep_animations = from.keep_animations;
     options.time_s = from.time_s;
-    options.turn_upright = from.turn_upright;
+    options.up = from.up ? static_cast<std::int32_t>(*from.up) + 1 : HALFLIT_UP_BY_FORMAT;
+    options.time_limit_s = from.limits.time_limit_s;
     options.crease_deg = from.crease_deg;
     options.recentre = from.recentre;
     return options;
@@ -86,7 +87,10 @@ Result<LoadOptions> load_options(const halflit_load_options* given) {
     if (read->scene != nullptr) options.scene = read->scene;
     if (read->variant != nullptr) options.variant = read->variant;
     options.time_s = read->time_s;
-    options.turn_upright = read->turn_upright != 0;
+    if (read->up < HALFLIT_UP_BY_FORMAT || read->up > HALFLIT_UP_MINUS_Z)
+        return fail(ErrorCode::usage, "halflit_load_options: up is no HALFLIT_UP");
+    if (read->up != HALFLIT_UP_BY_FORMAT) options.up = static_cast<UpAxis>(read->up - 1);
+    options.limits.time_limit_s = read->time_limit_s;
     options.crease_deg = read->crease_deg;
     options.recentre = read->recentre != 0;
     options.limits.max_file_bytes = read->max_file_bytes;
@@ -227,6 +231,27 @@ Result<EnvironmentRequest> environment_request(const halflit_environment_options
     request.options.keep_image = request.options.keep_light = read->keep_image != 0;
     request.calibrated = read->calibrated != 0;
     return request;
+}
+
+halflit_instance to_c(const Instance& from) {
+    halflit_instance instance{};
+    instance.size = sizeof instance;
+    instance.mesh = from.mesh;
+    instance.material = from.material;
+    instance.visible = from.visible;
+    instance.node = -1;
+    put(from.color, instance.color);
+    put(from.world_from_object, instance.world_from_object);
+    return instance;
+}
+
+Result<Instance> instance(const halflit_instance* given) {
+    const auto read = read_struct(given, to_c(Instance{}), "halflit_instance");
+    if (!read) return tl::unexpected<Error>(read.error());
+    Members members("halflit_instance");
+    members.finite("color", read->color);
+    if (!members.result()) return tl::unexpected<Error>(members.result().error());
+    return Instance{read->mesh, mat4(read->world_from_object), read->material, vec4(read->color), read->visible != 0};
 }
 
 halflit_mesh default_mesh() {

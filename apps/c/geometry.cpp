@@ -14,6 +14,8 @@ using namespace halflit::c;
 
 namespace {
 
+constexpr std::size_t kMostInstances = 0x7fffffff;
+
 Result<Texture> make_texture(const std::uint8_t* rgba8, std::int32_t width, std::int32_t height, std::size_t row_bytes,
                              std::int32_t color) {
     const auto read = texture_color(color);
@@ -31,13 +33,28 @@ Result<Texture> make_texture(const std::uint8_t* rgba8, std::int32_t width, std:
     return Texture::from_rgba8(packed, width, height, read->space, read->rule);
 }
 
-Result<Material> make_material(const Scene& scene, const halflit_material* given) {
+Result<Material> make_material(const halflit_scene& to, const halflit_material* given) {
     auto made = material(given);
     if (!made) return made;
     for (const TextureUse& use : made->textures)
         if (use.used())
-            if (const auto at = check_index(use.texture, scene.textures.size(), "halflit_material: texture"); !at)
+            if (const auto at = check_index(use.texture, to.scene.textures.size(), to.free_textures, "halflit_material: texture"); !at)
                 return tl::unexpected<Error>(at.error());
+    return made;
+}
+
+/// Whether a mesh, whose struct was read before, asks for smooth normals.
+bool is_smooth(const halflit_mesh* given) { return read_struct(given, default_mesh(), "halflit_mesh")->smooth != 0; }
+
+/// An instance whose indices are in the scene.
+Result<Instance> make_instance(const halflit_scene& to, const halflit_instance* given) {
+    auto made = instance(given);
+    if (!made) return made;
+    if (const auto at = check_index(made->mesh, to.scene.meshes.size(), to.free_meshes, "halflit_instance: mesh"); !at)
+        return tl::unexpected<Error>(at.error());
+    if (made->material != -1)
+        if (const auto at = check_index(made->material, to.scene.materials.size(), "halflit_instance: material"); !at)
+            return tl::unexpected<Error>(at.error());
     return made;
 }
 
@@ -103,8 +120,10 @@ int32_t halflit_scene_add_texture(halflit_scene* scene, const uint8_t* rgba8, in
         auto made = make_texture(rgba8, width, height, row_bytes, color);
         if (!made) return tl::unexpected<Error>(made.error());
         scene->changes.materials();
-        scene->scene.textures.push_back(std::move(*made));
-        tell_last(scene->scene.textures, index);
+        const std::size_t at = scene->free_textures.take(scene->scene.textures.size());
+        if (at == scene->scene.textures.size()) scene->scene.textures.emplace_back();
+        scene->scene.textures[at] = std::move(*made);
+        tell(at, index);
         return {};
     });
 }
@@ -112,7 +131,7 @@ int32_t halflit_scene_add_texture(halflit_scene* scene, const uint8_t* rgba8, in
 int32_t halflit_scene_set_texture(halflit_scene* scene, int32_t index, const uint8_t* rgba8, int32_t width, int32_t height,
                                   size_t row_bytes, int32_t color) {
     return changing(__func__, scene, {{rgba8, "rgba8"}}, [&]() -> Result<void> {
-        const auto at = check_index(index, scene->scene.textures.size(), "texture");
+        const auto at = check_index(index, scene->scene.textures.size(), scene->free_textures, "texture");
         if (!at) return tl::unexpected<Error>(at.error());
         auto made = make_texture(rgba8, width, height, row_bytes, color);
         if (!made) return tl::unexpected<Error>(made.error());
@@ -144,11 +163,11 @@ int32_t halflit_material_init(halflit_material* material, size_t size) {
 
 int32_t halflit_scene_add_material(halflit_scene* scene, const halflit_material* material, int32_t* index) {
     return changing(__func__, scene, {{material, "material"}}, [&]() -> Result<void> {
-        auto made = make_material(scene->scene, material);
+        auto made = make_material(*scene, material);
         if (!made) return tl::unexpected<Error>(made.error());
         scene->changes.structure();
         scene->scene.materials.push_back(std::move(*made));
-        tell_last(scene->scene.materials, index);
+        tell(scene->scene.materials.size() - 1, index);
         return {};
     });
 }
@@ -157,7 +176,7 @@ int32_t halflit_scene_set_material(halflit_scene* scene, int32_t index, const ha
     return changing(__func__, scene, {{material, "material"}}, [&]() -> Result<void> {
         const auto at = check_index(index, scene->scene.materials.size(), "material");
         if (!at) return tl::unexpected<Error>(at.error());
-        auto made = make_material(scene->scene, material);
+        auto made = make_material(*scene, material);
         if (!made) return tl::unexpected<Error>(made.error());
         scene->changes.materials();
         scene->scene.materials[*at] = std::move(*made);
@@ -176,28 +195,32 @@ int32_t halflit_scene_add_mesh(halflit_scene* scene, const halflit_mesh* mesh, i
     return changing(__func__, scene, {{mesh, "mesh"}}, [&]() -> Result<void> {
         auto made = make_mesh(scene->scene, mesh);
         if (!made) return tl::unexpected<Error>(made.error());
-        scene->changes.structure();
-        scene->put_given_mesh(scene->scene.meshes.size(), std::move(*made));
-        tell_last(scene->scene.meshes, index);
+        const std::size_t at = scene->free_meshes.take(scene->scene.meshes.size());
+        if (at == scene->scene.meshes.size())
+            scene->changes.structure();
+        else
+            scene->changes.mesh(at);
+        scene->put_given_mesh(at, std::move(*made), is_smooth(mesh));
+        tell(at, index);
         return {};
     });
 }
 
 int32_t halflit_scene_set_mesh(halflit_scene* scene, int32_t index, const halflit_mesh* mesh) {
     return changing(__func__, scene, {{mesh, "mesh"}}, [&]() -> Result<void> {
-        const auto at = check_index(index, scene->scene.meshes.size(), "mesh");
+        const auto at = check_index(index, scene->scene.meshes.size(), scene->free_meshes, "mesh");
         if (!at) return tl::unexpected<Error>(at.error());
         auto made = make_mesh(scene->scene, mesh);
         if (!made) return tl::unexpected<Error>(made.error());
         scene->changes.mesh(*at);
-        scene->put_given_mesh(*at, std::move(*made));
+        scene->put_given_mesh(*at, std::move(*made), is_smooth(mesh));
         return {};
     });
 }
 
 int32_t halflit_scene_set_vertices(halflit_scene* scene, int32_t index, const float* positions, const float* normals, size_t vertex_count) {
     return changing(__func__, scene, {{positions, "positions"}}, [&]() -> Result<void> {
-        const auto at = check_index(index, scene->scene.meshes.size(), "mesh");
+        const auto at = check_index(index, scene->scene.meshes.size(), scene->free_meshes, "mesh");
         if (!at) return tl::unexpected<Error>(at.error());
         if (*at < scene->file_meshes)
             return fail(ErrorCode::usage,
@@ -208,22 +231,123 @@ int32_t halflit_scene_set_vertices(halflit_scene* scene, int32_t index, const fl
             return fail(ErrorCode::usage, "mesh " + std::to_string(index) + ": " + std::to_string(vertex_count) + " vertices, expected " +
                                               std::to_string(mesh.positions.size()));
         mesh.positions = copied<Vec3f>(positions, vertex_count);
-        if (normals != nullptr)
+        const auto without = scene->added_without_normals.find(*at);
+        if (normals != nullptr) {
             mesh.normals = copied<Vec3f>(normals, vertex_count);
-        else if (scene->added_flat.contains(*at))
+            scene->added_without_normals.erase(*at);
+        } else if (without != scene->added_without_normals.end()) {
             mesh.normals.clear();
+            if (without->second) generate_smooth_normals(mesh);
+        }
         scene->changes.mesh(*at);
         scene->put_mesh(*at, std::move(mesh));
         return {};
     });
 }
 
+int32_t halflit_scene_remove_mesh(halflit_scene* scene, int32_t index) {
+    return changing(__func__, scene, {}, [&]() -> Result<void> {
+        const auto at = check_index(index, scene->scene.meshes.size(), scene->free_meshes, "mesh");
+        if (!at) return tl::unexpected<Error>(at.error());
+        const std::vector<Instance>& instances = scene->scene.instances;
+        for (std::size_t i = 0; i < instances.size(); ++i)
+            if (instances[i].mesh == index && !scene->free_instances.has(i))
+                return fail(ErrorCode::usage, "mesh " + std::to_string(index) + ": instance " + std::to_string(i) + " places it");
+        scene->changes.mesh(*at);
+        scene->put_given_mesh(*at, Mesh{}, false);
+        scene->free_meshes.add(*at);
+        return {};
+    });
+}
+
+int32_t halflit_scene_remove_texture(halflit_scene* scene, int32_t index) {
+    return changing(__func__, scene, {}, [&]() -> Result<void> {
+        const auto at = check_index(index, scene->scene.textures.size(), scene->free_textures, "texture");
+        if (!at) return tl::unexpected<Error>(at.error());
+        const std::vector<Material>& materials = scene->scene.materials;
+        for (std::size_t i = 0; i < materials.size(); ++i)
+            for (const TextureUse& use : materials[i].textures)
+                if (use.texture == index)
+                    return fail(ErrorCode::usage, "texture " + std::to_string(index) + ": material " + std::to_string(i) + " uses it");
+        scene->changes.materials();
+        scene->scene.textures[*at] = {};
+        scene->free_textures.add(*at);
+        return {};
+    });
+}
+
+// ---- instances ---------------------------------------------------------------------------------------------------------
+
+int32_t halflit_instance_init(halflit_instance* instance, size_t size) {
+    return guarded(__func__, {{instance, "instance"}}, [&] { return write_struct(to_c(Instance{}), size, instance, "halflit_instance"); });
+}
+
 int32_t halflit_scene_add_instance(halflit_scene* scene, int32_t mesh, const float world_from_object[16], int32_t* index) {
     return changing(__func__, scene, {}, [&]() -> Result<void> {
-        if (const auto at = check_index(mesh, scene->scene.meshes.size(), "mesh"); !at) return tl::unexpected<Error>(at.error());
-        scene->changes.structure();
-        scene->scene.instances.push_back({mesh, world_from_object != nullptr ? mat4(world_from_object) : Mat4{}});
-        tell_last(scene->scene.instances, index);
+        if (const auto at = check_index(mesh, scene->scene.meshes.size(), scene->free_meshes, "mesh"); !at)
+            return tl::unexpected<Error>(at.error());
+        const std::size_t at = scene->free_instances.take(scene->scene.instances.size());
+        scene->put_instance(at, {mesh, world_from_object != nullptr ? mat4(world_from_object) : Mat4{}});
+        tell(at, index);
+        return {};
+    });
+}
+
+int32_t halflit_scene_add_instances(halflit_scene* scene, int32_t mesh, int32_t count, const float* world_from_object, int32_t* first) {
+    return changing(__func__, scene, {{world_from_object, "world_from_object"}}, [&]() -> Result<void> {
+        if (const auto at = check_index(mesh, scene->scene.meshes.size(), scene->free_meshes, "mesh"); !at)
+            return tl::unexpected<Error>(at.error());
+        std::vector<Instance>& instances = scene->scene.instances;
+        if (count < 0 || static_cast<std::size_t>(count) > kMostInstances - std::min(instances.size(), kMostInstances))
+            return fail(ErrorCode::usage, "count: " + std::to_string(count) + ", expected 0 or more, and at most 2^31 - 1 instances");
+        tell(instances.size(), first);
+        if (count > 0) scene->changes.structure();
+        instances.reserve(instances.size() + static_cast<std::size_t>(count));
+        for (std::int32_t i = 0; i < count; ++i) instances.push_back({mesh, mat4(world_from_object + 16 * static_cast<std::size_t>(i))});
+        return {};
+    });
+}
+
+int32_t halflit_scene_set_instance(halflit_scene* scene, int32_t index, const halflit_instance* given) {
+    return changing(__func__, scene, {{given, "instance"}}, [&]() -> Result<void> {
+        const auto at = check_index(index, scene->scene.instances.size(), scene->free_instances, "instance");
+        if (!at) return tl::unexpected<Error>(at.error());
+        const auto made = make_instance(*scene, given);
+        if (!made) return tl::unexpected<Error>(made.error());
+        scene->put_instance(*at, *made);
+        scene->complete_mesh_of(*made);
+        return {};
+    });
+}
+
+int32_t halflit_scene_place_instance(halflit_scene* scene, int32_t index, const float world_from_object[16]) {
+    return halflit_scene_place_instances(scene, &index, 1, world_from_object);
+}
+
+int32_t halflit_scene_place_instances(halflit_scene* scene, const int32_t* indices, int32_t count, const float* world_from_object) {
+    return changing(__func__, scene, {{world_from_object, "world_from_object"}}, [&]() -> Result<void> {
+        std::vector<Instance>& instances = scene->scene.instances;
+        const auto index_of = [&](std::int32_t i) { return indices != nullptr ? indices[i] : i; };
+        for (std::int32_t i = 0; i < count; ++i)
+            if (const auto at = check_index(index_of(i), instances.size(), scene->free_instances, "instance"); !at)
+                return tl::unexpected<Error>(at.error());
+        for (std::int32_t i = 0; i < count; ++i) {
+            const auto at = static_cast<std::size_t>(index_of(i));
+            scene->changes.instance(at);
+            instances[at].world_from_object = mat4(world_from_object + 16 * static_cast<std::size_t>(i));
+        }
+        return {};
+    });
+}
+
+int32_t halflit_scene_remove_instance(halflit_scene* scene, int32_t index) {
+    return changing(__func__, scene, {}, [&]() -> Result<void> {
+        const auto at = check_index(index, scene->scene.instances.size(), scene->free_instances, "instance");
+        if (!at) return tl::unexpected<Error>(at.error());
+        scene->changes.instance(*at);
+        scene->scene.instances[*at].visible = false;
+        scene->instance_names.erase(*at);
+        scene->free_instances.add(*at);
         return {};
     });
 }
@@ -232,17 +356,7 @@ int32_t halflit_scene_add_ground(halflit_scene* scene, int32_t* instance) {
     return changing(__func__, scene, {}, [&]() -> Result<void> {
         scene->changes.structure();
         add_ground(scene->scene, scene_bounds(scene->scene));
-        tell_last(scene->scene.instances, instance);
-        return {};
-    });
-}
-
-int32_t halflit_scene_set_instance(halflit_scene* scene, int32_t index, const float world_from_object[16]) {
-    return changing(__func__, scene, {{world_from_object, "world_from_object"}}, [&]() -> Result<void> {
-        const auto at = check_index(index, scene->scene.instances.size(), "instance");
-        if (!at) return tl::unexpected<Error>(at.error());
-        scene->changes.instance(*at);
-        scene->scene.instances[*at].world_from_object = mat4(world_from_object);
+        tell(scene->scene.instances.size() - 1, instance);
         return {};
     });
 }

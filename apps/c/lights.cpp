@@ -21,8 +21,6 @@ bool is_dark(const Scene& scene) {
 Result<void> light_by(halflit_scene& scene, EnvironmentImage image, const EnvironmentOptions& options) {
     auto made = make_environment(std::move(image), options);
     if (!made) return tl::unexpected<Error>(made.error());
-    scene.chosen_light.reset();
-    scene.changes.lights();
     scene.scene.ambient = {};
     scene.scene.environment = std::move(*made);
     return {};
@@ -38,11 +36,10 @@ int32_t halflit_scene_add_light(halflit_scene* scene, const halflit_light* given
     return changing(__func__, scene, {{given, "light"}}, [&]() -> Result<void> {
         const auto made = light(given);
         if (!made) return tl::unexpected<Error>(made.error());
-        scene->chosen_light.reset();
-        const std::size_t at = scene->scene.lights.size();
-        scene->changes.lights();
-        scene->scene.lights.push_back(*made);
-        if (index != nullptr) *index = static_cast<std::int32_t>(at);
+        const std::size_t at = scene->free_lights.take(scene->scene.lights.size());
+        if (at == scene->scene.lights.size()) scene->scene.lights.emplace_back();
+        scene->scene.lights[at] = *made;
+        tell(at, index);
         return {};
     });
 }
@@ -51,11 +48,19 @@ int32_t halflit_scene_set_light(halflit_scene* scene, int32_t index, const halfl
     return changing(__func__, scene, {{given, "light"}}, [&]() -> Result<void> {
         const auto made = light(given);
         if (!made) return tl::unexpected<Error>(made.error());
-        const auto at = check_index(index, scene->scene.lights.size(), "light");
+        const auto at = check_index(index, scene->scene.lights.size(), scene->free_lights, "light");
         if (!at) return tl::unexpected<Error>(at.error());
-        scene->chosen_light.reset();
-        scene->changes.lights();
         scene->scene.lights[*at] = *made;
+        return {};
+    });
+}
+
+int32_t halflit_scene_remove_light(halflit_scene* scene, int32_t index) {
+    return changing(__func__, scene, {}, [&]() -> Result<void> {
+        const auto at = check_index(index, scene->scene.lights.size(), scene->free_lights, "light");
+        if (!at) return tl::unexpected<Error>(at.error());
+        scene->scene.lights[*at] = {.color_linear = {}};  // black lights cost nothing
+        scene->free_lights.add(*at);
         return {};
     });
 }
@@ -66,8 +71,6 @@ int32_t halflit_scene_set_ambient(halflit_scene* scene, const float sky[3], cons
         members.finite("sky", sky[0], sky[1], sky[2]);
         members.finite("ground", ground[0], ground[1], ground[2]);
         if (!members.result()) return members.result();
-        scene->chosen_light.reset();
-        scene->changes.lights();
         scene->scene.ambient = {vec3(sky), vec3(ground)};
         return {};
     });
@@ -77,9 +80,7 @@ int32_t halflit_scene_add_default_lights(halflit_scene* scene, const halflit_cam
     return changing(__func__, scene, {{given, "camera"}}, [&]() -> Result<void> {
         const auto made = camera(given);
         if (!made) return tl::unexpected<Error>(made.error());
-        scene->chosen_light.reset();
         if (!is_dark(scene->scene)) return {};
-        scene->changes.lights();
         add_default_lights(scene->scene, *made);
         return {};
     });
@@ -89,9 +90,7 @@ int32_t halflit_scene_add_studio(halflit_scene* scene, const halflit_camera* giv
     return changing(__func__, scene, {{given, "camera"}}, [&]() -> Result<void> {
         const auto made = camera(given);
         if (!made) return tl::unexpected<Error>(made.error());
-        scene->chosen_light.reset();
         if (!is_dark(scene->scene)) return {};
-        scene->changes.lights();
         add_studio(scene->scene, *made);
         return {};
     });
@@ -99,9 +98,8 @@ int32_t halflit_scene_add_studio(halflit_scene* scene, const halflit_camera* giv
 
 int32_t halflit_scene_clear_lights(halflit_scene* scene) {
     return changing(__func__, scene, {}, [&]() -> Result<void> {
-        scene->chosen_light.reset();
-        scene->changes.lights();
         static_cast<Lighting&>(scene->scene) = {};  // what is added from now on is made for exposure 1
+        scene->free_lights = {};
         return {};
     });
 }

@@ -13,8 +13,6 @@ tl::unexpected<Error> refuse(const std::string& name) {
 
 Result<LoadedScene> load_model(const std::string& path, const LoadOptions& /*options*/) { return refuse(path); }
 
-Result<LoadedScene> load_gltf(const std::string& path, const LoadOptions& /*options*/) { return refuse(path); }
-
 Result<LoadedScene> load_model_bytes(std::span<const std::byte> /*bytes*/, const std::string& name, const std::string& /*base_dir*/,
                                      const LoadOptions& /*options*/) {
     return refuse(name);
@@ -28,6 +26,8 @@ Result<SceneChanges> pose_at(const Motion& /*motion*/, const std::string& /*anim
 Result<EnvironmentImage> read_environment(const std::string& path, const EnvironmentLimits& /*limits*/) { return refuse(path); }
 
 Result<OutputFormat> output_format_of(std::string_view path) { return refuse(std::string(path)); }
+
+Result<std::vector<std::uint8_t>> encode_image(const Image& /*image*/, OutputFormat /*format*/) { return refuse("picture"); }
 
 Result<void> write_image(const std::string& path, const Image& /*image*/) { return refuse(path); }
 

@@ -45,6 +45,31 @@ Result<std::vector<Channel>> copy_rows(const halflit_target& target) {
     return channels;
 }
 
+/// The target's pixels as a picture for a format. name: for messages.
+Result<Image> image_for(OutputFormat format, const char* name, const halflit_target* target) {
+    const auto from = target_struct(target);
+    if (!from) return tl::unexpected<Error>(from.error());
+    if (from->pixels == nullptr) return fail(ErrorCode::usage, "halflit_target: pixels is null");
+    if (from->region_alone != 0)
+        return fail(ErrorCode::usage, "halflit_target: region_alone is set; a picture to write has the size of its memory");
+    if (is_linear(format) != is_float(from->format))
+        return fail(ErrorCode::usage, std::string(name) + ": expected a target of " +
+                                          (is_linear(format) ? "floats (RGBA_F32)" : "8-bit codes (RGBA8 or BGRA8)"));
+    if (from->width < 1 || from->height < 1) return fail(ErrorCode::usage, "a picture needs at least one pixel");
+    if (std::int64_t{from->width} * from->height > kMaxImagePixels) return fail(ErrorCode::limit, "a picture of more than 2^28 pixels");
+    Image image{from->width, from->height, {}, {}};
+    if (is_float(from->format)) {
+        auto rows = copy_rows<float>(*from);
+        if (!rows) return tl::unexpected<Error>(rows.error());
+        image.rgba_linear = std::move(*rows);
+    } else {
+        auto rows = copy_rows<std::uint8_t>(*from);
+        if (!rows) return tl::unexpected<Error>(rows.error());
+        image.rgba8 = std::move(*rows);
+    }
+    return image;
+}
+
 }  // namespace
 
 const char* halflit_version(void) { return version(); }
@@ -61,26 +86,22 @@ int32_t halflit_write_image(const char* path, const halflit_target* target) {
     return guarded(__func__, {{path, "path"}, {target, "target"}}, [&]() -> Result<void> {
         const auto format = output_format_of(path);
         if (!format) return tl::unexpected<Error>(format.error());
-        const auto from = target_struct(target);
-        if (!from) return tl::unexpected<Error>(from.error());
-        if (from->pixels == nullptr) return fail(ErrorCode::usage, "halflit_target: pixels is null");
-        if (from->region_alone != 0)
-            return fail(ErrorCode::usage, "halflit_target: region_alone is set; a picture to write has the size of its memory");
-        if (is_linear(*format) != is_float(from->format))
-            return fail(ErrorCode::usage, std::string(path) + ": expected a target of " +
-                                              (is_linear(*format) ? "floats (RGBA_F32)" : "8-bit codes (RGBA8 or BGRA8)"));
-        if (from->width < 1 || from->height < 1) return fail(ErrorCode::usage, "a picture needs at least one pixel");
-        if (std::int64_t{from->width} * from->height > kMaxImagePixels) return fail(ErrorCode::limit, "a picture of more than 2^28 pixels");
-        Image image{from->width, from->height, {}, {}};
-        if (is_float(from->format)) {
-            auto rows = copy_rows<float>(*from);
-            if (!rows) return tl::unexpected<Error>(rows.error());
-            image.rgba_linear = std::move(*rows);
-        } else {
-            auto rows = copy_rows<std::uint8_t>(*from);
-            if (!rows) return tl::unexpected<Error>(rows.error());
-            image.rgba8 = std::move(*rows);
-        }
-        return write_image(path, image);
+        const auto image = image_for(*format, path, target);
+        if (!image) return tl::unexpected<Error>(image.error());
+        return write_image(path, *image);
+    });
+}
+
+int32_t halflit_encode_image(const char* format_name, const halflit_target* target, halflit_write write, void* user) {
+    return guarded(__func__, {{format_name, "format"}, {target, "target"}}, [&]() -> Result<void> {
+        if (write == nullptr) return fail(ErrorCode::usage, "write is null");
+        const auto format = output_format_of("picture." + std::string(format_name));
+        if (!format) return tl::unexpected<Error>(format.error());
+        const auto image = image_for(*format, format_name, target);
+        if (!image) return tl::unexpected<Error>(image.error());
+        const auto bytes = encode_image(*image, *format);
+        if (!bytes) return tl::unexpected<Error>(bytes.error());
+        write(user, bytes->data(), bytes->size());
+        return {};
     });
 }

@@ -5,9 +5,11 @@
 
 #include <halflit/renderer.hpp>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,14 +57,27 @@ double ms_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// The light to draw by. The scene's lights in the one that was chosen are drawn as they are now: if they have moved, in a copy.
+const Lighting& light_of(const Scene& scene, const halflit_lighting* chosen, std::optional<Lighting>& moved) {
+    if (chosen == nullptr) return scene;
+    const std::size_t count = std::min(chosen->scene_lights, scene.lights.size());
+    const auto end = scene.lights.begin() + static_cast<std::ptrdiff_t>(count);
+    if (std::equal(scene.lights.begin(), end, chosen->light.lights.begin())) return chosen->light;
+    moved = chosen->light;
+    std::copy(scene.lights.begin(), end, moved->lights.begin());
+    return *moved;
+}
+
 /// Prepares the scene, if it has changed, and draws it.
-Result<RenderReport> draw(halflit_renderer& by, const halflit_scene& scene, const Camera& camera, const Settings& settings,
-                          const Target& target) {
+Result<RenderReport> draw(halflit_renderer& by, const halflit_scene& scene, const halflit_lighting* lighting, const Camera& camera,
+                          const Settings& settings, const Target& target) {
     const auto start = std::chrono::steady_clock::now();
     const DrawingScene drawing(scene);
     if (auto ok = scene.prepare(by.execution); !ok) return tl::unexpected<Error>(ok.error());
     const double prepare_ms = ms_since(start);
-    auto report = by.renderer.render(*scene.prepared, scene.light(), camera, settings, target, by.execution);
+    std::optional<Lighting> moved;
+    const Lighting& light = light_of(scene.scene, lighting, moved);
+    auto report = by.renderer.render(*scene.prepared, light, camera, settings, target, by.execution);
     if (!report) return report;
     report->ms.prepare = prepare_ms;
     report->total_ms += prepare_ms;
@@ -102,8 +117,9 @@ int32_t halflit_renderer_set_execution(halflit_renderer* renderer, const halflit
 
 void halflit_renderer_destroy(halflit_renderer* renderer) { delete renderer; }
 
-int32_t halflit_render(halflit_renderer* renderer, const halflit_scene* scene, const halflit_camera* given_camera,
-                       const halflit_settings* given_settings, const halflit_target* given_target, halflit_report* to_report) {
+int32_t halflit_render(halflit_renderer* renderer, const halflit_scene* scene, const halflit_lighting* lighting,
+                       const halflit_camera* given_camera, const halflit_settings* given_settings, const halflit_target* given_target,
+                       halflit_report* to_report) {
     return using_renderer(__func__, renderer, {{scene, "scene"}, {given_camera, "camera"}, {given_target, "target"}},
                           [&]() -> Result<void> {
                               if (to_report != nullptr)
@@ -115,7 +131,7 @@ int32_t halflit_render(halflit_renderer* renderer, const halflit_scene* scene, c
                               const auto memory = target_struct(given_target);
                               if (!memory) return tl::unexpected<Error>(memory.error());
                               renderer->warnings.clear();
-                              auto report = draw(*renderer, *scene, *from, *how, target(*memory));
+                              auto report = draw(*renderer, *scene, lighting, *from, *how, target(*memory));
                               if (!report) return tl::unexpected<Error>(report.error());
                               if (to_report != nullptr)
                                   (void)write_struct(to_c(*report), to_report, "halflit_report");  // its size was checked above

@@ -21,15 +21,20 @@ Result<void> hand_over(Result<LoadedScene> loaded, halflit_scene** scene) {
     made->warnings = std::move(loaded->warnings);
     made->animations = std::move(loaded->animations);
     made->motion = std::move(loaded->motion);
-    made->origin = loaded->placement.origin;
-    made->scale = loaded->placement.scale;
+    made->placement = std::move(loaded->placement);
+    made->nodes = std::move(loaded->nodes);
+    made->node_of_instance = std::move(loaded->node_of_instance);
+    for (Node& node : made->nodes) node.instances.clear();
+    for (std::size_t i = 0; i < made->node_of_instance.size(); ++i)  // skinned ones too
+        made->nodes[static_cast<std::size_t>(made->node_of_instance[i])].instances.push_back(static_cast<int>(i));
     *scene = made.release();
     return {};
 }
 
 std::uint64_t triangle_count(const Scene& scene) {
     std::uint64_t count = 0;
-    for (const Instance& instance : scene.instances) count += triangles_of(scene.meshes[static_cast<std::size_t>(instance.mesh)]);
+    for (const Instance& instance : scene.instances)
+        if (instance.visible) count += triangles_of(scene.meshes[static_cast<std::size_t>(instance.mesh)]);
     return count;
 }
 
@@ -80,10 +85,18 @@ void halflit_scene_destroy(halflit_scene* scene) { delete scene; }
 int32_t halflit_scene_get_counts(const halflit_scene* scene, halflit_counts* counts) {
     return reading(__func__, scene, {{counts, "counts"}}, [&] {
         const Scene& from = scene->scene;
-        const halflit_counts found{sizeof(halflit_counts),     triangle_count(from),          count_of(from.meshes),
-                                   count_of(from.instances),   count_of(from.materials),      count_of(from.textures),
-                                   count_of(from.cameras),     count_of(scene->scene.lights), count_of(scene->warnings),
-                                   count_of(scene->animations)};
+        halflit_counts found{};
+        found.size = sizeof found;
+        found.triangles = triangle_count(from);
+        found.meshes = count_of(from.meshes);
+        found.instances = count_of(from.instances);
+        found.materials = count_of(from.materials);
+        found.textures = count_of(from.textures);
+        found.cameras = count_of(from.cameras);
+        found.lights = count_of(from.lights);
+        found.nodes = count_of(scene->nodes);
+        found.animations = count_of(scene->animations);
+        found.warnings = count_of(scene->warnings);
         return write_struct(found, counts, "halflit_counts");
     });
 }
@@ -113,24 +126,22 @@ int32_t halflit_scene_pose(halflit_scene* scene, const char* animation, double t
             return fail(ErrorCode::usage, "halflit_scene_pose: expected a scene that was loaded with keep_animations");
         const auto posed = pose_at(*scene->motion, animation != nullptr ? animation : "", time_s, scene->scene);
         if (!posed) return tl::unexpected<Error>(posed.error());
-        for (const std::size_t i : posed->moved_instances) scene->changes.instance(i);
+        for (const std::size_t i : posed->changed_instances) scene->changes.instance(i);
         for (const std::size_t i : posed->deformed_meshes) {
             scene->put_mesh(i, std::move(scene->scene.meshes[i]));
             scene->changes.mesh(i);
         }
         if (posed->materials) scene->changes.materials();
-        if (posed->lights) {
-            scene->changes.lights();
-            scene->follow_pose();
-        }
         return {};
     });
 }
 
-int32_t halflit_scene_get_placement(const halflit_scene* scene, double origin[3], double* scale) {
+int32_t halflit_scene_get_placement(const halflit_scene* scene, double origin[3], double* scale, int32_t* up) {
     return reading(__func__, scene, {}, [&]() -> Result<void> {
-        if (origin != nullptr) origin[0] = scene->origin.x, origin[1] = scene->origin.y, origin[2] = scene->origin.z;
-        if (scale != nullptr) *scale = scene->scale;
+        const Placement& from = scene->placement;
+        if (origin != nullptr) origin[0] = from.origin.x, origin[1] = from.origin.y, origin[2] = from.origin.z;
+        if (scale != nullptr) *scale = from.scale;
+        if (up != nullptr) *up = static_cast<std::int32_t>(from.up) + 1;
         return {};
     });
 }
@@ -153,20 +164,85 @@ int32_t halflit_scene_get_material(const halflit_scene* scene, int32_t index, ha
     });
 }
 
-int32_t halflit_scene_get_instance(const halflit_scene* scene, int32_t index, int32_t* mesh, float world_from_object[16]) {
-    return reading(__func__, scene, {}, [&]() -> Result<void> {
-        const auto at = check_index(index, scene->scene.instances.size(), "instance");
+int32_t halflit_scene_get_instance(const halflit_scene* scene, int32_t index, halflit_instance* instance) {
+    return reading(__func__, scene, {{instance, "instance"}}, [&]() -> Result<void> {
+        const auto at = check_index(index, scene->scene.instances.size(), scene->free_instances, "instance");
         if (!at) return tl::unexpected<Error>(at.error());
-        const Instance& instance = scene->scene.instances[*at];
-        if (mesh != nullptr) *mesh = instance.mesh;
-        if (world_from_object != nullptr) put(instance.world_from_object, world_from_object);
+        halflit_instance found = to_c(scene->scene.instances[*at]);
+        if (*at < scene->node_of_instance.size()) found.node = scene->node_of_instance[*at];
+        return write_struct(found, instance, "halflit_instance");
+    });
+}
+
+int32_t halflit_scene_get_node(const halflit_scene* scene, int32_t index, halflit_node* node) {
+    return reading(__func__, scene, {{node, "node"}}, [&]() -> Result<void> {
+        const auto at = check_index(index, scene->nodes.size(), "node");
+        if (!at) return tl::unexpected<Error>(at.error());
+        const Node& from = scene->nodes[*at];
+        const halflit_node found{sizeof(halflit_node), from.name.c_str(), from.instances.data(), count_of(from.instances), from.parent,
+                                 from.camera,          from.light};
+        return write_struct(found, node, "halflit_node");
+    });
+}
+
+namespace {
+
+/// The name of a part that has one; of others, its index is checked.
+Result<std::string*> name_of(halflit_scene& scene, std::int32_t part, std::int32_t index) {
+    const auto of = [&](auto& list, const char* thing) -> Result<std::string*> {
+        const auto at = check_index(index, list.size(), thing);
+        if (!at) return tl::unexpected<Error>(at.error());
+        return &list[*at].name;
+    };
+    switch (part) {
+        case HALFLIT_PART_NODE:
+            return of(scene.nodes, "node");
+        case HALFLIT_PART_MESH:
+            return of(scene.scene.meshes, "mesh");
+        case HALFLIT_PART_MATERIAL:
+            return of(scene.scene.materials, "material");
+        case HALFLIT_PART_CAMERA:
+            return of(scene.scene.cameras, "camera");
+        case HALFLIT_PART_INSTANCE: {
+            const auto at = check_index(index, scene.scene.instances.size(), scene.free_instances, "instance");
+            if (!at) return tl::unexpected<Error>(at.error());
+            if (const auto own = scene.instance_names.find(*at); own != scene.instance_names.end()) return &own->second;
+            if (*at < scene.node_of_instance.size()) return &scene.nodes[static_cast<std::size_t>(scene.node_of_instance[*at])].name;
+            return nullptr;
+        }
+        default:
+            return fail(ErrorCode::usage, "part: " + std::to_string(part) + " is no HALFLIT_PART");
+    }
+}
+
+}  // namespace
+
+int32_t halflit_scene_get_name(const halflit_scene* scene, int32_t part, int32_t index, const char** name) {
+    return reading(__func__, scene, {{name, "name"}}, [&]() -> Result<void> {
+        const auto found = name_of(const_cast<halflit_scene&>(*scene), part, index);  // which changes nothing
+        if (!found) return tl::unexpected<Error>(found.error());
+        *name = *found != nullptr ? (*found)->c_str() : "";
+        return {};
+    });
+}
+
+int32_t halflit_scene_set_name(halflit_scene* scene, int32_t part, int32_t index, const char* name) {
+    return changing(__func__, scene, {{name, "name"}}, [&]() -> Result<void> {
+        if (part != HALFLIT_PART_INSTANCE && part != HALFLIT_PART_MESH && part != HALFLIT_PART_MATERIAL)
+            return fail(ErrorCode::usage, "part: expected an instance, a mesh or a material");
+        const auto found = name_of(*scene, part, index);
+        if (!found) return tl::unexpected<Error>(found.error());
+        if (part == HALFLIT_PART_INSTANCE)
+            scene->instance_names.insert_or_assign(static_cast<std::size_t>(index), name);
+        else
+            **found = name;
         return {};
     });
 }
 
 int32_t halflit_scene_get_light(const halflit_scene* scene, int32_t index, halflit_light* light) {
     return reading(__func__, scene, {{light, "light"}}, [&]() -> Result<void> {
-        const auto at = check_index(index, scene->scene.lights.size(), "light");
+        const auto at = check_index(index, scene->scene.lights.size(), scene->free_lights, "light");
         if (!at) return tl::unexpected<Error>(at.error());
         return write_struct(to_c(scene->scene.lights[*at]), light, "halflit_light");
     });

@@ -35,10 +35,16 @@ std::int32_t changing(const char* function, halflit_scene* scene, std::initializ
     return fail(ErrorCode::usage, std::string(thing) + " " + std::to_string(index) + ", but " + owner + " has " + std::to_string(count));
 }
 
-/// Hands over the index of what was added last, if the caller wants it.
-template <class T>
-void tell_last(const std::vector<T>& list, std::int32_t* index) {
-    if (index != nullptr) *index = static_cast<std::int32_t>(list.size()) - 1;
+/// The same for a list of which some places are free.
+[[nodiscard]] inline Result<std::size_t> check_index(std::int32_t index, std::size_t count, const FreePlaces& free, const char* thing) {
+    auto at = check_index(index, count, thing);
+    if (at && free.has(*at)) return fail(ErrorCode::usage, std::string(thing) + " " + std::to_string(index) + " was removed");
+    return at;
+}
+
+/// Hands over an index, if the caller wants it.
+inline void tell(std::size_t place, std::int32_t* index) {
+    if (index != nullptr) *index = static_cast<std::int32_t>(place);
 }
 
 }  // namespace halflit::c

@@ -8,11 +8,11 @@ namespace halflit::c {
 
 void Changes::clear() {
     structure_ = false;
-    for (const std::size_t i : changes_.moved_instances) moved_[i] = false;
+    for (const std::size_t i : changes_.changed_instances) moved_[i] = false;
     for (const std::size_t i : changes_.deformed_meshes) deformed_[i] = false;
-    changes_.moved_instances.clear();
+    changes_.changed_instances.clear();
     changes_.deformed_meshes.clear();
-    changes_.materials = changes_.lights = false;
+    changes_.materials = false;
 }
 
 void Changes::note(std::size_t index, std::vector<std::size_t>& list, std::vector<bool>& listed) {
@@ -30,9 +30,9 @@ using namespace halflit;
 namespace {
 
 /// The mesh with the normals and tangents that its material requires, if it lacks some.
-std::optional<Mesh> completed(const Scene& scene, const Mesh& mesh) {
+std::optional<Mesh> completed(const Scene& scene, const Mesh& mesh, int material_index) {
     const Material no_material;
-    const Material& material = mesh.material >= 0 ? scene.materials[static_cast<std::size_t>(mesh.material)] : no_material;
+    const Material& material = material_index >= 0 ? scene.materials[static_cast<std::size_t>(material_index)] : no_material;
     const std::optional<int> uv_set = shading::tangent_uv_set(material);
     const bool has_uv = uv_set && !(*uv_set == 0 ? mesh.uv0 : mesh.uv1).empty();
     if (mesh.topology != Topology::triangles) return {};
@@ -49,7 +49,7 @@ std::optional<Mesh> completed(const Scene& scene, const Mesh& mesh) {
 }  // namespace
 
 void halflit_scene::put_mesh(std::size_t index, Mesh given) {
-    std::optional<Mesh> full = completed(scene, given);
+    std::optional<Mesh> full = completed(scene, given, given.material);
     if (full) {
         given_meshes.insert_or_assign(index, std::move(given));
         given = std::move(*full);
@@ -60,30 +60,42 @@ void halflit_scene::put_mesh(std::size_t index, Mesh given) {
     scene.meshes[index] = std::move(given);
 }
 
-void halflit_scene::put_given_mesh(std::size_t index, Mesh given) {
+void halflit_scene::put_given_mesh(std::size_t index, Mesh given, bool smooth) {
     if (given.normals.empty())
-        added_flat.insert(index);
+        added_without_normals.insert_or_assign(index, smooth);
     else
-        added_flat.erase(index);
+        added_without_normals.erase(index);
+    if (given.normals.empty() && smooth) generate_smooth_normals(given);
     put_mesh(index, std::move(given));
 }
 
-void halflit_scene::complete_meshes_of(std::size_t material) {
-    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-        Mesh& mesh = scene.meshes[i];
-        if (mesh.material != static_cast<int>(material)) continue;
-        std::optional<Mesh> full = completed(scene, mesh);
-        if (!full) continue;
-        changes.mesh(i);
-        given_meshes.try_emplace(i, std::move(mesh));
-        mesh = std::move(*full);
+void halflit_scene::put_instance(std::size_t index, const Instance& given) {
+    if (index == scene.instances.size()) {
+        changes.structure();
+        scene.instances.emplace_back();
     }
+    changes.instance(index);
+    scene.instances[index] = given;
 }
 
-void halflit_scene::follow_pose() {
-    if (!chosen_light) return;
-    // A setup adds its lights behind those of the scene.
-    std::copy_n(scene.lights.begin(), std::min(scene.lights.size(), chosen_light->lights.size()), chosen_light->lights.begin());
+void halflit_scene::complete(std::size_t index, int material) {
+    Mesh& mesh = scene.meshes[index];
+    std::optional<Mesh> full = completed(scene, mesh, material);
+    if (!full) return;
+    changes.mesh(index);
+    given_meshes.try_emplace(index, std::move(mesh));
+    mesh = std::move(*full);
+}
+
+void halflit_scene::complete_mesh_of(const Instance& instance) {
+    if (instance.material >= 0) complete(static_cast<std::size_t>(instance.mesh), instance.material);
+}
+
+void halflit_scene::complete_meshes_of(std::size_t material) {
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i)
+        if (scene.meshes[i].material == static_cast<int>(material)) complete(i, scene.meshes[i].material);
+    for (const Instance& instance : scene.instances)
+        if (instance.material == static_cast<int>(material)) complete_mesh_of(instance);
 }
 
 Result<void> halflit_scene::prepare(const Execution& execution) const {

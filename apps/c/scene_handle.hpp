@@ -4,12 +4,13 @@
 #include "halflit/halflit.h"
 
 #include <halflit/error.hpp>
-#include <halflit/gltf.hpp>
+#include <halflit/model.hpp>
 #include <halflit/prepared_scene.hpp>
 #include <halflit/scene.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -26,13 +27,12 @@ class Changes {
 public:
     /// Numbers of meshes, instances or materials: all has to be prepared anew.
     void structure() { structure_ = true; }
-    void instance(std::size_t index) { note(index, changes_.moved_instances, moved_); }
+    void instance(std::size_t index) { note(index, changes_.changed_instances, moved_); }
     void mesh(std::size_t index) { note(index, changes_.deformed_meshes, deformed_); }
     void materials() { changes_.materials = true; }
-    void lights() { changes_.lights = true; }
 
     [[nodiscard]] bool any() const {
-        return !changes_.moved_instances.empty() || !changes_.deformed_meshes.empty() || changes_.materials || changes_.lights;
+        return !changes_.changed_instances.empty() || !changes_.deformed_meshes.empty() || changes_.materials;
     }
     [[nodiscard]] bool of_structure() const { return structure_; }
     [[nodiscard]] const SceneChanges& list() const { return changes_; }
@@ -47,6 +47,23 @@ private:
     std::vector<bool> moved_, deformed_;
 };
 
+/// Places of a list that were removed, and may be used again.
+class FreePlaces {
+public:
+    [[nodiscard]] bool has(std::size_t index) const { return free_.contains(index); }
+    void add(std::size_t index) { free_.insert(index); }
+    /// The place of a new entry: the lowest free one, or the list's end.
+    [[nodiscard]] std::size_t take(std::size_t count) {
+        if (free_.empty()) return count;
+        const std::size_t first = *free_.begin();
+        free_.erase(free_.begin());
+        return first;
+    }
+
+private:
+    std::set<std::size_t> free_;
+};
+
 /// A mesh as it was given, if the scene's mesh has normals or tangents that the library made: its vertices may be split.
 using GivenMeshes = std::unordered_map<std::size_t, Mesh>;
 
@@ -56,12 +73,14 @@ struct halflit_scene {
     halflit::Scene scene;
     std::vector<std::string> warnings;
     std::vector<halflit::AnimationInfo> animations;
-    std::shared_ptr<const halflit::Motion> motion;  ///< null: not kept
-    std::optional<halflit::Lighting> chosen_light;  ///< by the last setup; empty: the scene's own is drawn
-    halflit::Vec3d origin{0, 0, 0};                 ///< a point p of the file is drawn at (p - origin) * scale
-    double scale = 1.0;
-    std::size_t file_meshes = 0;       ///< the first meshes, which a file or the library brought
-    std::set<std::size_t> added_flat;  ///< meshes that the caller added without normals
+    std::shared_ptr<const halflit::Motion> motion;      ///< null: not kept
+    halflit::Placement placement;                       ///< where the file's model lies
+    std::vector<halflit::Node> nodes;                   ///< of the file; their instances with the skinned ones
+    std::vector<int> node_of_instance;                  ///< of the file's instances
+    std::map<std::size_t, std::string> instance_names;  ///< of those that the caller named
+    halflit::c::FreePlaces free_meshes, free_instances, free_lights, free_textures;
+    std::size_t file_meshes = 0;                        ///< the first meshes, which a file or the library brought
+    std::map<std::size_t, bool> added_without_normals;  ///< meshes that the caller added so, and whether they are smooth
     halflit::c::GivenMeshes given_meshes;
 
     mutable std::mutex access;  ///< held while the scene is read or changed; not while it is drawn
@@ -70,20 +89,28 @@ struct halflit_scene {
     mutable std::mutex preparing;  ///< held while `prepared` is made or updated
     mutable std::optional<halflit::PreparedScene> prepared;
 
-    /// The light that is drawn.
-    [[nodiscard]] const halflit::Lighting& light() const { return chosen_light ? *chosen_light : scene; }
-
     /// Makes `given` the mesh at `index`, which may be the next one. Adds the normals and tangents that its material requires. Requires:
     /// indices and material in range.
     void put_mesh(std::size_t index, halflit::Mesh given);
-    /// The same for a mesh that the caller gives whole. Remembers whether it came without normals.
-    void put_given_mesh(std::size_t index, halflit::Mesh given);
+    /// The same for a mesh that the caller gives whole. Remembers whether it came without normals. smooth: it gets them then.
+    void put_given_mesh(std::size_t index, halflit::Mesh given, bool smooth);
+    /// Adds what an instance's own material requires of its mesh.
+    void complete_mesh_of(const halflit::Instance& instance);
     /// Adds what a material, which has changed, requires of its meshes.
     void complete_meshes_of(std::size_t material);
 
-    /// Moves the scene's lights in the light that a setup chose as they were moved in the scene.
-    void follow_pose();
+    /// Sets the world of an instance, its mesh, and so on. The index may be the next one. Requires: indices in range.
+    void put_instance(std::size_t index, const halflit::Instance& given);
+
+    /// Adds what a material requires of a mesh.
+    void complete(std::size_t mesh, int material);
 
     /// Brings `prepared` up to date. Called for a frame that counts in `drawing`.
     [[nodiscard]] halflit::Result<void> prepare(const halflit::Execution& execution) const;
+};
+
+/// The light of a picture that halflit_choose_picture chose.
+struct halflit_lighting {
+    halflit::Lighting light;
+    std::size_t scene_lights = 0;  ///< the first ones, which are the scene's
 };

@@ -41,18 +41,23 @@ int main(int argc, char** argv) {
     halflit_camera_init(&camera, sizeof camera);
     halflit_settings_init(&settings, sizeof settings);
     halflit_target_init(&target, sizeof target);
-    check(halflit_auto_setup(scene, WIDTH, HEIGHT, &camera, &settings));
+    halflit_picture_request request;
+    halflit_picture_request_init(&request, sizeof request);
+    request.width = WIDTH, request.height = HEIGHT;
+    halflit_lighting* lighting;
+    check(halflit_choose_picture(scene, &request, NULL, &camera, &settings, &lighting));
     target.pixels = pixels, target.row_bytes = ROW_BYTES, target.format = HALFLIT_FORMAT_BGRA8;
     target.width = WIDTH, target.height = HEIGHT;
 
     halflit_renderer* renderer;
     check(halflit_renderer_create(NULL, &renderer));
-    check(halflit_render(renderer, scene, &camera, &settings, &target, NULL));
+    check(halflit_render(renderer, scene, lighting, &camera, &settings, &target, NULL));
     place[12] = -2.5f, place[13] = 0.5f;
-    check(halflit_scene_set_instance(scene, left, place));
-    check(halflit_render(renderer, scene, &camera, &settings, &target, NULL));
+    check(halflit_scene_place_instance(scene, left, place));
+    check(halflit_render(renderer, scene, lighting, &camera, &settings, &target, NULL));
     check(halflit_write_image(argc > 1 ? argv[1] : "cube.png", &target));
     halflit_renderer_destroy(renderer);
+    halflit_lighting_destroy(lighting);
     halflit_scene_destroy(scene);
     return 0;
 }

@@ -40,7 +40,7 @@ Result<void> draw_all(const std::string& folder) {
         SceneChanges changes;
         for (std::size_t i = 1; i < scene.instances.size(); ++i) {
             scene.instances[i].world_from_object = place_of_moon(static_cast<int>(i) - 1, frame);
-            changes.moved_instances.push_back(i);
+            changes.changed_instances.push_back(i);
         }
         if (const auto updated = prepared->update(changes); !updated) return updated;
         const auto report = renderer.render(*prepared, camera, {.samples = 4}, image.target());

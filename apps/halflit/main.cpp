@@ -1,12 +1,12 @@
 // halflit: the command line. Parses, dispatches, and turns errors into one line and an exit code.
-#include "apps/halflit/command_line.hpp"
-#include "apps/halflit/commands.hpp"
-#include "apps/halflit/file_names.hpp"
-#include "apps/halflit/help_text.hpp"
-#include "apps/halflit/interrupt.hpp"
-#include "apps/halflit/messages.hpp"
-#include "apps/halflit/scene_source.hpp"
-#include "apps/halflit/terminal.hpp"
+#include "apps/halflit/commands/commands.hpp"
+#include "apps/halflit/flags/command_line.hpp"
+#include "apps/halflit/flags/help_text.hpp"
+#include "apps/halflit/program/file_names.hpp"
+#include "apps/halflit/program/interrupt.hpp"
+#include "apps/halflit/program/messages.hpp"
+#include "apps/halflit/program/terminal.hpp"
+#include "apps/halflit/render/scene_source.hpp"
 #include "halflit/version.hpp"
 
 #include <fcntl.h>

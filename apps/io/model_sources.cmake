@@ -1,18 +1,17 @@
 # Sources that read models and need no library but fmt. The page (apps/web) compiles them too.
-set(HALFLIT_COMPRESSION_SOURCES detail/draco_mesh.cpp detail/gltf_draco.cpp detail/gltf_meshopt.cpp detail/meshopt_filter.cpp
-    detail/meshopt_vertices.cpp)
+set(HALFLIT_COMPRESSION_SOURCES gltf/codecs/draco_mesh.cpp gltf/codecs/draco.cpp gltf/codecs/meshopt.cpp gltf/codecs/meshopt_filter.cpp
+    gltf/codecs/meshopt_vertices.cpp)
 # Groups of sources that are compiled together, for halflit_unity.
 set(HALFLIT_MODEL_SOURCES
-    GROUP detail/gltf_animation.cpp detail/gltf_property.cpp detail/gltf_track.cpp detail/gltf_motion.cpp detail/gltf_deform.cpp
-    GROUP detail/gltf_file.cpp detail/gltf_notes.cpp detail/gltf_used.cpp detail/gltf_json.cpp detail/gltf_schema.cpp
-          detail/gltf_schema_rows.cpp
-          detail/gltf_node_transform.cpp detail/gltf_choices.cpp detail/gltf_versions.cpp detail/glb_container.cpp
-          detail/gltf_document.cpp
-    GROUP detail/gltf_accessor.cpp detail/gltf_vertex_values.cpp detail/gltf_images.cpp detail/gltf_materials.cpp
-          detail/gltf_glossiness.cpp
-          detail/gltf_primitive.cpp detail/gltf_meshes.cpp
-          detail/gltf_instancing.cpp detail/gltf_skin.cpp detail/gltf_nodes.cpp detail/gltf_placed.cpp detail/gltf_world.cpp
-          gltf_loader.cpp pose.cpp
-    GROUP detail/model_format.cpp detail/model_builder.cpp detail/soup.cpp detail/crease_normals.cpp
-          detail/polygon.cpp detail/stl_reader.cpp detail/ply_header.cpp model_loader.cpp
-    GROUP detail/ply_reader.cpp detail/mtl.cpp detail/mtl_pictures.cpp detail/obj_reader.cpp detail/obj_strokes.cpp)
+    GROUP gltf/animation/animation.cpp gltf/animation/motion.cpp gltf/animation/track.cpp gltf/build/deform.cpp
+          gltf/build/pose_sources.cpp gltf/file/property.cpp
+    GROUP gltf/build/choices.cpp gltf/build/open.cpp gltf/file/document.cpp gltf/file/file.cpp gltf/file/json.cpp
+          gltf/file/node_transform.cpp gltf/file/notes.cpp gltf/file/schema.cpp gltf/file/schema_rows.cpp gltf/file/used.cpp
+          gltf/file/versions.cpp gltf/text/glb_container.cpp
+    GROUP gltf/build/glossiness.cpp gltf/build/images.cpp gltf/build/instancing.cpp gltf/build/materials.cpp
+          gltf/build/meshes.cpp gltf/build/nodes.cpp gltf/build/placed.cpp gltf/build/primitive.cpp gltf/build/skin.cpp
+          gltf/build/vertex_values.cpp gltf/build/world.cpp gltf/file/accessor.cpp
+          gltf/loader.cpp gltf/pose.cpp
+    GROUP models/crease_normals.cpp models/model_builder.cpp models/formats.cpp models/model_loader.cpp models/ply_header.cpp
+          models/polygon.cpp models/soup.cpp models/stl_reader.cpp
+    GROUP models/mtl.cpp models/mtl_pictures.cpp models/obj_reader.cpp models/obj_strokes.cpp models/ply_reader.cpp)

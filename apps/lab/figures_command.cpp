@@ -1,11 +1,11 @@
 // halflit figures: remakes figures of the literature.
-#include "apps/halflit/commands.hpp"
-#include "apps/halflit/file_names.hpp"
-#include "apps/halflit/messages.hpp"
-#include "apps/halflit/output_folder.hpp"
-#include "apps/halflit/spelling.hpp"
-#include "apps/halflit/text_file.hpp"
-#include "apps/io/atomic_file.hpp"
+#include "apps/halflit/commands/commands.hpp"
+#include "apps/halflit/program/file_names.hpp"
+#include "apps/halflit/program/messages.hpp"
+#include "apps/halflit/program/output_folder.hpp"
+#include "apps/halflit/program/spelling.hpp"
+#include "apps/halflit/program/text_file.hpp"
+#include "apps/io/files/atomic_file.hpp"
 #include "apps/lab/figure.hpp"
 
 #include <fmt/core.h>

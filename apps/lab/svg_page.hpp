@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include "apps/halflit/xml_text.hpp"
+#include "apps/halflit/program/xml_text.hpp"
 
 namespace halflit::cli {
 

@@ -1,7 +1,7 @@
 // Draws a frame with many settings, and measures time and error of each.
 #pragma once
 
-#include "apps/halflit/render_job.hpp"
+#include "apps/halflit/render/render_job.hpp"
 #include "apps/lab/trade_error.hpp"
 #include "apps/lab/trade_grid.hpp"
 

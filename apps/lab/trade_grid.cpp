@@ -1,8 +1,8 @@
 #include "apps/lab/trade_grid.hpp"
 
-#include "apps/halflit/plan_names.hpp"
-#include "apps/halflit/values.hpp"
-#include "apps/io/lobe_name.hpp"
+#include "apps/halflit/flags/plan_names.hpp"
+#include "apps/halflit/flags/values.hpp"
+#include "apps/io/files/lobe_name.hpp"
 #include "sh/basis.hpp"
 
 #include <fmt/core.h>

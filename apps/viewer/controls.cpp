@@ -1,6 +1,6 @@
 #include "apps/viewer/controls.hpp"
 
-#include "apps/halflit/setting_flags.hpp"
+#include "apps/halflit/flags/setting_flags.hpp"
 #include "halflit/scene.hpp"
 #include "sh/arc.hpp"
 #include "sh/trig.hpp"

@@ -1,7 +1,7 @@
 // The controls of the window as values: read from a job, changed by the user, and put into settings and lights.
 #pragma once
 
-#include "apps/halflit/render_job.hpp"
+#include "apps/halflit/render/render_job.hpp"
 #include "halflit/light.hpp"
 #include "halflit/lobe.hpp"
 #include "halflit/settings.hpp"

@@ -1,7 +1,7 @@
 #include "apps/viewer/frame_worker.hpp"
 
-#include "apps/halflit/run_report.hpp"
-#include "apps/halflit/scene_description.hpp"
+#include "apps/halflit/report/run_report.hpp"
+#include "apps/halflit/report/scene_description.hpp"
 
 #include <nlohmann/json.hpp>
 

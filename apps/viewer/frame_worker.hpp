@@ -1,7 +1,7 @@
 // A thread that draws, so that the window answers while a picture is made.
 #pragma once
 
-#include "apps/halflit/render_job.hpp"
+#include "apps/halflit/render/render_job.hpp"
 #include "apps/viewer/controls.hpp"
 #include "apps/viewer/pixel_story.hpp"
 #include "apps/viewer/refinement.hpp"

@@ -1,6 +1,6 @@
 #include "apps/viewer/orbit_camera.hpp"
 
-#include "apps/halflit/scene_view.hpp"
+#include "apps/halflit/render/scene_view.hpp"
 #include "sh/arc.hpp"
 #include "sh/trig.hpp"
 

@@ -1,7 +1,7 @@
 // What made a pixel: the triangle that its first sample shows, the light of each source, and the error of the result.
 #pragma once
 
-#include "apps/halflit/render_job.hpp"
+#include "apps/halflit/render/render_job.hpp"
 #include "halflit/lobe.hpp"
 #include "halflit/renderer.hpp"
 

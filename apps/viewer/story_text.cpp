@@ -1,6 +1,6 @@
 // A pixel's story as lines of text.
-#include "apps/halflit/messages.hpp"
-#include "apps/halflit/plan_names.hpp"
+#include "apps/halflit/flags/plan_names.hpp"
+#include "apps/halflit/program/messages.hpp"
 #include "apps/viewer/pixel_story.hpp"
 
 #include <fmt/core.h>

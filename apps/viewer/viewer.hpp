@@ -1,7 +1,7 @@
 // The window: a picture that a mouse turns, with controls beside it.
 #pragma once
 
-#include "apps/halflit/render_job.hpp"
+#include "apps/halflit/render/render_job.hpp"
 #include "apps/viewer/pixel_story.hpp"
 #include "apps/viewer/rehearsal.hpp"
 

@@ -1,6 +1,7 @@
 #include "apps/web/browser_pictures.hpp"
+#include "apps/io/files/optional_libraries.hpp"
 
-#include "apps/io/detail/image_decoders.hpp"
+#include "apps/io/pictures/image_decoders.hpp"
 #include "halflit/target.hpp"
 
 #include <fmt/format.h>

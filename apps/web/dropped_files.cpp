@@ -1,7 +1,7 @@
 #include "apps/web/dropped_files.hpp"
 
-#include "apps/io/file_access.hpp"
-#include "apps/io/text.hpp"
+#include "apps/io/files/file_access.hpp"
+#include "apps/io/files/text.hpp"
 
 #include <fmt/format.h>
 

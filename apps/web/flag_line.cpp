@@ -1,6 +1,6 @@
 // The flags of a picture by the command line's own tables, without CLI11: the page writes each flag by its long name and each value as a
 // word of its own.
-#include "apps/halflit/command_line.hpp"
+#include "apps/halflit/flags/command_line.hpp"
 
 #include <algorithm>
 

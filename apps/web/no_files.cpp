@@ -1,6 +1,6 @@
 // What the command line asks its system for and a page does not have.
-#include "apps/halflit/file_names.hpp"
-#include "apps/halflit/scene_source.hpp"
+#include "apps/halflit/program/file_names.hpp"
+#include "apps/halflit/render/scene_source.hpp"
 
 namespace halflit::cli {
 

@@ -1,6 +1,6 @@
 #include "apps/web/picture_session.hpp"
 
-#include "apps/halflit/render_options.hpp"
+#include "apps/halflit/render/render_options.hpp"
 #include "apps/lab/trade_error.hpp"
 #include "apps/web/session_report.hpp"
 

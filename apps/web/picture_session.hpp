@@ -1,7 +1,7 @@
 // The page's scene between two pictures: it stays loaded, prepared and lit as far as the flags allow.
 #pragma once
 
-#include "apps/halflit/render_job.hpp"
+#include "apps/halflit/render/render_job.hpp"
 #include "halflit/renderer.hpp"
 
 #include <optional>

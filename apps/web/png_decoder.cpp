@@ -1,5 +1,5 @@
 // PNG by stb_image, in place of libspng and libdeflate. Gamma and colour profiles are ignored, as there; checksums are not checked.
-#include "apps/io/detail/image_decoders.hpp"
+#include "apps/io/pictures/image_decoders.hpp"
 
 #include <fmt/format.h>
 

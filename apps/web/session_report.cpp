@@ -1,6 +1,6 @@
 #include "apps/web/session_report.hpp"
 
-#include "apps/halflit/plan_names.hpp"
+#include "apps/halflit/flags/plan_names.hpp"
 #include "apps/viewer/orbit_camera.hpp"
 #include "sh/lobe_error.hpp"
 #include "sh/trig.hpp"
@@ -46,9 +46,9 @@ std::string view_of(const cli::RenderJob& job) {
         camera.orthographic ? kFlatFovDeg * (kPi / 180.0) : 2.0 * std::atan(tangent(static_cast<double>(camera.fov_y_rad)) * wider);
     const Vec3d position = camera.orthographic ? target + back * (half_height * wider / tangent(fov_rad)) : eye;
     const double radius = job.film.bounds.empty ? 0.0 : static_cast<double>(job.film.bounds.radius());
-    const auto in_file = [&](Vec3d p) { return p * (1.0 / job.source.scale) + job.source.origin; };
+    const auto in_file = [&](Vec3d p) { return p * (1.0 / job.source.placement.scale) + job.source.placement.origin; };
     return fmt::format(R"({{"position":{},"target":{},"fov":{},"radius":{}}})", point(in_file(position)), point(in_file(target)),
-                       number(fov_rad * (180.0 / kPi)), number((radius > 0.0 ? radius : 1.0) / job.source.scale));
+                       number(fov_rad * (180.0 / kPi)), number((radius > 0.0 ? radius : 1.0) / job.source.placement.scale));
 }
 
 /// Lobes that materials bring along, each once.

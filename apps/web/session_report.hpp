@@ -1,7 +1,7 @@
 // JSON for the page, written by hand: a few short records do not need a library.
 #pragma once
 
-#include "apps/halflit/render_job.hpp"
+#include "apps/halflit/render/render_job.hpp"
 #include "apps/lab/trade_error.hpp"
 #include "halflit/report.hpp"
 

@@ -110,19 +110,19 @@ void ViewGeometry::list_draws(Executor& executor) {
             if (size_of(view_, mesh.topology) == 0) continue;
             vertex_count_ = (vertex_count_ + 3) / 4 * 4;
         }
-        if (triangles == 0 || (seen != nullptr && seen[i] == 0)) continue;
+        if (triangles == 0 || !instances[i].visible || (seen != nullptr && seen[i] == 0)) continue;
         Draw& draw = draws_.emplace_back();
         draw.instance = static_cast<std::uint32_t>(i);
         draw.mesh = instances[i].mesh;
         draw.topology = mesh.topology;
         draw.vertex_count = static_cast<std::int64_t>(mesh.positions.size());
-        draw.material = static_cast<std::int32_t>(scene_->material_of(mesh));
+        draw.material = static_cast<std::int32_t>(scene_->material_of(i));
         draw.vertex_base = vertex_count_;
         draw.group_base = group_count_;
         draw.cluster_base = cluster_count_;
         draw.triangle_base = triangle_base - triangles;
         draw.mirrored = !draw.quads() && determinant3(instances[i].world_from_object) < 0.0;
-        const Material& material = scene_->material(scene_->material_of(mesh));
+        const Material& material = scene_->material(scene_->material_of(i));
         draw.cull_back = !material.double_sided && !draw.quads();
         draw.alpha_mode = material.is_layer() ? AlphaMode::blend : material.alpha_mode;
         has_mode_[static_cast<std::size_t>(draw.alpha_mode)] = true;

@@ -1,8 +1,8 @@
 #include "raster/scene/framed_part.hpp"
 
 #include "raster/detail/view_math.hpp"
+#include "raster/scene/instance_material.hpp"
 #include "raster/scene/placed_box.hpp"
-#include "raster/scene/shadow_catcher.hpp"
 #include "raster/scene/used_vertices.hpp"
 #include "sh/mat4.hpp"
 #include "sh/time_limit.hpp"
@@ -218,7 +218,7 @@ FramedPart framed_part(const Scene& scene) {
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
         if (instance.mesh < 0 || static_cast<std::size_t>(instance.mesh) >= scene.meshes.size()) continue;
-        if (catches_shadows(scene, instance)) continue;
+        if (!counts_for_views(scene, instance)) continue;
         const auto m = static_cast<std::size_t>(instance.mesh);
         if (!read[m]) part.meshes[m] = framed_vertices(scene.meshes[m], part.whole);
         read[m] = true;

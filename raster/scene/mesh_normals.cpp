@@ -45,4 +45,22 @@ void generate_flat_normals(Mesh& mesh) {
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) mesh.indices[i] = static_cast<std::uint32_t>(i);
 }
 
+void generate_smooth_normals(Mesh& mesh) {
+    const FpEnvironment environment_of_host;
+    if (mesh.topology != Topology::triangles) return;
+    std::vector<Vec3d> sums(mesh.positions.size());
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const std::uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
+        const Vec3d p = to_double(mesh.positions[a]);
+        const Vec3d twice_area = cross(to_double(mesh.positions[b]) - p, to_double(mesh.positions[c]) - p);
+        for (const std::uint32_t corner : {a, b, c}) sums[corner] = sums[corner] + twice_area;
+    }
+    mesh.normals.clear();
+    mesh.normals.reserve(sums.size());
+    for (const Vec3d& sum : sums) {
+        const double size = length(sum);
+        mesh.normals.push_back(size > 0.0 && size < 1e300 ? to_float(sum * (1.0 / size)) : Vec3f{0, 1, 0});
+    }
+}
+
 }  // namespace halflit

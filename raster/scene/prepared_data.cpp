@@ -2,13 +2,15 @@
 
 #include "raster/detail/executor.hpp"
 #include "raster/detail/guarded.hpp"
+#include "raster/scene/instance_material.hpp"
 #include "raster/scene/placed_box.hpp"
-#include "raster/scene/shadow_catcher.hpp"
 
 #include <algorithm>
 #include <atomic>
+#include <map>
 #include <numeric>
 #include <string>
+#include <tuple>
 
 namespace halflit::raster {
 namespace {
@@ -18,7 +20,7 @@ std::uint64_t next_revision() {
     return ++last;
 }
 
-SceneRevision all_new_revisions() { return {next_revision(), next_revision(), next_revision(), next_revision()}; }
+SceneRevision all_new_revisions() { return {next_revision(), next_revision(), next_revision()}; }
 
 shading::SlotMask slots_of(const Mesh& mesh) {
     shading::SlotMask slots = shading::kBaseSlots;
@@ -75,14 +77,23 @@ Result<void> PreparedData::prepare_meshes(std::span<const std::size_t> which, Ex
 }
 
 Result<void> PreparedData::check_instance(std::size_t index) const {
-    const int mesh = scene_->instances[index].mesh;
-    if (mesh >= 0 && static_cast<std::size_t>(mesh) < scene_->meshes.size()) return {};
-    return fail(ErrorCode::bad_input, "instance " + std::to_string(index) + " names mesh " + std::to_string(mesh) + " of " +
-                                          std::to_string(scene_->meshes.size()));
+    const auto [mesh, ignored, material, color, visible] = scene_->instances[index];
+    const auto names = [&](const char* what, int named, std::size_t count) {
+        return fail(ErrorCode::bad_input,
+                    "instance " + std::to_string(index) + " names " + what + " " + std::to_string(named) + " of " + std::to_string(count));
+    };
+    if (mesh < 0 || static_cast<std::size_t>(mesh) >= scene_->meshes.size()) return names("mesh", mesh, scene_->meshes.size());
+    if (material >= 0 && static_cast<std::size_t>(material) >= scene_->materials.size())
+        return names("material", material, scene_->materials.size());
+    return {};
 }
 
 void PreparedData::place(std::size_t index) {
     const Instance& instance = scene_->instances[index];
+    if (!instance.visible) {
+        instance_bounds_[index] = {};
+        return;
+    }
     instance_bounds_[index] = placed_bounds(source_mesh(instance.mesh), mesh(instance.mesh), instance.world_from_object);
 }
 
@@ -95,7 +106,8 @@ Result<void> PreparedData::check_materials() const {
 bool PreparedData::note_coverage() {
     std::vector<std::pair<AlphaMode, bool>> coverage;
     bool masks = false;  // they cover what their textures say, which are not compared
-    for (const Material& material : scene_->materials) {
+    for (std::size_t i = 0; i < material_count(); ++i) {
+        const Material& material = this->material(i);
         coverage.emplace_back(material.is_layer() ? AlphaMode::blend : material.alpha_mode, material.double_sided);
         masks |= material.alpha_mode == AlphaMode::mask;
     }
@@ -104,34 +116,66 @@ bool PreparedData::note_coverage() {
     return !same;
 }
 
+std::size_t PreparedData::material_index_of(const Instance& instance) const {
+    const int index = instance.material >= 0 ? instance.material : source_mesh(instance.mesh).material;
+    return index >= 0 ? static_cast<std::size_t>(index) : scene_->materials.size();
+}
+
+void PreparedData::find_looks() {
+    constexpr Vec4f kWhite{1, 1, 1, 1};
+    looks_.clear();
+    look_keys_.clear();
+    material_of_instance_.clear();
+    const std::vector<Instance>& instances = scene_->instances;
+    if (std::all_of(instances.begin(), instances.end(), [&](const Instance& instance) { return instance.color == kWhite; })) return;
+    std::map<std::tuple<std::size_t, float, float, float, float>, std::uint32_t> known;
+    for (const Instance& instance : instances) {
+        const std::size_t material = material_index_of(instance);
+        const Vec4f c = instance.color;
+        if (c == kWhite) {
+            material_of_instance_.push_back(static_cast<std::uint32_t>(material));
+            continue;
+        }
+        const auto [entry, is_new] = known.try_emplace({material, c.x, c.y, c.z, c.w}, static_cast<std::uint32_t>(material_count()));
+        if (is_new) {
+            Material look = this->material(material);
+            look.base_color = {look.base_color.x * c.x, look.base_color.y * c.y, look.base_color.z * c.z, look.base_color.w * c.w};
+            looks_.push_back(std::move(look));
+            look_keys_.emplace_back(material, c);
+        }
+        material_of_instance_.push_back(entry->second);
+    }
+}
+
 void PreparedData::collect() {
     bounds_ = {};
     framed_bounds_ = {};
     triangle_count_ = 0;
-    available_slots_.assign(scene_->materials.size() + 1, shading::kBaseSlots);
-    drawn_materials_.assign(scene_->materials.size() + 1, false);
-    object_radii_.assign(scene_->materials.size() + 1, 0.0);
+    available_slots_.assign(material_count(), shading::kBaseSlots);
+    drawn_materials_.assign(material_count(), false);
+    object_radii_.assign(material_count(), 0.0);
     largest_uv_ = 0;
     largest_color_ = 1;
-    meshes_without_normals_.clear();
+    instances_without_normals_.clear();
     std::vector<bool> noted(scene_->meshes.size(), false);
-    for (const Mesh& mesh : scene_->meshes) available_slots_[material_of(mesh)] |= slots_of(mesh);
     for (std::size_t i = 0; i < scene_->instances.size(); ++i) {
-        const Mesh& mesh = source_mesh(scene_->instances[i].mesh);
-        if (mesh.indices.empty()) continue;
+        const Instance& instance = scene_->instances[i];
+        const Mesh& mesh = source_mesh(instance.mesh);
+        const std::size_t material = material_of(i);
+        available_slots_[material] |= slots_of(mesh);
+        if (mesh.indices.empty() || !instance.visible) continue;
         bounds_.include(instance_bounds_[i]);
         triangle_count_ += raster::triangle_count(mesh);
-        const std::size_t material = material_of(mesh);
-        if (!catches_shadows(*scene_, scene_->instances[i])) framed_bounds_.include(instance_bounds_[i]);
+        if (!catches_shadows(*scene_, instance)) framed_bounds_.include(instance_bounds_[i]);
         drawn_materials_[material] = true;
         const Bounds& box = instance_bounds_[i];
         if (!box.empty) object_radii_[material] = std::max(object_radii_[material], static_cast<double>(box.radius()) / kRootOfThree);
-        const auto index = static_cast<std::size_t>(scene_->instances[i].mesh);
+        const auto index = static_cast<std::size_t>(instance.mesh);
         if (mesh.normals.empty() && !noted[index]) {
             noted[index] = true;
-            meshes_without_normals_.push_back(scene_->instances[i].mesh);
+            instances_without_normals_.push_back(i);
         }
-        const PreparedMesh& prepared = this->mesh(scene_->instances[i].mesh);
+        const PreparedMesh& prepared = this->mesh(instance.mesh);
         largest_uv_ = std::max(largest_uv_, static_cast<double>(prepared.largest_uv));
         largest_color_ = std::max(largest_color_, static_cast<double>(prepared.largest_color));
     }
@@ -155,6 +199,8 @@ Result<PreparedData> PreparedData::make(const Scene& scene, const Execution& exe
             const std::size_t begin = static_cast<std::size_t>(task) * kInstancesPerTask;
             for (std::size_t i = begin; i < std::min(begin + kInstancesPerTask, scene.instances.size()); ++i) prepared.place(i);
         });
+        prepared.scene_materials_ = scene.materials.size();
+        prepared.find_looks();
         prepared.collect();
         prepared.shadow_casters_ = collect_shadow_casters(scene, prepared.meshes_, prepared.instance_bounds_);
         prepared.note_coverage();
@@ -190,7 +236,7 @@ Result<void> PreparedData::note(const SceneChanges& changes) {
         }
     };
     add("mesh", changes.deformed_meshes, meshes_.size(), pending_.deformed_meshes);
-    add("instance", changes.moved_instances, instance_bounds_.size(), pending_.moved_instances);
+    add("instance", changes.changed_instances, instance_bounds_.size(), pending_.changed_instances);
     pending_.materials |= changes.materials;
     pending_.lights |= changes.lights;
     return result;
@@ -199,7 +245,7 @@ Result<void> PreparedData::note(const SceneChanges& changes) {
 Result<void> PreparedData::apply_pending(const Execution& execution) {
     const Scene& scene = *scene_;
     if (scene.meshes.size() != meshes_.size() || scene.instances.size() != instance_bounds_.size() ||
-        scene.materials.size() + 1 != drawn_materials_.size())
+        scene.materials.size() != scene_materials_)
         return fail(ErrorCode::usage, "the scene has other numbers of meshes, instances or materials than when it was prepared");
     const bool deformed = !pending_.deformed_meshes.empty();
     if (deformed) {
@@ -212,23 +258,27 @@ Result<void> PreparedData::apply_pending(const Execution& execution) {
         for (std::size_t i = 0; i < scene.instances.size(); ++i)
             if (std::binary_search(which.begin(), which.end(), static_cast<std::size_t>(scene.instances[i].mesh))) place(i);
     }
-    for (const std::size_t i : pending_.moved_instances) {
+    const std::vector<bool> drawn_before = drawn_materials_;
+    for (const std::size_t i : pending_.changed_instances) {
         if (auto ok = check_instance(i); !ok) return ok;
         place(i);
     }
     if (deformed || pending_.materials)
         if (auto ok = check_materials(); !ok) return ok;
-    if (deformed || !pending_.moved_instances.empty()) {
+    const auto looks_before = look_keys_;
+    if (deformed || pending_.materials || !pending_.changed_instances.empty()) find_looks();
+    const bool other_looks = look_keys_ != looks_before;
+    if (deformed || other_looks || !pending_.changed_instances.empty()) {
         collect();
         revision_.geometry = next_revision();
     }
-    if (deformed || pending_.materials) {
+    // The plan leaves out what no drawn instance needs.
+    if (deformed || other_looks || pending_.materials || drawn_materials_ != drawn_before) {
         revision_.materials = next_revision();
         if (note_coverage()) revision_.coverage = next_revision();
     }
-    if (deformed || pending_.materials || !pending_.moved_instances.empty())
+    if (deformed || pending_.materials || !pending_.changed_instances.empty())
         shadow_casters_ = collect_shadow_casters(scene, meshes_, instance_bounds_);
-    if (pending_.lights) revision_.lights = next_revision();
     return {};
 }
 

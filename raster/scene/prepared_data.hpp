@@ -17,7 +17,7 @@ namespace halflit::raster {
 
 /// Revision numbers. They grow with every change and differ between scenes: results made from a scene are valid while they are equal.
 struct SceneRevision {
-    std::uint64_t geometry = 0, materials = 0, lights = 0;
+    std::uint64_t geometry = 0, materials = 0;
     std::uint64_t coverage = 0;  ///< changes with the materials' sides, alpha modes and masks, but not with their colours
     friend bool operator==(const SceneRevision&, const SceneRevision&) = default;
 };
@@ -55,22 +55,24 @@ public:
     [[nodiscard]] double largest_uv() const { return largest_uv_; }
     [[nodiscard]] double largest_color() const { return largest_color_; }
 
-    // Indexed by material, with one more entry at the end for meshes without a material:
-    /// Union of the attribute slots of the material's meshes.
+    // Indexed by material: those of the scene, one for meshes without a material, and looks().
+    /// Union of the attribute slots of the meshes that are drawn with the material.
     [[nodiscard]] std::span<const shading::SlotMask> available_slots() const { return available_slots_; }
     /// True if some instance with triangles has the material.
     [[nodiscard]] const std::vector<bool>& drawn_materials() const { return drawn_materials_; }
-    [[nodiscard]] std::size_t material_of(const Mesh& mesh) const {
-        return mesh.material >= 0 ? static_cast<std::size_t>(mesh.material) : scene_->materials.size();
+    /// Materials in the colours of instances.
+    [[nodiscard]] std::span<const Material> looks() const { return looks_; }
+    [[nodiscard]] std::size_t material_of(std::size_t instance) const {
+        return material_of_instance_.empty() ? material_index_of(scene_->instances[instance]) : material_of_instance_[instance];
     }
-    /// Meshes of drawn instances that have no normals, each once, in the order of their first instances.
-    [[nodiscard]] std::span<const int> meshes_without_normals() const { return meshes_without_normals_; }
+    /// Drawn instances whose mesh has no normals, the first of each mesh.
+    [[nodiscard]] std::span<const std::size_t> instances_without_normals() const { return instances_without_normals_; }
     /// Half the diagonal of the box of the largest instance with the material, over sqrt(3): for a sphere its radius. World units; 0 if
     /// there is no instance.
     [[nodiscard]] std::span<const double> object_radii() const { return object_radii_; }
-    /// Material `index`, or the default material past the last one.
     [[nodiscard]] const Material& material(std::size_t index) const {
-        return index < scene_->materials.size() ? scene_->materials[index] : no_material_;
+        const std::size_t count = scene_->materials.size();
+        return index < count ? scene_->materials[index] : index == count ? no_material_ : looks_[index - count - 1];
     }
 
 private:
@@ -83,7 +85,10 @@ private:
     void place(std::size_t instance);                ///< finds its box
     Result<void> note(const SceneChanges& changes);  ///< adds them to pending_
     Result<void> apply_pending(const Execution& execution);
-    void collect();  ///< sums over meshes and instances
+    void collect();     ///< sums over meshes and instances
+    void find_looks();  ///< materials of instances that have a colour
+    [[nodiscard]] std::size_t material_count() const { return scene_->materials.size() + 1 + looks_.size(); }
+    [[nodiscard]] std::size_t material_index_of(const Instance& instance) const;
 
     const Scene* scene_ = nullptr;
     SceneRevision revision_;
@@ -99,8 +104,12 @@ private:
     std::vector<double> object_radii_;
     std::vector<shading::SlotMask> available_slots_;
     std::vector<bool> drawn_materials_;
-    std::vector<int> meshes_without_normals_;
-    std::vector<std::pair<AlphaMode, bool>> coverage_;  ///< of each material: alpha mode, and whether both sides are drawn
+    std::vector<std::size_t> instances_without_normals_;
+    std::vector<Material> looks_;
+    std::vector<std::uint32_t> material_of_instance_;       ///< empty: no instance has a colour
+    std::vector<std::pair<std::size_t, Vec4f>> look_keys_;  ///< material and colour of each look
+    std::size_t scene_materials_ = 0;                       ///< their number when the scene was prepared
+    std::vector<std::pair<AlphaMode, bool>> coverage_;      ///< of each material: alpha mode, and whether both sides are drawn
     Material no_material_;
 };
 

@@ -1,7 +1,7 @@
 #include "halflit/scene.hpp"
 
 #include "halflit/shapes.hpp"
-#include "raster/scene/shadow_catcher.hpp"
+#include "raster/scene/instance_material.hpp"
 #include "raster/scene/used_vertices.hpp"
 #include "sh/fp_environment.hpp"
 #include "sh/mat4.hpp"
@@ -19,7 +19,7 @@ Bounds scene_bounds(const Scene& scene) {
     for (const Instance& instance : scene.instances) {
         check();
         if (instance.mesh < 0 || static_cast<std::size_t>(instance.mesh) >= scene.meshes.size()) continue;
-        if (raster::catches_shadows(scene, instance)) continue;
+        if (!raster::counts_for_views(scene, instance)) continue;
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
         std::vector<bool>& mask = used[static_cast<std::size_t>(instance.mesh)];
         if (mask.empty()) mask = raster::used_vertices(mesh);

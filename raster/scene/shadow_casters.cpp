@@ -1,7 +1,7 @@
 #include "raster/scene/shadow_casters.hpp"
 
 #include "raster/detail/view_math.hpp"
-#include "raster/scene/shadow_catcher.hpp"
+#include "raster/scene/instance_material.hpp"
 #include "sh/mat4.hpp"
 
 #include <algorithm>
@@ -44,8 +44,8 @@ Bounds placed(const Bounds& box, const Mat4& m) {
 }
 
 bool casts_no_shadow(const Scene& scene, const Instance& instance) {
-    const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
-    return material >= 0 && scene.materials[static_cast<std::size_t>(material)].is_layer();
+    const Material* const material = material_of(scene, instance);
+    return material != nullptr && material->is_layer();
 }
 
 }  // namespace

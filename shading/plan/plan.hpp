@@ -19,7 +19,7 @@ inline constexpr float kSkyFocusByAlpha = 1.5f;
 
 /// Everything about the frame that shading needs, the same for all fragments.
 struct ShadingPlan {
-    std::vector<MaterialPlan> materials;  ///< index = index of Scene material; one more at the end for "no material"
+    std::vector<MaterialPlan> materials;  ///< those of the scene, "no material", and PlanInputs::looks
     std::vector<LightPlan> lights;        ///< in list order, which sums keep; black lights and those not finite are left out
     std::vector<ShadowMapPlan> shadow_maps;
     std::vector<LightPlan> sky;                 ///< what sky shadows take the surroundings for (sky_lights.hpp); empty: there are none

@@ -45,6 +45,7 @@ typedef struct {
     int32_t material, mesh, instance;
     halflit_camera camera;
     halflit_settings settings;
+    halflit_lighting* lighting;  // freed by free_cube
 } Cube;
 
 static void init_cube_mesh(halflit_mesh* mesh, int32_t material) {
@@ -56,10 +57,16 @@ static void init_cube_mesh(halflit_mesh* mesh, int32_t material) {
     mesh->material = material;
 }
 
-static void init_setup(halflit_scene* scene, halflit_camera* camera, halflit_settings* settings) {
+/// What the library chooses for a picture of WIDTH x HEIGHT. The light is the caller's to free.
+static halflit_lighting* init_setup(halflit_scene* scene, halflit_camera* camera, halflit_settings* settings) {
+    halflit_picture_request request;
+    halflit_lighting* lighting = NULL;
     CHECK_OK(halflit_camera_init(camera, sizeof *camera));
     CHECK_OK(halflit_settings_init(settings, sizeof *settings));
-    CHECK_OK(halflit_auto_setup(scene, WIDTH, HEIGHT, camera, settings));
+    CHECK_OK(halflit_picture_request_init(&request, sizeof request));
+    request.width = WIDTH, request.height = HEIGHT;
+    CHECK_OK(halflit_choose_picture(scene, &request, NULL, camera, settings, &lighting));
+    return lighting;
 }
 
 static Cube make_cube(void) {
@@ -76,8 +83,13 @@ static Cube make_cube(void) {
     init_cube_mesh(&mesh, cube.material);
     CHECK_OK(halflit_scene_add_mesh(cube.scene, &mesh, &cube.mesh));
     CHECK_OK(halflit_scene_add_instance(cube.scene, cube.mesh, NULL, &cube.instance));
-    init_setup(cube.scene, &cube.camera, &cube.settings);
+    cube.lighting = init_setup(cube.scene, &cube.camera, &cube.settings);
     return cube;
+}
+
+static void free_cube(Cube* cube) {
+    halflit_lighting_destroy(cube->lighting);
+    halflit_scene_destroy(cube->scene);
 }
 
 static void place(float matrix[16], float x) {
@@ -96,7 +108,7 @@ static halflit_target make_target(void* pixels) {
 }
 
 /// Draws by a renderer, or by a new one if it is null. Returns the hash of the picture, 0 if the call fails.
-static uint64_t draw(halflit_renderer* renderer, const halflit_scene* scene, const halflit_camera* camera,
+static uint64_t draw(halflit_renderer* renderer, const halflit_scene* scene, const halflit_lighting* lighting, const halflit_camera* camera,
                      const halflit_settings* settings) {
     static uint8_t pixels[PIXELS * 4];
     const halflit_target target = make_target(pixels);
@@ -104,13 +116,30 @@ static uint64_t draw(halflit_renderer* renderer, const halflit_scene* scene, con
     int32_t code;
     if (renderer == NULL) CHECK_OK(halflit_renderer_create(NULL, &own));
     memset(pixels, 0, sizeof pixels);
-    code = halflit_render(renderer != NULL ? renderer : own, scene, camera, settings, &target, NULL);
+    code = halflit_render(renderer != NULL ? renderer : own, scene, lighting, camera, settings, &target, NULL);
     halflit_renderer_destroy(own);
     return code == HALFLIT_OK ? halflit_pixel_hash(pixels, sizeof pixels) : 0;
 }
 
+/// Draws by the light that is chosen for this camera and the scene as it is.
+static uint64_t draw_chosen(halflit_scene* scene, const halflit_camera* camera, const halflit_settings* settings) {
+    halflit_picture_request request;
+    halflit_camera view;
+    halflit_settings others;
+    halflit_lighting* lighting = NULL;
+    uint64_t hash;
+    CHECK_OK(halflit_picture_request_init(&request, sizeof request));
+    CHECK_OK(halflit_camera_init(&view, sizeof view));
+    CHECK_OK(halflit_settings_init(&others, sizeof others));
+    request.camera = camera;
+    CHECK_OK(halflit_choose_picture(scene, &request, NULL, &view, &others, &lighting));
+    hash = draw(NULL, scene, lighting, camera, settings);
+    halflit_lighting_destroy(lighting);
+    return hash;
+}
+
 static uint64_t draw_cube(halflit_renderer* renderer, const Cube* cube) {
-    return draw(renderer, cube->scene, &cube->camera, &cube->settings);
+    return draw(renderer, cube->scene, cube->lighting, &cube->camera, &cube->settings);
 }
 
 // ---- null pointers, sizes and messages ---------------------------------------------------------------------------------
@@ -135,23 +164,23 @@ static void test_null_pointers(void) {
     CHECK_FAILS(halflit_scene_add_light(cube.scene, NULL, NULL), HALFLIT_ERROR_USAGE, "light is null");
     CHECK_FAILS(halflit_scene_set_ambient(cube.scene, NULL, NULL), HALFLIT_ERROR_USAGE, "sky is null");
     CHECK_FAILS(halflit_scene_set_vertices(cube.scene, cube.mesh, NULL, NULL, 8), HALFLIT_ERROR_USAGE, "positions is null");
-    CHECK_FAILS(halflit_scene_set_instance(cube.scene, 0, NULL), HALFLIT_ERROR_USAGE, "world_from_object is null");
+    CHECK_FAILS(halflit_scene_place_instance(cube.scene, 0, NULL), HALFLIT_ERROR_USAGE, "world_from_object is null");
     CHECK_FAILS(halflit_scene_set_environment(cube.scene, NULL, 1, 1, NULL), HALFLIT_ERROR_USAGE, "rgb is null");
     CHECK_FAILS(halflit_scene_get_counts(cube.scene, NULL), HALFLIT_ERROR_USAGE, "counts is null");
     CHECK_FAILS(halflit_scene_get_bounds(cube.scene, NULL, matrix), HALFLIT_ERROR_USAGE, "min is null");
     CHECK_FAILS(halflit_camera_look_at(NULL, NULL, NULL, NULL), HALFLIT_ERROR_USAGE, "eye is null");
-    CHECK_FAILS(halflit_auto_setup(cube.scene, 8, 8, NULL, NULL), HALFLIT_ERROR_USAGE, "camera is null");
+    CHECK_FAILS(halflit_choose_picture(cube.scene, NULL, NULL, NULL, NULL, NULL), HALFLIT_ERROR_USAGE, "camera is null");
     CHECK_FAILS(halflit_renderer_create(NULL, NULL), HALFLIT_ERROR_USAGE, "renderer is null");
-    CHECK_FAILS(halflit_render(NULL, cube.scene, &cube.camera, NULL, &target, NULL), HALFLIT_ERROR_USAGE, "renderer is null");
-    CHECK_FAILS(halflit_render(renderer, NULL, &cube.camera, NULL, &target, NULL), HALFLIT_ERROR_USAGE, "scene is null");
-    CHECK_FAILS(halflit_render(renderer, cube.scene, NULL, NULL, &target, NULL), HALFLIT_ERROR_USAGE, "camera is null");
-    CHECK_FAILS(halflit_render(renderer, cube.scene, &cube.camera, NULL, NULL, NULL), HALFLIT_ERROR_USAGE, "target is null");
+    CHECK_FAILS(halflit_render(NULL, cube.scene, NULL, &cube.camera, NULL, &target, NULL), HALFLIT_ERROR_USAGE, "renderer is null");
+    CHECK_FAILS(halflit_render(renderer, NULL, NULL, &cube.camera, NULL, &target, NULL), HALFLIT_ERROR_USAGE, "scene is null");
+    CHECK_FAILS(halflit_render(renderer, cube.scene, NULL, NULL, NULL, &target, NULL), HALFLIT_ERROR_USAGE, "camera is null");
+    CHECK_FAILS(halflit_render(renderer, cube.scene, cube.lighting, &cube.camera, NULL, NULL, NULL), HALFLIT_ERROR_USAGE, "target is null");
     CHECK_FAILS(halflit_renderer_get_warning(renderer, 0, &text), HALFLIT_ERROR_USAGE, "the frame has 0");
     CHECK_FAILS(halflit_write_image(NULL, &target), HALFLIT_ERROR_USAGE, "path is null");
     CHECK_FAILS(halflit_write_image("x.png", &target), HALFLIT_ERROR_USAGE, "pixels is null");
     CHECK(halflit_pixel_hash(NULL, 4) == 0xef46db3751d8e999u);  // that of no bytes
     halflit_renderer_destroy(renderer);
-    halflit_scene_destroy(cube.scene);
+    free_cube(&cube);
 }
 
 static void test_struct_sizes(void) {
@@ -176,37 +205,38 @@ static void test_struct_sizes(void) {
     CHECK(newer.known.size == sizeof newer && newer.known.samples == 1 && newer.added[0] == 0 && newer.added[3] == 0);
     newer.known = cube.settings;
     newer.known.size = sizeof newer;
-    CHECK(draw(NULL, cube.scene, &cube.camera, &newer.known) == expected);
+    CHECK(draw(NULL, cube.scene, cube.lighting, &cube.camera, &newer.known) == expected);
     newer.added[2] = 1;
-    CHECK(draw(NULL, cube.scene, &cube.camera, &newer.known) == 0);
+    CHECK(draw(NULL, cube.scene, cube.lighting, &cube.camera, &newer.known) == 0);
     CHECK(strstr(halflit_last_error(), "halflit_settings: members beyond byte") != NULL);
 
     // A program that was built when `environment_bands` and what follows did not exist: those bytes belong to something else.
     older.size = offsetof(halflit_settings, environment_bands);
     memset(&older.environment_bands, 0x5a, sizeof older - offsetof(halflit_settings, environment_bands));
-    CHECK(draw(NULL, cube.scene, &cube.camera, &older) == expected);
+    CHECK(draw(NULL, cube.scene, cube.lighting, &cube.camera, &older) == expected);
     CHECK_OK(halflit_settings_init(&older, offsetof(halflit_settings, environment_bands)));
     CHECK(older.samples == 1 && older.shadows == 0x5a5a5a5a);
 
     older = cube.settings;
     older.size = 0;
-    CHECK(draw(NULL, cube.scene, &cube.camera, &older) == 0 && strstr(halflit_last_error(), "the member size is 0") != NULL);
+    CHECK(draw(NULL, cube.scene, cube.lighting, &cube.camera, &older) == 0 && strstr(halflit_last_error(), "the member size is 0") != NULL);
     older.size = (size_t)-1;
-    CHECK(draw(NULL, cube.scene, &cube.camera, &older) == 0 && strstr(halflit_last_error(), "sizeof(halflit_settings)") != NULL);
+    CHECK(draw(NULL, cube.scene, cube.lighting, &cube.camera, &older) == 0 &&
+          strstr(halflit_last_error(), "sizeof(halflit_settings)") != NULL);
     older.size = offsetof(halflit_settings, environment_bands) - 4;
-    CHECK(draw(NULL, cube.scene, &cube.camera, &older) == 0 && strstr(halflit_last_error(), "the member size is") != NULL);
+    CHECK(draw(NULL, cube.scene, cube.lighting, &cube.camera, &older) == 0 && strstr(halflit_last_error(), "the member size is") != NULL);
     CHECK_OK(halflit_execution_init(&execution, sizeof execution));
     execution.size = offsetof(halflit_execution, cancelled) + sizeof execution.cancelled / 2;
     CHECK(halflit_renderer_create(&execution, &renderer) == HALFLIT_ERROR_USAGE && renderer == NULL);
     cube.camera.reserved = 1;
-    CHECK(draw(NULL, cube.scene, &cube.camera, &cube.settings) == 0 && strstr(halflit_last_error(), "reserved") != NULL);
+    CHECK(draw(NULL, cube.scene, cube.lighting, &cube.camera, &cube.settings) == 0 && strstr(halflit_last_error(), "reserved") != NULL);
     counts.size = 3;
     CHECK_FAILS(halflit_scene_get_counts(cube.scene, &counts), HALFLIT_ERROR_USAGE, "halflit_counts");
     counts.size = offsetof(halflit_counts, meshes);
     counts.meshes = 77;
     CHECK_OK(halflit_scene_get_counts(cube.scene, &counts));
     CHECK(counts.triangles == 12 && counts.meshes == 77 && counts.size == offsetof(halflit_counts, meshes));
-    halflit_scene_destroy(cube.scene);
+    free_cube(&cube);
 }
 
 static void test_faulty_arguments(void) {
@@ -272,7 +302,6 @@ static void test_faulty_arguments(void) {
     CHECK_FAILS(halflit_scene_load("no/such.glb", NULL, &none), HAS_FILES ? HALFLIT_ERROR_IO : HALFLIT_ERROR_USAGE, "no/such.glb");
     CHECK_FAILS(halflit_scene_load_memory("{", 1, "memory.gltf", NULL, NULL, &none),
                 HAS_FILES ? HALFLIT_ERROR_BAD_INPUT : HALFLIT_ERROR_USAGE, "memory.gltf");
-    CHECK_FAILS(halflit_auto_setup(cube.scene, 0, 8, &cube.camera, &cube.settings), HALFLIT_ERROR_USAGE, "no pixels");
     if (HAS_FILES) {
         target.format = 6;
         CHECK_FAILS(halflit_write_image("x.png", &target), HALFLIT_ERROR_USAGE, "format is 6");
@@ -282,7 +311,7 @@ static void test_faulty_arguments(void) {
     }
     cube.settings.samples = 3;
     CHECK(draw_cube(NULL, &cube) == 0 && strstr(halflit_last_error(), "samples") != NULL);
-    halflit_scene_destroy(cube.scene);
+    free_cube(&cube);
 }
 
 // ---- pictures ----------------------------------------------------------------------------------------------------------
@@ -311,7 +340,7 @@ static void test_formats(void) {
     target.coverage = coverage;
     target.lights = lights;
     report.size = sizeof report;
-    CHECK_OK(halflit_render(renderer, cube.scene, &cube.camera, &cube.settings, &target, &report));
+    CHECK_OK(halflit_render(renderer, cube.scene, cube.lighting, &cube.camera, &cube.settings, &target, &report));
     CHECK(report.triangles_submitted == 12 && report.triangles_drawn > 0 && report.pixels_visible > 0 && report.isa[0] != '\0');
     CHECK(report.total_ms >= report.prepare_ms && report.warnings == 0 && report.error_budget == 0);
     for (x = 0; x < PIXELS; ++x) {
@@ -330,13 +359,13 @@ static void test_formats(void) {
     target = make_target(bgra);
     target.format = HALFLIT_FORMAT_BGRA8;
     target.row_bytes = STRIDE;
-    CHECK_OK(halflit_render(renderer, cube.scene, &cube.camera, &cube.settings, &target, NULL));
+    CHECK_OK(halflit_render(renderer, cube.scene, cube.lighting, &cube.camera, &cube.settings, &target, NULL));
     target = make_target(premultiplied);
     target.format = HALFLIT_FORMAT_RGBA8_PREMULTIPLIED;
-    CHECK_OK(halflit_render(renderer, cube.scene, &cube.camera, &cube.settings, &target, NULL));
+    CHECK_OK(halflit_render(renderer, cube.scene, cube.lighting, &cube.camera, &cube.settings, &target, NULL));
     target = make_target(linear);
     target.format = HALFLIT_FORMAT_RGBA_F32;
-    CHECK_OK(halflit_render(renderer, cube.scene, &cube.camera, &cube.settings, &target, NULL));
+    CHECK_OK(halflit_render(renderer, cube.scene, cube.lighting, &cube.camera, &cube.settings, &target, NULL));
     wrong = 0;
     for (y = 0; y < HEIGHT; ++y) {
         for (x = 0; x < WIDTH; ++x) {
@@ -386,13 +415,13 @@ static void test_formats(void) {
         cube.settings.region.height = 10;
         target = make_target(part);
         target.region_alone = 1;
-        CHECK_OK(halflit_render(renderer, cube.scene, &cube.camera, &cube.settings, &target, NULL));
+        CHECK_OK(halflit_render(renderer, cube.scene, cube.lighting, &cube.camera, &cube.settings, &target, NULL));
         CHECK_FAILS(halflit_write_image("x.png", &target), HALFLIT_ERROR_USAGE, "region_alone");
         for (y = 0, differ = 0; y < 10; ++y) differ += memcmp(part + y * 80, rgba + 4 * ((y + 25) * WIDTH + 30), 80) != 0;
         CHECK(differ == 0);
     }
     halflit_renderer_destroy(renderer);
-    halflit_scene_destroy(cube.scene);
+    free_cube(&cube);
 }
 
 static void test_same_as_cpp(void) {
@@ -403,13 +432,13 @@ static void test_same_as_cpp(void) {
     float matrix[16];
     CHECK(draw_cube(NULL, &cube) == cube_by_cpp(corners, 8, indices, 36, 0, WIDTH, HEIGHT));
     place(matrix, 0.5f);
-    CHECK_OK(halflit_scene_set_instance(cube.scene, cube.instance, matrix));
+    CHECK_OK(halflit_scene_place_instance(cube.scene, cube.instance, matrix));
     CHECK(draw_cube(NULL, &cube) == cube_by_cpp(corners, 8, indices, 36, 0.5f, WIDTH, HEIGHT));
     CHECK_OK(halflit_scene_create_demo(&demo));
-    init_setup(demo, &camera, &settings);
-    CHECK(draw(NULL, demo, &camera, &settings) == scene_by_cpp(NULL, WIDTH, HEIGHT));
+    halflit_lighting_destroy(init_setup(demo, &camera, &settings));
+    CHECK(draw_chosen(demo, &camera, &settings) == scene_by_cpp(NULL, WIDTH, HEIGHT));
     halflit_scene_destroy(demo);
-    halflit_scene_destroy(cube.scene);
+    free_cube(&cube);
 }
 
 // ---- scenes that change ------------------------------------------------------------------------------------------------
@@ -419,12 +448,13 @@ static void test_changes(void) {
     Cube cube = make_cube(), fresh;
     halflit_renderer* renderer;
     halflit_report report;
-    float matrix[16], moved[8 * 3], found[16], min[3], max[3];
+    float matrix[16], moved[8 * 3], min[3], max[3];
+    halflit_instance found;
     const uint8_t texels[2 * 12] = {255, 255, 255, 255, 0, 0, 0, 255, 9, 9, 9, 9, 0, 0, 0, 255, 255, 255, 255, 255, 9, 9, 9, 9};
     halflit_material material;
     halflit_light light;
     halflit_mesh mesh;
-    int32_t mesh_of, texture, i;
+    int32_t texture, i;
     uint64_t before, after;
     static uint8_t pixels[PIXELS * 4];
     halflit_target target = make_target(pixels);
@@ -434,13 +464,15 @@ static void test_changes(void) {
     report.size = sizeof report;
 
     place(matrix, 0.5f);
-    for (i = 0; i < 3; ++i) CHECK_OK(halflit_scene_set_instance(cube.scene, cube.instance, matrix));
+    for (i = 0; i < 3; ++i) CHECK_OK(halflit_scene_place_instance(cube.scene, cube.instance, matrix));
     fresh = make_cube();
-    CHECK_OK(halflit_scene_set_instance(fresh.scene, fresh.instance, matrix));
+    CHECK_OK(halflit_scene_place_instance(fresh.scene, fresh.instance, matrix));
     after = draw_cube(renderer, &cube);
     CHECK(after != before && after == draw_cube(NULL, &fresh));
-    CHECK_OK(halflit_scene_get_instance(cube.scene, 0, &mesh_of, found));
-    CHECK(mesh_of == cube.mesh && memcmp(found, matrix, sizeof found) == 0);
+    found.size = sizeof found;
+    CHECK_OK(halflit_scene_get_instance(cube.scene, 0, &found));
+    CHECK(found.mesh == cube.mesh && found.material == -1 && found.visible == 1 && found.node == -1 && found.color[3] == 1);
+    CHECK(memcmp(found.world_from_object, matrix, sizeof matrix) == 0);
     CHECK_OK(halflit_scene_get_bounds(cube.scene, min, max));
     CHECK(min[0] == -0.5f && max[0] == 1.5f && min[1] == -1 && max[2] == 1);
 
@@ -485,6 +517,9 @@ static void test_changes(void) {
     light.color[0] = 4;
     CHECK_OK(halflit_scene_add_light(cube.scene, &light, NULL));
     CHECK_OK(halflit_scene_add_light(fresh.scene, &light, NULL));
+    halflit_lighting_destroy(cube.lighting);
+    halflit_lighting_destroy(fresh.lighting);
+    cube.lighting = fresh.lighting = NULL;  // from now on by the scene's own light
     before = after;
     after = draw_cube(renderer, &cube);
     CHECK(after != before && after == draw_cube(NULL, &fresh));
@@ -522,11 +557,11 @@ static void test_changes(void) {
     CHECK(after != before && after == draw_cube(NULL, &fresh));
 
     // Nothing changed: nothing is prepared, which takes far less than a millisecond.
-    CHECK_OK(halflit_render(renderer, cube.scene, &cube.camera, &cube.settings, &target, &report));
+    CHECK_OK(halflit_render(renderer, cube.scene, cube.lighting, &cube.camera, &cube.settings, &target, &report));
     CHECK(report.prepare_ms < 1000 && report.threads >= 1 && halflit_pixel_hash(pixels, sizeof pixels) == after);
     halflit_renderer_destroy(renderer);
-    halflit_scene_destroy(fresh.scene);
-    halflit_scene_destroy(cube.scene);
+    free_cube(&fresh);
+    free_cube(&cube);
 }
 
 static const float kSquare[4 * 3] = {-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0};
@@ -567,13 +602,13 @@ static void test_tangents_and_normals_follow_the_material(void) {
         material.unlit = late;
         material.normal_texture.texture = late ? -1 : 0;
         scene = make_square(&material);
-        init_setup(scene, &camera, &settings);
-        CHECK(draw(NULL, scene, &camera, &settings) != 0);
+        halflit_lighting_destroy(init_setup(scene, &camera, &settings));
+        CHECK(draw_chosen(scene, &camera, &settings) != 0);
         material.unlit = 0;
         material.normal_texture.texture = 0;
         CHECK_OK(halflit_scene_set_material(scene, 0, &material));
         CHECK_OK(halflit_scene_set_vertices(scene, 0, kSquare, NULL, 4));
-        hashes[late] = draw(NULL, scene, &camera, &settings);
+        hashes[late] = draw_chosen(scene, &camera, &settings);
         halflit_scene_destroy(scene);
     }
     CHECK(hashes[0] != 0 && hashes[0] == hashes[1]);
@@ -594,8 +629,8 @@ static void test_coats_have_normals_of_their_own(void) {
         material.clearcoat_roughness = 0.3f;
         material.clearcoat_normal_texture.texture = with - 1;
         scene = make_square(&material);
-        init_setup(scene, &camera, &settings);
-        hashes[with] = draw(NULL, scene, &camera, &settings);
+        halflit_lighting_destroy(init_setup(scene, &camera, &settings));
+        hashes[with] = draw_chosen(scene, &camera, &settings);
         halflit_scene_destroy(scene);
     }
     CHECK(hashes[0] != 0 && hashes[0] != hashes[1]);
@@ -629,7 +664,7 @@ static void test_environments(void) {
     CHECK_FAILS(halflit_scene_load_environment(cube.scene, "no/such.hdr", NULL), HAS_FILES ? HALFLIT_ERROR_IO : HALFLIT_ERROR_USAGE,
                 "no/such.hdr");
     CHECK(draw_cube(NULL, &cube) == by_grey);
-    halflit_scene_destroy(cube.scene);
+    free_cube(&cube);
 }
 
 static void test_points_and_lines(void) {
@@ -661,7 +696,7 @@ static void test_points_and_lines(void) {
     cube.settings.point_size = 0;
     CHECK(draw_cube(NULL, &cube) == 0);
     CHECK(strstr(halflit_last_error(), "point size") != NULL);
-    halflit_scene_destroy(cube.scene);
+    free_cube(&cube);
 }
 
 static void test_scenes_and_variants(void) {
@@ -687,7 +722,7 @@ static void test_animations(void) {
     halflit_animation animation;
     halflit_camera camera, unused;
     halflit_settings settings, also_unused;
-    float placed[16];
+    halflit_instance placed;
     uint64_t before, after;
     CHECK_OK(halflit_load_options_init(&options, sizeof options));
     CHECK(options.animation == NULL && options.time_s == 0.0 && options.keep_animations == 0);
@@ -700,26 +735,26 @@ static void test_animations(void) {
     CHECK_OK(halflit_scene_get_animation(loaded, 0, &animation));
     CHECK(strcmp(animation.name, "slide") == 0 && animation.end_s == 1.0 && animation.channels == 1);
     CHECK_FAILS(halflit_scene_get_animation(loaded, 1, &animation), HALFLIT_ERROR_USAGE, "animation 1, but the scene has 1");
-    init_setup(loaded, &camera, &settings);
-    before = draw(NULL, loaded, &camera, &settings);
+    halflit_lighting_destroy(init_setup(loaded, &camera, &settings));
+    before = draw_chosen(loaded, &camera, &settings);
     halflit_scene_destroy(loaded);
 
     options.keep_animations = 1;
     CHECK_OK(halflit_scene_load_memory(animated_model, sizeof animated_model - 1, "slide", NULL, &options, &posed));
-    init_setup(posed, &unused, &also_unused);  // adds lights
-    CHECK(before == draw(NULL, posed, &camera, &settings));
+    CHECK(before == draw_chosen(posed, &camera, &settings));
     CHECK_OK(halflit_scene_pose(posed, "slide", 0.25));
-    CHECK_OK(halflit_scene_get_instance(posed, 0, NULL, placed));
-    CHECK(placed[12] == 0.5f);
-    after = draw(NULL, posed, &camera, &settings);
+    placed.size = sizeof placed;
+    CHECK_OK(halflit_scene_get_instance(posed, 0, &placed));
+    CHECK(placed.world_from_object[12] == 0.5f && placed.node == 0);
+    after = draw_chosen(posed, &camera, &settings);
     CHECK(after != before);
     options.animation = "0";
     options.time_s = 0.25;
     CHECK_OK(halflit_scene_load_memory(animated_model, sizeof animated_model - 1, "slide", NULL, &options, &loaded));
-    init_setup(loaded, &unused, &also_unused);
-    CHECK(after == draw(NULL, loaded, &camera, &settings));
+    halflit_lighting_destroy(init_setup(loaded, &unused, &also_unused));
+    CHECK(after == draw_chosen(loaded, &camera, &settings));
     CHECK_OK(halflit_scene_pose(posed, "none", 0));
-    CHECK(before == draw(NULL, posed, &camera, &settings));
+    CHECK(before == draw_chosen(posed, &camera, &settings));
     CHECK_FAILS(halflit_scene_pose(posed, "walk", 0), HALFLIT_ERROR_USAGE, "walk");
     CHECK_FAILS(halflit_scene_pose(NULL, NULL, 0), HALFLIT_ERROR_USAGE, "scene is null");
     halflit_scene_destroy(loaded);
@@ -744,17 +779,17 @@ static void test_loading(void) {
     fclose(file);
     CHECK_OK(halflit_scene_load(path, NULL, &from_file));
     CHECK_OK(halflit_load_options_init(&options, sizeof options));
-    CHECK(options.threads == 0 && options.turn_upright == 1 && options.crease_deg == 30);
+    CHECK(options.threads == 0 && options.up == HALFLIT_UP_BY_FORMAT && options.recentre == 1 && options.crease_deg == 30);
     options.threads = -1;
     CHECK_FAILS(halflit_scene_load_memory(model, sizeof model - 1, "model", NULL, &options, &from_memory), HALFLIT_ERROR_USAGE,
                 "model: threads is -1, expected at least 0");
     options.threads = 1;
     CHECK_OK(halflit_scene_load_memory(model, sizeof model - 1, "model", NULL, &options, &from_memory));
-    init_setup(from_file, &camera, &settings);
-    hash = draw(NULL, from_file, &camera, &settings);
+    halflit_lighting_destroy(init_setup(from_file, &camera, &settings));
+    hash = draw_chosen(from_file, &camera, &settings);
     CHECK(hash != 0 && hash == scene_by_cpp(path, WIDTH, HEIGHT));
-    init_setup(from_memory, &camera, &settings);
-    CHECK(hash == draw(NULL, from_memory, &camera, &settings));
+    halflit_lighting_destroy(init_setup(from_memory, &camera, &settings));
+    CHECK(hash == draw_chosen(from_memory, &camera, &settings));
     counts.size = sizeof counts;
     CHECK_OK(halflit_scene_get_counts(from_file, &counts));
     CHECK(counts.triangles == 1 && counts.meshes == 2 && counts.instances == 2 && counts.materials == 2 && counts.cameras == 0);
@@ -770,7 +805,7 @@ static void test_loading(void) {
     CHECK_OK(halflit_scene_set_material(from_file, 0, &material));
     CHECK_OK(halflit_scene_get_material(from_file, 0, &material));
     CHECK(strcmp(material.name, "paint") == 0 && material.base_color[0] == 0.1f);
-    CHECK(hash != draw(NULL, from_file, &camera, &settings));
+    CHECK(hash != draw_chosen(from_file, &camera, &settings));
 
     // A buffer in another file is read from base_dir alone.
     {
@@ -784,8 +819,8 @@ static void test_loading(void) {
         fclose(file);
         CHECK(halflit_scene_load_memory(outside, (size_t)length, "model", NULL, NULL, &scene) != HALFLIT_OK && scene == NULL);
         CHECK_OK(halflit_scene_load_memory(outside, (size_t)length, "model", ".", NULL, &scene));
-        init_setup(scene, &camera, &settings);
-        CHECK(hash == draw(NULL, scene, &camera, &settings));
+        halflit_lighting_destroy(init_setup(scene, &camera, &settings));
+        CHECK(hash == draw_chosen(scene, &camera, &settings));
         halflit_scene_destroy(scene);
     }
     options.max_file_bytes = 10;
@@ -803,15 +838,15 @@ static void test_cameras(void) {
     camera.fov_y_rad = 0.5f;
     CHECK_OK(halflit_camera_look_at(eye, origin, NULL, &camera));
     CHECK(camera.world_from_camera[14] == 5 && camera.world_from_camera[0] == 1 && camera.fov_y_rad == 0.5f);
-    CHECK(draw(NULL, cube.scene, &camera, NULL) != 0);
+    CHECK(draw(NULL, cube.scene, NULL, &camera, NULL) != 0);
     CHECK_OK(halflit_camera_frame(cube.scene, 4.0f / 3.0f, 35, 20, 1, &camera));
     CHECK(memcmp(camera.world_from_camera, cube.camera.world_from_camera, sizeof camera.world_from_camera) == 0);
     CHECK_FAILS(halflit_camera_frame(cube.scene, 0, 35, 20, 1, &camera), HALFLIT_ERROR_USAGE, "aspect");
     CHECK_OK(halflit_scene_create_demo(&demo));
     CHECK_OK(halflit_scene_get_camera(demo, 0, &camera));
-    CHECK(camera.name != NULL && draw(NULL, demo, &camera, NULL) != 0);
+    CHECK(camera.name != NULL && draw(NULL, demo, NULL, &camera, NULL) != 0);
     halflit_scene_destroy(demo);
-    halflit_scene_destroy(cube.scene);
+    free_cube(&cube);
 }
 
 // ---- execution ---------------------------------------------------------------------------------------------------------
@@ -832,7 +867,7 @@ static void watch_tile(void* user, int32_t x, int32_t y, int32_t width, int32_t 
     watch->pixels += (long)width * height;
     place(matrix, 9);
     // Neither the scene nor the renderer of a frame can be changed from within it.
-    watch->refused += halflit_scene_set_instance(watch->cube->scene, 0, matrix) == HALFLIT_ERROR_USAGE;
+    watch->refused += halflit_scene_place_instance(watch->cube->scene, 0, matrix) == HALFLIT_ERROR_USAGE;
     watch->refused += halflit_renderer_set_execution(watch->renderer, NULL) == HALFLIT_ERROR_USAGE;
 }
 static void watch_progress(void* user, double share) { ((Watch*)user)->share = share; }
@@ -868,8 +903,8 @@ static void test_execution(void) {
     {
         static uint8_t pixels[PIXELS * 4];
         const halflit_target target = make_target(pixels);
-        CHECK_FAILS(halflit_render(watch.renderer, cube.scene, &cube.camera, &cube.settings, &target, NULL), HALFLIT_ERROR_CANCELLED,
-                    "stopped");
+        CHECK_FAILS(halflit_render(watch.renderer, cube.scene, cube.lighting, &cube.camera, &cube.settings, &target, NULL),
+                    HALFLIT_ERROR_CANCELLED, "stopped");
     }
     watch.stop = 0;
     CHECK(draw_cube(watch.renderer, &cube) == expected);
@@ -883,8 +918,8 @@ static void test_execution(void) {
     // Two renderers draw one scene, which the first of them prepares.
     {
         Cube other = make_cube();
-        CHECK(draw_by_two_threads(other.scene, &other.camera, &other.settings, WIDTH, HEIGHT, 10, expected) == 20);
-        halflit_scene_destroy(other.scene);
+        CHECK(draw_by_two_threads(other.scene, other.lighting, &other.camera, &other.settings, WIDTH, HEIGHT, 10, expected) == 20);
+        free_cube(&other);
     }
     // An error budget: the report has its bound.
     {
@@ -896,37 +931,46 @@ static void test_execution(void) {
         cube.settings.max_error_codes = 0.5;
         cube.settings.tone_curve = HALFLIT_TONE_NONE;  // a curve's slope multiplies errors
         CHECK_OK(halflit_renderer_create(NULL, &renderer));
-        CHECK_OK(halflit_render(renderer, cube.scene, &cube.camera, &cube.settings, &target, &report));
+        CHECK_OK(halflit_render(renderer, cube.scene, cube.lighting, &cube.camera, &cube.settings, &target, &report));
         CHECK(report.error_budget == 0.5 && report.error_within == 1 && report.error_codes > 0 && report.error_codes <= 0.5);
         halflit_renderer_destroy(renderer);
     }
-    halflit_scene_destroy(cube.scene);
+    free_cube(&cube);
 }
 
-/// Hash of what halflit_setup() chooses for the scene.
-static uint64_t draw_setup(halflit_scene* scene, const halflit_setup_options* options) {
+/// Hash of what halflit_choose_picture() chooses for the scene.
+static uint64_t draw_setup(halflit_scene* scene, const halflit_picture_request* options) {
+    halflit_picture_request request;
     halflit_camera camera;
     halflit_settings settings;
+    halflit_lighting* lighting = NULL;
+    uint64_t hash;
     CHECK_OK(halflit_camera_init(&camera, sizeof camera));
     CHECK_OK(halflit_settings_init(&settings, sizeof settings));
-    CHECK_OK(halflit_setup(scene, WIDTH, HEIGHT, options, &camera, &settings));
-    return draw(NULL, scene, &camera, &settings);
+    CHECK_OK(halflit_picture_request_init(&request, sizeof request));
+    if (options != NULL) request = *options;
+    request.width = WIDTH, request.height = HEIGHT;
+    CHECK_OK(halflit_choose_picture(scene, &request, NULL, &camera, &settings, &lighting));
+    hash = draw(NULL, scene, lighting, &camera, &settings);
+    halflit_lighting_destroy(lighting);
+    return hash;
 }
 
 static void test_setup(void) {
-    // The same light, view and settings as halflit_auto_setup chooses, however often, and whatever was chosen in between.
+    // The same light, view and settings, however often they are chosen, and whatever was chosen in between.
     Cube cube = make_cube();
-    halflit_setup_options options;
+    halflit_picture_request options;
     halflit_light lamp;
     halflit_counts counts;
     const float sky[3] = {0.5f, 0.5f, 0.5f};
+    int32_t size[2] = {0, 0};
     uint64_t first, other, lit;
     memset(&counts, 0, sizeof counts);
     counts.size = sizeof counts;
     CHECK_OK(halflit_scene_clear_lights(cube.scene));
     first = draw_setup(cube.scene, NULL);
     CHECK(first == draw_cube(NULL, &cube));
-    CHECK_OK(halflit_setup_options_init(&options, sizeof options));
+    CHECK_OK(halflit_picture_request_init(&options, sizeof options));
     CHECK(draw_setup(cube.scene, &options) == first);
     options.azimuth_deg = 80;
     other = draw_setup(cube.scene, &options);
@@ -969,18 +1013,27 @@ static void test_setup(void) {
     CHECK(draw_setup(cube.scene, NULL) == first);
 
     options.studio = 4;
-    CHECK_FAILS(halflit_setup(cube.scene, 8, 8, &options, &cube.camera, &cube.settings), HALFLIT_ERROR_USAGE, "studio is 4");
+    CHECK_FAILS(halflit_choose_picture(cube.scene, &options, NULL, &cube.camera, &cube.settings, NULL), HALFLIT_ERROR_USAGE, "studio is 4");
     options.studio = 0;
     options.exposure = -1;
-    CHECK_FAILS(halflit_setup(cube.scene, 8, 8, &options, &cube.camera, &cube.settings), HALFLIT_ERROR_USAGE, "exposure");
-    CHECK_FAILS(halflit_setup(cube.scene, 0, 8, NULL, &cube.camera, &cube.settings), HALFLIT_ERROR_USAGE, "no pixels");
-    CHECK_FAILS(halflit_setup(cube.scene, 8, 8, NULL, NULL, &cube.settings), HALFLIT_ERROR_USAGE, "camera is null");
-    CHECK_FAILS(halflit_setup_options_init(NULL, 8), HALFLIT_ERROR_USAGE, "options is null");
-    halflit_scene_destroy(cube.scene);
+    CHECK_FAILS(halflit_choose_picture(cube.scene, &options, NULL, &cube.camera, &cube.settings, NULL), HALFLIT_ERROR_USAGE, "exposure");
+    options.exposure = 0;
+    options.width = 8;
+    CHECK_FAILS(halflit_choose_picture(cube.scene, &options, NULL, &cube.camera, &cube.settings, NULL), HALFLIT_ERROR_USAGE, "no pixels");
+    options.width = 0;
+    options.camera = NULL;
+    options.scene_camera = "3";
+    CHECK_FAILS(halflit_choose_picture(cube.scene, &options, NULL, &cube.camera, &cube.settings, NULL), HALFLIT_ERROR_USAGE,
+                "camera: found no camera in the scene, expected '3'");
+    options.scene_camera = NULL;
+    CHECK_OK(halflit_choose_picture(cube.scene, &options, size, &cube.camera, &cube.settings, NULL));
+    CHECK(size[0] == 1280 && size[1] == 720);
+    CHECK_FAILS(halflit_picture_request_init(NULL, 8), HALFLIT_ERROR_USAGE, "request is null");
+    free_cube(&cube);
 }
 
 static void test_lights_of_the_caller(void) {
-    // What halflit_setup() adds is not seen, and a call that fails leaves it in the scene.
+    // What halflit_choose_picture() adds is not in the scene.
     Cube cube = make_cube();
     halflit_light lamp;
     halflit_counts counts;
@@ -1002,12 +1055,12 @@ static void test_lights_of_the_caller(void) {
     CHECK(lamp.color[1] == 0.25f);
     CHECK_OK(halflit_scene_set_light(cube.scene, 0, &lamp));
     CHECK(draw_setup(cube.scene, NULL) == lit);
-    halflit_scene_destroy(cube.scene);
+    free_cube(&cube);
 }
 
 static void test_numbers_that_are_none(void) {
     Cube cube = make_cube();
-    halflit_setup_options options;
+    halflit_picture_request options;
     halflit_light lamp;
     halflit_material clay;
     const float bad[3] = {0, NAN, 0}, black[3] = {0, 0, 0};
@@ -1018,20 +1071,191 @@ static void test_numbers_that_are_none(void) {
     CHECK_OK(halflit_material_init(&clay, sizeof clay));
     clay.roughness = NAN;
     CHECK_FAILS(halflit_scene_set_material(cube.scene, 0, &clay), HALFLIT_ERROR_USAGE, "roughness");
-    CHECK_OK(halflit_setup_options_init(&options, sizeof options));
+    CHECK_OK(halflit_picture_request_init(&options, sizeof options));
     options.fov_y_deg = 500;
-    CHECK_FAILS(halflit_setup(cube.scene, 8, 8, &options, &cube.camera, &cube.settings), HALFLIT_ERROR_USAGE,
+    CHECK_FAILS(halflit_choose_picture(cube.scene, &options, NULL, &cube.camera, &cube.settings, NULL), HALFLIT_ERROR_USAGE,
                 "fov_y_deg is not above 0 and below 180");
     options.fov_y_deg = 35;
     options.zoom = NAN;
-    CHECK_FAILS(halflit_setup(cube.scene, 8, 8, &options, &cube.camera, &cube.settings), HALFLIT_ERROR_USAGE, "zoom");
+    CHECK_FAILS(halflit_choose_picture(cube.scene, &options, NULL, &cube.camera, &cube.settings, NULL), HALFLIT_ERROR_USAGE, "zoom");
     CHECK_FAILS(halflit_camera_frame(cube.scene, 1, NAN, 20, 1, &cube.camera), HALFLIT_ERROR_USAGE, "azimuth_deg");
     CHECK_FAILS(halflit_camera_frame(cube.scene, 1, 35, 91, 1, &cube.camera), HALFLIT_ERROR_USAGE, "elevation_deg is not from -90 to 90");
     CHECK_FAILS(halflit_camera_frame(cube.scene, 1, 35, NAN, 1, &cube.camera), HALFLIT_ERROR_USAGE, "elevation_deg");
     cube.settings.background[0] = NAN;
     CHECK(draw_cube(NULL, &cube) == 0);
     CHECK(strstr(halflit_last_error(), "background is not finite") != NULL);
-    halflit_scene_destroy(cube.scene);
+    free_cube(&cube);
+}
+
+static void test_parts_of_a_file(void) {
+    // Nodes, their instances and names.
+    halflit_scene* scene;
+    halflit_counts counts;
+    halflit_node node;
+    halflit_instance instance;
+    const char* name;
+    CHECK_OK(halflit_scene_load_memory(model, sizeof model - 1, "model", NULL, NULL, &scene));
+    counts.size = sizeof counts, node.size = sizeof node, instance.size = sizeof instance;
+    CHECK_OK(halflit_scene_get_counts(scene, &counts));
+    CHECK_OK(halflit_scene_get_node(scene, 0, &node));
+    CHECK(counts.nodes >= 1 && node.parent == -1 && node.instance_count == 2 && node.camera == -1 && node.light == -1);
+    CHECK_OK(halflit_scene_get_instance(scene, node.instances[1], &instance));
+    CHECK(instance.node == 0 && instance.visible == 1);
+    CHECK_OK(halflit_scene_get_name(scene, HALFLIT_PART_INSTANCE, 1, &name));
+    CHECK(strcmp(name, node.name) == 0);
+    CHECK_OK(halflit_scene_set_name(scene, HALFLIT_PART_INSTANCE, 1, "left wheel"));
+    CHECK_OK(halflit_scene_get_name(scene, HALFLIT_PART_INSTANCE, 1, &name));
+    CHECK(strcmp(name, "left wheel") == 0);
+    CHECK_OK(halflit_scene_get_name(scene, HALFLIT_PART_MATERIAL, 0, &name));
+    CHECK(strcmp(name, "paint") == 0);
+    CHECK_FAILS(halflit_scene_get_name(scene, HALFLIT_PART_MESH, 7, &name), HALFLIT_ERROR_USAGE, "mesh 7, but the scene has 2");
+    CHECK_FAILS(halflit_scene_set_name(scene, HALFLIT_PART_NODE, 0, "x"), HALFLIT_ERROR_USAGE,
+                "expected an instance, a mesh or a material");
+    CHECK_FAILS(halflit_scene_get_name(scene, 9, 0, &name), HALFLIT_ERROR_USAGE, "part: 9");
+    CHECK_FAILS(halflit_scene_get_node(scene, 5, &node), HALFLIT_ERROR_USAGE, "node 5, but the scene has 1");
+    halflit_scene_destroy(scene);
+}
+
+static void test_looks_of_instances(void) {
+    // A colour is that of a material with the colour; what is hidden is not there.
+    Cube cube = make_cube(), other = make_cube();
+    halflit_instance instance;
+    halflit_material material;
+    const uint64_t before = draw_cube(NULL, &cube);
+    instance.size = sizeof instance;
+    CHECK_OK(halflit_scene_get_instance(cube.scene, 0, &instance));
+    instance.color[0] = 0.5f, instance.color[2] = 0.25f;
+    CHECK_OK(halflit_scene_set_instance(cube.scene, 0, &instance));
+    material.size = sizeof material;
+    CHECK_OK(halflit_scene_get_material(other.scene, 0, &material));
+    material.base_color[0] *= 0.5f, material.base_color[2] *= 0.25f;
+    CHECK_OK(halflit_scene_set_material(other.scene, 0, &material));
+    CHECK(draw_cube(NULL, &cube) == draw_cube(NULL, &other) && draw_cube(NULL, &cube) != before);
+    instance.visible = 0;
+    CHECK_OK(halflit_scene_set_instance(cube.scene, 0, &instance));
+    CHECK_OK(halflit_scene_remove_instance(other.scene, 0));
+    CHECK(draw_cube(NULL, &cube) == draw_cube(NULL, &other));
+    instance.visible = 1, instance.color[0] = instance.color[2] = 1;
+    CHECK_OK(halflit_scene_set_instance(cube.scene, 0, &instance));
+    CHECK(draw_cube(NULL, &cube) == before);
+    instance.material = 4;
+    CHECK_FAILS(halflit_scene_set_instance(cube.scene, 0, &instance), HALFLIT_ERROR_USAGE, "material 4, but the scene has 1");
+    instance.material = 0, instance.color[1] = NAN;
+    CHECK_FAILS(halflit_scene_set_instance(cube.scene, 0, &instance), HALFLIT_ERROR_USAGE, "color is not finite");
+    free_cube(&cube);
+    free_cube(&other);
+}
+
+static void test_removal(void) {
+    Cube cube = make_cube();
+    const uint8_t white[4] = {255, 255, 255, 255};
+    const uint64_t before = draw_cube(NULL, &cube);
+    halflit_renderer* renderer;
+    halflit_instance instance;
+    halflit_light lamp;
+    halflit_mesh mesh;
+    int32_t index;
+    instance.size = sizeof instance;
+    CHECK_OK(halflit_renderer_create(NULL, &renderer));
+    CHECK(draw_cube(renderer, &cube) == before);
+    CHECK_FAILS(halflit_scene_remove_mesh(cube.scene, cube.mesh), HALFLIT_ERROR_USAGE, "mesh 0: instance 0 places it");
+    CHECK_OK(halflit_scene_remove_instance(cube.scene, cube.instance));
+    CHECK(draw_cube(renderer, &cube) != before);
+    CHECK_FAILS(halflit_scene_remove_instance(cube.scene, cube.instance), HALFLIT_ERROR_USAGE, "instance 0 was removed");
+    CHECK_FAILS(halflit_scene_get_instance(cube.scene, cube.instance, &instance), HALFLIT_ERROR_USAGE, "instance 0 was removed");
+    CHECK_OK(halflit_scene_remove_mesh(cube.scene, cube.mesh));
+    CHECK_FAILS(halflit_scene_add_instance(cube.scene, cube.mesh, NULL, NULL), HALFLIT_ERROR_USAGE, "mesh 0 was removed");
+    (void)draw_cube(renderer, &cube);
+    init_cube_mesh(&mesh, cube.material);
+    CHECK_OK(halflit_scene_add_mesh(cube.scene, &mesh, &index));
+    CHECK(index == cube.mesh);
+    CHECK_OK(halflit_scene_add_instance(cube.scene, cube.mesh, NULL, &index));
+    CHECK(index == cube.instance && draw_cube(renderer, &cube) == before);
+
+    CHECK_OK(halflit_scene_add_texture(cube.scene, white, 1, 1, 0, HALFLIT_COLOR_SRGB, &index));
+    CHECK_OK(halflit_scene_remove_texture(cube.scene, index));
+    CHECK_FAILS(halflit_scene_set_texture(cube.scene, index, white, 1, 1, 0, HALFLIT_COLOR_SRGB), HALFLIT_ERROR_USAGE, "was removed");
+    CHECK(draw_cube(renderer, &cube) == before);
+    CHECK_OK(halflit_light_init(&lamp, sizeof lamp));
+    CHECK_OK(halflit_scene_add_light(cube.scene, &lamp, &index));
+    CHECK_OK(halflit_scene_remove_light(cube.scene, index));
+    CHECK_FAILS(halflit_scene_get_light(cube.scene, index, &lamp), HALFLIT_ERROR_USAGE, "light 0 was removed");
+    CHECK(draw_setup(cube.scene, NULL) == before);
+    CHECK_OK(halflit_scene_add_light(cube.scene, &lamp, &index));
+    CHECK(index == 0);
+    halflit_renderer_destroy(renderer);
+    free_cube(&cube);
+}
+
+static void test_many_instances(void) {
+    Cube cube = make_cube(), other = make_cube();
+    float places[3 * 16];
+    const int32_t indices_of[2] = {2, 1};
+    int32_t first, i;
+    for (i = 0; i < 3; ++i) place(places + 16 * i, 0.25f * (float)i);
+    CHECK_OK(halflit_scene_add_instances(cube.scene, cube.mesh, 3, places, &first));
+    CHECK(first == 1);
+    for (i = 0; i < 3; ++i) CHECK_OK(halflit_scene_add_instance(other.scene, other.mesh, places + 16 * i, NULL));
+    CHECK(draw_cube(NULL, &cube) == draw_cube(NULL, &other));
+    CHECK_OK(halflit_scene_place_instances(cube.scene, indices_of, 2, places));
+    for (i = 0; i < 2; ++i) CHECK_OK(halflit_scene_place_instance(other.scene, indices_of[i], places + 16 * i));
+    CHECK(draw_cube(NULL, &cube) == draw_cube(NULL, &other));
+    CHECK_FAILS(halflit_scene_place_instances(cube.scene, NULL, 5, places), HALFLIT_ERROR_USAGE, "instance 4, but the scene has 4");
+    CHECK_FAILS(halflit_scene_add_instances(cube.scene, cube.mesh, -1, places, NULL), HALFLIT_ERROR_USAGE, "count: -1");
+    free_cube(&cube);
+    free_cube(&other);
+}
+
+typedef struct {
+    char first[8];
+    size_t count;
+    int calls;
+} Written;
+
+static void take_bytes(void* user, const void* bytes, size_t count) {
+    Written* const written = user;
+    memcpy(written->first, bytes, sizeof written->first);
+    written->count = count;
+    ++written->calls;
+}
+
+static void test_encoding(void) {
+    static uint8_t pixels[PIXELS * 4];
+    halflit_target target = make_target(pixels);
+    Written written = {{0}, 0, 0};
+    if (!HAS_FILES) return;
+    CHECK_OK(halflit_encode_image("png", &target, take_bytes, &written));
+    CHECK(written.calls == 1 && written.count > 50 && memcmp(written.first, "\x89PNG", 4) == 0);
+    CHECK_OK(halflit_encode_image("jpg", &target, take_bytes, &written));
+    CHECK(written.calls == 2 && memcmp(written.first, "\xff\xd8", 2) == 0);
+    CHECK_FAILS(halflit_encode_image("exr", &target, take_bytes, &written), HALFLIT_ERROR_USAGE, "exr");
+    CHECK_FAILS(halflit_encode_image("gif", &target, take_bytes, &written), HALFLIT_ERROR_USAGE, "unknown file extension");
+    CHECK_FAILS(halflit_encode_image("png", &target, NULL, NULL), HALFLIT_ERROR_USAGE, "write is null");
+}
+
+static void test_smooth_normals(void) {
+    // A smooth cube is lit as one whose normals point out of its corners, also after it was deformed.
+    Cube cube = make_cube(), given = make_cube();
+    float normals[8 * 3], moved[8 * 3];
+    halflit_mesh mesh;
+    int i;
+    uint64_t flat = draw_cube(NULL, &cube), smooth;
+    init_cube_mesh(&mesh, cube.material);
+    mesh.smooth = 1;
+    CHECK_OK(halflit_scene_set_mesh(cube.scene, cube.mesh, &mesh));
+    smooth = draw_cube(NULL, &cube);
+    CHECK(smooth != flat);
+    for (i = 0; i < 24; ++i) moved[i] = 2 * corners[i];
+    CHECK_OK(halflit_scene_set_vertices(cube.scene, cube.mesh, moved, NULL, 8));
+    CHECK(draw_cube(NULL, &cube) != smooth);
+    CHECK_OK(halflit_scene_set_vertices(cube.scene, cube.mesh, corners, NULL, 8));
+    CHECK(draw_cube(NULL, &cube) == smooth);
+    for (i = 0; i < 24; ++i) normals[i] = corners[i];
+    mesh.normals = normals, mesh.smooth = 0;
+    CHECK_OK(halflit_scene_set_mesh(given.scene, given.mesh, &mesh));
+    CHECK(draw_cube(NULL, &given) != flat);
+    free_cube(&cube);
+    free_cube(&given);
 }
 
 static void test_recentre(void) {
@@ -1041,21 +1265,24 @@ static void test_recentre(void) {
     halflit_load_options options;
     halflit_scene* scene;
     double origin[3], scale;
+    int32_t up;
     float min[3], max[3];
     sprintf(far_model, "%.*s{\"mesh\":0,\"translation\":[1048576,0,0]}%s", (int)(node - model), model, node + strlen("{\"mesh\":0}"));
     CHECK_OK(halflit_load_options_init(&options, sizeof options));
+    options.recentre = 0;
     CHECK_OK(halflit_scene_load_memory(far_model, strlen(far_model), "far", NULL, &options, &scene));
-    CHECK_OK(halflit_scene_get_placement(scene, origin, &scale));
+    CHECK_OK(halflit_scene_get_placement(scene, origin, &scale, NULL));
     CHECK_OK(halflit_scene_get_bounds(scene, min, max));
     CHECK(origin[0] == 0 && scale == 1 && min[0] == 1048576);
     halflit_scene_destroy(scene);
     options.recentre = 1;
     CHECK_OK(halflit_scene_load_memory(far_model, strlen(far_model), "far", NULL, &options, &scene));
-    CHECK_OK(halflit_scene_get_placement(scene, origin, &scale));
-    CHECK_OK(halflit_scene_get_placement(scene, NULL, NULL));
+    CHECK_OK(halflit_scene_get_placement(scene, origin, &scale, &up));
+    CHECK_OK(halflit_scene_get_placement(scene, NULL, NULL, NULL));
+    CHECK(up == HALFLIT_UP_Y);
     CHECK_OK(halflit_scene_get_bounds(scene, min, max));
     CHECK(origin[0] > 1048575 && origin[0] < 1048578 && scale == 1 && fabs((double)min[0] + origin[0] - 1048576) < 1e-3);
-    CHECK_FAILS(halflit_scene_get_placement(NULL, origin, &scale), HALFLIT_ERROR_USAGE, "scene is null");
+    CHECK_FAILS(halflit_scene_get_placement(NULL, origin, &scale, &up), HALFLIT_ERROR_USAGE, "scene is null");
     halflit_scene_destroy(scene);
 }
 
@@ -1077,8 +1304,14 @@ int main(void) {
         test_scenes_and_variants();
         test_animations();
         test_recentre();
+        test_parts_of_a_file();
     }
     test_cameras();
+    test_looks_of_instances();
+    test_removal();
+    test_many_instances();
+    test_encoding();
+    test_smooth_normals();
     test_setup();
     test_lights_of_the_caller();
     test_numbers_that_are_none();

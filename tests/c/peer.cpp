@@ -50,8 +50,8 @@ uint64_t scene_by_cpp(const char* path, int32_t width, int32_t height) {
     return loaded ? draw(loaded->scene, width, height, 0) : 0;
 }
 
-int32_t draw_by_two_threads(const halflit_scene* scene, const halflit_camera* camera, const halflit_settings* settings, int32_t width,
-                            int32_t height, int32_t frames, uint64_t expected) {
+int32_t draw_by_two_threads(const halflit_scene* scene, const halflit_lighting* lighting, const halflit_camera* camera,
+                            const halflit_settings* settings, int32_t width, int32_t height, int32_t frames, uint64_t expected) {
     std::atomic<int32_t> right{0};
     const auto work = [&] {
         halflit_renderer* renderer = nullptr;
@@ -63,7 +63,8 @@ int32_t draw_by_two_threads(const halflit_scene* scene, const halflit_camera* ca
         target.height = height;
         target.pixels = pixels.data();
         for (int32_t frame = 0; frame < frames; ++frame)
-            if (halflit_render(renderer, scene, camera, settings, &target, nullptr) == HALFLIT_OK && pixel_hash(pixels) == expected)
+            if (halflit_render(renderer, scene, lighting, camera, settings, &target, nullptr) == HALFLIT_OK &&
+                pixel_hash(pixels) == expected)
                 ++right;
         halflit_renderer_destroy(renderer);
     };

@@ -14,8 +14,8 @@ uint64_t cube_by_cpp(const float* positions, size_t vertex_count, const uint32_t
 /// The same for a file, and for the demo scene if path is null.
 uint64_t scene_by_cpp(const char* path, int32_t width, int32_t height);
 /// Draws `frames` frames by each of two threads with their own renderers. Returns how many succeeded and have the hash `expected`.
-int32_t draw_by_two_threads(const halflit_scene* scene, const halflit_camera* camera, const halflit_settings* settings, int32_t width,
-                            int32_t height, int32_t frames, uint64_t expected);
+int32_t draw_by_two_threads(const halflit_scene* scene, const halflit_lighting* lighting, const halflit_camera* camera,
+                            const halflit_settings* settings, int32_t width, int32_t height, int32_t frames, uint64_t expected);
 
 #ifdef __cplusplus
 }

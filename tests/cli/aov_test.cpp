@@ -1,8 +1,8 @@
 // --aov: the files beside a picture.
 #include "tests/cli/program.hpp"
 
-#include "apps/io/float_image.hpp"
-#include "apps/io/image_reader.hpp"
+#include "apps/io/pictures/float_image.hpp"
+#include "apps/io/pictures/image_reader.hpp"
 #include "halflit/image.hpp"
 #include "tests/support/catch.hpp"
 

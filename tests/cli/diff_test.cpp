@@ -1,4 +1,4 @@
-#include "apps/halflit/picture_diff.hpp"
+#include "apps/halflit/report/picture_diff.hpp"
 #include "tests/cli/program.hpp"
 
 #include <nlohmann/json.hpp>

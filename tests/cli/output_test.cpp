@@ -1,6 +1,6 @@
 #include "tests/cli/program.hpp"
 
-#include "apps/io/float_image.hpp"
+#include "apps/io/pictures/float_image.hpp"
 #include "halflit/image.hpp"
 #include "tests/support/catch.hpp"
 

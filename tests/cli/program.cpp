@@ -1,6 +1,6 @@
 #include "tests/cli/program.hpp"
 
-#include "apps/io/image_reader.hpp"
+#include "apps/io/pictures/image_reader.hpp"
 #include "halflit/image.hpp"
 
 #include "tests/support/catch.hpp"

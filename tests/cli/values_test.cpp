@@ -1,6 +1,6 @@
-#include "apps/halflit/values.hpp"
+#include "apps/halflit/flags/values.hpp"
 
-#include "apps/halflit/messages.hpp"
+#include "apps/halflit/program/messages.hpp"
 
 #include "tests/support/catch.hpp"
 

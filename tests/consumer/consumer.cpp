@@ -29,7 +29,7 @@ int main() {
     Renderer renderer;
     if (!prepared || !renderer.render(*prepared, camera, {.samples = 4}, target)) return 1;
     scene.instances[0].world_from_object = rotation(Vec3f{0, 0, 1}, 1.0f);
-    if (!prepared->update({.moved_instances = {0}})) return 2;
+    if (!prepared->update({.changed_instances = {0}})) return 2;
     target.pixels = second.data();
     const auto report = renderer.render(*prepared, camera, {.samples = 4}, target);
     if (!report) return 3;

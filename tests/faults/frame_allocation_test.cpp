@@ -33,7 +33,7 @@ std::optional<ErrorCode> draw_twice(const Shot& shot, const SceneChanges& change
 
 TEST_CASE("faults: each failed allocation of a frame is a limit, leaks nothing and leaves the Renderer usable", "[faults]") {
     long points = 0;
-    const SceneChanges changes{.moved_instances = {0}, .deformed_meshes = {0}, .materials = true, .lights = true};
+    const SceneChanges changes{.changed_instances = {0}, .deformed_meshes = {0}, .materials = true, .lights = true};
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
         Shot shot = any_shot(seed);
         if (seed % 4 == 0) {

@@ -123,9 +123,11 @@ void Session::read_scene() {
     check(halflit_scene_get_light(scene(), index(), or_null(light.get())));
     Sized<halflit_camera> camera(in_);
     check(halflit_scene_get_camera(scene(), index(), or_null(camera.get())));
-    std::int32_t mesh = 0;
-    float matrix[16];
-    check(halflit_scene_get_instance(scene(), index(), or_null(&mesh, 3), or_null(matrix, 3)));
+    Sized<halflit_instance> instance(in_);
+    check(halflit_scene_get_instance(scene(), index(), or_null(instance.get())));
+    Sized<halflit_node> node(in_);
+    check(halflit_scene_get_node(scene(), index(), or_null(node.get())));
+    if (halflit_scene_get_name(scene(), choice(6), index(), &text) == HALFLIT_OK) HALFLIT_PROMISE(text != nullptr);
 }
 
 namespace {

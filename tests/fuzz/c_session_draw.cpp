@@ -1,6 +1,8 @@
 // Calls that light a scene by an environment, draw it and write pictures.
 #include "tests/fuzz/c_session.hpp"
 
+#include <memory>
+
 namespace halflit::fuzz {
 
 void Session::environments() {
@@ -65,15 +67,20 @@ void Session::draw() {
     Sized<halflit_report> report(in_);
     const std::size_t width = 1 + in_.below(24), height = 1 + in_.below(24), padding = in_.below(3);
     const auto w = static_cast<std::int32_t>(width), h = static_cast<std::int32_t>(height);
-    if (in_.one_in(8)) check(halflit_auto_setup(scene(), w, h, or_null(view.get()), or_null(how.get())));
-    if (in_.one_in(6)) {
-        Sized<halflit_setup_options> choice_of(in_);
-        (void)halflit_setup_options_init(choice_of.get(), choice_of.size());
-        choice_of.damage(in_, offsetof(halflit_setup_options, studio_turn_rad));
-        choice_of.set(&halflit_setup_options::camera, static_cast<const halflit_camera*>(in_.flag() ? view.get() : nullptr));
-        choice_of.set(&halflit_setup_options::studio, choice(4));
-        check(halflit_setup(scene(), w, h, or_null(choice_of.get(), 2), or_null(view.get()), or_null(how.get())));
+    halflit_lighting* chosen = nullptr;
+    if (in_.one_in(4)) {
+        Sized<halflit_picture_request> request(in_);
+        (void)halflit_picture_request_init(request.get(), request.size());
+        request.damage(in_, offsetof(halflit_picture_request, studio_turn_rad));
+        request.set(&halflit_picture_request::camera, static_cast<const halflit_camera*>(in_.flag() ? view.get() : nullptr));
+        request.set(&halflit_picture_request::studio, choice(4));
+        request.set(&halflit_picture_request::width, in_.one_in(8) ? index() : w);
+        request.set(&halflit_picture_request::height, in_.one_in(8) ? index() : h);
+        std::int32_t size[2];
+        check(halflit_choose_picture(scene(), or_null(request.get(), 2), in_.flag() ? size : nullptr, or_null(view.get()),
+                                     or_null(how.get()), in_.flag() ? &chosen : nullptr));
     }
+    const std::unique_ptr<halflit_lighting, void (*)(halflit_lighting*)> lighting(chosen, halflit_lighting_destroy);
     how.set(&halflit_settings::shadow_size, 64);
     const std::int32_t format = in_.one_in(20) ? in_.number<std::int32_t>() : static_cast<std::int32_t>(in_.below(6));
     const std::size_t pixel = format >= HALFLIT_FORMAT_RGBA_F32 ? 16 : 4, row = pixel * (width + padding);
@@ -101,8 +108,8 @@ void Session::draw() {
     target.set(&halflit_target::format, format);
     target.set(&halflit_target::region_alone, in_.one_in(6));
     halflit_renderer* const by = renderer();
-    const std::int32_t code =
-        halflit_render(by, scene(), or_null(view.get()), or_null(how.get(), 60), or_null(target.get()), or_null(report.get(), 3));
+    const std::int32_t code = halflit_render(by, scene(), lighting.get(), or_null(view.get()), or_null(how.get(), 60),
+                                             or_null(target.get()), or_null(report.get(), 3));
     check(code);
     const char* text = nullptr;
     if (by != nullptr && halflit_renderer_get_warning(by, index(), &text) == HALFLIT_OK)

@@ -75,12 +75,35 @@ void Session::meshes_and_instances() {
     const Floats positions = floats(3 * vertices), others = floats(4 * vertices);
     std::vector<std::uint32_t> indices(in_.one_in(12) ? in_.below(10) : 3 * in_.below(6));
     for (std::uint32_t& i : indices) i = in_.one_in(30) ? in_.number<std::uint32_t>() : static_cast<std::uint32_t>(in_.below(vertices + 1));
-    switch (in_.below(5)) {
+    switch (in_.below(7)) {
         case 0: {
             const auto matrix = floats<16>();
             std::int32_t at = 0;
-            if (in_.flag()) return check(halflit_scene_set_instance(scene(), index(), or_null(matrix.data(), 3)));
+            if (in_.flag()) return check(halflit_scene_place_instance(scene(), index(), or_null(matrix.data(), 3)));
+            if (in_.one_in(4)) {
+                Sized<halflit_instance> instance(in_);
+                check(halflit_instance_init(instance.get(), instance.size()));
+                instance.damage(in_, offsetof(halflit_instance, mesh));
+                instance.set(&halflit_instance::mesh, index());
+                instance.set(&halflit_instance::material, in_.flag() ? -1 : index());
+                return check(halflit_scene_set_instance(scene(), index(), or_null(instance.get())));
+            }
+            if (in_.one_in(4)) return check(halflit_scene_add_instances(scene(), index(), in_.one_in(8) ? index() : 1, matrix.data(), &at));
             return check(halflit_scene_add_instance(scene(), index(), or_null(matrix.data(), 2), or_null(&at, 3)));
+        }
+        case 2: {
+            const std::int32_t at = index();
+            if (in_.flag()) return check(halflit_scene_set_name(scene(), choice(6), at, or_null("part")));
+            switch (in_.below(4)) {
+                case 0:
+                    return check(halflit_scene_remove_mesh(scene(), at));
+                case 1:
+                    return check(halflit_scene_remove_light(scene(), at));
+                case 2:
+                    return check(halflit_scene_remove_texture(scene(), at));
+                default:
+                    return check(halflit_scene_remove_instance(scene(), at));
+            }
         }
         case 1:
             return check(halflit_scene_set_vertices(scene(), index(), or_null(positions.data()), or_null(others.data(), 2), vertices));
@@ -97,6 +120,7 @@ void Session::meshes_and_instances() {
                 mesh.set(&halflit_mesh::index_count, indices.size());
             }
             mesh.set(&halflit_mesh::material, in_.flag() ? -1 : index());
+            mesh.set(&halflit_mesh::smooth, in_.one_in(3));
             std::int32_t at = 0;
             if (in_.one_in(3)) return check(halflit_scene_set_mesh(scene(), index(), or_null(mesh.get())));
             return check(halflit_scene_add_mesh(scene(), or_null(mesh.get()), or_null(&at, 3)));

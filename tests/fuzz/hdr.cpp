@@ -2,7 +2,7 @@
 // bounds of both.
 #include "tests/fuzz/loading.hpp"
 
-#include "apps/io/float_image.hpp"
+#include "apps/io/pictures/float_image.hpp"
 #include "halflit/environment.hpp"
 #include "sh/order.hpp"
 #include "sh/sun.hpp"

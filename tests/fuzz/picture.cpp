@@ -2,7 +2,7 @@
 #include "tests/fuzz/loading.hpp"
 #include "tests/fuzz/mutate.hpp"
 
-#include "apps/io/image_reader.hpp"
+#include "apps/io/pictures/image_reader.hpp"
 #include "halflit/texture.hpp"
 
 namespace halflit::fuzz {

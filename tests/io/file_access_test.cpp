@@ -1,6 +1,6 @@
-#include "apps/io/file_access.hpp"
+#include "apps/io/files/file_access.hpp"
 
-#include "apps/io/detail/uri.hpp"
+#include "apps/io/files/uri.hpp"
 #include "tests/io/gltf_builder.hpp"
 
 #include "tests/support/catch.hpp"

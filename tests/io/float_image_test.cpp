@@ -1,4 +1,4 @@
-#include "apps/io/float_image.hpp"
+#include "apps/io/pictures/float_image.hpp"
 
 #include "halflit/image.hpp"
 #include "tests/support/random.hpp"

@@ -1,5 +1,5 @@
 // Poses by animations, against an evaluation of the same key frames in float64 by the formulas of glTF 2.0, appendix C, and the C library.
-#include "apps/io/detail/gltf_track.hpp"
+#include "apps/io/gltf/animation/track.hpp"
 #include "tests/io/animated_file.hpp"
 #include "tests/io/gltf_builder.hpp"
 #include "tests/support/random.hpp"

@@ -164,11 +164,11 @@ TEST_CASE("instancing: each instance lies where float64 puts it", "[io]") {
         // Posed by the nodes as they are, nothing moves; moved, all instances follow.
         Scene scene = loaded.scene;
         std::vector<Node> nodes = loaded.nodes;
-        const auto unmoved = pose(nodes, scene);
+        const auto unmoved = pose(nodes, scene, loaded.placement);
         REQUIRE(unmoved);
-        CHECK(unmoved->moved_instances.empty());
+        CHECK(unmoved->changed_instances.empty());
         nodes[0].parent_from_node.origin.x += 5;
-        REQUIRE(pose(nodes, scene));
+        REQUIRE(pose(nodes, scene, loaded.placement));
         for (std::size_t i = 0; i < kCount; ++i)
             CHECK(double{scene.instances[i].world_from_object.c[3].x} ==
                   Approx(double{loaded.scene.instances[i].world_from_object.c[3].x} + 5).margin(1e-5));

@@ -1,5 +1,5 @@
 // KHR_materials_pbrSpecularGlossiness, converted to metal and roughness.
-#include "apps/io/detail/gltf_glossiness.hpp"
+#include "apps/io/gltf/build/glossiness.hpp"
 #include "tests/io/gltf_builder.hpp"
 #include "tests/io/png_maker.hpp"
 #include "tests/support/random.hpp"

@@ -1,8 +1,8 @@
 // Indices of a glTF file: none that is out of range is left once the JSON text is read, whatever was said of it.
-#include "apps/io/detail/gltf_indices.hpp"
+#include "apps/io/gltf/file/indices.hpp"
 
-#include "apps/io/detail/gltf_json.hpp"
-#include "apps/io/detail/gltf_schema.hpp"
+#include "apps/io/gltf/file/json.hpp"
+#include "apps/io/gltf/file/schema.hpp"
 #include "tests/support/schema_files.hpp"
 
 #include "tests/support/catch.hpp"

@@ -1,4 +1,4 @@
-#include "apps/io/detail/gltf_materials.hpp"
+#include "apps/io/gltf/build/materials.hpp"
 #include "tests/io/png_maker.hpp"
 
 #include <fmt/core.h>

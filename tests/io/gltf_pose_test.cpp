@@ -59,7 +59,7 @@ bool same_places(const Scene& a, const Scene& b) {
 /// The code and message of a pose that must be refused, and that must leave the scene as it was.
 std::string refused(const std::vector<Node>& nodes, const LoadedScene& loaded) {
     Scene scene = loaded.scene;
-    const auto posed = pose(nodes, scene);
+    const auto posed = pose(nodes, scene, {});
     REQUIRE(!posed);
     CHECK(posed.error().code == ErrorCode::usage);
     CHECK(same_places(scene, loaded.scene));
@@ -97,7 +97,7 @@ TEST_CASE("pose: the tree as loaded gives the same bits, and nothing has moved",
     for (int i = 0; i < 2; ++i) {
         const auto posed = pose(loaded.nodes, loaded.scene, loaded.placement);
         REQUIRE(posed);
-        CHECK(posed->moved_instances.empty());
+        CHECK(posed->changed_instances.empty());
         CHECK(posed->deformed_meshes.empty());
         CHECK(!posed->lights);
         CHECK(!posed->materials);
@@ -117,7 +117,7 @@ TEST_CASE("pose: the tree as loaded gives the same bits, and nothing has moved",
     const Scene chain_before = chain.scene;
     const auto posed = pose(chain.nodes, chain.scene, chain.placement);
     REQUIRE(posed);
-    CHECK(posed->moved_instances.empty());
+    CHECK(posed->changed_instances.empty());
     CHECK(same_places(chain.scene, chain_before));
 }
 
@@ -127,7 +127,7 @@ TEST_CASE("pose: a moved node moves all that hangs on it, and is reported", "[io
     loaded.nodes[1].parent_from_node = translation({1, 2, 3}) * rotation({0, 1, 1}, 0.3f);
     const auto posed = pose(loaded.nodes, loaded.scene, loaded.placement);
     REQUIRE(posed);
-    CHECK(posed->moved_instances == std::vector<std::size_t>{2, 3});
+    CHECK(posed->changed_instances == std::vector<std::size_t>{2, 3});
     CHECK(posed->lights);
     CHECK(same_bits(loaded.scene.instances[0].world_from_object, shoulder));
     const Mat4 hand =
@@ -144,7 +144,7 @@ TEST_CASE("pose: a moved node moves all that hangs on it, and is reported", "[io
     CHECK(length(loaded.scene.lights[0].position_ws - Vec3f{lamp.x, lamp.y, lamp.z}) < 3e-6f);
     const auto again = pose(loaded.nodes, loaded.scene, loaded.placement);
     REQUIRE(again);
-    CHECK(again->moved_instances.empty());
+    CHECK(again->changed_instances.empty());
     CHECK(!again->lights);
 }
 
@@ -220,7 +220,7 @@ TEST_CASE("pose: skinned meshes stay as loaded", "[io]") {
     loaded.nodes[0].parent_from_node = loaded.nodes[1].parent_from_node = translation({5, 5, 5});
     const auto posed = pose(loaded.nodes, loaded.scene, loaded.placement);
     REQUIRE(posed);
-    CHECK(posed->moved_instances.empty());
+    CHECK(posed->changed_instances.empty());
     CHECK(loaded.scene.instances[0].world_from_object == Mat4{});
     CHECK(loaded.scene.meshes[0].positions == positions);
 }
@@ -247,15 +247,15 @@ TEST_CASE("pose: wrong trees are refused, and leave the scene as it was", "[io]"
     // A scene that has lost what the nodes place.
     Scene scene = loaded.scene;
     scene.lights.clear();
-    CHECK(!pose(loaded.nodes, scene));
+    CHECK(!pose(loaded.nodes, scene, loaded.placement));
     scene = loaded.scene;
     scene.instances.pop_back();
-    CHECK(!pose(loaded.nodes, scene));
+    CHECK(!pose(loaded.nodes, scene, loaded.placement));
     // Lights that a host adds lie behind those of the file.
     scene = loaded.scene;
     scene.lights.emplace_back();
-    CHECK(pose(loaded.nodes, scene));
-    CHECK(pose({}, scene));
+    CHECK(pose(loaded.nodes, scene, loaded.placement));
+    CHECK(pose({}, scene, {}));
 }
 
 TEST_CASE("pose: numbers beyond float are the renderer's to drop", "[io]") {
@@ -264,7 +264,7 @@ TEST_CASE("pose: numbers beyond float are the renderer's to drop", "[io]") {
     loaded.nodes[2].parent_from_node.origin.y = std::numeric_limits<double>::quiet_NaN();
     const auto posed = pose(loaded.nodes, loaded.scene, loaded.placement);
     REQUIRE(posed);
-    CHECK(posed->moved_instances.size() == 4);
+    CHECK(posed->changed_instances.size() == 4);
     const auto report = render(loaded.scene, Camera{}, {}, {.width = 8, .height = 8});
     REQUIRE(report);
     CHECK(report->triangles_not_finite == 4);
@@ -279,8 +279,8 @@ TEST_CASE("pose: a chain of a million nodes is posed without recursion", "[io]")
         nodes[i].parent_from_node = translation({1, 0, 0});
     }
     nodes[0].instances = {0};
-    REQUIRE(pose(nodes, scene));
+    REQUIRE(pose(nodes, scene, {}));
     CHECK(scene.instances[0].world_from_object.c[3].x == 1e6f);
     nodes.back().parent = 500'000;
-    CHECK(!pose(nodes, scene));
+    CHECK(!pose(nodes, scene, {}));
 }

@@ -184,7 +184,7 @@ TEST_CASE("pose_at: each pose has the bits and the pixels of the file loaded at 
             // The nodes have the pose too.
             const auto posed = pose(loaded.nodes, loaded.scene, loaded.placement);
             REQUIRE(posed);
-            CHECK(posed->moved_instances.empty());
+            CHECK(posed->changed_instances.empty());
             CHECK(!posed->lights);
         }
     }
@@ -217,7 +217,7 @@ TEST_CASE("pose_at: pointers move materials, texture transforms, lights, cameras
     REQUIRE(changes);
     CHECK(changes->materials);
     CHECK(changes->lights);
-    CHECK(changes->moved_instances == std::vector<std::size_t>{0});
+    CHECK(changes->changed_instances == std::vector<std::size_t>{0});
     CHECK(changes->deformed_meshes == std::vector<std::size_t>{1});
     const Light& light = loaded.scene.lights[0];
     CHECK(light.color_linear.x == Approx(0.75 * 2.5 / kPi));
@@ -232,7 +232,7 @@ TEST_CASE("pose_at: pointers move materials, texture transforms, lights, cameras
     REQUIRE(again);
     CHECK(!again->materials);
     CHECK(!again->lights);
-    CHECK(again->moved_instances.empty());
+    CHECK(again->changed_instances.empty());
     CHECK(again->deformed_meshes.empty());
     // Another animation begins at the file's values.
     REQUIRE(pose_at(*loaded.motion, "red", 1, loaded.scene));

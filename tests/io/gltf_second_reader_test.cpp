@@ -1,8 +1,8 @@
 // Comparison of the loader's reading of a model's JSON with tinygltf's, which shares no code with it.
-#include "apps/io/detail/glb_container.hpp"
-#include "apps/io/detail/gltf_json.hpp"
-#include "apps/io/detail/gltf_node_transform.hpp"
-#include "apps/io/file_access.hpp"
+#include "apps/io/files/file_access.hpp"
+#include "apps/io/gltf/file/json.hpp"
+#include "apps/io/gltf/file/node_transform.hpp"
+#include "apps/io/gltf/text/glb_container.hpp"
 #include "tests/io/rich_file.hpp"
 #include "tests/io/tinygltf.hpp"
 #include "tests/support/assets.hpp"

@@ -3,7 +3,8 @@
 #include "tests/io/png_maker.hpp"
 #include "tests/support/skip.hpp"
 
-#include "apps/io/image_reader.hpp"
+#include "apps/io/files/optional_libraries.hpp"
+#include "apps/io/pictures/image_reader.hpp"
 
 #include <chrono>
 #include <cstdlib>

@@ -60,12 +60,6 @@ Bytes sheet(double positions, double scale, double offset) {
                bin);
 }
 
-LoadOptions recentred() {
-    LoadOptions options;
-    options.recentre = true;
-    return options;
-}
-
 struct Drawn {
     std::vector<std::uint8_t> pixels = std::vector<std::uint8_t>(4 * kSide * kSide);
     RenderReport report;
@@ -90,7 +84,7 @@ int largest_difference(const Drawn& a, const Drawn& b) {
 }  // namespace
 
 TEST_CASE("world: a scene of any size and place has the picture that it has at the origin", "[io]") {
-    const LoadedScene usual = load_ok(sheet(1, 1, 0), recentred());
+    const LoadedScene usual = load_ok(sheet(1, 1, 0));
     CHECK(usual.placement.scale == 1.0);
     CHECK(usual.warnings.empty());
     const Drawn expected = draw(usual.scene);
@@ -110,7 +104,7 @@ TEST_CASE("world: a scene of any size and place has the picture that it has at t
                           {0x1p100, 0x1p-100, 0},
                           {1e12, 1, 1e6}}) {
         INFO("positions " << c.positions << ", node's scale " << c.scale << ", offset " << c.offset);
-        const LoadedScene loaded = load_ok(sheet(c.positions, c.scale, c.offset), recentred());
+        const LoadedScene loaded = load_ok(sheet(c.positions, c.scale, c.offset));
         const Drawn found = draw(loaded.scene);
         CHECK(found.report.nan_pixels == 0);
         CHECK(found.report.triangles_drawn == expected.report.triangles_drawn);
@@ -125,7 +119,7 @@ TEST_CASE("world: a scene of any size and place has the picture that it has at t
 TEST_CASE("world: the smallest and the largest positions that float32 holds are drawn", "[io]") {
     for (const double positions : {1e-38, 1e-42, 3e37}) {
         INFO(positions);
-        LoadedScene loaded = load_ok(sheet(positions, 1, 0), recentred());
+        LoadedScene loaded = load_ok(sheet(positions, 1, 0));
         loaded.scene.lights.clear();
         loaded.scene.calibrated = true;
         const AutoSetup setup = auto_setup(loaded.scene, kSide, kSide, {.frame = true});
@@ -145,7 +139,7 @@ TEST_CASE("world: a stray vertex near float32's end does not shrink a scene to n
             Bytes file = sheet(1, 1, 0);
             const std::size_t bin = 20 + u32_of(file, 12) + 8;
             put(file, bin + 12 * vertex, far);
-            LoadedScene loaded = load_ok(file, recentred());
+            LoadedScene loaded = load_ok(file);
             CHECK(loaded.placement.scale == 1.0);
             REQUIRE(loaded.warnings.size() == 1);
             INFO(loaded.warnings[0]);
@@ -162,7 +156,9 @@ TEST_CASE("world: a stray vertex near float32's end does not shrink a scene to n
 }
 
 TEST_CASE("world: without the option a scene stays where the file has it", "[io]") {
-    const LoadedScene loaded = load_ok(sheet(1, 1, 1e7));
+    LoadOptions options;
+    options.recentre = false;
+    const LoadedScene loaded = load_ok(sheet(1, 1, 1e7), options);
     CHECK(loaded.placement.scale == 1.0);
     CHECK(loaded.scene.instances[0].world_from_object.c[3].x == 1e7f);
 }

@@ -1,4 +1,4 @@
-#include "apps/io/image_reader.hpp"
+#include "apps/io/pictures/image_reader.hpp"
 
 #include "tests/io/png_maker.hpp"
 

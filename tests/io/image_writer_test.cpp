@@ -1,6 +1,6 @@
 #include "halflit/image.hpp"
 
-#include "apps/io/image_reader.hpp"
+#include "apps/io/pictures/image_reader.hpp"
 #include "tests/io/png_maker.hpp"
 
 #include "tests/support/catch.hpp"

@@ -1,6 +1,6 @@
-#include "apps/io/detail/json_scan.hpp"
+#include "apps/io/gltf/text/json_scan.hpp"
 
-#include "apps/io/detail/json_place.hpp"
+#include "apps/io/gltf/text/json_place.hpp"
 
 #include "tests/support/catch.hpp"
 

@@ -1,8 +1,8 @@
 // The parts of meshopt compression that are computed here: version 1 of the vertex codec, and the filters.
 #include "tests/io/meshopt_encoder.hpp"
 
-#include "apps/io/detail/meshopt_filter.hpp"
-#include "apps/io/detail/meshopt_vertices.hpp"
+#include "apps/io/gltf/codecs/meshopt_filter.hpp"
+#include "apps/io/gltf/codecs/meshopt_vertices.hpp"
 
 #include <cstdlib>
 

@@ -3,8 +3,9 @@
 #include "tests/support/assets.hpp"
 #include "tests/support/skip.hpp"
 
-#include "apps/io/detail/draco_mesh.hpp"
-#include "apps/io/detail/gltf_meshopt.hpp"
+#include "apps/io/files/optional_libraries.hpp"
+#include "apps/io/gltf/codecs/draco_mesh.hpp"
+#include "apps/io/gltf/codecs/meshopt.hpp"
 
 #include "tests/support/catch.hpp"
 
@@ -49,8 +50,8 @@ TEST_CASE("models: each sample loads, or is refused where it has to be", "[io][a
     const auto assets = asset_dir();
     if (!assets) HALFLIT_SKIP("no sample models (HALFLIT_ASSETS)");
     std::set<std::string> refused = {"Compatibility_04.gltf", "Compatibility_05.gltf"};
-    if (!io::detail::has_draco()) refused.insert("Box_Draco.glb");
-    if (!io::detail::has_meshopt()) refused.insert("BoxMeshopt.glb");
+    if (!io::has_draco()) refused.insert("Box_Draco.glb");
+    if (!io::has_meshopt()) refused.insert("BoxMeshopt.glb");
     // Triangles drawn, from counting accessors with a separate script.
     std::map<std::string, std::uint64_t> drawn = {{"Triangle.gltf", 1},
                                                   {"TriangleWithoutIndices.gltf", 1},

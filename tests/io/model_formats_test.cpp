@@ -125,11 +125,15 @@ TEST_CASE("models: an animation that no such file has is refused, and none is no
     CHECK(refusal_of(file, ErrorCode::usage, options).find("time_s") != std::string::npos);
 }
 
-TEST_CASE("models: the up axis is turned unless the host turns it", "[io]") {
+TEST_CASE("models: z of STL files points up, unless the host says another axis", "[io]") {
     LoadOptions as_stored;
-    as_stored.turn_upright = false;
+    as_stored.up = UpAxis::y;
     const Bytes file = stl_binary_of(letter(), "");
-    const Bounds upright = scene_bounds(load_any_ok(file).scene), stored = scene_bounds(load_any_ok(file, as_stored).scene);
+    const LoadedScene upright_scene = load_any_ok(file);
+    const Bounds upright = scene_bounds(upright_scene.scene), stored = scene_bounds(load_any_ok(file, as_stored).scene);
+    CHECK(upright_scene.placement.up == UpAxis::z);
+    CHECK(upright_scene.placement.into({3, 0, 4}) == Vec3d{3, 4, 0});
+    CHECK(upright_scene.placement.out({3, 4, 0}) == Vec3d{3, 0, 4});
     CHECK(upright.max == Vec3f{3, 4, 1.5f});
     CHECK(stored.max == Vec3f{3, 0, 4});
     CHECK(stored.min == Vec3f{0, -1.5f, 0});

@@ -1,4 +1,4 @@
-#include "apps/io/picture_reader.hpp"
+#include "apps/io/pictures/picture_reader.hpp"
 
 #include "halflit/image.hpp"
 

@@ -1,4 +1,4 @@
-#include "apps/io/rgbe_reader.hpp"
+#include "apps/io/pictures/rgbe_reader.hpp"
 
 #include "tests/support/random.hpp"
 

@@ -9,7 +9,7 @@ import unittest
 import numpy as np
 
 import halflit
-from support import CORNERS, FACES, TURN, box
+from support import CORNERS, FACES, TURN, box, moved
 
 
 def render(scene, **keywords):
@@ -60,9 +60,10 @@ class Arrays(unittest.TestCase):
         hashes = [render(scene).pixel_hash for scene in (flat, smooth, given)]
         self.assertEqual(len(set(hashes)), 3)
         # On a closed and symmetric body smooth normals are those of the ball, but for the weights of the faces.
-        normals = halflit._arrays.smooth_normals(CORNERS, FACES)
-        self.assertTrue(np.allclose(np.linalg.norm(normals, axis=1), 1, atol=1e-6))
-        self.assertGreater((normals * CORNERS).sum(axis=1).min() / 3**0.5, 0.94)  # 0.943: corners with 4, 1 and 1 triangles
+        seen = render(smooth, aovs=["normal", "position"]).aovs
+        drawn = np.linalg.norm(seen["normal"], axis=2) > 0
+        place = seen["position"][drawn] / np.linalg.norm(seen["position"][drawn], axis=1, keepdims=True)
+        self.assertGreater((seen["normal"][drawn] * place).sum(axis=1).min(), 0.9)
 
     def test_vertex_colours(self):
         linear, codes, short = halflit.Scene(), halflit.Scene(), halflit.Scene()
@@ -185,7 +186,7 @@ class Arrays(unittest.TestCase):
         for made, normals in ((scene, "smooth"), (fresh, "soft")):
             with self.assertRaisesRegex(halflit.UsageError, 'normals: expected an array, or "smooth" for a mesh that was added so'):
                 made.set_vertices(0, squeezed, normals=normals)
-        with self.assertRaisesRegex(halflit.UsageError, "vertices: 5 rows"):
+        with self.assertRaisesRegex(halflit.UsageError, "5 vertices, expected 8"):
             fresh.set_vertices(0, squeezed[:5])
 
     def test_textures_of_one_to_four_channels(self):
@@ -260,6 +261,60 @@ class Parts(unittest.TestCase):
         fresh.add_instance(0, place)
         self.assertNotEqual(render(scene).pixel_hash, before.pixel_hash)
         self.assertEqual(render(scene).pixel_hash, render(fresh).pixel_hash)
+
+    def test_looks_names_and_removal_of_instances(self):
+        scene, painted = halflit.Scene(), halflit.Scene()
+        mesh = scene.add_mesh(CORNERS, FACES, material={"base_color": (1, 1, 1), "metallic": 0}, place=False)
+        red = scene.add_instance(mesh, color=(0.5, 0.1, 0.1), name="left")
+        painted.add_mesh(CORNERS, FACES, material={"base_color": (0.5, 0.1, 0.1), "metallic": 0})
+        self.assertEqual(render(scene).pixel_hash, render(painted).pixel_hash)
+        look = scene.look(red)
+        self.assertEqual((look["material"], look["visible"], look["name"], look["node"]), (None, True, "left", None))
+        self.assertTrue(np.allclose(look["color"], (0.5, 0.1, 0.1, 1)))
+        other = scene.add_instance(mesh, moved(3), visible=False)
+        self.assertEqual(render(scene).pixel_hash, render(painted).pixel_hash)
+        scene.set_instance(other, visible=True)
+        self.assertNotEqual(render(scene).pixel_hash, render(painted).pixel_hash)
+        scene.remove_instance(other)
+        self.assertEqual(render(scene).pixel_hash, render(painted).pixel_hash)
+        with self.assertRaisesRegex(halflit.UsageError, "instance 1 was removed"):
+            scene.instance(other)
+        self.assertEqual(scene.add_instance(mesh), other)
+        with self.assertRaisesRegex(halflit.UsageError, "mesh 0: instance 0 places it"):
+            scene.remove_mesh(mesh)
+        with self.assertRaisesRegex(halflit.UsageError, "color: expected"):
+            scene.add_instance(mesh, color="reddish")
+        self.assertEqual(scene.counts["instances"], 3)  # the place of what was refused is free
+
+    def test_many_instances_at_once(self):
+        scene, single = halflit.Scene(), halflit.Scene()
+        places = np.array([moved(3 * i, i) for i in range(5)])
+        for made in (scene, single):
+            made.add_mesh(CORNERS, FACES, place=False)
+        self.assertEqual(scene.add_instances(0, places), range(0, 5))
+        for place in places:
+            single.add_instance(0, place)
+        self.assertEqual(render(scene).pixel_hash, render(single).pixel_hash)
+        scene.set_instances(places[:2], [4, 2])
+        single.set_instance(4, places[0])
+        single.set_instance(2, places[1])
+        self.assertEqual(render(scene).pixel_hash, render(single).pixel_hash)
+        for wrong in (places[0], places.transpose(0, 2, 1) + 1, places[:, :3]):
+            with self.assertRaisesRegex(halflit.UsageError, "matrices: expected"):
+                scene.set_instances(wrong)
+        with self.assertRaisesRegex(halflit.UsageError, "instance 9, but the scene has 5"):
+            scene.set_instances(places[:1], [9])
+
+    def test_nodes_of_a_file(self):
+        nodes = {"nodes": [{"name": "arm", "children": [1]}, {"name": "hand", "mesh": 0, "translation": [1, 0, 0]}]}
+        scene = halflit.Scene.load(box(more=nodes))
+        self.assertEqual([node["name"] for node in scene.nodes], ["arm", "hand"])
+        self.assertEqual([node["parent"] for node in scene.nodes], [None, 0])
+        seen = render(scene, aovs=["id"]).aovs["id"]
+        self.assertEqual(set(np.unique(seen)) - {0}, {i + 1 for i in scene.nodes[1]["instances"]})
+        self.assertEqual((scene.look(0)["node"], scene.name("instance", 0)), (1, "hand"))
+        with self.assertRaisesRegex(halflit.UsageError, "part: expected one of node, instance"):
+            scene.name("wheel", 0)
 
     def test_frames_of_one_scene_are_those_of_fresh_ones(self):
         # Whatever was drawn before: other sizes, views and light.
@@ -351,7 +406,7 @@ class Parts(unittest.TestCase):
             halflit.Camera(mirrored)
         with self.assertRaisesRegex(halflit.UsageError, "cannot be combined with azimuth"):
             render(scene, camera=camera, azimuth=3)
-        with self.assertRaisesRegex(halflit.UsageError, "index below 0"):
+        with self.assertRaisesRegex(halflit.UsageError, "found no camera in the scene, expected '1'"):
             render(scene, camera=1)
 
     def test_errors_tell_what_is_wrong(self):

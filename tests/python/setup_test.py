@@ -6,19 +6,13 @@ import numpy as np
 
 import halflit
 from halflit import _c
-from support import CAMERA, CORNERS, FACES, TURN, box, program_hash
+from support import CAMERA, CORNERS, FACES, TURN, box, moved, program_hash
 
 
 def cube():
     scene = halflit.Scene()
     scene.add_mesh(CORNERS, FACES)
     return scene
-
-
-def moved(*offset):
-    matrix = np.eye(4)
-    matrix[:3, 3] = offset
-    return matrix
 
 
 class Kept(unittest.TestCase):
@@ -71,11 +65,11 @@ class Kept(unittest.TestCase):
         with unittest.mock.patch.object(_c, "call", lambda name, *more: called.append(name) or call(name, *more)):
             shapes = {scene.render(camera=0).shape for _ in range(3)}
             self.assertEqual(shapes, {(720, 1080, 4)})
-            self.assertEqual(called.count("setup"), 2)  # for the usual size, whose camera tells the shape
+            self.assertEqual(called.count("choose_picture"), 1)
             scene.set_instance(0, moved(0, 0.1, 0))
             scene.render(64)
             scene.render(64)
-            self.assertEqual(called.count("setup"), 3)
+            self.assertEqual(called.count("choose_picture"), 2)
 
 
 class Keywords(unittest.TestCase):

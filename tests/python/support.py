@@ -14,6 +14,13 @@ FACES = np.array([0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 4, 2, 2, 4, 6, 1, 3, 5,
                  np.uint32).reshape(-1, 3)  # fmt: skip
 
 
+def moved(*offset):
+    """The matrix of a translation; coordinates that are left out are 0."""
+    matrix = np.eye(4)
+    matrix[: len(offset), 3] = offset
+    return matrix
+
+
 def program_hash(*arguments, data=None):
     """pixel_hash of `halflit render ARGUMENTS`."""
     command = [PROGRAM, "render", *(str(a) for a in arguments), "-o", "-", "--report", "/dev/stderr", "--quiet"]

@@ -7,17 +7,11 @@ import warnings
 import numpy as np
 
 import halflit
-from support import CAMERA, CORNERS, FACES, LAMPS, box, program_hash
+from support import CAMERA, CORNERS, FACES, LAMPS, box, moved, program_hash
 
 FAR = {"translation": [1e6, 0, -3e6]}
 TINY = {"scale": [1e-5] * 3}
 BOTH = {"translation": [70, 0, 0], "scale": [1e-5] * 3}
-
-
-def moved(*offset):
-    matrix = np.eye(4)
-    matrix[:3, 3] = offset
-    return matrix
 
 
 class Worlds(unittest.TestCase):

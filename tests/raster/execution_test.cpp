@@ -418,7 +418,7 @@ TEST_CASE("prepared scene: a moved one draws as before, and can be updated", "[r
     third = std::move(second);
     CHECK(draws_right(third));
     CHECK(third.triangle_count() == triangles);
-    REQUIRE(third.update({.moved_instances = {0}, .lights = true}));
+    REQUIRE(third.update({.changed_instances = {0}, .lights = true}));
     CHECK(draws_right(third));
     // A moved-from Renderer or scene may be assigned to again.
     second = PreparedScene::make(other).value();

@@ -99,7 +99,7 @@ SceneChanges change(Random& random, Scene& scene) {
     for (std::size_t i = 0; i < scene.instances.size(); ++i)
         if (random.chance(0.2)) {
             scene.instances[i].world_from_object = any_place(random);
-            told.moved_instances.push_back(i);
+            told.changed_instances.push_back(i);
         }
     for (std::size_t i = 0; i < scene.meshes.size(); ++i)
         if (random.chance(0.2)) {
@@ -110,7 +110,7 @@ SceneChanges change(Random& random, Scene& scene) {
             told.deformed_meshes.push_back(i);
         }
     // Order and repetition must not matter.
-    std::ranges::reverse(told.moved_instances);
+    std::ranges::reverse(told.changed_instances);
     if (!told.deformed_meshes.empty() && random.chance(0.2)) told.deformed_meshes.push_back(told.deformed_meshes[0]);
     told.materials = random.chance(0.2);
     if (told.materials) scene.materials[static_cast<std::size_t>(random.index(kMaterials))].lobe = Lobe::green(random.real32(0, 1));
@@ -178,15 +178,14 @@ TEST_CASE("prepared scene: after any changes it equals one made anew, and its re
             REQUIRE(prepared.update(told, {1 + step % 3}));
             check_same(prepared, made(scene));
             const SceneRevision after = prepared.revision();
-            const bool geometry = !told.moved_instances.empty() || !told.deformed_meshes.empty();
+            const bool geometry = !told.changed_instances.empty() || !told.deformed_meshes.empty();
             CHECK((geometry ? after.geometry > before.geometry : after.geometry == before.geometry));
-            CHECK((told.lights ? after.lights > before.lights : after.lights == before.lights));
             // A deformed mesh may have another material: then it counts as a change of materials too.
             if (told.materials)
                 CHECK(after.materials > before.materials);
             else if (told.deformed_meshes.empty())
                 CHECK(after.materials == before.materials);
-            updates += geometry || told.lights || told.materials;
+            updates += geometry || told.materials;
         }
     }
     CHECK(updates > 200);
@@ -232,7 +231,7 @@ TEST_CASE("prepared scene: counts and maxima include only what is drawn", "[rast
 
 TEST_CASE("prepared scene: no revision is used twice", "[raster][prepared]") {
     Random random(4);
-    std::vector<std::uint64_t> geometry, materials, lights;
+    std::vector<std::uint64_t> geometry, materials;
     for (int round = 0; round < 30; ++round) {
         const Scene scene = any_scene(random);
         for (int copy = 0; copy < 2; ++copy) {
@@ -240,13 +239,12 @@ TEST_CASE("prepared scene: no revision is used twice", "[raster][prepared]") {
             for (int step = 0; step < 3; ++step) {
                 geometry.push_back(prepared.revision().geometry);
                 materials.push_back(prepared.revision().materials);
-                lights.push_back(prepared.revision().lights);
                 if (scene.meshes.empty()) break;
                 REQUIRE(prepared.update({{}, {0}, true, true}));
             }
         }
     }
-    for (std::vector<std::uint64_t>* numbers : {&geometry, &materials, &lights}) {
+    for (std::vector<std::uint64_t>* numbers : {&geometry, &materials}) {
         std::ranges::sort(*numbers);
         CHECK(std::ranges::adjacent_find(*numbers) == numbers->end());
         CHECK(numbers->front() > 0);  // 0 stands for no scene

@@ -229,7 +229,7 @@ TEST_CASE("renderer: no frame after a failed update until one succeeds, which re
     };
 
     s.scene.instances[1].world_from_object = s.scene.instances[1].world_from_object * translation({0.2f, 0.1f, 0});
-    REQUIRE_FALSE(prepared.update({.moved_instances = {1, 999}}));
+    REQUIRE_FALSE(prepared.update({.changed_instances = {1, 999}}));
     CHECK_FALSE(drawn());
     REQUIRE(prepared.update(kLights));
     CHECK(is_new());

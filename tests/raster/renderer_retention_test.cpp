@@ -150,7 +150,7 @@ void change_scene(Random& random, Stand& stage) {
         case 1: {
             const auto i = static_cast<std::size_t>(random.index(static_cast<int>(scene.instances.size())));
             scene.instances[i].world_from_object = scene.instances[i].world_from_object * random_place(random, 0.2);
-            told.moved_instances = {i};
+            told.changed_instances = {i};
             break;
         }
         case 2: {

@@ -23,7 +23,23 @@ set(subfolders
     "raster/scene/=raster/((view|passes|built_in)/|renderer|frame_plan)"
     "raster/view/=raster/((passes|built_in)/|renderer|frame_plan)"
     "raster/passes/=raster/(built_in/|renderer)"
-    "raster/built_in/=raster/((view|passes|kernels)/|renderer|frame_plan)")
+    "raster/built_in/=raster/((view|passes|kernels)/|renderer|frame_plan)"
+    "apps/io/files/=apps/io/(pictures|gltf|models)/"
+    "apps/io/pictures/=apps/io/(gltf|models)/"
+    "apps/io/gltf/=apps/io/models/"
+    "apps/io/gltf/text/=apps/io/(gltf/(file|codecs|build|animation)|models)/"
+    "apps/io/gltf/file/=apps/io/(gltf/(codecs|build|animation)|models)/"
+    "apps/io/gltf/codecs/=apps/io/(gltf/(build|animation)|models)/"
+    "apps/io/gltf/build/=apps/io/(gltf/animation|models)/"
+    "apps/halflit/program/=apps/(halflit/(flags|render|report|farm|golden|commands)|lab|viewer)/"
+    "apps/halflit/flags/=apps/(halflit/(render|report|farm|golden|commands)|lab|viewer)/"
+    "apps/halflit/render/=apps/(halflit/(report|farm|golden|commands)|lab|viewer)/"
+    "apps/halflit/report/=apps/(halflit/(farm|golden|commands)|lab|viewer)/"
+    "apps/halflit/farm/=apps/(halflit/(golden|commands)|lab|viewer)/"
+    "apps/halflit/golden/=apps/(halflit/(farm|commands)|lab|viewer)/"
+    # The C interface and all that stands on io know what is public and what program and library share.
+    "apps/io/=apps/(c|halflit|film|viewer|lab|web)/"
+    "apps/c/=apps/(halflit|film|viewer|lab|web)/")
 set(failures "")
 set(file_count 0)
 
@@ -60,9 +76,11 @@ foreach(layer IN LISTS layers)
         foreach(subfolder IN LISTS subfolders)
             string(REGEX MATCH "^([^=]*)=(.*)$" ignored "${subfolder}")
             if(file MATCHES "^${CMAKE_MATCH_1}")
-                string(REGEX REPLACE "^[^=]*=" "" other_subfolders "${subfolder}")
+                string(REGEX REPLACE "^[^=]*=" "" others "${subfolder}")
+                list(APPEND other_subfolders "${others}")
             endif()
         endforeach()
+        list(JOIN other_subfolders "|" other_subfolders)
         if(file MATCHES "^shading/kernels/simd[a-z_]*\\.hpp$")
             set(in_vocabulary TRUE)
         elseif(file MATCHES "^(shading|raster)/kernels/" AND NOT file MATCHES "/(registry\\.cpp|isa(_select)?\\.hpp)$")
@@ -83,7 +101,7 @@ foreach(layer IN LISTS layers)
             if(forbidden AND line MATCHES "^ *#include \"(${forbidden})/")
                 list(APPEND failures "${file}: include points right: ${line}")
             endif()
-            if(other_subfolders AND line MATCHES "^ *#include \"${other_subfolders}")
+            if(other_subfolders AND line MATCHES "^ *#include \"(${other_subfolders})")
                 list(APPEND failures "${file}: include points into a subfolder to the right: ${line}")
             endif()
             if(line MATCHES "^ *#include \"(bench|tests)/")

@@ -57,7 +57,7 @@ SceneChanges change(Random& random, Scene& scene) {
     if (random.chance(0.5)) {
         const auto i = static_cast<std::size_t>(random.index(static_cast<int>(scene.instances.size())));
         scene.instances[i].world_from_object = random_place(random, 2);
-        changes.moved_instances.push_back(i);
+        changes.changed_instances.push_back(i);
     }
     if (random.chance(0.3)) {
         const auto i = static_cast<std::size_t>(random.index(static_cast<int>(scene.meshes.size())));

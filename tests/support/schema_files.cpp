@@ -1,7 +1,7 @@
 #include "tests/support/schema_files.hpp"
 
-#include "apps/io/detail/gltf_schema.hpp"
-#include "apps/io/detail/gltf_schema_rows.hpp"
+#include "apps/io/gltf/file/schema.hpp"
+#include "apps/io/gltf/file/schema_rows.hpp"
 
 #include <string_view>
 

@@ -1,6 +1,6 @@
 #include "apps/viewer/controls.hpp"
 
-#include "apps/io/lobe_name.hpp"
+#include "apps/io/files/lobe_name.hpp"
 #include "sh/vec3d.hpp"
 #include "tests/viewer/jobs.hpp"
 

@@ -1,7 +1,7 @@
 // Render jobs as the command line makes them.
 #pragma once
 
-#include "apps/halflit/render_job.hpp"
+#include "apps/halflit/render/render_job.hpp"
 #include "tests/support/catch.hpp"
 
 #include <string>

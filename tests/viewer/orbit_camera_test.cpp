@@ -1,7 +1,7 @@
 #include "apps/viewer/orbit_camera.hpp"
 
-#include "apps/halflit/render_options.hpp"
-#include "apps/halflit/scene_view.hpp"
+#include "apps/halflit/render/render_options.hpp"
+#include "apps/halflit/render/scene_view.hpp"
 #include "raster/view/projection.hpp"
 #include "tests/support/catch.hpp"
 

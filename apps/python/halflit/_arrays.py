@@ -99,33 +99,33 @@ def indices(value, columns: int, count: int) -> np.ndarray:
     return np.ascontiguousarray(array, dtype=np.uint32)
 
 
-def smooth_normals(vertices: np.ndarray, faces: np.ndarray) -> np.ndarray:
-    """Normals of the surface through the vertices: the mean of the faces around each, by their areas; float32 (n, 3), of length 1.
-
-    A vertex without a face, or whose faces cancel each other, has +y.
-    """
-    faces = np.asarray(faces).reshape(-1, 3)
-    corners = np.asarray(vertices, dtype=np.float64)[faces]
-    of_faces = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normals = np.zeros((len(vertices), 3))
-    for corner in range(3):
-        np.add.at(normals, faces[:, corner], of_faces)
-    length = np.linalg.norm(normals, axis=1, keepdims=True)
-    flat = ~(length > 0)
-    return np.where(flat, (0.0, 1.0, 0.0), normals / np.where(flat, 1, length)).astype(np.float32)
-
-
 def matrix(value, name: str = "matrix") -> np.ndarray:
     """float64 (4, 4) whose rows are rows: the translation is value[:3, 3]."""
     array = numbers(value, np.float64, name).copy()
     if array.shape != (4, 4):
         raise UsageError(f"{name}: expected an array of shape (4, 4), found {array.shape}")
+    return checked_matrices(array[None], name)[0]
+
+
+def matrices(value, name: str = "matrices") -> np.ndarray:
+    """float64 (n, 4, 4), likewise."""
+    array = numbers(value, np.float64, name).copy()
+    if array.ndim != 3 or array.shape[1:] != (4, 4):
+        raise UsageError(f"{name}: expected an array of shape (n, 4, 4), found {array.shape}")
+    return checked_matrices(array, name)
+
+
+def checked_matrices(array: np.ndarray, name: str) -> np.ndarray:
+    """Finite ones whose last row is 0 0 0 1, exactly then."""
     if not np.isfinite(array).all():
         raise UsageError(f"{name}: a number is not finite")
-    if not np.allclose(array[3], (0, 0, 0, 1), rtol=0, atol=1e-6):
-        hint = ": is it transposed?" if np.allclose(array[:, 3], (0, 0, 0, 1), rtol=0, atol=1e-6) else ""
-        raise UsageError(f"{name}: expected 0 0 0 1 as the last row, and the translation in the last column, found {array[3]}{hint}")
-    array[3] = 0, 0, 0, 1
+    last = (0, 0, 0, 1)
+    wrong = np.flatnonzero(~np.isclose(array[:, 3], last, rtol=0, atol=1e-6).all(axis=1))
+    if len(wrong):
+        found = array[wrong[0]]
+        hint = ": is it transposed?" if np.allclose(found[:, 3], last, rtol=0, atol=1e-6) else ""
+        raise UsageError(f"{name}: expected 0 0 0 1 as the last row, and the translation in the last column, found {found[3]}{hint}")
+    array[:, 3] = last
     return array
 
 

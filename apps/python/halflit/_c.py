@@ -30,6 +30,7 @@ _NUMBERS = {
 Progress = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_double)
 Cancelled = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p)
 _CALLBACKS = {"progress": Progress, "cancelled": Cancelled}
+Write = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t)
 
 
 #: Least and largest number of each type of whole numbers.
@@ -159,7 +160,7 @@ def _argument(text: str):
         return ctypes.c_char_p
     if "*" in text or "[" in text:
         return ctypes.c_void_p
-    return _NUMBERS[text.split()[0]]
+    return Write if text.startswith("halflit_write ") else _NUMBERS[text.split()[0]]
 
 
 def function(name: str):

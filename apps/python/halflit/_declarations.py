@@ -2,18 +2,21 @@
 # fmt: off
 STRUCTS = {
     "halflit_load_options": """
-        size_t size; const char* const* allow_external; size_t allow_external_count; uint64_t max_file_bytes; uint64_t
-        max_total_bytes; uint64_t max_json_tokens; uint64_t max_texture_bytes; uint64_t max_texture_pixels; uint64_t
-        max_geometry_bytes; uint64_t max_lights; int32_t max_json_depth; int32_t max_texture_side; int32_t max_jpeg_scans; int32_t
-        lenient; int32_t threads; int32_t keep_animations; const char* animation; double time_s; int32_t turn_upright; float
-        crease_deg; const char* scene; const char* variant; int32_t recentre; int32_t reserved;
+        size_t size; const char* scene; const char* variant; const char* animation; double time_s; int32_t keep_animations;
+        int32_t up; int32_t recentre; float crease_deg; int32_t lenient; int32_t threads; const char* const* allow_external;
+        size_t allow_external_count; double time_limit_s; uint64_t max_file_bytes; uint64_t max_total_bytes; uint64_t
+        max_json_tokens; uint64_t max_texture_bytes; uint64_t max_texture_pixels; uint64_t max_geometry_bytes; uint64_t
+        max_lights; int32_t max_json_depth; int32_t max_texture_side; int32_t max_jpeg_scans; int32_t reserved;
 """,
     "halflit_counts": """
-        size_t size; uint64_t triangles; int32_t meshes, instances, materials, textures, cameras; int32_t lights; int32_t
-        warnings; int32_t animations;
+        size_t size; uint64_t triangles; int32_t meshes, instances, materials, textures, cameras; int32_t lights; int32_t nodes;
+        int32_t animations; int32_t warnings; int32_t reserved;
 """,
     "halflit_animation": """
         size_t size; const char* name; double end_s; uint64_t channels;
+""",
+    "halflit_node": """
+        size_t size; const char* name; const int32_t* instances; int32_t instance_count; int32_t parent; int32_t camera, light;
 """,
     "halflit_texture_use": """
         int32_t texture; int32_t uv_set; int32_t wrap_u, wrap_v; int32_t mag_filter, min_filter; int32_t mip_filter; float
@@ -40,7 +43,10 @@ STRUCTS = {
     "halflit_mesh": """
         size_t size; const char* name; const float* positions; const float* normals; const float* tangents; const float* uv0;
         const float* uv1; const float* colors; const uint32_t* indices; size_t vertex_count; size_t index_count; int32_t material;
-        int32_t topology;
+        int32_t topology; int32_t smooth; int32_t reserved;
+""",
+    "halflit_instance": """
+        size_t size; int32_t mesh; int32_t material; int32_t visible; int32_t node; float color[4]; float world_from_object[16];
 """,
     "halflit_camera": """
         size_t size; const char* name; float world_from_camera[16]; int32_t orthographic; float fov_y_rad; float aspect; float
@@ -64,10 +70,10 @@ STRUCTS = {
         shadows; int32_t shadow_size; int32_t soft_shadow_maps; float shadow_fade; int32_t sky_shadows; int32_t
         shadow_terminator_offset; int32_t reserved;
 """,
-    "halflit_setup_options": """
-        size_t size; const halflit_camera* camera; double studio_turn_rad; int32_t frame; float azimuth_deg; float elevation_deg;
-        float zoom; float fov_y_deg; int32_t own_ambient; float ambient_color[3]; float exposure; int32_t add_lights; int32_t
-        studio; int32_t orthographic; int32_t reserved;
+    "halflit_picture_request": """
+        size_t size; const halflit_camera* camera; const char* scene_camera; double studio_turn_rad; int32_t width, height;
+        int32_t frame; float azimuth_deg; float elevation_deg; float zoom; float fov_y_deg; int32_t orthographic; int32_t
+        own_ambient; float ambient_color[3]; float exposure; int32_t add_lights; int32_t studio; int32_t reserved;
 """,
     "halflit_execution": """
         size_t size; const char* isa; void* user; int32_t (*cancelled)(void* user); void (*on_tile)(void* user, int32_t x, int32_t
@@ -76,11 +82,11 @@ STRUCTS = {
         memory_limit;
 """,
     "halflit_target": """
-        size_t size; void* pixels; size_t row_bytes; float* depth; size_t depth_row_bytes; float* normal; size_t normal_row_bytes;
-        uint32_t* instance; size_t instance_row_bytes; uint32_t* triangle; size_t triangle_row_bytes; int32_t width, height;
-        int32_t format; int32_t region_alone; float* shading_normal; size_t shading_normal_row_bytes; float* albedo; size_t
-        albedo_row_bytes; float* position; size_t position_row_bytes; uint32_t* lights; size_t lights_row_bytes; float* coverage;
-        size_t coverage_row_bytes;
+        size_t size; int32_t width, height; int32_t format; int32_t region_alone; void* pixels; size_t row_bytes; float* depth;
+        size_t depth_row_bytes; float* normal; size_t normal_row_bytes; float* shading_normal; size_t shading_normal_row_bytes;
+        float* albedo; size_t albedo_row_bytes; float* position; size_t position_row_bytes; uint32_t* instance; size_t
+        instance_row_bytes; uint32_t* triangle; size_t triangle_row_bytes; uint32_t* lights; size_t lights_row_bytes; float*
+        coverage; size_t coverage_row_bytes;
 """,
     "halflit_report": """
         size_t size; double total_ms; double prepare_ms; double plan_ms; double shadows_ms; double cull_ms, transform_ms, bin_ms;
@@ -97,6 +103,18 @@ CONSTANTS = {
     "HALFLIT_ERROR_LIMIT": 5,
     "HALFLIT_ERROR_INTERNAL": 6,
     "HALFLIT_ERROR_CANCELLED": 7,
+    "HALFLIT_UP_BY_FORMAT": 0,
+    "HALFLIT_UP_X": 1,
+    "HALFLIT_UP_Y": 2,
+    "HALFLIT_UP_Z": 3,
+    "HALFLIT_UP_MINUS_X": 4,
+    "HALFLIT_UP_MINUS_Y": 5,
+    "HALFLIT_UP_MINUS_Z": 6,
+    "HALFLIT_PART_NODE": 0,
+    "HALFLIT_PART_INSTANCE": 1,
+    "HALFLIT_PART_MESH": 2,
+    "HALFLIT_PART_MATERIAL": 3,
+    "HALFLIT_PART_CAMERA": 4,
     "HALFLIT_COLOR_SRGB": 0,
     "HALFLIT_COLOR_LINEAR": 1,
     "HALFLIT_COLOR_SRGB_BY_ALPHA": 2,
@@ -162,10 +180,14 @@ int32_t halflit_scene_get_counts(const halflit_scene* scene, halflit_counts* cou
 int32_t halflit_scene_get_warning(const halflit_scene* scene, int32_t index, const char** text);
 int32_t halflit_scene_get_animation(const halflit_scene* scene, int32_t index, halflit_animation* animation);
 int32_t halflit_scene_pose(halflit_scene* scene, const char* animation, double time_s);
-int32_t halflit_scene_get_placement(const halflit_scene* scene, double origin[3], double* scale);
+int32_t halflit_scene_get_placement(const halflit_scene* scene, double origin[3], double* scale, int32_t* up);
+int32_t halflit_scene_get_name(const halflit_scene* scene, int32_t part, int32_t index, const char** name);
+int32_t halflit_scene_set_name(halflit_scene* scene, int32_t part, int32_t index, const char* name);
+int32_t halflit_scene_get_node(const halflit_scene* scene, int32_t index, halflit_node* node);
 int32_t halflit_scene_get_bounds(const halflit_scene* scene, float min[3], float max[3]);
 int32_t halflit_scene_add_texture(halflit_scene* scene, const uint8_t* rgba8, int32_t width, int32_t height, size_t row_bytes, int32_t color, int32_t* index);
 int32_t halflit_scene_set_texture(halflit_scene* scene, int32_t index, const uint8_t* rgba8, int32_t width, int32_t height, size_t row_bytes, int32_t color);
+int32_t halflit_scene_remove_texture(halflit_scene* scene, int32_t index);
 int32_t halflit_lobe_by_name(const char* name, float wrap, halflit_lobe* lobe);
 int32_t halflit_material_init(halflit_material* material, size_t size);
 int32_t halflit_scene_add_material(halflit_scene* scene, const halflit_material* material, int32_t* index);
@@ -175,9 +197,16 @@ int32_t halflit_mesh_init(halflit_mesh* mesh, size_t size);
 int32_t halflit_scene_add_mesh(halflit_scene* scene, const halflit_mesh* mesh, int32_t* index);
 int32_t halflit_scene_set_mesh(halflit_scene* scene, int32_t index, const halflit_mesh* mesh);
 int32_t halflit_scene_set_vertices(halflit_scene* scene, int32_t index, const float* positions, const float* normals, size_t vertex_count);
+int32_t halflit_scene_remove_mesh(halflit_scene* scene, int32_t index);
+int32_t halflit_instance_init(halflit_instance* instance, size_t size);
 int32_t halflit_scene_add_instance(halflit_scene* scene, int32_t mesh, const float world_from_object[16], int32_t* index);
-int32_t halflit_scene_get_instance(const halflit_scene* scene, int32_t index, int32_t* mesh, float world_from_object[16]);
-int32_t halflit_scene_set_instance(halflit_scene* scene, int32_t index, const float world_from_object[16]);
+int32_t halflit_scene_add_instances(halflit_scene* scene, int32_t mesh, int32_t count, const float* world_from_object, int32_t* first);
+int32_t halflit_scene_get_instance(const halflit_scene* scene, int32_t index, halflit_instance* instance);
+int32_t halflit_scene_set_instance(halflit_scene* scene, int32_t index, const halflit_instance* instance);
+int32_t halflit_scene_place_instance(halflit_scene* scene, int32_t index, const float world_from_object[16]);
+int32_t halflit_scene_place_instances(halflit_scene* scene, const int32_t* indices, int32_t count, const float* world_from_object);
+int32_t halflit_scene_remove_instance(halflit_scene* scene, int32_t index);
+int32_t halflit_scene_add_ground(halflit_scene* scene, int32_t* instance);
 int32_t halflit_camera_init(halflit_camera* camera, size_t size);
 int32_t halflit_camera_look_at(const float eye[3], const float target[3], const float up[3], halflit_camera* camera);
 int32_t halflit_camera_from_intrinsics(const double k[9], int32_t width, int32_t height, const double rotation[9], const double translation[3], double first_pixel, halflit_camera* camera);
@@ -187,26 +216,27 @@ int32_t halflit_light_init(halflit_light* light, size_t size);
 int32_t halflit_scene_add_light(halflit_scene* scene, const halflit_light* light, int32_t* index);
 int32_t halflit_scene_get_light(const halflit_scene* scene, int32_t index, halflit_light* light);
 int32_t halflit_scene_set_light(halflit_scene* scene, int32_t index, const halflit_light* light);
+int32_t halflit_scene_remove_light(halflit_scene* scene, int32_t index);
 int32_t halflit_scene_set_ambient(halflit_scene* scene, const float sky[3], const float ground[3]);
 int32_t halflit_scene_add_default_lights(halflit_scene* scene, const halflit_camera* camera);
 int32_t halflit_scene_add_studio(halflit_scene* scene, const halflit_camera* camera);
-int32_t halflit_scene_add_ground(halflit_scene* scene, int32_t* instance);
 int32_t halflit_scene_clear_lights(halflit_scene* scene);
 int32_t halflit_environment_options_init(halflit_environment_options* options, size_t size);
 int32_t halflit_scene_set_environment(halflit_scene* scene, const float* rgb, int32_t width, int32_t height, const halflit_environment_options* options);
 int32_t halflit_scene_load_environment(halflit_scene* scene, const char* path, const halflit_environment_options* options);
 int32_t halflit_scene_set_sky(halflit_scene* scene, const halflit_environment_options* options);
 int32_t halflit_settings_init(halflit_settings* settings, size_t size);
-int32_t halflit_auto_setup(halflit_scene* scene, int32_t width, int32_t height, halflit_camera* camera, halflit_settings* settings);
-int32_t halflit_setup_options_init(halflit_setup_options* options, size_t size);
-int32_t halflit_setup(halflit_scene* scene, int32_t width, int32_t height, const halflit_setup_options* options, halflit_camera* camera, halflit_settings* settings);
+int32_t halflit_picture_request_init(halflit_picture_request* request, size_t size);
+int32_t halflit_choose_picture(const halflit_scene* scene, const halflit_picture_request* request, int32_t size[2], halflit_camera* camera, halflit_settings* settings, halflit_lighting** lighting);
+void halflit_lighting_destroy(halflit_lighting* lighting);
 int32_t halflit_execution_init(halflit_execution* execution, size_t size);
 int32_t halflit_renderer_create(const halflit_execution* execution, halflit_renderer** renderer);
 int32_t halflit_renderer_set_execution(halflit_renderer* renderer, const halflit_execution* execution);
 void halflit_renderer_destroy(halflit_renderer* renderer);
 int32_t halflit_target_init(halflit_target* target, size_t size);
-int32_t halflit_render(halflit_renderer* renderer, const halflit_scene* scene, const halflit_camera* camera, const halflit_settings* settings, const halflit_target* target, halflit_report* report);
+int32_t halflit_render(halflit_renderer* renderer, const halflit_scene* scene, const halflit_lighting* lighting, const halflit_camera* camera, const halflit_settings* settings, const halflit_target* target, halflit_report* report);
 int32_t halflit_renderer_get_warning(const halflit_renderer* renderer, int32_t index, const char** text);
 uint64_t halflit_pixel_hash(const void* bytes, size_t count);
 int32_t halflit_write_image(const char* path, const halflit_target* target);
+int32_t halflit_encode_image(const char* format, const halflit_target* target, halflit_write write, void* user);
 """

@@ -52,7 +52,7 @@ def frame(scene, setup: Setup, settings, target: Target, execution: Execution) -
     structs = (camera._c, settings, target.struct, report)
     try:
         with execution.calls():
-            _c.call("render", renderer, scene._handle, *map(ctypes.byref, structs))
+            _c.call("render", renderer, scene._handle, setup._lighting, *map(ctypes.byref, structs))
     except Exception:
         if execution.raised is not None:
             raise execution.raised from None

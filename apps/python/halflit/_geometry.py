@@ -2,14 +2,16 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Dict, Optional, Tuple, Union
+from typing import Any, Dict, List, Optional, Tuple, Union
 
 from . import _c
 from ._errors import UsageError
 from ._lazy import np
+from ._color import color as color_of
 from ._material import Material
+from ._record import chosen
 from ._scene_base import SceneBase
-from ._values import shown, whole
+from ._values import shown, truth, whole
 
 _COLORS = {"srgb": "SRGB", "linear": "LINEAR", "srgb_by_alpha": "SRGB_BY_ALPHA", "normal": "NORMAL"}
 
@@ -34,6 +36,10 @@ class Geometry(SceneBase):
     def set_texture(self, index: int, pixels, color: str = "srgb") -> None:
         """Replaces a texture; the size may differ."""
         self._texture("scene_set_texture", (index,), pixels, color, ())
+
+    def remove_texture(self, index: int) -> None:
+        """Removes a texture that no material uses; add_texture() may use its index again."""
+        self._change("scene_remove_texture", index)
 
     def _texture(self, name: str, before: tuple, pixels, color: str, after: tuple) -> None:
         from ._arrays import rgba8
@@ -131,9 +137,7 @@ class Geometry(SceneBase):
         self._own_materials.pop(mesh, None)
         if own:
             self._own_materials[mesh] = material
-        self._smooth.pop(mesh, None)
-        if arrays.is_smooth:
-            self._smooth[mesh] = arrays.faces().copy()  # the caller's array may change
+        (self._smooth.add if arrays.is_smooth else self._smooth.discard)(mesh)
 
     def _material_index(self, material: Union[int, Material, Dict[str, Any]]) -> int:
         return self.add_material(material) if isinstance(material, (Material, dict)) else material
@@ -151,47 +155,140 @@ class Geometry(SceneBase):
     def set_vertices(self, mesh: int, vertices, normals=None) -> None:
         """Moves the vertices of a mesh that was added: (n, 3), n as before.
 
-        normals: (n, 3), or "smooth" as in add_mesh() if the mesh was added so. None: smooth ones are made anew, others stay as they are.
+        normals: (n, 3), or "smooth" as in add_mesh() if the mesh was added so. None: those of a mesh that was given none are made anew,
+        smooth or flat as before; others stay as they are.
         """
         from . import _arrays
 
         with self._lock:
             positions = _arrays.positions(vertices)
-            smooth = self._smooth.get(mesh)
-            if isinstance(normals, str) and (normals != "smooth" or smooth is None):
+            if isinstance(normals, str) and (normals != "smooth" or mesh not in self._smooth):
                 raise UsageError(f'normals: expected an array, or "smooth" for a mesh that was added so, found {normals!r}')
-            if normals is None or isinstance(normals, str):
-                if smooth is not None and smooth.size and int(smooth.max()) >= len(positions):
-                    raise UsageError(f"vertices: {len(positions)} rows, but the mesh was added with more")
-                directions = None if smooth is None else _arrays.smooth_normals(positions, smooth)
-            else:
-                directions, smooth = _arrays.finite(normals, 3, "normals", len(positions)), None
+            made = normals is None or isinstance(normals, str)
+            directions = None if made else _arrays.finite(normals, 3, "normals", len(positions))
             pointer = None if directions is None else directions.ctypes.data
             self._change("scene_set_vertices", mesh, positions.ctypes.data, pointer, len(positions))
-            if smooth is None:
-                self._smooth.pop(mesh, None)
+            if not made:
+                self._smooth.discard(mesh)
+
+    def remove_mesh(self, mesh: int) -> None:
+        """Removes a mesh that no instance places; add_mesh() may use its index again."""
+        with self._lock:
+            self._change("scene_remove_mesh", mesh)
+            self._smooth.discard(mesh)
+            self._materials.pop(mesh, None)
+            self._own_materials.pop(mesh, None)
 
     # ---- instances ------------------------------------------------------------------------------------------------------
 
-    def add_instance(self, mesh: int, matrix=None) -> int:
-        """Places a mesh in the world by a 4 x 4 matrix (the identity), and returns the instance's index."""
-        return self._add_instance(mesh, self._placement(matrix))
+    def add_instance(self, mesh: int, matrix=None, *, color=None, material: Optional[int] = None, visible: bool = True,
+                     name: Optional[str] = None) -> int:  # fmt: skip
+        """Places a mesh in the world by a 4 x 4 matrix (the identity), and returns the instance's index.
+
+        color: linear RGB or RGBA, or "#rrggbb", times the material's base colour. material: index, in place of the mesh's.
+        visible: False: it is not drawn, casts no shadow, and views do not look at it. name: for name() and names().
+        """
+        with self._lock:
+            index = self._add_instance(mesh, self._placement(matrix))
+            if color is not None or material is not None or not visible or name is not None:
+                try:
+                    self.set_instance(index, color=color, material=material, visible=visible, name=name)
+                except Exception:
+                    self._change("scene_remove_instance", index)
+                    raise
+            return index
 
     def _add_instance(self, mesh: int, place: np.ndarray) -> int:
         index = ctypes.c_int32()
         self._change("scene_add_instance", mesh, place.ctypes.data, ctypes.byref(index))
         return index.value
 
+    def add_instances(self, mesh: int, matrices) -> range:
+        """Places a mesh by many matrices, (n, 4, 4), and returns the instances' indices."""
+        places, first = self._placements(matrices), ctypes.c_int32()
+        self._change("scene_add_instances", mesh, len(places), places.ctypes.data, ctypes.byref(first))
+        return range(first.value, first.value + len(places))
+
     def instance(self, index: int) -> Tuple[int, np.ndarray]:
         """Mesh and matrix, float64 (4, 4), of an instance."""
-        mesh, columns = ctypes.c_int32(), np.empty((4, 4), np.float32)
-        self._call("scene_get_instance", index, ctypes.byref(mesh), columns.ctypes.data)
-        return mesh.value, self._world.matrix_out(columns.T.astype(np.float64))
+        found = self._instance(index)
+        columns = np.array(found.world_from_object, np.float64).reshape(4, 4)
+        return found.mesh, self._world.matrix_out(columns.T)
 
-    def set_instance(self, index: int, matrix) -> None:
-        """Moves an instance. The next frame recomputes what depends on it alone."""
-        place = self._placement(matrix)
-        self._change("scene_set_instance", index, place.ctypes.data)
+    def look(self, index: int) -> Dict[str, Any]:
+        """What else an instance has: color (linear RGBA), material (None: the mesh's), visible, name, node (None: it is of no file)."""
+        found = self._instance(index)
+        return {
+            "color": tuple(found.color),
+            "material": None if found.material < 0 else found.material,
+            "visible": bool(found.visible),
+            "name": self.name("instance", index),
+            "node": None if found.node < 0 else found.node,
+        }
+
+    def _instance(self, index: int):
+        found = _c.make("instance", False)
+        self._call("scene_get_instance", index, ctypes.byref(found))
+        return found
+
+    def set_instance(self, index: int, matrix=None, *, color=None, material: Optional[int] = None, visible: Optional[bool] = None,
+                     mesh: Optional[int] = None, name: Optional[str] = None) -> None:  # fmt: skip
+        """Moves an instance, or changes what else is given: see add_instance(). material -1: the mesh's. The next frame recomputes what
+        depends on it alone."""
+        with self._lock:
+            if (color, material, visible, mesh, name) == (None,) * 5:
+                if matrix is not None:
+                    place = self._placement(matrix)
+                    self._change("scene_place_instance", index, place.ctypes.data)
+                return
+            found = self._instance(index)
+            if matrix is not None:
+                found.world_from_object = (ctypes.c_float * 16)(*self._placement(matrix).ravel().tolist())
+            if color is not None:
+                found.color = (ctypes.c_float * 4)(*color_of(color, "color", 4))
+            for member, value in (("material", material), ("mesh", mesh)):
+                if value is not None:
+                    found.put(member, value, member)
+            if visible is not None:
+                found.visible = truth(visible, "visible")
+            self._change("scene_set_instance", index, ctypes.byref(found))
+            if name is not None:
+                self.set_name("instance", index, name)
+
+    def set_instances(self, matrices, indices=None) -> None:
+        """Moves many instances at once by matrices (n, 4, 4). indices: theirs; 0, 1, 2 and so on if they are left out."""
+        places = self._placements(matrices)
+        which = None if indices is None else np.ascontiguousarray(indices, np.int32)
+        if which is not None and which.shape != (len(places),):
+            raise UsageError(f"indices: {which.shape}, expected one for each of {len(places)} matrices")
+        self._change("scene_place_instances", None if which is None else which.ctypes.data, len(places), places.ctypes.data)
+
+    def remove_instance(self, index: int) -> None:
+        """Removes an instance; add_instance() may use its index again."""
+        self._change("scene_remove_instance", index)
+
+    # ---- names and nodes ------------------------------------------------------------------------------------------------
+
+    def name(self, part: str, index: int) -> str:
+        """Name of a "node", "instance", "mesh", "material" or "camera"; an instance without one has its node's."""
+        text = ctypes.c_char_p()
+        self._call("scene_get_name", chosen(part, "PART", "part"), index, ctypes.byref(text))
+        return _c.text_of(text.value)
+
+    def set_name(self, part: str, index: int, name: str) -> None:
+        """Names an "instance", a "mesh" or a "material"."""
+        self._change("scene_set_name", chosen(part, "PART", "part"), index, _c.bytes_of(name, "name"))
+
+    @property
+    def nodes(self) -> List[Dict[str, Any]]:
+        """The file's tree: of each node name, parent (None: a root), instances (indices, which aovs["id"] - 1 has), camera, light."""
+        found, node = [], _c.make("node", False)
+        for i in range(self.counts["nodes"]):
+            self._call("scene_get_node", i, ctypes.byref(node))
+            instances = (ctypes.c_int32 * node.instance_count).from_address(node.instances) if node.instance_count else ()
+            indices = {key: None if value < 0 else value for key, value in (("parent", node.parent), ("camera", node.camera), ("light", node.light))}
+            found.append({"name": _c.text_of(node.name), "instances": list(instances), **indices})
+        return found
 
     def add_ground(self) -> int:
         """Adds a ground below the scene that is invisible but for the shadows on it, and returns its instance's index."""
@@ -205,3 +302,10 @@ class Geometry(SceneBase):
 
         given = np.eye(4) if matrix is None else _arrays.matrix(matrix)
         return _arrays.columns_of(self._world.matrix_in(given))
+
+    def _placements(self, matrices) -> np.ndarray:
+        """The same of many matrices: float32 (n, 16)."""
+        from . import _arrays
+
+        given = _arrays.matrices(matrices)
+        return np.ascontiguousarray(self._world.matrix_in(given).transpose(0, 2, 1), dtype=np.float32).reshape(-1, 16)

@@ -23,7 +23,7 @@ class Lighting(SceneBase):
         """Adds a Light, or one of this type, with these members: add_light("point", position=(0, 2, 0), color=(4, 4, 4))."""
         index = ctypes.c_int32()
         made = Light(light, **members) if isinstance(light, str) else Light._from(light, **members)
-        self._relight("scene_add_light", ctypes.byref(self._world.into(made)._c), ctypes.byref(index))
+        self._change("scene_add_light", ctypes.byref(self._world.into(made)._c), ctypes.byref(index))
         self._own_lights = True
         return index.value
 
@@ -35,12 +35,16 @@ class Lighting(SceneBase):
 
     def set_light(self, index: int, light: Union[Light, Dict[str, Any]]) -> None:
         """Replaces a light."""
-        self._relight("scene_set_light", index, ctypes.byref(self._world.into(Light._from(light))._c))
+        self._change("scene_set_light", index, ctypes.byref(self._world.into(Light._from(light))._c))
+
+    def remove_light(self, index: int) -> None:
+        """Removes a light; add_light() may use its index again."""
+        self._change("scene_remove_light", index)
 
     def set_ambient(self, sky: Color, ground: Optional[Color] = None) -> None:
         """Sets the light from all around, linear: sky from above, ground (the same) from below. An environment replaces it."""
         given = ((sky, "sky"), (sky if ground is None else ground, "ground"))
-        self._relight("scene_set_ambient", *((ctypes.c_float * 3)(*color(value, name, 3)) for value, name in given))
+        self._change("scene_set_ambient", *((ctypes.c_float * 3)(*color(value, name, 3)) for value, name in given))
 
     def set_environment(self, image, *, rotate: float = 0.0, extract_suns: bool = True, calibrated: bool = False) -> None:
         """Lights the scene by an image of the light from all directions, in the place of ambient light.
@@ -52,9 +56,9 @@ class Lighting(SceneBase):
         how.rotate_rad = real(rotate, "rotate") * (math.pi / 180)
         how.extract_suns, how.calibrated = truth(extract_suns, "extract_suns"), truth(calibrated, "calibrated")
         if isinstance(image, str) and image == "sky":
-            self._relight("scene_set_sky", ctypes.byref(how))
+            self._change("scene_set_sky", ctypes.byref(how))
         elif isinstance(image, (str, os.PathLike)):
-            self._relight("scene_load_environment", _c.bytes_of(image, "environment"), ctypes.byref(how))
+            self._change("scene_load_environment", _c.bytes_of(image, "environment"), ctypes.byref(how))
         else:
             from ._arrays import array_of
 
@@ -65,9 +69,9 @@ class Lighting(SceneBase):
                     f" found {array.dtype} of {array.shape}"
                 )
             array = np.ascontiguousarray(array, dtype=np.float32)
-            self._relight("scene_set_environment", array.ctypes.data, array.shape[1], array.shape[0], ctypes.byref(how))
+            self._change("scene_set_environment", array.ctypes.data, array.shape[1], array.shape[0], ctypes.byref(how))
 
     def clear_lights(self) -> None:
         """Removes the lights, the ambient light and the environment, those of the file too."""
-        self._relight("scene_clear_lights")
+        self._change("scene_clear_lights")
         self._own_lights = False

@@ -29,7 +29,7 @@ class MeshArrays:
         if isinstance(normals, str):
             if normals != "smooth" or topology != "triangles":
                 raise UsageError(f'normals: expected an array, or "smooth" for triangles, found {normals!r}')
-            normals = _arrays.smooth_normals(positions, self.faces())
+            normals = None
         #: member of halflit_mesh -> array or None
         self.arrays: Dict[str, Optional[np.ndarray]] = {"positions": positions, "indices": self.corners}
         named = (("normals", "normals", normals, 3), ("uv0", "uv", attributes["uv"], 2), ("uv1", "uv1", attributes["uv1"], 2))
@@ -38,10 +38,6 @@ class MeshArrays:
         colors = attributes["colors"]
         self.arrays["colors"] = None if colors is None else _arrays.colors(colors, self.count)
 
-    def faces(self) -> np.ndarray:
-        """The vertex numbers, made up if there are none."""
-        return np.arange(self.count, dtype=np.uint32) if self.corners is None else self.corners
-
     def struct(self, material: int):
         """The halflit_mesh, which points to the arrays of this object."""
         mesh = _c.make("mesh")
@@ -49,6 +45,6 @@ class MeshArrays:
             setattr(mesh, member, None if array is None else array.ctypes.data)
         mesh.vertex_count, mesh.index_count = self.count, 0 if self.corners is None else self.corners.size
         mesh.topology = _c.CONSTANTS["HALFLIT_TOPOLOGY_" + self.topology.upper()]
-        mesh.name = self.name
+        mesh.name, mesh.smooth = self.name, self.is_smooth
         mesh.put("material", material, "material")
         return mesh

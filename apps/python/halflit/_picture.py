@@ -40,15 +40,33 @@ class Picture(np.ndarray):
         return f"{_c.function('pixel_hash')(pixels.ctypes.data, pixels.nbytes):016x}"
 
     def save(self, path) -> None:
-        """Writes .png, .bmp, .tga or .jpg, or from float32 also .exr, .hdr or .pfm. The file is old or new, never half written.
+        """Writes .png, .bmp, .tga, .jpg or .webp, or from float32 also .exr, .hdr or .pfm. The file is old or new, never half written.
 
         In 8-bit files floats become sRGB codes; light above 1 is cut off.
         """
         text = _c.bytes_of(path, "path")
-        is_linear = os.path.splitext(os.fsdecode(text or b""))[1].lower() in _LINEAR
+        pixels, target = self._target(os.path.splitext(os.fsdecode(text or b""))[1].lower(), os.fsdecode(path))
+        _c.call("write_image", text, ctypes.byref(target))
+
+    def to_png(self) -> bytes:
+        """The picture as the bytes of a PNG. Floats become sRGB codes; light above 1 is cut off."""
+        return self.encode("png")
+
+    def encode(self, format: str) -> bytes:
+        """The picture as the bytes of a file: "png", "jpg", "webp", "bmp", "tga", or of float32 "exr", "hdr", "pfm". In 8-bit files floats
+        become sRGB codes; light above 1 is cut off."""
+        taken = []
+        write = _c.Write(lambda user, bytes, count: taken.append(ctypes.string_at(bytes, count)))
+        pixels, target = self._target(f".{format.lower()}", "encode")
+        _c.call("encode_image", _c.bytes_of(format, "format"), ctypes.byref(target), write, None)
+        return taken[0]
+
+    def _target(self, extension: str, name: str) -> tuple:
+        """The pixels as a file of this kind has them, and the halflit_target that points to them."""
+        is_linear = extension in _LINEAR
         if is_linear and self.dtype != np.float32:
-            raise UsageError(f"{os.fsdecode(path)}: expected a picture of float32, as by render(dtype=numpy.float32), found {self.dtype}")
-        pixels = self._straight("save")
+            raise UsageError(f"{name}: expected a picture of float32, as by render(dtype=numpy.float32), found {self.dtype}")
+        pixels = self._straight(name)
         if not is_linear:
             pixels = codes_of(pixels)
         if pixels.shape[2] == 3:
@@ -58,13 +76,7 @@ class Picture(np.ndarray):
         target = _c.make("target")
         target.pixels, target.width, target.height = pixels.ctypes.data, pixels.shape[1], pixels.shape[0]
         target.format = _c.CONSTANTS["HALFLIT_FORMAT_RGBA_F32" if is_linear else "HALFLIT_FORMAT_RGBA8"]
-        _c.call("write_image", text, ctypes.byref(target))
-
-    def to_png(self) -> bytes:
-        """The picture as the bytes of a PNG. Floats become sRGB codes; light above 1 is cut off."""
-        from ._png import encode
-
-        return encode(np.ascontiguousarray(codes_of(self._straight("to_png"))))
+        return pixels, target
 
     def _straight(self, name: str) -> np.ndarray:
         """The pixels, colours divided by alpha if they were multiplied by it."""

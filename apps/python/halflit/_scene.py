@@ -10,6 +10,7 @@ from ._camera import Camera
 from ._geometry import Geometry
 from ._lazy import np, pictures
 from ._lighting import Lighting
+from ._record import chosen
 from ._picture_options import PictureOptions, ViewOptions
 from ._setup import Setup
 from ._types import Size, Unpack
@@ -17,8 +18,8 @@ from ._values import real, truth
 from ._world import World
 
 #: Members of halflit_load_options that are truths, and those that have a keyword of their own.
-_TRUTHS = ("lenient", "turn_upright")
-_NAMED = ("size", "reserved", "allow_external", "allow_external_count", "animation", "time_s", "scene", "variant", "keep_animations", "recentre")
+_TRUTHS = ("lenient",)
+_NAMED = ("size", "reserved", "allow_external", "allow_external_count", "animation", "time_s", "scene", "variant", "keep_animations", "recentre", "up")
 
 
 class Scene(Geometry, Lighting):
@@ -53,6 +54,7 @@ class Scene(Geometry, Lighting):
         keep_animations: bool = False,
         base_dir: Union[str, os.PathLike, None] = None,
         recentre: bool = True,
+        up: Optional[str] = None,
         **options: Any,
     ) -> Scene:
         """A scene of a glTF, GLB, STL, PLY, OBJ or 3MF file, or of its bytes.
@@ -62,7 +64,9 @@ class Scene(Geometry, Lighting):
         keep_animations: for pose(). base_dir: folder of files that bytes refer to; without it none is read.
         recentre: a model that is far from the origin is drawn near it, and a tiny or huge one in another size, so that float32 keeps its
         shape. All that is given and asked for stays in the file's own world.
-        Other keywords are members of halflit_load_options, such as lenient=True, crease_deg=60, max_texture_side=4096 or
+        up: axis of the model that points up, "x", "y", "z", "-x", "-y" or "-z": the scene is turned so that it becomes y. The usual one is
+        z for STL and 3MF and y for other files.
+        Other keywords are members of halflit_load_options, such as lenient=True, crease_deg=60, time_limit_s=10, max_texture_side=4096 or
         allow_external="/models/shared", a folder or a list of folders in which the model's files may lie too.
         """
         how = _c.make("load_options")
@@ -78,6 +82,7 @@ class Scene(Geometry, Lighting):
             setattr(how, name, truth(value, name) if name in _TRUTHS else value)
         how.put("time_s", time, "time")
         how.keep_animations, how.recentre = truth(keep_animations, "keep_animations"), truth(recentre, "recentre")
+        how.up = 0 if up is None else chosen(up.replace("-", "minus_"), "UP", "up")
         for name, text in (("animation", animation), ("scene", scene), ("variant", variant)):
             setattr(how, name, None if text is None else _c.bytes_of(str(text), name))
         if isinstance(source, (bytes, bytearray, memoryview)):
@@ -87,7 +92,7 @@ class Scene(Geometry, Lighting):
             handle = _c.Handle("scene_load", "scene_destroy", _c.bytes_of(source, "source"), ctypes.byref(how))
         made = cls._of(handle)
         origin, scale = (ctypes.c_double * 3)(), ctypes.c_double()
-        made._call("scene_get_placement", origin, ctypes.byref(scale))
+        made._call("scene_get_placement", origin, ctypes.byref(scale), None)
         made._world = World(tuple(origin), scale.value)
         return made
 

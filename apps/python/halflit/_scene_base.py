@@ -22,14 +22,13 @@ class SceneBase:
         self._executed: Any = None  # Execution.key of the renderer
         self._world = World()
         self._changes = 0  # of anything that setup() looks at
-        self._lit_by: Any = None  # the Setup whose light is in the scene of the library
-        self._lit_key: Any = None  # of what _lit_by was chosen for; None: not for the scene as it is
+        self._chosen: Any = None  # what was chosen for the last frame, and the key of what it was chosen for
         self._own_lights = False  # add_light() was called
         self._told: set = set()  # warnings that were shown
         self._plain: Optional[int] = None  # material of meshes that are given none
         self._materials: Dict[int, int] = {}  # mesh that was added -> its material
+        self._smooth: set = set()  # meshes with normals="smooth"
         self._own_materials: Dict[int, int] = {}  # mesh -> material that was made for it alone
-        self._smooth: Dict[int, Any] = {}  # mesh with normals="smooth" -> its faces
 
     @property
     def counts(self) -> Dict[str, int]:
@@ -56,13 +55,6 @@ class SceneBase:
         with self._lock:
             self._call(name, *arguments)
             self._changes += 1
-
-    def _relight(self, name: str, *arguments) -> None:
-        with self._lock:
-            try:
-                self._change(name, *arguments)
-            finally:
-                self._lit_by = self._lit_key = None  # a call that fails may have taken back the light of setup() too
 
     def _check_open(self) -> None:
         if self._handle is None:

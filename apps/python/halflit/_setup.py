@@ -15,17 +15,14 @@ from ._record import chosen
 from ._values import real, shown, sized, truth
 from ._world import World
 
-USUAL = (1280, 720)  # the program's size
-
-
 class Setup:
-    """What Scene.setup() chose: camera and settings. render(setup=...) draws by it again, whatever has moved since."""
+    """What Scene.setup() chose: size, camera, light and settings. render(setup=...) draws by it again, whatever has moved since."""
 
-    def __init__(self, camera: Camera, settings, request: Request, size: Tuple[int, int]):
+    def __init__(self, camera: Camera, settings, lighting, size: Tuple[int, int]):
         self.size = size  #: width, height
         self._camera = camera  # in the file's world
         self._settings = settings
-        self._request = request
+        self._lighting = lighting
 
     @property
     def camera(self) -> Camera:
@@ -39,24 +36,24 @@ class Setup:
 
 
 class Request:
-    """A halflit_setup_options, and the camera, in the world that is drawn, that it points to."""
+    """A halflit_picture_request, with what it points to: a camera in the world that is drawn, and the name of one of the scene."""
 
-    def __init__(self, struct, camera: Optional[Camera]):
+    def __init__(self, struct, camera: Optional[Camera], name: Optional[str]):
         self.struct = struct
         self.camera = camera
         struct.camera = None if camera is None else ctypes.addressof(camera._c)
+        struct.scene_camera = None if name is None else _c.bytes_of(name, "camera")
+        self.name = name
 
     @property
     def key(self) -> tuple:
         """Equal requests have equal keys. The pointers at the structs' begin do not count."""
-        pointers = ctypes.sizeof(ctypes.c_size_t) + ctypes.sizeof(ctypes.c_void_p)
-        return bytes(self.struct)[pointers:], None if self.camera is None else bytes(self.camera._c)[pointers:]
-
-    def by(self, camera: Camera) -> Request:
-        """The same with this camera."""
-        struct = type(self.struct).from_buffer_copy(self.struct)
-        struct.frame = 0
-        return Request(struct, camera)
+        pointer = ctypes.sizeof(ctypes.c_size_t)
+        return (
+            bytes(self.struct)[3 * pointer :],
+            self.name,
+            None if self.camera is None else bytes(self.camera._c)[2 * pointer :],
+        )
 
 
 def check_view(options: Iterable[str]) -> None:
@@ -76,15 +73,6 @@ def checked_size(size) -> Tuple[int, int]:
     return width, height
 
 
-def shaped(camera: Camera) -> Tuple[int, int]:
-    """The largest size with the camera's aspect ratio that fits into the usual one."""
-    aspect = camera._shape()
-    if not 1e-3 < aspect < 1e3:
-        return USUAL
-    fitted = min(float(USUAL[0]), USUAL[1] * aspect)
-    return max(1, int(fitted + 0.5)), max(1, int(fitted / aspect + 0.5))
-
-
 def exposure_of(options: dict) -> Optional[float]:
     """The factor that exposure or ev says; None: neither."""
     exposure, ev = options.get("exposure"), options.get("ev")
@@ -100,21 +88,24 @@ def exposure_of(options: dict) -> Optional[float]:
 
 
 def request_of(scene, options: dict) -> Request:
-    struct, given = _c.make("setup_options"), options.get("camera")
+    struct, given = _c.make("picture_request"), options.get("camera")
     whole_scene = [name for name in ("azimuth", "elevation", "zoom", "fov", "orthographic") if options.get(name) is not None]
     struct.frame = bool(whole_scene) or (isinstance(given, str) and given == "frame")
-    camera = None
+    camera, scene_camera = None, None
     if given is not None and not (isinstance(given, str) and given == "frame"):
         if whole_scene:
             raise UsageError(f"camera: cannot be combined with {', '.join(whole_scene)}, which make a camera of their own")
-        camera = scene._world.into(camera_of(scene, given))
+        if isinstance(given, (str, int, np.integer)):
+            scene_camera = str(given)
+        else:
+            camera = scene._world.into(given_camera(given))
     for name, member in (("azimuth", "azimuth_deg"), ("elevation", "elevation_deg"), ("zoom", "zoom"), ("fov", "fov_y_deg")):
         if name in whole_scene:
             struct.put(member, options[name], name)
     struct.orthographic = truth(options.get("orthographic") or False, "orthographic")
     struct.exposure = exposure_of(options) or 0.0
     light_of(scene, options, struct)
-    return Request(struct, camera)
+    return Request(struct, camera, scene_camera)
 
 
 def light_of(scene, options: dict, struct) -> None:
@@ -135,50 +126,37 @@ def light_of(scene, options: dict, struct) -> None:
     struct.studio_turn_rad = 0.0 if turn is None else math.radians(real(turn, "studio_turn"))
 
 
-def camera_of(scene, given) -> Camera:
-    """The camera that a caller names, in the file's world."""
-    if not isinstance(given, (str, int, np.integer)):
-        camera = given if isinstance(given, Camera) else Camera(given)
-        camera._check()
-        return camera
-    cameras, name = scene.cameras, str(given)
-    for camera in cameras:
-        if camera.name == name:
-            return camera
-    if name.isdecimal() and int(name) < len(cameras):
-        return cameras[int(name)]
-    raise UsageError(f"camera: expected a name or an index below {len(cameras)}, found {given!r}")
+def given_camera(given) -> Camera:
+    """A camera that a caller gives, checked."""
+    camera = given if isinstance(given, Camera) else Camera(given)
+    camera._check()
+    return camera
 
 
-def set_up(scene, size: Tuple[int, int], request: Request) -> Setup:
-    """Calls halflit_setup, which puts the light that is chosen into the library's scene, in the place of that of the last call."""
-    camera, settings = Camera(), _c.make("settings")
-    scene._lit_by = scene._lit_key = None
-    scene._call("setup", *size, ctypes.byref(request.struct), ctypes.byref(camera._c), ctypes.byref(settings))
-    setup = Setup(scene._world.out(camera), settings, request.by(camera), size)
-    scene._lit_by = setup
-    return setup
+def set_up(scene, request: Request) -> Setup:
+    """Calls halflit_choose_picture."""
+    camera, settings, size = Camera(), _c.make("settings"), (ctypes.c_int32 * 2)()
+    scene._check_open()
+    lighting = _c.Handle(
+        "choose_picture", "lighting_destroy", scene._handle, *map(ctypes.byref, (request.struct, size, camera._c, settings))
+    )
+    return Setup(scene._world.out(camera), settings, lighting, (size[0], size[1]))
 
 
 def choose(scene, size, options: dict) -> Setup:
     """The setup for the keywords: that of the last frame if nothing has changed."""
     scene._check_open()
     request = request_of(scene, options)
-    asked = None if size is None else checked_size(size)
-    key = (scene._changes, asked, *request.key)
-    if scene._lit_by is not None and scene._lit_key == key:
-        return scene._lit_by
-    setup = set_up(scene, asked or USUAL, request)
-    if asked is None and not request.struct.frame:
-        fitted = shaped(drawn_camera(scene._world, setup))
-        if fitted != USUAL:
-            setup = set_up(scene, fitted, request)
-    scene._lit_key = key
-    return setup
+    if size is not None:
+        request.struct.width, request.struct.height = checked_size(size)
+    key = (scene._changes, *request.key)
+    if scene._chosen is None or scene._chosen[1] != key:
+        scene._chosen = set_up(scene, request), key
+    return scene._chosen[0]
 
 
 def kept(scene, size, options: dict) -> Setup:
-    """The setup that the caller keeps. Its light is put into the scene again if another setup, or a change of light, took it away."""
+    """The setup that the caller keeps."""
     scene._check_open()
     setup = options["setup"]
     if not isinstance(setup, Setup):
@@ -188,10 +166,6 @@ def kept(scene, size, options: dict) -> Setup:
         raise UsageError(f"setup: cannot be combined with {', '.join(others)}, which it has chosen")
     if size is not None and checked_size(size) != setup.size:
         raise UsageError(f"setup: made for {setup.size[0]} x {setup.size[1]} pixels")
-    if scene._lit_by is not setup:
-        # The studio turns with the camera, so the light is chosen for the camera of this setup.
-        set_up(scene, setup.size, setup._request.by(scene._world.into(setup._camera)))
-        scene._lit_by = setup
     return setup
 
 

@@ -44,10 +44,10 @@ class World:
         return given
 
     def matrix_in(self, matrix: np.ndarray) -> np.ndarray:
-        """world_from_object, float64 (4, 4), for the world that is drawn."""
+        """world_from_object, float64 (4, 4) or (n, 4, 4), for the world that is drawn."""
         placed = matrix.copy()
-        placed[:3, :3] *= self.scale
-        placed[:3, 3] = self.point_in(matrix[:3, 3])
+        placed[..., :3, :3] *= self.scale
+        placed[..., :3, 3] = (matrix[..., :3, 3] - self.origin) * self.scale
         return placed
 
     def matrix_out(self, matrix: np.ndarray) -> np.ndarray:

@@ -1,6 +1,6 @@
 #include "apps/viewer/window/panels.hpp"
 
-#include "apps/halflit/plan_names.hpp"
+#include "apps/halflit/flags/plan_names.hpp"
 #include "sh/zonal.hpp"
 #include "shading/reference/reference.hpp"
 

@@ -1,7 +1,7 @@
 // The window's loop: events in, requests to the worker, pictures and panel out. It never waits for a picture.
 #include "apps/viewer/viewer.hpp"
 
-#include "apps/halflit/stopwatch.hpp"
+#include "apps/halflit/program/stopwatch.hpp"
 #include "apps/viewer/frame_worker.hpp"
 #include "apps/viewer/orbit_camera.hpp"
 #include "apps/viewer/window/gui.hpp"
@@ -58,7 +58,7 @@ public:
         texts_.pixel = "A click on the picture tells how its pixel came about.";
         for (const std::string& warning : job.warnings) texts_.report += "warning: " + warning + "\n";
         texts_.exposure = job.settings.exposure;
-        origin_ = cli::turned_upright(job.source.origin, options.up), scale_ = job.source.scale;
+        origin_ = job.source.placement.origin, scale_ = job.source.placement.scale;
         title_ = "halflit: " + job.source.name;
         worker_ = std::make_unique<FrameWorker>(std::move(job), options, [this] { wake(); });
     }

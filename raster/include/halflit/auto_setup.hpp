@@ -2,12 +2,14 @@
 #pragma once
 
 #include "halflit/camera.hpp"
+#include "halflit/error.hpp"
 #include "halflit/export.hpp"
 #include "halflit/scene.hpp"
 #include "halflit/settings.hpp"
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 namespace halflit {
 
@@ -41,6 +43,26 @@ struct AutoSetup {
     bool framed = false;  ///< the camera is a view of the whole scene
 };
 
+/// Width and height of a picture in pixels.
+struct PictureSize {
+    int width = 0;   ///< pixels
+    int height = 0;  ///< pixels
+    friend bool operator==(const PictureSize&, const PictureSize&) = default;
+};
+
+/// What the caller decides of a picture's shape, too.
+struct PictureRequest : AutoOptions {
+    std::optional<PictureSize> size{};          ///< empty: the largest of the camera's shape that fits into usual_size
+    PictureSize usual_size{1280, 720};          ///< pixels; a view of the whole scene has it
+    std::optional<std::string> scene_camera{};  ///< the view: a camera of the scene, by its name, or else its index
+};
+
+/// What choose_picture() chose.
+struct PictureChoice : AutoSetup {
+    PictureSize size;       ///< of the picture
+    int scene_camera = -1;  ///< index into Scene::cameras of the view; -1: another camera
+};
+
 /// Four samples, the dark grey background #3a3f47, the neutral tone curve, textures filtered along footprints up to four times as long as
 /// wide, and otherwise the defaults.
 [[nodiscard]] HALFLIT_API Settings usual_settings();
@@ -55,6 +77,12 @@ struct AutoSetup {
 [[nodiscard]] HALFLIT_API AutoSetup auto_setup(const Scene& scene, int width, int height, const AutoOptions& options = {});
 /// The same. bounds: scene_bounds(scene).
 [[nodiscard]] HALFLIT_API AutoSetup auto_setup(const Scene& scene, const Bounds& bounds, int width, int height, const AutoOptions& options);
+
+/// Chooses the picture's size too, by the shape of the camera: the one place that decides what a picture shows. Program, C and Python call
+/// it. Errors: usage, for a scene_camera that the scene does not have, and a size below 1.
+[[nodiscard]] HALFLIT_API Result<PictureChoice> choose_picture(const Scene& scene, const PictureRequest& request = {});
+/// The same. bounds: scene_bounds(scene).
+[[nodiscard]] HALFLIT_API Result<PictureChoice> choose_picture(const Scene& scene, const Bounds& bounds, const PictureRequest& request);
 
 /// The scene's first camera, or null if it has none, or if that camera shows it small or not at all: the box around the scene, between the
 /// camera's near and far plane, fills less than a sixth of its picture, unless it lies in it as a whole and spans two thirds of its width

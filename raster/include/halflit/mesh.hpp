@@ -43,8 +43,11 @@ struct Mesh {
 
 /// A mesh placed in the world.
 struct Instance {
-    int mesh = 0;            ///< index into Scene::meshes
-    Mat4 world_from_object;  ///< any affine matrix; the last row is 0 0 0 1
+    int mesh = 0;             ///< index into Scene::meshes
+    Mat4 world_from_object;   ///< any affine matrix; the last row is 0 0 0 1
+    int material = -1;        ///< index into Scene::materials, in place of the mesh's; -1: the mesh's
+    Vec4f color{1, 1, 1, 1};  ///< linear, times the material's base colour; alpha counts where the material masks or blends
+    bool visible = true;      ///< false: it is not drawn, casts no shadow, and views do not look at it
 };
 
 /// Smallest axis-aligned box around a set of points, in the points' space.
@@ -63,6 +66,10 @@ struct Bounds {
 /// afterwards, and index i is i. Other attributes are copied. Tangents are removed, because they belong to other normals. A triangle that
 /// has no area or is not finite gets (0, 0, 1). Requires: indices in range. Lines and points are left as they are, here and below.
 HALFLIT_API void generate_flat_normals(Mesh& mesh);
+
+/// Makes mesh.normals those of the smooth surface through the vertices: the mean of the triangles around each, by their areas, of length 1.
+/// A vertex without a triangle, or whose triangles cancel each other, has +y. Vertices are not split. Triangles alone.
+HALFLIT_API void generate_smooth_normals(Mesh& mesh);
 
 /// Fills mesh.tangents from positions, normals and a set of texture coordinates (0 or 1, v down); the mesh must have all three, and indices
 /// in range. A vertex whose triangles disagree (mirrored or separate charts) is split, and its other attributes are copied. Indices change,

@@ -21,10 +21,10 @@ class PreparedData;
 
 /// Parts of a scene that changed after it was prepared. The numbers of meshes, instances and materials must stay the same.
 struct SceneChanges {
-    std::vector<std::size_t> moved_instances{};  ///< Instance::world_from_object
-    std::vector<std::size_t> deformed_meshes{};  ///< any array of the mesh, indices and material included
-    bool materials = false;                      ///< materials or textures
-    bool lights = false;                         ///< lights, ambient light or environment
+    std::vector<std::size_t> changed_instances{};  ///< any member of the instance
+    std::vector<std::size_t> deformed_meshes{};    ///< any array of the mesh, indices and material included
+    bool materials = false;                        ///< materials or textures
+    bool lights = false;                           ///< the scene's own light. Nothing is prepared of it: who draws by a copy takes it anew
 };
 
 /// Refers to the scene that it was made from: that must stay at its address, and update() must be told its changes. Any number of threads

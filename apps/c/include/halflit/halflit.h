@@ -1,6 +1,6 @@
 // halflit for C, and for languages that call C: glTF or arrays in, picture out.
 //
-// - Handles: halflit_scene and halflit_renderer are made by a function that ends in create or load, and freed by one that ends in destroy.
+// - Handles: halflit_scene, halflit_lighting and halflit_renderer are freed by the function that ends in destroy.
 // - Results: A function that can fail returns a code: HALFLIT_OK, which is 0, or one of the HALFLIT_ERROR codes. halflit_last_error() has
 //   the message. Results of a call come through its last pointers; they are written if the code is HALFLIT_OK. A null pointer is an error
 //   (usage), unless the function says otherwise.
@@ -50,40 +50,52 @@ enum {
 /// next call that fails.
 HALFLIT_C_API const char* halflit_last_error(void);
 
-// ---- a scene as a whole ------------------------------------------------------------------------------------------------
+// ---- scenes and files --------------------------------------------------------------------------------------------------
 
 /// Everything that a picture shows: meshes, instances of them, materials, textures, lights, cameras.
 typedef struct halflit_scene halflit_scene;
 
-/// Limits and rights of a model file. The file is not trusted: above a limit, loading fails (limit).
+/// The axis of a model that points up. BY_FORMAT: z for STL and 3MF, y for the others.
+enum {
+    HALFLIT_UP_BY_FORMAT = 0,
+    HALFLIT_UP_X = 1,
+    HALFLIT_UP_Y = 2,
+    HALFLIT_UP_Z = 3,
+    HALFLIT_UP_MINUS_X = 4,
+    HALFLIT_UP_MINUS_Y = 5,
+    HALFLIT_UP_MINUS_Z = 6
+};
+
+/// How a model file is read. The file is not trusted: above a limit, loading fails (limit). Defaults in parentheses.
 typedef struct halflit_load_options {
     size_t size;
-    const char* const* allow_external;  ///< folders, besides the model's own, in which referenced files may lie
-    size_t allow_external_count;        ///< number of these folders
-    uint64_t max_file_bytes;            ///< each file: the model, a buffer, a picture
-    uint64_t max_total_bytes;           ///< all buffers together
-    uint64_t max_json_tokens;           ///< names and values
-    uint64_t max_texture_bytes;         ///< all textures together, 10.7 bytes a pixel
-    uint64_t max_texture_pixels;        ///< one texture
-    uint64_t max_geometry_bytes;        ///< all vertices, indices and instances together
-    uint64_t max_lights;                ///< lights of the drawn nodes
-    int32_t max_json_depth;             ///< objects and arrays inside each other
-    int32_t max_texture_side;           ///< texels
-    int32_t max_jpeg_scans;             ///< passes over the picture of a progressive JPEG
-    int32_t lenient;                    ///< draw what can be drawn: magenta for broken textures, triangles with bad indices left out
-    int32_t threads;                    ///< threads that decode textures, the calling one included; 0: one for each core
-    int32_t keep_animations;            ///< keep what halflit_scene_pose() needs
+    const char* scene;    ///< scene of the file: its name, or else its index; null or empty: the one that the file names, or the first
+    const char* variant;  ///< variant of the file's materials, by name; null or empty: the materials without a variant
     /// Animation that poses the scene: its name, or else its index in the file; null or empty: the first one, if there is any; "none": the
     /// pose of the nodes.
     const char* animation;
-    double time_s;         ///< time of the pose, seconds; before an animation's first key and after its last one, these are drawn
-    int32_t turn_upright;  ///< turn STL and 3MF files, whose z points up, so that y does; by default on
-    float crease_deg;      ///< STL, PLY, OBJ, 3MF without normals: smooth across edges up to this angle; by default 30
-    const char* scene;     ///< scene of the file: its name, or else its index; null or empty: the one that the file names, or the first
-    const char* variant;   ///< variant of the file's materials, by name; null or empty: the materials without a variant
-    /// Moves a scene that is far from the origin to it, and scales a tiny or huge one, so that float32 keeps its shape; by default off.
-    /// See halflit_scene_get_placement.
+    double time_s;            ///< time of the pose, seconds; before an animation's first key and after its last one, these are drawn (0)
+    int32_t keep_animations;  ///< keep what halflit_scene_pose() needs (0)
+    int32_t up;               ///< HALFLIT_UP: the scene is turned so that this axis becomes y (by format)
+    /// Moves a scene that is far from the origin to it, and scales a tiny or huge one, so that float32 keeps its shape (1). See
+    /// halflit_scene_get_placement.
     int32_t recentre;
+    float crease_deg;                   ///< STL, PLY, OBJ, 3MF without normals: smooth across edges up to this angle (30)
+    int32_t lenient;                    ///< draw what can be drawn: magenta for broken textures, triangles with bad indices left out (0)
+    int32_t threads;                    ///< threads that decode textures, the calling one included; 0: one for each core (0)
+    const char* const* allow_external;  ///< folders, besides the model's own, in which referenced files may lie
+    size_t allow_external_count;        ///< number of these folders
+    double time_limit_s;                ///< wall clock, checked between the parts of the file; 0: no limit (0)
+    uint64_t max_file_bytes;            ///< each file: the model, a buffer, a picture (512 MiB)
+    uint64_t max_total_bytes;           ///< all buffers together (2 GiB)
+    uint64_t max_json_tokens;           ///< names and values (50,000,000)
+    uint64_t max_texture_bytes;         ///< all textures together, 10.7 bytes a pixel (1 GiB)
+    uint64_t max_texture_pixels;        ///< one texture (2^26)
+    uint64_t max_geometry_bytes;        ///< all vertices, indices and instances together (16 GiB)
+    uint64_t max_lights;                ///< lights of the drawn nodes (1024)
+    int32_t max_json_depth;             ///< objects and arrays inside each other (64)
+    int32_t max_texture_side;           ///< texels (16384)
+    int32_t max_jpeg_scans;             ///< passes over the picture of a progressive JPEG (64)
     int32_t reserved;
 } halflit_load_options;
 HALFLIT_C_API int32_t halflit_load_options_init(halflit_load_options* options, size_t size);
@@ -93,9 +105,11 @@ typedef struct halflit_counts {
     size_t size;
     uint64_t triangles;                                       ///< over all instances
     int32_t meshes, instances, materials, textures, cameras;  ///< one more than the largest index
-    int32_t lights;                                           ///< without an environment's suns and what halflit_setup() added
-    int32_t warnings;                                         ///< of loading
+    int32_t lights;                                           ///< likewise, without an environment's suns
+    int32_t nodes;                                            ///< of the file
     int32_t animations;                                       ///< of the file
+    int32_t warnings;                                         ///< of loading
+    int32_t reserved;
 } halflit_counts;
 
 /// An animation of a scene's file.
@@ -129,12 +143,32 @@ HALFLIT_C_API int32_t halflit_scene_get_animation(const halflit_scene* scene, in
 /// so. animation: as in halflit_load_options. Meshes, instances, cameras, lights and factors of materials that the file's animations move
 /// are set; all else stays as the caller has set it.
 HALFLIT_C_API int32_t halflit_scene_pose(halflit_scene* scene, const char* animation, double time_s);
-/// What halflit_load_options.recentre did: a point p of the file is drawn at (p - origin) * scale. Either may be null.
-HALFLIT_C_API int32_t halflit_scene_get_placement(const halflit_scene* scene, double origin[3], double* scale);
+/// Where a file's model is drawn: a point p of it at (p' - origin) * scale, where p' is p turned so that `up`, a HALFLIT_UP, becomes y.
+/// Each pointer may be null.
+HALFLIT_C_API int32_t halflit_scene_get_placement(const halflit_scene* scene, double origin[3], double* scale, int32_t* up);
+/// What has a name.
+enum { HALFLIT_PART_NODE = 0, HALFLIT_PART_INSTANCE = 1, HALFLIT_PART_MESH = 2, HALFLIT_PART_MATERIAL = 3, HALFLIT_PART_CAMERA = 4 };
+
+/// Name of a part; an instance without one has its node's. May be empty; valid until the scene is changed or destroyed.
+HALFLIT_C_API int32_t halflit_scene_get_name(const halflit_scene* scene, int32_t part, int32_t index, const char** name);
+/// Names an instance, a mesh or a material.
+HALFLIT_C_API int32_t halflit_scene_set_name(halflit_scene* scene, int32_t part, int32_t index, const char* name);
+
+/// A node of the file's tree, and what it places.
+typedef struct halflit_node {
+    size_t size;
+    const char* name;          ///< may be empty; valid as long as the scene
+    const int32_t* instances;  ///< one for each primitive of its mesh, skinned ones too; valid as long as the scene
+    int32_t instance_count;    ///< their number
+    int32_t parent;            ///< node; -1: none
+    int32_t camera, light;     ///< -1: none
+} halflit_node;
+/// A node of the file. Set node->size before.
+HALFLIT_C_API int32_t halflit_scene_get_node(const halflit_scene* scene, int32_t index, halflit_node* node);
 /// World-space box of everything drawn; min is infinity and max -infinity if there is nothing. Takes time in proportion to the vertices.
 HALFLIT_C_API int32_t halflit_scene_get_bounds(const halflit_scene* scene, float min[3], float max[3]);
 
-// ---- materials and textures --------------------------------------------------------------------------------------------
+// ---- textures and materials --------------------------------------------------------------------------------------------
 
 /// Encodings of a texture's red, green and blue. HALFLIT_COLOR_SRGB_BY_ALPHA: sRGB, and in the smaller levels a colour counts as its alpha,
 /// for materials that mask or blend. HALFLIT_COLOR_NORMAL: linear, a normal map, whose smaller levels make the surface rougher.
@@ -147,6 +181,8 @@ HALFLIT_C_API int32_t halflit_scene_add_texture(halflit_scene* scene, const uint
 /// Replaces a texture; the size may differ.
 HALFLIT_C_API int32_t halflit_scene_set_texture(halflit_scene* scene, int32_t index, const uint8_t* rgba8, int32_t width, int32_t height,
                                                 size_t row_bytes, int32_t color);
+/// Removes a texture that no material uses; halflit_scene_add_texture may use its index again.
+HALFLIT_C_API int32_t halflit_scene_remove_texture(halflit_scene* scene, int32_t index);
 
 /// Meaning of alpha: none; drawn where it reaches alpha_cutoff; drawn over what is behind, by depth at each sample.
 enum { HALFLIT_ALPHA_OPAQUE = 0, HALFLIT_ALPHA_MASK = 1, HALFLIT_ALPHA_BLEND = 2 };
@@ -284,7 +320,7 @@ HALFLIT_C_API int32_t halflit_scene_get_material(const halflit_scene* scene, int
 /// Replaces a material, in all meshes that have it.
 HALFLIT_C_API int32_t halflit_scene_set_material(halflit_scene* scene, int32_t index, const halflit_material* material);
 
-// ---- meshes and instances ----------------------------------------------------------------------------------------------
+// ---- meshes ------------------------------------------------------------------------------------------------------------
 
 /// Primitives of a mesh. Lines and points are quads that face the screen; they receive shadows and cast none.
 enum { HALFLIT_TOPOLOGY_TRIANGLES = 0, HALFLIT_TOPOLOGY_LINES = 1, HALFLIT_TOPOLOGY_POINTS = 2 };
@@ -295,7 +331,7 @@ typedef struct halflit_mesh {
     size_t size;
     const char* name;         ///< may be null
     const float* positions;   ///< 3 floats each
-    const float* normals;     ///< 3 floats each, of any length above 0; null: each triangle is flat
+    const float* normals;     ///< 3 floats each, of any length above 0; null: each triangle is flat, or see `smooth`
     const float* tangents;    ///< 4 floats each: direction, and +1 or -1; null: made where the material has a normal texture
     const float* uv0;         ///< 2 floats each; v points down: v = 0 is the first row of a texture
     const float* uv1;         ///< 2 floats each
@@ -303,8 +339,10 @@ typedef struct halflit_mesh {
     const uint32_t* indices;  ///< 3 for each triangle, 2 for each line, 1 for each point; null: 0 1 2 3 and so on
     size_t vertex_count;      ///< elements of each array
     size_t index_count;       ///< elements of indices; 0 without
-    int32_t material;         ///< index; -1: the default material, white and rough
+    int32_t material;         ///< index; -1: the default material, white and rough (-1)
     int32_t topology;         ///< HALFLIT_TOPOLOGY (triangles)
+    int32_t smooth;           ///< without normals: those of the smooth surface through the vertices, by the areas of the triangles (0)
+    int32_t reserved;
 } halflit_mesh;
 HALFLIT_C_API int32_t halflit_mesh_init(halflit_mesh* mesh, size_t size);
 
@@ -312,17 +350,47 @@ HALFLIT_C_API int32_t halflit_mesh_init(halflit_mesh* mesh, size_t size);
 HALFLIT_C_API int32_t halflit_scene_add_mesh(halflit_scene* scene, const halflit_mesh* mesh, int32_t* index);
 /// Replaces a mesh, in all its instances; counts and material may differ.
 HALFLIT_C_API int32_t halflit_scene_set_mesh(halflit_scene* scene, int32_t index, const halflit_mesh* mesh);
-/// Moves a mesh's vertices: 3 floats for each. vertex_count is that with which the mesh was added. normals may be null: the mesh keeps its
-/// normals if it was added with some, and is flat again if not. For meshes that the caller added; one of a file is refused (2, usage).
+/// Moves a mesh's vertices: 3 floats for each. vertex_count is that with which the mesh was added. normals may be null: the mesh keeps
+/// those that it was given; without any it is flat or smooth again. For meshes that the caller added; one of a file is refused (2,
+/// usage).
 HALFLIT_C_API int32_t halflit_scene_set_vertices(halflit_scene* scene, int32_t index, const float* positions, const float* normals,
                                                  size_t vertex_count);
+/// Removes a mesh that no instance places; halflit_scene_add_mesh may use its index again.
+HALFLIT_C_API int32_t halflit_scene_remove_mesh(halflit_scene* scene, int32_t index);
+
+// ---- instances ---------------------------------------------------------------------------------------------------------
+
+/// A mesh placed in the world. Defaults in parentheses.
+typedef struct halflit_instance {
+    size_t size;
+    int32_t mesh;                 ///< index
+    int32_t material;             ///< index, in place of the mesh's; -1: the mesh's (-1)
+    int32_t visible;              ///< 0: it is not drawn, casts no shadow, and views do not look at it (1)
+    int32_t node;                 ///< of the file; -1: none. Is not set
+    float color[4];               ///< linear, times the material's base colour; alpha counts where that masks or blends (1, 1, 1, 1)
+    float world_from_object[16];  ///< (the identity)
+} halflit_instance;
+HALFLIT_C_API int32_t halflit_instance_init(halflit_instance* instance, size_t size);
 
 /// Places a mesh in the world. world_from_object may be null: the identity. index may be null.
 HALFLIT_C_API int32_t halflit_scene_add_instance(halflit_scene* scene, int32_t mesh, const float world_from_object[16], int32_t* index);
-/// Mesh and matrix of an instance. Either may be null.
-HALFLIT_C_API int32_t halflit_scene_get_instance(const halflit_scene* scene, int32_t index, int32_t* mesh, float world_from_object[16]);
+/// Places a mesh `count` times, by 16 floats each. The indices follow each other; first may be null.
+HALFLIT_C_API int32_t halflit_scene_add_instances(halflit_scene* scene, int32_t mesh, int32_t count, const float* world_from_object,
+                                                  int32_t* first);
+/// Reads an instance. Set instance->size before.
+HALFLIT_C_API int32_t halflit_scene_get_instance(const halflit_scene* scene, int32_t index, halflit_instance* instance);
+/// Replaces an instance. The next frame recomputes what depends on it alone.
+HALFLIT_C_API int32_t halflit_scene_set_instance(halflit_scene* scene, int32_t index, const halflit_instance* instance);
 /// Moves an instance. The next frame recomputes what depends on it alone; adding a mesh, an instance or a material prepares all anew.
-HALFLIT_C_API int32_t halflit_scene_set_instance(halflit_scene* scene, int32_t index, const float world_from_object[16]);
+HALFLIT_C_API int32_t halflit_scene_place_instance(halflit_scene* scene, int32_t index, const float world_from_object[16]);
+/// Moves `count` instances by 16 floats each. indices may be null: 0, 1, 2 and so on. After an error none has moved.
+HALFLIT_C_API int32_t halflit_scene_place_instances(halflit_scene* scene, const int32_t* indices, int32_t count,
+                                                    const float* world_from_object);
+/// Removes an instance; halflit_scene_add_instance may use its index again.
+HALFLIT_C_API int32_t halflit_scene_remove_instance(halflit_scene* scene, int32_t index);
+/// Adds a ground that is invisible but for the shadows on it: a horizontal square below the lowest point of all that is drawn. Views are
+/// framed as without it. instance: its index, may be null.
+HALFLIT_C_API int32_t halflit_scene_add_ground(halflit_scene* scene, int32_t* instance);
 
 // ---- cameras -----------------------------------------------------------------------------------------------------------
 
@@ -359,7 +427,7 @@ HALFLIT_C_API int32_t halflit_camera_frame(const halflit_scene* scene, float asp
 /// A camera of the scene.
 HALFLIT_C_API int32_t halflit_scene_get_camera(const halflit_scene* scene, int32_t index, halflit_camera* camera);
 
-// ---- light -------------------------------------------------------------------------------------------------------------
+// ---- lights and environments -------------------------------------------------------------------------------------------
 
 /// Shapes of a source's light: parallel, from infinitely far; in all directions from a point; a point's light inside a cone.
 enum { HALFLIT_LIGHT_DIRECTIONAL = 0, HALFLIT_LIGHT_POINT = 1, HALFLIT_LIGHT_SPOT = 2 };
@@ -386,16 +454,15 @@ HALFLIT_C_API int32_t halflit_scene_add_light(halflit_scene* scene, const halfli
 HALFLIT_C_API int32_t halflit_scene_get_light(const halflit_scene* scene, int32_t index, halflit_light* light);
 /// Replaces a light.
 HALFLIT_C_API int32_t halflit_scene_set_light(halflit_scene* scene, int32_t index, const halflit_light* light);
+/// Removes a light; halflit_scene_add_light may use its index again.
+HALFLIT_C_API int32_t halflit_scene_remove_light(halflit_scene* scene, int32_t index);
 /// Sets the light from all around: sky from above, ground from below. An environment replaces it.
 HALFLIT_C_API int32_t halflit_scene_set_ambient(halflit_scene* scene, const float sky[3], const float ground[3]);
 /// If the scene has no light of any kind, adds a key light over the viewer's left shoulder, and ambient light.
 HALFLIT_C_API int32_t halflit_scene_add_default_lights(halflit_scene* scene, const halflit_camera* camera);
 /// If the scene has no light of any kind, puts it into the built-in studio: an environment of soft boxes, turned with the camera about the
-/// vertical, and a key light over the viewer's left shoulder. halflit_auto_setup does the same.
+/// vertical, and a key light over the viewer's left shoulder. halflit_choose_picture does so without changing the scene.
 HALFLIT_C_API int32_t halflit_scene_add_studio(halflit_scene* scene, const halflit_camera* camera);
-/// Adds a ground that is invisible but for the shadows on it: a horizontal square below the lowest point of all that is drawn. Views are
-/// framed as without it. instance: its index, may be null.
-HALFLIT_C_API int32_t halflit_scene_add_ground(halflit_scene* scene, int32_t* instance);
 /// Removes the lights, the ambient light and the environment.
 HALFLIT_C_API int32_t halflit_scene_clear_lights(halflit_scene* scene);
 
@@ -502,39 +569,46 @@ typedef struct halflit_settings {
 } halflit_settings;
 HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t size);
 
-/// Chooses what a good picture of width x height pixels requires: the scene's camera or a view of the whole scene, four samples, a dark
-/// grey background, and an exposure. Pictures are lit from then on by the scene's light and what that lacks, as after halflit_setup.
-HALFLIT_C_API int32_t halflit_auto_setup(halflit_scene* scene, int32_t width, int32_t height, halflit_camera* camera,
-                                         halflit_settings* settings);
+// ---- what a picture shows ----------------------------------------------------------------------------------------------
 
-/// When halflit_setup() lights the scene by the built-in studio. FOR_DARK: if it has neither ambient light nor an environment. ALWAYS: in
-/// place of both. NEVER. UNDER_LIGHTS: as FOR_DARK, and a share of the studio where the scene has lights of a known unit.
+/// Light of a picture: the scene's, and what it lacks. It is chosen for the scene as it is: lights that are set or posed later are drawn as
+/// they are then; after lights were added or removed, choose anew.
+typedef struct halflit_lighting halflit_lighting;
+
+/// When the built-in studio lights a picture. FOR_DARK: if the scene has neither ambient light nor an environment. ALWAYS: in place of
+/// both. NEVER. UNDER_LIGHTS: as FOR_DARK, and a share of the studio where the scene has lights of a known unit.
 enum { HALFLIT_STUDIO_FOR_DARK = 0, HALFLIT_STUDIO_ALWAYS = 1, HALFLIT_STUDIO_NEVER = 2, HALFLIT_STUDIO_UNDER_LIGHTS = 3 };
 
-/// What the caller of halflit_setup() decides; the rest is chosen. Defaults in parentheses.
-typedef struct halflit_setup_options {
+/// What the caller of halflit_choose_picture() decides; the rest is chosen. Defaults in parentheses.
+typedef struct halflit_picture_request {
     size_t size;
-    const halflit_camera* camera;  ///< the view; null: the scene's camera, or a view of the whole scene (null)
+    const halflit_camera* camera;  ///< the view; null: see scene_camera (null)
+    const char* scene_camera;      ///< the view: a camera of the scene, by its name, or else its index; null: the first, if it shows the
+                                   ///< scene well, or else a view of the whole scene (null)
     double studio_turn_rad;        ///< turns the studio about the vertical, counter-clockwise seen from above (0)
-    int32_t frame;                 ///< without `camera`: a view of the whole scene, whatever cameras the scene has (0)
+    int32_t width, height;         ///< pixels; 0, 0: 1280 x 720, reduced to the shape of the camera (0, 0)
+    int32_t frame;                 ///< without a camera: a view of the whole scene, whatever cameras the scene has (0)
     float azimuth_deg;             ///< of a view of the whole scene, as elevation_deg and zoom: see halflit_camera_frame (35)
     float elevation_deg;           ///< above the horizon, -90 to 90 (20)
     float zoom;                    ///< 2 makes things twice as large (1)
     float fov_y_deg;               ///< of a view of the whole scene: full vertical angle before the zoom (35)
+    int32_t orthographic;          ///< of a view of the whole scene: parallel rays (0)
     int32_t own_ambient;           ///< ambient_color is the light from all around (0)
     float ambient_color[3];        ///< the same from above and below
     float exposure;                ///< factor on all light; 0: chosen (0)
     int32_t add_lights;            ///< a scene without any light gets some (1)
     int32_t studio;                ///< HALFLIT_STUDIO (for dark)
-    int32_t orthographic;          ///< of a view of the whole scene: parallel rays (0)
     int32_t reserved;
-} halflit_setup_options;
-HALFLIT_C_API int32_t halflit_setup_options_init(halflit_setup_options* options, size_t size);
+} halflit_picture_request;
+HALFLIT_C_API int32_t halflit_picture_request_init(halflit_picture_request* request, size_t size);
 
-/// Chooses as halflit_auto_setup does, but what the caller leaves open alone. options may be null: the defaults. Takes back the light that
-/// the last call added, so it may be called for each picture. The functions that add, set or clear light take it back too.
-HALFLIT_C_API int32_t halflit_setup(halflit_scene* scene, int32_t width, int32_t height, const halflit_setup_options* options,
-                                    halflit_camera* camera, halflit_settings* settings);
+/// Chooses what a good picture requires: its size, the scene's camera or a view of the whole scene, four samples, a dark grey background,
+/// light and exposure, as the program does. Nothing in the scene changes. request may be null: the defaults. size: width and height, may be
+/// null. lighting may be null; free it by halflit_lighting_destroy.
+HALFLIT_C_API int32_t halflit_choose_picture(const halflit_scene* scene, const halflit_picture_request* request, int32_t size[2],
+                                             halflit_camera* camera, halflit_settings* settings, halflit_lighting** lighting);
+/// Frees light. Null is allowed.
+HALFLIT_C_API void halflit_lighting_destroy(halflit_lighting* lighting);
 
 // ---- drawing -----------------------------------------------------------------------------------------------------------
 
@@ -584,25 +658,25 @@ enum {
 /// aligned to 4 bytes, rows too.
 typedef struct halflit_target {
     size_t size;
-    void* pixels;               ///< null: no colours are drawn
-    size_t row_bytes;           ///< stride of `pixels`
-    float* depth;               ///< distance along the view axis, world units; infinity where nothing is
-    size_t depth_row_bytes;     ///< stride
-    float* normal;              ///< 3 floats a pixel: unit normal of the vertices, world space; turned on double-sided backs; 0: nothing
-    size_t normal_row_bytes;    ///< stride
-    uint32_t* instance;         ///< index of the instance plus 1; 0 where nothing is
-    size_t instance_row_bytes;  ///< stride
-    uint32_t* triangle;         ///< number of the triangle in its mesh plus 1; 0 where nothing is
-    size_t triangle_row_bytes;  ///< stride
-    int32_t width, height;      ///< pixels, of the whole picture: what the camera sees
-    int32_t format;             ///< HALFLIT_FORMAT, of `pixels`
-    int32_t region_alone;       ///< the memory holds halflit_settings.region alone, not the whole picture
-    float* shading_normal;  ///< 3 floats a pixel: unit normal with the normal map, world space; 0 where nothing is, as in all that follow
+    int32_t width, height;    ///< pixels, of the whole picture: what the camera sees
+    int32_t format;           ///< HALFLIT_FORMAT, of `pixels`
+    int32_t region_alone;     ///< the memory holds halflit_settings.region alone, not the whole picture
+    void* pixels;             ///< null: no colours are drawn
+    size_t row_bytes;         ///< stride of `pixels`
+    float* depth;             ///< distance along the view axis, world units; infinity where nothing is
+    size_t depth_row_bytes;   ///< stride
+    float* normal;            ///< 3 floats a pixel: unit normal of the vertices, world space; turned on double-sided backs; 0: nothing
+    size_t normal_row_bytes;  ///< stride
+    float* shading_normal;    ///< 3 floats a pixel: unit normal with the normal map, world space; 0 where nothing is, as in all that follow
     size_t shading_normal_row_bytes;  ///< stride
     float* albedo;                    ///< 3 floats a pixel: base colour, linear
     size_t albedo_row_bytes;          ///< stride
     float* position;                  ///< 3 floats a pixel, world space
     size_t position_row_bytes;        ///< stride
+    uint32_t* instance;               ///< index of the instance plus 1
+    size_t instance_row_bytes;        ///< stride
+    uint32_t* triangle;               ///< number of the triangle in its mesh plus 1
+    size_t triangle_row_bytes;        ///< stride
     uint32_t* lights;                 ///< lights whose range and cone the surface is in; 0 on unlit materials
     size_t lights_row_bytes;          ///< stride
     float* coverage;                  ///< share of the samples that an opaque or masked surface covers
@@ -634,9 +708,10 @@ typedef struct halflit_report {
     int32_t reserved;
 } halflit_report;
 
-/// Draws a frame into `target`. settings may be null: the defaults. report may be null.
-HALFLIT_C_API int32_t halflit_render(halflit_renderer* renderer, const halflit_scene* scene, const halflit_camera* camera,
-                                     const halflit_settings* settings, const halflit_target* target, halflit_report* report);
+/// Draws a frame into `target`. lighting may be null: the scene's own light. settings may be null: the defaults. report may be null.
+HALFLIT_C_API int32_t halflit_render(halflit_renderer* renderer, const halflit_scene* scene, const halflit_lighting* lighting,
+                                     const halflit_camera* camera, const halflit_settings* settings, const halflit_target* target,
+                                     halflit_report* report);
 /// A warning of the renderer's last frame: one line, valid until its next frame.
 HALFLIT_C_API int32_t halflit_renderer_get_warning(const halflit_renderer* renderer, int32_t index, const char** text);
 
@@ -644,9 +719,14 @@ HALFLIT_C_API int32_t halflit_renderer_get_warning(const halflit_renderer* rende
 
 /// 64-bit hash of bytes, XXH64 with seed 0: the identity of a picture whose rows have no gaps. Null counts as no bytes.
 HALFLIT_C_API uint64_t halflit_pixel_hash(const void* bytes, size_t count);
-/// Writes the target's pixels, width x height of them, into a file: .png, .bmp, .tga or .jpg from 8-bit formats, .hdr, .pfm or .exr from
-/// floats. The file is either old or new, never half written. "-" is PNG on standard output. Fails (usage) for a target with region_alone.
+/// Writes the target's pixels, width x height of them, into a file: .png, .bmp, .tga, .jpg or .webp from 8-bit formats, .hdr, .pfm or .exr
+/// from floats. The file is either old or new, never half written. "-" is PNG on standard output. Fails (usage) for a target with
+/// region_alone.
 HALFLIT_C_API int32_t halflit_write_image(const char* path, const halflit_target* target);
+/// Takes the bytes of a file, which are there during the call alone.
+typedef void (*halflit_write)(void* user, const void* bytes, size_t count);
+/// Encodes the target's pixels as halflit_write_image does. format: "png", "jpg" and so on. write is called once, with the whole file.
+HALFLIT_C_API int32_t halflit_encode_image(const char* format, const halflit_target* target, halflit_write write, void* user);
 
 #ifdef __cplusplus
 }

@@ -1,161 +1,15 @@
-// Loader of glTF 2.0: .gltf and .glb files become a Scene. The file is not trusted: every length, index and reference is checked
-// before it is used, other files are read only below the model's folder, and limits bound memory and time.
+// Loader of glTF 2.0 alone: .gltf and .glb files. load_model() reads them too, by their content, and other formats.
 #pragma once
 
 #include "halflit/error.hpp"
 #include "halflit/export.hpp"
-#include "halflit/math.hpp"
-#include "halflit/prepared_scene.hpp"
-#include "halflit/scene.hpp"
+#include "halflit/model.hpp"
 
 #include <cstddef>
-#include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace halflit {
-
-/// Above a limit, loading ends with ErrorCode::limit.
-struct LoadLimits {
-    std::size_t max_file_bytes = std::size_t{512} << 20;  ///< each file: the model, a buffer, a picture
-    std::size_t max_total_bytes = std::size_t{2} << 30;   ///< all buffers together
-    int max_json_depth = 64;                              ///< objects and arrays inside each other
-    std::size_t max_json_tokens = 50'000'000;             ///< names and values
-    std::size_t max_texture_bytes = std::size_t{1}
-                                    << 30;  ///< all textures, as the renderer keeps them (10.7 bytes per pixel), broken ones too
-    int max_texture_side = 16384;           ///< texels; at most kMaxTextureSide
-    std::size_t max_texture_pixels = std::size_t{64} << 20;  ///< one texture
-    int max_jpeg_scans = 64;                                 ///< passes over the picture of a progressive JPEG, which bound its time
-    /// All vertices, indices and instances together. A small file gets less: 32 MiB plus 96 bytes for each byte of the file. No real model
-    /// needs more, and a crafted one cannot become many times larger than its file. Compressed data (meshopt, Draco) count twice. The JSON
-    /// objects have the same limit.
-    std::uint64_t max_geometry_bytes = std::uint64_t{16} << 30;
-    std::size_t max_lights = 1024;  ///< lights of the drawn nodes
-    double time_limit_s = 0.0;      ///< wall clock, checked between the parts of the file; 0: no limit
-};
-
-/// How a file is read; the defaults are strict.
-struct LoadOptions {
-    bool lenient = false;  ///< draw what can be drawn: magenta for broken textures, triangles with bad indices left out
-    /// Folders, besides the model's own, in which referenced files may lie: a name is looked up below them, and may lead into them by "..".
-    /// One that cannot be opened is an error (usage).
-    std::vector<std::string> allow_external;
-    LoadLimits limits;  ///< on memory and time
-    /// Threads that decode textures, this one included; 0: one for each processor. The result is the same. While it decodes, a thread holds
-    /// up to 64 MB, or a whole JPEG or WebP picture, beside the texture.
-    int threads = 0;
-    /// Moves a scene to the origin if it lies farther from it than 1024 times its radius, and scales it by a power of two if its radius is
-    /// below 2^-10 or above 2^30, so that float32 keeps its shape and the least distance of a point light (Light::source_radius) is small
-    /// beside it. LoadedScene::placement says what was done.
-    bool recentre = false;
-    /// Scene of the file: its name, or else its index in the file; empty: the file's default scene, or else its first. One that the file
-    /// does not have is an error (usage).
-    std::string scene;
-    /// Variant of the file's materials (KHR_materials_variants), by name; empty: the materials without a variant. One that the file does
-    /// not have is an error (usage).
-    std::string variant;
-    /// Animation that poses the scene: its name, or else its index in the file; empty: the first one, if the file has any; "none": the pose
-    /// of the nodes, without animation. A name or an index that the file does not have is an error (usage).
-    std::string animation;
-    /// Time of the pose in seconds. Each channel holds its first value before its first key, and its last one after its last key, so a time
-    /// beyond the animation's end draws its end.
-    double time_s = 0.0;
-    /// Reads all animations and keeps what they need (LoadedScene::motion), so that pose_at() can pose the scene at other times. A fault of
-    /// any of them refuses the file then.
-    bool keep_animations = false;
-    /// Turns STL and 3MF files, whose z points up by custom, so that y does.
-    bool turn_upright = true;
-    /// STL, PLY, OBJ and 3MF: where the file has no normals, the surface is smooth across edges whose triangles' normals differ by at most
-    /// this, degrees in [0, 180].
-    float crease_deg = 30.0f;
-};
-
-/// An animation of a file.
-struct AnimationInfo {
-    std::string name;          ///< may be empty, and several may have the same
-    double end_s = 0.0;        ///< time of the last key, seconds; 0 if the file does not tell
-    std::size_t channels = 0;  ///< properties that it moves, drawn or not
-};
-
-/// Animations of a file, with their key frames and all that they move. Made by the loader (LoadOptions::keep_animations); it never changes,
-/// so any number of threads may use it.
-class Motion;
-
-/// Contents of the file, drawn or not.
-struct SceneInfo {
-    std::string format;              ///< "glTF", "GLB", "STL", "PLY", "OBJ" or "3MF"
-    std::string version, generator;  ///< asset.version and asset.generator
-    /// @{
-    /// Number in the file.
-    std::size_t meshes = 0, primitives = 0, nodes = 0, materials = 0, textures = 0, images = 0, animations = 0, skins = 0, cameras = 0,
-                lights = 0;
-    std::size_t scenes = 0, morph_targets = 0;
-    /// @}
-    std::size_t point_and_line_primitives = 0;  ///< primitives of the drawn nodes that are points or lines
-    std::uint64_t triangles_stored = 0;         ///< triangles of the meshes that are drawn, each once
-    std::uint64_t triangles_drawn = 0;          ///< triangles over all instances
-    std::uint64_t vertices = 0;                 ///< vertices after splitting for flat normals and tangents
-    std::vector<std::string> scene_names;       ///< of all scenes in the file, by their numbers in it; may be empty
-    int scene = -1;                             ///< the scene that is drawn; -1: the file has none, all nodes are drawn
-    std::vector<std::string> variants;          ///< names of KHR_materials_variants
-    std::vector<std::string> files;             ///< paths of the files that the model names, whether or not they exist or are drawn
-    /// Names in the file's order, each once.
-    std::vector<std::string> extensions_used;
-    /// Those without which the file must not be drawn.
-    std::vector<std::string> extensions_required;
-};
-
-/// Transform of a node: the images of x, y and z, and that of the origin. In double, as chains of nodes are rounded to float once, at the
-/// end.
-struct NodeTransform {
-    Vec3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, origin{0, 0, 0};  ///< in the parent's space; by default the identity
-
-    NodeTransform() = default;
-    /// Not explicit: poses are made by translation(), rotation() and scaling(). The matrix's last row counts as 0 0 0 1.
-    HALFLIT_API NodeTransform(const Mat4& m);
-    friend bool operator==(const NodeTransform&, const NodeTransform&) = default;
-};
-
-/// Where a model lies: a point p of its own world is drawn at (p - origin) * scale. What a host adds, a camera or a light of its own, goes
-/// through into(), and what it reads of the scene through out().
-struct Placement {
-    Vec3d origin{0, 0, 0};              ///< in the model's own world
-    double scale = 1.0;                 ///< a power of two
-    std::vector<double> mesh_scales{};  ///< by which positions in each mesh were multiplied; empty: by 1
-
-    /// A point of the model's world in the one that is drawn.
-    [[nodiscard]] Vec3d into(Vec3d p) const { return (p - origin) * scale; }
-    /// A point that is drawn in the model's world.
-    [[nodiscard]] Vec3d out(Vec3d p) const { return p * (1.0 / scale) + origin; }
-    friend bool operator==(const Placement&, const Placement&) = default;
-};
-
-/// A node of the file, and what it places in the scene: nothing if the scene that was loaded does not draw it.
-struct Node {
-    std::string name;                ///< may be empty
-    int parent = -1;                 ///< index into LoadedScene::nodes; -1: none
-    NodeTransform parent_from_node;  ///< for pose()
-    std::vector<int> instances;      ///< indices into Scene::instances, one for each primitive of its mesh; skinned ones are left out
-    /// EXT_mesh_gpu_instancing: the transform of each of `instances` to the node; empty: all are the identity.
-    std::vector<NodeTransform> node_from_instance;
-    int camera = -1, light = -1;  ///< indices into Scene::cameras and Scene::lights; -1: none
-};
-
-/// A file's scene, its nodes, and the loader's warnings and counts.
-struct LoadedScene {
-    Scene scene;                            ///< the scene that LoadOptions::scene chooses
-    std::vector<Node> nodes;                ///< all nodes of the file, by their numbers in it, in the pose that was loaded
-    std::vector<AnimationInfo> animations;  ///< all animations of the file, by their numbers in it
-    int animation = -1;                     ///< the animation that poses the scene; -1: none
-    std::shared_ptr<const Motion> motion;   ///< for pose_at(); null without LoadOptions::keep_animations
-    /// What the picture lacks, and values that the file must not have, by their JSON path: one line each, no file prefix, at most a hundred
-    /// and one that counts the others.
-    std::vector<std::string> warnings;
-    Placement placement;  ///< where the scene lies; see LoadOptions::recentre
-    SceneInfo info;       ///< counts for the user
-};
 
 /// Loads the model at `path`; files that it refers to are read from its folder. Error messages begin with `path`. Thread-safe.
 [[nodiscard]] HALFLIT_API Result<LoadedScene> load_gltf(const std::string& path, const LoadOptions& options = {});
@@ -163,22 +17,5 @@ struct LoadedScene {
 /// Loads a model from memory, e.g. from standard input. `name` is for messages; an empty `base_dir` means that no other file is read.
 [[nodiscard]] HALFLIT_API Result<LoadedScene> load_gltf_bytes(std::span<const std::byte> bytes, const std::string& name,
                                                               const std::string& base_dir, const LoadOptions& options = {});
-
-/// Places instances, cameras and lights as the nodes' transforms, in the model's own world, say: change parent_from_node of some, then call
-/// this. placement: LoadedScene::placement. Nodes as loaded give the same bits as loading. Returns what moved, for PreparedScene::update.
-/// Skinned meshes stay as loaded: their vertices were moved then. Instances, cameras and lights that a host appends to the scene stay where
-/// they are. Fails (usage), with the scene unchanged, where a parent is out of range or its own ancestor, or the scene lacks what a node
-/// places.
-[[nodiscard]] HALFLIT_API Result<SceneChanges> pose(std::span<const Node> nodes, Scene& scene, const Placement& placement = {});
-
-/// Poses a scene by one of its file's animations, as LoadOptions::animation and time_s would: the scene then draws the same pixels as one
-/// that is loaded so (if it was not moved by LoadOptions::recentre, whose choice stays). Each call begins at the pose of the nodes, so the
-/// order of calls does not matter. Moves instances, skinned and morphed meshes, cameras and lights, and sets the animated factors of
-/// materials, lights and cameras; all else in the scene stays as a host has set it. Returns what changed, for PreparedScene::update.
-/// nodes: LoadedScene::nodes, which get the pose too; may be empty.
-/// Fails (usage) for an animation that the file does not have, a time that is not finite, and where the scene lacks what the file placed;
-/// the scene is unchanged then.
-[[nodiscard]] HALFLIT_API Result<SceneChanges> pose_at(const Motion& motion, const std::string& animation, double time_s, Scene& scene,
-                                                       std::span<Node> nodes = {});
 
 }  // namespace halflit

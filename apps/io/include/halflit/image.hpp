@@ -16,7 +16,7 @@
 namespace halflit {
 
 /// Formats of picture files; hdr is Radiance's RGBE, pfm a Portable Float Map, exr OpenEXR.
-enum class OutputFormat : std::uint8_t { png, bmp, tga, jpg, hdr, pfm, exr };
+enum class OutputFormat : std::uint8_t { png, bmp, tga, jpg, webp, hdr, pfm, exr };
 
 /// Largest number of pixels of a picture file.
 inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 28;
@@ -24,15 +24,18 @@ inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 28;
 /// The format by the path's extension, in any case; "-" (standard output) is PNG. Anything else is a usage error that lists the formats.
 [[nodiscard]] HALFLIT_API Result<OutputFormat> output_format_of(std::string_view path);
 
+/// The extension of a format's files, without its point: "png".
+[[nodiscard]] HALFLIT_API std::string_view output_format_name(OutputFormat format);
+
 /// True for a format that stores linear floats (Image::rgba_linear) instead of sRGB codes (Image::rgba8).
 [[nodiscard]] constexpr bool is_linear(OutputFormat format) { return format >= OutputFormat::hdr; }
 
 /// True if the library was built with OpenEXR. Without it, .exr files are refused by name.
 [[nodiscard]] HALFLIT_API bool has_exr();
 
-/// Makes the whole file in memory. PNG, BMP and TGA keep alpha; JPG (quality 95) and HDR have none and show the picture over black.
-/// A PNG or EXR of a picture that is opaque everywhere is RGB. HDR holds what RGBE can: [0, 1.7e38], with NaN as 0. PFM and EXR hold the
-/// float32 values of rgba_linear times alpha, which is exact where alpha is 1; PFM has no alpha. The picture may have up to
+/// Makes the whole file in memory. PNG, BMP, TGA and WebP (lossless) keep alpha; JPG (quality 95) and HDR have none and show the picture
+/// over black. A PNG or EXR of a picture that is opaque everywhere is RGB. HDR holds what RGBE can: [0, 1.7e38], with NaN as 0. PFM and EXR
+/// hold the float32 values of rgba_linear times alpha, which is exact where alpha is 1; PFM has no alpha. The picture may have up to
 /// kMaxImagePixels.
 [[nodiscard]] HALFLIT_API Result<std::vector<std::uint8_t>> encode_image(const Image& image, OutputFormat format);
 

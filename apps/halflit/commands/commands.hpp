@@ -1,0 +1,32 @@
+// The sub-commands, as tables.
+#pragma once
+
+#include "apps/halflit/flags/flags.hpp"
+
+namespace halflit::cli {
+
+[[nodiscard]] Command render_command();
+[[nodiscard]] Command view_command();
+[[nodiscard]] Command bench_command();
+[[nodiscard]] Command info_command();
+[[nodiscard]] Command diff_command();
+[[nodiscard]] Command sheet_command();
+[[nodiscard]] Command plan_command();
+[[nodiscard]] Command merge_command();
+[[nodiscard]] Command golden_command();
+[[nodiscard]] Command lobe_command();
+[[nodiscard]] Command env_command();
+[[nodiscard]] Command figures_command();
+[[nodiscard]] Command trade_command();
+[[nodiscard]] Command playground_command();
+
+// Hidden.
+[[nodiscard]] Command help_command();
+[[nodiscard]] Command man_command();
+[[nodiscard]] Command completion_command();
+[[nodiscard]] Command flags_command();
+
+/// In the order of the help text.
+[[nodiscard]] std::vector<Command> all_commands();
+
+}  // namespace halflit::cli

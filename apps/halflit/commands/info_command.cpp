@@ -1,0 +1,43 @@
+// halflit info: describes a scene, and what drawing it requires.
+#include "apps/halflit/commands/commands.hpp"
+#include "apps/halflit/program/messages.hpp"
+#include "apps/halflit/program/text_file.hpp"
+#include "apps/halflit/program/timeout.hpp"
+#include "apps/halflit/render/render_job.hpp"
+#include "apps/halflit/report/scene_description.hpp"
+
+#include <memory>
+
+namespace halflit::cli {
+namespace {
+
+struct InfoOptions : RenderOptions {
+    bool json = false;
+};
+
+Result<int> describe(const InfoOptions& options) {
+    const auto job = make_render_job(options, kRenderSize);
+    if (!job) return tl::unexpected(job.error());
+    for (const std::string& warning : job->warnings) print_warning(warning);
+    const auto described = describe_scene(*job, options.json);
+    if (!described) return tl::unexpected(described.error());
+    if (const auto written = write_text("-", *described); !written) return tl::unexpected(written.error());
+    return 0;
+}
+
+Result<int> run_info(const InfoOptions& options) {
+    return within_time(options.timeout_s, [&] { return describe(options); });
+}
+
+}  // namespace
+
+Command info_command() {
+    const auto options = std::make_shared<InfoOptions>();
+    auto groups = render_flags(*options, kRenderSize);
+    groups.push_back({"Output", {{"--json", "", "Print one JSON object", set_to(options->json)}}});
+    return {"info", "Describe a scene, and what drawing it requires", {scene_argument(*options, true)}, std::move(groups), [options] {
+                return run_info(*options);
+            }};
+}
+
+}  // namespace halflit::cli

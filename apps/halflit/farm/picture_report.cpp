@@ -1,0 +1,51 @@
+#include "apps/halflit/farm/picture_report.hpp"
+
+#include "apps/halflit/report/run_report.hpp"
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+namespace halflit::cli {
+namespace {
+
+/// The output, and its place among the others of the run.
+void add_place(Json& report, const PictureFile& file) {
+    report["output"] = file.output;
+    if (file.shard) report["shard"] = {file.shard->index, file.shard->count};
+    if (file.frame) {
+        const auto& [number, whole, time, opaque] = *file.frame;
+        report["frame"] = number;
+        report["film"] = {{"first", whole.first},
+                          {"last", whole.last},
+                          {"step", whole.step},
+                          {"seconds_each", {time.numerator, time.denominator}},
+                          {"opaque", opaque}};
+    }
+    if (file.place) report["place"] = {{"index", file.place->index}, {"scenes", file.place->scenes}};
+    if (file.part_of) report["part_of"] = region_json(*file.part_of);
+}
+
+}  // namespace
+
+std::string picture_report(const PictureFile& file, const RenderJob& job, const RenderReport& rendered, const Image& picture,
+                           double encode_ms, bool one_line) {
+    Json report = report_head("report");
+    report["scene"] = job.source.name;
+    add_place(report, file);
+    if (file.file_hash != 0) report["file_hash"] = fmt::format("{:016x}", file.file_hash);
+    for (const AovFile& aov : file.beside) report["aov"][std::string(kAovNames[static_cast<std::size_t>(aov.aov)])] = aov.path;
+    add_frame(report, job, rendered, picture);
+    if (file.blank) report["blank"] = true;
+    report["encode_ms"] = encode_ms;
+    return to_text(report, one_line);
+}
+
+std::string skipped_report(const std::string& scene, const PictureFile& file) {
+    Json report = report_head("report");
+    report["status"] = "skipped";
+    report["scene"] = scene;
+    add_place(report, file);
+    return to_text(report, true);
+}
+
+}  // namespace halflit::cli

@@ -1,0 +1,169 @@
+#include "apps/halflit/farm/render_line.hpp"
+
+#include "apps/halflit/program/file_names.hpp"
+#include "apps/halflit/render/scene_source.hpp"
+#include "apps/io/files/file_access.hpp"
+#include "apps/io/pictures/picture_reader.hpp"
+#include "halflit/image.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <iterator>
+#include <string_view>
+
+namespace halflit::cli {
+namespace {
+
+/// A name with a picture's extension.
+using io::is_picture_name;
+
+/// After a word that is neither a scene nor a picture's name.
+std::string unknown_format(const std::string& word) {
+    const auto format = output_format_of(word);
+    return format ? std::string() : format.error().message.substr(word.size());  // begins with the word
+}
+
+/// Adds the scenes of a file, one name a line; "-" is standard input.
+Result<void> add_listed(const std::string& list, std::vector<std::string>& scenes) {
+    constexpr std::size_t kMostBytes = std::size_t{64} << 20;
+    const auto bytes = list == "-" ? read_standard_input(kMostBytes, 0.0) : io::read_file(list, kMostBytes);
+    if (!bytes) return tl::unexpected(bytes.error());
+    std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        std::string_view line = text.substr(0, end);
+        if (line.ends_with('\r')) line.remove_suffix(1);
+        if (line.find_first_not_of(" \t") != std::string_view::npos) scenes.emplace_back(line);
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    if (scenes.empty()) return fail(ErrorCode::usage, "--files-from " + list + ": found no scene");
+    return {};
+}
+
+Result<OutputFormat> parse_format(const std::string& text) {
+    if (text.find_first_of("./") != std::string::npos) return fail(ErrorCode::usage, "expected a format's name, found '" + text + "'");
+    return output_format_of("picture." + text);  // or an error: this build cannot write it
+}
+
+ReadValue read_path(std::string& path) {
+    return [&path](const std::string& text) -> Result<void> {
+        if (text.empty()) return fail(ErrorCode::usage, "expected a file name or -, found nothing");
+        path = text;
+        return {};
+    };
+}
+
+Result<RenderKind> settle_kind(RenderLine& line) {
+    std::vector<std::string>& words = line.words;
+    if (!line.folder.empty()) {
+        if (!line.output.empty()) return fail(ErrorCode::usage, "--out-dir: cannot be combined with -o");
+        line.output = line.folder + "/";
+    }
+    if (words.size() > 1 && (is_picture_name(words.back()) || film::film_format_of(words.back()))) {
+        if (!line.output.empty())
+            return fail(ErrorCode::usage, "unexpected argument " + words.back() + ": the picture is named by -o " + line.output);
+        line.output = words.back();
+        words.pop_back();
+    }
+    if (!line.list.empty())
+        if (const auto added = add_listed(line.list, words); !added) return tl::unexpected(added.error());
+    if (line.film.wanted()) {
+        if (words.size() > 1) return fail(ErrorCode::usage, "--frames and --turntable: expected one scene, found " + words[1]);
+        if (is_folder(line.output) && !line.output.ends_with('/')) line.output += '/';
+        const bool names_file = !line.output.empty() && !line.output.ends_with('/') && !film::film_format_of(line.output) && !line.format;
+        if (const auto format = output_format_of(line.output); names_file && !format)
+            return fail(ErrorCode::usage, format.error().message + " for a file of each frame, or .gif, .apng or .webp for all of them");
+        return RenderKind::film;
+    }
+    if (const auto checked = check_film_options(line.film, line.output); !checked) return tl::unexpected(checked.error());
+    if (film::film_format_of(line.output) && !line.format)
+        return fail(ErrorCode::usage, line.output + ": expected --frames or --turntable, which make many frames, or another extension");
+    if (words.size() > 1 && !line.output.ends_with('/') && is_folder(line.output)) line.output += '/';
+    const bool many = line.output.ends_with('/') || is_pattern(line.output);
+    if (words.size() > 1 && !many)
+        return fail(ErrorCode::usage, "unexpected argument " + words[1] +
+                                          (is_scene(words[1]) ? ": several scenes need -o FOLDER/" : unknown_format(words[1])) +
+                                          "; see halflit render --help");
+    if (many && words.empty()) words.emplace_back();
+    if (many) return RenderKind::many;
+    if (line.skip_existing) return fail(ErrorCode::usage, "--skip-existing: expected a folder or a pattern as the output (-o FOLDER/)");
+    return RenderKind::picture;
+}
+
+}  // namespace
+
+Result<void> settle_shard(RenderLine& line, RenderKind kind) {
+    const Shard& shard = *line.shard;
+    if (line.report == "-" || line.output == "-")
+        return fail(ErrorCode::usage, "--shard: expected files for the pictures and the report, found -");
+    if (!line.report.empty()) line.report = shard.name_of(line.report);
+    if (kind == RenderKind::film && film::film_format_of(line.output))
+        return fail(ErrorCode::usage, "--shard: expected a file for each frame, as frame_{:04}.png, found '" + line.output +
+                                          "'; halflit merge makes one of them");
+    if (kind != RenderKind::picture) return {};
+    if (!line.aovs.empty()) return fail(ErrorCode::usage, "--aov: cannot be combined with --shard of one picture");
+    if (line.blank_check) return fail(ErrorCode::usage, "--blank-check: cannot be combined with --shard of one picture");
+    if (line.output.empty()) line.output = default_output(line.words.empty() ? "" : line.words[0], line.format);
+    const auto format = line.picture_format();
+    if (!format) return tl::unexpected(format.error());
+    if (*format == OutputFormat::jpg)
+        return fail(ErrorCode::usage, "--shard: halflit merge joins no .jpg, which loses some of each part; expected .png");
+    line.output = shard.name_of(line.output);
+    if (line.report.empty()) line.report = line.output.substr(0, line.output.rfind('.')) + ".json";
+    return {};
+}
+
+Result<RenderKind> settle(RenderLine& line) {
+    const auto kind = settle_kind(line);
+    if (kind && line.shard)
+        if (const auto settled = settle_shard(line, *kind); !settled) return tl::unexpected(settled.error());
+    return kind;
+}
+
+Command render_table(RenderLine& o) {
+    auto groups = render_flags(o, kRenderSize);
+    groups.push_back(
+        {"Moving pictures",
+         {{"--frames", "A-B[:STEP]",
+           "Draw these frames, into -o 'frame_{:04}.png' or one .gif, .apng or .webp file; without --turntable, the animation at N / FPS "
+           "seconds. A frame depends on its number alone",
+           parsed(o.film.frames, parse_frames)},
+          {"--fps", "F",
+           "Frames a second, as 24, 23.976 or 30000/1001 (default: 24; 12 for --turntable). With --turntable and --frames, the animation "
+           "runs too",
+           parsed(o.film.fps, parse_fps)},
+          {"--turntable", "N", "Turn the camera around the scene, once in N frames, and the studio with it (default frames: 0 to N - 1)",
+           read_int(o.film.turntable, 1, 100000)},
+          {"--dither", "", "GIF: mix its 256 colours by an ordered pattern", set_to(o.film.dither)}}});
+    groups.push_back(
+        {"Output",
+         {{"-o,--output", "FILE",
+           "A .png, .jpg, .bmp or .tga file, or linear floats as .exr, .pfm or .hdr; - for PNG on standard output; FOLDER/ or "
+           "{stem}.png for one picture of each scene; {folder} and {index:04} are known too (default: SCENE's name.png)",
+           read_path(o.output)},
+          {"--format", "png|jpg|bmp|tga|hdr|pfm|exr", "Format of the picture, whatever its name", parsed(o.format, parse_format)},
+          {"--out-dir", "FOLDER", "The same as -o FOLDER/", read_path(o.folder)},
+          {"--files-from", "FILE|-", "Draw the scenes that a file names too, one a line; - is standard input", read_path(o.list)},
+          {"--shard", "I/N|auto[/N]",
+           "Draw part I of N, from 0 on: of the frames, of the scenes, or of one picture's rows; auto takes I from Slurm, Kubernetes, AWS "
+           "Batch or GNU parallel. The report takes the part's name. See halflit plan and merge",
+           [&o](const std::string& text) {
+               return assign(o.shard, parse_shard(text, [](const char* name) { return std::getenv(name); }));
+           }},
+          {"--skip-existing", "", "Leave pictures alone that are there, so that a run can be taken up again", set_to(o.skip_existing)},
+          {"--blank-check", "", "Name pictures in which nothing is seen; if there are any, the exit code is 1", set_to(o.blank_check)},
+          {"--aov", "NAME,...",
+           "Also write files beside the picture, as x.depth.exr for x.png: depth, normal, albedo, position as floats (.exr; .pfm without "
+           "OpenEXR); id, coverage, lights as 16-bit PNG",
+           parsed(o.aovs, parse_aovs)},
+          {"--report", "FILE.json|-", "Write size, hash, times and counts as JSON; on failure, the error. Of several scenes, one line each",
+           read_path(o.report)}}});
+    Positional scene = scene_argument(o, false);
+    scene.help += ". A picture's name after it is the output";
+    scene.usage = "SCENE... [PICTURE]";
+    scene.read = append_to(o.words);
+    scene.repeated = true;
+    return {"render", "Draw a scene into a picture; without one, the demo scene", {std::move(scene)}, std::move(groups), {}};
+}
+
+}  // namespace halflit::cli

@@ -1,0 +1,195 @@
+// The only source that includes CLI11, which takes seconds to compile.
+#include "apps/halflit/flags/command_line.hpp"
+
+#include "apps/halflit/program/file_names.hpp"
+#include "apps/halflit/program/spelling.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+namespace halflit::cli {
+namespace {
+
+void read_or_throw(const std::string& name, const ReadValue& read, const std::string& text) {
+    const Result<void> result = read(text);
+    if (!result) throw CLI::ValidationError(name, result.error().message);
+}
+
+/// Reads every text by the flag's own function.
+auto reader(const std::string& name, const ReadValue& read) {
+    return [name, &read](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts) read_or_throw(name, read, text);
+    };
+}
+
+void add_flag(CLI::App& app, const Flag& flag) {
+    const std::string name = flag.long_name();
+    if (flag.form.empty())
+        app.add_flag_callback(flag.names, [name, &flag] { read_or_throw(name, flag.read, ""); });
+    else if (flag.repeated)
+        app.add_option_function<std::vector<std::string>>(flag.names, reader(name, flag.read))
+            ->allow_extra_args(false)
+            ->type_name(flag.form);
+    else
+        app.add_option_function<std::string>(flag.names, [name, &flag](const std::string& text) { read_or_throw(name, flag.read, text); })
+            ->type_name(flag.form);
+}
+
+void add_positional(CLI::App& app, const Positional& positional) {
+    const std::string& name = positional.name;
+    CLI::Option* option = positional.repeated ? app.add_option_function<std::vector<std::string>>(name, reader(name, positional.read))
+                                              : app.add_option_function<std::string>(name, [&positional](const std::string& text) {
+                                                    read_or_throw(positional.name, positional.read, text);
+                                                });
+    option->required(positional.required);
+}
+
+/// Commands that are not named need no flags: CLI11 takes 1 ms for those of all commands.
+void add_command(CLI::App& root, const Command& command, const std::vector<std::string>& arguments) {
+    CLI::App* app = root.add_subcommand(command.name, command.help);
+    if (std::find(arguments.begin(), arguments.end(), command.name) == arguments.end()) return;
+    for (const Positional& positional : command.positionals) add_positional(*app, positional);
+    for (const FlagGroup& group : command.groups)
+        for (const Flag& flag : group.flags) add_flag(*app, flag);
+}
+
+/// Words of other programs, with those that mean the same here.
+constexpr std::pair<std::string_view, std::string_view> kSynonyms[] = {
+    {"--resolution", "--size"},
+    {"--width", "--size"},
+    {"--height", "--size"},
+    {"--bg", "--background"},
+    {"--bg-color", "--background"},
+    {"--background-color", "--background"},
+    {"--out", "--output"},
+    {"--hdri", "--env"},
+    {"--hdri-file", "--env"},
+    {"--environment", "--env"},
+    {"--skybox", "--env"},
+    {"--msaa", "--samples"},
+    {"--antialiasing", "--samples"},
+    {"--spp", "--samples"},
+    {"--anti-aliasing", "--samples"},
+    {"--camera-view-angle", "--fov"},
+    {"--camera-orbit", "--azimuth"},
+    {"--camera-zoom-factor", "--zoom"},
+    {"--camera-azimuth-angle", "--azimuth"},
+    {"--camera-elevation-angle", "--elevation"},
+    {"--camera-index", "--camera"},
+    {"--jobs", "--threads"},
+    {"convert", "render"},
+    {"draw", "render"},
+    {"compare", "diff"},
+    {"inspect", "info"},
+    {"validate", "info"},
+    {"benchmark", "bench"},
+};
+
+/// " (did you mean WORD?)": a synonym among the candidates, or else the one that is spelled alike.
+std::string meant_by(const std::string& word, const std::vector<std::string>& candidates) {
+    for (const auto& [other, ours] : kSynonyms)
+        if (word == other && std::find(candidates.begin(), candidates.end(), ours) != candidates.end())
+            return " (did you mean " + std::string(ours) + "?)";
+    return did_you_mean(word, candidates);
+}
+
+std::vector<std::string> command_names(std::span<const Command> commands) {
+    std::vector<std::string> names;
+    for (const Command& command : commands)
+        if (!command.hidden) names.push_back(command.name);
+    return names;
+}
+
+/// Words that may come first: commands, built-in scenes, and the models in this folder.
+std::vector<std::string> known_words(std::span<const Command> commands) {
+    std::vector<std::string> words = command_names(commands);
+    words.insert(words.end(), {"help", "demo", "sphere:N", "lights:N", "--version"});
+    for (std::string& file : files_beside(""))
+        if (is_model_name(file)) words.push_back(std::move(file));
+    return words;
+}
+
+std::vector<std::string> flag_names(const Command* command) {
+    std::vector<std::string> names = {"--help", command != nullptr ? "--help-all" : "--version"};
+    if (command != nullptr)
+        for (const Flag* flag : flags_of(*command)) names.push_back(flag->long_name());
+    return names;
+}
+
+/// One line for a wrong command line. `command`: the command that was given; null if there is none.
+std::string usage_message(const CLI::App& root, const CLI::ParseError& error, std::span<const Command> commands, const Command* command) {
+    std::string message = error.what();
+    const std::vector<std::string> rest = root.remaining(true);
+    const bool no_command = command == nullptr && error.get_exit_code() == static_cast<int>(CLI::ExitCodes::RequiredError);
+    if (!rest.empty() && (no_command || error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError))) {
+        const std::string& word = rest[0];
+        const std::string name = word.substr(0, word.find('='));
+        const std::vector<std::string> flags = flag_names(command);
+        if (word.starts_with("-") && command != nullptr && std::find(flags.begin(), flags.end(), name) != flags.end())
+            message = word + " stands before the command: expected halflit " + command->name + " " + word;
+        else if (word.starts_with("-"))
+            message = "unknown flag " + word + meant_by(name, flags);
+        else if (command == nullptr && word.find_first_of("./") != std::string::npos)
+            message = word + ": no such scene" + meant_by(name, known_words(commands));
+        else if (command == nullptr)
+            message = "unknown command " + word + meant_by(name, known_words(commands));
+        else
+            message = "unexpected argument " + word;
+    } else if (no_command) {
+        message = "no scene and no command: expected halflit SCENE [PICTURE], or one of";
+        for (const std::string& name : command_names(commands)) message += " " + name;
+    }
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    return message + "; see halflit " + (command != nullptr ? command->name + " " : "") + "--help";
+}
+
+/// An empty argument comes from a variable that is not set: what it was to name would be chosen by default instead.
+Result<void> refuse_empty(const std::vector<std::string>& arguments) {
+    std::string flag;  // the one before
+    for (const std::string& argument : arguments) {
+        const bool assigns_nothing = argument.starts_with("--") && argument.ends_with('=');
+        if (argument.empty() || assigns_nothing) {
+            const std::string of = assigns_nothing ? argument.substr(0, argument.size() - 1) : flag;
+            return fail(ErrorCode::usage,
+                        (of.empty() ? "an empty argument" : of) + ": expected a value, found nothing (an empty variable?)");
+        }
+        flag = argument.starts_with('-') ? argument : "";
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<ParsedLine> parse_command_line(std::span<const Command> commands, std::vector<std::string> arguments) {
+    if (const auto checked = refuse_empty(arguments); !checked) return tl::unexpected(checked.error());
+    CLI::App root("", "halflit");
+    root.set_help_flag("-h,--help");
+    root.set_help_all_flag("--help-all");
+    root.set_version_flag("-V,--version", "");
+    root.require_subcommand(1);
+    for (const Command& command : commands) add_command(root, command, arguments);
+    const auto chosen = [&]() -> const Command* {
+        const auto parsed = root.get_subcommands();
+        if (parsed.empty()) return nullptr;
+        return &*std::find_if(commands.begin(), commands.end(),
+                              [&](const Command& command) { return command.name == parsed.front()->get_name(); });
+    };
+    std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back
+    try {
+        root.parse(std::move(arguments));
+    } catch (const CLI::CallForVersion&) {
+        return ParsedLine{nullptr, ParsedLine::Wanted::version};
+    } catch (const CLI::CallForAllHelp&) {
+        return ParsedLine{chosen(), ParsedLine::Wanted::help_all};
+    } catch (const CLI::CallForHelp&) {
+        return ParsedLine{chosen(), ParsedLine::Wanted::help};
+    } catch (const CLI::ParseError& error) {
+        return fail(ErrorCode::usage, usage_message(root, error, commands, chosen()));
+    }
+    return ParsedLine{chosen(), ParsedLine::Wanted::run};
+}
+
+}  // namespace halflit::cli

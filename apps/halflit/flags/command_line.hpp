@@ -1,0 +1,21 @@
+// Splits the command line by the tables of the commands, and reads the values.
+#pragma once
+
+#include "apps/halflit/flags/flags.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace halflit::cli {
+
+struct ParsedLine {
+    enum class Wanted { run, help, help_all, version };
+    const Command* command = nullptr;  ///< null: none, with help or version
+    Wanted wanted = Wanted::run;
+};
+
+/// `arguments` are those after the program's name. An error is one line that names the likely spelling and where to look.
+[[nodiscard]] Result<ParsedLine> parse_command_line(std::span<const Command> commands, std::vector<std::string> arguments);
+
+}  // namespace halflit::cli

@@ -1,0 +1,27 @@
+// The texts of --help, folded to a width.
+#pragma once
+
+#include "apps/halflit/flags/flags.hpp"
+
+#include <span>
+#include <string>
+
+namespace halflit::cli {
+
+inline constexpr const char* kProgramHelp = "Renders models to pictures on the CPU: glTF, STL, PLY, OBJ and 3MF.";
+inline constexpr const char* kExitCodesHelp =
+    "Exit codes: 0 ok, 1 negative result, 2 usage, 3 bad input, 4 cannot read or write, 5 limit hit, 6 internal error, 128+n signal n.";
+
+/// The program and its commands.
+[[nodiscard]] std::string program_help(std::span<const Command> commands, std::size_t width);
+
+/// One command. `all`: with its advanced flags.
+[[nodiscard]] std::string command_help(const Command& command, bool all, std::size_t width);
+
+/// "halflit render [FLAGS] [SCENE]"
+[[nodiscard]] std::string usage_line(const Command& command);
+
+/// "-o, --output FILE"
+[[nodiscard]] std::string flag_label(const Flag& flag);
+
+}  // namespace halflit::cli

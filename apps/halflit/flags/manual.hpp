@@ -1,0 +1,19 @@
+// Manual pages (roff) and the flags' page of the documentation (Markdown), made from the tables.
+#pragma once
+
+#include "apps/halflit/flags/flags.hpp"
+
+#include <span>
+#include <string>
+
+namespace halflit::cli {
+
+/// halflit(1)
+[[nodiscard]] std::string program_manual(std::span<const Command> commands);
+/// halflit-COMMAND(1)
+[[nodiscard]] std::string command_manual(const Command& command);
+
+/// docs/flags.md
+[[nodiscard]] std::string markdown_page(std::span<const Command> commands);
+
+}  // namespace halflit::cli

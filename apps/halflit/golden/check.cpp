@@ -1,0 +1,154 @@
+#include "apps/halflit/golden/check.hpp"
+
+#include "apps/halflit/program/file_names.hpp"
+#include "apps/halflit/program/messages.hpp"
+#include "apps/halflit/program/output_folder.hpp"
+#include "apps/halflit/program/stopwatch.hpp"
+#include "apps/halflit/render/render_job.hpp"
+#include "apps/io/pictures/picture_reader.hpp"
+#include "halflit/image.hpp"
+#include "halflit/target.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <new>
+
+namespace halflit::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string hash_of(const Image& picture) { return fmt::format("{:016x}", pixel_hash(picture.rgba8)); }
+
+Result<Image> draw(const GoldenList& list, const GoldenScene& scene) {
+    const auto options = golden_options(list, scene);
+    if (!options) return tl::unexpected(options.error());
+    auto job = make_render_job(*options, kRenderSize);
+    if (!job) return tl::unexpected(job.error());
+    Image image = make_image(*job, false);
+    const auto rendered =
+        Renderer().render(*job->prepared, job->light, job->camera, job->settings, target_of(*job, image), job->timed_execution());
+    if (!rendered) return tl::unexpected(rendered.error());
+    for (const auto& warnings : {job->warnings, rendered->warnings})
+        for (const std::string& warning : warnings) print_warning(scene.name + ": " + warning);
+    return image;
+}
+
+/// A scene that is too large fails alone; the others are still drawn.
+Result<Image> draw_within_memory(const GoldenList& list, const GoldenScene& scene) {
+    try {
+        return draw(list, scene);
+    } catch (const std::bad_alloc&) {
+        return fail(ErrorCode::limit, "out of memory");
+    }
+}
+
+void set_failed(GoldenResult& result, const Error& error) {
+    result.status = DiffStatus::failed;
+    result.message = error.message;
+    result.error = error.code;
+}
+
+/// Compares with the expected picture, and writes the report's pictures.
+Result<void> compare(const GoldenList& list, const Image& actual, const GoldenCheck& options, GoldenResult& result) {
+    const std::string& name = result.path;
+    const auto in_report = [&](const std::string& file) { return path_in(options.report_folder, file); };
+    result.actual_picture = name + "-actual.png";
+    if (const auto written = write_image(in_report(result.actual_picture), actual); !written) return written;
+    if (result.expected_hash.empty()) {
+        result.status = DiffStatus::missing;
+        result.message = "no expected picture; halflit golden update makes it";
+        return {};
+    }
+    const auto expected = io::read_picture(list.picture(name));
+    if (!expected) {
+        set_failed(result, expected.error());
+        return {};
+    }
+    result.expected_picture = name + "-expected.png";
+    if (const auto written = write_image(in_report(result.expected_picture), *expected); !written) return written;
+    const std::string difference = name + "-difference.png";
+    const auto diff = diff_images(*expected, actual, result.tolerance, name, in_report(difference));
+    if (!diff) return tl::unexpected(diff.error());
+    static_cast<DiffedFile&>(result) = *diff;
+    if (diff->diff && diff->diff->count > 0) result.difference_picture = difference;
+    if (const std::string found = hash_of(*expected); found != result.expected_hash) {
+        result.status = DiffStatus::differs;
+        result.message = fmt::format("{}.png has the hash {}, expected {} as in hashes.txt; halflit golden update renews both", name, found,
+                                     result.expected_hash);
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<std::vector<GoldenResult>> check_golden(const GoldenList& list, const std::vector<const GoldenScene*>& scenes,
+                                               const GoldenCheck& options) {
+    // Pictures of an earlier check would contradict this one's page.
+    for (const GoldenScene& scene : list.scenes)
+        for (const char* kind : {"-expected.png", "-actual.png", "-difference.png"}) {
+            std::error_code ignored;
+            fs::remove(fs::path(options.report_folder) / (scene.name + kind), ignored);
+        }
+    std::vector<GoldenResult> results;
+    for (const GoldenScene* scene : scenes) {
+        const Stopwatch watch;
+        GoldenResult result;
+        result.path = scene->name;
+        result.scene = scene;
+        result.expected_hash = list.hash(scene->name);
+        result.tolerance = {options.max_codes.value_or(scene->max_codes.value_or(0)),
+                            options.max_share.value_or(scene->max_share.value_or(0.0))};
+        const auto actual = draw_within_memory(list, *scene);
+        if (actual)
+            result.hash = hash_of(*actual);
+        else
+            set_failed(result, actual.error());
+        if (actual && result.hash != result.expected_hash)
+            if (const auto compared = compare(list, *actual, options, result); !compared) return tl::unexpected(compared.error());
+        result.ms = watch.ms();
+        results.push_back(std::move(result));
+    }
+    return results;
+}
+
+std::vector<GoldenResult> update_golden(GoldenList& list, const std::vector<const GoldenScene*>& scenes) {
+    std::vector<GoldenResult> results;
+    for (const GoldenScene* scene : scenes) {
+        const Stopwatch watch;
+        const std::string path = list.picture(scene->name);
+        GoldenResult result;
+        result.path = scene->name;
+        result.scene = scene;
+        result.expected_hash = list.hash(scene->name);
+        const auto update = [&]() -> Result<void> {
+            const auto actual = draw_within_memory(list, *scene);
+            if (!actual) return tl::unexpected(actual.error());
+            result.hash = hash_of(*actual);
+            std::error_code ignored;
+            const bool exists = fs::exists(path, ignored);
+            const auto before = exists ? io::read_picture(path) : fail(ErrorCode::io, "");
+            const bool same = before && hash_of(*before) == result.hash;
+            if (same && result.hash == result.expected_hash) return {};
+            if (exists && !same && result.expected_hash.empty())
+                return fail(ErrorCode::io, printable(path) + ": exists, is not in hashes.txt and is not overwritten");
+            if (before) {
+                const auto diff = diff_images(*before, *actual, {}, scene->name, "");
+                if (!diff) return tl::unexpected(diff.error());
+                static_cast<DiffedFile&>(result) = *diff;
+            }
+            if (!same)
+                if (const auto written = write_image(path, *actual); !written) return written;
+            if (result.expected_hash.empty() || !exists) result.status = DiffStatus::missing;
+            list.hashes[scene->name] = result.hash;
+            return {};
+        };
+        if (const auto updated = update(); !updated) set_failed(result, updated.error());
+        result.ms = watch.ms();
+        results.push_back(std::move(result));
+    }
+    return results;
+}
+
+}  // namespace halflit::cli

@@ -1,0 +1,295 @@
+#include "apps/halflit/golden/list.hpp"
+
+#include "apps/halflit/program/file_names.hpp"
+#include "apps/halflit/program/messages.hpp"
+#include "apps/halflit/program/output_folder.hpp"
+#include "apps/halflit/program/text_file.hpp"
+#include "apps/halflit/render/built_in_scenes.hpp"
+#include "apps/halflit/report/run_report.hpp"
+#include "apps/io/files/file_access.hpp"
+
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <stdexcept>
+
+namespace halflit::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kListName = "golden.json";
+constexpr const char* kHashesName = "hashes.txt";
+constexpr const char* kSchema = "halflit.golden-list/1";
+constexpr int kMaxDepth = 16;
+constexpr std::size_t kMaxListBytes = std::size_t{16} << 20;
+
+bool is_name_character(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '.';
+}
+
+bool is_name(const std::string& text) {
+    return !text.empty() && text.size() <= 200 && text[0] != '.' && text[0] != '-' &&
+           std::all_of(text.begin(), text.end(), is_name_character);
+}
+
+/// Reads the values of one place in the list; its first error stays.
+class Place {
+public:
+    Place(const Json& object, std::string name) : object_(object), name_(std::move(name)) {}
+
+    [[nodiscard]] tl::unexpected<Error> expected(const std::string& key, const std::string& what) const {
+        return fail(ErrorCode::bad_input, fmt::format("{}{}: expected {}, found {}", name_.empty() ? "" : name_ + ".", key, what,
+                                                      object_.contains(key) ? printable(object_[key].dump()).substr(0, 80) : "nothing"));
+    }
+    [[nodiscard]] Result<void> check_keys(std::initializer_list<const char*> known) const {
+        if (!object_.is_object()) return fail(ErrorCode::bad_input, (name_.empty() ? "" : name_ + ": ") + "expected an object");
+        for (const auto& [key, value] : object_.items())
+            if (std::find(known.begin(), known.end(), key) == known.end())
+                return fail(ErrorCode::bad_input, fmt::format("{}unknown key \"{}\", expected {}", name_.empty() ? "" : name_ + ": ",
+                                                              printable(key), fmt::join(known, ", ")));
+        return {};
+    }
+    [[nodiscard]] const Json* find(const char* key) const { return object_.contains(key) ? &object_[key] : nullptr; }
+
+private:
+    const Json& object_;
+    std::string name_;
+};
+
+Result<GoldenScene> scene_of(const Json& json, std::size_t index) {
+    const Place place(json, fmt::format("scenes[{}]", index));
+    if (const auto checked = place.check_keys({"name", "scene", "flags", "max", "max_share"}); !checked)
+        return tl::unexpected(checked.error());
+    GoldenScene scene;
+    const Json *name = place.find("name"), *path = place.find("scene"), *flags = place.find("flags");
+    if (name == nullptr || !name->is_string() || !is_name(name->get<std::string>()))
+        return place.expected("name", "letters, digits, '-', '_' and '.', beginning with a letter, a digit or '_'");
+    scene.name = name->get<std::string>();
+    if (path == nullptr || !path->is_string() || path->get<std::string>().empty())
+        return place.expected("scene", "a path relative to the list, or a built-in scene");
+    scene.scene = path->get<std::string>();
+    if (flags != nullptr) {
+        if (!flags->is_array() || !std::all_of(flags->begin(), flags->end(), [](const Json& flag) { return flag.is_string(); }))
+            return place.expected("flags", "a list of strings");
+        scene.flags = flags->get<std::vector<std::string>>();
+    }
+    if (const Json* max = place.find("max"); max != nullptr) {
+        if (!max->is_number_unsigned() || max->get<std::uint64_t>() > 255) return place.expected("max", "a whole number from 0 to 255");
+        scene.max_codes = max->get<int>();
+    }
+    if (const Json* share = place.find("max_share"); share != nullptr) {
+        if (!share->is_number() || !(share->get<double>() >= 0 && share->get<double>() <= 1))
+            return place.expected("max_share", "a number from 0 to 1");
+        scene.max_share = share->get<double>();
+    }
+    return scene;
+}
+
+Result<std::vector<GoldenScene>> scenes_of(const std::string& text) {
+    Json json;
+    try {
+        json = Json::parse(text, [&](int depth, Json::parse_event_t, Json&) {
+            if (depth > kMaxDepth) throw std::length_error("nested deeper than 16 levels");
+            return true;
+        });
+    } catch (const std::length_error& error) {
+        return fail(ErrorCode::bad_input, error.what());
+    } catch (const Json::exception& exception) {
+        const std::string what = exception.what();  // "[json.exception.parse_error.101] parse error at line 3, column 5: ..."
+        return fail(ErrorCode::bad_input, printable(what.substr(std::min(what.find("] ") + 2, what.size()))));
+    }
+    const Place place(json, "");
+    if (const auto checked = place.check_keys({"schema", "scenes"}); !checked) return tl::unexpected(checked.error());
+    const Json *schema = place.find("schema"), *list = place.find("scenes");
+    if (schema == nullptr || *schema != kSchema) return place.expected("schema", fmt::format("\"{}\"", kSchema));
+    if (list == nullptr || !list->is_array() || list->empty()) return place.expected("scenes", "a list of scenes, one or more");
+    std::vector<GoldenScene> scenes;
+    std::set<std::string> names;
+    for (const Json& one : *list) {
+        auto scene = scene_of(one, scenes.size());
+        if (!scene) return tl::unexpected(scene.error());
+        if (!names.insert(scene->name).second)
+            return fail(ErrorCode::bad_input, fmt::format("scenes[{}].name: \"{}\" is used twice", scenes.size(), scene->name));
+        scenes.push_back(std::move(*scene));
+    }
+    return scenes;
+}
+
+Result<std::string> read_text(const std::string& path) {
+    const auto bytes = io::read_file(path, kMaxListBytes);
+    if (!bytes) return tl::unexpected(bytes.error());
+    return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+}
+
+/// Lines "HASH  NAME"; those that begin with # are comments.
+Result<std::map<std::string, std::string>> hashes_of(const std::string& text) {
+    std::map<std::string, std::string> hashes;
+    int number = 0;
+    for (std::size_t start = 0; start < text.size();) {
+        const std::size_t end = std::min(text.find('\n', start), text.size());
+        std::string line = text.substr(start, end - start);
+        start = end + 1;
+        ++number;
+        if (line.ends_with('\r')) line.pop_back();
+        if (line.empty() || line[0] == '#') continue;
+        const bool good = line.size() > 18 && line.find_first_not_of("0123456789abcdef") == 16 && line.substr(16, 2) == "  " &&
+                          is_name(line.substr(18)) && hashes.emplace(line.substr(18), line.substr(0, 16)).second;
+        if (!good)
+            return fail(ErrorCode::bad_input, fmt::format("line {}: expected 16 hexadecimal digits, two spaces and a new name, found '{}'",
+                                                          number, printable(line)));
+    }
+    return hashes;
+}
+
+/// The path below the folder, which must not leave it.
+Result<std::string> confined(const std::string& folder, const std::string& relative, const char* what) {
+    const fs::path path(relative);
+    const bool climbs = std::any_of(path.begin(), path.end(), [](const fs::path& part) { return part == ".."; });
+    std::error_code error;
+    const fs::path base = fs::weakly_canonical(folder, error), whole = fs::weakly_canonical(fs::path(folder) / path, error);
+    const bool below = !error && !base.empty() && std::mismatch(base.begin(), base.end(), whole.begin(), whole.end()).first == base.end();
+    if (path.empty() || path.is_absolute() || climbs || !below)
+        return fail(ErrorCode::bad_input,
+                    fmt::format("{}: expected a path within the folder of {}, found '{}'", what, kListName, printable(relative)));
+    return path_in(folder, relative);
+}
+
+std::string quoted_for_shell(const std::string& word) {
+    const bool plain = !word.empty() && word.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_=./:,+") ==
+                                            std::string::npos;
+    if (plain) return word;
+    std::string quoted = "'";
+    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
+
+/// Names for the models' paths: the stem, or the path with '-' for '/' if two have the same stem.
+std::vector<std::string> names_for(const std::vector<std::string>& paths) {
+    std::vector<std::string> names;
+    std::set<std::string> used;
+    for (const std::string& path : paths) {
+        const auto cleaned = [](std::string name) {
+            for (char& c : name)
+                if (!is_name_character(c)) c = '-';
+            while (!name.empty() && (name[0] == '-' || name[0] == '.')) name.erase(0, 1);
+            return name.empty() ? std::string("scene") : name.substr(0, 180);
+        };
+        std::string name = cleaned(fs::path(path).stem().string());
+        if (used.contains(name)) name = cleaned(fs::path(path).replace_extension().generic_string());
+        const std::string first = name;
+        for (int i = 2; !used.insert(name).second; ++i) name = fmt::format("{}-{}", first, i);
+        names.push_back(name);
+    }
+    return names;
+}
+
+Result<std::vector<std::string>> models_below(const std::string& folder) {
+    std::vector<std::string> paths;
+    std::error_code error;
+    for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+        const std::string name = it->path().filename().string();
+        if (it->is_directory(error) && (name.starts_with('.') || name == "report")) it.disable_recursion_pending();
+        if (it->is_regular_file(error) && is_model_name(name)) paths.push_back(it->path().lexically_relative(folder).generic_string());
+    }
+    if (error) return fail(ErrorCode::io, printable(folder) + ": " + error.message());
+    // The upper ones first, so that they get the short names.
+    std::sort(paths.begin(), paths.end(), [](const std::string& a, const std::string& b) {
+        const auto depth = [](const std::string& path) { return std::count(path.begin(), path.end(), '/'); };
+        return std::pair(depth(a), a) < std::pair(depth(b), b);
+    });
+    return paths;
+}
+
+}  // namespace
+
+std::string GoldenList::picture(const std::string& name) const { return path_in(folder, name + ".png"); }
+
+std::string GoldenList::hash(const std::string& name) const {
+    const auto found = hashes.find(name);
+    return found == hashes.end() ? "" : found->second;
+}
+
+bool has_golden_list(const std::string& folder) {
+    std::error_code ignored;
+    return fs::exists(path_in(folder, kListName), ignored);
+}
+
+Result<GoldenList> read_golden_list(const std::string& folder) {
+    const std::string list_path = path_in(folder, kListName), hashes_path = path_in(folder, kHashesName);
+    const auto text = read_text(list_path);
+    if (!text) return tl::unexpected(text.error());
+    auto scenes = scenes_of(*text);
+    if (!scenes) return fail(scenes.error().code, printable(list_path) + ": " + scenes.error().message);
+    GoldenList list{folder, std::move(*scenes), {}};
+    std::error_code ignored;
+    if (!fs::exists(hashes_path, ignored)) return list;
+    const auto lines = read_text(hashes_path);
+    if (!lines) return tl::unexpected(lines.error());
+    auto hashes = hashes_of(*lines);
+    if (!hashes) return fail(hashes.error().code, printable(hashes_path) + ": " + hashes.error().message);
+    list.hashes = std::move(*hashes);
+    return list;
+}
+
+Result<void> make_golden_list(const std::string& folder) {
+    const auto models = models_below(folder);
+    if (!models) return tl::unexpected(models.error());
+    const std::string path = path_in(folder, kListName);
+    if (models->empty()) return fail(ErrorCode::io, printable(path) + ": does not exist, and there is no model to make it from");
+    const std::vector<std::string> names = names_for(*models);
+    Json list{{"schema", kSchema}, {"scenes", Json::array()}};
+    for (std::size_t i = 0; i < names.size(); ++i)
+        list["scenes"].push_back({{"name", names[i]}, {"scene", (*models)[i]}, {"flags", {"--size", "640x360"}}});
+    return write_text(path, to_text(list));
+}
+
+Result<void> write_golden_hashes(const GoldenList& list) {
+    std::string text = "# Hashes of the pixels of the expected pictures; halflit golden update writes this file.\n";
+    for (const auto& [name, hash] : list.hashes) text += fmt::format("{}  {}\n", hash, name);
+    return write_text(path_in(list.folder, kHashesName), text);
+}
+
+Result<std::vector<const GoldenScene*>> chosen_scenes(const GoldenList& list, const std::vector<std::string>& names) {
+    std::vector<const GoldenScene*> chosen;
+    for (const std::string& name : names)
+        if (std::none_of(list.scenes.begin(), list.scenes.end(), [&](const GoldenScene& scene) { return scene.name == name; }))
+            return fail(ErrorCode::usage, fmt::format("NAME: expected a name of {}, found '{}'", printable(path_in(list.folder, kListName)),
+                                                      printable(name)));
+    for (const GoldenScene& scene : list.scenes)
+        if (names.empty() || std::find(names.begin(), names.end(), scene.name) != names.end()) chosen.push_back(&scene);
+    return chosen;
+}
+
+Result<RenderOptions> golden_options(const GoldenList& list, const GoldenScene& scene) {
+    auto options = parse_render_flags(scene.flags);
+    if (!options) return fail(ErrorCode::bad_input, "flags: " + options.error().message);
+    options->scene = scene.scene;
+    if (!is_built_in_name(scene.scene)) {
+        auto path = confined(list.folder, scene.scene, "scene");
+        if (!path) return tl::unexpected(path.error());
+        options->scene = std::move(*path);
+    }
+    if (!options->environment.empty() && options->environment != "sky") {
+        auto path = confined(list.folder, options->environment, "--env");
+        if (!path) return tl::unexpected(path.error());
+        options->environment = std::move(*path);
+    }
+    for (std::string& folder : options->load.allow_external) {
+        auto path = confined(list.folder, folder, "--allow-external");
+        if (!path) return tl::unexpected(path.error());
+        folder = std::move(*path);
+    }
+    return options;
+}
+
+std::string golden_command_line(const GoldenScene& scene) {
+    std::string line = fmt::format("halflit render {}", quoted_for_shell(scene.scene));
+    for (const std::string& flag : scene.flags) line += fmt::format(" {}", quoted_for_shell(flag));
+    return fmt::format("{} -o {}.png", line, scene.name);
+}
+
+}  // namespace halflit::cli

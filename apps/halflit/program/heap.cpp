@@ -1,0 +1,58 @@
+#include "apps/halflit/program/heap.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
+#endif
+
+namespace halflit::cli {
+
+#ifdef __GLIBC__
+
+namespace {
+
+constexpr int kReserved = 128 << 20;          // bytes of addresses; what is not touched takes no memory
+constexpr int kLargestInHeap = 32 << 20;      // the most that glibc allows; larger blocks are mapped one by one
+constexpr int kKeptFree = 1 << 30;            // the most free memory at the heap's end that is kept
+constexpr std::size_t kFirstBlock = 1 << 20;  // more than is left of the small heap of the program's start
+constexpr std::uintptr_t kHugePage = 2 << 20;
+
+bool is_limited(int resource) {
+    rlimit limit{};
+    return ::getrlimit(static_cast<__rlimit_resource_t>(resource), &limit) != 0 || limit.rlim_cur != RLIM_INFINITY;
+}
+
+bool set_up_heap() {
+    if (is_limited(RLIMIT_DATA) || is_limited(RLIMIT_AS)) return false;
+    mallopt(M_MMAP_THRESHOLD, kLargestInHeap);
+    mallopt(M_TRIM_THRESHOLD, kKeptFree);
+    mallopt(M_ARENA_MAX, 1);  // other threads' heaps would have small pages; they allocate seldom. Overrides MALLOC_ARENA_MAX
+    mallopt(M_TOP_PAD, kReserved);
+    const auto before = reinterpret_cast<std::uintptr_t>(::sbrk(0));
+    void* volatile const block = std::malloc(kFirstBlock);  // volatile: the compiler would leave out a block that is not used
+    std::free(block);
+    const auto after = reinterpret_cast<std::uintptr_t>(::sbrk(0));
+    mallopt(M_TOP_PAD, static_cast<int>(kFirstBlock));
+    // Another allocator than glibc's leaves the heap as it is.
+    const std::uintptr_t first = (before + kHugePage - 1) / kHugePage * kHugePage;
+    if (after > first) ::madvise(reinterpret_cast<void*>(first), after - first, MADV_HUGEPAGE);
+    return true;
+}
+
+}  // namespace
+
+void prepare_heap() { [[maybe_unused]] static const bool done = set_up_heap(); }
+
+#else
+
+void prepare_heap() {}
+
+#endif
+
+}  // namespace halflit::cli

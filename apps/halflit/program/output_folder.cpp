@@ -1,0 +1,24 @@
+#include "apps/halflit/program/output_folder.hpp"
+
+#include "apps/halflit/program/messages.hpp"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+
+namespace halflit::cli {
+
+Result<std::string> parse_folder(const std::string& text) {
+    if (text.empty() || text == "-") return fail(ErrorCode::usage, "expected a folder, found '" + text + "'");
+    return text;
+}
+
+Result<void> make_folder(const std::string& path) {
+    std::error_code error;
+    std::filesystem::create_directories(path, error);
+    if (!error && !std::filesystem::is_directory(path, error)) error = std::make_error_code(std::errc::not_a_directory);
+    if (error) return fail(ErrorCode::io, fmt::format("{}: {}", printable(path), error.message()));
+    return {};
+}
+
+}  // namespace halflit::cli

@@ -1,0 +1,20 @@
+#include "apps/halflit/program/terminal.hpp"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace halflit::cli {
+
+std::size_t help_width() {
+    constexpr long kLeast = 60, kMost = 120, kUsual = 80;
+    long columns = 0;
+    if (const char* text = std::getenv("COLUMNS")) columns = std::strtol(text, nullptr, 10);
+    struct winsize size {};
+    if (columns <= 0 && ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0) columns = size.ws_col;
+    return static_cast<std::size_t>(columns <= 0 ? kUsual : std::clamp(columns, kLeast, kMost));
+}
+
+}  // namespace halflit::cli

@@ -1,0 +1,101 @@
+#include "apps/halflit/render/film_options.hpp"
+
+#include "apps/halflit/flags/values.hpp"
+#include "apps/halflit/program/file_names.hpp"
+#include "apps/io/files/model_files.hpp"
+
+#include <fmt/format.h>
+
+#include <numeric>
+#include <vector>
+
+namespace halflit::cli {
+namespace {
+
+constexpr std::int64_t kMostFrame = 9'999'999;
+
+}  // namespace
+
+Result<FrameRange> parse_frames(std::string_view text) {
+    const auto wrong = [&] {
+        return fail(ErrorCode::usage, fmt::format("expected A-B or A-B:STEP, with A up to B and B up to {}, as 0-47 or 0-47:2, found '{}'",
+                                                  kMostFrame, text));
+    };
+    const std::size_t colon = text.find(':');
+    const std::string_view range = text.substr(0, colon);
+    const std::size_t dash = range.find('-');
+    const auto first = parse_int(range.substr(0, dash), 0, kMostFrame);
+    if (!first) return wrong();
+    FrameRange out{*first, *first, 1};
+    if (dash != std::string_view::npos) {
+        const auto last = parse_int(range.substr(dash + 1), *first, kMostFrame);
+        if (!last) return wrong();
+        out.last = *last;
+    }
+    if (colon != std::string_view::npos) {
+        const auto step = parse_int(text.substr(colon + 1), 1, kMostFrame);
+        if (!step || dash == std::string_view::npos) return wrong();
+        out.step = *step;
+    }
+    return out;
+}
+
+Result<FrameRate> parse_fps(std::string_view text) {
+    constexpr std::int64_t kMost = 1'000'000;
+    const auto wrong = [&] {
+        return fail(ErrorCode::usage,
+                    fmt::format("expected frames a second from 0.001 to 1000, as 24, 23.976 or 30000/1001, found '{}'", text));
+    };
+    FrameRate rate{0, 1};
+    const std::size_t slash = text.find('/'), dot = text.find('.');
+    if (slash != std::string_view::npos) {
+        const auto frames = parse_int(text.substr(0, slash), 1, kMost), seconds = parse_int(text.substr(slash + 1), 1, kMost);
+        if (!frames || !seconds) return wrong();
+        rate = {*frames, *seconds};
+    } else {
+        const std::string_view whole = text.substr(0, dot);
+        const auto units = parse_int(whole, 0, 1000);
+        if (!units) return wrong();
+        rate.frames = *units;
+        if (dot != std::string_view::npos) {
+            const std::string_view digits = text.substr(dot + 1);
+            if (digits.empty() || digits.size() > 3 || digits.find_first_not_of("0123456789") != std::string_view::npos) return wrong();
+            for (const char digit : digits) rate = {rate.frames * 10 + (digit - '0'), rate.seconds * 10};
+        }
+    }
+    if (rate.frames > 1000 * rate.seconds || rate.frames * 1000 < rate.seconds) return wrong();
+    const std::int64_t common = std::gcd(rate.frames, rate.seconds);
+    return FrameRate{rate.frames / common, rate.seconds / common};
+}
+
+Result<void> check_film_options(const FilmOptions& options, const std::string& output) {
+    if (!options.wanted()) {
+        if (options.fps) return fail(ErrorCode::usage, "--fps: expected together with --frames or --turntable");
+        return {};
+    }
+    if (options.time_held && options.turntable == 0)
+        return fail(ErrorCode::usage, "--time: cannot be combined with --frames, whose frame N is at N / --fps seconds");
+    if (output == "-") return fail(ErrorCode::usage, "-o -: cannot be combined with --frames or --turntable, which need a file name");
+    if (const auto format = film::film_format_of(output)) return film::check_film_format(output, *format);
+    if (options.dither) return fail(ErrorCode::usage, "--dither: expected a .gif file as the output");
+    return {};
+}
+
+Result<std::string> frame_name(const std::string& pattern, const std::string& scene, std::int64_t number) {
+    bool numbered = false;
+    auto name = fill_pattern(pattern, "{}, {:04}, {stem} or {folder}", [&](std::string_view word) -> std::optional<std::string> {
+        if (word == "stem") return scene.empty() || scene == "-" ? "halflit" : stem_of(scene);
+        if (word == "folder") return io::folder_of(scene);
+        auto digits = digits_for(word, word.starts_with("frame") ? "frame" : "", number);
+        numbered |= digits.has_value();
+        return digits;
+    });
+    if (name && !numbered)
+        return fail(ErrorCode::usage,
+                    fmt::format("-o {}: expected a place for the frame's number, as frame_{{:04}}.png, or a .gif, .apng or "
+                                ".webp file",
+                                pattern));
+    return name;
+}
+
+}  // namespace halflit::cli

@@ -1,0 +1,349 @@
+#include "apps/halflit/render/render_job.hpp"
+
+#include "apps/halflit/program/stopwatch.hpp"
+#include "apps/halflit/program/timeout.hpp"
+#include "apps/halflit/render/film_view.hpp"
+#include "apps/io/files/errno_text.hpp"
+#include "halflit/auto_setup.hpp"
+#include "halflit/camera.hpp"
+#include "halflit/image.hpp"
+#include "halflit/scene.hpp"
+#include "raster/check_execution.hpp"
+#include "sh/trig.hpp"
+#include "sh/vec3d.hpp"
+#include "shading/environment.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cerrno>
+
+#include <sys/resource.h>
+
+namespace halflit::cli {
+namespace {
+
+Result<void> check_size(PictureSize size, const Region& region) {
+    const bool whole = region.width == 0;
+    if (const PictureSize drawn = whole ? size : PictureSize{region.width, region.height};
+        std::int64_t{drawn.width} * drawn.height > kMaxImagePixels)
+        return fail(ErrorCode::limit, fmt::format("{}: {}x{} is more than 2^28 pixels{}", whole ? "--size" : "--region", drawn.width,
+                                                  drawn.height, whole ? "; --region draws a part" : ""));
+    if (std::int64_t{region.x} + region.width > size.width || std::int64_t{region.y} + region.height > size.height)
+        return fail(ErrorCode::usage, fmt::format("--region: expected a part of the {}x{} picture, found {},{},{},{}", size.width,
+                                                  size.height, region.x, region.y, region.width, region.height));
+    return {};
+}
+
+/// replaces: the file has a camera that shows the scene small or not at all.
+std::string camera_choice(const Camera* of_file, const RenderOptions& options, bool replaces) {
+    if (of_file != nullptr) return "camera: the file's" + (of_file->name.empty() ? "" : ", " + of_file->name);
+    if (options.camera_position)
+        return fmt::format("camera: at {},{},{}", options.camera_position->x, options.camera_position->y, options.camera_position->z);
+    return fmt::format("camera: a view of the whole scene, azimuth {}, elevation {}{}", options.view.azimuth_deg,
+                       options.view.elevation_deg, replaces ? "; the file's shows the scene small or not at all (--camera 0: by it)" : "");
+}
+
+std::string pose_choice(const AnimationInfo& animation, int index, double time_s) {
+    return fmt::format("pose: animation {}{}{}, at {} s of {}", index, animation.name.empty() ? "" : ", ", animation.name, time_s,
+                       animation.end_s);
+}
+
+/// Replaces the ambient light by the environment.
+Result<void> add_environment(Lighting& light, const RenderOptions& options) {
+    auto image = find_environment(options.environment);
+    if (!image) return tl::unexpected(image.error());
+    const auto environment =
+        make_environment(std::move(*image), {options.environment_sun, static_cast<double>(options.environment_rotate_deg) * (kPi / 180.0),
+                                             options.settings.background_environment,
+                                             options.may_want_reference || options.settings.shading.accuracy == Accuracy::reference});
+    if (!environment) return tl::unexpected(environment.error());
+    light.ambient = {};
+    light.environment = *environment;
+    return {};
+}
+
+/// Gives a light the size that the flags say, unless it has one.
+void soften(Light& light, const Film& film) {
+    if (light.shadow_radius > 0.0f) return;
+    light.shadow_radius = light.type == LightType::directional ? film.sun_radius : film.lamp_radius;
+}
+
+/// The light to begin with, and what the flags say of the rest.
+Result<void> begin_light(RenderJob& job, const RenderOptions& options) {
+    AutoOptions choice;
+    Lighting light;
+    if (options.scene_lights)
+        light = job.scene();
+    else
+        choice.add_lights = !options.ambient_linear;
+    if (!options.environment.empty())
+        if (const auto added = add_environment(light, options); !added) return added;
+    choice.ambient_linear = options.ambient_linear;
+    choice.exposure = options.exposure;
+    choice.studio = options.studio;
+    if (choice.studio == StudioUse::for_dark && !options.lights.empty()) choice.studio = StudioUse::under_lights;
+    if (options.ambient_linear && options.studio == StudioUse::for_dark) choice.studio = StudioUse::never;
+    choice.studio_turn_rad = static_cast<double>(options.environment_rotate_deg) * (kPi / 180.0);
+    for (const GivenLight& given : options.lights) light.lights.push_back(given.light);
+    Film& film = job.film;
+    film.sun_radius = light.sun_shadow_radius_rad = static_cast<float>(static_cast<double>(options.sun_size_deg) * (kPi / 180.0));
+    film.lamp_radius = options.lamp_size;
+    for (Light& one : light.lights) soften(one, film);
+    film.light = light;
+    choice.light = std::move(light);
+    film.choice = std::move(choice);
+    return {};
+}
+
+/// Chooses size, camera, light and exposure: what the flags say, and choose_picture for the rest.
+Result<void> choose(RenderJob& job, const RenderOptions& options, PictureRequest request) {
+    static_cast<AutoOptions&>(request) = [&] {
+        AutoOptions all = job.film.choice;
+        all.camera = request.camera, all.frame = request.frame, all.view = options.view;
+        return all;
+    }();
+    auto choice = choose_picture(job.scene(), job.film.bounds, request);
+    if (!choice) return fail(choice.error().code, "--" + choice.error().message);
+    job.width = choice->size.width, job.height = choice->size.height;
+    if (const auto checked = check_size(choice->size, options.settings.region); !checked) return checked;
+    job.light = std::move(choice->light);
+    for (Light& one : job.light.lights) soften(one, job.film);
+    if (options.settings.background_environment && job.light.environment == nullptr)
+        return fail(ErrorCode::usage, "--background: environment needs --env");
+    job.camera = choice->camera;
+    job.film.file_camera = choice->scene_camera;
+    job.settings.exposure = choice->settings.exposure;
+    const auto& chosen = options.given_settings;
+    if (std::find(chosen.begin(), chosen.end(), "shadow_size") == chosen.end()) job.settings.shadow_size = choice->settings.shadow_size;
+    job.settings.region = options.settings.region.width > 0 ? options.settings.region : Region{0, 0, job.width, job.height};
+    return {};
+}
+
+/// The view that the flags ask for. usual: the size without --size.
+PictureRequest request_of(const RenderJob& job, const RenderOptions& options, PictureSize usual) {
+    PictureRequest request;
+    request.size = options.size;
+    request.usual_size = usual;
+    const Bounds& bounds = job.film.bounds;
+    if (options.camera_position) {
+        const Vec3d target = options.camera_target.value_or(bounds.empty ? Vec3d{} : to_double(bounds.center()));
+        request.camera = placed_camera(to_float(*options.camera_position), to_float(target), options.view.fov_y_deg, bounds);
+        return request;
+    }
+    request.scene_camera = options.camera;
+    request.frame = options.own_view() || (options.film.turntable > 0 && !options.camera);  // a turntable goes around the scene
+    if (request.frame || (!options.camera && choose_camera(job.scene(), bounds) == nullptr)) {
+        const PictureSize size = options.size.value_or(usual);
+        request.camera =
+            film_camera(job.scene(), bounds, options.film, static_cast<float>(size.width) / static_cast<float>(size.height), options.view);
+    }
+    return request;
+}
+
+/// What was chosen, for people. given: the flags as they were given.
+void tell_choices(RenderJob& job, const RenderOptions& given) {
+    const std::vector<Camera>& cameras = job.scene().cameras;
+    const bool of_file = job.film.file_camera >= 0, whole = given.own_view() || given.film.turntable > 0;
+    job.choices.push_back(camera_choice(of_file ? &cameras[static_cast<std::size_t>(job.film.file_camera)] : nullptr, given,
+                                        !of_file && !cameras.empty() && !whole));
+    job.choices.push_back(fmt::format("lights: {}{}{}{}", job.light.all_lights().size(),
+                                      job.light.lights.size() > job.film.light.lights.size() ? ", added by default" : "",
+                                      job.light.environment == nullptr ? ""
+                                      : given.environment.empty()      ? ", and the environment studio"
+                                                                       : ", and the environment " + given.environment,
+                                      job.light.ambient.sky_linear == Vec3f{} ? "" : ", and ambient light"));
+    job.choices.push_back(fmt::format("exposure: {}{}", job.settings.exposure, given.exposure ? "" : ", chosen"));
+}
+
+/// The flags' coordinates are the file's with y up; the scene may be drawn elsewhere, and larger or smaller.
+RenderOptions in_drawn_world(RenderOptions options, const SceneSource& source) {
+    const Placement& place = source.placement;
+    const auto times = [](float value, double factor) { return static_cast<float>(std::clamp(value * factor, -3e38, 3e38)); };
+    const auto placed = [&](Vec3d p) {
+        const auto within = [](double x) { return std::clamp(x, -3e38, 3e38); };
+        const Vec3d at = (p - place.origin) * place.scale;
+        return Vec3d{within(at.x), within(at.y), within(at.z)};
+    };
+    if (options.camera_position) options.camera_position = placed(*options.camera_position);
+    if (options.camera_target) options.camera_target = placed(*options.camera_target);
+    options.settings.shadow_fade = times(options.settings.shadow_fade, place.scale);
+    options.lamp_size = times(options.lamp_size, place.scale);
+    for (auto& [light, position] : options.lights) {
+        if (light.type == LightType::directional) continue;
+        light.position_ws = to_float(placed(position));
+        light.range = times(light.range, place.scale);
+        light.source_radius = times(light.source_radius, place.scale);
+        light.shadow_radius = times(light.shadow_radius, place.scale);
+        Vec3f& color = light.color_linear;  // falls with the squared distance
+        const double brighter = place.scale * place.scale;
+        color = {times(color.x, brighter), times(color.y, brighter), times(color.z, brighter)};
+    }
+    return options;
+}
+
+/// From now on, an allocation fails that would take the process beyond this. A lower limit that the process has already stays.
+Result<void> limit_process_memory(std::size_t bytes) {
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_DATA, &limit) == 0) {
+        limit.rlim_cur = std::min({limit.rlim_cur, limit.rlim_max, static_cast<rlim_t>(bytes)});
+        if (::setrlimit(RLIMIT_DATA, &limit) == 0) return {};
+    }
+    return fail(ErrorCode::limit, std::string("--max-memory: the system does not set the limit: ") + io::errno_text(errno));
+}
+
+Result<void> choose_settings(Settings& settings, const RenderOptions& options) {
+    settings = options.settings;
+    const auto lobe = chosen_lobe(options);
+    if (!lobe) return tl::unexpected(lobe.error());
+    settings.shading.lobe = *lobe;
+    // The size is not known yet.
+    Settings anywhere = settings;
+    anywhere.region = {};
+    if (const auto checked = check_settings(anywhere, 1, 1); !checked) return fail(checked.error().code, "--" + checked.error().message);
+    return {};
+}
+
+Result<RenderJob> make_job(const RenderOptions& options, PictureSize usual) {
+    if (options.camera_position && (options.camera || options.whole_scene))
+        return fail(ErrorCode::usage, "--camera-position: cannot be combined with --camera, --azimuth, --elevation or --zoom");
+    if (options.camera_target && !options.camera_position)
+        return fail(ErrorCode::usage, "--camera-target: expected together with --camera-position");
+    if (options.camera && options.own_view())
+        return fail(ErrorCode::usage,
+                    "--camera: cannot be combined with --azimuth, --elevation, --zoom or --fov, which make a camera of their own");
+    if (options.size)
+        if (const auto checked = check_size(*options.size, options.settings.region); !checked) return tl::unexpected(checked.error());
+    if (options.max_memory_bytes > 0)
+        if (const auto limited = limit_process_memory(options.max_memory_bytes); !limited) return tl::unexpected(limited.error());
+    RenderJob job;
+    job.execution = options.execution;
+    job.timeout_s = options.timeout_s;
+    if (!job.execution.isa) {
+        const auto isa = default_isa();
+        if (!isa) return fail(ErrorCode::usage, isa.error().message);
+        job.execution.isa = *isa;
+    }
+    if (const auto chosen = choose_settings(job.settings, options); !chosen) return tl::unexpected(chosen.error());
+
+    const Stopwatch loading;
+    RenderOptions timed = options;
+    timed.load = options.timed_load();
+    timed.load.keep_animations = options.film.animates();
+    auto source = load_scene(timed);
+    if (!source) return tl::unexpected(source.error());
+    job.load_ms = loading.ms();
+    job.source = std::move(*source);
+    job.warnings = job.source.warnings;
+    job.pose_time_s = options.load.time_s;
+    if (const AnimationInfo* const animation = job.animation())
+        job.choices.push_back(pose_choice(*animation, job.source.animation, job.pose_time_s));
+    replace_materials(job.scene(), options.classic);
+    if (!options.own_lobes) drop_own_lobes(job.scene());
+    const bool moves = options.film.animates() && job.source.motion && job.animation() != nullptr;
+    if (moves) {
+        const auto swept = swept_bounds(job, options);
+        if (!swept) return tl::unexpected(swept.error());
+        job.film.bounds = *swept;
+    }
+    if (options.ground) add_ground(job.scene(), moves ? job.film.bounds : scene_bounds(job.scene()));
+
+    const Stopwatch preparing;
+    auto prepared = PreparedScene::make(job.scene(), job.timed_execution());
+    if (!prepared) return tl::unexpected(prepared.error());
+    job.prepared = std::move(*prepared);
+    job.prepare_ms = preparing.ms();
+    if (!moves) job.film.bounds = job.prepared->bounds();
+    const Bounds& bounds = job.film.bounds;
+    const bool loader_said_so = job.source.file && job.source.file->triangles_drawn == 0;
+    if (bounds.empty && !loader_said_so) job.warnings.push_back("nothing to draw: no vertex has finite coordinates");
+    const RenderOptions placed = in_drawn_world(options, job.source);
+    job.settings.shadow_fade = placed.settings.shadow_fade;
+    if (const auto begun = begin_light(job, placed); !begun) return tl::unexpected(begun.error());
+    if (const auto chosen = choose(job, placed, request_of(job, placed, usual)); !chosen) return tl::unexpected(chosen.error());
+    tell_choices(job, options);
+    return job;
+}
+
+}  // namespace
+
+Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usual) {
+    return within_time(options.timeout_s, [&] { return make_job(options, usual); });
+}
+
+void drop_own_lobes(Scene& scene) {
+    for (Material& material : scene.materials) material.has_own_lobe = false;
+}
+
+bool relight(RenderJob& job, const Camera& camera) {
+    const Film& film = job.film;
+    Lighting& drawn = job.light;
+    if (drawn.environment == film.light.environment && drawn.lights.size() == film.light.lights.size()) return false;
+    AutoOptions choice = film.choice;
+    choice.camera = camera;
+    choice.frame = false;
+    const Lighting lit = auto_setup(job.scene(), film.bounds, job.width, job.height, choice).light;
+    drawn.ambient = lit.ambient;
+    drawn.environment = lit.environment;
+    for (std::size_t i = film.light.lights.size(); i < lit.lights.size() && i < drawn.lights.size(); ++i) {
+        drawn.lights[i] = lit.lights[i];
+        soften(drawn.lights[i], film);
+    }
+    return true;
+}
+
+void follow_lights(RenderJob& job, const RenderOptions& options) {
+    if (!options.scene_lights) return;
+    const std::vector<Light>& lights = job.scene().lights;
+    for (std::size_t i = 0; i < std::min(lights.size(), job.light.lights.size()); ++i) {
+        job.light.lights[i] = lights[i];
+        soften(job.light.lights[i], job.film);
+    }
+}
+
+Result<void> change_light(RenderJob& job, const RenderOptions& options) {
+    const RenderOptions placed = in_drawn_world(options, job.source);
+    if (const auto begun = begin_light(job, placed); !begun) return begun;
+    PictureRequest request;
+    request.size = PictureSize{job.width, job.height};
+    request.camera = job.camera;
+    const int file_camera = job.film.file_camera;
+    const auto chosen = choose(job, placed, std::move(request));
+    job.film.file_camera = file_camera;
+    return chosen;
+}
+
+Result<void> change_job(RenderJob& job, const RenderOptions& options, PictureSize usual, bool same_light) {
+    std::erase_if(job.warnings, [](const std::string& warning) { return warning.starts_with("the file's camera"); });
+    if (const auto chosen = choose_settings(job.settings, options); !chosen) return chosen;
+    const RenderOptions placed = in_drawn_world(options, job.source);
+    job.settings.shadow_fade = placed.settings.shadow_fade;
+    if (!same_light)
+        if (const auto begun = begin_light(job, placed); !begun) return begun;
+    if (const auto chosen = choose(job, placed, request_of(job, placed, usual)); !chosen) return chosen;
+    job.choices.clear();
+    tell_choices(job, options);
+    return {};
+}
+
+Execution RenderJob::timed_execution() const {
+    Execution out = execution;
+    out.time_limit_s = timeout_s;
+    return raster::with_time_left(std::move(out), started.ms() / 1000.0);
+}
+
+Image make_image(const RenderJob& job, bool linear) {
+    const Region& region = job.settings.region;
+    Image image = Image::make(region.width, region.height);
+    if (linear) image.rgba_linear.resize(image.rgba8.size());
+    return image;
+}
+
+Target target_of(const RenderJob& job, Image& image) {
+    Target target = image.target();
+    target.width = job.width, target.height = job.height;
+    target.region_alone = true;
+    return target;
+}
+
+}  // namespace halflit::cli

@@ -1,0 +1,82 @@
+// Flags that decide the picture. render, bench, info and trade share them, so that bench measures and info describes what render draws.
+#pragma once
+
+#include "apps/halflit/flags/flags.hpp"
+#include "apps/halflit/flags/values.hpp"
+#include "apps/halflit/render/classic_material.hpp"
+#include "apps/halflit/render/film_options.hpp"
+#include "apps/halflit/render/scene_view.hpp"
+#include "apps/io/files/lobe_name.hpp"
+#include "halflit/auto_setup.hpp"
+#include "halflit/camera.hpp"
+#include "halflit/gltf.hpp"
+#include "halflit/light.hpp"
+#include "halflit/settings.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace halflit::cli {
+
+/// Picture size of render and info without --size.
+inline constexpr PictureSize kRenderSize{1280, 720};
+
+/// Values of the flags. The initial values here are the defaults; the help text prints them.
+struct RenderOptions {
+    std::string scene;  ///< a file, "-" for standard input, or a built-in scene
+    std::optional<PictureSize> size;
+    Settings settings = usual_settings();            ///< the flags' values; lobe and exposure are chosen later, with the scene
+    std::vector<std::string_view> given_settings{};  ///< names of settings whose flags were given
+    Execution execution;
+
+    std::optional<std::string> camera;  ///< a camera of the file: its index or name
+    ViewSettings view;
+    bool whole_scene = false;                             ///< --camera frame, --azimuth, --elevation or --zoom was given
+    bool fov_given = false;                               ///< --fov was given
+    std::optional<Vec3d> camera_position, camera_target;  ///< in the file's world
+    bool ground = false;                                  ///< add a ground that only takes shadow
+
+    /// A camera of the flags, not of the file.
+    [[nodiscard]] bool own_view() const { return whole_scene || fov_given || camera_position; }
+
+    std::optional<std::string> lobe_name;
+    io::LobeParameters lobe;
+    bool own_lobes = true;  ///< materials that have lobes of their own keep them
+    ClassicMaterial classic;
+    std::optional<Vec3f> ambient_linear;
+    std::vector<GivenLight> lights;               ///< in the file's world
+    float sun_size_deg = 0.0f, lamp_size = 0.0f;  ///< of lights without a size of their own; the latter in the file's world
+    bool scene_lights = true;
+    std::string environment;                 ///< a file or "sky"; empty: none, or the studio
+    StudioUse studio = StudioUse::for_dark;  ///< if there is no other environment
+    bool environment_sun = true;
+    float environment_rotate_deg = 0.0f;
+    bool may_want_reference = false;  ///< the environment keeps what --accuracy reference needs, though the accuracy is another
+    std::optional<float> exposure;    ///< a factor; none: chosen from the lights
+
+    LoadOptions load;
+    FilmOptions film;        ///< of render alone
+    double timeout_s = 0.0;  ///< for loading and drawing; 0: none
+    /// `load` with that limit.
+    [[nodiscard]] LoadOptions timed_load() const {
+        LoadOptions timed = load;
+        timed.limits.time_limit_s = timeout_s;
+        return timed;
+    }
+    std::size_t max_memory_bytes = 0;  ///< of the process; 0: no limit
+};
+
+/// The lobe that the flags choose for materials without one of their own; empty if they choose none.
+[[nodiscard]] Result<std::optional<Lobe>> chosen_lobe(const RenderOptions& options);
+
+/// The SCENE argument. `options` must outlive what these functions return.
+[[nodiscard]] Positional scene_argument(RenderOptions& options, bool required);
+
+/// `usual`: the default picture size, which is reduced to the aspect ratio of the file's camera.
+[[nodiscard]] std::vector<FlagGroup> render_flags(RenderOptions& options, PictureSize usual);
+
+/// Reads flags that are not from the command line, such as those of a list of scenes. A scene among them is refused.
+[[nodiscard]] Result<RenderOptions> parse_render_flags(std::vector<std::string> flags);
+
+}  // namespace halflit::cli

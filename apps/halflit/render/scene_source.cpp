@@ -1,0 +1,55 @@
+#include "apps/halflit/render/scene_source.hpp"
+
+#include "apps/halflit/program/file_names.hpp"
+#include "apps/halflit/render/built_in_scenes.hpp"
+#include "halflit/model.hpp"
+#include "halflit/up_axis.hpp"
+
+namespace halflit::cli {
+namespace {
+
+Result<LoadedScene> load_file(const RenderOptions& options) {
+    LoadOptions load = options.load;
+    load.threads = options.execution.threads;
+    if (options.scene != "-") return load_model(options.scene, load);
+    const auto bytes = read_standard_input(options.load.limits.max_file_bytes, options.load.limits.time_limit_s);
+    if (!bytes) return tl::unexpected(bytes.error());
+    return load_model_bytes(*bytes, kStandardInputName, "", load);
+}
+
+}  // namespace
+
+Result<SceneSource> load_scene(const RenderOptions& options) {
+    const std::string name = options.scene.empty() ? "demo" : options.scene;
+    auto built_in = built_in_scene(name);
+    if (!built_in) return tl::unexpected(built_in.error());
+    if (*built_in) {
+        turn_upright(**built_in, options.load.up.value_or(UpAxis::y));
+        return SceneSource{.name = name, .scene = std::make_unique<Scene>(std::move(**built_in)), .file = std::nullopt, .warnings = {}};
+    }
+    auto loaded = load_file(options);
+    if (!loaded && loaded.error().code == ErrorCode::io && name != "-")
+        return fail(ErrorCode::io, loaded.error().message + did_you_mean_file(name, {"demo", "sphere:N", "lights:N"}));
+    if (!loaded) return tl::unexpected(loaded.error());
+    return SceneSource{name == "-" ? kStandardInputName : name,
+                       std::make_unique<Scene>(std::move(loaded->scene)),
+                       std::move(loaded->info),
+                       std::move(loaded->warnings),
+                       std::move(loaded->animations),
+                       loaded->animation,
+                       std::move(loaded->placement),
+                       std::move(loaded->motion)};
+}
+
+bool is_scene(const std::string& name) { return name == "-" || is_built_in_name(name) || is_model_name(name) || is_file(name); }
+
+Result<EnvironmentImage> find_environment(const std::string& name) {
+    if (name == "sky") return built_in_sky();
+    if (name == "studio") return studio_image();
+    auto environment = read_environment(name);
+    if (!environment && environment.error().code == ErrorCode::io)
+        return fail(ErrorCode::io, environment.error().message + did_you_mean_file(name, {"sky", "studio"}));
+    return environment;
+}
+
+}  // namespace halflit::cli

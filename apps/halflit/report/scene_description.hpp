@@ -1,0 +1,17 @@
+// Description of a scene, as JSON or as text.
+#pragma once
+
+#include "apps/halflit/render/render_job.hpp"
+
+#include <string>
+
+namespace halflit::cli {
+
+/// Describes the file's contents, what is drawn, and for each material the stages of shading that its plan requires and those that it does
+/// without. Text is one indented line for each value, with names escaped (see printable).
+[[nodiscard]] Result<std::string> describe_scene(const RenderJob& job, bool json);
+
+/// The plan's part of that, as text: lights, shadow maps, and the stages of each material.
+[[nodiscard]] Result<std::string> describe_plan(const RenderJob& job);
+
+}  // namespace halflit::cli

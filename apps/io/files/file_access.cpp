@@ -1,0 +1,244 @@
+#include "apps/io/files/file_access.hpp"
+
+#include "apps/io/files/errno_text.hpp"
+#include "apps/io/files/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <cstdlib>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#if defined(__linux__)
+#include <linux/openat2.h>
+#include <sys/syscall.h>
+#endif
+
+namespace halflit::io {
+
+namespace {
+
+class Descriptor {
+public:
+    explicit Descriptor(int fd) : fd_(fd) {}
+    ~Descriptor() {
+        if (fd_ >= 0) ::close(fd_);
+    }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+    Descriptor& operator=(Descriptor&& other) noexcept {
+        std::swap(fd_, other.fd_);
+        return *this;
+    }
+    [[nodiscard]] int get() const { return fd_; }
+
+private:
+    int fd_;
+};
+
+// O_NONBLOCK: opening a FIFO without a writer returns at once, and fstat then refuses it.
+constexpr int kOpenFlags = O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK;
+
+/// Reads an open file that must be regular. `cannot_read` is the code for faults of the file system.
+Result<std::vector<std::byte>> read_regular(int fd, std::size_t max_bytes, ErrorCode cannot_read) {
+    struct stat info {};
+    if (::fstat(fd, &info) != 0) return fail(cannot_read, fmt::format("cannot be read: {}", errno_text(errno)));
+    if (!S_ISREG(info.st_mode))
+        return fail(cannot_read, S_ISDIR(info.st_mode) ? "is a directory, expected a file" : "is not a regular file");
+    const std::uint64_t size = static_cast<std::uint64_t>(info.st_size);
+    if (size > max_bytes) return fail(ErrorCode::limit, fmt::format("has {} bytes, the limit is {}", size, max_bytes));
+    std::vector<std::byte> bytes(static_cast<std::size_t>(size));
+    std::size_t have = 0;
+    while (have < bytes.size()) {
+        const ssize_t got = ::read(fd, bytes.data() + have, bytes.size() - have);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) return fail(cannot_read, fmt::format("cannot be read: {}", errno_text(errno)));
+        if (got == 0) return fail(ErrorCode::bad_input, fmt::format("ended after {} of {} bytes while it was read", have, bytes.size()));
+        have += static_cast<std::size_t>(got);
+    }
+    std::byte extra{};
+    if (::read(fd, &extra, 1) > 0) return fail(ErrorCode::bad_input, "grew while it was read");
+    return bytes;
+}
+
+/// Opens component by component and follows no symbolic link. Used where openat2 is missing (before Linux 5.6) or filtered.
+Descriptor open_by_walk(int folder, const std::string& relative) {
+    Descriptor current(::fcntl(folder, F_DUPFD_CLOEXEC, 0));
+    std::size_t begin = 0;
+    while (current.get() >= 0) {
+        const std::size_t slash = relative.find('/', begin);
+        const std::string part = relative.substr(begin, slash == std::string::npos ? std::string::npos : slash - begin);
+        const bool last = slash == std::string::npos;
+        if (part == "..") {
+            errno = EXDEV;
+            return Descriptor(-1);
+        }
+        if (!part.empty() && part != ".")
+            current = Descriptor(::openat(current.get(), part.c_str(), kOpenFlags | O_NOFOLLOW | (last ? 0 : O_DIRECTORY)));
+        if (last) break;
+        begin = slash + 1;
+    }
+    return current;
+}
+
+Descriptor open_beneath(int folder, const std::string& relative) {
+#if defined(SYS_openat2)
+    struct open_how how {};
+    how.flags = static_cast<std::uint64_t>(kOpenFlags);
+    how.resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS;
+    for (int attempt = 0; attempt < 3; ++attempt) {
+        const long fd = ::syscall(SYS_openat2, folder, relative.c_str(), &how, sizeof how);
+        if (fd >= 0) return Descriptor(static_cast<int>(fd));
+        if (errno == EAGAIN || errno == EINTR) continue;  // a rename raced with the lookup
+        if (errno != ENOSYS && errno != EPERM) return Descriptor(-1);
+        break;
+    }
+#endif
+    return open_by_walk(folder, relative);
+}
+
+/// Removes "." and resolves ".." by the text alone, as RFC 3986 (5.2.4) does. A relative name may begin with ".." afterwards. A name that
+/// must be a folder's keeps its last slash, so that a file is not found by it.
+std::string normalised(std::string_view path) {
+    const bool is_absolute = path.starts_with('/');
+    std::vector<std::string_view> parts;
+    bool folder = true;
+    for (std::size_t at = 0; at < path.size();) {
+        const std::size_t slash = std::min(path.find('/', at), path.size());
+        const std::string_view part = path.substr(at, slash - at);
+        folder = part.empty() || part == "." || part == "..";
+        if (part == ".." && !parts.empty() && parts.back() != "..")
+            parts.pop_back();
+        else if (part == ".." ? !is_absolute : !folder)
+            parts.push_back(part);
+        folder = folder || slash + 1 == path.size();
+        at = slash + 1;
+    }
+    std::string out = is_absolute ? "/" : "";
+    for (std::size_t i = 0; i < parts.size(); ++i) out.append(i == 0 ? "" : "/").append(parts[i]);
+    if (folder && !parts.empty() && parts.back() != "..") out += '/';
+    return out;
+}
+
+/// The path without symbolic links, or nothing.
+std::string place_of(const std::string& path) {
+    char* found = ::realpath(path.c_str(), nullptr);
+    std::string out = found == nullptr ? "" : found;
+    ::free(found);
+    return out;
+}
+
+/// The path from the root, with symbolic links as they are.
+std::string absolute(const std::string& path) {
+    std::string out = normalised(path.starts_with('/') ? path : place_of(".") + "/" + path);
+    if (out.size() > 1 && out.ends_with('/')) out.pop_back();
+    return out;
+}
+
+/// The rest of `path` below `folder`, both absolute and normalised; nothing if it is not below.
+std::string name_below(const std::string& folder, const std::string& path) {
+    if (folder.empty() || path.empty() || !path.starts_with(folder)) return "";
+    if (folder == "/") return path.substr(1);
+    return path.size() > folder.size() && path[folder.size()] == '/' ? path.substr(folder.size() + 1) : "";
+}
+
+}  // namespace
+
+Result<std::vector<std::byte>> read_file(const std::string& path, std::size_t max_bytes) {
+    if (path.find('\0') != std::string::npos)
+        return fail(ErrorCode::io, fmt::format("{}: cannot be opened: a file name cannot hold a zero byte", printable(path)));
+    const Descriptor file(::open(path.c_str(), kOpenFlags));
+    if (file.get() < 0) return fail(ErrorCode::io, fmt::format("{}: cannot be opened: {}", printable(path), errno_text(errno)));
+    auto bytes = read_regular(file.get(), max_bytes, ErrorCode::io);
+    if (!bytes) return fail(bytes.error().code, fmt::format("{}: {}", printable(path), bytes.error().message));
+    return bytes;
+}
+
+ModelFolder::ModelFolder(std::string base_dir, std::vector<std::string> also_allowed) : has_base_(!base_dir.empty()) {
+    if (has_base_) add(base_dir);
+    for (const std::string& folder : also_allowed) {
+        const bool is_name = !folder.empty() && folder.find('\0') == std::string::npos;
+        errno = ENOENT;
+        if (is_name) add(folder);
+        if ((!is_name || folders_.back().descriptor < 0) && missing_.empty())
+            missing_ = fmt::format("the allowed folder \"{}\" cannot be opened: {}", printable(folder), errno_text(errno));
+    }
+}
+
+void ModelFolder::add(const std::string& path) {
+    const int fd = ::open(path.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
+    const int error = errno;
+    folders_.push_back({fd, fd >= 0 ? 0 : error, absolute(path), fd >= 0 ? place_of(path) : ""});
+    errno = error;
+}
+
+ModelFolder::~ModelFolder() {
+    for (const Folder& folder : folders_)
+        if (folder.descriptor >= 0) ::close(folder.descriptor);
+}
+
+Result<void> ModelFolder::check() const {
+    if (!missing_.empty()) return fail(ErrorCode::usage, missing_);
+    return {};
+}
+
+std::vector<std::string> ModelFolder::places(std::string_view relative) const {
+    std::vector<std::string> paths;
+    for (const Folder& folder : folders_) paths.push_back(fmt::format("{}/{}", folder.name, relative));
+    return paths;
+}
+
+Result<std::vector<std::byte>> ModelFolder::read(std::string_view relative, std::size_t max_bytes) {
+    const std::string shown = printable(relative);
+    const auto refuse = [&](std::string why) { return fail(ErrorCode::bad_input, fmt::format("\"{}\": {}", shown, why)); };
+    if (folders_.empty()) return refuse("the model has no folder to read other files from");
+    if (relative.empty()) return refuse("expected a file name");
+    if (relative.find('\0') != std::string_view::npos) return refuse("a file name cannot hold a zero byte");
+    if (relative.find('\\') != std::string_view::npos) return refuse("expected '/' between folders, found '\\'");
+    if (relative.front() == '/') return refuse("absolute names are not allowed, expected one below the model's folder");
+
+    // Whatever name is made below, open_beneath never leaves the folder that it is given.
+    int error = ENOENT;
+    const auto open_in = [&](const Folder& folder, const std::string& name) {
+        Descriptor file = folder.descriptor < 0 || name.empty() ? Descriptor(-1) : open_beneath(folder.descriptor, name);
+        if (file.get() < 0 && error == ENOENT) error = folder.descriptor < 0 ? folder.error : name.empty() ? EISDIR : errno;
+        return file;
+    };
+    const std::string name = normalised(relative);
+    const bool leads_up = name == ".." || name.starts_with("../");
+    Descriptor file(-1);
+    if (!leads_up)
+        for (std::size_t i = 0; i < folders_.size() && file.get() < 0; ++i) file = open_in(folders_[i], name);
+    if (file.get() < 0 && has_base_ && !folders_[0].at.empty()) {
+        // A name that leads out of the model's folder, itself or by a symbolic link, may lead back, or into one that is allowed.
+        if (leads_up) error = EXDEV;
+        const std::string target = normalised(folders_[0].at + "/" + std::string(relative));
+        const std::string real = folders_.size() > 1 ? place_of(target) : "";
+        for (std::size_t i = 0; i < folders_.size() && file.get() < 0; ++i)
+            for (const auto& [path, folder] : {std::pair(&target, &folders_[i].name), {&target, &folders_[i].at}, {&real, &folders_[i].at}})
+                if (const std::string below = name_below(*folder, *path); file.get() < 0 && !below.empty())
+                    file = open_in(folders_[i], below);
+    }
+    if (file.get() >= 0) {
+        auto bytes = read_regular(file.get(), max_bytes, ErrorCode::bad_input);
+        if (!bytes) return fail(bytes.error().code, fmt::format("\"{}\": {}", shown, bytes.error().message));
+        return bytes;
+    }
+    if (error == EXDEV || error == ELOOP)
+        return refuse(folders_.size() > (has_base_ ? 1 : 0) ? "leads out of the model's folder and of those that are allowed"
+                                                            : "leads out of the model's folder");
+    if (error == ENOENT) return refuse("no such file");
+    const bool process_is_full = error == EMFILE || error == ENFILE;
+    return fail(error == ENOMEM   ? ErrorCode::limit
+                : process_is_full ? ErrorCode::io
+                                  : ErrorCode::bad_input,
+                fmt::format("\"{}\": cannot be opened: {}", shown, errno_text(error)));
+}
+
+}  // namespace halflit::io

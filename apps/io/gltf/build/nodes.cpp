@@ -1,0 +1,136 @@
+#include "apps/io/gltf/build/nodes.hpp"
+
+#include "apps/io/gltf/file/node_transform.hpp"
+#include "sh/time_limit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
+namespace halflit::io::detail {
+
+namespace {
+
+std::span<const int> children_of(const file::File& file, std::size_t node) {
+    const file::Run run = file.nodes[node].children;
+    return std::span(file.children).subspan(run.first, run.count);
+}
+
+std::vector<int> find_parents(const file::File& file) {
+    std::vector<int> parent(file.nodes.size(), -1);
+    TimeCheck check;
+    for (std::size_t i = 0; i < file.nodes.size(); ++i) {
+        check();
+        for (const int child : children_of(file, i)) {
+            int& found = parent[static_cast<std::size_t>(child)];
+            if (static_cast<std::size_t>(child) == i) refuse(fmt::format("nodes[{}].children", i), "the node is its own child");
+            if (found >= 0)
+                refuse(fmt::format("nodes[{}].children", i), fmt::format("node {} is a child of node {} already", child, found));
+            found = static_cast<int>(i);
+        }
+    }
+    return parent;
+}
+
+/// Appends the trees of `roots`, parents first and children in their order. Leaves out nodes that are marked in `seen`, and marks the
+/// others.
+void append_trees(const file::File& file, const std::vector<int>& roots, std::vector<bool>& seen, std::vector<int>& out) {
+    std::vector<int> open;
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root)
+        if (static_cast<std::size_t>(*root) < seen.size()) open.push_back(*root);  // others are faults already
+    TimeCheck check;
+    while (!open.empty()) {
+        check();
+        const int node = open.back();
+        open.pop_back();
+        if (seen[static_cast<std::size_t>(node)]) continue;
+        seen[static_cast<std::size_t>(node)] = true;
+        out.push_back(node);
+        const std::span<const int> children = children_of(file, static_cast<std::size_t>(node));
+        open.insert(open.end(), children.rbegin(), children.rend());
+    }
+}
+
+/// Warns of nodes that a scene lists though they are no roots, and of nodes that it lists twice.
+void check_roots(Document& document, std::size_t scene, const std::vector<int>& parent) {
+    const std::vector<int>& roots = document.file.scenes[scene].nodes;
+    std::vector<bool> seen(parent.size(), false);
+    for (std::size_t i = 0; i < roots.size(); ++i) {
+        const auto node = static_cast<std::size_t>(roots[i]);
+        if (node >= parent.size()) continue;
+        if (seen[node] && !document.warnings_are_full())
+            document.warn(fmt::format("scenes[{}].nodes[{}]: node {} is there twice, drawn once", scene, i, node));
+        else if (parent[node] >= 0 && !document.warnings_are_full())
+            document.warn(fmt::format("scenes[{}].nodes[{}]: node {} is a child of node {}, expected a root; drawn in its parent's space",
+                                      scene, i, node, parent[node]));
+        seen[node] = true;
+    }
+}
+
+}  // namespace
+
+NodeTree walk_nodes(Document& document) {
+    const file::File& file = document.file;
+    NodeTree tree;
+    tree.parent = find_parents(file);
+    const std::vector<int>& parent = tree.parent;
+    std::vector<int> roots;
+    for (std::size_t i = 0; i < parent.size(); ++i)
+        if (parent[i] < 0) roots.push_back(static_cast<int>(i));
+    std::vector<bool> seen(parent.size(), false);
+    append_trees(file, roots, seen, tree.order);
+    for (std::size_t i = 0; i < parent.size(); ++i)
+        if (!seen[i]) refuse(fmt::format("nodes[{}].children", i), "the node is its own ancestor");
+    if (file.scenes.empty()) {
+        tree.drawn = tree.order;
+    } else {
+        const std::size_t scene = static_cast<std::size_t>(std::max(file.scene, 0));
+        check_roots(document, scene, parent);
+        seen.assign(parent.size(), false);
+        append_trees(file, file.scenes[scene].nodes, seen, tree.drawn);
+    }
+    return tree;
+}
+
+void place_nodes(const file::File& file, NodeTree& tree) {
+    tree.world_from_node.resize(file.nodes.size());
+    tree.hidden.clear();
+    TimeCheck check;
+    for (const int i : tree.order) {
+        check();
+        const auto node = static_cast<std::size_t>(i);
+        const Affine local = local_transform(file, node);
+        const int parent = tree.parent[node];
+        tree.world_from_node[node] = parent < 0 ? local : tree.world_from_node[static_cast<std::size_t>(parent)] * local;
+        if (file.nodes[node].visible != 0) continue;
+        tree.hidden.resize(file.nodes.size(), false);
+        tree.hidden[node] = true;
+    }
+    mark_below(tree, tree.hidden);
+}
+
+void mark_below(const NodeTree& tree, std::vector<bool>& marks) {
+    if (marks.empty()) return;
+    for (const int i : tree.order) {
+        const auto node = static_cast<std::size_t>(i);
+        if (tree.parent[node] >= 0 && marks[static_cast<std::size_t>(tree.parent[node])]) marks[node] = true;
+    }
+}
+
+std::vector<Node> make_nodes(Document& document, const NodeTree& tree) {
+    const file::File& file = document.file;
+    document.geometry.take(file.nodes.size() * sizeof(Node));
+    std::vector<Node> nodes(file.nodes.size());
+    TimeCheck check;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        check();
+        document.geometry.take(file.nodes[i].name.size());
+        nodes[i].name = file.nodes[i].name;
+        nodes[i].parent = tree.parent[i];
+        nodes[i].parent_from_node = to_node_transform(local_transform(file, i));
+    }
+    return nodes;
+}
+
+}  // namespace halflit::io::detail

@@ -1,0 +1,137 @@
+#include "apps/io/gltf/codecs/draco.hpp"
+
+#include "apps/io/gltf/codecs/draco_mesh.hpp"
+#include "apps/io/gltf/file/accessor.hpp"
+#include "sh/time_limit.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <utility>
+
+namespace halflit::io::detail {
+
+namespace {
+
+/// Meshes with streams, by the bufferView of the stream: those that share one are decoded together.
+using Streams = std::map<int, std::vector<std::pair<std::size_t, std::size_t>>>;
+
+Streams streams_of(const Document& document) {
+    Streams streams;
+    for (std::size_t m = 0; m < document.file.meshes.size(); ++m) {
+        if (!document.used.has(Target::meshes, m)) continue;
+        const auto& primitives = document.file.meshes[m].primitives;
+        for (std::size_t p = 0; p < primitives.size(); ++p) {
+            if (primitives[p].draco < 0) continue;
+            if (primitives[p].mode < static_cast<int>(file::Mode::triangles))
+                refuse(fmt::format("meshes[{}].primitives[{}].mode", m, p),
+                       fmt::format("expected triangles, which Draco compresses, found mode {}", primitives[p].mode));
+            streams[document.file.draco[static_cast<std::size_t>(primitives[p].draco)].buffer_view].emplace_back(m, p);
+        }
+    }
+    return streams;
+}
+
+class StreamReader {
+public:
+    StreamReader(Document& document, int view) : document_(document), where_(fmt::format("bufferViews[{}]", view)), mesh_(open(view)) {}
+
+    void replace(file::Primitive& primitive, const std::string& where) {
+        file::File& file = document_.file;
+        const file::Draco source = file.draco[static_cast<std::size_t>(primitive.draco)];
+        const auto mode = static_cast<file::Mode>(primitive.mode);
+        if (primitive.indices >= 0 && mode == file::Mode::triangles)
+            check_count(where + ".indices", primitive.indices, 3 * mesh_.triangles());
+        const auto [indices, is_new] = made_.try_emplace({primitive.indices, -1}, -1);
+        if (is_new) indices->second = add_indices(primitive.indices);
+        primitive.indices = indices->second;
+        primitive.mode = static_cast<int>(file::Mode::triangles);
+        for (auto& [name, accessor] : primitive.attributes) {
+            const int id = file::find(source.attributes, name);
+            if (id < 0) continue;
+            const std::string at = fmt::format("{}.attributes.{}", where, name);
+            if (!document_.used.has(Target::accessors, static_cast<std::size_t>(accessor))) continue;
+            check_count(at, accessor, mesh_.vertices());
+            const auto [values, first] = made_.try_emplace({accessor, id}, -1);
+            if (first) values->second = add_values(accessor, id, at);
+            accessor = values->second;
+        }
+    }
+
+private:
+    DracoMesh open(int view) {
+        check_time();
+        constexpr std::uint64_t kTables = 8 << 10;  // bytes that stand for the time that the tables of a small stream take
+        document_.geometry.take(kTables);
+        const std::uint64_t size = document_.file.buffer_views[static_cast<std::size_t>(view)].byte_length;
+        DracoMesh mesh =
+            take(DracoMesh::decode({document_.view_data(view), static_cast<std::size_t>(size)}, document_.geometry.left()), where_);
+        document_.geometry.take(kTables * mesh.attributes());
+        return mesh;
+    }
+
+    void check_count(const std::string& where, int accessor, std::size_t there) const {
+        const std::uint64_t count = document_.file.accessors[static_cast<std::size_t>(accessor)].count;
+        if (count != there) refuse(where, fmt::format("accessors[{}].count is {}, but the Draco stream has {}", accessor, count, there));
+    }
+
+    /// Returns the new accessor.
+    int append(file::Accessor accessor, int stands_for, std::vector<std::byte> data, std::size_t stride) {
+        file::File& file = document_.file;
+        file::BufferView view;
+        view.byte_length = data.size();
+        view.byte_stride = static_cast<int>(stride);
+        view.decoded = static_cast<int>(document_.decoded.size());
+        document_.decoded.push_back(std::move(data));
+        file.buffer_views.push_back(view);
+        document_.used.add(Target::buffer_views, file.buffer_views.size() - 1);
+        accessor.buffer_view = static_cast<int>(file.buffer_views.size() - 1);
+        accessor.byte_offset = 0;
+        accessor.sparse = -1;
+        accessor.stands_for = stands_for;
+        file.accessors.push_back(accessor);
+        document_.used.add(Target::accessors, file.accessors.size() - 1);
+        return static_cast<int>(file.accessors.size() - 1);
+    }
+
+    int add_indices(int stands_for) {
+        file::Accessor accessor;
+        accessor.component_type = static_cast<int>(Component::u32);
+        accessor.count = 3 * mesh_.triangles();
+        document_.geometry.take(4 * accessor.count);
+        return append(accessor, stands_for, mesh_.indices(), 0);
+    }
+
+    int add_values(int index, int id, const std::string& where) {
+        const file::Accessor& accessor = document_.file.accessors[static_cast<std::size_t>(index)];
+        DracoRequest request{static_cast<std::uint32_t>(id), accessor.component_type, accessor.components, 0};
+        const auto size = size_of(static_cast<Component>(accessor.component_type)) * static_cast<std::size_t>(accessor.components);
+        request.stride = (size + 3) / 4 * 4;  // vertices lie at multiples of 4
+        document_.geometry.take(std::uint64_t{request.stride} * mesh_.vertices());
+        return append(accessor, index, take(mesh_.values(request), where), request.stride);
+    }
+
+    Document& document_;
+    std::string where_;
+    DracoMesh mesh_;
+    std::map<std::pair<int, int>, int> made_;  // new accessors, by accessor and attribute; attribute -1: indices
+};
+
+}  // namespace
+
+std::uint64_t draco_bytes(const Document& document) {
+    std::uint64_t bytes = 0;
+    for (const auto& [view, primitives] : streams_of(document))
+        bytes += document.file.buffer_views[static_cast<std::size_t>(view)].byte_length;
+    return bytes;
+}
+
+void decode_draco(Document& document) {
+    for (const auto& [view, primitives] : streams_of(document)) {
+        StreamReader reader(document, view);
+        for (const auto& [mesh, primitive] : primitives)
+            reader.replace(document.file.meshes[mesh].primitives[primitive], fmt::format("meshes[{}].primitives[{}]", mesh, primitive));
+    }
+}
+
+}  // namespace halflit::io::detail

@@ -1,0 +1,47 @@
+// Meshes of the library Draco. It is optional: HALFLIT_HAS_DRACO is 0 in a build without it.
+//
+// The library decodes integers. Positions and directions are computed from them here, because the library's own floats are not the same on
+// every machine.
+#pragma once
+
+#include "halflit/error.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace halflit::io::detail {
+
+/// What of a Draco mesh an accessor takes.
+struct DracoRequest {
+    std::uint32_t unique_id = 0;  ///< of the attribute
+    int component_type = 0;       ///< glTF's number
+    int components = 0;
+    std::size_t stride = 0;  ///< bytes between two elements of the result
+};
+
+class DracoMesh {
+public:
+    /// Decodes a stream of version 2.2. Fails (bad_input) for damaged ones, and (limit) for one that takes more than about `memory` bytes,
+    /// before they are taken.
+    static Result<DracoMesh> decode(std::span<const std::byte> stream, std::uint64_t memory);
+    DracoMesh(DracoMesh&&) noexcept;
+    DracoMesh& operator=(DracoMesh&&) noexcept;
+    ~DracoMesh();
+
+    [[nodiscard]] std::size_t vertices() const;
+    [[nodiscard]] std::size_t triangles() const;
+    [[nodiscard]] std::size_t attributes() const;
+    [[nodiscard]] std::vector<std::byte> indices() const;  ///< little-endian, 4 bytes each
+    /// Values of all vertices, little-endian. Fails where the mesh lacks the attribute, or its type does not fit.
+    [[nodiscard]] Result<std::vector<std::byte>> values(const DracoRequest& request) const;
+
+private:
+    struct Data;
+    explicit DracoMesh(std::unique_ptr<Data> data);
+    std::unique_ptr<Data> data_;
+};
+
+}  // namespace halflit::io::detail

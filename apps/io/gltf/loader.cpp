@@ -1,0 +1,129 @@
+#include "halflit/gltf.hpp"
+
+#include "apps/io/files/file_access.hpp"
+#include "apps/io/files/model_files.hpp"
+#include "apps/io/files/text.hpp"
+#include "apps/io/files/uri.hpp"
+#include "apps/io/gltf/animation/animation.hpp"
+#include "apps/io/gltf/animation/motion.hpp"
+#include "apps/io/gltf/build/choices.hpp"
+#include "apps/io/gltf/build/glossiness.hpp"
+#include "apps/io/gltf/build/images.hpp"
+#include "apps/io/gltf/build/materials.hpp"
+#include "apps/io/gltf/build/meshes.hpp"
+#include "apps/io/gltf/build/nodes.hpp"
+#include "apps/io/gltf/build/open.hpp"
+#include "apps/io/gltf/build/placed.hpp"
+#include "apps/io/gltf/build/world.hpp"
+#include "apps/io/gltf/file/accessor.hpp"
+#include "apps/io/gltf/file/document.hpp"
+#include "apps/io/gltf/loader.hpp"
+#include "sh/time_limit.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <set>
+
+namespace halflit {
+
+using namespace io;
+
+namespace {
+
+using namespace io::detail;
+
+/// The places where the files may lie that buffers and images name, drawn or not, there or not.
+std::vector<std::string> files_of(const Document& document) {
+    std::set<std::string_view> uris;
+    for (const file::Buffer& buffer : document.file.buffers)
+        if (buffer.uri && !is_data_uri(*buffer.uri)) uris.insert(*buffer.uri);
+    for (const file::Image& image : document.file.images)
+        if (image.uri && !is_data_uri(*image.uri)) uris.insert(*image.uri);
+    std::vector<std::string> files;
+    for (const std::string_view uri : uris) {
+        const Result<std::string> name = decode_file_uri(uri);
+        if (!name) continue;
+        for (std::string& path : document.folder.places(*name)) files.push_back(std::move(path));
+    }
+    return files;
+}
+
+}  // namespace
+
+LoadedScene io::detail::read_gltf(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
+    check_threads(options);
+    const std::unique_ptr<Document> document = open_document(bytes, base_dir, options);
+    check_time();
+    choose_scene(*document);
+    choose_variant(*document);
+    NodeTree tree = walk_nodes(*document);
+    find_animations(*document);
+    mark_below(tree, document->animations.hides);
+    settle(*document, tree.drawn, tree.parent);
+    load_buffers(*document);
+    check_time();
+    const std::vector<Accessor> accessors = check_accessors(*document);
+    std::vector<Animation> animations = read_animations(*document, accessors);
+    LoadedScene loaded;
+    loaded.animations = describe_animations(document->file, animations);
+    loaded.animation = document->animations.drawn;
+    const std::shared_ptr<Motion> motion = options.keep_animations ? std::make_shared<Motion>(document->file, tree) : nullptr;
+    for (const Animation& animation : animations)
+        if (animation.index == loaded.animation) apply(animation, options.time_s, document->file);
+    place_nodes(document->file, tree);
+    loaded.nodes = make_nodes(*document, tree);
+    ImageStore images(*document, loaded.scene.textures);
+    loaded.scene.materials = make_materials(*document, images, find_used_materials(*document, tree));
+    images.start();
+    try {
+        PoseSources sources;
+        place_meshes(*document, accessors, tree, loaded, motion ? &sources : nullptr);
+        std::vector<Mat4> in_file;
+        for (const Instance& instance : loaded.scene.instances) in_file.push_back(instance.world_from_object);
+        set_thickness(document->file, loaded.scene, in_file);
+        place_scene(*document, options.up.value_or(UpAxis::y), tree, loaded);
+        place_cameras(*document, tree, loaded);
+        place_lights(*document, tree, loaded);
+        if (motion) motion->finish(std::move(sources), loaded, std::move(animations), document->animations.hides);
+        loaded.motion = motion;
+    } catch (...) {
+        images.finish();  // a fault of a picture is reported first
+        throw;
+    }
+    images.finish();
+    convert_specular_glossiness(*document, loaded.scene);
+    for (const int original : document->unlit_copies) {
+        std::vector<Material>& materials = loaded.scene.materials;
+        Material copy = original < 0 ? Material{} : materials[static_cast<std::size_t>(original)];
+        copy.unlit = true;
+        if (motion && original >= 0) motion->add_copy(original, static_cast<int>(materials.size()));
+        materials.push_back(std::move(copy));
+    }
+    loaded.scene.calibrated = loaded.scene.lights.empty();
+    if (loaded.scene.instances.empty()) document->warn("the model has nothing to draw");
+    loaded.warnings = document->take_warnings();
+    loaded.info = std::move(document->info);
+    loaded.info.files = files_of(*document);
+    return loaded;
+}
+
+std::vector<std::string> io::detail::files_of_gltf(std::span<const std::byte> bytes, const std::string& base_dir,
+                                                   const LoadOptions& options) {
+    return files_of(*open_document(bytes, base_dir, options));
+}
+
+Result<LoadedScene> load_gltf_bytes(std::span<const std::byte> bytes, const std::string& name, const std::string& base_dir,
+                                    const LoadOptions& options) {
+    return errors_of(name, options.limits.time_limit_s, [&]() -> Result<LoadedScene> { return read_gltf(bytes, base_dir, options); });
+}
+
+Result<LoadedScene> load_gltf(const std::string& path, const LoadOptions& options) {
+    return errors_of(path, options.limits.time_limit_s, [&]() -> Result<LoadedScene> {
+        const auto bytes = read_file(path, options.limits.max_file_bytes);
+        if (!bytes) return tl::unexpected(bytes.error());
+        return load_gltf_bytes(*bytes, path, folder_of(path), options);
+    });
+}
+
+}  // namespace halflit

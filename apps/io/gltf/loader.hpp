@@ -1,0 +1,19 @@
+// The reader of glTF among those of all formats.
+#pragma once
+
+#include "halflit/model.hpp"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace halflit::io::detail {
+
+/// These throw LoadFailure.
+[[nodiscard]] LoadedScene read_gltf(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options);
+/// Paths at which the files may lie that the model refers to, drawn or not, there or not.
+[[nodiscard]] std::vector<std::string> files_of_gltf(std::span<const std::byte> bytes, const std::string& base_dir,
+                                                     const LoadOptions& options);
+
+}  // namespace halflit::io::detail

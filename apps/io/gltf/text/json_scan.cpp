@@ -1,0 +1,291 @@
+#include "apps/io/gltf/text/json_scan.hpp"
+
+#include "apps/io/files/text.hpp"
+#include "sh/time_limit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <deque>
+#include <vector>
+
+namespace halflit::io::detail {
+
+namespace {
+
+class Scanner {
+public:
+    Scanner(std::string_view text, const JsonScanLimits& limits, JsonVisitor& visitor) : text_(text), limits_(limits), visitor_(visitor) {}
+
+    void run() {
+        const std::size_t bad = find_invalid_utf8(text_);
+        if (bad != std::string_view::npos)
+            refuse(bad, fmt::format("expected UTF-8, found the byte \"{}\"", printable(text_.substr(bad, 1))));
+        value();
+        while (!open_.empty()) step();
+        skip_space();
+        if (at_ < text_.size())
+            refuse(at_, fmt::format("expected the end of the JSON text, found \"{}\"", printable(text_.substr(at_, 1))));
+    }
+
+private:
+    struct Key {
+        std::string_view text;
+        std::size_t offset;
+    };
+    struct Open {
+        bool object;
+        bool empty;
+        std::size_t first_key;  // index of this object's first key in keys_
+    };
+
+    [[noreturn]] void refuse(std::size_t offset, std::string what, ErrorCode code = ErrorCode::bad_input) const {
+        throw JsonFault{code, offset, std::move(what)};
+    }
+    [[noreturn]] void unexpected(const char* expected) const {
+        if (at_ >= text_.size()) refuse(text_.size(), fmt::format("expected {}, found the end of the text", expected));
+        std::size_t length = 1;
+        while (length < 12 && at_ + length < text_.size() && static_cast<unsigned char>(text_[at_ + length] | 0x20) >= 'a' &&
+               (text_[at_ + length] | 0x20) <= 'z')
+            ++length;
+        refuse(at_, fmt::format("expected {}, found \"{}\"", expected, printable(text_.substr(at_, length))));
+    }
+    void count_token() {
+        if (++tokens_ > limits_.max_tokens)
+            refuse(at_, fmt::format("more than {} JSON tokens, which is the limit", limits_.max_tokens), ErrorCode::limit);
+        check_();
+    }
+    [[nodiscard]] char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
+    void skip_space() {
+        while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\n' || text_[at_] == '\r' || text_[at_] == '\t')) ++at_;
+    }
+
+    // Reads one member or element of the innermost open object or array, or its end.
+    void step() {
+        Open& top = open_.back();
+        skip_space();
+        const char closing = top.object ? '}' : ']';
+        if (peek() == closing && at_ < text_.size()) {
+            close();
+            return;
+        }
+        if (!top.empty) {
+            if (peek() != ',') unexpected(top.object ? "',' or '}'" : "',' or ']'");
+            ++at_;
+            skip_space();
+        }
+        top.empty = false;
+        if (top.object) {
+            if (peek() != '"') unexpected("a key in double quotes");
+            count_token();
+            JsonValue key{.type = JsonType::string, .offset = at_};
+            key.text = string(key.in_place);
+            if (!key.in_place) key.text = decoded_.emplace_back(key.text);
+            keys_.push_back({key.text, key.offset});
+            visitor_.on_key(key);
+            skip_space();
+            if (peek() != ':') unexpected("':'");
+            ++at_;
+        }
+        value();
+    }
+
+    void close() {
+        const Open top = open_.back();
+        open_.pop_back();
+        if (top.object) {
+            const auto first = keys_.begin() + static_cast<std::ptrdiff_t>(top.first_key);
+            std::sort(first, keys_.end(),
+                      timed_less([](const Key& a, const Key& b) { return a.text != b.text ? a.text < b.text : a.offset < b.offset; }));
+            const auto twin = std::adjacent_find(first, keys_.end(), [](const Key& a, const Key& b) { return a.text == b.text; });
+            if (twin != keys_.end()) refuse((twin + 1)->offset, fmt::format("the key \"{}\" is there twice", printable(twin->text, 60)));
+            keys_.resize(top.first_key);
+            if (keys_.empty()) decoded_.clear();
+        }
+        ++at_;
+        visitor_.on_end(at_);
+    }
+
+    void value() {
+        skip_space();
+        count_token();
+        const std::size_t offset = at_;
+        const char c = peek();
+        if (c == '{' || c == '[') {
+            if (static_cast<int>(open_.size()) >= limits_.max_depth)
+                refuse(at_, fmt::format("nested deeper than {} levels, which is the limit", limits_.max_depth), ErrorCode::limit);
+            ++at_;
+            open_.push_back({c == '{', true, keys_.size()});
+            visitor_.on_begin(c == '{' ? JsonType::object : JsonType::array, offset);
+            return;
+        }
+        JsonValue v;
+        v.offset = offset;
+        if (c == '"') {
+            v.type = JsonType::string;
+            v.text = string(v.in_place);
+        } else if (c == '-' || (c >= '0' && c <= '9')) {
+            number(v);
+        } else if (text_.substr(at_, 4) == "true" || text_.substr(at_, 5) == "false") {
+            v.type = JsonType::boolean;
+            v.truth = c == 't';
+            at_ += c == 't' ? 4 : 5;
+        } else if (text_.substr(at_, 4) == "null") {
+            at_ += 4;
+        } else {
+            unexpected("a JSON value");
+        }
+        visitor_.on_value(v, at_);
+    }
+
+    void digits() {
+        if (!(peek() >= '0' && peek() <= '9')) unexpected("a digit");
+        while (peek() >= '0' && peek() <= '9') ++at_;
+    }
+
+    /// True if the magnitude of a number that double cannot hold is below 1: it rounds to zero, which is no fault.
+    static bool is_tiny(std::string_view number) {
+        const std::size_t e = number.find_first_of("eE");
+        const std::string_view mantissa = number.substr(0, e), exponent = e == number.npos ? "" : number.substr(e + 1);
+        const std::size_t first = mantissa.find_first_of("123456789"), point = std::min(mantissa.find('.'), mantissa.size());
+        if (first == mantissa.npos) return true;
+        // Decimal exponent of the first digit that is not 0. An exponent out of range decides alone.
+        const auto place = first < point ? static_cast<std::int64_t>(point - first) - 1 : -static_cast<std::int64_t>(first - point);
+        const bool negative = exponent.starts_with('-');
+        std::int64_t shift = 0;
+        const std::string_view digits = exponent.substr(!exponent.empty() && (negative || exponent[0] == '+') ? 1 : 0);
+        if (!digits.empty() && std::from_chars(digits.data(), digits.data() + digits.size(), shift).ec != std::errc{}) return negative;
+        return place + (negative ? -shift : shift) < 0;
+    }
+
+    void number(JsonValue& v) {
+        const std::size_t begin = at_;
+        v.type = JsonType::integer;
+        if (peek() == '-') ++at_;
+        const bool zero = peek() == '0';
+        if (zero)
+            ++at_;
+        else
+            digits();
+        if (zero && peek() >= '0' && peek() <= '9') unexpected("a number without leading zeros");
+        if (peek() == '.') {
+            v.type = JsonType::number;
+            ++at_;
+            digits();
+        }
+        if (peek() == 'e' || peek() == 'E') {
+            v.type = JsonType::number;
+            ++at_;
+            if (peek() == '+' || peek() == '-') ++at_;
+            digits();
+        }
+        const auto parsed = std::from_chars(text_.data() + begin, text_.data() + at_, v.number);
+        if (parsed.ec == std::errc::result_out_of_range) {
+            if (!is_tiny(text_.substr(begin, at_ - begin)))
+                refuse(begin, fmt::format("the number {} is outside the range of double", printable(text_.substr(begin, at_ - begin), 40)));
+            v.number = 0;
+        }
+        constexpr std::int64_t kMaxExact = std::int64_t{1} << 53;
+        std::int64_t whole = 0;
+        if (v.type == JsonType::integer)
+            v.exact = std::from_chars(text_.data() + begin, text_.data() + at_, whole).ec == std::errc{} && whole <= kMaxExact &&
+                      whole >= -kMaxExact;
+    }
+
+    unsigned hex4() {
+        unsigned code = 0;
+        const auto* first = text_.data() + std::min(at_, text_.size());
+        const auto* last = text_.data() + std::min(at_ + 4, text_.size());
+        const auto parsed = std::from_chars(first, last, code, 16);
+        if (parsed.ptr != first + 4 || *first == '-') unexpected("four hexadecimal digits after \\u");
+        at_ += 4;
+        return code;
+    }
+
+    void escape(std::string& out) {
+        static constexpr std::string_view kNames = "\"\\/bfnrt", kMeaning = "\"\\/\b\f\n\r\t";
+        const std::size_t which = at_ < text_.size() ? kNames.find(text_[at_]) : std::string_view::npos;
+        if (which != std::string_view::npos) {
+            out += kMeaning[which];
+            ++at_;
+            return;
+        }
+        if (peek() != 'u') unexpected("an escape sequence");
+        const std::size_t begin = at_ - 1;
+        ++at_;
+        unsigned code = hex4();
+        if (code >= 0xD800 && code <= 0xDBFF && text_.substr(at_, 2) == "\\u") {
+            at_ += 2;
+            const unsigned low = hex4();
+            if (low < 0xDC00 || low > 0xDFFF) refuse(begin, "half of a surrogate pair");
+            code = 0x10000 + ((code - 0xD800) << 10) + (low - 0xDC00);
+        } else if (code >= 0xD800 && code <= 0xDFFF) {
+            refuse(begin, "half of a surrogate pair");
+        }
+        if (code < 0x80) {
+            out += static_cast<char>(code);
+        } else {
+            const int tail = code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;
+            static constexpr unsigned kLead[4] = {0, 0xC0, 0xE0, 0xF0};
+            out += static_cast<char>(kLead[tail] | code >> (6 * tail));
+            for (int i = tail - 1; i >= 0; --i) out += static_cast<char>(0x80u | (code >> (6 * i) & 63u));
+        }
+    }
+
+    std::string_view string(bool& in_place) {
+        const std::size_t begin = ++at_;
+        while (at_ < text_.size() && text_[at_] != '"' && text_[at_] != '\\' && static_cast<unsigned char>(text_[at_]) >= 0x20) ++at_;
+        in_place = peek() == '"';
+        if (in_place) return text_.substr(begin, at_++ - begin);
+        scratch_.assign(text_, begin, at_ - begin);
+        while (peek() != '"') {
+            if (at_ >= text_.size()) refuse(begin - 1, "the string has no closing quote");
+            if (static_cast<unsigned char>(text_[at_]) < 0x20) refuse(at_, "a control character in a string must be escaped");
+            if (text_[at_] == '\\') {
+                ++at_;
+                escape(scratch_);
+            } else {
+                scratch_ += text_[at_++];
+            }
+        }
+        ++at_;
+        return scratch_;
+    }
+
+    std::string_view text_;
+    const JsonScanLimits limits_;
+    JsonVisitor& visitor_;
+    std::size_t at_ = 0, tokens_ = 0;
+    TimeCheck check_;
+    std::vector<Open> open_;
+    std::vector<Key> keys_;
+    std::deque<std::string> decoded_;  // keys that held escapes
+    std::string scratch_;
+};
+
+}  // namespace
+
+const char* name_of(JsonType type) {
+    switch (type) {
+        case JsonType::object:
+            return "an object";
+        case JsonType::array:
+            return "an array";
+        case JsonType::string:
+            return "a string";
+        case JsonType::integer:
+            return "an integer";
+        case JsonType::number:
+            return "a number";
+        case JsonType::boolean:
+            return "true or false";
+        case JsonType::null:
+            break;
+    }
+    return "null";
+}
+
+void scan_json(std::string_view text, const JsonScanLimits& limits, JsonVisitor& visitor) { Scanner(text, limits, visitor).run(); }
+
+}  // namespace halflit::io::detail

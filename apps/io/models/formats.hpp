@@ -1,0 +1,41 @@
+// The formats of models: one row for each. Reading, the files that a model refers to, names in messages and names of files go through it.
+#pragma once
+
+#include "halflit/model.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace halflit::io::detail {
+
+/// The begin of a file, for the formats' tests.
+struct FileBegin {
+    std::span<const std::byte> bytes;  ///< of the whole file
+    std::string_view word;             ///< the first word of its text, past a byte order mark, empty lines and comments (#)
+};
+
+enum class Likeness : std::uint8_t { none, perhaps, certain };
+
+struct FormatRow {
+    ModelFormat format;
+    std::string_view name;       ///< model_format_name()
+    std::string_view extension;  ///< of files, with its point
+    Likeness (*likeness)(const FileBegin& begin);
+    /// Throws LoadFailure. bytes, folder for files that it refers to, options.
+    LoadedScene (*read)(std::span<const std::byte>, const std::string&, const LoadOptions&);
+    /// Paths at which the files may lie that the model refers to, there or not; null: it refers to none. Throws LoadFailure.
+    std::vector<std::string> (*files)(std::span<const std::byte>, const std::string&, const LoadOptions&);
+};
+
+/// In the order in which their tests are asked; of equal likeness the first counts.
+[[nodiscard]] std::span<const FormatRow> formats();
+/// The row of a file's content; null: of none.
+[[nodiscard]] const FormatRow* find_format(std::span<const std::byte> bytes);
+/// "A, B or C" of all formats' names or extensions, in the order of ModelFormat.
+[[nodiscard]] std::string list_of_formats(std::string_view FormatRow::*column);
+
+}  // namespace halflit::io::detail

@@ -1,0 +1,58 @@
+#include "halflit/model.hpp"
+
+#include "apps/io/files/file_access.hpp"
+#include "apps/io/files/load_failure.hpp"
+#include "apps/io/files/model_files.hpp"
+#include "apps/io/files/text.hpp"
+#include "apps/io/gltf/loader.hpp"
+#include "apps/io/models/formats.hpp"
+#include "sh/time_limit.hpp"
+
+#include <fmt/format.h>
+
+namespace halflit {
+
+using namespace io::detail;
+using io::folder_of, io::printable, io::read_file;
+
+std::string io::folder_of(const std::string& path) {
+    const std::size_t slash = path.rfind('/');
+    if (slash == std::string::npos) return ".";
+    return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+Result<std::vector<std::string>> io::files_named_by(const std::string& path, const LoadOptions& options) {
+    const TimeLimit limit(options.limits.time_limit_s);
+    try {
+        const auto bytes = read_file(path, options.limits.max_file_bytes);
+        const FormatRow* const row = bytes ? find_format(*bytes) : nullptr;
+        if (row == nullptr || row->files == nullptr) return std::vector<std::string>{};
+        return row->files(*bytes, folder_of(path), options);
+    } catch (const LoadFailure&) {
+        return std::vector<std::string>{};
+    } catch (const OutOfTime&) {
+        return fail(ErrorCode::limit, printable(path) + ": " + kOutOfTime);
+    }
+}
+
+Result<LoadedScene> load_model_bytes(std::span<const std::byte> bytes, const std::string& name, const std::string& base_dir,
+                                     const LoadOptions& options) {
+    return errors_of(name, options.limits.time_limit_s, [&]() -> Result<LoadedScene> {
+        if (bytes.size() > options.limits.max_file_bytes)
+            refuse("", fmt::format("has {} bytes, the limit is {}", bytes.size(), options.limits.max_file_bytes), ErrorCode::limit);
+        const FormatRow* const row = find_format(bytes);
+        // The glTF reader says what is wrong with a file that is nothing at all.
+        if (row == nullptr && !bytes.empty()) refuse("", "is no model: expected " + list_of_formats(&FormatRow::name));
+        return row == nullptr ? read_gltf(bytes, base_dir, options) : row->read(bytes, base_dir, options);
+    });
+}
+
+Result<LoadedScene> load_model(const std::string& path, const LoadOptions& options) {
+    return errors_of(path, options.limits.time_limit_s, [&]() -> Result<LoadedScene> {
+        const auto bytes = read_file(path, options.limits.max_file_bytes);
+        if (!bytes) return tl::unexpected(bytes.error());
+        return load_model_bytes(*bytes, path, folder_of(path), options);
+    });
+}
+
+}  // namespace halflit

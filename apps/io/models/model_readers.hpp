@@ -1,0 +1,32 @@
+// Readers of the formats that are not glTF. Their rows are in formats.cpp.
+#pragma once
+
+#include "halflit/gltf.hpp"
+#include "halflit/model.hpp"
+
+#include <cstddef>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace halflit::io::detail {
+
+/// True if the length is exactly what the number of triangles of a binary STL file takes.
+[[nodiscard]] bool fits_binary_stl(std::span<const std::byte> bytes);
+/// True if an STL file is binary: its length is what its number of triangles takes, or it does not begin as text.
+[[nodiscard]] bool is_binary_stl(std::span<const std::byte> bytes);
+
+/// These throw LoadFailure.
+[[nodiscard]] LoadedScene read_stl(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options);
+[[nodiscard]] LoadedScene read_ply(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options);
+[[nodiscard]] LoadedScene read_obj(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options);
+/// Paths at which the files may lie that the model refers to, there or not.
+[[nodiscard]] std::vector<std::string> files_of_obj(std::span<const std::byte> bytes, const std::string& base_dir,
+                                                    const LoadOptions& options);
+[[nodiscard]] std::vector<std::string> files_of_ply(std::span<const std::byte> bytes, const std::string& base_dir,
+                                                    const LoadOptions& options);
+/// Fails (usage) where the library was built without libzip or expat.
+[[nodiscard]] LoadedScene read_three_mf(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options);
+
+}  // namespace halflit::io::detail

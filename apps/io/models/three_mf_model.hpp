@@ -1,0 +1,66 @@
+// A model part of a 3MF file: objects with their meshes and colours, and what is built of them.
+#pragma once
+
+#include "apps/io/gltf/file/transform.hpp"
+#include "apps/io/models/soup.hpp"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace halflit::io::detail::three_mf {
+
+/// A resource that triangles take colours or a texture from.
+struct Properties {
+    bool is_texture = false;    ///< a texture2dgroup
+    std::vector<Vec4f> colors;  ///< linear
+    std::vector<Vec2f> uvs;     ///< v points down
+    std::uint32_t texture = 0;  ///< id of a texture2d
+};
+
+struct Texture2d {
+    std::string path;
+    std::string wrap_u = "wrap", wrap_v = "wrap";
+};
+
+struct Triangle {
+    std::array<std::uint32_t, 3> vertex{}, property{};
+    std::uint32_t group = kNone;  ///< id of properties
+};
+
+struct Component {
+    std::string path;  ///< of the part; empty: this one
+    std::uint32_t object = 0;
+    Affine transform;
+};
+
+struct Object {
+    std::string name;
+    std::vector<Vec3d> vertices;
+    std::vector<Triangle> triangles;
+    std::vector<Component> components;
+};
+
+struct Model {
+    double metres = 0.001;  ///< length of the unit
+    std::map<std::uint32_t, Object> objects;
+    std::map<std::uint32_t, Properties> properties;
+    std::map<std::uint32_t, Texture2d> textures;
+    std::vector<Component> items;  ///< of the build
+};
+
+}  // namespace halflit::io::detail::three_mf
+
+namespace halflit::io::detail {
+
+class ModelBuilder;
+
+/// Reads a part. `where` is its name, for messages. Throws LoadFailure.
+[[nodiscard]] three_mf::Model read_three_mf_model(std::span<const std::byte> text, const std::string& where, ModelBuilder& builder);
+
+}  // namespace halflit::io::detail
