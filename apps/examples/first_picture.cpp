@@ -1,23 +1,26 @@
 // The shortest useful program: a model file in, a picture out.   halflit_first_picture MODEL.glb OUT.png
 #include <halflit/auto_setup.hpp>
-#include <halflit/gltf.hpp>
 #include <halflit/image.hpp>
+#include <halflit/model.hpp>
 #include <halflit/renderer.hpp>
 
 #include <cstdio>
 
 namespace {
 
-halflit::Result<void> render_file(const char* model, const char* picture) {
+halflit::Result<void> render_file(const char* model, const char* output) {
     using namespace halflit;
-    auto loaded = load_gltf(model);
+    auto loaded = load_model(model);
     if (!loaded) return tl::unexpected(loaded.error());
 
-    Image image = Image::make(640, 480);
-    const AutoSetup setup = auto_setup(loaded->scene, image.width, image.height);
-    const auto report = render(loaded->scene, setup.light, setup.camera, setup.settings, image.target());
+    PictureRequest request;
+    request.size = {640, 480};
+    const auto picture = choose_picture(loaded->scene, request);  // view, light and exposure
+    if (!picture) return tl::unexpected(picture.error());
+    Image image = Image::make(picture->size);
+    const auto report = render(loaded->scene, picture->light, picture->camera, picture->settings, image.target());
     if (!report) return tl::unexpected(report.error());
-    return write_image(picture, image);
+    return write_image(output, image);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace halflit::raster {
 Result<void> ViewGeometry::make(const PreparedData& scene, const View& view, const RasterKernels& kernels, Executor& executor,
                                 bool numbered) {
     // Colours and lights change nothing here.
-    const SceneRevision revision{scene.revision().geometry, 0, scene.revision().coverage};
+    const SceneRevision revision{scene.revision().geometry, 0, 0, scene.revision().coverage};
     times_ms_ = {};
     if (revision == revision_ && view == view_ && (numbered_ || !numbered)) {
         scene_ = &scene;

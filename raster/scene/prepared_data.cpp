@@ -20,7 +20,7 @@ std::uint64_t next_revision() {
     return ++last;
 }
 
-SceneRevision all_new_revisions() { return {next_revision(), next_revision(), next_revision()}; }
+SceneRevision all_new_revisions() { return {next_revision(), next_revision(), next_revision(), next_revision()}; }
 
 shading::SlotMask slots_of(const Mesh& mesh) {
     shading::SlotMask slots = shading::kBaseSlots;
@@ -158,6 +158,8 @@ void PreparedData::collect() {
     largest_color_ = 1;
     instances_without_normals_.clear();
     std::vector<bool> noted(scene_->meshes.size(), false);
+    for (const Mesh& mesh : scene_->meshes)
+        available_slots_[mesh.material >= 0 ? static_cast<std::size_t>(mesh.material) : scene_->materials.size()] |= slots_of(mesh);
     for (std::size_t i = 0; i < scene_->instances.size(); ++i) {
         const Instance& instance = scene_->instances[i];
         const Mesh& mesh = source_mesh(instance.mesh);
@@ -279,6 +281,7 @@ Result<void> PreparedData::apply_pending(const Execution& execution) {
     }
     if (deformed || pending_.materials || !pending_.changed_instances.empty())
         shadow_casters_ = collect_shadow_casters(scene, meshes_, instance_bounds_);
+    if (pending_.lights) revision_.lights = next_revision();
     return {};
 }
 

@@ -17,7 +17,7 @@ namespace halflit::raster {
 
 /// Revision numbers. They grow with every change and differ between scenes: results made from a scene are valid while they are equal.
 struct SceneRevision {
-    std::uint64_t geometry = 0, materials = 0;
+    std::uint64_t geometry = 0, materials = 0, lights = 0;
     std::uint64_t coverage = 0;  ///< changes with the materials' sides, alpha modes and masks, but not with their colours
     friend bool operator==(const SceneRevision&, const SceneRevision&) = default;
 };

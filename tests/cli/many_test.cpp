@@ -130,7 +130,7 @@ TEST_CASE("many: names that cannot be pictures are refused before anything is dr
     CHECK(contains(error({"sphere:9", "-o", "a.png", "--skip-existing"}), "--skip-existing: expected a folder"));
     CHECK(contains(error({"sphere:9", "-o", "a.png", "--out-dir", "b"}), "--out-dir: cannot be combined with -o"));
     CHECK(contains(error({"sphere:9", "lights:1", "-o", "{stem}.png", "--report", "lights.png"}), "--report: expected another file"));
-    CHECK(contains(error({"sphere:9", "-o", "a", "--format", "gif"}), "expected png, jpg, bmp, tga, hdr, pfm or exr, found 'gif'"));
+    CHECK(contains(error({"sphere:9", "-o", "a", "--format", "gif"}), "expected png, bmp, tga, jpg, webp, hdr, pfm or exr, found 'gif'"));
     CHECK(folder.names().empty());
 }
 

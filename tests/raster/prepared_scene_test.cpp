@@ -180,12 +180,13 @@ TEST_CASE("prepared scene: after any changes it equals one made anew, and its re
             const SceneRevision after = prepared.revision();
             const bool geometry = !told.changed_instances.empty() || !told.deformed_meshes.empty();
             CHECK((geometry ? after.geometry > before.geometry : after.geometry == before.geometry));
+            CHECK((told.lights ? after.lights > before.lights : after.lights == before.lights));
             // A deformed mesh may have another material: then it counts as a change of materials too.
             if (told.materials)
                 CHECK(after.materials > before.materials);
             else if (told.deformed_meshes.empty())
                 CHECK(after.materials == before.materials);
-            updates += geometry || told.materials;
+            updates += geometry || told.lights || told.materials;
         }
     }
     CHECK(updates > 200);
@@ -231,7 +232,7 @@ TEST_CASE("prepared scene: counts and maxima include only what is drawn", "[rast
 
 TEST_CASE("prepared scene: no revision is used twice", "[raster][prepared]") {
     Random random(4);
-    std::vector<std::uint64_t> geometry, materials;
+    std::vector<std::uint64_t> geometry, materials, lights;
     for (int round = 0; round < 30; ++round) {
         const Scene scene = any_scene(random);
         for (int copy = 0; copy < 2; ++copy) {
@@ -239,12 +240,13 @@ TEST_CASE("prepared scene: no revision is used twice", "[raster][prepared]") {
             for (int step = 0; step < 3; ++step) {
                 geometry.push_back(prepared.revision().geometry);
                 materials.push_back(prepared.revision().materials);
+                lights.push_back(prepared.revision().lights);
                 if (scene.meshes.empty()) break;
                 REQUIRE(prepared.update({{}, {0}, true, true}));
             }
         }
     }
-    for (std::vector<std::uint64_t>* numbers : {&geometry, &materials}) {
+    for (std::vector<std::uint64_t>* numbers : {&geometry, &materials, &lights}) {
         std::ranges::sort(*numbers);
         CHECK(std::ranges::adjacent_find(*numbers) == numbers->end());
         CHECK(numbers->front() > 0);  // 0 stands for no scene

@@ -41,8 +41,13 @@ Result<void> add_listed(const std::string& list, std::vector<std::string>& scene
 }
 
 Result<OutputFormat> parse_format(const std::string& text) {
-    if (text.find_first_of("./") != std::string::npos) return fail(ErrorCode::usage, "expected a format's name, found '" + text + "'");
-    return output_format_of("picture." + text);  // or an error: this build cannot write it
+    std::string expected;
+    for (int i = 0; i <= static_cast<int>(OutputFormat::exr); ++i) {
+        const std::string name(output_format_name(static_cast<OutputFormat>(i)));
+        if (text == name) return output_format_of("picture." + text);  // an error: this build cannot write it
+        expected += (i == 0 ? "" : i == static_cast<int>(OutputFormat::exr) ? " or " : ", ") + name;
+    }
+    return fail(ErrorCode::usage, "expected " + expected + ", found '" + text + "'");
 }
 
 ReadValue read_path(std::string& path) {

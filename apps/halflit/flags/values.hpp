@@ -2,10 +2,10 @@
 // usage errors that say what was expected.
 #pragma once
 
-#include "halflit/auto_setup.hpp"
 #include "halflit/error.hpp"
 #include "halflit/light.hpp"
 #include "halflit/renderer.hpp"
+#include "halflit/target.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -6,6 +6,7 @@
 #include "halflit/export.hpp"
 #include "halflit/scene.hpp"
 #include "halflit/settings.hpp"
+#include "halflit/target.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -41,13 +42,6 @@ struct AutoSetup {
     Lighting light;       ///< the scene's own, with what it lacks
     Settings settings;    ///< usual_settings(), the exposure, and shadow maps for the picture's size: twice its longer side, 256 to 2048
     bool framed = false;  ///< the camera is a view of the whole scene
-};
-
-/// Width and height of a picture in pixels.
-struct PictureSize {
-    int width = 0;   ///< pixels
-    int height = 0;  ///< pixels
-    friend bool operator==(const PictureSize&, const PictureSize&) = default;
 };
 
 /// What the caller decides of a picture's shape, too.

@@ -54,6 +54,13 @@ struct Target {
     std::size_t lights_row_bytes = 0, coverage_row_bytes = 0;                                ///< strides of these planes
 };
 
+/// Width and height of a picture in pixels.
+struct PictureSize {
+    int width = 0;   ///< pixels
+    int height = 0;  ///< pixels
+    friend bool operator==(const PictureSize&, const PictureSize&) = default;
+};
+
 /// A picture with its own memory. Either array may be empty.
 struct Image {
     int width = 0, height = 0;        ///< pixels
@@ -68,6 +75,8 @@ struct Image {
         if (bytes > SIZE_MAX / 2) throw std::bad_alloc();
         return {width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(bytes)), {}};
     }
+    /// The same.
+    [[nodiscard]] static Image make(PictureSize size) { return make(size.width, size.height); }
     /// A target that draws into the arrays that are not empty. Valid until they are resized.
     [[nodiscard]] Target target() {
         Target target{width, height, rgba8.empty() ? nullptr : rgba8.data()};
