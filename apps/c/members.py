@@ -176,7 +176,11 @@ def made():
     """Path -> text, of all files that are written."""
     header = between(text_of(HEADER), "    // From here on written by apps/c/members.py.", "} halflit_material;", c_members())
     header = between(header, "    // Settings of eight bytes: written by apps/c/members.py.", "    halflit_region region;", c_settings(True))
-    header = between(header, "    // Settings of four bytes: written by apps/c/members.py.", "    int32_t reserved;", c_settings(False))
+    narrow = c_settings(False)
+    fixed = 13  # four-byte words between the settings of eight and those of four bytes
+    spare = 1 + (fixed + narrow.count(";\n") + 1) % 2  # no padding, and always one that a later setting may take
+    narrow += f"    int32_t reserved[{spare}];\n"
+    header = between(header, "    // Settings of four bytes: written by apps/c/members.py.", "} halflit_settings;", narrow)
     python = between(text_of(PYTHON), "        shadow_catcher: invisible but for the shadows on it (False)", '    """', python_docs())
     python = between(python, "    # Ranges and members: written by apps/c/members.py.", "    # Other members.", python_ranges() + python_annotations())
     docs, annotations, table = python_settings()

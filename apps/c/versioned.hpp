@@ -23,6 +23,13 @@ inline constexpr std::size_t kMostAddedBytes = 4096;
                                       "), which is " + std::to_string(own_size) + " in this version of halflit");
 }
 
+/// Whether a reserved member, or some, are 0.
+[[nodiscard]] constexpr bool is_zero(std::int32_t reserved) { return reserved == 0; }
+template <std::size_t N>
+[[nodiscard]] constexpr bool is_zero(const std::int32_t (&reserved)[N]) {
+    return std::all_of(reserved, reserved + N, [](std::int32_t one) { return one == 0; });
+}
+
 /// The caller's struct over `defaults`, which fill what a shorter one lacks. Fails (usage) if a longer one has set what is not known here.
 template <class T>
 [[nodiscard]] Result<T> read_struct(const T* given, const T& defaults, const char* name) {
@@ -37,7 +44,7 @@ template <class T>
     std::memcpy(&value, bytes, std::min(size, sizeof(T)));
     value.size = sizeof(T);
     if constexpr (requires { value.reserved; })
-        if (value.reserved != 0) return fail(ErrorCode::usage, std::string(name) + ": the member reserved is set, expected 0");
+        if (!is_zero(value.reserved)) return fail(ErrorCode::usage, std::string(name) + ": the member reserved is set, expected 0");
     return value;
 }
 
