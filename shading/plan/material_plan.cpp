@@ -110,7 +110,7 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
     plan.dielectric = clamp_or_low(material.dielectric_reflectance, 0.0f, 1.0f);
     plan.refracted = 1.0f - plan.dielectric;
     plan.emissive[0] = material.emissive.x, plan.emissive[1] = material.emissive.y, plan.emissive[2] = material.emissive.z;
-    plan.normal_scale = material.normal_scale;
+    plan.normal_scale = material.normal_scale * options.normal_scale;
     plan.occlusion_strength = clamp_or_low(material.occlusion_strength, 0.0f, 1.0f);
     plan.alpha_mode = material.alpha_mode;
     plan.alpha_cutoff = material.alpha_cutoff;
@@ -136,10 +136,10 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
         gradients = gradients || texture.needs_lod;
     };
     const bool base_color_seen = lit || material.unlit || material.alpha_mode != AlphaMode::opaque;
-    const bool has_tangents = (available & kTangentSlot) != 0;
+    const bool has_tangents = (available & kTangentSlot) != 0, maps_normals = has_tangents && options.normal_scale != 0.0f;
     use_texture(base_color_seen, TextureSlot::base_color);
     use_texture(lit && kinds.specular, TextureSlot::metallic_roughness);
-    use_texture(lit && has_tangents, TextureSlot::normal);
+    use_texture(lit && maps_normals, TextureSlot::normal);
     use_texture(lit && kinds.ambient && plan.occlusion_strength > 0.0f, TextureSlot::occlusion);
     use_texture(!material.unlit && !zero(material.emissive), TextureSlot::emissive);
     const bool film = lit && kinds.specular && material.is_iridescent();
@@ -160,10 +160,10 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
         plan.stages |= kStageClearcoat;
         plan.clearcoat.factor = clamp_or_low(material.clearcoat, 0.0f, 1.0f);
         plan.clearcoat.roughness = clamp_or_low(material.clearcoat_roughness, 0.0f, 1.0f);
-        plan.clearcoat.normal_scale = material.clearcoat_normal_scale;
+        plan.clearcoat.normal_scale = material.clearcoat_normal_scale * options.normal_scale;
         use_texture(true, TextureSlot::clearcoat);
         use_texture(true, TextureSlot::clearcoat_roughness);
-        use_texture(has_tangents, TextureSlot::clearcoat_normal);
+        use_texture(maps_normals, TextureSlot::clearcoat_normal);
         plan.clearcoat.normal_roughness = loses_normals(plan.textures[TextureSlot::clearcoat_normal]);
     }
     if (lit && kinds.specular && material.has_sheen()) {

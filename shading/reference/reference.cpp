@@ -552,9 +552,10 @@ Surface surface_of(const FrameInputs& frame, const Material& material, SlotMask 
     const Rgba occlusion = material_texture(frame, material.textures[TextureSlot::occlusion], available, block, lane, white);
     Surface surface{};
     surface.base = {base.r, base.g, base.b};
-    surface.normal = mapped_normal(frame, material, material.textures[TextureSlot::normal], material.normal_scale, available, block, lane);
-    surface.roughness =
-        rougher(frame, material.textures[TextureSlot::normal], material.normal_scale, material.roughness * mr.g, available, block, lane);
+    const TextureUse& normals = material.textures[TextureSlot::normal];
+    const float scale_of_normals = material.normal_scale * frame.options.normal_scale;
+    surface.normal = mapped_normal(frame, material, normals, scale_of_normals, available, block, lane);
+    surface.roughness = rougher(frame, normals, scale_of_normals, material.roughness * mr.g, available, block, lane);
     surface.occlusion = 1.0 + double{material.occlusion_strength} * (occlusion.r - 1.0);
     const Vec3d position = row3(block, kPosX, lane);
     surface.to_eye = frame.orthographic ? scale(to_double(frame.view_direction_ws), -1) : unit(to_double(frame.eye_ws) - position);
@@ -642,12 +643,12 @@ Coat coat_of(const FrameInputs& frame, const Material& material, SlotMask availa
     Coat out{std::clamp(double{material.clearcoat}, 0.0, 1.0) *
                  material_texture(frame, material.textures[TextureSlot::clearcoat], available, block, lane, white).r,
              below};
-    out.surface.normal = mapped_normal(frame, material, material.textures[TextureSlot::clearcoat_normal], material.clearcoat_normal_scale,
-                                       available, block, lane);
+    const TextureUse& normals = material.textures[TextureSlot::clearcoat_normal];
+    const float scale_of_normals = material.clearcoat_normal_scale * frame.options.normal_scale;
+    out.surface.normal = mapped_normal(frame, material, normals, scale_of_normals, available, block, lane);
     const double roughness = std::clamp(double{material.clearcoat_roughness}, 0.0, 1.0) *
                              material_texture(frame, material.textures[TextureSlot::clearcoat_roughness], available, block, lane, white).g;
-    out.surface.roughness = rougher(frame, material.textures[TextureSlot::clearcoat_normal], material.clearcoat_normal_scale, roughness,
-                                    available, block, lane);
+    out.surface.roughness = rougher(frame, normals, scale_of_normals, roughness, available, block, lane);
     out.surface.metallic = 0, out.surface.weight = 1, out.surface.brushed = false;
     out.surface.f0 = {0.04, 0.04, 0.04};
     return out;

@@ -43,6 +43,7 @@ SETTINGS: Dict[str, Tuple[str, str]] = {
     "anisotropy": ("anisotropy", "int"),
     "specular": ("specular", "SPECULAR"),
     "normalize_specular": ("normalize_specular", "bool"),
+    "normal_scale": ("normal_scale", "float"),
     "shading_rate": ("shading_rate", "RATE"),
     "environment_bands": ("environment_bands", "int"),
     "shadows": ("shadows", "SHADOWS"),

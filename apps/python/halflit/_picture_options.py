@@ -73,6 +73,7 @@ class PictureOptions(ViewOptions, total=False):
         specular: model of highlights; none: albedo is the base colour itself: "none", "phong", "blinn", "ggx" (blinn)
         normalize_specular: sharper highlights are brighter, for the same light in all; off: a peak of 1 for every exponent; ggx
             always is (True)
+        normal_scale: factor on x and y of all normal maps, a coat's too; 0: surfaces have the normals of their meshes (1)
         shading_rate: how often light is evaluated: "flat", "gouraud", "pixel" (pixel)
         environment_bands: of spherical harmonics, 1 to 10; 0: the fewest whose error is within environment_tolerance (0)
         shadows: effect of shadows on wrapped light; off: no shadow maps are drawn: "off", "hard", "soft_split" (soft_split)
@@ -115,6 +116,7 @@ class PictureOptions(ViewOptions, total=False):
     anisotropy: int
     specular: str
     normalize_specular: bool
+    normal_scale: float
     shading_rate: str
     environment_bands: int
     shadows: str

@@ -548,6 +548,8 @@ typedef struct halflit_settings {
     int32_t specular;
     /// sharper highlights are brighter, for the same light in all; off: a peak of 1 for every exponent; ggx always is (1)
     int32_t normalize_specular;
+    /// factor on x and y of all normal maps, a coat's too; 0: surfaces have the normals of their meshes (1)
+    float normal_scale;
     /// HALFLIT_RATE: how often light is evaluated (pixel)
     int32_t shading_rate;
     /// of spherical harmonics, 1 to 10; 0: the fewest whose error is within environment_tolerance (0)
@@ -565,7 +567,7 @@ typedef struct halflit_settings {
     int32_t sky_shadows;
     /// look-ups on the smooth surface given by the vertex normals, for coarse meshes (0)
     int32_t shadow_terminator_offset;
-    int32_t reserved;
+    int32_t reserved[2];
 } halflit_settings;
 HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t size);
 
