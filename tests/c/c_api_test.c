@@ -210,11 +210,11 @@ static void test_struct_sizes(void) {
     CHECK(draw(NULL, cube.scene, cube.lighting, &cube.camera, &newer.known) == 0);
     CHECK(strstr(halflit_last_error(), "halflit_settings: members beyond byte") != NULL);
 
-    // A program that was built when `normal_scale` and what follows did not exist: those bytes belong to something else.
-    older.size = offsetof(halflit_settings, normal_scale);
-    memset(&older.normal_scale, 0x5a, sizeof older - offsetof(halflit_settings, normal_scale));
+    // A program that was built when `shading_rate` and what follows did not exist: those bytes belong to something else.
+    older.size = offsetof(halflit_settings, shading_rate);
+    memset(&older.shading_rate, 0x5a, sizeof older - offsetof(halflit_settings, shading_rate));
     CHECK(draw(NULL, cube.scene, cube.lighting, &cube.camera, &older) == expected);
-    CHECK_OK(halflit_settings_init(&older, offsetof(halflit_settings, normal_scale)));
+    CHECK_OK(halflit_settings_init(&older, offsetof(halflit_settings, shading_rate)));
     CHECK(older.samples == 1 && older.shadows == 0x5a5a5a5a);
 
     older = cube.settings;
@@ -223,7 +223,7 @@ static void test_struct_sizes(void) {
     older.size = (size_t)-1;
     CHECK(draw(NULL, cube.scene, cube.lighting, &cube.camera, &older) == 0 &&
           strstr(halflit_last_error(), "sizeof(halflit_settings)") != NULL);
-    older.size = offsetof(halflit_settings, normal_scale) - 4;
+    older.size = offsetof(halflit_settings, shading_rate) - 4;
     CHECK(draw(NULL, cube.scene, cube.lighting, &cube.camera, &older) == 0 && strstr(halflit_last_error(), "the member size is") != NULL);
     CHECK_OK(halflit_execution_init(&execution, sizeof execution));
     execution.size = offsetof(halflit_execution, cancelled) + sizeof execution.cancelled / 2;
