@@ -8,7 +8,7 @@
 
 namespace halflit::cli {
 
-inline constexpr const char* kProgramHelp = "Renders models to pictures on the CPU: glTF, STL, PLY, OBJ and 3MF.";
+inline constexpr const char* kProgramHelp = "Renders models, such as glTF, STL, PLY, OBJ and 3MF, to pictures on the CPU.";
 inline constexpr const char* kExitCodesHelp =
     "Exit codes: 0 ok, 1 negative result, 2 usage, 3 bad input, 4 cannot read or write, 5 limit hit, 6 internal error, 128+n signal n.";
 

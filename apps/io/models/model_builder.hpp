@@ -1,5 +1,5 @@
-// A scene while a reader of STL, PLY, OBJ or 3MF makes it. The glTF reader's Document is the context: limits, time, warnings, the model's
-// folder, and the pictures.
+// A scene while a reader of another format than glTF makes it. The glTF reader's Document is the context: limits, time, warnings, the
+// model's folder, and the pictures.
 #pragma once
 
 #include "apps/io/gltf/build/images.hpp"

@@ -1,4 +1,4 @@
-// Triangles as STL, PLY, OBJ and 3MF have them: corners that refer to lists of positions, normals and so on, each on its own. They become
+// Triangles as formats but glTF have them: corners that refer to lists of positions, normals and so on, each on its own. They become
 // meshes, whose vertices have one index each.
 #pragma once
 

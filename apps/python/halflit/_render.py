@@ -31,7 +31,7 @@ def render(
 ) -> pictures.Picture:
     """Draws a picture and returns it: a numpy array, uint8 of shape (height, width, 4), which notebooks show.
 
-    source: a path (.glb, .gltf, .stl, .ply, .obj, .3mf), "demo", a file's bytes, (vertices, faces) as arrays, a trimesh, or a Scene.
+    source: a model's path, "demo", a file's bytes, (vertices, faces) as arrays, a trimesh, or a Scene.
     size: (width, height) in pixels, or the side of a square; 1280 x 720, reduced to the shape of the file's camera, if it is left out.
 
     A file without any keyword gives the pixels that `halflit render FILE --size WxH` gives. Keywords for all but a Scene:

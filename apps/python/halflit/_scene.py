@@ -57,7 +57,7 @@ class Scene(Geometry, Lighting):
         up: Optional[str] = None,
         **options: Any,
     ) -> Scene:
-        """A scene of a glTF, GLB, STL, PLY, OBJ or 3MF file, or of its bytes.
+        """A scene of a model's file (glTF, STL, PLY, OBJ, 3MF and others), or of its bytes; the content tells the format.
 
         animation: name or index of the animation that poses it (the first), or "none"; time: seconds.
         scene: name or index of the file's scene. variant: of the file's materials.

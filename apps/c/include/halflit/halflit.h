@@ -80,7 +80,7 @@ typedef struct halflit_load_options {
     /// Moves a scene that is far from the origin to it, and scales a tiny or huge one, so that float32 keeps its shape (1). See
     /// halflit_scene_get_placement.
     int32_t recentre;
-    float crease_deg;                   ///< STL, PLY, OBJ, 3MF without normals: smooth across edges up to this angle (30)
+    float crease_deg;                   ///< files without normals but glTF: smooth across edges up to this angle (30)
     int32_t lenient;                    ///< draw what can be drawn: magenta for broken textures, triangles with bad indices left out (0)
     int32_t threads;                    ///< threads that decode textures, the calling one included; 0: one for each core (0)
     const char* const* allow_external;  ///< folders, besides the model's own, in which referenced files may lie
@@ -122,8 +122,8 @@ typedef struct halflit_animation {
 
 /// Makes an empty scene.
 HALFLIT_C_API int32_t halflit_scene_create(halflit_scene** scene);
-/// Makes a scene of a glTF, GLB, STL, PLY, OBJ or 3MF file, whose format is found by its content; files that it refers to are read from its
-/// folder. options may be null: the defaults.
+/// Makes a scene of a model's file (glTF, STL, PLY, OBJ, 3MF and others), whose format is found by its content; files that it refers to are
+/// read from its folder. options may be null: the defaults.
 HALFLIT_C_API int32_t halflit_scene_load(const char* path, const halflit_load_options* options, halflit_scene** scene);
 /// The same from `count` bytes. name is for messages. base_dir is the folder of files that it refers to; if it is null, none is read.
 HALFLIT_C_API int32_t halflit_scene_load_memory(const void* bytes, size_t count, const char* name, const char* base_dir,

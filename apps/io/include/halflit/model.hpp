@@ -1,6 +1,6 @@
-// Loader of models of any format that halflit reads, which it finds by the file's content: glTF, GLB, STL, PLY, OBJ with MTL, 3MF. The file
-// is not trusted: every length, index and reference is checked before it is used, other files are read only below the model's folder, and
-// limits bound memory and time.
+// Loader of models of any format that halflit reads (ModelFormat), which it finds by the file's content. The file is not trusted: every
+// length, index and reference is checked before it is used, other files are read only below the model's folder, and limits bound memory and
+// time.
 #pragma once
 
 #include "halflit/error.hpp"
@@ -71,8 +71,8 @@ struct LoadOptions {
     int threads = 0;
     /// Moves a scene to the origin if it lies farther from it than 1024 times its radius, and scales it by a power of two if its radius is
     /// below 2^-10 or above 2^30, so that float32 keeps its shape and the least distance of a point light (Light::source_radius) is small
-    /// beside it. STL, PLY, OBJ and 3MF are read in double for that. LoadedScene::placement says what was done, with a warning. False: the
-    /// file's own numbers, rounded to float32.
+    /// beside it. Other formats than glTF are read in double for that. LoadedScene::placement says what was done, with a warning. False:
+    /// the file's own numbers, rounded to float32.
     bool recentre = true;
     /// Scene of the file: its name, or else its index in the file; empty: the file's default scene, or else its first. One that the file
     /// does not have is an error (usage).
@@ -92,8 +92,8 @@ struct LoadOptions {
     /// Axis of the model that points up: the scene is turned so that it becomes y. None: as its format has it by custom, which is z for STL
     /// and 3MF and y for the others.
     std::optional<UpAxis> up{};
-    /// STL, PLY, OBJ and 3MF: where the file has no normals, the surface is smooth across edges whose triangles' normals differ by at most
-    /// this, degrees in [0, 180].
+    /// Other formats than glTF: where the file has no normals, the surface is smooth across edges whose triangles' normals differ by at
+    /// most this, degrees in [0, 180].
     float crease_deg = 30.0f;
 };
 
@@ -144,8 +144,8 @@ struct NodeTransform {
 };
 
 /// Where a model lies in the scene. What a host adds, a camera or a light of its own, goes through into(), and what it reads of the scene
-/// through out(). Points are in the model's own coordinates: those of its root nodes, in the file's unit for glTF, STL, PLY and OBJ, and in
-/// metres for 3MF.
+/// through out(). Points are in the model's own coordinates: those of its root nodes, in the file's unit, and in metres
+/// for 3MF.
 struct Placement {
     Vec3d origin{0, 0, 0};              ///< that is drawn at the origin, with `up` turned to +y
     double scale = 1.0;                 ///< a power of two
