@@ -179,7 +179,7 @@ def made():
     narrow = c_settings(False)
     fixed = 13  # four-byte words between the settings of eight and those of four bytes
     spare = 1 + (fixed + narrow.count(";\n") + 1) % 2  # no padding, and always one that a later setting may take
-    narrow += f"    int32_t reserved[{spare}];\n"
+    narrow += f"    int32_t reserved[{spare}];  ///< 0\n"
     header = between(header, "    // Settings of four bytes: written by apps/c/members.py.", "} halflit_settings;", narrow)
     python = between(text_of(PYTHON), "        shadow_catcher: invisible but for the shadows on it (False)", '    """', python_docs())
     python = between(python, "    # Ranges and members: written by apps/c/members.py.", "    # Other members.", python_ranges() + python_annotations())

@@ -567,7 +567,7 @@ typedef struct halflit_settings {
     int32_t sky_shadows;
     /// look-ups on the smooth surface given by the vertex normals, for coarse meshes (0)
     int32_t shadow_terminator_offset;
-    int32_t reserved[2];
+    int32_t reserved[2];  ///< 0
 } halflit_settings;
 HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t size);
 
