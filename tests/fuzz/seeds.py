@@ -404,7 +404,9 @@ def other_models():
     xml += ''.join('<triangle v1="%d" v2="%d" v3="%d" pid="6" p1="0"/>' % t for t in triangles) + '</triangles></mesh></object>'
     xml += ('<object id="2"><components><component objectid="1"/><component objectid="1" transform="1 0 0 0 1 0 0 0 1 5 0 0"/></components>'
             '</object></resources><build><item objectid="2"/></build></model>')
-    return {'stl_text': ('solid a\n' + facets + 'endsolid a\n').encode(),
+    off = 'COFF\n%d %d 0\n' % (len(points), len(faces)) + ''.join('%g %g %g 255 0 0 255\n' % p for p in points)
+    off += ''.join('%d %s 0.5 0 0\n' % (len(face), ' '.join(map(str, face))) for face in faces)
+    return {'off': off.encode(), 'stl_text': ('solid a\n' + facets + 'endsolid a\n').encode(),
             'stl_binary': b'solid COLOR=1234'.ljust(80) + struct.pack('<I', len(triangles)) + binary,
             'ply_text': ply_text.encode(), **plies, 'obj': obj.encode(), 'xml': xml.encode()}
 

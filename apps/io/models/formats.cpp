@@ -72,6 +72,7 @@ constexpr FormatRow kFormats[] = {
     {ModelFormat::stl, "STL", ".stl", like_stl, read_stl, nullptr},
     {ModelFormat::obj, "OBJ", ".obj", [](const FileBegin& begin) { return certain_if(is_obj_statement(begin.word)); }, read_obj,
      files_of_obj},
+    {ModelFormat::off, "OFF", ".off", [](const FileBegin& begin) { return certain_if(is_off_header(begin.word)); }, read_off, nullptr},
 };
 
 }  // namespace

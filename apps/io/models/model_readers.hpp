@@ -8,6 +8,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace halflit::io::detail {
@@ -17,7 +18,11 @@ namespace halflit::io::detail {
 /// True if an STL file is binary: its length is what its number of triangles takes, or it does not begin as text.
 [[nodiscard]] bool is_binary_stl(std::span<const std::byte> bytes);
 
+/// True for the first word of an OFF file.
+[[nodiscard]] bool is_off_header(std::string_view word);
+
 /// These throw LoadFailure.
+[[nodiscard]] LoadedScene read_off(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options);
 [[nodiscard]] LoadedScene read_stl(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options);
 [[nodiscard]] LoadedScene read_ply(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options);
 [[nodiscard]] LoadedScene read_obj(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options);

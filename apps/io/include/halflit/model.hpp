@@ -23,15 +23,16 @@ namespace halflit {
 
 /// Formats of models. Scenes of all of them have y up; see LoadOptions::up.
 enum class ModelFormat : std::uint8_t {
-    gltf,     ///< glTF 2.0 as text
-    glb,      ///< glTF 2.0 as GLB
-    stl,      ///< ASCII or binary; z up; no unit: as it is
-    ply,      ///< ASCII or binary; y up; no unit
-    obj,      ///< with the materials of .mtl files; y up; no unit
-    three_mf  ///< z up; in metres, by the file's unit. Needs libzip and expat
+    gltf,      ///< glTF 2.0 as text
+    glb,       ///< glTF 2.0 as GLB
+    stl,       ///< ASCII or binary; z up; no unit: as it is
+    ply,       ///< ASCII or binary; y up; no unit
+    obj,       ///< with the materials of .mtl files; y up; no unit
+    three_mf,  ///< z up; in metres, by the file's unit. Needs libzip and expat
+    off        ///< text; y up; no unit
 };
 
-/// "glTF", "GLB", "STL", "PLY", "OBJ" or "3MF".
+/// "glTF", "GLB", "STL" and so on.
 [[nodiscard]] HALFLIT_API std::string_view model_format_name(ModelFormat format);
 
 /// The format of a file by its content, as load_model finds it; nothing if it is none of these.
@@ -110,7 +111,7 @@ class Motion;
 
 /// Contents of the file, drawn or not.
 struct SceneInfo {
-    std::string format;              ///< "glTF", "GLB", "STL", "PLY", "OBJ" or "3MF"
+    std::string format;              ///< model_format_name()
     std::string version, generator;  ///< asset.version and asset.generator
     /// @{
     /// Number in the file.
@@ -144,8 +145,7 @@ struct NodeTransform {
 };
 
 /// Where a model lies in the scene. What a host adds, a camera or a light of its own, goes through into(), and what it reads of the scene
-/// through out(). Points are in the model's own coordinates: those of its root nodes, in the file's unit, and in metres
-/// for 3MF.
+/// through out(). Points are in the model's own coordinates: those of its root nodes, in the file's unit, and in metres for 3MF.
 struct Placement {
     Vec3d origin{0, 0, 0};              ///< that is drawn at the origin, with `up` turned to +y
     double scale = 1.0;                 ///< a power of two
