@@ -35,7 +35,10 @@ HALFLIT_INLINE void vertex_records_at(const VertexRecordArgs& args, std::int64_t
         if (args.tangents) {
             F x, y, z, w;
             load4(args.tangents + 4 * v, x, y, z, w);
-            put(turn_row(world, 0, x, y, z), turn_row(world, 1, x, y, z), turn_row(world, 2, x, y, z), w * F(args.tangent_sign));
+            // A vertex without a normal has no tangent either: a normal map would make a direction of nothing.
+            const auto has_normal = (vabs(normal[0]) + vabs(normal[1])) + vabs(normal[2]) > none;
+            const auto tangent = [&](int r) { return sel(has_normal, turn_row(world, r, x, y, z), none); };
+            put(tangent(0), tangent(1), tangent(2), w * F(args.tangent_sign));
         } else {
             put(F(world[0]), F(world[1]), F(world[2]), one);
         }

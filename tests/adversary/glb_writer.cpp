@@ -17,6 +17,8 @@ std::string left_out(const Trial& trial) {
         if (l.type == LightType::spot && l.cone_power > 0) text += " a cone's power,";
     }
     if (!(trial.scene.ambient.sky_linear == trial.scene.ambient.ground_linear)) text += " ambient light from the ground,";
+    if (!trial.scene.lights.empty() && trial.scene.lights[0].shadow_radius > 0) text += " the lights' sizes,";
+    if (!(trial.scene.instances[0].color == Vec4f{1, 1, 1, 1})) text += " the first instance's colour,";
     if (trial.scene.environment != nullptr) text += " more than 8 bits of the environment,";
     return text.empty() ? "" : " # not in the file:" + text.substr(0, text.size() - 1);
 }
@@ -41,6 +43,8 @@ Result<std::string> write_trial(const Trial& trial, const std::string& path) {
                   kShadows[static_cast<int>(s.shadows)], s.shadow_size, s.shadow_terminator_offset ? "on" : "off");
     std::string text = flags;
     if (s.shadow_fade > 0) text += " --shadow-fade " + std::to_string(s.shadow_fade);
+    if (s.sky_shadows > 0) text += " --sky-shadows " + std::to_string(s.sky_shadows);
+    if (s.shading.normal_scale != 1.0f) text += " --normal-scale " + std::to_string(s.shading.normal_scale);
     if (s.shading.environment_bands > 0) text += " --sh-order " + std::to_string(s.shading.environment_bands);
     if (trial.scene.environment != nullptr) {
         Image sky{trial.sky.width, trial.sky.height, {}, {}};

@@ -97,12 +97,18 @@ Trial make_trial(const Genome& genome, AvoidSet avoid) {
     s.shadow_terminator_offset = genes.chance(0.3);
     constexpr int kSamples[] = {1, 1, 1, 1, 1, 1, 1, 1, 4, 8};
     s.samples = kSamples[genes.pick(10)];
+    s.sky_shadows = genes.chance(0.08) ? 32 : 0;
+    const float softness = genes.chance(0.12) ? genes.real32(0.01, 0.2) : 0.0f;
+    s.soft_shadow_maps = 4;
+    s.shading.normal_scale = genes.chance(0.12) ? genes.octaves32(0.25, 4) : 1.0f;
 
     add_materials(genome, avoid, trial);
     Aim aim = add_bodies(genome, avoid, trial);
     place_camera(genome, aim, trial);
     add_lights(genome, aim, trial);
     add_sky(genome, avoid, trial);
+    for (Light& light : trial.scene.lights) light.shadow_radius = softness * (light.type == LightType::directional ? 1.0f : aim.size);
+    if (genes.chance(0.12)) trial.scene.instances[0].color = {genes.real32(0, 1), genes.real32(0, 1), genes.real32(0, 1), 1};
     s.shadow_fade = fade * aim.size;
     return trial;
 }

@@ -115,10 +115,10 @@ double add_whole_sky(const Trial& trial, const std::vector<std::uint32_t>& insta
             const Vec3d off = lobe.light(coarse, n) * exposure - light;
             changed = std::max({changed, std::fabs(off.x), std::fabs(off.y), std::fabs(off.z)});
         }
-        const Vec4f color = material_at(trial, instance[k]).base_color;
-        linear[4 * k] += static_cast<float>(light.x * double{color.x});
-        linear[4 * k + 1] += static_cast<float>(light.y * double{color.y});
-        linear[4 * k + 2] += static_cast<float>(light.z * double{color.z});
+        const Vec4f color = material_at(trial, instance[k]).base_color, own = trial.scene.instances[instance[k] - 1].color;
+        linear[4 * k] += static_cast<float>(light.x * double{color.x * own.x});
+        linear[4 * k + 1] += static_cast<float>(light.y * double{color.y * own.y});
+        linear[4 * k + 2] += static_cast<float>(light.z * double{color.z * own.z});
     }
     // Squares of half the width have at most a fourth of the error, also where a lobe has a kink: the error is a third of the change.
     return 2 * changed + 1e-6 * most;
