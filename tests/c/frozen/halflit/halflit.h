@@ -1,0 +1,436 @@
+// halflit.h of an earlier version, without comments. Made by frozen_test.py.
+#ifndef HALFLIT_HALFLIT_H
+#define HALFLIT_HALFLIT_H
+#include <stddef.h>
+#include <stdint.h>
+#if defined(__GNUC__) && defined(HALFLIT_BUILDING_SHARED)
+#define HALFLIT_C_API __attribute__((visibility("default")))
+#else
+#define HALFLIT_C_API
+#endif
+#ifdef __cplusplus
+extern "C" {
+#endif
+HALFLIT_C_API const char* halflit_version(void);
+HALFLIT_C_API int32_t halflit_pixel_epoch(void);
+enum {
+    HALFLIT_OK = 0,
+    HALFLIT_ERROR_USAGE = 2,
+    HALFLIT_ERROR_BAD_INPUT = 3,
+    HALFLIT_ERROR_IO = 4,
+    HALFLIT_ERROR_LIMIT = 5,
+    HALFLIT_ERROR_INTERNAL = 6,
+    HALFLIT_ERROR_CANCELLED = 7
+};
+HALFLIT_C_API const char* halflit_last_error(void);
+typedef struct halflit_scene halflit_scene;
+enum {
+    HALFLIT_UP_BY_FORMAT = 0,
+    HALFLIT_UP_X = 1,
+    HALFLIT_UP_Y = 2,
+    HALFLIT_UP_Z = 3,
+    HALFLIT_UP_MINUS_X = 4,
+    HALFLIT_UP_MINUS_Y = 5,
+    HALFLIT_UP_MINUS_Z = 6
+};
+typedef struct halflit_load_options {
+    size_t size;
+    const char* scene;
+    const char* variant;
+    const char* animation;
+    double time_s;
+    int32_t keep_animations;
+    int32_t up;
+    int32_t recentre;
+    float crease_deg;
+    int32_t lenient;
+    int32_t threads;
+    const char* const* allow_external;
+    size_t allow_external_count;
+    double time_limit_s;
+    uint64_t max_file_bytes;
+    uint64_t max_total_bytes;
+    uint64_t max_json_tokens;
+    uint64_t max_texture_bytes;
+    uint64_t max_texture_pixels;
+    uint64_t max_geometry_bytes;
+    uint64_t max_lights;
+    int32_t max_json_depth;
+    int32_t max_texture_side;
+    int32_t max_jpeg_scans;
+    int32_t reserved;
+} halflit_load_options;
+HALFLIT_C_API int32_t halflit_load_options_init(halflit_load_options* options, size_t size);
+typedef struct halflit_counts {
+    size_t size;
+    uint64_t triangles;
+    int32_t meshes, instances, materials, textures, cameras;
+    int32_t lights;
+    int32_t nodes;
+    int32_t animations;
+    int32_t warnings;
+    int32_t reserved;
+} halflit_counts;
+typedef struct halflit_animation {
+    size_t size;
+    const char* name;
+    double end_s;
+    uint64_t channels;
+} halflit_animation;
+HALFLIT_C_API int32_t halflit_scene_create(halflit_scene** scene);
+HALFLIT_C_API int32_t halflit_scene_load(const char* path, const halflit_load_options* options, halflit_scene** scene);
+HALFLIT_C_API int32_t halflit_scene_load_memory(const void* bytes, size_t count, const char* name, const char* base_dir,
+                                                const halflit_load_options* options, halflit_scene** scene);
+HALFLIT_C_API int32_t halflit_scene_create_demo(halflit_scene** scene);
+HALFLIT_C_API void halflit_scene_destroy(halflit_scene* scene);
+HALFLIT_C_API int32_t halflit_scene_get_counts(const halflit_scene* scene, halflit_counts* counts);
+HALFLIT_C_API int32_t halflit_scene_get_warning(const halflit_scene* scene, int32_t index, const char** text);
+HALFLIT_C_API int32_t halflit_scene_get_animation(const halflit_scene* scene, int32_t index, halflit_animation* animation);
+HALFLIT_C_API int32_t halflit_scene_pose(halflit_scene* scene, const char* animation, double time_s);
+HALFLIT_C_API int32_t halflit_scene_get_placement(const halflit_scene* scene, double origin[3], double* scale, int32_t* up);
+enum { HALFLIT_PART_NODE = 0, HALFLIT_PART_INSTANCE = 1, HALFLIT_PART_MESH = 2, HALFLIT_PART_MATERIAL = 3, HALFLIT_PART_CAMERA = 4 };
+HALFLIT_C_API int32_t halflit_scene_get_name(const halflit_scene* scene, int32_t part, int32_t index, const char** name);
+HALFLIT_C_API int32_t halflit_scene_set_name(halflit_scene* scene, int32_t part, int32_t index, const char* name);
+typedef struct halflit_node {
+    size_t size;
+    const char* name;
+    const int32_t* instances;
+    int32_t instance_count;
+    int32_t parent;
+    int32_t camera, light;
+} halflit_node;
+HALFLIT_C_API int32_t halflit_scene_get_node(const halflit_scene* scene, int32_t index, halflit_node* node);
+HALFLIT_C_API int32_t halflit_scene_get_bounds(const halflit_scene* scene, float min[3], float max[3]);
+enum { HALFLIT_COLOR_SRGB = 0, HALFLIT_COLOR_LINEAR = 1, HALFLIT_COLOR_SRGB_BY_ALPHA = 2, HALFLIT_COLOR_NORMAL = 3 };
+HALFLIT_C_API int32_t halflit_scene_add_texture(halflit_scene* scene, const uint8_t* rgba8, int32_t width, int32_t height, size_t row_bytes,
+                                                int32_t color, int32_t* index);
+HALFLIT_C_API int32_t halflit_scene_set_texture(halflit_scene* scene, int32_t index, const uint8_t* rgba8, int32_t width, int32_t height,
+                                                size_t row_bytes, int32_t color);
+HALFLIT_C_API int32_t halflit_scene_remove_texture(halflit_scene* scene, int32_t index);
+enum { HALFLIT_ALPHA_OPAQUE = 0, HALFLIT_ALPHA_MASK = 1, HALFLIT_ALPHA_BLEND = 2 };
+enum { HALFLIT_WRAP_REPEAT = 0, HALFLIT_WRAP_MIRROR = 1, HALFLIT_WRAP_CLAMP = 2 };
+enum { HALFLIT_FILTER_NEAREST = 0, HALFLIT_FILTER_LINEAR = 1 };
+enum { HALFLIT_MIP_NONE = 0, HALFLIT_MIP_NEAREST = 1, HALFLIT_MIP_LINEAR = 2 };
+typedef struct halflit_texture_use {
+    int32_t texture;
+    int32_t uv_set;
+    int32_t wrap_u, wrap_v;
+    int32_t mag_filter, min_filter;
+    int32_t mip_filter;
+    float row_u[3], row_v[3];
+} halflit_texture_use;
+typedef struct halflit_lobe {
+    float wrap;
+    float power;
+    int32_t normalize;
+} halflit_lobe;
+HALFLIT_C_API int32_t halflit_lobe_by_name(const char* name, float wrap, halflit_lobe* lobe);
+typedef struct halflit_material {
+    size_t size;
+    const char* name;
+    int32_t alpha_mode;
+    int32_t double_sided;
+    int32_t unlit;
+    int32_t own_lobe;
+    int32_t shadow_catcher;
+    halflit_lobe lobe;
+    float base_color[4];
+    float metallic;
+    float roughness;
+    float dielectric_reflectance;
+    float emissive[3];
+    float normal_scale;
+    float occlusion_strength;
+    float alpha_cutoff;
+    float specular;
+    float specular_color[3];
+    float transmission;
+    float thickness;
+    float attenuation_distance;
+    float attenuation_color[3];
+    float clearcoat;
+    float clearcoat_roughness;
+    float clearcoat_normal_scale;
+    float sheen_color[3];
+    float sheen_roughness;
+    float iridescence;
+    float iridescence_ior;
+    float iridescence_thickness_min_nm;
+    float iridescence_thickness_max_nm;
+    float anisotropy_strength;
+    float anisotropy_rotation_rad;
+    halflit_texture_use base_color_texture;
+    halflit_texture_use metallic_roughness_texture;
+    halflit_texture_use normal_texture;
+    halflit_texture_use occlusion_texture;
+    halflit_texture_use emissive_texture;
+    halflit_texture_use specular_texture;
+    halflit_texture_use specular_color_texture;
+    halflit_texture_use transmission_texture;
+    halflit_texture_use thickness_texture;
+    halflit_texture_use clearcoat_texture;
+    halflit_texture_use clearcoat_roughness_texture;
+    halflit_texture_use clearcoat_normal_texture;
+    halflit_texture_use sheen_color_texture;
+    halflit_texture_use sheen_roughness_texture;
+    halflit_texture_use iridescence_texture;
+    halflit_texture_use iridescence_thickness_texture;
+    halflit_texture_use anisotropy_texture;
+} halflit_material;
+HALFLIT_C_API int32_t halflit_material_init(halflit_material* material, size_t size);
+HALFLIT_C_API int32_t halflit_scene_add_material(halflit_scene* scene, const halflit_material* material, int32_t* index);
+HALFLIT_C_API int32_t halflit_scene_get_material(const halflit_scene* scene, int32_t index, halflit_material* material);
+HALFLIT_C_API int32_t halflit_scene_set_material(halflit_scene* scene, int32_t index, const halflit_material* material);
+enum { HALFLIT_TOPOLOGY_TRIANGLES = 0, HALFLIT_TOPOLOGY_LINES = 1, HALFLIT_TOPOLOGY_POINTS = 2 };
+typedef struct halflit_mesh {
+    size_t size;
+    const char* name;
+    const float* positions;
+    const float* normals;
+    const float* tangents;
+    const float* uv0;
+    const float* uv1;
+    const float* colors;
+    const uint32_t* indices;
+    size_t vertex_count;
+    size_t index_count;
+    int32_t material;
+    int32_t topology;
+    int32_t smooth;
+    int32_t reserved;
+} halflit_mesh;
+HALFLIT_C_API int32_t halflit_mesh_init(halflit_mesh* mesh, size_t size);
+HALFLIT_C_API int32_t halflit_scene_add_mesh(halflit_scene* scene, const halflit_mesh* mesh, int32_t* index);
+HALFLIT_C_API int32_t halflit_scene_set_mesh(halflit_scene* scene, int32_t index, const halflit_mesh* mesh);
+HALFLIT_C_API int32_t halflit_scene_set_vertices(halflit_scene* scene, int32_t index, const float* positions, const float* normals,
+                                                 size_t vertex_count);
+HALFLIT_C_API int32_t halflit_scene_remove_mesh(halflit_scene* scene, int32_t index);
+typedef struct halflit_instance {
+    size_t size;
+    int32_t mesh;
+    int32_t material;
+    int32_t visible;
+    int32_t node;
+    float color[4];
+    float world_from_object[16];
+} halflit_instance;
+HALFLIT_C_API int32_t halflit_instance_init(halflit_instance* instance, size_t size);
+HALFLIT_C_API int32_t halflit_scene_add_instance(halflit_scene* scene, int32_t mesh, const float world_from_object[16], int32_t* index);
+HALFLIT_C_API int32_t halflit_scene_add_instances(halflit_scene* scene, int32_t mesh, int32_t count, const float* world_from_object,
+                                                  int32_t* first);
+HALFLIT_C_API int32_t halflit_scene_get_instance(const halflit_scene* scene, int32_t index, halflit_instance* instance);
+HALFLIT_C_API int32_t halflit_scene_set_instance(halflit_scene* scene, int32_t index, const halflit_instance* instance);
+HALFLIT_C_API int32_t halflit_scene_place_instance(halflit_scene* scene, int32_t index, const float world_from_object[16]);
+HALFLIT_C_API int32_t halflit_scene_place_instances(halflit_scene* scene, const int32_t* indices, int32_t count,
+                                                    const float* world_from_object);
+HALFLIT_C_API int32_t halflit_scene_remove_instance(halflit_scene* scene, int32_t index);
+HALFLIT_C_API int32_t halflit_scene_add_ground(halflit_scene* scene, int32_t* instance);
+typedef struct halflit_camera {
+    size_t size;
+    const char* name;
+    float world_from_camera[16];
+    int32_t orthographic;
+    float fov_y_rad;
+    float aspect;
+    float half_height, half_width;
+    float near_z;
+    float far_z;
+    float sides[4];
+    int32_t reserved;
+} halflit_camera;
+HALFLIT_C_API int32_t halflit_camera_init(halflit_camera* camera, size_t size);
+HALFLIT_C_API int32_t halflit_camera_look_at(const float eye[3], const float target[3], const float up[3], halflit_camera* camera);
+HALFLIT_C_API int32_t halflit_camera_from_intrinsics(const double k[9], int32_t width, int32_t height, const double rotation[9],
+                                                     const double translation[3], double first_pixel, halflit_camera* camera);
+HALFLIT_C_API int32_t halflit_camera_frame(const halflit_scene* scene, float aspect, float azimuth_deg, float elevation_deg, float zoom,
+                                           halflit_camera* camera);
+HALFLIT_C_API int32_t halflit_scene_get_camera(const halflit_scene* scene, int32_t index, halflit_camera* camera);
+enum { HALFLIT_LIGHT_DIRECTIONAL = 0, HALFLIT_LIGHT_POINT = 1, HALFLIT_LIGHT_SPOT = 2 };
+typedef struct halflit_light {
+    size_t size;
+    int32_t type;
+    float color[3];
+    float position[3];
+    float direction[3];
+    float range;
+    float source_radius;
+    float inner_cone_rad, outer_cone_rad;
+    float cone_power;
+    float shadow_radius;
+} halflit_light;
+HALFLIT_C_API int32_t halflit_light_init(halflit_light* light, size_t size);
+HALFLIT_C_API int32_t halflit_scene_add_light(halflit_scene* scene, const halflit_light* light, int32_t* index);
+HALFLIT_C_API int32_t halflit_scene_get_light(const halflit_scene* scene, int32_t index, halflit_light* light);
+HALFLIT_C_API int32_t halflit_scene_set_light(halflit_scene* scene, int32_t index, const halflit_light* light);
+HALFLIT_C_API int32_t halflit_scene_remove_light(halflit_scene* scene, int32_t index);
+HALFLIT_C_API int32_t halflit_scene_set_ambient(halflit_scene* scene, const float sky[3], const float ground[3]);
+HALFLIT_C_API int32_t halflit_scene_add_default_lights(halflit_scene* scene, const halflit_camera* camera);
+HALFLIT_C_API int32_t halflit_scene_add_studio(halflit_scene* scene, const halflit_camera* camera);
+HALFLIT_C_API int32_t halflit_scene_clear_lights(halflit_scene* scene);
+typedef struct halflit_environment_options {
+    size_t size;
+    double rotate_rad;
+    int32_t extract_suns;
+    int32_t keep_image;
+    int32_t calibrated;
+    int32_t reserved;
+} halflit_environment_options;
+HALFLIT_C_API int32_t halflit_environment_options_init(halflit_environment_options* options, size_t size);
+HALFLIT_C_API int32_t halflit_scene_set_environment(halflit_scene* scene, const float* rgb, int32_t width, int32_t height,
+                                                    const halflit_environment_options* options);
+HALFLIT_C_API int32_t halflit_scene_load_environment(halflit_scene* scene, const char* path, const halflit_environment_options* options);
+HALFLIT_C_API int32_t halflit_scene_set_sky(halflit_scene* scene, const halflit_environment_options* options);
+enum { HALFLIT_ACCURACY_REFERENCE = 0, HALFLIT_ACCURACY_EXACT = 1 };
+enum { HALFLIT_RATE_FLAT = 0, HALFLIT_RATE_GOURAUD = 1, HALFLIT_RATE_PIXEL = 2 };
+enum { HALFLIT_DETAIL_FULL = 0, HALFLIT_DETAIL_BILINEAR = 1, HALFLIT_DETAIL_NEAREST = 2 };
+enum { HALFLIT_SPECULAR_NONE = 0, HALFLIT_SPECULAR_PHONG = 1, HALFLIT_SPECULAR_BLINN = 2, HALFLIT_SPECULAR_GGX = 3 };
+enum { HALFLIT_SHADOWS_OFF = 0, HALFLIT_SHADOWS_HARD = 1, HALFLIT_SHADOWS_SOFT_SPLIT = 2 };
+enum { HALFLIT_TONE_NONE = 0, HALFLIT_TONE_REINHARD = 1, HALFLIT_TONE_ACES = 2, HALFLIT_TONE_NEUTRAL = 3 };
+typedef struct halflit_region {
+    int32_t x, y;
+    int32_t width, height;
+} halflit_region;
+typedef struct halflit_settings {
+    size_t size;
+    double max_error_codes;
+    double environment_tolerance;
+    uint64_t shadow_memory_limit;
+    halflit_region region;
+    float background[4];
+    int32_t background_environment;
+    int32_t override_lobe;
+    halflit_lobe lobe;
+    int32_t samples;
+    float exposure;
+    int32_t tone_curve;
+    float point_size;
+    float line_width;
+    int32_t accuracy;
+    int32_t texture_detail;
+    int32_t anisotropy;
+    int32_t specular;
+    int32_t normalize_specular;
+    float normal_scale;
+    int32_t shading_rate;
+    int32_t environment_bands;
+    int32_t shadows;
+    int32_t shadow_size;
+    int32_t soft_shadow_maps;
+    float shadow_fade;
+    int32_t sky_shadows;
+    int32_t shadow_terminator_offset;
+    int32_t reserved[2];
+} halflit_settings;
+HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t size);
+typedef struct halflit_lighting halflit_lighting;
+enum { HALFLIT_STUDIO_FOR_DARK = 0, HALFLIT_STUDIO_ALWAYS = 1, HALFLIT_STUDIO_NEVER = 2, HALFLIT_STUDIO_UNDER_LIGHTS = 3 };
+typedef struct halflit_picture_request {
+    size_t size;
+    const halflit_camera* camera;
+    const char* scene_camera;
+    double studio_turn_rad;
+    int32_t width, height;
+    int32_t frame;
+    float azimuth_deg;
+    float elevation_deg;
+    float zoom;
+    float fov_y_deg;
+    int32_t orthographic;
+    int32_t own_ambient;
+    float ambient_color[3];
+    float exposure;
+    int32_t add_lights;
+    int32_t studio;
+    int32_t reserved;
+} halflit_picture_request;
+HALFLIT_C_API int32_t halflit_picture_request_init(halflit_picture_request* request, size_t size);
+HALFLIT_C_API int32_t halflit_choose_picture(const halflit_scene* scene, const halflit_picture_request* request, int32_t size[2],
+                                             halflit_camera* camera, halflit_settings* settings, halflit_lighting** lighting);
+HALFLIT_C_API void halflit_lighting_destroy(halflit_lighting* lighting);
+typedef struct halflit_execution {
+    size_t size;
+    const char* isa;
+    void* user;
+    int32_t (*cancelled)(void* user);
+    void (*on_tile)(void* user, int32_t x, int32_t y, int32_t width, int32_t height);
+    void (*progress)(void* user, double share);
+    void (*parallel_for)(void* user, int32_t count, void (*body)(void* task, int32_t i), void* task);
+    int32_t threads;
+    int32_t tile_size;
+    double time_limit_s;
+    size_t memory_limit;
+} halflit_execution;
+HALFLIT_C_API int32_t halflit_execution_init(halflit_execution* execution, size_t size);
+typedef struct halflit_renderer halflit_renderer;
+HALFLIT_C_API int32_t halflit_renderer_create(const halflit_execution* execution, halflit_renderer** renderer);
+HALFLIT_C_API int32_t halflit_renderer_set_execution(halflit_renderer* renderer, const halflit_execution* execution);
+HALFLIT_C_API void halflit_renderer_destroy(halflit_renderer* renderer);
+enum {
+    HALFLIT_FORMAT_RGBA8 = 0,
+    HALFLIT_FORMAT_BGRA8 = 1,
+    HALFLIT_FORMAT_RGBA8_PREMULTIPLIED = 2,
+    HALFLIT_FORMAT_BGRA8_PREMULTIPLIED = 3,
+    HALFLIT_FORMAT_RGBA_F32 = 4,
+    HALFLIT_FORMAT_RGBA_F32_PREMULTIPLIED = 5
+};
+typedef struct halflit_target {
+    size_t size;
+    int32_t width, height;
+    int32_t format;
+    int32_t region_alone;
+    void* pixels;
+    size_t row_bytes;
+    float* depth;
+    size_t depth_row_bytes;
+    float* normal;
+    size_t normal_row_bytes;
+    float* shading_normal;
+    size_t shading_normal_row_bytes;
+    float* albedo;
+    size_t albedo_row_bytes;
+    float* position;
+    size_t position_row_bytes;
+    uint32_t* instance;
+    size_t instance_row_bytes;
+    uint32_t* triangle;
+    size_t triangle_row_bytes;
+    uint32_t* lights;
+    size_t lights_row_bytes;
+    float* coverage;
+    size_t coverage_row_bytes;
+} halflit_target;
+HALFLIT_C_API int32_t halflit_target_init(halflit_target* target, size_t size);
+typedef struct halflit_report {
+    size_t size;
+    double total_ms;
+    double prepare_ms;
+    double plan_ms;
+    double shadows_ms;
+    double cull_ms, transform_ms, bin_ms;
+    double tiles_ms;
+    double error_budget;
+    double error_codes;
+    uint64_t triangles_submitted;
+    uint64_t triangles_drawn;
+    uint64_t triangles_not_finite;
+    uint64_t pixels_visible;
+    uint64_t fragments_shaded;
+    uint64_t nan_pixels;
+    char isa[16];
+    int32_t error_within;
+    int32_t threads;
+    int32_t warnings;
+    int32_t reserved;
+} halflit_report;
+HALFLIT_C_API int32_t halflit_render(halflit_renderer* renderer, const halflit_scene* scene, const halflit_lighting* lighting,
+                                     const halflit_camera* camera, const halflit_settings* settings, const halflit_target* target,
+                                     halflit_report* report);
+HALFLIT_C_API int32_t halflit_renderer_get_warning(const halflit_renderer* renderer, int32_t index, const char** text);
+HALFLIT_C_API uint64_t halflit_pixel_hash(const void* bytes, size_t count);
+HALFLIT_C_API int32_t halflit_write_image(const char* path, const halflit_target* target);
+typedef void (*halflit_write)(void* user, const void* bytes, size_t count);
+HALFLIT_C_API int32_t halflit_encode_image(const char* format, const halflit_target* target, halflit_write write, void* user);
+#ifdef __cplusplus
+}
+#endif
+#endif
