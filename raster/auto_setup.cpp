@@ -126,8 +126,7 @@ float complete(Lighting& light, const Bounds& bounds, const Camera& camera, cons
         if (light.environment == nullptr || !light.environment->studio) add_share(1.0f);
     } else if (has_lights && dark &&
                (options.studio == StudioUse::under_lights || (unknown_unit && options.studio == StudioUse::for_dark))) {
-        const bool sun =
-            std::any_of(light.lights.begin(), light.lights.end(), [](const Light& one) { return one.type == LightType::directional; });
+        const bool sun = std::any_of(light.lights.begin(), light.lights.end(), [](const Light& one) { return !kind_of(one.type).placed; });
         add_share(sun || !unknown_unit ? kStudioUnderSun : kStudioUnderLamps);
     } else if (unknown_unit && dark) {
         light.ambient = soft_ambient(light, bounds);

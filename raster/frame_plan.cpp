@@ -50,7 +50,7 @@ shading::SceneFacts scene_facts(const PreparedData& scene, std::span<const Light
     const double position_error = kPositionError * largest_coordinate(scene.bounds());
     for (const LightPlan& light : lights) {
         if (memory.stop != nullptr) memory.stop->check();
-        if (light.type == LightType::directional) {
+        if (!kind_of(light.type).placed) {
             facts.light_attenuation.push_back(1.0);
             facts.light_farthest_squared.push_back(0.0);
             continue;

@@ -105,7 +105,7 @@ std::vector<Light> lights_of(const Controls& controls, const std::vector<Light>&
         const LightControl& control = controls.lights[i];
         lights[i].color_linear = lights[i].color_linear * (control.on ? control.intensity : 0.0f);
         const bool turned = control.azimuth_deg != untouched[i].azimuth_deg || control.elevation_deg != untouched[i].elevation_deg;
-        if (!turned || lights[i].type != LightType::directional) continue;
+        if (!turned || kind_of(lights[i].type).placed) continue;
         const SinCos az = sin_cos(static_cast<double>(control.azimuth_deg) * kDegree);
         const SinCos el = sin_cos(static_cast<double>(control.elevation_deg) * kDegree);
         lights[i].direction_ws = to_float(Vec3d{az.sin * el.cos, el.sin, az.cos * el.cos} * -1.0);

@@ -121,7 +121,7 @@ std::vector<std::size_t> lights_by_strength(const std::vector<Light>& lights, co
         const Light& light = lights[i];
         const double color = static_cast<double>(std::max({light.color_linear.x, light.color_linear.y, light.color_linear.z}));
         double strength = color;
-        if (light.type != LightType::directional && story.hit) {
+        if (kind_of(light.type).placed && story.hit) {
             const double distance = length(to_double(light.position_ws) - story.position);
             if (light.range > 0.0f && distance > static_cast<double>(light.range)) continue;
             strength = color / std::max(distance * distance, 1e-8);
@@ -136,7 +136,7 @@ std::vector<std::size_t> lights_by_strength(const std::vector<Light>& lights, co
 
 void tell_geometry(const Light& light, const PixelStory& story, LightShare& share) {
     Vec3d to_light = to_double(light.direction_ws) * -1.0;
-    if (light.type != LightType::directional) {
+    if (kind_of(light.type).placed) {
         to_light = to_double(light.position_ws) - story.position;
         share.distance = length(to_light);
     }

@@ -31,8 +31,7 @@ std::string geometry_text(const PixelStory& story) {
 }
 
 std::string share_text(const LightShare& share) {
-    std::string text =
-        fmt::format("{:2} {:<11} {}\n", share.index, cli::kLightTypeNames[static_cast<std::size_t>(share.type)], numbers(share.linear));
+    std::string text = fmt::format("{:2} {:<11} {}\n", share.index, kind_of(share.type).name, numbers(share.linear));
     text += fmt::format("   N.L {:.3f}, lobe {:.3f}, Lambert {:.3f}, ", share.cosine, share.lobe, share.lambert);
     return text + (share.unhidden ? fmt::format("seen {:.0f} %\n", 100.0 * *share.unhidden) : "no light\n");
 }

@@ -18,7 +18,7 @@ Vec3d level(const Lighting& of, const Bounds& bounds) {
     Vec3d sum{};
     for (const Light& light : of.all_lights()) {
         double share = 1.0;
-        if (light.type != LightType::directional) {
+        if (kind_of(light.type).placed) {
             const double distance = length(to_double(light.position_ws) - center);
             if (light.range > 0.0f && distance - radius >= static_cast<double>(light.range)) continue;
             // The lower limit keeps a lamp close to the centre from dominating the sum.

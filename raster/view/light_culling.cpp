@@ -40,7 +40,7 @@ bool zero_in(const LightPlan& light, const double (&low)[3], const double (&high
     }
     const double end = end_squared(light);
     if (end > 0.0 && nearest_squared > end * kMargin) return true;
-    if (light.type != LightType::spot || nearest_squared == 0.0) return false;
+    if (!kind_of(light.type).cone || nearest_squared == 0.0) return false;
     // The box's bounding sphere has radius r and distance d: from the light it fills a cone of half angle asin(r / d).
     double offset[3], r_squared = 0.0, d_squared = 0.0, along = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -67,9 +67,9 @@ LightCuller::LightCuller(std::span<const LightPlan> lights) {
     double low[3] = {1e300, 1e300, 1e300}, high[3] = {-1e300, -1e300, -1e300};
     for (std::uint32_t i = 0; i < lights.size(); ++i) {
         const LightPlan& light = lights[i];
-        if (light.type == LightType::directional || end_squared(light) == 0.0) {
+        if (!kind_of(light.type).placed || end_squared(light) == 0.0) {
             always_.push_back(i);
-            any_spot_ |= light.type == LightType::spot;
+            any_spot_ |= kind_of(light.type).cone;
             continue;
         }
         ranged_.push_back(i);
@@ -126,7 +126,7 @@ shading::LightList LightCuller::select(std::span<const LightPlan> lights, const 
     std::vector<std::uint32_t>& kept = scratch.index;
     kept.clear();
     for (const std::uint32_t i : always_)
-        if (lights[i].type != LightType::spot || !zero_in(lights[i], low, high)) kept.push_back(i);
+        if (!kind_of(lights[i].type).cone || !zero_in(lights[i], low, high)) kept.push_back(i);
     for (const Group& group : groups_) {
         bool apart = false;
         for (int axis = 0; axis < 3; ++axis) apart |= group.extent.min[axis] > high[axis] || group.extent.max[axis] < low[axis];

@@ -45,7 +45,7 @@ void set_rows(ShadowMapPlan& map, const ViewAxes& axes, Vec3d eye, double half) 
 
 /// True if the light's range reaches the scene's bounds.
 bool reaches(const LightPlan& light, const Bounds& bounds) {
-    if (light.type == LightType::directional || light.inv_range_squared == 0.0f) return true;
+    if (!kind_of(light.type).placed || light.inv_range_squared == 0.0f) return true;
     const Vec3f c = bounds.center();
     const double distance = length(to_double(light.position) - Vec3d{c.x, c.y, c.z}) - bounds.radius();
     return distance <= 0.0 || distance * distance * light.inv_range_squared < 1.0;
@@ -108,7 +108,7 @@ std::optional<FittedView> instead_of_cube(Vec3d place, double near_z, const Seen
 Choice choose(const LightPlan& light, const Bounds& bounds, const ShadowCasters& casters, const SeenVolume* seen, int side) {
     Choice choice;
     if (!reaches(light, bounds)) return choice;
-    const bool directional = light.type == LightType::directional;
+    const bool directional = !kind_of(light.type).placed;
     const Vec3d place = to_double(directional ? light.to_light : light.position);
     choice.boxes = casters.of_light(place, directional);
     if (choice.boxes.empty()) return choice;
@@ -117,7 +117,7 @@ Choice choose(const LightPlan& light, const Bounds& bounds, const ShadowCasters&
         choice.view = fit_directional(place, choice.boxes, bounds);
         return choice;
     }
-    const double cone = light.type == LightType::spot ? cone_tangent(light) : 0.0;
+    const double cone = kind_of(light.type).cone ? cone_tangent(light) : 0.0;
     std::optional<FittedView> view = fit_lamp(place, choice.boxes, bounds, cone > 0.0 ? std::min(cone, kWidestView) : kWidestView);
     if (!view && cone > 0.0) view = fixed_view(place, unit(to_double(light.to_light)), cone);
     if (!view && seen != nullptr) view = instead_of_cube(place, least_distance(light, bounds), *seen, bounds, side);

@@ -46,7 +46,7 @@ std::vector<LightPlan> light_points(const LightPlan& light, int n) {
     std::vector<LightPlan> points(static_cast<std::size_t>(n), light);
     if (n == 1) return points;
     const auto radius = static_cast<double>(light.shadow_radius);
-    if (light.type == LightType::directional) {
+    if (!kind_of(light.type).placed) {
         const Vec3d axis = unit(vector_of(light.to_light));
         const Vec3d side = unit(cross(axis, absolute(axis.y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0})), other = cross(axis, side);
         const SinCos angle = sin_cos(radius);

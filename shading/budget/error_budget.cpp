@@ -183,7 +183,7 @@ void spend_error_budget(ShadingPlan& plan, double budget_codes, const CodeCosts&
         const double codes = kBudgetShares.cutoff * poorest, least = codes / (costs.at_black() * exposure * most_reflected * light.local);
         for (std::size_t i = 0; i < plan.lights.size(); ++i) {
             LightPlan& one = plan.lights[i];
-            if (one.type == LightType::directional) continue;
+            if (!kind_of(one.type).placed) continue;
             const double cutoff = cutoff_squared(one, least);
             // A cutoff beyond all surfaces would cost a comparison per fragment and leave nothing out.
             one.cutoff_squared = cutoff < facts.light_farthest_squared[i] ? static_cast<float>(cutoff) : 0.0f;

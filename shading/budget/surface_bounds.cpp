@@ -296,8 +296,8 @@ Arriving arriving(const ShadingPlan& plan, double exposure, const SceneFacts& fa
         a.sum += most;
         a.largest = std::max(a.largest, most);
         ++a.count;
-        a.local += light.type != LightType::directional ? 1 : 0;
-        if (light.type != LightType::spot) continue;
+        a.local += kind_of(light.type).placed ? 1 : 0;
+        if (!kind_of(light.type).cone) continue;
         a.cone_error = std::max(a.cone_error, 2e-7 * light.cone_scale);
     }
     return a;

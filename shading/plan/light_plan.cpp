@@ -19,8 +19,9 @@ double versine(float angle_rad) {
 
 bool contributes(const Light& light) {
     if (zero(light.color_linear) || !finite(light.color_linear)) return false;
-    if (light.type != LightType::point && (!finite(light.direction_ws) || zero(light.direction_ws))) return false;
-    return light.type == LightType::directional || finite(light.position_ws);
+    const LightKind& kind = kind_of(light.type);
+    if (kind.aimed && (!finite(light.direction_ws) || zero(light.direction_ws))) return false;
+    return !kind.placed || finite(light.position_ws);
 }
 
 LightPlan plan_light(const Light& light) {
@@ -40,7 +41,7 @@ LightPlan plan_light(const Light& light) {
     plan.cone_cutoff = static_cast<float>(cutoff);
     plan.cone_scale = static_cast<float>(1.0 / std::max(width, 1e-30));  // inner = outer: a step
     plan.brightness = std::max({light.color_linear.x, light.color_linear.y, light.color_linear.z});
-    plan.shadow_radius = clamp_or_low(light.shadow_radius, 0.0f, light.type == LightType::directional ? kMaxLightAngle : 1e9f);
+    plan.shadow_radius = clamp_or_low(light.shadow_radius, 0.0f, kind_of(light.type).placed ? 1e9f : kMaxLightAngle);
     plan.half_cone_power = 0.5f * clamp_or_low(light.cone_power, 0.0f, kMaxConePower);
     return plan;
 }
@@ -51,13 +52,13 @@ void plan_as_parallel_if_far(const Light& light, LightPlan& plan) {
     constexpr double kFar = 1e18;
     const Vec3d p{light.position_ws.x, light.position_ws.y, light.position_ws.z};
     const double distance_squared = dot(p, p);
-    if (plan.type == LightType::directional || distance_squared < kFar * kFar) return;
+    if (!kind_of(plan.type).placed || distance_squared < kFar * kFar) return;
     const Vec3d to_light = p * (1.0 / __builtin_sqrt(distance_squared));
     double attenuation = 1.0 / distance_squared;
     if (light.range > 0.0f && finite(light.range)) {
         attenuation *= range_window(distance_squared / (static_cast<double>(light.range) * static_cast<double>(light.range)));
     }
-    if (plan.type == LightType::spot) {
+    if (kind_of(plan.type).cone) {
         const Vec3d off_axis = to_light - Vec3d{plan.to_light[0], plan.to_light[1], plan.to_light[2]};
         const double off = 0.5 * dot(off_axis, off_axis);  // 1 - cos of the angle to the axis
         const double cone = std::clamp((static_cast<double>(plan.cone_cutoff) - off) * static_cast<double>(plan.cone_scale), 0.0, 1.0);

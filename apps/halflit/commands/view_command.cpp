@@ -29,7 +29,7 @@ Json pixel_json(const viewer::PixelStory& story) {
     Json lights = Json::array();
     for (const viewer::LightShare& share : story.shares)
         lights.push_back({{"light", share.index},
-                          {"type", kLightTypeNames[static_cast<std::size_t>(share.type)]},
+                          {"type", kind_of(share.type).name},
                           {"cosine", share.cosine},
                           {"lobe", share.lobe},
                           {"unhidden", share.unhidden ? Json(*share.unhidden) : Json()},

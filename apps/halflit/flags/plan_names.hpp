@@ -31,9 +31,6 @@ inline constexpr std::string_view kStageNames[kStageCount] = {"base colour textu
                                                               "iridescence",
                                                               "anisotropy"};
 
-/// Indexed by LightType.
-inline constexpr std::string_view kLightTypeNames[] = {"directional", "point", "spot"};
-
 using raster::kAccuracyNames;
 constexpr std::string_view accuracy_name(Accuracy accuracy) { return kAccuracyNames[static_cast<std::size_t>(accuracy)]; }
 

@@ -82,8 +82,8 @@ Result<void> store(T& target, const Result<T>& value) {
 /// `intensity` is stored apart from the colour, so that the two keys may come in either order.
 Result<void> set_light_key(GivenLight& given, float& intensity, std::string_view key, std::string_view value) {
     Light& light = given.light;
-    const bool placed = light.type != LightType::directional;
-    if (key == "dir" && light.type != LightType::point) {
+    const auto [name, placed, aimed, cone] = kind_of(light.type);
+    if (key == "dir" && aimed) {
         const auto direction = parse_vec3(value);
         if (!direction) return tl::unexpected(direction.error());
         if (*direction == Vec3f{0, 0, 0}) return expected("a direction that is not zero", value);
@@ -100,8 +100,8 @@ Result<void> set_light_key(GivenLight& given, float& intensity, std::string_view
         light.shadow_radius = static_cast<float>(static_cast<double>(*degrees) * (kPi / 180.0));
         return {};
     }
-    if (key == "cone" && light.type == LightType::spot) return set_cone(light, value);
-    if (key == "power" && light.type == LightType::spot) return store(light.cone_power, parse_float(value, 0.0f, shading::kMaxConePower));
+    if (key == "cone" && cone) return set_cone(light, value);
+    if (key == "power" && cone) return store(light.cone_power, parse_float(value, 0.0f, shading::kMaxConePower));
     if (key == "intensity") return store(intensity, parse_float(value, 0.0f, 1e9f));
     if (key == "color") {
         const auto color = parse_color(value);
@@ -109,9 +109,8 @@ Result<void> set_light_key(GivenLight& given, float& intensity, std::string_view
         light.color_linear = {color->x, color->y, color->z};
         return {};
     }
-    const std::string_view keys = light.type == LightType::directional ? "dir, color, intensity, size"
-                                  : light.type == LightType::point     ? "pos, color, intensity, range, radius, size"
-                                                                       : "pos, dir, cone, power, color, intensity, range, radius, size";
+    const std::string keys = fmt::format("{}{}{}color, intensity{}, size", placed ? "pos, " : "", aimed ? "dir, " : "",
+                                         cone ? "cone, power, " : "", placed ? ", range, radius" : "");
     return expected(fmt::format("one of {}", keys), key);
 }
 
@@ -204,14 +203,9 @@ Result<GivenLight> parse_light(std::string_view text) {
     const auto parts = split(text, ":;");
     GivenLight given;
     Light& light = given.light;
-    if (parts[0] == "directional")
-        light.type = LightType::directional;
-    else if (parts[0] == "point")
-        light.type = LightType::point;
-    else if (parts[0] == "spot")
-        light.type = LightType::spot;
-    else
-        return expected("directional, point or spot, as in directional:dir=-1,-2,-1:color=#fff:intensity=1", parts[0]);
+    const auto type = light_type_of(parts[0]);
+    if (!type) return expected("directional, point or spot, as in directional:dir=-1,-2,-1:color=#fff:intensity=1", parts[0]);
+    light.type = *type;
     float intensity = 1.0f;
     for (std::size_t i = 1; i < parts.size(); ++i) {
         const std::size_t equals = parts[i].find('=');

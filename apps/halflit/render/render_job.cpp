@@ -66,7 +66,7 @@ Result<void> add_environment(Lighting& light, const RenderOptions& options) {
 /// Gives a light the size that the flags say, unless it has one.
 void soften(Light& light, const Film& film) {
     if (light.shadow_radius > 0.0f) return;
-    light.shadow_radius = light.type == LightType::directional ? film.sun_radius : film.lamp_radius;
+    light.shadow_radius = kind_of(light.type).placed ? film.lamp_radius : film.sun_radius;
 }
 
 /// The light to begin with, and what the flags say of the rest.
@@ -170,7 +170,7 @@ RenderOptions in_drawn_world(RenderOptions options, const SceneSource& source) {
     options.settings.shadow_fade = times(options.settings.shadow_fade, place.scale);
     options.lamp_size = times(options.lamp_size, place.scale);
     for (auto& [light, position] : options.lights) {
-        if (light.type == LightType::directional) continue;
+        if (!kind_of(light.type).placed) continue;
         light.position_ws = to_float(placed(position));
         light.range = times(light.range, place.scale);
         light.source_radius = times(light.source_radius, place.scale);

@@ -30,7 +30,7 @@ std::int64_t peak_memory() {
 Json work_json(const WorkCounts& work) {
     Json stages = Json::object(), lights = Json::object();
     for (std::size_t bit = 0; bit < work.stage_lanes.size(); ++bit) stages[std::string(kStageNames[bit])] = work.stage_lanes[bit];
-    for (std::size_t type = 0; type < work.light_lanes.size(); ++type) lights[std::string(kLightTypeNames[type])] = work.light_lanes[type];
+    for (std::size_t type = 0; type < work.light_lanes.size(); ++type) lights[std::string(kLightKinds[type].name)] = work.light_lanes[type];
     return {{"stages", std::move(stages)},
             {"alpha_test", work.alpha_test_lanes},
             {"lights", std::move(lights)},

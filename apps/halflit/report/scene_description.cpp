@@ -103,9 +103,9 @@ Json counts_json(const Scene& scene, const Lighting& light) {
 Json lights_json(const Lighting& drawn) {
     Json lights = Json::array();
     for (const Light& light : drawn.all_lights()) {
-        Json one{{"type", kLightTypeNames[static_cast<std::size_t>(light.type)]}, {"color", vector_json(light.color_linear)}};
-        if (light.type != LightType::directional) one["position"] = vector_json(light.position_ws);
-        if (light.type != LightType::point) one["direction"] = vector_json(light.direction_ws);
+        Json one{{"type", kind_of(light.type).name}, {"color", vector_json(light.color_linear)}};
+        if (kind_of(light.type).placed) one["position"] = vector_json(light.position_ws);
+        if (kind_of(light.type).aimed) one["direction"] = vector_json(light.direction_ws);
         if (light.range > 0) one["range"] = number(light.range);
         lights.push_back(std::move(one));
     }
@@ -154,10 +154,10 @@ Json material_json(const Material& source, const shading::ShadingPlan& frame, co
 
 /// Number of lights of each type that are computed. Black lights and lights that are not finite are left out.
 Json planned_lights_json(const shading::ShadingPlan& plan) {
-    std::size_t count[std::size(kLightTypeNames)] = {};
+    std::size_t count[std::size(kLightKinds)] = {};
     for (const shading::LightPlan& light : plan.lights) ++count[static_cast<std::size_t>(light.type)];
     Json lights = Json::object();
-    for (std::size_t type = 0; type < std::size(kLightTypeNames); ++type) lights[std::string(kLightTypeNames[type])] = count[type];
+    for (std::size_t type = 0; type < std::size(kLightKinds); ++type) lights[std::string(kLightKinds[type].name)] = count[type];
     return lights;
 }
 

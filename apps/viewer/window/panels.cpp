@@ -105,9 +105,9 @@ bool each_light(Controls& c) {
     for (std::size_t i = 0; i < std::min(c.lights.size(), kMostShown); ++i) {
         LightControl& light = c.lights[i];
         ImGui::PushID(static_cast<int>(i));
-        changed |= ImGui::Checkbox(fmt::format("{} {}", i, cli::kLightTypeNames[static_cast<std::size_t>(light.type)]).c_str(), &light.on);
+        changed |= ImGui::Checkbox(fmt::format("{} {}", i, kind_of(light.type).name).c_str(), &light.on);
         changed |= ImGui::SliderFloat("intensity", &light.intensity, 0.0f, 4.0f, "%.2f");
-        if (light.type == LightType::directional) {
+        if (!kind_of(light.type).placed) {
             changed |= ImGui::SliderFloat("azimuth", &light.azimuth_deg, -180.0f, 180.0f, "%.0f deg");
             changed |= ImGui::SliderFloat("elevation", &light.elevation_deg, -90.0f, 90.0f, "%.0f deg");
         }

@@ -5,6 +5,9 @@
 #include "halflit/math.hpp"
 
 #include <cstdint>
+#include <iterator>
+#include <optional>
+#include <string_view>
 
 namespace halflit {
 
@@ -14,6 +17,30 @@ enum class LightType : std::uint8_t {
     point,        ///< in all directions from a point; falls off with the squared distance
     spot          ///< a point light inside a cone
 };
+
+/// What of a Light counts, by its type: the one list of the kinds of lights.
+struct LightKind {
+    std::string_view name;  ///< in files, flags and reports
+    bool placed = false;    ///< position_ws, range and source_radius; its light falls off with the squared distance
+    bool aimed = false;     ///< direction_ws
+    bool cone = false;      ///< inner_cone_rad, outer_cone_rad and cone_power
+};
+
+/// Indexed by LightType.
+inline constexpr LightKind kLightKinds[] = {
+    {.name = "directional", .aimed = true},
+    {.name = "point", .placed = true},
+    {.name = "spot", .placed = true, .aimed = true, .cone = true},
+};
+
+/// The kind of a type.
+[[nodiscard]] constexpr const LightKind& kind_of(LightType type) { return kLightKinds[static_cast<int>(type)]; }
+/// The type by its name; nothing for another name.
+[[nodiscard]] constexpr std::optional<LightType> light_type_of(std::string_view name) {
+    for (int i = 0; i < static_cast<int>(std::size(kLightKinds)); ++i)
+        if (kLightKinds[i].name == name) return static_cast<LightType>(i);
+    return {};
+}
 
 /// Largest shadow_radius of a directional light; larger ones count as this.
 inline constexpr float kMaxLightAngle = 0.7f;

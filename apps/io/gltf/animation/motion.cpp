@@ -22,7 +22,9 @@ namespace {
 
 /// A name that outlives the file's text.
 std::string_view lasting_type(std::string_view type) {
-    for (const std::string_view known : {"directional", "point", "spot", "perspective", "orthographic"})
+    for (const LightKind& kind : kLightKinds)
+        if (type == kind.name) return kind.name;
+    for (const std::string_view known : {"perspective", "orthographic"})
         if (type == known) return known;
     return {};
 }

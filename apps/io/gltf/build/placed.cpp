@@ -46,23 +46,21 @@ bool set_projection(const file::Camera& source, double scale, Camera& camera) {
 }
 
 std::optional<Light> light_of(const file::Light& source, double scale) {
+    const auto type = light_type_of(source.type);
+    if (!type) return std::nullopt;
     Light light;
-    if (source.type == "point")
-        light.type = LightType::point;
-    else if (source.type == "spot")
-        light.type = LightType::spot;
-    else if (source.type != "directional")
-        return std::nullopt;
-    const double intensity = light.type == LightType::directional ? source.intensity : source.intensity * (scale * scale);
+    light.type = *type;
+    const LightKind& kind = kind_of(*type);
+    const double intensity = kind.placed ? source.intensity * (scale * scale) : source.intensity;
     const auto channel = [&](std::size_t c) {
         const double color = source.color.size() == 3 ? source.color[c] : 1.0;
         return static_cast<float>(std::clamp(color, 0.0, 1e15) * std::clamp(intensity, 0.0, 1e15) / kPi);
     };
     light.color_linear = {channel(0), channel(1), channel(2)};
-    light.shadow_radius = light.type == LightType::directional ? static_cast<float>(std::clamp(source.size, 0.0, 40.0) * (kPi / 180))
-                                                               : static_cast<float>(std::clamp(source.size * scale, 0.0, 1e18));
-    if (light.type != LightType::directional) light.range = static_cast<float>(std::clamp(source.range * scale, 0.0, 1e18));
-    if (light.type == LightType::spot) {
+    light.shadow_radius = kind.placed ? static_cast<float>(std::clamp(source.size * scale, 0.0, 1e18))
+                                      : static_cast<float>(std::clamp(source.size, 0.0, 40.0) * (kPi / 180));
+    if (kind.placed) light.range = static_cast<float>(std::clamp(source.range * scale, 0.0, 1e18));
+    if (kind.cone) {
         light.outer_cone_rad = static_cast<float>(std::clamp(source.outer_cone_angle, 0.0, kPi / 2));
         light.inner_cone_rad = std::min(static_cast<float>(std::clamp(source.inner_cone_angle, 0.0, kPi / 2)), light.outer_cone_rad);
     }

@@ -4,6 +4,7 @@
 #include "apps/io/files/text.hpp"
 #include "apps/io/gltf/file/filler.hpp"
 #include "apps/io/gltf/file/schema.hpp"
+#include "halflit/light.hpp"
 
 #include <fmt/format.h>
 
@@ -391,7 +392,7 @@ inline void end_light(F f, V value) {
 
 inline void put_light_type(F f, V value) {
     f.file.lights.back().type = f.keep(value);
-    if (value.text != "directional" && value.text != "point" && value.text != "spot")
+    if (!light_type_of(value.text))
         f.warn(value.offset, fmt::format("\"{}\" is unknown", printable(value.text, 40)), "the light is left out");
 }
 
