@@ -33,7 +33,7 @@ namespace {
 
 using namespace io::detail;
 
-/// The places where the files may lie that buffers and images name, drawn or not, there or not.
+/// Paths of all files that buffers and images name, whether or not they exist and are drawn.
 std::vector<std::string> files_of(const Document& document) {
     std::set<std::string_view> uris;
     for (const file::Buffer& buffer : document.file.buffers)

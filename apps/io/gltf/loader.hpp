@@ -12,7 +12,7 @@ namespace halflit::io::detail {
 
 /// These throw LoadFailure.
 [[nodiscard]] LoadedScene read_gltf(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options);
-/// Paths at which the files may lie that the model refers to, drawn or not, there or not.
+/// Paths of all files that the model names, whether or not they exist and are drawn.
 [[nodiscard]] std::vector<std::string> files_of_gltf(std::span<const std::byte> bytes, const std::string& base_dir,
                                                      const LoadOptions& options);
 

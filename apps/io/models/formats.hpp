@@ -27,7 +27,7 @@ struct FormatRow {
     Likeness (*likeness)(const FileBegin& begin);
     /// Throws LoadFailure. bytes, folder for files that it refers to, options.
     LoadedScene (*read)(std::span<const std::byte>, const std::string&, const LoadOptions&);
-    /// Paths at which the files may lie that the model refers to, there or not; null: it refers to none. Throws LoadFailure.
+    /// Paths of all files that the model names, whether or not they exist; null: it names none. Throws LoadFailure.
     std::vector<std::string> (*files)(std::span<const std::byte>, const std::string&, const LoadOptions&);
 };
 

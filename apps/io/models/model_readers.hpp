@@ -26,7 +26,7 @@ namespace halflit::io::detail {
 [[nodiscard]] LoadedScene read_stl(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options);
 [[nodiscard]] LoadedScene read_ply(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options);
 [[nodiscard]] LoadedScene read_obj(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options);
-/// Paths at which the files may lie that the model refers to, there or not.
+/// Paths of all files that the model names, whether or not they exist.
 [[nodiscard]] std::vector<std::string> files_of_obj(std::span<const std::byte> bytes, const std::string& base_dir,
                                                     const LoadOptions& options);
 [[nodiscard]] std::vector<std::string> files_of_ply(std::span<const std::byte> bytes, const std::string& base_dir,
