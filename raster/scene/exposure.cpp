@@ -21,7 +21,7 @@ Vec3d level(const Lighting& of, const Bounds& bounds) {
         if (kind_of(light.type).placed) {
             const double distance = length(to_double(light.position_ws) - center);
             if (light.range > 0.0f && distance - radius >= static_cast<double>(light.range)) continue;
-            // The lower limit keeps a lamp close to the centre from dominating the sum.
+            // The lower limit keeps a light close to the centre from dominating the sum.
             const double effective = std::max({distance, radius / 2, 1e-4});
             share = 1.0 / (effective * effective);
         }

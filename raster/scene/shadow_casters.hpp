@@ -21,7 +21,7 @@ struct ShadowCasters {
     Bounds flats;     ///< of all flat triangles
     float slack = 0;  ///< distance that counts as none, world units
 
-    /// Boxes of what casts a shadow on something in the light of a lamp at `place`, or of directional light that comes from `place`.
+    /// Boxes of what casts a shadow on something lit from `place`, or by directional light that comes from `place`.
     [[nodiscard]] std::vector<Bounds> of_light(Vec3d place, bool directional) const;
 };
 

@@ -1,4 +1,4 @@
-// Distances from a point to the surfaces of a scene. They bound the light that a surface can get from a lamp at that point.
+// Distances from a point to the surfaces of a scene. They bound what a surface can get from a light at that point.
 #pragma once
 
 #include "raster/scene/prepared_data.hpp"

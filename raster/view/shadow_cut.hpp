@@ -34,7 +34,7 @@ struct SeenVolume {
 /// True if a camera with a square field of view may see some of it; see can_see() of boxes. half: tangent of half the field of view.
 [[nodiscard]] bool can_see(const ViewAxes& axes, Vec3d eye, double half, const SeenVolume& seen);
 
-/// Depth of its nearest point in a lamp's view; 0 if the view does not see all of it.
+/// Depth of its nearest point in a light's view; 0 if the view does not see all of it.
 [[nodiscard]] double nearest_if_all_seen(const FittedView& view, const SeenVolume& seen);
 
 enum class MapUse { whole, cut, none };  ///< none: nothing that is seen can lie in a shadow

@@ -7,7 +7,7 @@
 namespace halflit::raster {
 namespace {
 
-/// What a lamp sees of the boxes, as tangents.
+/// What a light sees of the boxes, as tangents.
 struct Tangents : Extent {
     bool in_front = true;
 };

@@ -41,7 +41,7 @@ struct Extent {
     Range x, y;
 };
 
-/// Least tangent of half a lamp's view: cameras are no narrower (kMinFov).
+/// Least tangent of half a light's view: cameras are no narrower (kMinFov).
 inline constexpr double kNarrowestView = 1e-5;
 
 /// A square view. Directional: half is half its side, and the middle of its near side is the eye.
@@ -54,7 +54,7 @@ struct FittedView {
     Extent content;     ///< where the boxes are
 };
 
-/// A view from a lamp that is not fitted to anything. half: the tangent of half its angle.
+/// A view from a light that is not fitted to anything. half: the tangent of half its angle.
 [[nodiscard]] inline FittedView fixed_view(Vec3d position, Vec3d back, double half) {
     return {axes_for(back), position, half, 0.0, 0.0, {{-half, half}, {-half, half}}};
 }
@@ -62,7 +62,7 @@ struct FittedView {
 /// The view along parallel light that shows all of `boxes`; its depth is that of `scene`. boxes: at least one.
 [[nodiscard]] FittedView fit_directional(Vec3d to_light, std::span<const Bounds> boxes, const Bounds& scene);
 
-/// The view from a lamp that shows all of `boxes`; nothing if it would be wider than `widest`, the tangent of half its angle.
+/// The view from a light that shows all of `boxes`; nothing if it would be wider than `widest`, the tangent of half its angle.
 [[nodiscard]] std::optional<FittedView> fit_lamp(Vec3d position, std::span<const Bounds> boxes, const Bounds& scene, double widest);
 
 }  // namespace halflit::raster

@@ -70,7 +70,7 @@ bool can_see(const ViewAxes& axes, Vec3d eye, double half, const Bounds& bounds)
     return behind < 8 && beyond[0] < 8 && beyond[1] < 8 && beyond[2] < 8 && beyond[3] < 8;
 }
 
-/// Distance of a lamp's near plane. Geometry closer than the source's radius counts as the lamp itself.
+/// Distance of a light's near plane. Geometry closer than the source's radius counts as the light itself.
 double least_distance(const LightPlan& light, const Bounds& bounds) {
     return std::max({1e-4 * double{bounds.radius()}, __builtin_sqrt(static_cast<double>(light.min_distance_squared)), 1e-30});
 }
@@ -86,7 +86,7 @@ struct Choice {
 /// Wider views than this have larger texels than the faces of a cube. It is the tangent of half the angle.
 constexpr double kWidestView = 2.0;
 
-/// The view along a world axis from a lamp that would get a cube, if all that is seen lies in it and it is then cut. Of several axes it is
+/// The view along a world axis from a light that would get a cube, if all that is seen lies in it and it is then cut. Of several axes it is
 /// the one along which what is seen lies farthest ahead.
 std::optional<FittedView> instead_of_cube(Vec3d place, double near_z, const SeenVolume& seen, const Bounds& bounds, int side) {
     std::optional<FittedView> best;

@@ -73,8 +73,8 @@ Surface coat_surface(const ShadingPlan& plan, const MaterialPlan& material, cons
     Surface s = surface_of(plan, coat_as_metal(material), facts);
     const ClearcoatPlan& coat = material.clearcoat;
     const double most = coat.factor;
-    s.albedo = 0.0;               // a coat scatters nothing
-    s.matt = s.shiny = Factor{};  // the blue channel of its texture of roughness has no meaning
+    s.albedo = 0.0;                  // a coat scatters nothing
+    s.diffuse = s.shiny = Factor{};  // the blue channel of its texture of roughness has no meaning
     if (const TexturePlan& texture = material.textures[TextureSlot::clearcoat]; texture.data != nullptr)
         s.base_color = factor_of(most * filter_error(texture, 0, facts.largest_uv), most * least_value(texture, 0));
     return s;

@@ -198,7 +198,7 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
         least_metallic *= least_value(texture, 2);
         const double error = filtered(texture, {2}) * s.metallic;
         const auto f0 = [&](double metallic) { return dielectric + metallic * (least_color - dielectric); };
-        s.matt = factor_of(error, 1.0 - s.metallic);
+        s.diffuse = factor_of(error, 1.0 - s.metallic);
         s.shiny = factor_of(error * std::max(s.albedo, dielectric), std::min(f0(least_metallic), f0(s.metallic)));
     }
     if (s.metallic == 0.0 || !has(kStageMetallicRoughnessTexture)) {
@@ -244,7 +244,7 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
                                 1.0 + strength * (least_value(material.textures[TextureSlot::occlusion], 0) - 1.0));
     }
     if (has(kStageSpecularColor)) {
-        // F0 and its weight, the latter at grazing views; the matt part lacks the largest F0.
+        // F0 and its weight, the latter at grazing views; the diffuse part lacks the largest F0.
         double error = 0.0;
         if (material.textures[TextureSlot::specular_color].data != nullptr)
             error += std::max({material.dielectric_color[0], material.dielectric_color[1], material.dielectric_color[2]}) *
@@ -255,7 +255,7 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
     }
     if (has(kStageIridescence)) {
         s.reflectance = 1.0;
-        s.shiny = {s.shiny.absolute > 0.0 ? s.matt.absolute : 0.0, s.shiny.absolute > 0.0 ? kAnyShare : 0.0};
+        s.shiny = {s.shiny.absolute > 0.0 ? s.diffuse.absolute : 0.0, s.shiny.absolute > 0.0 ? kAnyShare : 0.0};
         const double f0_error = s.dielectric.absolute + (s.metallic > 0.0 ? s.base_color.absolute : 0.0);
         s.dielectric = {film_error(material, s.cosine_error(), f0_error, facts), kAnyShare};
         s.least_albedo = 0.0;
@@ -312,9 +312,9 @@ double rounding_codes(const CodeCosts& costs, const MaterialPlan& material, cons
     const auto has = [&](Stage stage) { return (material.stages & stage) != 0; };
     const double n = material.lobe.power_minus_one + 1.0, scale = material.lobe.scale;
     double codes = costs.relative(kProductError + 1.5e-7 * (has(kStageLights) ? n + light.count : 0.0));
-    double matt = 0.0, shiny = 0.0;                // all light that the albedo reflects; that F0 reflects
+    double diffuse_light = 0.0, shiny = 0.0;       // all light that the albedo reflects; that F0 reflects
     double mirrored_most = 0.0, highlights = 0.0;  // that is mirrored at most, of the surroundings and of lights
-    if (has(kStageUnlit)) matt = exposure;
+    if (has(kStageUnlit)) diffuse_light = exposure;
     if (has(kStageAmbient)) {
         Ambience diffuse, mirrored;
         const double mirror_error = 2.0 * s.normal_error + kMirrorError;
@@ -346,7 +346,7 @@ double rounding_codes(const CodeCosts& costs, const MaterialPlan& material, cons
             codes += costs.absolute(s.albedo * (sums + slope * s.normal_error) * diffuse.most);
             codes += costs.absolute(share * (sums + 16.0 / (1.0 - static_cast<double>(plan.sky_focus)) * mirror_error) * mirrored.most);
         }
-        matt += diffuse.most;
+        diffuse_light += diffuse.most;
         shiny += mirrored.most;
         mirrored_most = share * mirrored.most;
     }
@@ -356,7 +356,7 @@ double rounding_codes(const CodeCosts& costs, const MaterialPlan& material, cons
         if (may_split(plan, material)) codes += costs.absolute(amplitude * excess_error(material.lobe, s.cosine_error()));
         if (light.local > 0) codes += costs.edge(amplitude, 1.0, 3e-7);  // the end of the range
         if (light.cone_error > 0) codes += costs.edge(amplitude, 2.0, light.cone_error);
-        matt += light.sum * scale;
+        diffuse_light += light.sum * scale;
     }
     if (s.specular && material.ggx) {
         codes += ggx_codes(costs, s, light.sum);
@@ -375,14 +375,14 @@ double rounding_codes(const CodeCosts& costs, const MaterialPlan& material, cons
         shiny += strength;
         highlights = s.reflectance * strength;
     }
-    codes += codes_of(costs, s.base_color, matt + s.metallic * std::max(0.0, shiny - matt));
-    codes += codes_of(costs, s.scattered, s.albedo * matt);
-    codes += codes_of(costs, s.dielectric, s.albedo * matt + shiny);
-    codes += codes_of(costs, s.matt, s.albedo * matt) + codes_of(costs, s.shiny, shiny);
+    codes += codes_of(costs, s.base_color, diffuse_light + s.metallic * std::max(0.0, shiny - diffuse_light));
+    codes += codes_of(costs, s.scattered, s.albedo * diffuse_light);
+    codes += codes_of(costs, s.dielectric, s.albedo * diffuse_light + shiny);
+    codes += codes_of(costs, s.diffuse, s.albedo * diffuse_light) + codes_of(costs, s.shiny, shiny);
     codes += codes_of(costs, s.emissive, exposure);
     const double glow = std::max({material.emissive[0], material.emissive[1], material.emissive[2]}) * exposure;
-    codes += codes_of(costs, s.below_sheen, s.albedo * matt + mirrored_most + highlights);
-    codes += codes_of(costs, s.passed, s.albedo * matt + mirrored_most + highlights + glow);
+    codes += codes_of(costs, s.below_sheen, s.albedo * diffuse_light + mirrored_most + highlights);
+    codes += codes_of(costs, s.passed, s.albedo * diffuse_light + mirrored_most + highlights + glow);
     return std::min(codes, 255.0);
 }
 

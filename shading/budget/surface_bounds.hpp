@@ -22,14 +22,15 @@ struct Surface {
     double metallic;                 ///< largest
     double exponent, normalization;  ///< those of the sharpest highlight
     double least_roughness;
-    double least_albedo = 0;          ///< smallest colour that matt light is multiplied by; 0: not known
+    double least_albedo = 0;          ///< smallest colour that diffuse light is multiplied by; 0: not known
     double reflectance_at_least = 0;  ///< F0 of that colour
     double normal_error;
-    Factor base_color, roughness, matt, shiny, occlusion, emissive;  ///< matt: 1 - metallic; shiny: F0, by the metallic texture's error
-    Factor dielectric;                                               ///< F0 where not metallic, by textures of its own
-    Factor scattered;                                                ///< share of the light that enters which does not pass through
-    Factor passed;                                                   ///< share of all light that a coat lets through
-    Factor below_sheen;                                              ///< share of the base's light that sheen leaves
+    Factor base_color, roughness, diffuse, shiny, occlusion,
+        emissive;        ///< diffuse: 1 - metallic; shiny: F0, by the metallic texture's error
+    Factor dielectric;   ///< F0 where not metallic, by textures of its own
+    Factor scattered;    ///< share of the light that enters which does not pass through
+    Factor passed;       ///< share of all light that a coat lets through
+    Factor below_sheen;  ///< share of the base's light that sheen leaves
     bool specular;
 
     [[nodiscard]] double cosine_error() const;  ///< of N.L

@@ -229,9 +229,9 @@ HALFLIT_INLINE V3 reflected(const shading::MaterialPlan& material, const ShadeRo
         if (has(material, kStageEnvironment)) {
             const F a = load(rows.share_a + lane), b = load(rows.share_b + lane), more = load(rows.share_more + lane);
             const F refracted = F(1.0f) - sky_share(a, b, more, F(material.dielectric));
-            const V3 matt = base * ((F(1.0f) - load(rows.metallic + lane)) * refracted);
+            const V3 diffuse = base * ((F(1.0f) - load(rows.metallic + lane)) * refracted);
             const V3 share{sky_share(a, b, more, f0.x), sky_share(a, b, more, f0.y), sky_share(a, b, more, f0.z)};
-            return color + (matt * load3(rows.ambient, lane) + share * load3(rows.mirrored, lane));
+            return color + (diffuse * load3(rows.ambient, lane) + share * load3(rows.mirrored, lane));
         }
     }
     if (has(material, kStageAmbient)) {

@@ -49,20 +49,20 @@ struct SkyShare {
 
 /// As reflected(), of shade_stages.hpp.
 [[gnu::noinline]] static void reflect_colored(const shading::MaterialPlan& material, const ShadeRows& rows, int lane, V3 base, V3& color) {
-    const F metallic = load(rows.metallic + lane), matt = F(1.0f) - metallic, weight = load(rows.specular_weight + lane);
+    const F metallic = load(rows.metallic + lane), diffuse = F(1.0f) - metallic, weight = load(rows.specular_weight + lane);
     const V3 dielectric = load3(rows.dielectric, lane),
              metal = has(material, kStageIridescence) && material.metallic > 0.0f ? below_film(rows, lane, base) : base;
-    const V3 f0 = metal * metallic + dielectric * matt;
+    const V3 f0 = metal * metallic + dielectric * diffuse;
     const F largest = vmax(dielectric.x, vmax(dielectric.y, dielectric.z));
-    const V3 albedo = base * (matt * (F(1.0f) - largest));
+    const V3 albedo = base * (diffuse * (F(1.0f) - largest));
     color = {F(0.0f), F(0.0f), F(0.0f)};
-    const F at_grazing = mad(weight, matt, metallic);
+    const F at_grazing = mad(weight, diffuse, metallic);
     if (has(material, kStageLights))
         color = albedo * load3(rows.diffuse, lane) +
                 (material.ggx ? ggx_reflected(rows, lane, f0, at_grazing) : f0 * load3(rows.specular, lane));
     if (!has(material, kStageAmbient)) return;
     const SkyShare share(material, rows, lane);
-    const V3 scattered = has(material, kStageEnvironment) ? base * (matt * (F(1.0f) - share(largest, weight))) : albedo;
+    const V3 scattered = has(material, kStageEnvironment) ? base * (diffuse * (F(1.0f) - share(largest, weight))) : albedo;
     const V3 mirrored{share(f0.x, at_grazing), share(f0.y, at_grazing), share(f0.z, at_grazing)};
     color = color + (scattered * load3(rows.ambient, lane) + mirrored * load3(rows.mirrored, lane));
 }

@@ -9,7 +9,7 @@ inline constexpr float kMinRoughness = 0.07f;
 inline constexpr float kLeastHalfVector = 1e-3f;
 /// F0 of a coat: an index of refraction of 1.5.
 inline constexpr float kCoatReflectance = 0.04f;
-/// Least distance to a lamp; smaller ones count as this, whatever the lamp's radius.
+/// Least distance to a light; smaller ones count as this, whatever the light's radius.
 inline constexpr float kMinSourceRadius = 1e-4f;
 /// The largest power of the cosine to a spot's axis.
 inline constexpr float kMaxConePower = 1e5f;

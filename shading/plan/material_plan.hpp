@@ -65,7 +65,7 @@ struct MaterialPlan {
     SlotMask slots = 0;        ///< vertex slots that raster interpolates
     float base_color[4] = {1, 1, 1, 1};
     float metallic = 0, roughness = 1;
-    float dielectric = 0.04f, refracted = 0.96f;        ///< F0 where not metallic; 1 - F0, which the matt part gets
+    float dielectric = 0.04f, refracted = 0.96f;        ///< F0 where not metallic; 1 - F0, which the diffuse part gets
     float dielectric_color[3] = {0.04f, 0.04f, 0.04f};  ///< with kStageSpecularColor: F0 where not metallic, before its limit of 1
     float specular_weight = 1;  ///< with kStageSpecularColor: factor of that, and of what is mirrored at grazing views
     float emissive[3] = {0, 0, 0};

@@ -136,7 +136,7 @@ Rgba material_texture(const FrameInputs& frame, const TextureUse& use, SlotMask 
 struct Surface {
     Vec3d base, normal, albedo, f0, to_eye;
     double roughness, occlusion, metallic;
-    Vec3d matt;        ///< base colour where not metallic, and where light does not pass through
+    Vec3d diffuse;     ///< base colour where not metallic, and where light does not pass through
     Vec3d dielectric;  ///< F0 there
     double weight;     ///< factor of what is mirrored at grazing views there
     bool brushed;      ///< longer facets along a direction
@@ -411,7 +411,7 @@ Vec3d lit(const FrameInputs& frame, const Material& material, const Surface& sur
         };
         const double end = surface.at_grazing();
         ambient =
-            scale(surface.matt * around.diffuse->at(surface.normal), 1.0 - share(surface.largest_dielectric(), surface.weight)) *
+            scale(surface.diffuse * around.diffuse->at(surface.normal), 1.0 - share(surface.largest_dielectric(), surface.weight)) *
                 diffuse_seen +
             scale(Vec3d{share(surface.f0.x, end), share(surface.f0.y, end), share(surface.f0.z, end)} * mirrored.radiance, mirrored_seen);
     } else if (specular) {
@@ -525,7 +525,7 @@ void add_film(const FrameInputs& frame, const Material& material, SlotMask avail
     const auto each = [&](Vec3d f0) { return Vec3d{with_film(f0.x, 0), with_film(f0.y, 1), with_film(f0.z, 2)}; };
     surface.dielectric = each(surface.dielectric);
     surface.f0 = scale(each(surface.base), surface.metallic) + scale(surface.dielectric, 1 - surface.metallic);
-    surface.albedo = scale(surface.matt, 1 - surface.largest_dielectric());
+    surface.albedo = scale(surface.diffuse, 1 - surface.largest_dielectric());
 }
 
 /// Gives a surface its direction, and the two widths of its facets.
@@ -564,7 +564,7 @@ Surface surface_of(const FrameInputs& frame, const Material& material, SlotMask 
     if (frame.options.specular != SpecularModel::none) {
         const double dielectric = std::clamp(double{material.dielectric_reflectance}, 0.0, 1.0);
         surface.metallic = material.metallic * mr.b;
-        surface.matt = scale(surface.base, (1 - surface.metallic) * scattered);
+        surface.diffuse = scale(surface.base, (1 - surface.metallic) * scattered);
         const Rgba color = material_texture(frame, material.textures[TextureSlot::specular_color], available, block, lane, white);
         surface.weight = std::clamp(double{material.specular}, 0.0, 1.0) *
                          material_texture(frame, material.textures[TextureSlot::specular], available, block, lane, white).a;
@@ -573,7 +573,7 @@ Surface surface_of(const FrameInputs& frame, const Material& material, SlotMask 
         };
         surface.dielectric = {channel(material.specular_color.x, color.r), channel(material.specular_color.y, color.g),
                               channel(material.specular_color.z, color.b)};
-        surface.albedo = scale(surface.matt, 1 - surface.largest_dielectric());
+        surface.albedo = scale(surface.diffuse, 1 - surface.largest_dielectric());
         surface.f0 = scale(surface.base, surface.metallic) + scale(surface.dielectric, 1 - surface.metallic);
         if (material.is_anisotropic() && (available & 4u) != 0) brush(frame, material, available, block, lane, surface);
         if (material.is_iridescent()) add_film(frame, material, available, block, lane, surface);
@@ -695,11 +695,11 @@ Vec3d coat_light(const FrameInputs& frame, const Material& material, const Coat&
     return sum + scale(hemisphere(frame.ambient, reflection.y), environment_share(0.04, 1.0, roughness, n_dot_v) * seen);
 }
 
-/// Share of the matt light, by luminance, that shadows hide.
+/// Share of the diffuse light, by luminance, that shadows hide.
 double hidden_light(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
                     const Surroundings& around) {
-    FrameInputs matt = frame;
-    matt.options.specular = SpecularModel::none;
+    FrameInputs without_gloss = frame;
+    without_gloss.options.specular = SpecularModel::none;
     Material white;
     white.lobe = material.lobe;
     white.has_own_lobe = material.has_own_lobe;
@@ -708,9 +708,9 @@ double hidden_light(const FrameInputs& frame, const Material& material, SlotMask
     open.hidden = {};
     open.sky = {};
     open.hidden_sky = {};
-    const Surface surface = surface_of(matt, white, available & kBaseSlots, block, lane);
+    const Surface surface = surface_of(without_gloss, white, available & kBaseSlots, block, lane);
     const auto luminance = [&](const Surroundings& light) {
-        const Vec3d c = lit(matt, white, surface, row3(block, kPosX, lane), light);
+        const Vec3d c = lit(without_gloss, white, surface, row3(block, kPosX, lane), light);
         return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
     };
     const double all = luminance(open);

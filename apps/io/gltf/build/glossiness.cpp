@@ -88,11 +88,11 @@ Converted convert(const Factors& factors, const Texture* diffuse, const Texture*
     for (int y = 0; y < height; ++y) {
         check_time();
         for (int x = 0; x < width; ++x) {
-            const std::uint16_t* const matt = of_diffuse.at(x, y);
-            const MetalSurface metal = to_metal(surface_at(factors, matt, of_specular.at(x, y)));
+            const std::uint16_t* const diffuse_map = of_diffuse.at(x, y);
+            const MetalSurface metal = to_metal(surface_at(factors, diffuse_map, of_specular.at(x, y)));
             const auto at = static_cast<std::size_t>(x) * 4;
             for (std::size_t c = 0; c < 3; ++c) base_row[at + c] = to_16_bits(metal.base_color[c]);
-            base_row[at + 3] = to_16_bits(factors.diffuse[3] * matt[3] / 65535);
+            base_row[at + 3] = to_16_bits(factors.diffuse[3] * diffuse_map[3] / 65535);
             rough_row[at] = 65535;
             rough_row[at + 1] = to_16_bits(metal.roughness);
             rough_row[at + 2] = to_16_bits(metal.metallic);
@@ -135,11 +135,11 @@ private:
         const Factors factors = factors_of(document_.file.glossy[static_cast<std::size_t>(document_.file.materials[index].glossy)]);
         const TextureUse diffuse = material.textures[TextureSlot::base_color],
                          specular = material.textures[TextureSlot::metallic_roughness];
-        const Texture *const matt = texture(diffuse), *const shiny = texture(specular);
+        const Texture *const diffuse_map = texture(diffuse), *const shiny = texture(specular);
         material.base_color = {1, 1, 1, 1};
         material.metallic = material.roughness = 1;
         material.dielectric_reflectance = static_cast<float>(kDielectric);
-        if (matt == nullptr && shiny == nullptr) {
+        if (diffuse_map == nullptr && shiny == nullptr) {
             constexpr std::uint16_t kWhite[] = {65535, 65535, 65535, 65535};
             const MetalSurface metal = to_metal(surface_at(factors, kWhite, kWhite));
             const auto color = [&](std::size_t c) { return static_cast<float>(metal.base_color[c]); };
@@ -149,9 +149,9 @@ private:
         }
         originals_.push_back(diffuse.texture);
         originals_.push_back(specular.texture);
-        if (matt == nullptr || shiny == nullptr || same_place(diffuse, specular)) {
-            const auto [base, rough] = converted(factors, diffuse.texture, specular.texture, matt, shiny);
-            material.textures[TextureSlot::base_color] = matt != nullptr ? diffuse : specular;
+        if (diffuse_map == nullptr || shiny == nullptr || same_place(diffuse, specular)) {
+            const auto [base, rough] = converted(factors, diffuse.texture, specular.texture, diffuse_map, shiny);
+            material.textures[TextureSlot::base_color] = diffuse_map != nullptr ? diffuse : specular;
             material.textures[TextureSlot::metallic_roughness] = shiny != nullptr ? specular : diffuse;
             material.textures[TextureSlot::base_color].texture = base;
             material.textures[TextureSlot::metallic_roughness].texture = rough;
@@ -161,18 +161,18 @@ private:
             fmt::format("materials[{}].extensions.KHR_materials_pbrSpecularGlossiness: its two textures lie differently, each is "
                         "converted with the mean of the other",
                         index));
-        const Texture mean_matt = mean_of(*matt), mean_shiny = mean_of(*shiny);
-        Texture base = convert(factors, matt, &mean_shiny).base_color;
-        Texture rough = convert(factors, &mean_matt, shiny).metallic_roughness;
+        const Texture mean_diffuse = mean_of(*diffuse_map), mean_shiny = mean_of(*shiny);
+        Texture base = convert(factors, diffuse_map, &mean_shiny).base_color;
+        Texture rough = convert(factors, &mean_diffuse, shiny).metallic_roughness;
         material.textures[TextureSlot::base_color].texture = add(std::move(base));
         material.textures[TextureSlot::metallic_roughness].texture = add(std::move(rough));
     }
 
-    std::pair<int, int> converted(const Factors& f, int diffuse, int specular, const Texture* matt, const Texture* shiny) {
+    std::pair<int, int> converted(const Factors& f, int diffuse, int specular, const Texture* diffuse_map, const Texture* shiny) {
         const Key key{diffuse,      specular,      f.diffuse[0],  f.diffuse[1],  f.diffuse[2],
                       f.diffuse[3], f.specular[0], f.specular[1], f.specular[2], f.glossiness};
         if (const auto found = known_.find(key); found != known_.end()) return found->second;
-        Converted made = convert(f, matt, shiny);
+        Converted made = convert(f, diffuse_map, shiny);
         const int base = add(std::move(made.base_color)), rough = add(std::move(made.metallic_roughness));
         return known_[key] = {base, rough};
     }

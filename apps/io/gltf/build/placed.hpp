@@ -19,7 +19,7 @@ bool set_projection(const file::Camera& source, double scale, Camera& camera);
 [[nodiscard]] bool is_valid(const file::Camera& source);
 
 /// The light, not placed; nothing if its type is unknown. KHR_lights_punctual gives lux (directional) and candela (point, spot); colours
-/// here are those values divided by pi. scale: of the drawn world; the light of a lamp falls with the squared distance.
+/// here are those values divided by pi. scale: of the drawn world; a point light falls with the squared distance.
 [[nodiscard]] std::optional<Light> light_of(const file::Light& source, double scale);
 
 /// The node's place and its view direction (-z), with scale, shear and mirroring taken out: z is kept, y is made orthogonal to it.

@@ -17,7 +17,7 @@ namespace {
 
 /// Sizes between which products of coordinates stay far from float32's ends.
 constexpr double kSmallest = 0x1p-30, kLargest = 0x1p30;
-/// A scene below this size is scaled too, since distances to a lamp below 1e-4 count as that.
+/// A scene below this size is scaled too, since distances to a light below 1e-4 count as that.
 constexpr double kSmallestScene = 0x1p-10;
 
 Vec3d apply(const Affine& m, Vec3d p) { return transform_direction(m, p) + m.c[3]; }
