@@ -93,7 +93,7 @@ TEST_CASE("promise: a genome's text gives the genome back", "[adversary]") {
 TEST_CASE("promise: a scene read from the file that the search writes has the error of the scene", "[adversary]") {
     Judge judge;
     int compared = 0;
-    for (std::uint64_t i = 0; i < 12; ++i) {
+    for (std::uint64_t i = 0; i < 32; ++i) {
         Trial trial = make_trial(random_genome(7, i), ~AvoidSet{0});
         if (trial.scene.environment != nullptr) continue;
         const std::string flags = written(trial, out_folder(), "read_again");

@@ -107,7 +107,7 @@ TEST_CASE("models: load_model reads glTF as load_gltf does", "[io]") {
 }
 
 TEST_CASE("models: what is no model is refused by name", "[io]") {
-    CHECK(refusal_of(to_bytes("hello, world\n")).find("is no model: expected glTF, GLB, STL, PLY, OBJ or 3MF") != std::string::npos);
+    CHECK(refusal_of(to_bytes("hello, world\n")).find("is no model: expected glTF, GLB, STL, PLY, OBJ, 3MF") != std::string::npos);
     std::string picture = "\x89PNG\r\n";
     for (int i = 0; i < 400; ++i) picture += static_cast<char>(i * 37 % 251);
     CHECK(refusal_of(to_bytes(picture)).find("is no model") != std::string::npos);
