@@ -11,7 +11,7 @@
 namespace halflit::web {
 
 /// Size of pictures without --size, as `halflit render` has it.
-inline constexpr cli::PictureSize kUsualSize = cli::kRenderSize;
+inline constexpr PictureSize kUsualSize = cli::kRenderSize;
 
 class PictureSession {
 public:
