@@ -17,8 +17,5 @@ class LazyModule:
 
 if TYPE_CHECKING:
     import numpy as np
-
-    from . import _picture as pictures
 else:
     np = LazyModule("numpy")
-    pictures = LazyModule(__package__ + "._picture")

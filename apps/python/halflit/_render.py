@@ -5,7 +5,8 @@ import os
 from typing import Any, Dict, Iterable, Optional, Union
 
 from ._errors import UsageError
-from ._lazy import np, pictures  # noqa: F401  (in annotations)
+from ._lazy import np  # noqa: F401  (in annotations)
+from ._lazy_picture import pictures  # noqa: F401  (in annotations)
 from ._light import Light
 from ._picture_options import PictureOptions
 from ._scene import Scene

@@ -8,7 +8,8 @@ from typing import Any, Dict, List, Optional, Tuple, Union
 from . import _c
 from ._camera import Camera
 from ._geometry import Geometry
-from ._lazy import np, pictures
+from ._lazy import np
+from ._lazy_picture import pictures
 from ._lighting import Lighting
 from ._record import chosen
 from ._picture_options import PictureOptions, ViewOptions
