@@ -65,7 +65,7 @@ int32_t halflit_camera_frame(const halflit_scene* scene, float aspect, float azi
         view.azimuth_deg = azimuth_deg;
         view.elevation_deg = elevation_deg;
         view.zoom = zoom;
-        return write_struct(nameless(frame_scene(scene->scene, aspect, view)), to, "halflit_camera");
+        return write_struct(nameless(scene->told(frame_scene(scene->scene, aspect, view))), to, "halflit_camera");
     });
 }
 
@@ -81,15 +81,16 @@ int32_t halflit_picture_request_init(halflit_picture_request* request, size_t si
 int32_t halflit_choose_picture(const halflit_scene* scene, const halflit_picture_request* given, int32_t size[2], halflit_camera* to_camera,
                                halflit_settings* to_settings, halflit_lighting** to_lighting) {
     return reading(__func__, scene, {{to_camera, "camera"}, {to_settings, "settings"}}, [&]() -> Result<void> {
-        const auto request = picture_request(given);
+        auto request = picture_request(given);
         if (!request) return tl::unexpected<Error>(request.error());
+        if (request->camera) request->camera = scene->drawn(*request->camera);
         if (auto ok = check_size(to_camera->size, sizeof(halflit_camera), "halflit_camera"); !ok) return ok;
         if (auto ok = check_size(to_settings->size, sizeof(halflit_settings), "halflit_settings"); !ok) return ok;
         auto choice = choose_picture(scene->scene, *request);
         if (!choice) return tl::unexpected<Error>(choice.error());
         if (to_lighting != nullptr) *to_lighting = new halflit_lighting{std::move(choice->light), scene->scene.lights.size()};
         if (size != nullptr) size[0] = choice->size.width, size[1] = choice->size.height;
-        (void)write_struct(nameless(choice->camera), to_camera, "halflit_camera");  // the sizes were checked before
+        (void)write_struct(nameless(scene->told(choice->camera)), to_camera, "halflit_camera");  // the sizes were checked before
         return write_struct(to_c(choice->settings), to_settings, "halflit_settings");
     });
 }

@@ -55,6 +55,7 @@ Result<Instance> make_instance(const halflit_scene& to, const halflit_instance* 
     if (made->material != -1)
         if (const auto at = check_index(made->material, to.scene.materials.size(), "halflit_instance: material"); !at)
             return tl::unexpected<Error>(at.error());
+    made->world_from_object = turned_upright(made->world_from_object, to.up);
     return made;
 }
 
@@ -287,7 +288,7 @@ int32_t halflit_scene_add_instance(halflit_scene* scene, int32_t mesh, const flo
         if (const auto at = check_index(mesh, scene->scene.meshes.size(), scene->free_meshes, "mesh"); !at)
             return tl::unexpected<Error>(at.error());
         const std::size_t at = scene->free_instances.take(scene->scene.instances.size());
-        scene->put_instance(at, {mesh, world_from_object != nullptr ? mat4(world_from_object) : Mat4{}});
+        scene->put_instance(at, {mesh, turned_upright(world_from_object != nullptr ? mat4(world_from_object) : Mat4{}, scene->up)});
         tell(at, index);
         return {};
     });
@@ -303,7 +304,8 @@ int32_t halflit_scene_add_instances(halflit_scene* scene, int32_t mesh, int32_t 
         tell(instances.size(), first);
         if (count > 0) scene->changes.structure();
         instances.reserve(instances.size() + static_cast<std::size_t>(count));
-        for (std::int32_t i = 0; i < count; ++i) instances.push_back({mesh, mat4(world_from_object + 16 * static_cast<std::size_t>(i))});
+        for (std::int32_t i = 0; i < count; ++i)
+            instances.push_back({mesh, turned_upright(mat4(world_from_object + 16 * static_cast<std::size_t>(i)), scene->up)});
         return {};
     });
 }
@@ -334,7 +336,7 @@ int32_t halflit_scene_place_instances(halflit_scene* scene, const int32_t* indic
         for (std::int32_t i = 0; i < count; ++i) {
             const auto at = static_cast<std::size_t>(index_of(i));
             scene->changes.instance(at);
-            instances[at].world_from_object = mat4(world_from_object + 16 * static_cast<std::size_t>(i));
+            instances[at].world_from_object = turned_upright(mat4(world_from_object + 16 * static_cast<std::size_t>(i)), scene->up);
         }
         return {};
     });

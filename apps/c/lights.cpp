@@ -38,7 +38,7 @@ int32_t halflit_scene_add_light(halflit_scene* scene, const halflit_light* given
         if (!made) return tl::unexpected<Error>(made.error());
         const std::size_t at = scene->free_lights.take(scene->scene.lights.size());
         if (at == scene->scene.lights.size()) scene->scene.lights.emplace_back();
-        scene->scene.lights[at] = *made;
+        scene->scene.lights[at] = turned_upright(*made, scene->up);
         tell(at, index);
         return {};
     });
@@ -50,7 +50,7 @@ int32_t halflit_scene_set_light(halflit_scene* scene, int32_t index, const halfl
         if (!made) return tl::unexpected<Error>(made.error());
         const auto at = check_index(index, scene->scene.lights.size(), scene->free_lights, "light");
         if (!at) return tl::unexpected<Error>(at.error());
-        scene->scene.lights[*at] = *made;
+        scene->scene.lights[*at] = turned_upright(*made, scene->up);
         return {};
     });
 }
@@ -81,7 +81,7 @@ int32_t halflit_scene_add_default_lights(halflit_scene* scene, const halflit_cam
         const auto made = camera(given);
         if (!made) return tl::unexpected<Error>(made.error());
         if (!is_dark(scene->scene)) return {};
-        add_default_lights(scene->scene, *made);
+        add_default_lights(scene->scene, scene->drawn(*made));
         return {};
     });
 }
@@ -91,7 +91,7 @@ int32_t halflit_scene_add_studio(halflit_scene* scene, const halflit_camera* giv
         const auto made = camera(given);
         if (!made) return tl::unexpected<Error>(made.error());
         if (!is_dark(scene->scene)) return {};
-        add_studio(scene->scene, *made);
+        add_studio(scene->scene, scene->drawn(*made));
         return {};
     });
 }

@@ -68,6 +68,27 @@ const Lighting& light_of(const Scene& scene, const halflit_lighting* chosen, std
     return *moved;
 }
 
+/// Turns the planes of directions and positions into the caller's world.
+void turn_planes_back(const halflit_target& target, const Region& region, UpAxis up) {
+    if (up == UpAxis::y) return;
+    const Region part = region.width > 0 ? region : Region{0, 0, target.width, target.height};
+    const Region at = target.region_alone != 0 ? Region{0, 0, part.width, part.height} : part;
+    const auto turn = [&](float* plane, std::size_t row_bytes) {
+        const std::size_t row =
+            row_bytes != 0 ? row_bytes : 12 * static_cast<std::size_t>(target.region_alone != 0 ? at.width : target.width);
+        for (int y = at.y; plane != nullptr && y < at.y + at.height; ++y) {
+            auto* p = reinterpret_cast<float*>(reinterpret_cast<unsigned char*>(plane) + static_cast<std::size_t>(y) * row) + 3 * at.x;
+            for (int x = 0; x < at.width; ++x, p += 3) {
+                const Vec3d told = turned_back(Vec3d{p[0], p[1], p[2]}, up);
+                put(Vec3f{static_cast<float>(told.x), static_cast<float>(told.y), static_cast<float>(told.z)}, p);
+            }
+        }
+    };
+    turn(target.normal, target.normal_row_bytes);
+    turn(target.shading_normal, target.shading_normal_row_bytes);
+    turn(target.position, target.position_row_bytes);
+}
+
 /// Prepares the scene, if it has changed, and draws it.
 Result<RenderReport> draw(halflit_renderer& by, const halflit_scene& scene, const halflit_lighting* lighting, const Camera& camera,
                           const Settings& settings, const Target& target) {
@@ -131,8 +152,9 @@ int32_t halflit_render(halflit_renderer* renderer, const halflit_scene* scene, c
                               const auto memory = target_struct(given_target);
                               if (!memory) return tl::unexpected<Error>(memory.error());
                               renderer->warnings.clear();
-                              auto report = draw(*renderer, *scene, lighting, *from, *how, target(*memory));
+                              auto report = draw(*renderer, *scene, lighting, scene->drawn(*from), *how, target(*memory));
                               if (!report) return tl::unexpected<Error>(report.error());
+                              turn_planes_back(*memory, how->region, scene->up);
                               if (to_report != nullptr)
                                   (void)write_struct(to_c(*report), to_report, "halflit_report");  // its size was checked above
                               renderer->warnings = std::move(report->warnings);

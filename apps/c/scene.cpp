@@ -80,6 +80,17 @@ int32_t halflit_scene_load_memory(const void* bytes, size_t count, const char* n
     });
 }
 
+int32_t halflit_scene_set_up(halflit_scene* scene, int32_t up) {
+    return changing(__func__, scene, {}, [&]() -> Result<void> {
+        if (up < HALFLIT_UP_BY_FORMAT || up > HALFLIT_UP_MINUS_Z) return fail(ErrorCode::usage, "up is no HALFLIT_UP");
+        const Scene& now = scene->scene;
+        if (!now.instances.empty() || !now.lights.empty() || !now.cameras.empty())
+            return fail(ErrorCode::usage, "up: expected a scene without instances, lights and cameras");
+        scene->up = up == HALFLIT_UP_BY_FORMAT ? UpAxis::y : static_cast<UpAxis>(up - 1);
+        return {};
+    });
+}
+
 void halflit_scene_destroy(halflit_scene* scene) { delete scene; }
 
 int32_t halflit_scene_get_counts(const halflit_scene* scene, halflit_counts* counts) {
@@ -148,7 +159,13 @@ int32_t halflit_scene_get_placement(const halflit_scene* scene, double origin[3]
 
 int32_t halflit_scene_get_bounds(const halflit_scene* scene, float min[3], float max[3]) {
     return reading(__func__, scene, {{min, "min"}, {max, "max"}}, [&]() -> Result<void> {
-        const Bounds bounds = scene_bounds(scene->scene);
+        const Bounds drawn = scene_bounds(scene->scene);
+        Bounds bounds;
+        if (!drawn.empty)
+            for (const Vec3f corner : {drawn.min, drawn.max}) {
+                const Vec3d told = turned_back(Vec3d{corner.x, corner.y, corner.z}, scene->up);
+                bounds.add({static_cast<float>(told.x), static_cast<float>(told.y), static_cast<float>(told.z)});
+            }
         constexpr float kInfinity = std::numeric_limits<float>::infinity();
         put(bounds.empty ? Vec3f{kInfinity, kInfinity, kInfinity} : bounds.min, min);
         put(bounds.empty ? Vec3f{-kInfinity, -kInfinity, -kInfinity} : bounds.max, max);
@@ -169,6 +186,7 @@ int32_t halflit_scene_get_instance(const halflit_scene* scene, int32_t index, ha
         const auto at = check_index(index, scene->scene.instances.size(), scene->free_instances, "instance");
         if (!at) return tl::unexpected<Error>(at.error());
         halflit_instance found = to_c(scene->scene.instances[*at]);
+        put(turned_back(scene->scene.instances[*at].world_from_object, scene->up), found.world_from_object);
         if (*at < scene->node_of_instance.size()) found.node = scene->node_of_instance[*at];
         return write_struct(found, instance, "halflit_instance");
     });
@@ -244,7 +262,7 @@ int32_t halflit_scene_get_light(const halflit_scene* scene, int32_t index, halfl
     return reading(__func__, scene, {{light, "light"}}, [&]() -> Result<void> {
         const auto at = check_index(index, scene->scene.lights.size(), scene->free_lights, "light");
         if (!at) return tl::unexpected<Error>(at.error());
-        return write_struct(to_c(scene->scene.lights[*at]), light, "halflit_light");
+        return write_struct(to_c(turned_back(scene->scene.lights[*at], scene->up)), light, "halflit_light");
     });
 }
 

@@ -7,6 +7,7 @@
 #include <halflit/model.hpp>
 #include <halflit/prepared_scene.hpp>
 #include <halflit/scene.hpp>
+#include <halflit/up_axis.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -74,6 +75,7 @@ struct halflit_scene {
     std::vector<std::string> warnings;
     std::vector<halflit::AnimationInfo> animations;
     std::shared_ptr<const halflit::Motion> motion;      ///< null: not kept
+    halflit::UpAxis up = halflit::UpAxis::y;            ///< of the caller's world
     halflit::Placement placement;                       ///< where the file's model lies
     std::vector<halflit::Node> nodes;                   ///< of the file; their instances with the skinned ones
     std::vector<int> node_of_instance;                  ///< of the file's instances
@@ -98,6 +100,17 @@ struct halflit_scene {
     void complete_mesh_of(const halflit::Instance& instance);
     /// Adds what a material, which has changed, requires of its meshes.
     void complete_meshes_of(std::size_t material);
+
+    /// A camera of the caller's world in the one that is drawn.
+    [[nodiscard]] halflit::Camera drawn(halflit::Camera camera) const {
+        camera.world_from_camera = turned_upright(camera.world_from_camera, up);
+        return camera;
+    }
+    /// A camera of the world that is drawn in the caller's.
+    [[nodiscard]] halflit::Camera told(halflit::Camera camera) const {
+        camera.world_from_camera = turned_back(camera.world_from_camera, up);
+        return camera;
+    }
 
     /// Sets the world of an instance, its mesh, and so on. The index may be the next one. Requires: indices in range.
     void put_instance(std::size_t index, const halflit::Instance& given);

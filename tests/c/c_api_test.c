@@ -1146,6 +1146,73 @@ static void test_looks_of_instances(void) {
     free_cube(&other);
 }
 
+static void test_up(void) {
+    // A scene in a world with z up has the picture, and in its own world the parts, of the same scene with y up.
+    static uint8_t pixels[2][PIXELS * 4];
+    static float normals[2][PIXELS * 3], positions[2][PIXELS * 3];
+    const float sides[8 * 3] = {-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0, -1, -1, 3, 1, -1, 3, -1, 1, 3, 1, 1, 3};
+    const float eye[2][3] = {{4, 5, 6}, {4, -6, 5}}, target_at[2][3] = {{0, 1, 0}, {0, 0, 1}}, ups[2][3] = {{0, 1, 0}, {0, 0, 1}};
+    int32_t z;
+    for (z = 0; z < 2; ++z) {
+        halflit_scene* scene;
+        halflit_mesh mesh;
+        halflit_camera camera, chosen;
+        halflit_settings settings;
+        halflit_picture_request request;
+        halflit_lighting* lighting;
+        halflit_renderer* renderer;
+        halflit_target target = make_target(pixels[z]);
+        halflit_instance instance;
+        halflit_light lamp, found;
+        float matrix[16], min[3], max[3];
+        int32_t i;
+        CHECK_OK(halflit_scene_create(&scene));
+        if (z) CHECK_OK(halflit_scene_set_up(scene, HALFLIT_UP_Z));
+        init_cube_mesh(&mesh, -1);
+        mesh.positions = sides;
+        CHECK_OK(halflit_scene_add_mesh(scene, &mesh, NULL));
+        memset(matrix, 0, sizeof matrix);
+        matrix[0] = matrix[15] = 1;
+        if (z) matrix[5] = matrix[10] = 1, matrix[12] = 0.5f, matrix[13] = -0.25f;
+        if (!z) matrix[6] = -1, matrix[9] = 1, matrix[12] = 0.5f, matrix[14] = 0.25f;  // y and z of the mesh become -z and y
+        CHECK_OK(halflit_scene_add_instance(scene, 0, matrix, NULL));
+        CHECK_OK(halflit_light_init(&lamp, sizeof lamp));
+        lamp.direction[0] = 1, lamp.direction[1] = z ? 0.5f : -2, lamp.direction[2] = z ? -2 : -0.5f;
+        CHECK_OK(halflit_scene_add_light(scene, &lamp, NULL));
+        CHECK_OK(halflit_camera_init(&camera, sizeof camera));
+        CHECK_OK(halflit_camera_init(&chosen, sizeof chosen));
+        CHECK_OK(halflit_settings_init(&settings, sizeof settings));
+        CHECK_OK(halflit_camera_look_at(eye[z], target_at[z], ups[z], &camera));
+        CHECK_OK(halflit_picture_request_init(&request, sizeof request));
+        request.camera = &camera;
+        CHECK_OK(halflit_choose_picture(scene, &request, NULL, &chosen, &settings, &lighting));
+        for (i = 0; i < 16; ++i) CHECK(chosen.world_from_camera[i] == camera.world_from_camera[i]);
+        target.normal = normals[z], target.position = positions[z];
+        CHECK_OK(halflit_renderer_create(NULL, &renderer));
+        CHECK_OK(halflit_render(renderer, scene, lighting, &camera, &settings, &target, NULL));
+        instance.size = sizeof instance, found.size = sizeof found;
+        CHECK_OK(halflit_scene_get_instance(scene, 0, &instance));
+        CHECK(memcmp(instance.world_from_object, matrix, sizeof matrix) == 0);
+        CHECK_OK(halflit_scene_get_light(scene, 0, &found));
+        CHECK(found.direction[1] == lamp.direction[1] && found.direction[2] == lamp.direction[2]);
+        CHECK_OK(halflit_scene_get_bounds(scene, min, max));
+        CHECK(max[z ? 2 : 1] == 3 && min[0] == -0.5f && max[z ? 1 : 2] == (z ? 0.75f : 1.25f));
+        CHECK_FAILS(halflit_scene_set_up(scene, HALFLIT_UP_Y), HALFLIT_ERROR_USAGE, "without instances");
+        halflit_renderer_destroy(renderer);
+        halflit_lighting_destroy(lighting);
+        halflit_scene_destroy(scene);
+    }
+    CHECK(halflit_pixel_hash(pixels[0], sizeof pixels[0]) == halflit_pixel_hash(pixels[1], sizeof pixels[1]));
+    {
+        int32_t wrong = 0, i;
+        for (i = 0; i < PIXELS; ++i) {
+            const float *n = normals[0] + 3 * i, *m = normals[1] + 3 * i, *p = positions[0] + 3 * i, *q = positions[1] + 3 * i;
+            wrong += n[0] != m[0] || n[1] != m[2] || n[2] != -m[1] || p[0] != q[0] || p[1] != q[2] || p[2] != -q[1];
+        }
+        CHECK(wrong == 0);
+    }
+}
+
 static void test_removal(void) {
     Cube cube = make_cube();
     const uint8_t white[4] = {255, 255, 255, 255};
@@ -1309,6 +1376,7 @@ int main(void) {
     test_cameras();
     test_looks_of_instances();
     test_removal();
+    test_up();
     test_many_instances();
     test_encoding();
     test_smooth_normals();

@@ -305,6 +305,21 @@ class Parts(unittest.TestCase):
         with self.assertRaisesRegex(halflit.UsageError, "instance 9, but the scene has 5"):
             scene.set_instances(places[:1], [9])
 
+    def test_a_world_with_z_up(self):
+        turn = np.array([[1, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]], float)  # of z-up coordinates to y up
+        upright, scene = halflit.Scene(), halflit.Scene(up="z")
+        lifted = moved(0, 0, 2)
+        scene.add_mesh(CORNERS, FACES, matrix=lifted)
+        upright.add_mesh(CORNERS, FACES, matrix=turn @ lifted)
+        self.assertEqual(render(scene).pixel_hash, render(upright).pixel_hash)
+        self.assertEqual(scene.bounds.tolist(), [[-1, -1, 1], [1, 1, 3]])
+        self.assertTrue(np.array_equal(scene.instance(0)[1], lifted))
+        self.assertTrue(np.allclose(turn @ render(scene).camera.matrix, render(upright).camera.matrix))
+        seen = render(scene, aovs=["position"]).aovs["position"]
+        self.assertGreater(seen[:, :, 2].max(), 2.9)
+        with self.assertRaisesRegex(halflit.UsageError, "up: expected one of"):
+            halflit.Scene(up="w")
+
     def test_nodes_of_a_file(self):
         nodes = {"nodes": [{"name": "arm", "children": [1]}, {"name": "hand", "mesh": 0, "translation": [1, 0, 0]}]}
         scene = halflit.Scene.load(box(more=nodes))

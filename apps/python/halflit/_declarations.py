@@ -175,6 +175,7 @@ int32_t halflit_scene_create(halflit_scene** scene);
 int32_t halflit_scene_load(const char* path, const halflit_load_options* options, halflit_scene** scene);
 int32_t halflit_scene_load_memory(const void* bytes, size_t count, const char* name, const char* base_dir, const halflit_load_options* options, halflit_scene** scene);
 int32_t halflit_scene_create_demo(halflit_scene** scene);
+int32_t halflit_scene_set_up(halflit_scene* scene, int32_t up);
 void halflit_scene_destroy(halflit_scene* scene);
 int32_t halflit_scene_get_counts(const halflit_scene* scene, halflit_counts* counts);
 int32_t halflit_scene_get_warning(const halflit_scene* scene, int32_t index, const char** text);

@@ -23,19 +23,27 @@ _TRUTHS = ("lenient",)
 _NAMED = ("size", "reserved", "allow_external", "allow_external_count", "animation", "time_s", "scene", "variant", "keep_animations", "recentre", "up")
 
 
+def up_axis(name: str) -> int:
+    """The HALFLIT_UP of "z", "-z" and so on."""
+    return chosen(name.replace("-", "minus_") if isinstance(name, str) else name, "UP", "up")
+
+
 class Scene(Geometry, Lighting):
     """Everything that a picture shows: meshes, instances of them, materials, textures, lights, cameras.
 
     Scene() is empty; Scene.load(), Scene.demo() and Scene.from_trimesh() make others. Indices begin at 0. The world is right-handed with
-    y up. Matrices are 4 x 4 arrays with the translation in the last column. Colours are linear light with Rec. 709 primaries, "#rrggbb",
+    y up; Scene(up="z") has another axis up. Matrices are 4 x 4 arrays with the translation in the last column. Colours are linear light with Rec. 709 primaries, "#rrggbb",
     or uint8 sRGB codes. Arrays are read during the call; float32 arrays of the right shape, and int32 or uint32 faces, are handed over
     without a copy.
 
     Threads may use a scene at once: they wait for each other. Different scenes are drawn side by side.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, up: str = "y") -> None:
+        """An empty scene. up: the axis that points up in its world: "x", "y", "z", "-x", "-y" or "-z"."""
         self._start(_c.Handle("scene_create", "scene_destroy"))
+        if up != "y":
+            self._call("scene_set_up", up_axis(up))
 
     @classmethod
     def _of(cls, handle: _c.Handle) -> Scene:
@@ -83,7 +91,7 @@ class Scene(Geometry, Lighting):
             setattr(how, name, truth(value, name) if name in _TRUTHS else value)
         how.put("time_s", time, "time")
         how.keep_animations, how.recentre = truth(keep_animations, "keep_animations"), truth(recentre, "recentre")
-        how.up = 0 if up is None else chosen(up.replace("-", "minus_"), "UP", "up")
+        how.up = 0 if up is None else up_axis(up)
         for name, text in (("animation", animation), ("scene", scene), ("variant", variant)):
             setattr(how, name, None if text is None else _c.bytes_of(str(text), name))
         if isinstance(source, (bytes, bytearray, memoryview)):

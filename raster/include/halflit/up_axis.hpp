@@ -54,6 +54,17 @@ inline constexpr std::string_view kUpAxisNames[] = {"x", "y", "z", "-x", "-y", "
     return v;
 }
 
+/// @{
+/// The same turns of a transform's columns: of what it places.
+[[nodiscard]] HALFLIT_API Mat4 turned_upright(const Mat4& m, UpAxis up);
+[[nodiscard]] HALFLIT_API Mat4 turned_back(const Mat4& m, UpAxis up);
+/// @}
+/// @{
+/// The same turns of a light.
+[[nodiscard]] HALFLIT_API Light turned_upright(Light light, UpAxis up);
+[[nodiscard]] HALFLIT_API Light turned_back(Light light, UpAxis up);
+/// @}
+
 /// Turns a scene of a host's own, whose vertical axis is another: instances, cameras and lights, by quarter turns that take `up` to +y.
 /// Files are turned while they are read (LoadOptions::up).
 HALFLIT_API void turn_upright(Scene& scene, UpAxis up);

@@ -10,7 +10,8 @@
 //   (usage). Structs without an init function are results: set their size, the call fills in the rest. Reserved members are 0.
 // - Memory: Arrays and strings that are handed over are copied, or used during the call alone. Pictures are drawn into the caller's memory.
 // - Numbers: Truth is an int32_t: 0 or not. Strings are UTF-8. Indices begin at 0. A matrix is 16 floats, column after column; points are
-//   columns. The world is right-handed with y up. Colours are linear light with Rec. 709 primaries, if nothing else is said.
+//   columns. The world is right-handed with y up, or as halflit_scene_set_up says. Colours are linear light with Rec. 709 primaries, if
+//   nothing else is said.
 // - Threads: Different scenes and renderers may be used by different threads at once. Several renderers may draw one scene at once; a call
 //   that would change it meanwhile fails (usage). A renderer draws one frame at a time. Destroy nothing that is in use.
 #ifndef HALFLIT_HALFLIT_H
@@ -130,6 +131,10 @@ HALFLIT_C_API int32_t halflit_scene_load_memory(const void* bytes, size_t count,
                                                 const halflit_load_options* options, halflit_scene** scene);
 /// Makes the built-in demo scene, which has lights and a camera.
 HALFLIT_C_API int32_t halflit_scene_create_demo(halflit_scene** scene);
+/// Sets the axis that points up in the caller's world: everything that is given and told from then on is in that world: matrices, lights,
+/// cameras, boxes, and the planes of normals and positions. up: HALFLIT_UP; by default y. For a scene without instances, lights and
+/// cameras.
+HALFLIT_C_API int32_t halflit_scene_set_up(halflit_scene* scene, int32_t up);
 /// Frees a scene. Null is allowed.
 HALFLIT_C_API void halflit_scene_destroy(halflit_scene* scene);
 
