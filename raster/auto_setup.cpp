@@ -149,7 +149,7 @@ Result<const Camera*> find_camera(const std::vector<Camera>& cameras, const std:
     std::size_t index = 0;
     const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
     if (error == std::errc() && end == wanted.data() + wanted.size() && index < cameras.size()) return &cameras[index];
-    if (cameras.empty()) return fail(ErrorCode::usage, "camera: found no camera in the scene, expected '" + wanted + "'");
+    if (cameras.empty()) return fail(ErrorCode::usage, "camera: expected '" + wanted + "', but the scene has no camera");
     return fail(ErrorCode::usage,
                 "camera: expected an index below " + std::to_string(cameras.size()) + " or a camera's name, found '" + wanted + "'");
 }

@@ -46,6 +46,28 @@ Result<Material> make_material(const halflit_scene& to, const halflit_material* 
 /// Whether a mesh, whose struct was read before, asks for smooth normals.
 bool is_smooth(const halflit_mesh* given) { return read_struct(given, default_mesh(), "halflit_mesh")->smooth != 0; }
 
+/// A matrix that places, in the world that is drawn.
+Result<Mat4> placing(const halflit_scene& to, const float m[16]) {
+    for (int i = 0; i < 16; ++i)
+        if (!(m[i] - m[i] == 0.0f)) return fail(ErrorCode::usage, "world_from_object: a number is not finite");
+    const auto is = [](float x, float wanted) { return x > wanted - 1e-5f && x < wanted + 1e-5f; };
+    if (!is(m[3], 0) || !is(m[7], 0) || !is(m[11], 0) || !is(m[15], 1))
+        return fail(ErrorCode::usage, std::string("world_from_object: expected 0 0 0 1 as the last row") +
+                                          (is(m[12], 0) && is(m[13], 0) && is(m[14], 0) ? ": is it transposed?" : ""));
+    return turned_upright(mat4(m), to.up);
+}
+
+Result<std::vector<Mat4>> all_placing(const halflit_scene& to, const float* matrices, std::int32_t count) {
+    std::vector<Mat4> places;
+    places.reserve(static_cast<std::size_t>(std::max(count, 0)));
+    for (std::int32_t i = 0; i < count; ++i) {
+        const auto place = placing(to, matrices + 16 * static_cast<std::size_t>(i));
+        if (!place) return fail(place.error().code, "matrix " + std::to_string(i) + ": " + place.error().message);
+        places.push_back(*place);
+    }
+    return places;
+}
+
 /// An instance whose indices are in the scene.
 Result<Instance> make_instance(const halflit_scene& to, const halflit_instance* given) {
     auto made = instance(given);
@@ -55,7 +77,11 @@ Result<Instance> make_instance(const halflit_scene& to, const halflit_instance* 
     if (made->material != -1)
         if (const auto at = check_index(made->material, to.scene.materials.size(), "halflit_instance: material"); !at)
             return tl::unexpected<Error>(at.error());
-    made->world_from_object = turned_upright(made->world_from_object, to.up);
+    float matrix[16];
+    put(made->world_from_object, matrix);
+    const auto place = placing(to, matrix);
+    if (!place) return tl::unexpected<Error>(place.error());
+    made->world_from_object = *place;
     return made;
 }
 
@@ -287,8 +313,13 @@ int32_t halflit_scene_add_instance(halflit_scene* scene, int32_t mesh, const flo
     return changing(__func__, scene, {}, [&]() -> Result<void> {
         if (const auto at = check_index(mesh, scene->scene.meshes.size(), scene->free_meshes, "mesh"); !at)
             return tl::unexpected<Error>(at.error());
+        const Mat4 identity;
+        float matrix[16];
+        put(identity, matrix);
+        const auto place = placing(*scene, world_from_object != nullptr ? world_from_object : matrix);
+        if (!place) return tl::unexpected<Error>(place.error());
         const std::size_t at = scene->free_instances.take(scene->scene.instances.size());
-        scene->put_instance(at, {mesh, turned_upright(world_from_object != nullptr ? mat4(world_from_object) : Mat4{}, scene->up)});
+        scene->put_instance(at, {mesh, *place});
         tell(at, index);
         return {};
     });
@@ -301,11 +332,12 @@ int32_t halflit_scene_add_instances(halflit_scene* scene, int32_t mesh, int32_t 
         std::vector<Instance>& instances = scene->scene.instances;
         if (count < 0 || static_cast<std::size_t>(count) > kMostInstances - std::min(instances.size(), kMostInstances))
             return fail(ErrorCode::usage, "count: " + std::to_string(count) + ", expected 0 or more, and at most 2^31 - 1 instances");
+        const auto places = all_placing(*scene, world_from_object, count);
+        if (!places) return tl::unexpected<Error>(places.error());
         tell(instances.size(), first);
         if (count > 0) scene->changes.structure();
-        instances.reserve(instances.size() + static_cast<std::size_t>(count));
-        for (std::int32_t i = 0; i < count; ++i)
-            instances.push_back({mesh, turned_upright(mat4(world_from_object + 16 * static_cast<std::size_t>(i)), scene->up)});
+        instances.reserve(instances.size() + places->size());
+        for (const Mat4& place : *places) instances.push_back({mesh, place});
         return {};
     });
 }
@@ -333,10 +365,12 @@ int32_t halflit_scene_place_instances(halflit_scene* scene, const int32_t* indic
         for (std::int32_t i = 0; i < count; ++i)
             if (const auto at = check_index(index_of(i), instances.size(), scene->free_instances, "instance"); !at)
                 return tl::unexpected<Error>(at.error());
+        const auto places = all_placing(*scene, world_from_object, count);
+        if (!places) return tl::unexpected<Error>(places.error());
         for (std::int32_t i = 0; i < count; ++i) {
             const auto at = static_cast<std::size_t>(index_of(i));
             scene->changes.instance(at);
-            instances[at].world_from_object = turned_upright(mat4(world_from_object + 16 * static_cast<std::size_t>(i)), scene->up);
+            instances[at].world_from_object = (*places)[static_cast<std::size_t>(i)];
         }
         return {};
     });

@@ -57,7 +57,11 @@ Result<void> check_camera(const Camera& camera) {
     const Mat4& m = camera.world_from_camera;
     if (determinant(axis(m, 0), axis(m, 1), axis(m, 2)) < 0)
         return fail(ErrorCode::usage, std::string("camera: ") + kMirrors +
-                                          " (cameras of computer vision look along +z with y down: Camera::from_intrinsics takes them)");
+                                          " (cameras of computer vision look along +z with y down: from_intrinsics takes them)");
+    constexpr double kRigid = 1e-2;  // of float32 matrices that were multiplied often
+    for (std::size_t k = 0; k < 3; ++k)
+        if (const double size = length(axis(m, static_cast<int>(k))); size > 1 + kRigid || size < 1 - kRigid)
+            return fail(ErrorCode::usage, "camera: the matrix scales, expected a rotation and a translation");
     if (camera.sides) {
         const ViewSides& s = *camera.sides;
         if (!(s.left < s.right && s.bottom < s.top && raster::finite(s.right - s.left) && raster::finite(s.top - s.bottom)))

@@ -233,8 +233,9 @@ Result<void> PreparedData::note(const SceneChanges& changes) {
             if (i < count)
                 to.push_back(i);
             else
-                result = fail(ErrorCode::usage, std::string(what) + " " + std::to_string(i) +
-                                                    " is told to have changed, but the scene has " + std::to_string(count));
+                result =
+                    fail(ErrorCode::usage, std::string(what) + " " + std::to_string(i) + " is told to have changed, but the scene had " +
+                                               std::to_string(count) + " when it was prepared");
         }
     };
     add("mesh", changes.deformed_meshes, meshes_.size(), pending_.deformed_meshes);

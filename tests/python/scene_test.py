@@ -421,7 +421,7 @@ class Parts(unittest.TestCase):
             halflit.Camera(mirrored)
         with self.assertRaisesRegex(halflit.UsageError, "cannot be combined with azimuth"):
             render(scene, camera=camera, azimuth=3)
-        with self.assertRaisesRegex(halflit.UsageError, "found no camera in the scene, expected '1'"):
+        with self.assertRaisesRegex(halflit.UsageError, "expected '1', but the scene has no camera"):
             render(scene, camera=1)
 
     def test_errors_tell_what_is_wrong(self):

@@ -186,7 +186,7 @@ class Geometry(SceneBase):
         """Places a mesh in the world by a 4 x 4 matrix (the identity), and returns the instance's index.
 
         color: linear RGB or RGBA, or "#rrggbb", times the material's base colour. material: index, in place of the mesh's.
-        visible: False: it is not drawn, casts no shadow, and views do not look at it. name: for name() and names().
+        visible: False: it is not drawn, casts no shadow, and views do not look at it. name: see name().
         """
         with self._lock:
             index = self._add_instance(mesh, self._placement(matrix))

@@ -11,11 +11,11 @@ from ._geometry import Geometry
 from ._lazy import np
 from ._lazy_picture import pictures
 from ._lighting import Lighting
-from ._record import chosen
 from ._picture_options import PictureOptions, ViewOptions
 from ._setup import Setup
 from ._types import Size, Unpack
-from ._values import real, truth
+from ._errors import UsageError
+from ._values import real, shown, truth
 from ._world import World
 
 #: Members of halflit_load_options that are truths, and those that have a keyword of their own.
@@ -25,7 +25,10 @@ _NAMED = ("size", "reserved", "allow_external", "allow_external_count", "animati
 
 def up_axis(name: str) -> int:
     """The HALFLIT_UP of "z", "-z" and so on."""
-    return chosen(name.replace("-", "minus_") if isinstance(name, str) else name, "UP", "up")
+    axes = ("x", "y", "z", "-x", "-y", "-z")  # the order of HALFLIT_UP, from 1
+    if name not in axes:
+        raise UsageError(f"up: expected one of {', '.join(axes)}, found {shown(name)}")
+    return 1 + axes.index(name)
 
 
 class Scene(Geometry, Lighting):

@@ -23,15 +23,15 @@ enum class Topology : std::uint8_t { triangles, lines, points };
 
 /// Counter-clockwise triangles are front faces. Attribute arrays are empty or as long as `positions`.
 struct Mesh {
-    std::string name;              ///< for messages; may be empty
-    std::vector<Vec3f> positions;  ///< object space, any unit
-    std::vector<Vec3f> normals;    ///< any length > 0; lit materials need them (see generate_flat_normals), a frame that draws a lit mesh
-                                   ///< without them has a warning
-    std::vector<Vec4f> tangents;   ///< xyz any length > 0, w = +1 or -1: bitangent = cross(normal, tangent) * w
-    std::vector<Vec2f> uv0, uv1;   ///< v points down: v = 0 is the first row of the texture
-    std::vector<Vec4f> colors;     ///< linear RGBA
-    std::vector<std::uint32_t> indices;  ///< three per triangle, two per line, one per point; each < positions.size()
-    int material = -1;                   ///< index into Scene::materials; -1: the default material
+    std::string name{};              ///< for messages; may be empty
+    std::vector<Vec3f> positions{};  ///< object space, any unit
+    std::vector<Vec3f> normals{};    ///< any length > 0; lit materials need them (see generate_flat_normals), a frame that draws a lit mesh
+                                     ///< without them has a warning
+    std::vector<Vec4f> tangents{};   ///< xyz any length > 0, w = +1 or -1: bitangent = cross(normal, tangent) * w
+    std::vector<Vec2f> uv0{}, uv1{};       ///< v points down: v = 0 is the first row of the texture
+    std::vector<Vec4f> colors{};           ///< linear RGBA
+    std::vector<std::uint32_t> indices{};  ///< three per triangle, two per line, one per point; each < positions.size()
+    int material = -1;  ///< index into Scene::materials; -1: the default material, white, rough and metallic as glTF has it
     /// Lit lines and points need normals as triangles do; those without should have an unlit material.
     Topology topology = Topology::triangles;
 };
@@ -43,11 +43,11 @@ struct Mesh {
 
 /// A mesh placed in the world.
 struct Instance {
-    int mesh = 0;             ///< index into Scene::meshes
-    Mat4 world_from_object;   ///< any affine matrix; the last row is 0 0 0 1
-    int material = -1;        ///< index into Scene::materials, in place of the mesh's; -1: the mesh's
-    Vec4f color{1, 1, 1, 1};  ///< linear, times the material's base colour; alpha counts where the material masks or blends
-    bool visible = true;      ///< false: it is not drawn, casts no shadow, and views do not look at it
+    int mesh = 0;              ///< index into Scene::meshes
+    Mat4 world_from_object{};  ///< any affine matrix; the last row is 0 0 0 1
+    int material = -1;         ///< index into Scene::materials, in place of the mesh's; -1: the mesh's
+    Vec4f color{1, 1, 1, 1};   ///< linear, times the material's base colour; alpha counts where the material masks or blends
+    bool visible = true;       ///< false: it is not drawn, casts no shadow, and views do not look at it
 };
 
 /// Smallest axis-aligned box around a set of points, in the points' space.

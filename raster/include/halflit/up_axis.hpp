@@ -66,7 +66,7 @@ inline constexpr std::string_view kUpAxisNames[] = {"x", "y", "z", "-x", "-y", "
 /// @}
 
 /// Turns a scene of a host's own, whose vertical axis is another: instances, cameras and lights, by quarter turns that take `up` to +y.
-/// Files are turned while they are read (LoadOptions::up).
+/// Files are turned while they are read (LoadOptions::up). What is added later, and cameras, go through turned_upright() one by one.
 HALFLIT_API void turn_upright(Scene& scene, UpAxis up);
 
 }  // namespace halflit

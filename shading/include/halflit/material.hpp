@@ -54,7 +54,7 @@ struct BySlot : std::array<T, kTextureSlots> {
 /// A surface. The defaults are glTF's: white, metallic and rough. Numbers are multiplied by the
 /// textures of the slots with their names, metallic and roughness by the channels of TextureSlot::metallic_roughness.
 struct Material {
-    std::string name;                          ///< for messages; may be empty
+    std::string name{};                        ///< for messages; may be empty
     Vec4f base_color{1, 1, 1, 1};              ///< linear, in [0, 1]; the fourth number is alpha
     float metallic = 1;                        ///< in [0, 1]
     float roughness = 1;                       ///< in [0, 1]
@@ -70,8 +70,8 @@ struct Material {
     /// Invisible but for the shadows on it: black, with the share of its light that is hidden as alpha. Takes diffuse light by its lobe
     /// alone, has no textures, casts no shadow, and belongs to no bounds that views are framed by.
     bool shadow_catcher = false;
-    Lobe lobe;                    ///< of diffuse light
-    BySlot<TextureUse> textures;  ///< texels are made for a slot by the colour space that it names; normals by MipRule::normal
+    Lobe lobe{};                    ///< of diffuse light
+    BySlot<TextureUse> textures{};  ///< texels are made for a slot by the colour space that it names; normals by MipRule::normal
 
     // KHR_materials_specular
     float specular = 1;             ///< weight of the specular reflection of dielectrics, in [0, 1]

@@ -344,7 +344,7 @@ typedef struct halflit_mesh {
     const uint32_t* indices;  ///< 3 for each triangle, 2 for each line, 1 for each point; null: 0 1 2 3 and so on
     size_t vertex_count;      ///< elements of each array
     size_t index_count;       ///< elements of indices; 0 without
-    int32_t material;         ///< index; -1: the default material, white and rough (-1)
+    int32_t material;         ///< index; -1: the default material, white, rough and metallic as glTF has it (-1)
     int32_t topology;         ///< HALFLIT_TOPOLOGY (triangles)
     int32_t smooth;           ///< without normals: those of the smooth surface through the vertices, by the areas of the triangles (0)
     int32_t reserved;
@@ -377,7 +377,8 @@ typedef struct halflit_instance {
 } halflit_instance;
 HALFLIT_C_API int32_t halflit_instance_init(halflit_instance* instance, size_t size);
 
-/// Places a mesh in the world. world_from_object may be null: the identity. index may be null.
+/// Places a mesh in the world. world_from_object may be null: the identity. index may be null. As all functions that take such a matrix, it
+/// fails (usage) for one that is not finite, or whose last row is not 0 0 0 1.
 HALFLIT_C_API int32_t halflit_scene_add_instance(halflit_scene* scene, int32_t mesh, const float world_from_object[16], int32_t* index);
 /// Places a mesh `count` times, by 16 floats each. The indices follow each other; first may be null.
 HALFLIT_C_API int32_t halflit_scene_add_instances(halflit_scene* scene, int32_t mesh, int32_t count, const float* world_from_object,
@@ -662,7 +663,7 @@ enum {
 
 /// The caller's memory for a picture. Row 0 is the top row; row y begins y * row_bytes after the pointer. row_bytes 0: rows without gaps.
 /// Bytes between rows are not touched. A null plane is not drawn; planes show what each pixel's first sample sees. All but 8-bit pixels are
-/// aligned to 4 bytes, rows too.
+/// aligned to 4 bytes, rows too. The first sample lies beside the pixel's middle where a pixel has several.
 typedef struct halflit_target {
     size_t size;
     int32_t width, height;    ///< pixels, of the whole picture: what the camera sees

@@ -24,6 +24,7 @@
 #include "halflit/shapes.hpp"
 #include "halflit/target.hpp"
 #include "halflit/texture.hpp"
+#include "halflit/up_axis.hpp"
 #include "halflit/version.hpp"
 
 /// The public interface. Namespaces inside it belong to the library, and change without notice.
