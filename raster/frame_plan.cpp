@@ -8,6 +8,7 @@
 #include "shading/sky_lights.hpp"
 
 #include <algorithm>
+#include <set>
 
 namespace halflit::raster {
 namespace {
@@ -99,17 +100,17 @@ void add_lobe_warnings(const PreparedData& scene, const shading::ShadingPlan& pl
 void add_normal_warning(const PreparedData& scene, const shading::ShadingPlan& plan, const ShadingSettings& options,
                         std::vector<std::string>& warnings) {
     if (options.rate == ShadingRate::flat) return;
-    int first = -1, others = 0;
+    std::set<int> meshes;
+    int first = -1;
     for (const std::size_t instance : scene.instances_without_normals()) {
         const MaterialPlan& material = plan.materials[scene.material_of(instance)];
         const int index = scene.scene().instances[instance].mesh;
         if ((material.stages & (kStageLights | kStageAmbient | kStageEnvironment)) == 0) continue;
-        if (first < 0)
-            first = index;
-        else
-            ++others;
+        if (first < 0) first = index;
+        meshes.insert(index);
     }
     if (first < 0) return;
+    const std::size_t others = meshes.size() - 1;
     std::string warning = "mesh " + std::to_string(first) + " has no normals: its light does not follow its shape";
     if (others > 0) warning += " (and " + std::to_string(others) + (others == 1 ? " other mesh)" : " other meshes)");
     warnings.push_back(std::move(warning));
@@ -245,6 +246,8 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Lighting& light,
         plan.background = Background(*light.environment, camera, width, height, settings.exposure);
     }
     plan.background_linear = settings.background_linear;
+    float& alpha = plan.background_linear.w;
+    alpha = alpha > 0.0f ? std::min(alpha, 1.0f) : 0.0f;  // an infinite one would make light that is not a number
     plan.exposure = settings.exposure;
     plan.tone_curve = settings.tone_curve;
     for (std::size_t i = 0; i < plan.shading.materials.size(); ++i)

@@ -5,7 +5,6 @@
 #include "raster/kernels/raster_kernels.hpp"
 #include "raster/settings_table.hpp"
 #include "sh/fp_environment.hpp"
-#include "shading/model/numbers.hpp"
 #include "shading/planner.hpp"
 
 #include <algorithm>
@@ -26,9 +25,6 @@ Result<void> check_settings(const Settings& settings, int width, int height) {
         return fail(ErrorCode::usage,
                     name.append(": ").append(raster::number_text(value)).append(", expected ") + setting.values.expected());
     }
-    const Vec4f& background = settings.background_linear;
-    if (!shading::finite(Vec3f{background.x, background.y, background.z}) || !shading::finite(background.w))
-        return fail(ErrorCode::usage, "background: expected finite numbers");
     if (auto ok = shading::check_options(settings.shading); !ok) return ok;
     const Region& r = settings.region;
     if (r.width != 0 && (r.x < 0 || r.y < 0 || r.width < 1 || r.height < 1 || r.width > width - r.x || r.height > height - r.y))

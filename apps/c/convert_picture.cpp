@@ -45,6 +45,8 @@ static_assert(HALFLIT_SPECULAR_GGX == static_cast<int>(SpecularModel::ggx));
 static_assert(HALFLIT_SHADOWS_SOFT_SPLIT == static_cast<int>(ShadowMode::soft_split));
 static_assert(HALFLIT_TONE_REINHARD == static_cast<int>(ToneCurve::reinhard) &&
               HALFLIT_TONE_NEUTRAL == static_cast<int>(ToneCurve::neutral));
+static_assert(HALFLIT_UP_BY_FORMAT == 0 && HALFLIT_UP_X == static_cast<int>(UpAxis::x) + 1 &&
+              HALFLIT_UP_MINUS_Z == static_cast<int>(UpAxis::minus_z) + 1);
 static_assert(HALFLIT_STUDIO_NEVER == static_cast<int>(StudioUse::never) &&
               HALFLIT_STUDIO_UNDER_LIGHTS == static_cast<int>(StudioUse::under_lights));
 

@@ -59,7 +59,7 @@ Result<Mat4> placing(const halflit_scene& to, const float m[16]) {
 
 Result<std::vector<Mat4>> all_placing(const halflit_scene& to, const float* matrices, std::int32_t count) {
     std::vector<Mat4> places;
-    places.reserve(static_cast<std::size_t>(std::max(count, 0)));
+    places.reserve(static_cast<std::size_t>(count));
     for (std::int32_t i = 0; i < count; ++i) {
         const auto place = placing(to, matrices + 16 * static_cast<std::size_t>(i));
         if (!place) return fail(place.error().code, "matrix " + std::to_string(i) + ": " + place.error().message);
@@ -147,9 +147,10 @@ int32_t halflit_scene_add_texture(halflit_scene* scene, const uint8_t* rgba8, in
         auto made = make_texture(rgba8, width, height, row_bytes, color);
         if (!made) return tl::unexpected<Error>(made.error());
         scene->changes.materials();
-        const std::size_t at = scene->free_textures.take(scene->scene.textures.size());
+        const std::size_t at = scene->free_textures.next(scene->scene.textures.size());
         if (at == scene->scene.textures.size()) scene->scene.textures.emplace_back();
         scene->scene.textures[at] = std::move(*made);
+        scene->free_textures.fill(at);
         tell(at, index);
         return {};
     });
@@ -222,12 +223,13 @@ int32_t halflit_scene_add_mesh(halflit_scene* scene, const halflit_mesh* mesh, i
     return changing(__func__, scene, {{mesh, "mesh"}}, [&]() -> Result<void> {
         auto made = make_mesh(scene->scene, mesh);
         if (!made) return tl::unexpected<Error>(made.error());
-        const std::size_t at = scene->free_meshes.take(scene->scene.meshes.size());
+        const std::size_t at = scene->free_meshes.next(scene->scene.meshes.size());
         if (at == scene->scene.meshes.size())
             scene->changes.structure();
         else
             scene->changes.mesh(at);
         scene->put_given_mesh(at, std::move(*made), is_smooth(mesh));
+        scene->free_meshes.fill(at);
         tell(at, index);
         return {};
     });
@@ -318,8 +320,9 @@ int32_t halflit_scene_add_instance(halflit_scene* scene, int32_t mesh, const flo
         put(identity, matrix);
         const auto place = placing(*scene, world_from_object != nullptr ? world_from_object : matrix);
         if (!place) return tl::unexpected<Error>(place.error());
-        const std::size_t at = scene->free_instances.take(scene->scene.instances.size());
+        const std::size_t at = scene->free_instances.next(scene->scene.instances.size());
         scene->put_instance(at, {mesh, *place});
+        scene->free_instances.fill(at);
         tell(at, index);
         return {};
     });
@@ -334,10 +337,11 @@ int32_t halflit_scene_add_instances(halflit_scene* scene, int32_t mesh, int32_t 
             return fail(ErrorCode::usage, "count: " + std::to_string(count) + ", expected 0 or more, and at most 2^31 - 1 instances");
         const auto places = all_placing(*scene, world_from_object, count);
         if (!places) return tl::unexpected<Error>(places.error());
-        tell(instances.size(), first);
+        const std::size_t begin = instances.size();
         if (count > 0) scene->changes.structure();
-        instances.reserve(instances.size() + places->size());
+        instances.reserve(begin + places->size());
         for (const Mat4& place : *places) instances.push_back({mesh, place});
+        tell(begin, first);
         return {};
     });
 }
@@ -360,6 +364,7 @@ int32_t halflit_scene_place_instance(halflit_scene* scene, int32_t index, const 
 
 int32_t halflit_scene_place_instances(halflit_scene* scene, const int32_t* indices, int32_t count, const float* world_from_object) {
     return changing(__func__, scene, {{world_from_object, "world_from_object"}}, [&]() -> Result<void> {
+        if (count < 0) return fail(ErrorCode::usage, "count: " + std::to_string(count) + ", expected 0 or more");
         std::vector<Instance>& instances = scene->scene.instances;
         const auto index_of = [&](std::int32_t i) { return indices != nullptr ? indices[i] : i; };
         for (std::int32_t i = 0; i < count; ++i)
@@ -382,6 +387,7 @@ int32_t halflit_scene_remove_instance(halflit_scene* scene, int32_t index) {
         if (!at) return tl::unexpected<Error>(at.error());
         scene->changes.instance(*at);
         scene->scene.instances[*at].visible = false;
+        scene->scene.instances[*at].material = -1;  // which requires nothing of the mesh
         scene->instance_names.erase(*at);
         scene->free_instances.add(*at);
         return {};

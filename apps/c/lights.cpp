@@ -5,6 +5,7 @@
 
 #include <halflit/image.hpp>
 
+#include <algorithm>
 #include <utility>
 
 using namespace halflit;
@@ -13,8 +14,9 @@ using namespace halflit::c;
 namespace {
 
 bool is_dark(const Scene& scene) {
-    return scene.lights.empty() && scene.environment == nullptr && scene.ambient.sky_linear == Vec3f{} &&
-           scene.ambient.ground_linear == Vec3f{};
+    const auto is_black = [](const Light& light) { return light.color_linear == Vec3f{}; };  // as a removed one
+    return std::all_of(scene.lights.begin(), scene.lights.end(), is_black) && scene.environment == nullptr &&
+           scene.ambient.sky_linear == Vec3f{} && scene.ambient.ground_linear == Vec3f{};
 }
 
 /// Lights the scene by the image, in the place of an earlier environment.
@@ -36,9 +38,10 @@ int32_t halflit_scene_add_light(halflit_scene* scene, const halflit_light* given
     return changing(__func__, scene, {{given, "light"}}, [&]() -> Result<void> {
         const auto made = light(given);
         if (!made) return tl::unexpected<Error>(made.error());
-        const std::size_t at = scene->free_lights.take(scene->scene.lights.size());
+        const std::size_t at = scene->free_lights.next(scene->scene.lights.size());
         if (at == scene->scene.lights.size()) scene->scene.lights.emplace_back();
         scene->scene.lights[at] = turned_upright(*made, scene->up);
+        scene->free_lights.fill(at);
         tell(at, index);
         return {};
     });

@@ -24,6 +24,9 @@ Result<void> hand_over(Result<LoadedScene> loaded, halflit_scene** scene) {
     made->placement = std::move(loaded->placement);
     made->nodes = std::move(loaded->nodes);
     made->node_of_instance = std::move(loaded->node_of_instance);
+    made->free_meshes.keep(made->file_meshes);
+    made->free_instances.keep(made->scene.instances.size());
+    made->free_lights.keep(made->scene.lights.size());
     for (Node& node : made->nodes) node.instances.clear();
     for (std::size_t i = 0; i < made->node_of_instance.size(); ++i)  // skinned ones too
         made->nodes[static_cast<std::size_t>(made->node_of_instance[i])].instances.push_back(static_cast<int>(i));
@@ -143,6 +146,7 @@ int32_t halflit_scene_pose(halflit_scene* scene, const char* animation, double t
             scene->changes.mesh(i);
         }
         if (posed->materials) scene->changes.materials();
+        for (const std::size_t i : scene->free_lights.all()) scene->scene.lights[i].color_linear = {};
         return {};
     });
 }
@@ -207,20 +211,21 @@ namespace {
 
 /// The name of a part that has one; of others, its index is checked.
 Result<std::string*> name_of(halflit_scene& scene, std::int32_t part, std::int32_t index) {
-    const auto of = [&](auto& list, const char* thing) -> Result<std::string*> {
-        const auto at = check_index(index, list.size(), thing);
+    const FreePlaces none;
+    const auto of = [&](auto& list, const char* thing, const FreePlaces& free) -> Result<std::string*> {
+        const auto at = check_index(index, list.size(), free, thing);
         if (!at) return tl::unexpected<Error>(at.error());
         return &list[*at].name;
     };
     switch (part) {
         case HALFLIT_PART_NODE:
-            return of(scene.nodes, "node");
+            return of(scene.nodes, "node", none);
         case HALFLIT_PART_MESH:
-            return of(scene.scene.meshes, "mesh");
+            return of(scene.scene.meshes, "mesh", scene.free_meshes);
         case HALFLIT_PART_MATERIAL:
-            return of(scene.scene.materials, "material");
+            return of(scene.scene.materials, "material", none);
         case HALFLIT_PART_CAMERA:
-            return of(scene.scene.cameras, "camera");
+            return of(scene.scene.cameras, "camera", none);
         case HALFLIT_PART_INSTANCE: {
             const auto at = check_index(index, scene.scene.instances.size(), scene.free_instances, "instance");
             if (!at) return tl::unexpected<Error>(at.error());

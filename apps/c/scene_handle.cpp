@@ -58,6 +58,8 @@ void halflit_scene::put_mesh(std::size_t index, Mesh given) {
     }
     if (index == scene.meshes.size()) scene.meshes.emplace_back();
     scene.meshes[index] = std::move(given);
+    for (const Instance& instance : scene.instances)
+        if (instance.mesh == static_cast<int>(index)) complete_mesh_of(instance);
 }
 
 void halflit_scene::put_given_mesh(std::size_t index, Mesh given, bool smooth) {

@@ -52,17 +52,21 @@ private:
 class FreePlaces {
 public:
     [[nodiscard]] bool has(std::size_t index) const { return free_.contains(index); }
+    [[nodiscard]] const std::set<std::size_t>& all() const { return free_; }
     void add(std::size_t index) { free_.insert(index); }
+    /// The places below `count` are a file's: animations move what lies there, so that they are not used again.
+    void keep(std::size_t count) { kept_ = count; }
     /// The place of a new entry: the lowest free one, or the list's end.
-    [[nodiscard]] std::size_t take(std::size_t count) {
-        if (free_.empty()) return count;
-        const std::size_t first = *free_.begin();
-        free_.erase(free_.begin());
-        return first;
+    [[nodiscard]] std::size_t next(std::size_t count) const {
+        const auto first = free_.lower_bound(kept_);
+        return first != free_.end() ? *first : count;
     }
+    /// A place was filled.
+    void fill(std::size_t index) { free_.erase(index); }
 
 private:
     std::set<std::size_t> free_;
+    std::size_t kept_ = 0;
 };
 
 /// A mesh as it was given, if the scene's mesh has normals or tangents that the library made: its vertices may be split.
@@ -91,8 +95,8 @@ struct halflit_scene {
     mutable std::mutex preparing;  ///< held while `prepared` is made or updated
     mutable std::optional<halflit::PreparedScene> prepared;
 
-    /// Makes `given` the mesh at `index`, which may be the next one. Adds the normals and tangents that its material requires. Requires:
-    /// indices and material in range.
+    /// Makes `given` the mesh at `index`, which may be the next one. Adds the normals and tangents that its material and those of its
+    /// instances require. Requires: indices and material in range.
     void put_mesh(std::size_t index, halflit::Mesh given);
     /// The same for a mesh that the caller gives whole. Remembers whether it came without normals. smooth: it gets them then.
     void put_given_mesh(std::size_t index, halflit::Mesh given, bool smooth);

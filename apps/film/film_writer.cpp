@@ -9,7 +9,7 @@ namespace halflit::film {
 
 std::optional<FilmFormat> film_format_of(std::string_view path) {
     const std::size_t dot = path.find_last_of("./");
-    if (dot == std::string_view::npos || path[dot] == '/') return std::nullopt;
+    if (dot == std::string_view::npos || path[dot] == '/' || path.find('{') != std::string_view::npos) return std::nullopt;
     std::string extension(path.substr(dot + 1));
     for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     if (extension == "gif") return FilmFormat::gif;

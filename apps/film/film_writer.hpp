@@ -15,7 +15,8 @@ namespace halflit::film {
 
 enum class FilmFormat : std::uint8_t { gif, apng, webp };
 
-/// The format by the extension .gif, .apng or .webp of a path, in any case; none for others.
+/// The format by the extension .gif, .apng or .webp of a path, in any case; none for others, and for patterns with {}: a file of each
+/// frame.
 [[nodiscard]] std::optional<FilmFormat> film_format_of(std::string_view path);
 
 /// Fails (usage), with the path and the library that is missing, where this build cannot write the format.

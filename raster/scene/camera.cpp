@@ -60,7 +60,7 @@ Result<void> check_camera(const Camera& camera) {
                                           " (cameras of computer vision look along +z with y down: from_intrinsics takes them)");
     constexpr double kRigid = 1e-2;  // of float32 matrices that were multiplied often
     for (std::size_t k = 0; k < 3; ++k)
-        if (const double size = length(axis(m, static_cast<int>(k))); size > 1 + kRigid || size < 1 - kRigid)
+        if (const double size = length(axis(m, static_cast<int>(k))); raster::finite(size) && (size > 1 + kRigid || size < 1 - kRigid))
             return fail(ErrorCode::usage, "camera: the matrix scales, expected a rotation and a translation");
     if (camera.sides) {
         const ViewSides& s = *camera.sides;

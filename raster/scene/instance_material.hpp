@@ -1,4 +1,4 @@
-// What an instance is drawn with.
+// The material that an instance is drawn with.
 #pragma once
 
 #include "halflit/scene.hpp"

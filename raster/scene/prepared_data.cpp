@@ -4,11 +4,13 @@
 #include "raster/detail/guarded.hpp"
 #include "raster/scene/instance_material.hpp"
 #include "raster/scene/placed_box.hpp"
+#include "shading/model/numbers.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <map>
 #include <numeric>
+#include <set>
 #include <string>
 #include <tuple>
 
@@ -85,6 +87,8 @@ Result<void> PreparedData::check_instance(std::size_t index) const {
     if (mesh < 0 || static_cast<std::size_t>(mesh) >= scene_->meshes.size()) return names("mesh", mesh, scene_->meshes.size());
     if (material >= 0 && static_cast<std::size_t>(material) >= scene_->materials.size())
         return names("material", material, scene_->materials.size());
+    if (!finite(Vec3f{color.x, color.y, color.z}) || !finite(color.w))
+        return fail(ErrorCode::bad_input, "instance " + std::to_string(index) + ": its colour is not finite");
     return {};
 }
 
@@ -157,7 +161,7 @@ void PreparedData::collect() {
     largest_uv_ = 0;
     largest_color_ = 1;
     instances_without_normals_.clear();
-    std::vector<bool> noted(scene_->meshes.size(), false);
+    std::set<std::pair<int, std::size_t>> noted;  // mesh and material
     for (const Mesh& mesh : scene_->meshes)
         available_slots_[mesh.material >= 0 ? static_cast<std::size_t>(mesh.material) : scene_->materials.size()] |= slots_of(mesh);
     for (std::size_t i = 0; i < scene_->instances.size(); ++i) {
@@ -172,11 +176,7 @@ void PreparedData::collect() {
         drawn_materials_[material] = true;
         const Bounds& box = instance_bounds_[i];
         if (!box.empty) object_radii_[material] = std::max(object_radii_[material], static_cast<double>(box.radius()) / kRootOfThree);
-        const auto index = static_cast<std::size_t>(instance.mesh);
-        if (mesh.normals.empty() && !noted[index]) {
-            noted[index] = true;
-            instances_without_normals_.push_back(i);
-        }
+        if (mesh.normals.empty() && noted.emplace(instance.mesh, material).second) instances_without_normals_.push_back(i);
         const PreparedMesh& prepared = this->mesh(instance.mesh);
         largest_uv_ = std::max(largest_uv_, static_cast<double>(prepared.largest_uv));
         largest_color_ = std::max(largest_color_, static_cast<double>(prepared.largest_color));

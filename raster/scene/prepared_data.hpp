@@ -65,7 +65,7 @@ public:
     [[nodiscard]] std::size_t material_of(std::size_t instance) const {
         return material_of_instance_.empty() ? material_index_of(scene_->instances[instance]) : material_of_instance_[instance];
     }
-    /// Drawn instances whose mesh has no normals, the first of each mesh.
+    /// Drawn instances whose mesh has no normals, the first of each mesh and material.
     [[nodiscard]] std::span<const std::size_t> instances_without_normals() const { return instances_without_normals_; }
     /// Half the diagonal of the box of the largest instance with the material, over sqrt(3): for a sphere its radius. World units; 0 if
     /// there is no instance.

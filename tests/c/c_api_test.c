@@ -636,6 +636,33 @@ static void test_coats_have_normals_of_their_own(void) {
     CHECK(hashes[0] != 0 && hashes[0] != hashes[1]);
 }
 
+static void test_changed_meshes_suit_the_materials_of_their_instances(void) {
+    // A square with a material of its own has the same pixels before and after its mesh is given again.
+    uint64_t before;
+    halflit_scene* scene;
+    halflit_material material;
+    halflit_camera camera;
+    halflit_settings settings;
+    halflit_instance instance;
+    int32_t mapped;
+    halflit_material_init(&material, sizeof material);
+    material.unlit = 1;
+    scene = make_square(&material);
+    material.metallic = 0;
+    material.unlit = 0;
+    material.normal_texture.texture = 0;
+    CHECK_OK(halflit_scene_add_material(scene, &material, &mapped));
+    instance.size = sizeof instance;
+    CHECK_OK(halflit_scene_get_instance(scene, 0, &instance));
+    instance.material = mapped;
+    CHECK_OK(halflit_scene_set_instance(scene, 0, &instance));
+    halflit_lighting_destroy(init_setup(scene, &camera, &settings));
+    before = draw_chosen(scene, &camera, &settings);
+    CHECK_OK(halflit_scene_set_vertices(scene, 0, kSquare, NULL, 4));
+    CHECK(draw_chosen(scene, &camera, &settings) == before);
+    halflit_scene_destroy(scene);
+}
+
 static void test_environments(void) {
     Cube cube = make_cube();
     static float grey[16 * 8 * 3];
@@ -756,6 +783,19 @@ static void test_animations(void) {
     CHECK_OK(halflit_scene_pose(posed, "none", 0));
     CHECK(before == draw_chosen(posed, &camera, &settings));
     CHECK_FAILS(halflit_scene_pose(posed, "walk", 0), HALFLIT_ERROR_USAGE, "walk");
+    {
+        // Animations move what lies at the file's places: others are used for what the caller adds.
+        int32_t added;
+        CHECK_OK(halflit_scene_get_instance(posed, 0, &placed));
+        CHECK_OK(halflit_scene_remove_instance(posed, 0));
+        CHECK_OK(halflit_scene_add_instance(posed, placed.mesh, NULL, &added));
+        counts.size = sizeof counts;
+        CHECK_OK(halflit_scene_get_counts(posed, &counts));
+        CHECK(added == counts.instances - 1 && added > 0);
+        CHECK_OK(halflit_scene_pose(posed, "slide", 0.25));
+        CHECK_OK(halflit_scene_get_instance(posed, added, &placed));
+        CHECK(placed.world_from_object[12] == 0.0f);
+    }
     CHECK_FAILS(halflit_scene_pose(NULL, NULL, 0), HALFLIT_ERROR_USAGE, "scene is null");
     halflit_scene_destroy(loaded);
     options.animation = "walk";
@@ -1246,6 +1286,7 @@ static void test_removal(void) {
     CHECK_OK(halflit_light_init(&lamp, sizeof lamp));
     CHECK_OK(halflit_scene_add_light(cube.scene, &lamp, &index));
     CHECK_OK(halflit_scene_remove_light(cube.scene, index));
+    CHECK_FAILS(halflit_scene_place_instances(cube.scene, NULL, -1, (const float*)&lamp), HALFLIT_ERROR_USAGE, "count: -1");
     CHECK_FAILS(halflit_scene_get_light(cube.scene, index, &lamp), HALFLIT_ERROR_USAGE, "light 0 was removed");
     CHECK(draw_setup(cube.scene, NULL) == before);
     CHECK_OK(halflit_scene_add_light(cube.scene, &lamp, &index));
@@ -1364,6 +1405,7 @@ int main(void) {
     test_changes();
     test_tangents_and_normals_follow_the_material();
     test_coats_have_normals_of_their_own();
+    test_changed_meshes_suit_the_materials_of_their_instances();
     test_environments();
     test_points_and_lines();
     if (HAS_FILES) {

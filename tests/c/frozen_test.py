@@ -19,9 +19,11 @@ def parsed(path):
     """(struct -> members, constant -> number, function -> declaration) of a header."""
     with open(path, encoding="utf-8") as file:
         scope = {}
-        exec(declarations(file.read()), scope)  # noqa: S102
+        text = re.sub(r" *//[^\n]*", "", file.read())
+    exec(declarations(text), scope)  # noqa: S102
+    callbacks = {re.search(r"\(\*(\w+)\)", line).group(1): " ".join(line.split()) for line in re.findall(r"typedef [^;{]*\(\*\w+\)[^;]*;", text)}
     functions = {re.search(r"(\w+)\(", line).group(1): line for line in scope["FUNCTIONS"].strip().splitlines()}
-    return {name: members(text) for name, text in scope["STRUCTS"].items()}, scope["CONSTANTS"], functions
+    return {name: members(text) for name, text in scope["STRUCTS"].items()}, scope["CONSTANTS"], {**callbacks, **functions}
 
 
 def members(text):
@@ -59,6 +61,9 @@ def faults(now, then):
             if found != (kind, member) and not (member == "reserved" and found[0] in words):
                 yield f"{name}: member {place} was {kind} {member}, and is {' '.join(found)}"
                 break
+        else:
+            if len(new) > len(old) and ("size_t", "size") not in old:
+                yield f"{name}: has no size, and got {' '.join(new[len(old)])}"
 
 
 def main():

@@ -421,3 +421,17 @@ TEST_CASE("frames: wrong flags are told with what was expected", "[cli][film]") 
     CHECK(message({"--turntable", "0", "-o", "a_{}.png"}).find("--turntable") != std::string::npos);
     CHECK(message({"--turntable", "4", "--dither", "-o", "a_{}.png"}).find("--dither: expected a .gif") != std::string::npos);
 }
+
+#if HALFLIT_HAS_WEBP_FILMS
+TEST_CASE("frames: .webp is one picture, many in one file, or by a pattern a file of each frame", "[cli][film]") {
+    const TemporaryFolder folder;
+    const std::string one = folder.file("one.webp"), film = folder.file("film.webp");
+    draw("demo", {"-o", one});
+    draw("demo", {"--turntable", "4", "-o", film});
+    draw("demo", {"--turntable", "4", "-o", folder.file("frame_{}.webp")});
+    CHECK(contents(one).starts_with("RIFF"));
+    CHECK(contents(one).find("ANIM") == std::string::npos);
+    CHECK(contents(film).find("ANIM") != std::string::npos);
+    for (int n = 0; n < 4; ++n) CHECK(contents(folder.file(fmt::format("frame_{}.webp", n))).starts_with("RIFF"));
+}
+#endif

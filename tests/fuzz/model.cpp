@@ -1,5 +1,5 @@
-// Bytes as an STL, PLY, OBJ or 3MF file. Bytes that begin with '<' are the model's text inside a 3MF package, as the package's checksums
-// would refuse every change of it.
+// Bytes as an STL, PLY, OBJ, OFF or 3MF file. Bytes that begin with '<' are the model's text inside a 3MF package, as the package's
+// checksums would refuse every change of it.
 #include "tests/fuzz/loading.hpp"
 
 #include "halflit/model.hpp"

@@ -2,6 +2,7 @@
 
 #include "apps/io/pictures/image_reader.hpp"
 #include "tests/io/png_maker.hpp"
+#include "tests/support/skip.hpp"
 
 #include "tests/support/catch.hpp"
 
@@ -150,4 +151,13 @@ TEST_CASE("PNG: without memory for the compressor the picture is not encoded, an
     CHECK(failed.error().code == ErrorCode::limit);
     CHECK(failed.error().message == "out of memory while encoding the picture");
     CHECK(png_of(image) == expected);
+}
+
+TEST_CASE("WebP: pixels come back as they were, those with alpha 0 too", "[io][image]") {
+    const Image image = picture_of(37, 19, [](int x, int y, int c) { return c == 3 && x < 12 ? std::uint8_t{0} : noise(x, y, c); });
+    const auto file = encode_image(image, OutputFormat::webp);
+    if (!file) HALFLIT_SKIP("built without libwebp");
+    const auto back = io::decode_image(to_bytes({reinterpret_cast<const char*>(file->data()), file->size()}));
+    REQUIRE(back);
+    CHECK(back->rgba8 == image.rgba8);
 }

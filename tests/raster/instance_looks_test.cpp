@@ -6,6 +6,7 @@
 
 #include "tests/support/catch.hpp"
 
+#include <limits>
 #include <vector>
 
 using namespace halflit;
@@ -120,4 +121,9 @@ TEST_CASE("instances: a material that the scene lacks is refused", "[raster][ins
     const auto prepared = PreparedScene::make(named.scene);
     REQUIRE(!prepared);
     CHECK(prepared.error().message.find("instance 0 names material") != std::string::npos);
+    named.scene.instances[0].material = -1;
+    named.scene.instances[0].color.y = std::numeric_limits<float>::infinity();
+    const auto colored = PreparedScene::make(named.scene);
+    REQUIRE(!colored);
+    CHECK(colored.error().message == "instance 0: its colour is not finite");
 }

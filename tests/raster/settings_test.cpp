@@ -92,17 +92,6 @@ TEST_CASE("settings: samples, tile size, exposure and region are checked", "[ras
     CHECK(outcome(box_scene(), s).ok);
 }
 
-TEST_CASE("settings: a background that is not finite is a usage error", "[raster][settings]") {
-    for (const float wrong : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()})
-        for (float Vec4f::*channel : {&Vec4f::x, &Vec4f::y, &Vec4f::z, &Vec4f::w}) {
-            Settings settings;
-            settings.background_linear.*channel = wrong;
-            const auto checked = check_settings(settings, 8, 8);
-            REQUIRE(!checked);
-            CHECK(checked.error().message == "background: expected finite numbers");
-        }
-}
-
 TEST_CASE("settings: an instruction set that this CPU does not run is a usage error", "[raster][settings]") {
     for (const Isa isa : {Isa::scalar, Isa::sse2, Isa::sse41, Isa::avx2, Isa::avx512, Isa::neon64, Isa::wasm128}) {
         const Outcome o = outcome(box_scene(), {}, 40, 30, {.isa = isa});

@@ -162,6 +162,17 @@ TEST_CASE("target: infinite light under an alpha of 0 is 0 when premultiplied", 
     }
 }
 
+TEST_CASE("target: an alpha of the background beyond 0 to 1 counts as the next of them", "[raster][target]") {
+    for (const float alpha : {kInf, 3.0f, -kInf, -1.0f, std::numeric_limits<float>::quiet_NaN()}) {
+        Settings settings;
+        settings.background_linear = {0.5f, 0.25f, 1, alpha};
+        std::vector<float> linear(4 * 16, -1.0f);
+        REQUIRE(render(Scene{}, Camera{}, settings, {.width = 4, .height = 4, .linear = linear.data(), .premultiplied = true}));
+        const float a = alpha > 0 ? 1.0f : 0.0f;
+        CHECK(std::vector<float>(linear.begin(), linear.begin() + 4) == std::vector<float>{0.5f * a, 0.25f * a, a, a});
+    }
+}
+
 TEST_CASE("target: rows lie a stride apart, and nothing else is written", "[raster][target]") {
     constexpr std::size_t kGuard = 256;
     int drawn = 0;

@@ -40,14 +40,20 @@ Result<void> add_listed(const std::string& list, std::vector<std::string>& scene
     return {};
 }
 
+/// The names of all formats.
+std::string format_names(const char* between, const char* last_between) {
+    constexpr int kLast = static_cast<int>(OutputFormat::exr);
+    std::string names;
+    for (int i = 0; i <= kLast; ++i)
+        names.append(i == 0 ? "" : i == kLast ? last_between : between).append(output_format_name(static_cast<OutputFormat>(i)));
+    return names;
+}
+
 Result<OutputFormat> parse_format(const std::string& text) {
-    std::string expected;
-    for (int i = 0; i <= static_cast<int>(OutputFormat::exr); ++i) {
-        const std::string name(output_format_name(static_cast<OutputFormat>(i)));
-        if (text == name) return output_format_of("picture." + text);  // an error: this build cannot write it
-        expected += (i == 0 ? "" : i == static_cast<int>(OutputFormat::exr) ? " or " : ", ") + name;
-    }
-    return fail(ErrorCode::usage, "expected " + expected + ", found '" + text + "'");
+    for (int i = 0; i <= static_cast<int>(OutputFormat::exr); ++i)
+        if (text == output_format_name(static_cast<OutputFormat>(i)))
+            return output_format_of("picture." + text);  // an error: this build cannot write it
+    return fail(ErrorCode::usage, "expected " + format_names(", ", " or ") + ", found '" + text + "'");
 }
 
 ReadValue read_path(std::string& path) {
@@ -81,7 +87,7 @@ Result<RenderKind> settle_kind(RenderLine& line) {
         return RenderKind::film;
     }
     if (const auto checked = check_film_options(line.film, line.output); !checked) return tl::unexpected(checked.error());
-    if (film::film_format_of(line.output) && !line.format)
+    if (film::film_format_of(line.output) && !line.format && !output_format_of(line.output))  // .webp holds one picture or many
         return fail(ErrorCode::usage, line.output + ": expected --frames or --turntable, which make many frames, or another extension");
     if (words.size() > 1 && !line.output.ends_with('/') && is_folder(line.output)) line.output += '/';
     const bool many = line.output.ends_with('/') || is_pattern(line.output);
@@ -143,10 +149,10 @@ Command render_table(RenderLine& o) {
     groups.push_back(
         {"Output",
          {{"-o,--output", "FILE",
-           "A .png, .jpg, .bmp or .tga file, or linear floats as .exr, .pfm or .hdr; - for PNG on standard output; FOLDER/ or "
+           "A .png, .jpg, .bmp, .tga or .webp file, or linear floats as .exr, .pfm or .hdr; - for PNG on standard output; FOLDER/ or "
            "{stem}.png for one picture of each scene; {folder} and {index:04} are known too (default: SCENE's name.png)",
            read_path(o.output)},
-          {"--format", "png|jpg|bmp|tga|hdr|pfm|exr", "Format of the picture, whatever its name", parsed(o.format, parse_format)},
+          {"--format", format_names("|", "|"), "Format of the picture, whatever its name", parsed(o.format, parse_format)},
           {"--out-dir", "FOLDER", "The same as -o FOLDER/", read_path(o.folder)},
           {"--files-from", "FILE|-", "Draw the scenes that a file names too, one a line; - is standard input", read_path(o.list)},
           {"--shard", "I/N|auto[/N]",

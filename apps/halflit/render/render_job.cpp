@@ -314,7 +314,6 @@ Result<void> change_light(RenderJob& job, const RenderOptions& options) {
 }
 
 Result<void> change_job(RenderJob& job, const RenderOptions& options, PictureSize usual, bool same_light) {
-    std::erase_if(job.warnings, [](const std::string& warning) { return warning.starts_with("the file's camera"); });
     if (const auto chosen = choose_settings(job.settings, options); !chosen) return chosen;
     const RenderOptions placed = in_drawn_world(options, job.source);
     job.settings.shadow_fade = placed.settings.shadow_fade;

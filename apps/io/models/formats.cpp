@@ -75,6 +75,16 @@ constexpr FormatRow kFormats[] = {
     {ModelFormat::off, "OFF", ".off", [](const FileBegin& begin) { return certain_if(is_off_header(begin.word)); }, read_off, nullptr},
 };
 
+constexpr bool each_format_has_a_row() {
+    for (std::size_t format = 0; format < std::size(kFormats); ++format) {
+        int rows = 0;
+        for (const FormatRow& row : kFormats) rows += static_cast<std::size_t>(row.format) == format ? 1 : 0;
+        if (rows != 1) return false;
+    }
+    return true;
+}
+static_assert(each_format_has_a_row());
+
 }  // namespace
 
 std::span<const FormatRow> formats() { return kFormats; }

@@ -104,22 +104,28 @@ private:
     void read_vertices(std::uint64_t count, bool normals, bool colors, bool uvs) {
         builder_.take_entries<Vec3d>(count);
         builder_.take_entries<Vec4f>(count * ((normals ? 1 : 0) + (colors ? 1 : 0) + (uvs ? 1 : 0)));
+        double most = 1;  // of all vertices: a dark code is no share
         for (std::uint64_t i = 0; i < count; ++i) {
             if (i % 65536 == 0) check_time();
             Words words = next_line("a vertex");
             soup_.positions.push_back(vector(words));
             if (normals) soup_.normals.push_back(rounded_near(vector(words), {}));
             if (colors) {
-                double value[4];
-                for (double& one : value) one = number(words);
-                const double most = value[0] > 1 || value[1] > 1 || value[2] > 1 ? 255.0 : 1.0;
-                soup_.colors.push_back({linear_color(value[0] / most), linear_color(value[1] / most), linear_color(value[2] / most), 1});
+                float value[4];
+                for (float& one : value) {
+                    const double given = number(words);
+                    if (given > 1) most = 255;
+                    one = static_cast<float>(given);
+                }
+                soup_.colors.push_back({value[0], value[1], value[2], 1});
             }
             if (uvs) {
                 const double u = number(words), v = number(words);
                 soup_.uvs.push_back({static_cast<float>(u), static_cast<float>(1.0 - v)});
             }
         }
+        for (Vec4f& color : soup_.colors)
+            color = {linear_color(color.x / most), linear_color(color.y / most), linear_color(color.z / most), 1};
         has_normals_ = normals, has_colors_ = colors, has_uvs_ = uvs;
     }
 

@@ -221,7 +221,6 @@ Encoded by_stb(const Image& image) {
 /// A format of pictures: the one place that lists what is written.
 struct FormatRow {
     std::string_view extension, also;  ///< of files, without the point
-    bool linear;                       ///< of floats
     int max_side;                      ///< pixels
     Encoded (*encode)(const Image& image);
     bool (*has)();             ///< whether this build can; null: always
@@ -232,14 +231,14 @@ constexpr int kAnySide = std::numeric_limits<int>::max();
 
 /// Indexed by OutputFormat.
 constexpr FormatRow kFormats[] = {
-    {"png", "", false, kAnySide, by_stb<png_of>, nullptr, ""},
-    {"bmp", "", false, kAnySide, by_stb<bmp_of>, nullptr, ""},
-    {"tga", "", false, 65535, by_stb<tga_of>, nullptr, ""},
-    {"jpg", "jpeg", false, 65535, by_stb<jpg_of>, nullptr, ""},
-    {"webp", "", false, 16383, encode_webp, has_webp, "WebP files need the library libwebp, which this build lacks"},
-    {"hdr", "", true, kAnySide, by_stb<hdr_of>, nullptr, ""},
-    {"pfm", "", true, kAnySide, [](const Image& image) -> Encoded { return pfm_of(image); }, nullptr, ""},
-    {"exr", "", true, kAnySide, exr_of, has_exr, "EXR files need the library OpenEXR, which this build lacks (.pfm has the same floats)"},
+    {"png", "", kAnySide, by_stb<png_of>, nullptr, ""},
+    {"bmp", "", kAnySide, by_stb<bmp_of>, nullptr, ""},
+    {"tga", "", 65535, by_stb<tga_of>, nullptr, ""},
+    {"jpg", "jpeg", 65535, by_stb<jpg_of>, nullptr, ""},
+    {"webp", "", 16383, encode_webp, has_webp, "WebP files need the library libwebp, which this build lacks"},
+    {"hdr", "", kAnySide, by_stb<hdr_of>, nullptr, ""},
+    {"pfm", "", kAnySide, [](const Image& image) -> Encoded { return pfm_of(image); }, nullptr, ""},
+    {"exr", "", kAnySide, exr_of, has_exr, "EXR files need the library OpenEXR, which this build lacks (.pfm has the same floats)"},
 };
 
 const FormatRow& row_of(OutputFormat format) { return kFormats[static_cast<std::size_t>(format)]; }

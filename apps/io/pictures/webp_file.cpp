@@ -81,11 +81,23 @@ Result<DecodedImage> decode_webp(std::span<const std::byte>, const ImageLimits&)
 #if HALFLIT_HAS_WEBP
 
 Result<std::vector<std::uint8_t>> encode_webp(const Image& image) {
-    std::uint8_t* bytes = nullptr;
-    const std::size_t count = WebPEncodeLosslessRGBA(image.rgba8.data(), image.width, image.height, 4 * image.width, &bytes);
-    const std::unique_ptr<std::uint8_t, void (*)(void*)> owner(bytes, WebPFree);
-    if (count == 0) throw std::bad_alloc();  // the size was checked
-    return std::vector<std::uint8_t>(bytes, bytes + count);
+    WebPConfig config;
+    WebPPicture picture;
+    if (WebPConfigInit(&config) == 0 || WebPPictureInit(&picture) == 0) throw std::bad_alloc();
+    const std::unique_ptr<WebPPicture, void (*)(WebPPicture*)> picture_owner(&picture, WebPPictureFree);
+    WebPMemoryWriter writer;
+    WebPMemoryWriterInit(&writer);
+    const std::unique_ptr<WebPMemoryWriter, void (*)(WebPMemoryWriter*)> writer_owner(&writer, WebPMemoryWriterClear);
+    config.lossless = 1;
+    config.exact = 1;  // keeps colours where alpha is 0
+    picture.use_argb = 1;
+    picture.width = image.width;
+    picture.height = image.height;
+    picture.writer = WebPMemoryWrite;
+    picture.custom_ptr = &writer;
+    if (WebPPictureImportRGBA(&picture, image.rgba8.data(), 4 * image.width) == 0 || WebPEncode(&config, &picture) == 0)
+        throw std::bad_alloc();  // the size was checked
+    return std::vector<std::uint8_t>(writer.mem, writer.mem + writer.size);
 }
 
 #else

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import ctypes
+import math
 from typing import Any, Dict, List, Optional, Tuple, Union
 
 from . import _c
@@ -60,11 +61,12 @@ class Geometry(SceneBase):
     def material(self, index: int) -> Material:
         """A material of the scene. Change a member, then call set_material()."""
         material = Material()
-        self._call("scene_get_material", index, ctypes.byref(material._c))
-        return material._copied()
+        with self._lock:  # its name is the scene's
+            self._call("scene_get_material", index, ctypes.byref(material._c))
+            return material._copied()
 
     def set_material(self, index: int, material: Union[Material, Dict[str, Any], None] = None, **members: Any) -> None:
-        """Replaces a material in all meshes that have it, or some of its members: set_material(0, roughness=0.3)."""
+        """Replaces a material in all that has it, or some of its members: set_material(0, roughness=0.3)."""
         with self._lock:
             made = Material._from(self.material(index) if material is None else material, **members)
             self._change("scene_set_material", index, ctypes.byref(made._c))
@@ -236,7 +238,7 @@ class Geometry(SceneBase):
         """Moves an instance, or changes what else is given: see add_instance(). material -1: the mesh's. The next frame recomputes what
         depends on it alone."""
         with self._lock:
-            if (color, material, visible, mesh, name) == (None,) * 5:
+            if all(given is None for given in (color, material, visible, mesh, name)):
                 if matrix is not None:
                     place = self._placement(matrix)
                     self._change("scene_place_instance", index, place.ctypes.data)
@@ -245,7 +247,7 @@ class Geometry(SceneBase):
             if matrix is not None:
                 found.world_from_object = (ctypes.c_float * 16)(*self._placement(matrix).ravel().tolist())
             if color is not None:
-                found.color = (ctypes.c_float * 4)(*color_of(color, "color", 4))
+                found.color = (ctypes.c_float * 4)(*color_of(color, "color", 4, most=math.inf))
             for member, value in (("material", material), ("mesh", mesh)):
                 if value is not None:
                     found.put(member, value, member)
@@ -272,8 +274,9 @@ class Geometry(SceneBase):
     def name(self, part: str, index: int) -> str:
         """Name of a "node", "instance", "mesh", "material" or "camera"; an instance without one has its node's."""
         text = ctypes.c_char_p()
-        self._call("scene_get_name", chosen(part, "PART", "part"), index, ctypes.byref(text))
-        return _c.text_of(text.value)
+        with self._lock:  # the text is the scene's
+            self._call("scene_get_name", chosen(part, "PART", "part"), index, ctypes.byref(text))
+            return _c.text_of(text.value)
 
     def set_name(self, part: str, index: int, name: str) -> None:
         """Names an "instance", a "mesh" or a "material"."""
@@ -283,11 +286,13 @@ class Geometry(SceneBase):
     def nodes(self) -> List[Dict[str, Any]]:
         """The file's tree: of each node name, parent (None: a root), instances (indices, which aovs["id"] - 1 has), camera, light."""
         found, node = [], _c.make("node", False)
-        for i in range(self.counts["nodes"]):
-            self._call("scene_get_node", i, ctypes.byref(node))
-            instances = (ctypes.c_int32 * node.instance_count).from_address(node.instances) if node.instance_count else ()
-            indices = {key: None if value < 0 else value for key, value in (("parent", node.parent), ("camera", node.camera), ("light", node.light))}
-            found.append({"name": _c.text_of(node.name), "instances": list(instances), **indices})
+        with self._lock:
+            for i in range(self.counts["nodes"]):
+                self._call("scene_get_node", i, ctypes.byref(node))
+                instances = (ctypes.c_int32 * node.instance_count).from_address(node.instances) if node.instance_count else ()
+                places = (("parent", node.parent), ("camera", node.camera), ("light", node.light))
+                indices = {key: None if value < 0 else value for key, value in places}
+                found.append({"name": _c.text_of(node.name), "instances": list(instances), **indices})
         return found
 
     def add_ground(self) -> int:

@@ -57,8 +57,9 @@ class Picture(np.ndarray):
         become sRGB codes; light above 1 is cut off."""
         taken = []
         write = _c.Write(lambda user, bytes, count: taken.append(ctypes.string_at(bytes, count)))
+        name = _c.bytes_of(format, "format")
         pixels, target = self._target(f".{format.lower()}", "encode")
-        _c.call("encode_image", _c.bytes_of(format, "format"), ctypes.byref(target), write, None)
+        _c.call("encode_image", name, ctypes.byref(target), write, None)
         return taken[0]
 
     def _target(self, extension: str, name: str) -> tuple:

@@ -126,7 +126,8 @@ class Scene(Geometry, Lighting):
 
     @property
     def origin(self) -> Tuple[float, ...]:
-        """The point of the file that is drawn at the world's origin: p is drawn at (p - origin) * scale."""
+        """The point of the file that is drawn at the world's origin: a point p of it, turned so that y points up, is drawn at
+        (p - origin) * scale."""
         return self._world.origin
 
     @property
@@ -138,10 +139,11 @@ class Scene(Geometry, Lighting):
     def animations(self) -> List[Dict[str, Any]]:
         """The file's animations: name, end_s (time of the last key, seconds) and channels (properties that it moves)."""
         found = []
-        for i in range(self.counts["animations"]):
-            animation = _c.make("animation", False)
-            self._call("scene_get_animation", i, ctypes.byref(animation))
-            found.append({"name": _c.text_of(animation.name), "end_s": animation.end_s, "channels": animation.channels})
+        with self._lock:  # the names are the scene's
+            for i in range(self.counts["animations"]):
+                animation = _c.make("animation", False)
+                self._call("scene_get_animation", i, ctypes.byref(animation))
+                found.append({"name": _c.text_of(animation.name), "end_s": animation.end_s, "channels": animation.channels})
         return found
 
     def pose(self, animation: Union[str, int, None] = None, time: float = 0.0) -> None:
@@ -164,8 +166,9 @@ class Scene(Geometry, Lighting):
 
     def _camera(self, index: int) -> Camera:
         camera = Camera()
-        self._call("scene_get_camera", index, ctypes.byref(camera._c))
-        return self._world.out(camera._copied())  # its name is the scene's
+        with self._lock:  # its name is the scene's
+            self._call("scene_get_camera", index, ctypes.byref(camera._c))
+            return self._world.out(camera._copied())
 
     def frame(self, aspect: float = 1.0, azimuth: float = 35.0, elevation: float = 20.0, zoom: float = 1.0) -> Camera:
         """A view of the whole scene. aspect: width / height of the picture; angles in degrees: azimuth around +y, 0 from +z and positive

@@ -35,15 +35,16 @@ class SceneBase:
         """Numbers of triangles (over all instances), meshes, instances, materials, textures, cameras, lights, warnings and animations."""
         found = _c.make("counts", False)
         self._call("scene_get_counts", ctypes.byref(found))
-        return {name: getattr(found, name) for name, _ in found._fields_ if name != "size"}
+        return {name: getattr(found, name) for name, _ in found._fields_ if name not in ("size", "reserved")}
 
     @property
     def warnings(self) -> List[str]:
         """What the loader could not draw, one line each."""
         text, lines = ctypes.c_char_p(), []
-        for i in range(self.counts["warnings"]):
-            self._call("scene_get_warning", i, ctypes.byref(text))
-            lines.append(_c.text_of(text.value))
+        with self._lock:  # the texts are the scene's
+            for i in range(self.counts["warnings"]):
+                self._call("scene_get_warning", i, ctypes.byref(text))
+                lines.append(_c.text_of(text.value))
         return lines
 
     def _call(self, name: str, *arguments) -> None:

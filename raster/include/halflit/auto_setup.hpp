@@ -23,7 +23,7 @@ enum class StudioUse : std::uint8_t {
     under_lights
 };
 
-/// What the caller decides; the rest is chosen.
+/// The caller's part of a choice; empty members are chosen.
 struct AutoOptions {
     std::optional<Camera> camera{};          ///< the view; empty: choose_camera()'s, or else a view of the whole scene
     bool frame = false;                      ///< a view of the whole scene, whatever cameras the scene has
@@ -36,7 +36,7 @@ struct AutoOptions {
     double studio_turn_rad = 0.0;            ///< turns the studio about the vertical, counter-clockwise seen from above
 };
 
-/// What auto_setup() chose; render() takes all of it.
+/// The choice of auto_setup(); render() takes all of it.
 struct AutoSetup {
     Camera camera;        ///< the view to draw
     Lighting light;       ///< the scene's own, with what it lacks
@@ -44,14 +44,14 @@ struct AutoSetup {
     bool framed = false;  ///< the camera is a view of the whole scene
 };
 
-/// What the caller decides of a picture's shape, too.
+/// The caller's part of the choice of a picture, with its size.
 struct PictureRequest : AutoOptions {
     std::optional<PictureSize> size{};          ///< empty: the largest of the camera's shape that fits into usual_size
     PictureSize usual_size{1280, 720};          ///< pixels; a view of the whole scene has it
     std::optional<std::string> scene_camera{};  ///< the view: a camera of the scene, by its name, or else its index
 };
 
-/// What choose_picture() chose.
+/// The choice of choose_picture().
 struct PictureChoice : AutoSetup {
     PictureSize size;       ///< of the picture
     int scene_camera = -1;  ///< index into Scene::cameras of the view; -1: another camera

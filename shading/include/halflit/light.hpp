@@ -18,7 +18,7 @@ enum class LightType : std::uint8_t {
     spot          ///< a point light inside a cone
 };
 
-/// What of a Light counts, by its type: the one list of the kinds of lights.
+/// The members of a Light that count for its type: the one list of the kinds of lights.
 struct LightKind {
     std::string_view name;  ///< in files, flags and reports
     bool placed = false;    ///< position_ws, range and source_radius; its light falls off with the squared distance

@@ -151,7 +151,7 @@ HALFLIT_C_API int32_t halflit_scene_pose(halflit_scene* scene, const char* anima
 /// Where a file's model is drawn: a point p of it at (p' - origin) * scale, where p' is p turned so that `up`, a HALFLIT_UP, becomes y.
 /// Each pointer may be null.
 HALFLIT_C_API int32_t halflit_scene_get_placement(const halflit_scene* scene, double origin[3], double* scale, int32_t* up);
-/// What has a name.
+/// Parts of a scene that have a name.
 enum { HALFLIT_PART_NODE = 0, HALFLIT_PART_INSTANCE = 1, HALFLIT_PART_MESH = 2, HALFLIT_PART_MATERIAL = 3, HALFLIT_PART_CAMERA = 4 };
 
 /// Name of a part; an instance without one has its node's. May be empty; valid until the scene is changed or destroyed.
@@ -322,7 +322,7 @@ HALFLIT_C_API int32_t halflit_material_init(halflit_material* material, size_t s
 HALFLIT_C_API int32_t halflit_scene_add_material(halflit_scene* scene, const halflit_material* material, int32_t* index);
 /// Reads a material. Set material->size before.
 HALFLIT_C_API int32_t halflit_scene_get_material(const halflit_scene* scene, int32_t index, halflit_material* material);
-/// Replaces a material, in all meshes that have it.
+/// Replaces a material, in all meshes and instances that have it.
 HALFLIT_C_API int32_t halflit_scene_set_material(halflit_scene* scene, int32_t index, const halflit_material* material);
 
 // ---- meshes ------------------------------------------------------------------------------------------------------------

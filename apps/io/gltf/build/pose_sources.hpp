@@ -1,4 +1,4 @@
-// What another pose needs of the meshes and instances that were built.
+// The sources of meshes and instances that another pose needs.
 #pragma once
 
 #include "apps/io/gltf/build/deform.hpp"
@@ -27,7 +27,7 @@ struct DeformedMesh {
     int skin = -1;  ///< of the file; -1: none
     MeshSource source{};
     Vec3d place{};       ///< subtracted from a skinned mesh
-    double scale = 1.0;  ///< of the positions, by recentre()
+    double scale = 1.0;  ///< of the positions, by the placement
 };
 
 /// An instance of the scene, and the node that placed it.

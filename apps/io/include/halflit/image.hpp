@@ -1,5 +1,5 @@
 // Pictures and environments as files. The bytes of a picture depend on its pixels and the format alone: no date, name or version is stored.
-// Those of a PNG or EXR also depend on the version of libdeflate or OpenEXR, which compresses it; its pixels do not.
+// Those of a PNG, EXR or WebP also depend on the version of libdeflate, OpenEXR or libwebp, which compresses it; its pixels do not.
 #pragma once
 
 #include "halflit/environment.hpp"
