@@ -77,6 +77,9 @@ std::vector<std::pair<std::string, Bytes>> rich_files() {
         "property list uint8 int8 z\nelement tristrips 1\nproperty list int int vertex_indices\nend_header\n"
         "0 0 0 0 0 1 1 2 3\n1 0 0 0 0 1 255 0 3\n1 1 0 0 0 0 1 2 3\n0 1 0 0 0 1 1 2 3\n"
         "4 0 1 2 3 2 0.5 1\n3 0 1 2 0\n2 3 4\n5 0 1 2 -1 3\n";
+    const std::string off =
+        "STCNOFF\n5 3 0\n0 0 0 0 0 1 255 0 3 255 0 0\n1 0 0 0 0 1 1 2 3 255 1 0\n1 1 0 0 0 1 9 9 9 255 1 1\n"
+        "0 1 0 0 0 1 1 2 3 255 0 1\n0.5 0.5 2 0 0 1 200 0 0 255 0.5 0.5\n4 0 1 2 3\n3 0 1 4 255 0 0\n3 1 2 4 0.5 0.5 1\n";
     const std::string resources =
         "<basematerials id=\"5\"><base name=\"a\" displaycolor=\"#FF0000\"/></basematerials>"
         "<m:colorgroup id=\"6\"><m:color color=\"#00FF00\"/><m:color color=\"#0000FF80\"/></m:colorgroup>"
@@ -89,7 +92,8 @@ std::vector<std::pair<std::string, Bytes>> rich_files() {
                                                         {"PLY little endian", ply_of(object, PlyKind::little)},
                                                         {"PLY big endian", ply_of(object, PlyKind::big)},
                                                         {"PLY text", to_bytes(ply)},
-                                                        {"OBJ", to_bytes(obj)}};
+                                                        {"OBJ", to_bytes(obj)},
+                                                        {"OFF", to_bytes(off)}};
     if (has_three_mf())
         files.emplace_back("3MF", to_bytes(three_mf_text("inch", resources, "<item objectid=\"2\"/><item objectid=\"1\"/>")));
     return files;

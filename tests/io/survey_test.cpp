@@ -6,6 +6,7 @@
 
 #include "tests/support/catch.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
@@ -183,4 +184,26 @@ TEST_CASE("surveys: points and lines far away keep their shape, and a stray vert
         load_any_ok(to_bytes("v 0 0 0\nv 4000000.25 5000000 100\nv 4000000.5 5000000 100\n"
                              "v 4000000.5 5000000.125 100\nf 2 3 4\n"));
     CHECK(length(size_of(stray) - Vec3d{0.25, 0.125, 0}) < 1e-6);
+}
+
+TEST_CASE("surveys: coordinates beyond float32 are left out, and do not keep others from being placed", "[io]") {
+    const std::string good = "4000000.25 5000000 7\n4000000.5 5000000.125 7\n4000000.25 5000000.125 7\n", beyond = "1e200 0 0\n";
+    std::string obj;
+    for (std::size_t begin = 0; begin < good.size(); begin = good.find('\n', begin) + 1)
+        obj += "v " + good.substr(begin, good.find('\n', begin) + 1 - begin);
+    obj += "v " + beyond;
+    const std::string files[] = {
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
+        "end_header\n" +
+            good + beyond,
+        obj + "f 1 2 3\nf 1 2 4\n", obj + "l 1 2 3\nl 1 4\n"};
+    for (const std::string& file : files) {
+        INFO(file);
+        const LoadedScene loaded = load_any_ok(to_bytes(file));
+        const Bounds bounds = scene_bounds(loaded.scene);
+        CHECK(bounds.max.x - bounds.min.x == 0.25f);
+        CHECK(loaded.placement.origin.x > 4e6);
+        CHECK(std::any_of(loaded.warnings.begin(), loaded.warnings.end(),
+                          [](const std::string& w) { return w.find("not finite are left out") != w.npos; }));
+    }
 }

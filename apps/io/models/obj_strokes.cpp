@@ -1,7 +1,5 @@
 #include "apps/io/models/obj_strokes.hpp"
 
-#include "shading/model/numbers.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,7 +39,7 @@ std::vector<PartMesh> ObjStrokes::add_meshes(std::span<const Vec3d> positions, s
         const std::size_t step = corners_of(topology);
         for (std::size_t i = 0; i + step <= corners.size(); i += step) {
             const std::span<const std::uint32_t> primitive(&corners[i], step);
-            if (!std::all_of(primitive.begin(), primitive.end(), [&](std::uint32_t p) { return shading::finite(positions[p]); })) {
+            if (!std::all_of(primitive.begin(), primitive.end(), [&](std::uint32_t p) { return fits_float(positions[p]); })) {
                 ++left_out;
                 continue;
             }

@@ -148,7 +148,7 @@ private:
         builder_.take_entries<std::uint32_t>(soup_.positions.size());
         std::size_t kept = 0;
         for (std::size_t i = 0; i < soup_.positions.size(); ++i) {
-            if (!shading::finite(soup_.positions[i])) continue;
+            if (!fits_float(soup_.positions[i])) continue;
             soup_.positions[kept] = soup_.positions[i];
             if (!soup_.normals.empty()) soup_.normals[kept] = soup_.normals[i];
             if (!soup_.colors.empty()) soup_.colors[kept] = soup_.colors[i];

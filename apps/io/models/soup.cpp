@@ -142,12 +142,14 @@ Vec3f rounded_near(Vec3d position, Vec3d origin) {
     return {rounded(position.x - origin.x), rounded(position.y - origin.y), rounded(position.z - origin.z)};
 }
 
+bool fits_float(Vec3d position) { return shading::finite(rounded_near(position, {})); }
+
 Vec3d move_near(Soup& soup, bool recentre) {
     Vec3d origin{};
     if (recentre) {
         DoubleBox box;
         for (const std::uint32_t i : soup.position_of)
-            if (shading::finite(soup.positions[i])) box.include(soup.positions[i]);
+            if (fits_float(soup.positions[i])) box.include(soup.positions[i]);
         origin = origin_of(box);
     }
     soup.points.reserve(soup.positions.size());

@@ -45,6 +45,8 @@ inline constexpr std::uint64_t kTriangleBytes = 460;
 [[nodiscard]] Vec3d origin_of(const DoubleBox& box);
 /// A position about an origin. One beyond float32's range becomes infinite.
 [[nodiscard]] Vec3f rounded_near(Vec3d position, Vec3d origin);
+/// Whether a position is finite as float32.
+[[nodiscard]] bool fits_float(Vec3d position);
 /// Makes `points` of `positions`, which it empties: those that triangles use decide the origin, which is returned. recentre: false: it is
 /// 0.
 [[nodiscard]] Vec3d move_near(Soup& soup, bool recentre);
