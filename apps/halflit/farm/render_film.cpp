@@ -15,7 +15,7 @@
 #include "apps/halflit/report/run_report.hpp"
 #include "apps/io/files/atomic_file.hpp"
 #include "apps/io/files/errno_text.hpp"
-#include "apps/io/files/model_files.hpp"
+#include "apps/io/files/file_access.hpp"
 
 #include <fmt/core.h>
 

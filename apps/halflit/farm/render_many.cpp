@@ -7,6 +7,7 @@
 #include "apps/halflit/program/output_folder.hpp"
 #include "apps/halflit/report/run_report.hpp"
 #include "apps/io/files/errno_text.hpp"
+#include "apps/io/files/file_access.hpp"
 #include "apps/io/files/model_files.hpp"
 
 #include <fmt/core.h>

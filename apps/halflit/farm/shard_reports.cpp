@@ -2,7 +2,6 @@
 
 #include "apps/halflit/program/file_names.hpp"
 #include "apps/io/files/file_access.hpp"
-#include "apps/io/files/model_files.hpp"
 #include "halflit/target.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "apps/halflit/flags/values.hpp"
 #include "apps/halflit/program/file_names.hpp"
-#include "apps/io/files/model_files.hpp"
+#include "apps/io/files/file_access.hpp"
 
 #include <fmt/format.h>
 

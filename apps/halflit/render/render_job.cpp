@@ -90,7 +90,6 @@ Result<void> begin_light(RenderJob& job, const RenderOptions& options) {
     film.sun_radius = light.sun_shadow_radius_rad = static_cast<float>(static_cast<double>(options.sun_size_deg) * (kPi / 180.0));
     film.lamp_radius = options.lamp_size;
     for (Light& one : light.lights) soften(one, film);
-    film.light = light;
     choice.light = std::move(light);
     film.choice = std::move(choice);
     return {};
@@ -148,7 +147,7 @@ void tell_choices(RenderJob& job, const RenderOptions& given) {
     job.choices.push_back(camera_choice(of_file ? &cameras[static_cast<std::size_t>(job.film.file_camera)] : nullptr, given,
                                         !of_file && !cameras.empty() && !whole));
     job.choices.push_back(fmt::format("lights: {}{}{}{}", job.light.all_lights().size(),
-                                      job.light.lights.size() > job.film.light.lights.size() ? ", added by default" : "",
+                                      job.light.lights.size() > job.film.choice.light->lights.size() ? ", added by default" : "",
                                       job.light.environment == nullptr ? ""
                                       : given.environment.empty()      ? ", and the environment studio"
                                                                        : ", and the environment " + given.environment,
@@ -278,14 +277,14 @@ void drop_own_lobes(Scene& scene) {
 bool relight(RenderJob& job, const Camera& camera) {
     const Film& film = job.film;
     Lighting& drawn = job.light;
-    if (drawn.environment == film.light.environment && drawn.lights.size() == film.light.lights.size()) return false;
+    if (drawn.environment == film.choice.light->environment && drawn.lights.size() == film.choice.light->lights.size()) return false;
     AutoOptions choice = film.choice;
     choice.camera = camera;
     choice.frame = false;
     const Lighting lit = auto_setup(job.scene(), film.bounds, job.width, job.height, choice).light;
     drawn.ambient = lit.ambient;
     drawn.environment = lit.environment;
-    for (std::size_t i = film.light.lights.size(); i < lit.lights.size() && i < drawn.lights.size(); ++i) {
+    for (std::size_t i = film.choice.light->lights.size(); i < lit.lights.size() && i < drawn.lights.size(); ++i) {
         drawn.lights[i] = lit.lights[i];
         soften(drawn.lights[i], film);
     }

@@ -18,8 +18,7 @@ namespace halflit::cli {
 struct Film {
     Bounds bounds;                          ///< of all poses; of the scene, if it stands still
     int file_camera = -1;                   ///< index into Scene::cameras of the view; -1: another
-    Lighting light;                         ///< the scene's and the flags', before auto_setup
-    AutoOptions choice;                     ///< of auto_setup
+    AutoOptions choice;                     ///< of auto_setup; with a light, the scene's and the flags'
     float sun_radius = 0, lamp_radius = 0;  ///< Light::shadow_radius of lights that have none
 };
 

@@ -11,6 +11,9 @@
 
 namespace halflit::io {
 
+/// The folder of a path, "." for a bare name.
+[[nodiscard]] std::string folder_of(const std::string& path);
+
 inline constexpr std::size_t kDefaultMaxFileBytes = std::size_t{512} << 20;
 
 /// Reads a regular file that the user named. Errors: io if it cannot be opened or read, limit above `max_bytes`, bad_input if its size

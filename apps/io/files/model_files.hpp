@@ -12,7 +12,5 @@ namespace halflit::io {
 /// Paths of all files that the model at `path` names, whether or not they exist and are drawn. Reads the model alone; empty if it cannot be
 /// read. Errors: limit (the time of `options`). Throws std::bad_alloc.
 [[nodiscard]] Result<std::vector<std::string>> files_named_by(const std::string& path, const LoadOptions& options);
-/// The folder of a path, "." for a bare name.
-[[nodiscard]] std::string folder_of(const std::string& path);
 
 }  // namespace halflit::io

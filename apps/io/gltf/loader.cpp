@@ -1,7 +1,6 @@
 #include "halflit/gltf.hpp"
 
 #include "apps/io/files/file_access.hpp"
-#include "apps/io/files/model_files.hpp"
 #include "apps/io/files/text.hpp"
 #include "apps/io/files/uri.hpp"
 #include "apps/io/gltf/animation/animation.hpp"

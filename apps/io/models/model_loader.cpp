@@ -15,12 +15,6 @@ namespace halflit {
 using namespace io::detail;
 using io::folder_of, io::printable, io::read_file;
 
-std::string io::folder_of(const std::string& path) {
-    const std::size_t slash = path.rfind('/');
-    if (slash == std::string::npos) return ".";
-    return slash == 0 ? "/" : path.substr(0, slash);
-}
-
 Result<std::vector<std::string>> io::files_named_by(const std::string& path, const LoadOptions& options) {
     const TimeLimit limit(options.limits.time_limit_s);
     try {
@@ -35,23 +29,29 @@ Result<std::vector<std::string>> io::files_named_by(const std::string& path, con
     }
 }
 
+namespace {
+
+LoadedScene read_model(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
+    if (bytes.size() > options.limits.max_file_bytes)
+        refuse("", fmt::format("has {} bytes, the limit is {}", bytes.size(), options.limits.max_file_bytes), ErrorCode::limit);
+    const FormatRow* const row = find_format(bytes);
+    // The glTF reader says what is wrong with a file that is nothing at all.
+    if (row == nullptr && !bytes.empty()) refuse("", "is no model: expected " + list_of_formats(&FormatRow::name));
+    return row == nullptr ? read_gltf(bytes, base_dir, options) : row->read(bytes, base_dir, options);
+}
+
+}  // namespace
+
 Result<LoadedScene> load_model_bytes(std::span<const std::byte> bytes, const std::string& name, const std::string& base_dir,
                                      const LoadOptions& options) {
-    return errors_of(name, options.limits.time_limit_s, [&]() -> Result<LoadedScene> {
-        if (bytes.size() > options.limits.max_file_bytes)
-            refuse("", fmt::format("has {} bytes, the limit is {}", bytes.size(), options.limits.max_file_bytes), ErrorCode::limit);
-        const FormatRow* const row = find_format(bytes);
-        // The glTF reader says what is wrong with a file that is nothing at all.
-        if (row == nullptr && !bytes.empty()) refuse("", "is no model: expected " + list_of_formats(&FormatRow::name));
-        return row == nullptr ? read_gltf(bytes, base_dir, options) : row->read(bytes, base_dir, options);
-    });
+    return errors_of(name, options.limits.time_limit_s, [&]() -> Result<LoadedScene> { return read_model(bytes, base_dir, options); });
 }
 
 Result<LoadedScene> load_model(const std::string& path, const LoadOptions& options) {
     return errors_of(path, options.limits.time_limit_s, [&]() -> Result<LoadedScene> {
         const auto bytes = read_file(path, options.limits.max_file_bytes);
         if (!bytes) return tl::unexpected(bytes.error());
-        return load_model_bytes(*bytes, path, folder_of(path), options);
+        return read_model(*bytes, folder_of(path), options);
     });
 }
 

@@ -86,13 +86,8 @@ void Motion::finish(PoseSources sources, const LoadedScene& loaded, std::vector<
         if (loaded.nodes[n].camera >= 0) cameras_.emplace_back(static_cast<int>(n), loaded.nodes[n].camera);
         if (loaded.nodes[n].light >= 0) lights_.emplace_back(static_cast<int>(n), loaded.nodes[n].light);
     }
-    const std::vector<double>& mesh_scales = placement_.mesh_scales;
-    if (!mesh_scales.empty()) {
-        for (DeformedMesh& mesh : sources_.deformed) mesh.scale = mesh_scales[static_cast<std::size_t>(mesh.mesh)];
-        for (PlacedInstance& placed : sources_.placed)
-            placed.mesh_scale =
-                mesh_scales[static_cast<std::size_t>(loaded.scene.instances[static_cast<std::size_t>(placed.instance)].mesh)];
-    }
+    if (const std::vector<double>& scales = placement_.mesh_scales; !scales.empty())
+        for (DeformedMesh& mesh : sources_.deformed) mesh.scale = scales[static_cast<std::size_t>(mesh.mesh)];
     moved_materials_.resize(rest_.materials.size());
     moved_cameras_.resize(rest_.cameras.size());
     moved_lights_.resize(rest_.lights.size());
@@ -167,10 +162,11 @@ void Motion::move_instances(const file::File& file, const NodeTree& tree, Scene&
         Affine world = tree.world_from_node[static_cast<std::size_t>(placed.node)];
         if (placed.in_node) world = world * *placed.in_node;
         in_file.push_back(placed.at_world ? translation_to(*placed.at_world) : to_mat4(world));
-        Affine m = drawn(placed.at_world ? Affine{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, *placed.at_world}} : world, placement_);
-        for (int k = 0; k < 3; ++k) m.c[k] = m.c[k] * (1.0 / placed.mesh_scale);
-        const auto instance = static_cast<std::size_t>(placed.instance);
-        if (replace(scene.instances[instance].world_from_object, to_mat4(m))) changes.changed_instances.push_back(instance);
+        const Affine m = drawn(placed.at_world ? Affine{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, *placed.at_world}} : world, placement_);
+        const auto index = static_cast<std::size_t>(placed.instance);
+        Instance& instance = scene.instances[index];
+        if (replace(instance.world_from_object, to_mat4(in_scaled_mesh(m, placement_.mesh_scales, instance.mesh))))
+            changes.changed_instances.push_back(index);
     }
     changes.materials |= set_thickness(file, scene, in_file);
 }

@@ -35,7 +35,6 @@ struct PlacedInstance {
     int instance = -1, node = -1;
     std::optional<Vec3d> at_world{};  ///< skinned: where it lies, without the node's transform
     std::optional<Affine> in_node{};  ///< its transform to the node; empty: the identity
-    double mesh_scale = 1.0;          ///< of its mesh's positions
 };
 
 struct PoseSources {
