@@ -6,7 +6,9 @@ set(EMSCRIPTEN_SYSTEM_PROCESSOR wasm32)
 include(${EMSCRIPTEN_ROOT_PATH}/cmake/Modules/Platform/Emscripten.cmake)
 # Node.js from 18 on has fetch, by which these programs would ask a server for their code instead of reading it.
 set(CMAKE_CROSSCOMPILING_EMULATOR node --no-experimental-fetch)
-set(CMAKE_CXX_LINKER_LAUNCHER env NODE_PATH=/usr/share/nodejs)  # Debian's acorn, for a Node.js that is not Debian's
+foreach(language C CXX)
+    set(CMAKE_${language}_LINKER_LAUNCHER env NODE_PATH=/usr/share/nodejs)  # Debian's acorn, for a Node.js that is not Debian's
+endforeach()
 
 include(${CMAKE_CURRENT_LIST_DIR}/header_only.cmake)
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-sALLOW_MEMORY_GROWTH=1")

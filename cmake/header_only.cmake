@@ -9,3 +9,4 @@ foreach(folder xsimd tl fmt stb catch2)
 endforeach()
 set(CMAKE_CXX_STANDARD_INCLUDE_DIRECTORIES ${HALFLIT_HEADER_LINKS})
 list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR}/header_only)  # packages that are headers alone
+list(APPEND CMAKE_FIND_ROOT_PATH ${CMAKE_BINARY_DIR})  # a toolchain that looks below its roots alone finds the links too

@@ -46,10 +46,14 @@ if(NOT HALFLIT_VALUE_PROBE STREQUAL probe_key)
     set(CMAKE_TRY_COMPILE_CONFIGURATION ${CMAKE_BUILD_TYPE})
     set(probe_folder ${PROJECT_BINARY_DIR}/CMakeFiles/value_probe)
     set(probe_may_fuse "")
+    set(probe_link "")
+    if(EMSCRIPTEN)
+        set(probe_link LINK_OPTIONS -sSINGLE_FILE=1)  # one file is copied, not the code beside it
+    endif()
     if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64|^i[3-6]86$" AND NOT EMSCRIPTEN)
         set(probe_may_fuse -mfma)
     endif()
-    try_compile(probe_compiles ${probe_folder}/plain ${probe} COMPILE_DEFINITIONS "${probe_flags}"
+    try_compile(probe_compiles ${probe_folder}/plain ${probe} COMPILE_DEFINITIONS "${probe_flags}" ${probe_link}
         CXX_STANDARD 20 CXX_STANDARD_REQUIRED ON OUTPUT_VARIABLE probe_output COPY_FILE ${probe_folder}/plain_probe)
     if(NOT probe_compiles)
         if(probe_output MATCHES "(halflit: [^\n\"]*)")

@@ -99,6 +99,16 @@ requires(is_floating_point_v<T>) to_chars_result to_chars(char* first, char* las
     return {first + length, errc{}};
 }
 
+/// As `%.*g`, which is what the standard says of chars_format::general; other formats are not there.
+template <class T>
+requires(is_floating_point_v<T>) to_chars_result to_chars(char* first, char* last, T value, chars_format, int precision) {
+    char text[64];
+    const int length = snprintf(text, sizeof text, "%.*g", precision, static_cast<double>(value));
+    if (length >= static_cast<int>(sizeof text) || length > last - first) return {last, errc::value_too_large};
+    memcpy(first, text, static_cast<size_t>(length));
+    return {first + length, errc{}};
+}
+
 /// The nearest number, by the C library in the locale "C"; its rounding is exact. Takes what the standard takes for
 /// chars_format::general.
 template <class T>
