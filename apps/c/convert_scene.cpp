@@ -58,7 +58,7 @@ halflit_load_options to_c(const LoadOptions& from) {
     options.max_json_depth = from.limits.max_json_depth;
     options.max_texture_side = from.limits.max_texture_side;
     options.max_jpeg_scans = from.limits.max_jpeg_scans;
-    options.lenient = from.lenient;
+    options.strict = from.strict;
     options.threads = from.threads;
     options.keep_animations = from.keep_animations;
     options.time_s = from.time_s;
@@ -80,7 +80,7 @@ Result<LoadOptions> load_options(const halflit_load_options* given) {
         if (read->allow_external[i] == nullptr) return fail(ErrorCode::usage, "halflit_load_options: a folder of allow_external is null");
         options.allow_external.emplace_back(read->allow_external[i]);
     }
-    options.lenient = read->lenient != 0;
+    options.strict = read->strict != 0;
     options.threads = read->threads;
     options.keep_animations = read->keep_animations != 0;
     if (read->animation != nullptr) options.animation = read->animation;

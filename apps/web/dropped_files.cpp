@@ -78,5 +78,25 @@ Result<std::vector<std::byte>> ModelFolder::read(std::string_view relative, std:
     return file;
 }
 
+/// Of names that are alike but for the case of their letters and their folders, the only one.
+Result<std::vector<std::byte>> ModelFolder::read_like(std::string_view name, std::size_t max_bytes, std::string& found) {
+    found = name;
+    auto exact = read(name, max_bytes);
+    if (exact || exact.error().code != ErrorCode::bad_input) return exact;
+    const auto last_part = [](std::string_view path) {
+        path = path.substr(0, path.find_first_of("?#"));
+        std::string last(path.substr(path.find_last_of("/\\") + 1));
+        std::transform(last.begin(), last.end(), last.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+        return last;
+    };
+    const std::string wanted = last_part(name);
+    std::vector<const std::string*> alike;
+    for (const auto& [file, bytes] : dropped_files)
+        if (last_part(file) == wanted) alike.push_back(&file);
+    if (alike.size() != 1) return exact;
+    found = *alike[0];
+    return find_file(found, max_bytes, ErrorCode::bad_input);
+}
+
 }  // namespace io
 }  // namespace halflit

@@ -6,8 +6,8 @@ namespace halflit::fuzz {
 namespace {
 
 void run(View input) {
-    const bool lenient = input.size() % 8 == 0;  // both, as GLB files are padded to 4 bytes
-    const auto loaded = load_gltf_bytes(as_bytes(input), "fuzz.glb", "", small_limits(lenient));
+    const bool strict = input.size() % 8 == 0;  // both, as GLB files are padded to 4 bytes
+    const auto loaded = load_gltf_bytes(as_bytes(input), "fuzz.glb", "", small_limits(strict));
     if (loaded)
         check_loaded(*loaded);
     else

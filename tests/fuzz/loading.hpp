@@ -12,9 +12,9 @@ namespace halflit::fuzz {
 inline std::span<const std::byte> as_bytes(View input) { return std::as_bytes(input); }
 
 /// Limits that keep an execution within milliseconds.
-inline LoadOptions small_limits(bool lenient) {
+inline LoadOptions small_limits(bool strict) {
     LoadOptions options;
-    options.lenient = lenient;
+    options.strict = strict;
     options.keep_animations = true;
     options.limits.max_total_bytes = std::size_t{4} << 20;
     options.limits.max_json_tokens = 100'000;

@@ -53,8 +53,8 @@ void run(View input) {
     const auto format = find_model_format(bytes);
     if (format == ModelFormat::gltf || format == ModelFormat::glb) return;  // targets of their own
     if (format == ModelFormat::three_mf && !has_three_mf()) return;
-    const bool lenient = input.size() % 2 == 0;
-    const auto loaded = load_model_bytes(bytes, "fuzz.model", "", small_limits(lenient));
+    const bool strict = input.size() % 2 == 0;
+    const auto loaded = load_model_bytes(bytes, "fuzz.model", "", small_limits(strict));
     if (loaded)
         check_loaded(*loaded);
     else

@@ -102,7 +102,7 @@ TEST_CASE("OBJ: materials of an MTL file become halflit's", "[io]") {
                                               "newmtl picture\nKd 0 0 0\nmap_Kd -s 2 3 1 -o 0.5 0.25 wood.png\nbump -bm 2 bumps.png\n"
                                               "newmtl heights\nmap_Bump heights.png\n";
     const std::string points = "mtllib two words.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0.25\n";
-    const auto load_with = [&](const std::string& rest) { return load_any(to_bytes(points + rest), {}, name); };
+    const auto load_with = [&](const std::string& rest) { return load_any(to_bytes(points + rest), strictly(), name); };
     const auto loaded = load_with("usemtl shiny\nf 1/1 2/1 3/1\nusemtl metal\nf 1 2 3\nusemtl glass\nf 1 2 3\nusemtl none\nf 1 2 3\n");
     const auto refused = load_with("usemtl secret\nf 1 2 3\n");
     const auto textured = load_with("usemtl picture\nf 1/1 2/1 3/1\nusemtl heights\nf 1/1 2/1 3/1\n");
@@ -198,9 +198,8 @@ TEST_CASE("3MF: an extension that a file requires is known, or the file refused 
         refusal_of(requiring(lattice + " " + production + " requiredextensions=\"p b\"")).find("beamlattice/2017/02\" is not supported") !=
         std::string::npos);
     CHECK(refusal_of(requiring("requiredextensions=\"x\"")).find("\"x\" is not supported") != std::string::npos);
-    LoadOptions lenient;
-    lenient.lenient = true;
-    CHECK(load_any(requiring(lattice + " requiredextensions=\"b\""), lenient));
+    const LoadOptions tolerant;
+    CHECK(load_any(requiring(lattice + " requiredextensions=\"b\""), tolerant));
 }
 
 TEST_CASE("3MF: components, transforms, units and colours are read", "[io]") {

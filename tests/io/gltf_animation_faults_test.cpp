@@ -31,9 +31,9 @@ Bytes file_of(const Parts& parts) {
                        parts.target + R"(}}],"samplers":[)" + samplers + "]}" + parts.second + "]");
 }
 
-LoadOptions with(bool lenient, bool keep, double time = 0.5) {
+LoadOptions with(bool tolerant, bool keep, double time = 0.5) {
     LoadOptions options;
-    options.lenient = lenient;
+    options.strict = !tolerant;
     options.keep_animations = keep;
     options.time_s = time;
     return options;
@@ -41,7 +41,7 @@ LoadOptions with(bool lenient, bool keep, double time = 0.5) {
 
 }  // namespace
 
-TEST_CASE("animation faults: what makes the pose a guess is refused, and left out where the loader is lenient", "[io]") {
+TEST_CASE("animation faults: what makes the pose a guess is left out, or refused by the strict rules", "[io]") {
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
     const std::vector<std::pair<Parts, std::string>> cases = {
         {{.times = {0, 2, 1}}, "samplers[0].input"},
@@ -68,9 +68,9 @@ TEST_CASE("animation faults: what makes the pose a guess is refused, and left ou
             CHECK(refused.error().code == ErrorCode::bad_input);
             INFO(refused.error().message);
             CHECK(refused.error().message.find(where) != std::string::npos);
-            const LoadedScene lenient = load_ok(file, with(true, keep));
-            CHECK(lenient.scene.instances.at(0).world_from_object.c[3].x == 5.0f);
-            CHECK(std::any_of(lenient.warnings.begin(), lenient.warnings.end(),
+            const LoadedScene tolerant = load_ok(file, with(true, keep));
+            CHECK(tolerant.scene.instances.at(0).world_from_object.c[3].x == 5.0f);
+            CHECK(std::any_of(tolerant.warnings.begin(), tolerant.warnings.end(),
                               [](const std::string& w) { return w.find("the animation is left out") != std::string::npos; }));
         }
         // Nobody has to see the animation.
@@ -87,11 +87,11 @@ TEST_CASE("animation faults: a fault of an animation that is not drawn refuses o
     const auto refused = load(file, with(false, true));
     REQUIRE(!refused);
     CHECK(refused.error().message.find("animations[1]") != std::string::npos);
-    const LoadedScene lenient = load_ok(file, with(true, true));
-    Scene scene = lenient.scene;
-    REQUIRE(pose_at(*lenient.motion, "1", 1.0, scene));
+    const LoadedScene tolerant = load_ok(file, with(true, true));
+    Scene scene = tolerant.scene;
+    REQUIRE(pose_at(*tolerant.motion, "1", 1.0, scene));
     CHECK(scene.instances[0].world_from_object.c[3].x == 5.0f);
-    REQUIRE(pose_at(*lenient.motion, "0", 1.0, scene));
+    REQUIRE(pose_at(*tolerant.motion, "0", 1.0, scene));
     CHECK(scene.instances[0].world_from_object.c[3].x == 1.0f);
 }
 
@@ -119,8 +119,8 @@ TEST_CASE("animation faults: counts without data hit the limits", "[io]") {
     const Bytes file =
         pieces.file(R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}],"animations":[{"channels":)"
                     R"([{"sampler":0,"target":{"node":0,"path":"translation"}}],"samplers":[{"input":1,"output":2}]}])");
-    for (const bool lenient : {false, true}) {
-        const auto refused = load(file, with(lenient, false));
+    for (const bool tolerant : {false, true}) {
+        const auto refused = load(file, with(tolerant, false));
         REQUIRE(!refused);
         CHECK(refused.error().code == ErrorCode::limit);
     }

@@ -94,7 +94,14 @@ inline std::string one_mesh_json(const std::string& parts, std::size_t bin_size)
            std::to_string(bin_size) + "}]," + parts + "}";
 }
 
-inline Result<LoadedScene> load(const Bytes& bytes, const LoadOptions& options = {}, const std::string& base_dir = "") {
+/// Options with which damage refuses a file.
+inline LoadOptions strictly() {
+    LoadOptions options;
+    options.strict = true;
+    return options;
+}
+
+inline Result<LoadedScene> load(const Bytes& bytes, const LoadOptions& options = strictly(), const std::string& base_dir = "") {
     return load_gltf_bytes(bytes, "test.glb", base_dir, options);
 }
 

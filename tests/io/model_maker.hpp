@@ -208,7 +208,7 @@ inline std::string three_mf_mesh(const Polyhedron& p, float scale = 1.0f, const 
     return text + "</triangles></mesh>";
 }
 
-inline Result<LoadedScene> load_any(const Bytes& bytes, const LoadOptions& options = {}, const std::string& base_dir = "") {
+inline Result<LoadedScene> load_any(const Bytes& bytes, const LoadOptions& options = strictly(), const std::string& base_dir = "") {
     return load_model_bytes(bytes, "test.model", base_dir, options);
 }
 
@@ -219,7 +219,7 @@ inline LoadedScene load_any_ok(const Bytes& bytes, const LoadOptions& options = 
 }
 
 /// The message of a file that must be refused.
-inline std::string refusal_of(const Bytes& file, ErrorCode code = ErrorCode::bad_input, const LoadOptions& options = {}) {
+inline std::string refusal_of(const Bytes& file, ErrorCode code = ErrorCode::bad_input, const LoadOptions& options = strictly()) {
     const auto loaded = load_any(file, options);
     if (loaded) FAIL("was loaded");
     CHECK(loaded.error().code == code);

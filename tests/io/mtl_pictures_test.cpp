@@ -45,12 +45,13 @@ TEST_CASE("MTL: masks, roughness and metalness in pictures of their own are draw
                                         "newmtl tinted\nKs 0.5 0.5 0.5\nmap_Ks color.tga\n"
                                         "newmtl lost\nmap_Kd color.tga\nmap_d lost.png\n";
     const std::string points = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n";
-    const auto load_with = [&](std::initializer_list<const char*> names) {
+    const auto load_with = [&](std::initializer_list<const char*> names, const LoadOptions& options = {}) {
         std::string text = points;
         for (const char* name : names) text += std::string("usemtl ") + name + "\nf 1/1 2/1 3/1\n";
-        return load_any(to_bytes(text), {}, folder);
+        return load_any(to_bytes(text), options, folder);
     };
     const auto loaded = load_with({"grey", "clear", "metal", "rough", "tinted"});
+    const auto refused = load_with({"lost"}, strictly());
     const auto lost = load_with({"lost"});
     std::filesystem::remove_all(folder);
     REQUIRE(loaded);
@@ -79,6 +80,9 @@ TEST_CASE("MTL: masks, roughness and metalness in pictures of their own are draw
     CHECK(scene.materials[4].textures[TextureSlot::specular_color].used());
     REQUIRE(loaded->warnings.size() == 1);
     CHECK(loaded->warnings[0] == "material \"rough\": map_Pr and map_Pm lie differently; drawn as the first");
-    REQUIRE_FALSE(lost);
-    CHECK(lost.error().message.find("material \"lost\": map_d lost.png") != std::string::npos);
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().message.find("material \"lost\": map_d lost.png") != std::string::npos);
+    REQUIRE(lost);
+    CHECK(lost->warnings.at(0).find("material \"lost\": map_d lost.png") != std::string::npos);
+    CHECK(lost->scene.materials.at(0).alpha_mode == AlphaMode::opaque);
 }

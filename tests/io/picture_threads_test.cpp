@@ -39,10 +39,10 @@ struct TexturedFile : TriangleFile {
     void damage(int picture) { bin[picture_at[picture] + 60'000] ^= std::byte{0x55}; }
 };
 
-LoadOptions with_threads(int threads, bool lenient = false) {
+LoadOptions with_threads(int threads, bool tolerant = false) {
     LoadOptions options;
     options.threads = threads;
-    options.lenient = lenient;
+    options.strict = !tolerant;
     return options;
 }
 
@@ -71,13 +71,13 @@ TEST_CASE("picture threads: damaged pictures give the same message and the same 
     REQUIRE(!strict);
     CHECK(strict.error().code == ErrorCode::bad_input);
     CHECK(strict.error().message.find("images[1]") != std::string::npos);
-    const LoadedScene lenient = load_ok(file, with_threads(1, true));
-    CHECK(lenient.warnings.size() == 2);
+    const LoadedScene tolerant = load_ok(file, with_threads(1, true));
+    CHECK(tolerant.warnings.size() == 2);
     for (int round = 0; round < 5; ++round) {
         const auto again = load(file, with_threads(4));
         REQUIRE(!again);
         CHECK(again.error().message == strict.error().message);
-        CHECK(load_ok(file, with_threads(4, true)).warnings == lenient.warnings);
+        CHECK(load_ok(file, with_threads(4, true)).warnings == tolerant.warnings);
     }
 }
 

@@ -39,7 +39,7 @@ FlagGroup untrusted_file_flags(RenderOptions& o) {
                              return static_cast<std::size_t>(n) * kMib;
                          });
                      })},
-             {"--lenient", "", "Draw what can be drawn of a damaged file, with warnings", set_to(o.load.lenient)},
+             {"--strict", "", "Refuse a damaged file, instead of drawing what can be drawn of it with warnings", set_to(o.load.strict)},
              {.names = "--allow-external",
               .form = "DIR",
               .help = "Also allow references to files in this folder",

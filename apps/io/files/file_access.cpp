@@ -9,8 +9,10 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstdlib>
+#include <memory>
 #include <utility>
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -20,12 +22,6 @@
 #endif
 
 namespace halflit::io {
-
-std::string folder_of(const std::string& path) {
-    const std::size_t slash = path.rfind('/');
-    if (slash == std::string::npos) return ".";
-    return slash == 0 ? "/" : path.substr(0, slash);
-}
 
 namespace {
 
@@ -154,6 +150,47 @@ std::string name_below(const std::string& folder, const std::string& path) {
     return path.size() > folder.size() && path[folder.size()] == '/' ? path.substr(folder.size() + 1) : "";
 }
 
+/// The one entry of a folder that has a name but for the case of ASCII letters; nothing if there is none, or several.
+std::string entry_like(int folder, const std::string& name) {
+    constexpr int kMostEntries = 1 << 16;
+    const auto same = [&](const char* entry) {
+        const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+        std::size_t i = 0;
+        while (i < name.size() && entry[i] != '\0' && lower(entry[i]) == lower(name[i])) ++i;
+        return i == name.size() && entry[i] == '\0';
+    };
+    const int copy = ::openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    DIR* const entries = copy >= 0 ? ::fdopendir(copy) : nullptr;
+    if (entries == nullptr) {
+        if (copy >= 0) ::close(copy);
+        return "";
+    }
+    const std::unique_ptr<DIR, int (*)(DIR*)> owner(entries, ::closedir);
+    std::string found;
+    for (int i = 0; i < kMostEntries; ++i) {
+        const dirent* const entry = ::readdir(entries);
+        if (entry == nullptr) break;
+        if (!same(entry->d_name)) continue;
+        if (!found.empty()) return "";
+        found = entry->d_name;
+    }
+    return found;
+}
+
+/// The name with the case that files and folders below `folder` have; nothing if there are none, or several.
+std::string in_their_case(int folder, const std::string& name) {
+    std::string found;
+    for (std::size_t at = 0; at < name.size();) {
+        const std::size_t slash = std::min(name.find('/', at), name.size());
+        const Descriptor in = open_beneath(folder, found.empty() ? "." : found);
+        const std::string entry = in.get() < 0 ? "" : entry_like(in.get(), name.substr(at, slash - at));
+        if (entry.empty()) return "";
+        found.append(found.empty() ? "" : "/").append(entry);
+        at = slash + 1;
+    }
+    return found;
+}
+
 }  // namespace
 
 Result<std::vector<std::byte>> read_file(const std::string& path, std::size_t max_bytes) {
@@ -245,6 +282,32 @@ Result<std::vector<std::byte>> ModelFolder::read(std::string_view relative, std:
                 : process_is_full ? ErrorCode::io
                                   : ErrorCode::bad_input,
                 fmt::format("\"{}\": cannot be opened: {}", shown, errno_text(error)));
+}
+
+Result<std::vector<std::byte>> ModelFolder::read_like(std::string_view name, std::size_t max_bytes, std::string& found) {
+    found = name;
+    auto exact = read(name, max_bytes);
+    if (exact || exact.error().code != ErrorCode::bad_input || name.empty() || name.find('\0') != std::string_view::npos) return exact;
+    std::string path(name.substr(0, name.find_first_of("?#")));
+    std::replace(path.begin(), path.end(), '\\', '/');
+    const std::string last = path.substr(path.rfind('/') + 1);
+    std::vector<std::string> names{path, last, "textures/" + last};
+    if (path.size() > 1 && (path[0] == '/' || path[1] == ':')) names.erase(names.begin());
+    for (const std::string& one : names) {
+        if (last.empty()) break;
+        std::vector<std::string> spelled{one};
+        const std::string clean = normalised(one);
+        for (const Folder& folder : folders_)
+            if (folder.descriptor >= 0 && !clean.starts_with(".."))
+                if (std::string other = in_their_case(folder.descriptor, clean); !other.empty()) spelled.push_back(std::move(other));
+        for (const std::string& spelling : spelled) {
+            auto bytes = read(spelling, max_bytes);
+            if (!bytes && bytes.error().code == ErrorCode::bad_input) continue;
+            found = spelling;
+            return bytes;
+        }
+    }
+    return exact;
 }
 
 }  // namespace halflit::io

@@ -1,6 +1,7 @@
 // Reading of whole files into memory, with a limit. A model's own references are confined to the model's folder.
 #pragma once
 
+#include "apps/io/files/text.hpp"
 #include "halflit/error.hpp"
 
 #include <cstddef>
@@ -10,9 +11,6 @@
 #include <vector>
 
 namespace halflit::io {
-
-/// The folder of a path, "." for a bare name.
-[[nodiscard]] std::string folder_of(const std::string& path);
 
 inline constexpr std::size_t kDefaultMaxFileBytes = std::size_t{512} << 20;
 
@@ -37,6 +35,10 @@ public:
     /// `relative` uses '/' and has been percent-decoded. All errors are bad_input, except limit above `max_bytes` or without memory, and io
     /// where the process cannot open more files; the message has no file prefix.
     [[nodiscard]] Result<std::vector<std::byte>> read(std::string_view relative, std::size_t max_bytes);
+    /// The same for a name as programs write it: '\\' between folders, "?query" at its end, letters in another case than one file has, or a
+    /// folder of another computer, where a file of that name lies beside the model or in its folder textures. found: the name that was
+    /// read.
+    [[nodiscard]] Result<std::vector<std::byte>> read_like(std::string_view name, std::size_t max_bytes, std::string& found);
     /// Paths at which such a name may mean a file, whether it is there or not.
     [[nodiscard]] std::vector<std::string> places(std::string_view relative) const;
 

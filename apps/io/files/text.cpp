@@ -118,4 +118,10 @@ std::string display_safe_json(std::string_view json) {
     return out;
 }
 
+std::string folder_of(const std::string& path) {
+    const std::size_t slash = path.rfind('/');
+    if (slash == std::string::npos) return ".";
+    return slash == 0 ? "/" : path.substr(0, slash);
+}
+
 }  // namespace halflit::io

@@ -19,4 +19,7 @@ namespace halflit::io {
 /// Offset of the first byte that is not UTF-8, or npos.
 [[nodiscard]] std::size_t find_invalid_utf8(std::string_view text);
 
+/// The folder of a path, "." for a bare name.
+[[nodiscard]] std::string folder_of(const std::string& path);
+
 }  // namespace halflit::io

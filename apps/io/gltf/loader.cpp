@@ -87,10 +87,10 @@ LoadedScene io::detail::read_gltf(std::span<const std::byte> bytes, const std::s
         if (motion) motion->finish(std::move(sources), loaded, std::move(animations), document->animations.hides);
         loaded.motion = motion;
     } catch (...) {
-        images.finish();  // a fault of a picture is reported first
+        images.finish(loaded.scene.materials);  // a fault of a picture is reported first
         throw;
     }
-    images.finish();
+    images.finish(loaded.scene.materials);
     convert_specular_glossiness(*document, loaded.scene);
     for (const int original : document->unlit_copies) {
         std::vector<Material>& materials = loaded.scene.materials;

@@ -206,7 +206,7 @@ LoadedScene ModelBuilder::finish(const ModelFrame& frame) {
         tree.world_from_node.push_back(world);
     }
     place_scene(*document_, document_->options.up.value_or(frame.up), tree, loaded_);
-    images_->finish();
+    images_->finish(loaded_.scene.materials);
     if (left_out_ > 0) document_->warn(fmt::format("{} triangles with coordinates that are not finite are left out", left_out_));
     if (loaded_.scene.instances.empty()) document_->warn("the model has nothing to draw");
     SceneInfo& info = document_->info;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstddef>
 #include <limits>
@@ -55,6 +56,23 @@ template <class T>
     if (error != std::errc::result_out_of_range) return std::nullopt;
     const T sign = word[0] == '-' ? T{-1} : T{1};
     return sign * (exponent_of(word) < 0 ? T{0} : std::numeric_limits<T>::infinity());
+}
+
+/// A number as files of all countries and C libraries have it: parse_real, with a comma for the point ("0,5"), and not a number where the
+/// word is a C library's for that ("nan(ind)", "1.#QNAN", "-1.#IND", "1.#INF").
+[[nodiscard]] inline std::optional<double> parse_loosely(std::string_view word) {
+    if (const auto value = parse_real<double>(word)) return value;
+    const std::size_t comma = word.find(',');
+    if (comma != std::string_view::npos && word.size() < 64 && word.find('.') == std::string_view::npos) {
+        std::array<char, 64> text{};
+        std::copy(word.begin(), word.end(), text.begin());
+        text[comma] = '.';
+        return parse_real<double>({text.data(), word.size()});
+    }
+    if (word.find("#QNAN") != std::string_view::npos || word.find("#IND") != std::string_view::npos ||
+        word.find("#INF") != std::string_view::npos || word.starts_with("nan(") || word.starts_with("-nan("))
+        return std::numeric_limits<double>::quiet_NaN();
+    return std::nullopt;
 }
 
 /// The whole word as a whole number.

@@ -168,6 +168,7 @@ private:
             const MtlTexture& first = has_color ? color : mask;
             check_same_place(first, mask, "map_Kd and map_d");
             m.textures[TextureSlot::base_color] = placed(first, pictures_.with_alpha(color.file, mask.file, where("map_d", mask.file)));
+            if (!m.textures[TextureSlot::base_color].used() && m.base_color.w == 1.0f) m.alpha_mode = AlphaMode::opaque;
         } else if (has_color) {
             m.textures[TextureSlot::base_color] =
                 use(color, "map_Kd", ColorSpace::srgb, m.alpha_mode == AlphaMode::blend ? MipRule::alpha : MipRule::equal);
@@ -190,6 +191,10 @@ private:
             check_same_place(first, metal, "map_Pr and map_Pm");
             m.textures[TextureSlot::metallic_roughness] = placed(
                 first, pictures_.roughness_metal(roughness.file, metal.file, where(has_roughness ? "map_Pr" : "map_Pm", first.file)));
+        }
+        if ((has_roughness || has_metal) && !m.textures[TextureSlot::metallic_roughness].used()) {
+            m.metallic = factor(from_.pm.value_or(0.0));
+            m.roughness = factor(from_.pr.value_or(0.6));
         }
         if (from_.pr || from_.pm || has_roughness || has_metal) return;
         if (from_.ks) set_specular(m, *from_.ks);

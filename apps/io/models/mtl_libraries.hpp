@@ -59,7 +59,7 @@ private:
         check_time();
         Document& document = builder_.document();
         builder_.add_file(name);
-        const auto bytes = document.folder.read(ModelBuilder::file_name(name), document.options.limits.max_file_bytes);
+        const auto bytes = document.read_named(ModelBuilder::file_name(name));
         const std::string shown = "mtllib " + printable(name, 120);
         if (!bytes) {
             if (!quietly) document.warn(fmt::format("{}: {}; its materials are drawn in grey", shown, bytes.error().message));

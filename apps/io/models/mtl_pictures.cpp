@@ -56,7 +56,7 @@ Result<Image> MtlPictures::decode(const std::string& file) {
     builder_.add_file(file);
     const LoadLimits& limits = builder_.options().limits;
     const std::string name = ModelBuilder::file_name(file);
-    const auto bytes = builder_.document().folder.read(name, limits.max_file_bytes);
+    const auto bytes = builder_.document().read_named(name);
     if (!bytes) return tl::unexpected(bytes.error());
     return decode_picture(*bytes, name, {limits.max_texture_side, limits.max_texture_pixels, limits.max_jpeg_scans});
 }
@@ -80,7 +80,13 @@ template <class Make>
 int MtlPictures::once(const Key& key, const Make& make) {
     const auto known = texture_of_.find(key);
     if (known != texture_of_.end()) return known->second;
-    const int made = make();
+    int made = -1;
+    try {
+        made = make();
+    } catch (const LoadFailure& failure) {
+        if (builder_.options().strict || failure.error.code != ErrorCode::bad_input) throw;
+        builder_.document().warn(failure.error.message + "; drawn without the picture");
+    }
     texture_of_.emplace(key, made);
     return made;
 }

@@ -13,7 +13,8 @@
 namespace halflit::io::detail {
 
 /// Makes scene textures of them. Besides PNG, JPEG and WebP they may be BMP and TGA, and pictures of one quantity each become one texture
-/// of several. A picture that several materials use is one texture. All functions throw LoadFailure; `where` is for messages.
+/// of several. A picture that several materials use is one texture. A picture that cannot be read is -1, with a warning, or if
+/// strict a LoadFailure; `where` is for messages.
 class MtlPictures {
 public:
     explicit MtlPictures(ModelBuilder& builder) : builder_(builder) {}

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numeric>
 
 namespace halflit::io::detail {
 
@@ -44,11 +45,20 @@ public:
             }
             read_statement(line);
         }
-        if (soup_.position_of.empty() && strokes_.empty() && !soup_.positions.empty())
-            refuse("", "it has vertices but no faces, lines or points");
+        read_late_faces();
+        if (soup_.position_of.empty() && strokes_.empty() && bad_faces_ == 0 && !soup_.positions.empty()) {
+            if (builder_.options().strict) refuse("", "it has vertices but no faces, lines or points");
+            std::vector<std::uint32_t> all(soup_.positions.size());
+            std::iota(all.begin(), all.end(), 0u);
+            strokes_.add(current_part(), Topology::points, all);
+        }
         if (free_form_ > 0) builder_.document().warn("curves and free-form surfaces are not drawn");
         if (bad_faces_ > 0)
             builder_.document().warn(fmt::format("{} faces, lines or points with indices out of range left out", bad_faces_));
+        if (lost_attributes_ > 0)
+            builder_.document().warn(
+                fmt::format("{} corners have a texture coordinate or normal out of range, and are drawn without it", lost_attributes_));
+        if (short_faces_ > 0) builder_.document().warn(fmt::format("{} faces of less than three corners left out", short_faces_));
     }
 
     void finish() {
@@ -98,9 +108,10 @@ private:
         if (word.empty()) return;
         if (word == "v") return read_position(words);
         if (word == "vt") {
-            const Vec3f uv = rounded_near(read_numbers(words, 1), {});
+            const Vec3d uv = read_numbers(words, 1);
+            const Vec3f rounded = fits_float(uv) ? rounded_near(uv, {}) : Vec3f{};
             builder_.take_entries<Vec2f>(1);
-            return soup_.uvs.push_back({uv.x, 1.0f - uv.y});
+            return soup_.uvs.push_back({rounded.x, 1.0f - rounded.y});
         }
         if (word == "vn") {
             builder_.take_entries<Vec3f>(1);
@@ -127,7 +138,7 @@ private:
         for (std::size_t i = 0; i < 3; ++i) {
             const std::string_view word = words.next();
             if (word.empty() && i >= least) break;
-            const auto number = parse_real<double>(word);
+            const auto number = builder_.options().strict ? parse_real<double>(word) : parse_loosely(word);
             if (!number) refuse(where(), fmt::format("expected a number, found \"{}\"", printable(word, 40)));
             value[i] = *number;
         }
@@ -193,8 +204,14 @@ private:
             const auto index = parse_whole<std::int64_t>(text);
             if (!index) refuse(where(), fmt::format("expected an index, found \"{}\"", printable(text, 40)));
             const std::size_t count = i == 0 ? soup_.positions.size() : i == 1 ? soup_.uvs.size() : soup_.normals.size();
-            if (resolve(*index, count, i == 0 ? corner.position : i == 1 ? corner.uv : corner.normal)) continue;
-            if (!builder_.options().lenient)
+            std::uint32_t& number = i == 0 ? corner.position : i == 1 ? corner.uv : corner.normal;
+            if (resolve(*index, count, number)) continue;
+            if (!builder_.options().strict && i > 0) {
+                number = kNone;
+                ++lost_attributes_;
+                continue;
+            }
+            if (builder_.options().strict)
                 refuse(where(), fmt::format("the index {} is out of range: {} {} came before", *index, count,
                                             i == 0   ? "vertices"
                                             : i == 1 ? "texture coordinates"
@@ -202,6 +219,38 @@ private:
             return false;
         }
         return true;
+    }
+
+    /// A face whose vertices come after it.
+    struct LateFace {
+        std::string corners, material;
+        bool has_material;
+        std::uint32_t smoothing;
+    };
+    [[nodiscard]] bool is_late(Words words) const {
+        if (builder_.options().strict || late_are_read_) return false;
+        bool late = false;
+        for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+            const auto index = parse_whole<std::int64_t>(word.substr(0, word.find('/')));
+            if (!index || *index <= 0) return false;  // those that count back are known
+            late = late || static_cast<std::uint64_t>(*index) > soup_.positions.size();
+        }
+        return late;
+    }
+    void put_off(const Words& words) {
+        builder_.document().geometry.take(sizeof(LateFace) + words.rest().size() + material_name_.size());
+        late_.push_back({std::string(words.rest()), material_name_, has_material_name_, smoothing_});
+    }
+    void read_late_faces() {
+        late_are_read_ = true;
+        for (std::size_t i = 0; i < late_.size(); ++i) {
+            if (i % 65536 == 0) check_time();
+            if (late_[i].has_material) use_material(late_[i].material);
+            smoothing_ = late_[i].smoothing;
+            Words words(late_[i].corners);
+            read_face(words);
+        }
+        late_.clear();
     }
 
     /// A polyline, or points.
@@ -212,11 +261,15 @@ private:
             if (!read_corner(word, corner)) return void(++bad_faces_);
             corners.push_back(corner.position);
         }
-        if (topology == Topology::lines && corners.size() < 2) refuse(where(), "a line has one corner, expected at least 2");
+        if (topology == Topology::lines && corners.size() < 2) {
+            if (builder_.options().strict) refuse(where(), "a line has one corner, expected at least 2");
+            return void(++short_faces_);
+        }
         strokes_.add(current_part(), topology, corners);
     }
 
     void read_face(Words& words) {
+        if (is_late(words)) return put_off(words);
         face_.clear();
         points_.clear();
         triangles_.clear();
@@ -226,7 +279,10 @@ private:
             face_.push_back(corner);
             points_.push_back(soup_.positions[corner.position]);
         }
-        if (face_.size() < 3) refuse(where(), fmt::format("a face has {} corners, expected at least 3", face_.size()));
+        if (face_.size() < 3) {
+            if (builder_.options().strict) refuse(where(), fmt::format("a face has {} corners, expected at least 3", face_.size()));
+            return void(++short_faces_);
+        }
         const std::uint32_t part = current_part();
         const bool drops_colors =
             parts_[part].material >= 0 &&
@@ -260,7 +316,9 @@ private:
     std::vector<Corner> face_;
     std::vector<Vec3d> points_;
     std::vector<std::uint32_t> triangles_;
-    std::size_t free_form_ = 0, bad_faces_ = 0;
+    std::vector<LateFace> late_;
+    bool late_are_read_ = false;
+    std::size_t free_form_ = 0, bad_faces_ = 0, short_faces_ = 0, lost_attributes_ = 0;
 };
 
 std::string_view text_of(std::span<const std::byte> bytes) {

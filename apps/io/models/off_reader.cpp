@@ -144,7 +144,7 @@ private:
             points_.push_back(soup_.positions[corners_.back()]);
         }
         if (!good) {
-            if (!builder_.options().lenient) refuse(where(), fmt::format("a vertex out of range: there are {}", soup_.positions.size()));
+            if (builder_.options().strict) refuse(where(), fmt::format("a vertex out of range: there are {}", soup_.positions.size()));
             ++bad_faces_;
             return;
         }

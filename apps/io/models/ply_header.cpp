@@ -70,7 +70,7 @@ PlyFormat read_format(std::string_view word, const std::string& where) {
 
 }  // namespace
 
-PlyHeader read_ply_header(std::span<const std::byte> bytes) {
+PlyHeader read_ply_header(std::span<const std::byte> bytes, bool strict) {
     PlyHeader header;
     Lines lines({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     std::string_view line;
@@ -99,7 +99,9 @@ PlyHeader read_ply_header(std::span<const std::byte> bytes) {
         } else if (word == "comment") {
             if (same_word(words.next(), "texturefile") && header.textures.size() < kMostProperties) header.textures.push_back(words.rest());
         } else if (word != "obj_info" && !word.empty()) {
-            refuse(where, fmt::format("expected element, property or end_header, found \"{}\"", printable(word, 40)));
+            if (strict) refuse(where, fmt::format("expected element, property or end_header, found \"{}\"", printable(word, 40)));
+            if (header.unknown.size() < kMostElements)
+                header.unknown.push_back(fmt::format("{}: \"{}\" is not known", where, printable(word, 40)));
         }
     }
     if (!has_format) refuse("", "the header has no format");

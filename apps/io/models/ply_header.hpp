@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -36,9 +37,10 @@ struct PlyHeader {
     std::vector<std::string_view> textures;  ///< of comments "TextureFile NAME"
     std::span<const std::byte> body;         ///< what follows
     std::size_t lines = 0;                   ///< of the header
+    std::vector<std::string> unknown;        ///< lines that were passed over, for warnings
 };
 
-/// Throws LoadFailure. Views point into `bytes`.
-[[nodiscard]] PlyHeader read_ply_header(std::span<const std::byte> bytes);
+/// Throws LoadFailure. strict: for unknown lines too. Views point into `bytes`.
+[[nodiscard]] PlyHeader read_ply_header(std::span<const std::byte> bytes, bool strict);
 
 }  // namespace halflit::io::detail

@@ -4,6 +4,7 @@
 #include "apps/io/models/model_readers.hpp"
 #include "apps/io/models/ply_values.hpp"
 #include "apps/io/models/polygon.hpp"
+#include "sh/power.hpp"
 #include "sh/time_limit.hpp"
 #include "shading/model/numbers.hpp"
 
@@ -11,14 +12,39 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <limits>
 #include <numeric>
+#include <span>
 
 namespace halflit::io::detail {
 
 namespace {
 
 /// Places where values of a vertex or a face go.
-enum Slot : std::uint8_t { px, py, pz, nx, ny, nz, tu, tv, red, green, blue, indices, texcoord, texnumber, kSlots };
+enum Slot : std::uint8_t {
+    px,
+    py,
+    pz,
+    nx,
+    ny,
+    nz,
+    tu,
+    tv,
+    red,
+    green,
+    blue,
+    packed,
+    harmonic_0,
+    harmonic_1,
+    harmonic_2,
+    opacity,
+    scalar,
+    indices,
+    texcoord,
+    texnumber,
+    kSlots
+};  // clang-format: off
 
 Slot slot_of(std::string_view name, bool is_list) {
     struct Name {
@@ -46,39 +72,105 @@ Slot slot_of(std::string_view name, bool is_list) {
                                         {"diffuse_red", red},
                                         {"diffuse_green", green},
                                         {"diffuse_blue", blue},
+                                        {"rgb", packed},
+                                        {"rgba", packed},
+                                        {"f_dc_0", harmonic_0},
+                                        {"f_dc_1", harmonic_1},
+                                        {"f_dc_2", harmonic_2},
+                                        {"opacity", opacity},
+                                        {"intensity", scalar},
+                                        {"reflectance", scalar},
+                                        {"quality", scalar},
+                                        {"confidence", scalar},
+                                        {"curvature", scalar},
                                         {"texnumber", texnumber}};
     static constexpr Name kLists[] = {{"vertex_indices", indices}, {"vertex_index", indices}, {"texcoord", texcoord}};
     for (const Name& known : is_list ? std::span<const Name>(kLists) : std::span<const Name>(kScalars))
         if (known.name == name) return known.slot;
-    return kSlots;
+    return !is_list && name.starts_with("scalar_") ? scalar : kSlots;  // as CloudCompare writes them
+}
+
+/// Linear light of whole sRGB codes.
+float linear_of_code(std::uint8_t code) {
+    static const std::array<float, 256> kLinear = [] {
+        std::array<float, 256> table{};
+        for (std::size_t i = 0; i < table.size(); ++i) table[i] = linear_color(static_cast<double>(i) / 255.0);
+        return table;
+    }();
+    return kLinear[code];
+}
+
+/// A colour of the map viridis, by a value from 0 to 1.
+Vec4f viridis(double t) {
+    static constexpr double kCodes[9][3] = {{68, 1, 84},    {71, 44, 122}, {59, 81, 139},  {44, 113, 142}, {33, 144, 141},
+                                            {39, 173, 129}, {92, 200, 99}, {170, 220, 50}, {253, 231, 37}};
+    const double at = std::clamp(t, 0.0, 1.0) * 8;
+    const std::size_t below = std::min<std::size_t>(static_cast<std::size_t>(at), 7);
+    const double weight = at - static_cast<double>(below);
+    const auto channel = [&](std::size_t c) {
+        return linear_color((kCodes[below][c] + weight * (kCodes[below + 1][c] - kCodes[below][c])) / 255.0);
+    };
+    return {channel(0), channel(1), channel(2), 1};
 }
 
 /// Properties of an element, by their slots.
 struct Layout {
-    std::vector<Slot> slots;             ///< of each property; kSlots: not used
-    std::array<bool, kSlots + 1> has{};  ///< by slot
-    std::array<double, 3> color_unit{};  ///< of red, green and blue: what stands for 1
+    std::vector<Slot> slots;                 ///< of each property; kSlots: not used
+    std::array<bool, kSlots + 1> has{};      ///< by slot
+    std::array<PlyType, kSlots + 1> type{};  ///< by slot
+    std::string_view scalar_name;
 
     explicit Layout(const PlyElement& element) {
         for (const PlyProperty& p : element.properties) {
             const Slot slot = slot_of(p.name, p.is_list);
             slots.push_back(has[slot] ? kSlots : slot);
-            if (!has[slot] && slot >= red && slot <= blue)
-                color_unit[slot - red] = p.type == PlyType::u8 ? 255 : p.type == PlyType::u16 ? 65535 : 1;
+            if (has[slot]) continue;
             has[slot] = true;
+            type[slot] = p.type;
+            if (slot == scalar) scalar_name = p.name;
         }
     }
-    [[nodiscard]] bool has_color() const { return has[red] && has[green] && has[blue]; }
+    [[nodiscard]] bool has_channels() const { return has[red] && has[green] && has[blue]; }
+    /// Of 3D Gaussians: the part of their light that is the same from all sides.
+    [[nodiscard]] bool is_splat() const { return has[harmonic_0] && has[harmonic_1] && has[harmonic_2] && has[opacity]; }
+    [[nodiscard]] bool has_color() const { return has_channels() || has[packed] || is_splat(); }
+    /// In the unit of the file; alpha is a share.
     [[nodiscard]] Vec4f color(const std::array<double, kSlots + 1>& value) const {
-        const auto channel = [&](Slot slot) { return linear_color(value[slot] / color_unit[slot - red]); };
-        return {channel(red), channel(green), channel(blue), 1};
+        const auto of = [&](Slot slot) { return static_cast<float>(value[slot]); };
+        if (has_channels()) return {of(red), of(green), of(blue), 1};
+        if (has[packed]) {  // 0xRRGGBB, which the Point Cloud Library keeps as the bits of a float
+            const bool is_float = type[packed] == PlyType::f32 || type[packed] == PlyType::f64;
+            const auto whole = static_cast<std::uint32_t>(
+                static_cast<std::int64_t>(is_float ? 0.0 : std::clamp(value[packed], -2147483648.0, 4294967295.0)));
+            const std::uint32_t bits = is_float ? std::bit_cast<std::uint32_t>(of(packed)) : whole;
+            return {static_cast<float>(bits >> 16 & 255u), static_cast<float>(bits >> 8 & 255u), static_cast<float>(bits & 255u), 1};
+        }
+        constexpr double kY0 = 0.28209479177387814;  // of spherical harmonics
+        const auto share = [&](Slot slot) { return static_cast<float>(std::clamp(0.5 + kY0 * value[slot], 0.0, 1.0)); };
+        const double alpha = 1.0 / (1.0 + exp_of(-std::clamp(value[opacity], -80.0, 80.0)));
+        return {share(harmonic_0), share(harmonic_1), share(harmonic_2), alpha >= 0 && alpha <= 1 ? static_cast<float>(alpha) : 0.0f};
+    }
+    /// Makes linear light of colours as color() gives them. The number that stands for 1 follows from their type and the largest one.
+    void make_linear(std::span<Vec4f> colors) const {
+        const bool is_whole = has_channels() ? type[red] != PlyType::f32 && type[red] != PlyType::f64 : has[packed];
+        float most = 0;
+        for (const Vec4f& c : colors) most = std::max({most, c.x, c.y, c.z});
+        const double unit = has_channels() && type[red] == PlyType::u8 ? 255 : most <= 1 && !is_whole ? 1 : most <= 255 ? 255 : 65535;
+        const auto linear = [&](float value) {
+            if (unit == 255 && value >= 0 && value <= 255)
+                if (const auto code = static_cast<std::uint8_t>(value); static_cast<float>(code) == value) return linear_of_code(code);
+            return linear_color(static_cast<double>(value) / unit);
+        };
+        for (Vec4f& c : colors) c = {linear(c.x), linear(c.y), linear(c.z), c.w};
     }
 };
 
 class PlyReader {
 public:
     PlyReader(std::span<const std::byte> bytes, ModelBuilder& builder)
-        : header_(read_ply_header(bytes)), values_(header_), builder_(builder) {}
+        : header_(read_ply_header(bytes, builder.options().strict)), values_(header_, builder.options().strict), builder_(builder) {
+        for (const std::string& line : header_.unknown) builder_.document().warn(line);
+    }
 
     void read() {
         const auto named = [](std::string_view name) { return [name](const PlyElement& e) { return e.name == name && e.count > 0; }; };
@@ -90,19 +182,30 @@ public:
                                           [](const PlyElement& e) { return e.name == "face" || e.name == "tristrips"; });
         if (vertices != header_.elements.end()) {
             const PlyValues all = values_;
-            for (auto element = header_.elements.begin(); element != vertices; ++element) skip(*element);
-            values_.check_count(*vertices);
-            read_vertices(*vertices);
+            try {
+                for (auto element = header_.elements.begin(); element != vertices; ++element) skip(*element);
+                read_vertices(*vertices);
+            } catch (const PlyCutOff&) {
+                note_cut_off(*vertices, soup_.positions.size());
+            }
             if (corners < vertices) values_ = all;
         }
         for (auto element = corners < vertices || vertices == header_.elements.end() ? header_.elements.begin() : vertices + 1;
-             element != header_.elements.end(); ++element) {
-            if (element == vertices)
-                skip(*element);
-            else
-                read_others(*element);
+             element != header_.elements.end() && !(cut_off_ && element >= vertices); ++element) {
+            try {
+                if (element == vertices)
+                    skip(*element);
+                else
+                    read_others(*element);
+            } catch (const PlyCutOff&) {
+                note_cut_off(*element, rows_);
+                break;
+            }
         }
+        is_cloud_ = is_cloud_ || (cut_off_ && soup_.position_of.empty() && !soup_.positions.empty());
         Document& document = builder_.document();
+        if (values_.long_rows() > 0)
+            document.warn(fmt::format("{} lines have more values than the header says, which are passed over", values_.long_rows()));
         if (values_.has_more()) document.warn("there is more behind the last element, which is not drawn");
         if (short_polygons_ > 0) document.warn(fmt::format("{} polygons of less than three corners left out", short_polygons_));
         if (bad_texcoords_ > 0)
@@ -141,10 +244,39 @@ public:
 private:
     using Row = std::array<double, kSlots + 1>;
 
+    /// Says that an element is not there to its end.
+    void note_cut_off(const PlyElement& element, std::size_t there) {
+        cut_off_ = true;
+        builder_.document().warn(
+            fmt::format("it was cut off: {} of {} elements \"{}\" are there", there, element.count, printable(element.name, 40)));
+    }
+
+    /// Colours of points that have a number instead.
+    void color_by_scalar(std::string_view name) {
+        float least = std::numeric_limits<float>::infinity(), most = -least;
+        for (const float value : scalars_)
+            if (shading::finite(value)) least = std::min(least, value), most = std::max(most, value);
+        if (!(least < most)) return;
+        builder_.take_entries<Vec4f>(scalars_.size());
+        const double range = static_cast<double>(most) - static_cast<double>(least);
+        for (const float value : scalars_)
+            soup_.colors.push_back(
+                viridis(shading::finite(value) ? (static_cast<double>(value) - static_cast<double>(least)) / range : 0.0));
+        builder_.document().warn(
+            fmt::format("has no colours: drawn by its property {}, from {} (dark blue) to {} (yellow)", printable(name, 40), least, most));
+    }
+
+    /// Some programs write 0 0 0 where there is no normal.
+    void drop_zero_normals() {
+        const auto zeros = static_cast<std::size_t>(std::count(soup_.normals.begin(), soup_.normals.end(), Vec3f{}));
+        if (zeros > soup_.normals.size() / 10) soup_.normals.clear();
+    }
+
     /// Vertices without faces are points. Those without normals are not lit.
     void finish_cloud() {
         Mesh mesh;
         mesh.topology = Topology::points;
+        drop_zero_normals();
         builder_.take_entries<std::uint32_t>(soup_.positions.size());
         std::size_t kept = 0;
         for (std::size_t i = 0; i < soup_.positions.size(); ++i) {
@@ -168,6 +300,13 @@ private:
         mesh.colors = std::move(soup_.colors);
         mesh.indices = std::move(soup_.position_of);
         mesh.material = mesh.colors.empty() ? builder_.grey_material() : builder_.colored_material();
+        if (is_splat_) {
+            mesh.normals.clear();
+            builder_.loaded().scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode = AlphaMode::blend;
+            builder_.document().warn(
+                "holds 3D Gaussians: drawn as points with their colours and opacities, without sizes, shapes and "
+                "colours that change with the view");
+        }
         if (mesh.normals.empty()) builder_.loaded().scene.materials[static_cast<std::size_t>(mesh.material)].unlit = true;
         const int index = builder_.add_mesh(std::move(mesh), origin);
         builder_.place({&index, 1}, "");
@@ -175,6 +314,11 @@ private:
 
     /// Reads an element's values: scalars into `row`, known lists into lists_. Others are skipped.
     void read_row(const PlyElement& element, const Layout& layout, Row& row) {
+        values_.begin_row();
+        read_values(element, layout, row);
+        values_.end_row();
+    }
+    void read_values(const PlyElement& element, const Layout& layout, Row& row) {
         for (std::size_t p = 0; p < element.properties.size(); ++p) {
             const PlyProperty& property = element.properties[p];
             const Slot slot = layout.slots[p];
@@ -199,12 +343,23 @@ private:
         vertex_has_uv_ = layout.has[tu] && layout.has[tv];
         if (element.count >= kNone)
             refuse("element vertex", fmt::format("{} vertices, the limit is {}", element.count, kNone), ErrorCode::limit);
-        builder_.take_entries<Vec3d>(element.count);
-        builder_.take_entries<Vec3f>(element.count * ((has_normal ? 1 : 0) + (vertex_has_uv_ ? 1 : 0) + (has_color ? 2 : 0)));
+        const std::uint64_t count = values_.held(element);
+        const bool by_scalar = is_cloud_ && !has_color && layout.has[scalar];
+        builder_.take_entries<Vec3d>(count);
+        builder_.take_entries<Vec3f>(count * ((has_normal ? 1 : 0) + (vertex_has_uv_ ? 1 : 0) + (has_color ? 2 : 0) + (by_scalar ? 1 : 0)));
+        vertex_has_normal_ = has_normal;
+        vertex_has_color_ = has_color;
+        is_splat_ = is_cloud_ && layout.is_splat() && !layout.has_channels() && !layout.has[packed];
         Row row{};
-        for (std::uint64_t i = 0; i < element.count; ++i) {
+        for (std::uint64_t i = 0; i < count; ++i) {
             if (i % 65536 == 0) check_time();
-            read_row(element, layout, row);
+            try {
+                read_row(element, layout, row);
+            } catch (const PlyCutOff&) {
+                note_cut_off(element, soup_.positions.size());
+                break;
+            }
+            if (by_scalar) scalars_.push_back(static_cast<float>(row[scalar]));
             const auto vector = [&](Slot first) {
                 return Vec3f{static_cast<float>(row[first]), static_cast<float>(row[first + 1]), static_cast<float>(row[first + 2])};
             };
@@ -213,17 +368,17 @@ private:
             if (vertex_has_uv_) soup_.uvs.push_back({static_cast<float>(row[tu]), static_cast<float>(1.0 - row[tv])});
             if (has_color) soup_.colors.push_back(layout.color(row));
         }
-        vertex_has_normal_ = has_normal;
-        vertex_has_color_ = has_color;
+        if (has_color) layout.make_linear(soup_.colors);
+        if (by_scalar) color_by_scalar(layout.scalar_name);
     }
 
     /// Goes past an element, without looking at its values.
     void skip(const PlyElement& element) {
         if (element.properties.empty()) return;
-        values_.check_count(element);
+        const std::uint64_t count = values_.held(element);
         const Layout layout(element);
         Row row{};
-        for (std::uint64_t i = 0; i < element.count; ++i) {
+        for (std::uint64_t i = 0; i < count; ++i) {
             if (i % 65536 == 0) check_time();
             read_row(element, layout, row);
         }
@@ -231,7 +386,7 @@ private:
 
     void read_others(const PlyElement& element) {
         if (element.properties.empty()) return;
-        values_.check_count(element);
+        const std::uint64_t count = values_.held(element);
         const Layout layout(element);
         const bool is_face = element.name == "face", is_strips = element.name == "tristrips";
         if ((is_face || is_strips) && !layout.has[indices])
@@ -239,12 +394,20 @@ private:
         if (!is_face && !is_strips && element.count > 0)
             builder_.document().warn(fmt::format("{} elements \"{}\" are not drawn", element.count, printable(element.name, 40)));
         Row row{};
-        for (std::uint64_t i = 0; i < element.count; ++i) {
-            if (i % 65536 == 0) check_time();
-            read_row(element, layout, row);
-            if (is_strips) add_strips();
-            if (is_face) add_face(layout, row);
+        const std::size_t first_color = soup_.colors.size();
+        const auto finish_colors = [&] { layout.make_linear(std::span(soup_.colors).subspan(first_color)); };
+        try {
+            for (rows_ = 0; rows_ < count; ++rows_) {
+                if (rows_ % 65536 == 0) check_time();
+                read_row(element, layout, row);
+                if (is_strips) add_strips();
+                if (is_face) add_face(layout, row);
+            }
+        } catch (const PlyCutOff&) {
+            finish_colors();
+            throw;
         }
+        finish_colors();
     }
 
     void add_strips() {
@@ -278,7 +441,7 @@ private:
         corners_.clear();
         for (const double index : polygon_) {
             if (!(index >= 0 && index < static_cast<double>(soup_.positions.size()))) {
-                if (!builder_.options().lenient)
+                if (builder_.options().strict)
                     refuse(values_.where(), fmt::format("a face has the vertex {}, but there are {}", index, soup_.positions.size()));
                 ++bad_indices_;
                 return;
@@ -323,7 +486,9 @@ private:
     std::vector<std::uint32_t> corners_, triangles_;
     std::vector<Vec3d> points_;
     std::size_t bad_indices_ = 0, short_polygons_ = 0, bad_texcoords_ = 0;
-    bool is_cloud_ = false;
+    std::vector<float> scalars_;  ///< of points without colours
+    std::uint64_t rows_ = 0;      ///< of the element that is being read
+    bool is_cloud_ = false, is_splat_ = false, cut_off_ = false;
 };
 
 }  // namespace
@@ -338,7 +503,7 @@ LoadedScene read_ply(std::span<const std::byte> bytes, const std::string& base_d
 
 std::vector<std::string> files_of_ply(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
     ModelBuilder builder(bytes, base_dir, options, "PLY");
-    for (const std::string_view name : read_ply_header(bytes).textures) builder.add_file(name);
+    for (const std::string_view name : read_ply_header(bytes, options.strict).textures) builder.add_file(name);
     return builder.finish({}).info.files;
 }
 

@@ -17,11 +17,33 @@
 
 namespace halflit::io::detail {
 
+/// Thrown at the end of a file that was cut off, unless strict: what came before is drawn.
+struct PlyCutOff {};
+
 /// Values of the body, one after another.
 class PlyValues {
 public:
-    explicit PlyValues(const PlyHeader& header)
-        : format_(header.format), text_({reinterpret_cast<const char*>(header.body.data()), header.body.size()}), line_(header.lines) {}
+    PlyValues(const PlyHeader& header, bool strict)
+        : strict_(strict),
+          format_(header.format),
+          text_({reinterpret_cast<const char*>(header.body.data()), header.body.size()}),
+          line_(header.lines) {}
+
+    void begin_row() { words_ = 0; }
+    /// Passes over what the line has beyond the row of a text, if that is less than another row.
+    void end_row() {
+        if (strict_ || format_ != PlyFormat::ascii) return;
+        std::size_t at = 0, more = 0;
+        for (bool in_word = false; at < text_.size() && !is_line_end(text_[at]); ++at) {
+            if (!is_blank(text_[at]) && !in_word) ++more;
+            in_word = !is_blank(text_[at]);
+            if (more >= words_) return;
+        }
+        if (more == 0) return;
+        text_.remove_prefix(at);
+        ++long_rows_;
+    }
+    [[nodiscard]] std::size_t long_rows() const { return long_rows_; }
 
     double next(PlyType type) { return format_ == PlyFormat::ascii ? next_word() : next_binary(type); }
 
@@ -33,14 +55,16 @@ public:
         if (length > static_cast<double>(text_.size() / least + 1)) refuse_end();
         return static_cast<std::size_t>(length);
     }
-    /// Refuses a number of elements that the file cannot hold.
-    void check_count(const PlyElement& element) const {
+    /// The number of elements, or as many as the file can hold at most; if strict, refuses a file that cannot hold them.
+    [[nodiscard]] std::uint64_t held(const PlyElement& element) const {
         std::size_t least = 0;  // bytes
         for (const PlyProperty& p : element.properties)
             least += format_ == PlyFormat::ascii ? 1 : size_of(p.is_list ? p.count_type : p.type);
-        if (least > 0 && element.count > text_.size() / least)
+        if (least == 0 || element.count <= text_.size() / least) return element.count;
+        if (strict_)
             refuse("",
                    fmt::format("{} elements \"{}\" do not fit into the file: it was cut off", element.count, printable(element.name, 40)));
+        return text_.size() / least + 1;  // the last of which ends with PlyCutOff
     }
     /// Something follows the last value, besides ends of lines.
     [[nodiscard]] bool has_more() const {
@@ -50,9 +74,13 @@ public:
     [[nodiscard]] std::string where() const { return format_ == PlyFormat::ascii ? fmt::format("line {}", line_ + 1) : ""; }
 
 private:
-    [[noreturn]] void refuse_end() const { refuse(where(), "the file ends before its last element: it was cut off"); }
+    [[noreturn]] void refuse_end() const {
+        if (!strict_) throw PlyCutOff{};
+        refuse(where(), "the file ends before its last element: it was cut off");
+    }
 
     double next_word() {
+        ++words_;
         while (!text_.empty() && (is_blank(text_.front()) || is_line_end(text_.front()))) {
             if (text_.front() == '\n') ++line_;
             text_.remove_prefix(1);
@@ -62,7 +90,8 @@ private:
         if (length == 0) refuse_end();
         const std::string_view word = text_.substr(0, length);
         text_.remove_prefix(length);
-        const std::optional<double> value = parse_real<double>(word);  // also of floats: surveys write more digits than those hold
+        const std::optional<double> value =
+            strict_ ? parse_real<double>(word) : parse_loosely(word);  // also of floats: surveys write more digits than those hold
         if (!value) refuse(where(), fmt::format("expected a number, found \"{}\"", printable(word, 40)));
         return *value;
     }
@@ -98,7 +127,9 @@ private:
         return 0;
     }
 
+    bool strict_;
     PlyFormat format_;
+    std::size_t words_ = 0, long_rows_ = 0;
     std::string_view text_;
     std::size_t line_;
 };

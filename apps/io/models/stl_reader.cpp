@@ -31,7 +31,14 @@ public:
                 open = lower(word[0]) == 's';
                 words_ = Words("");  // the rest of the line is a name
             } else if (same_word(word, "facet")) {
-                facet();
+                const std::size_t before = soup_.position_of.size();
+                try {
+                    facet();
+                } catch (const LoadFailure&) {
+                    if (builder_.options().strict || !next().empty() || before == 0) throw;
+                    builder_.document().warn("it was cut off: its last triangle is left out");
+                    return std::move(soup_);
+                }
             } else {
                 refuse_word(word, "facet or endsolid");
             }
@@ -62,7 +69,7 @@ private:
     }
     double number() {
         const std::string_view word = next();
-        const auto value = parse_real<double>(word);
+        const auto value = builder_.options().strict ? parse_real<double>(word) : parse_loosely(word);
         if (!value) refuse_word(word, "a number");
         return *value;
     }
@@ -131,11 +138,19 @@ private:
 Soup read_binary(std::span<const std::byte> bytes, ModelBuilder& builder, bool& has_colors) {
     if (bytes.size() < kHeader)
         refuse("", fmt::format("a binary STL file has at least {} bytes, found {}: it was cut off", kHeader, bytes.size()));
-    const std::uint64_t count = u32_at(bytes, 80), expected = kHeader + kRecord * count;
-    if (bytes.size() < expected)
-        refuse("", fmt::format("{} triangles take {} bytes, found {}: it was cut off", count, expected, bytes.size()));
-    if (bytes.size() > expected)
-        builder.document().warn(fmt::format("{} bytes after the last triangle are ignored", bytes.size() - expected));
+    const std::uint64_t given = u32_at(bytes, 80), held = (bytes.size() - kHeader) / kRecord;
+    std::uint64_t count = given;
+    if (bytes.size() < kHeader + kRecord * given) {
+        if (builder.options().strict)
+            refuse("", fmt::format("{} triangles take {} bytes, found {}: it was cut off", given, kHeader + kRecord * given, bytes.size()));
+        builder.document().warn(fmt::format("it was cut off: {} triangles of {} are there", held, given));
+        count = held;
+    } else if (given == 0 && held > 0 && bytes.size() == kHeader + kRecord * held && !builder.options().strict) {
+        builder.document().warn(fmt::format("it says that it has no triangles, but holds {}", held));
+        count = held;
+    }
+    if (bytes.size() > kHeader + kRecord * count && count == given)
+        builder.document().warn(fmt::format("{} bytes after the last triangle are ignored", bytes.size() - kHeader - kRecord * count));
     builder.take_triangles(count);
     builder.take_entries<Vec3d>(3 * count);
     const StlColors colors(as_text(bytes.first(80)));

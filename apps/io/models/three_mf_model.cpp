@@ -62,7 +62,7 @@ private:
     std::optional<std::uint32_t> whole(const XmlAttributes& attributes, std::string_view name) const {
         const char* text = attributes.find(name);
         if (text == nullptr) return std::nullopt;
-        const auto value = parse_whole<std::uint32_t>(text);
+        const auto value = parse_whole<std::uint32_t>(Words(text).rest());
         if (!value || *value == kNone) fault(fmt::format("{}: expected a whole number, found \"{}\"", name, printable(text, 40)));
         return value;
     }
@@ -74,7 +74,7 @@ private:
     template <class T>
     T real(const XmlAttributes& attributes, std::string_view name) const {
         const char* text = attributes.find(name);
-        const auto value = parse_real<T>(text == nullptr ? "" : text);
+        const auto value = parse_real<T>(Words(text == nullptr ? "" : text).rest());  // XML Schema allows white space around it
         if (!value) fault(fmt::format("{}: expected a number, found \"{}\"", name, printable(text == nullptr ? "" : text, 40)));
         return *value;
     }
@@ -95,7 +95,11 @@ private:
     }
     /// #RRGGBB or #RRGGBBAA, in sRGB.
     Vec4f color(const XmlAttributes& attributes, std::string_view name) const {
-        const std::string_view text = attributes.get(name);
+        const std::string_view text = Words(attributes.get(name)).rest();
+        if (text.empty() && !builder_.options().strict) {
+            builder_.document().warn(fmt::format("{}: {} is missing; drawn in grey", part_, name));
+            return {linear_color(0.7), linear_color(0.7), linear_color(0.7), 1.0f};
+        }
         std::uint32_t value = 0;
         const auto [end, error] = std::from_chars(text.data() + (text.empty() ? 0 : 1), text.data() + text.size(), value, 16);
         if ((text.size() != 7 && text.size() != 9) || text[0] != '#' || error != std::errc() || end != text.data() + text.size())
@@ -162,7 +166,7 @@ private:
                                              kTriangleSets};
             if (std::find(std::begin(read), std::end(read), name) != std::end(read)) continue;
             const std::string what = fmt::format("requiredextensions: \"{}\" is not supported", printable(name, 120));
-            if (!builder_.options().lenient) fault(what);
+            if (builder_.options().strict) fault(what);
             builder_.document().warn(fmt::format("{}: {}", part_, what));
         }
     }

@@ -180,7 +180,7 @@ private:
 
     void make_meshes_of(Part& part, Object& object, Made& made) {
         if (object.triangles.empty()) return;
-        const bool lenient = builder_.options().lenient;
+        const bool strict = builder_.options().strict;
         const std::string where = fmt::format("{}: object \"{}\"", printable(part.name, 120), printable(object.name, 80));
         Soup soup;
         soup.positions = std::move(object.vertices);
@@ -202,7 +202,7 @@ private:
                 return std::any_of(list.begin(), list.end(), [&](std::uint32_t i) { return i >= count; });
             };
             if (out_of(triangle.vertex, soup.positions.size())) {
-                if (!lenient) refuse(where, fmt::format("a triangle has a vertex out of range: there are {}", soup.positions.size()));
+                if (strict) refuse(where, fmt::format("a triangle has a vertex out of range: there are {}", soup.positions.size()));
                 ++bad;
                 continue;
             }

@@ -3,10 +3,10 @@
 STRUCTS = {
     "halflit_load_options": """
         size_t size; const char* scene; const char* variant; const char* animation; double time_s; int32_t keep_animations;
-        int32_t up; int32_t recentre; float crease_deg; int32_t lenient; int32_t threads; const char* const* allow_external;
-        size_t allow_external_count; double time_limit_s; uint64_t max_file_bytes; uint64_t max_total_bytes; uint64_t
-        max_json_tokens; uint64_t max_texture_bytes; uint64_t max_texture_pixels; uint64_t max_geometry_bytes; uint64_t
-        max_lights; int32_t max_json_depth; int32_t max_texture_side; int32_t max_jpeg_scans; int32_t reserved;
+        int32_t up; int32_t recentre; float crease_deg; int32_t strict; int32_t threads; const char* const* allow_external; size_t
+        allow_external_count; double time_limit_s; uint64_t max_file_bytes; uint64_t max_total_bytes; uint64_t max_json_tokens;
+        uint64_t max_texture_bytes; uint64_t max_texture_pixels; uint64_t max_geometry_bytes; uint64_t max_lights; int32_t
+        max_json_depth; int32_t max_texture_side; int32_t max_jpeg_scans; int32_t reserved;
 """,
     "halflit_counts": """
         size_t size; uint64_t triangles; int32_t meshes, instances, materials, textures, cameras; int32_t lights; int32_t nodes;

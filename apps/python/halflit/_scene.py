@@ -19,7 +19,7 @@ from ._values import real, shown, truth
 from ._world import World
 
 #: Members of halflit_load_options that are truths, and those that have a keyword of their own.
-_TRUTHS = ("lenient",)
+_TRUTHS = ("strict",)
 _NAMED = ("size", "reserved", "allow_external", "allow_external_count", "animation", "time_s", "scene", "variant", "keep_animations", "recentre", "up")
 
 
@@ -78,7 +78,7 @@ class Scene(Geometry, Lighting):
         shape. All that is given and asked for stays in the file's own world.
         up: axis of the model that points up, "x", "y", "z", "-x", "-y" or "-z": the scene is turned so that it becomes y. The usual one is
         z for STL and 3MF and y for other files.
-        Other keywords are members of halflit_load_options, such as lenient=True, crease_deg=60, time_limit_s=10, max_texture_side=4096 or
+        Other keywords are members of halflit_load_options, such as strict=True, crease_deg=60, time_limit_s=10, max_texture_side=4096 or
         allow_external="/models/shared", a folder or a list of folders in which the model's files may lie too.
         """
         how = _c.make("load_options")

@@ -81,9 +81,9 @@ typedef struct halflit_load_options {
     /// Moves a scene that is far from the origin to it, and scales a tiny or huge one, so that float32 keeps its shape (1). See
     /// halflit_scene_get_placement.
     int32_t recentre;
-    float crease_deg;                   ///< files without normals but glTF: smooth across edges up to this angle (30)
-    int32_t lenient;                    ///< draw what can be drawn: magenta for broken textures, triangles with bad indices left out (0)
-    int32_t threads;                    ///< threads that decode textures, the calling one included; 0: one for each core (0)
+    float crease_deg;  ///< files without normals but glTF: smooth across edges up to this angle (30)
+    int32_t strict;    ///< refuse a file of which something cannot be drawn: textures, animations, faces with bad indices (0)
+    int32_t threads;   ///< threads that decode textures, the calling one included; 0: one for each core (0)
     const char* const* allow_external;  ///< folders, besides the model's own, in which referenced files may lie
     size_t allow_external_count;        ///< number of these folders
     double time_limit_s;                ///< wall clock, checked between the parts of the file; 0: no limit (0)

@@ -278,7 +278,7 @@ std::vector<Animation> read_animations(Document& document, const std::vector<Acc
                 animation.moves.push_back({channel.slot, std::move(*track)});
             }
         } catch (const LoadFailure& failure) {
-            if (!document.options.lenient || failure.error.code != ErrorCode::bad_input) throw;
+            if (document.options.strict || failure.error.code != ErrorCode::bad_input) throw;
             document.warn(fmt::format("{}; the animation is left out", failure.error.message));
             animation.moves.clear();
         }

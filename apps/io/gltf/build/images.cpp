@@ -21,15 +21,12 @@ std::uint64_t texture_bytes(const ImageHeader& header) {
     return static_cast<std::uint64_t>(header.width) * static_cast<std::uint64_t>(header.height) * 32 / 3;
 }
 
-/// The texture in place of a picture that cannot be read: 8x8 magenta and black.
-Texture checkerboard(ColorSpace space) {
-    std::vector<std::uint8_t> rgba(8 * 8 * 4, 255);
-    for (std::size_t i = 0; i < 64; ++i) {
-        const bool magenta = (i % 8 + i / 8) % 2 == 0;
-        rgba[4 * i] = rgba[4 * i + 2] = magenta ? 255 : 0;
-        rgba[4 * i + 1] = 0;
-    }
-    return take(Texture::from_rgba8(rgba, 8, 8, space), "magenta checkerboard");
+/// Takes a picture that is lost out of a material. A factor that scales what the picture has only here and there is off without it.
+void leave_out(Material& material, TextureSlot slot) {
+    material.textures[slot] = {};
+    if (slot == TextureSlot::metallic_roughness) material.metallic = 0.0f;
+    if (slot == TextureSlot::emissive) material.emissive = {};
+    if (slot == TextureSlot::transmission) material.transmission = 0.0f;
 }
 
 /// Makes a texture from rows as they are decoded.
@@ -96,7 +93,7 @@ ImageStore::Job ImageStore::prepare(int image, ColorSpace space, MipRule rule, i
         owned = take(decode_data_uri(*entry.uri, limits.max_file_bytes), at_uri);
         bytes = owned;
     } else if (entry.uri) {
-        owned = take(document_.folder.read(take(decode_file_uri(*entry.uri), at_uri), limits.max_file_bytes), at_uri);
+        owned = take(document_.read_named(take(decode_file_uri(*entry.uri), at_uri)), at_uri);
         bytes = owned;
         if (entry.place.empty()) where = fmt::format("{}: \"{}\"", at_uri, printable(*entry.uri, 120));
     } else {
@@ -133,15 +130,15 @@ int ImageStore::texture_for(int image, ColorSpace space, MipRule rule) {
     try {
         jobs_.push_back(prepare(image, space, rule, found->second));
     } catch (const LoadFailure& failure) {
-        replace(found->second, space, failure);
+        lose(found->second, failure);
     }
     return found->second;
 }
 
-void ImageStore::replace(int texture, ColorSpace space, const LoadFailure& failure) {
-    if (!document_.options.lenient || failure.error.code != ErrorCode::bad_input) throw failure;
-    document_.warn(failure.error.message + "; drawn as a magenta checkerboard");
-    textures_[static_cast<std::size_t>(texture)] = checkerboard(space);
+void ImageStore::lose(int texture, const LoadFailure& failure) {
+    if (document_.options.strict || failure.error.code != ErrorCode::bad_input) throw failure;
+    document_.warn(failure.error.message + "; drawn without the picture");
+    lost_.insert(texture);
 }
 
 Texture ImageStore::make(const Job& job) const {
@@ -192,7 +189,7 @@ void ImageStore::start() {
 
 ImageStore::~ImageStore() { next_job_ = jobs_.size(); }
 
-void ImageStore::finish() {
+void ImageStore::finish(std::vector<Material>& materials) {
     run_jobs();
     threads_.clear();
     // In order, so that what is reported does not depend on the threads.
@@ -201,10 +198,13 @@ void ImageStore::finish() {
         try {
             std::rethrow_exception(job.failure);
         } catch (const LoadFailure& failure) {
-            replace(job.texture, job.space, failure);
+            lose(job.texture, failure);
         }
     }
     jobs_.clear();
+    for (Material& material : materials)
+        for (std::size_t i = 0; i < kTextureSlots; ++i)
+            if (const auto slot = static_cast<TextureSlot>(i); lost_.contains(material.textures[slot].texture)) leave_out(material, slot);
 }
 
 }  // namespace halflit::io::detail

@@ -3,12 +3,14 @@
 #pragma once
 
 #include "apps/io/gltf/file/document.hpp"
+#include "halflit/material.hpp"
 #include "halflit/texture.hpp"
 
 #include <atomic>
 #include <cstddef>
 #include <exception>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <thread>
@@ -24,16 +26,17 @@ public:
     /// Waits for pictures that are being decoded, and leaves out the others.
     ~ImageStore();
 
-    /// Index into the scene's textures for an entry of "images", which is decoded later. Throws LoadFailure, or, when lenient, warns and
-    /// chooses a magenta checkerboard.
+    /// Index into the scene's textures for an entry of "images", which is decoded later. One that cannot be read is left out by
+    /// finish(), with a warning; throws LoadFailure for what a limit refuses, and, if strict, for all.
     int texture_for(int image, ColorSpace space, MipRule rule = MipRule::equal);
 
     /// Begins to decode all pictures on other threads, if they are large. Until finish(), the scene's textures are not to be read, and
     /// there must be no further call of texture_for.
     void start();
-    /// Decodes the pictures that no thread has begun, and waits. Fails as texture_for, for the first picture that cannot be decoded. (One
-    /// that cannot be read, or whose header is wrong, has failed in texture_for.)
-    void finish();
+    /// Decodes the pictures that no thread has begun, and waits. Takes those that cannot be read out of the materials. Fails as
+    /// texture_for, for the first picture that cannot be decoded. (One that cannot be read, or whose header is wrong, has failed in
+    /// texture_for.)
+    void finish(std::vector<Material>& materials);
 
 private:
     /// A picture to be decoded.
@@ -54,13 +57,14 @@ private:
     void run(Job& job);
     [[nodiscard]] std::size_t other_threads() const;
     void run_jobs();
-    /// For a failure that lenient loading draws as a checkerboard; else throws it again.
-    void replace(int texture, ColorSpace space, const LoadFailure& failure);
+    /// Notes a texture without its picture, or throws the failure again.
+    void lose(int texture, const LoadFailure& failure);
 
     Document& document_;
     std::vector<Texture>& textures_;
     Budget texture_memory_;
     std::vector<Job> jobs_;
+    std::set<int> lost_;                                                // textures without their pictures
     std::map<std::tuple<std::string, ColorSpace, MipRule>, int> made_;  // indexed by the picture's source
     std::atomic<std::size_t> next_job_ = 0;
     std::vector<std::jthread> threads_;  // last, so that they end before what they use

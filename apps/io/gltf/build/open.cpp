@@ -28,7 +28,7 @@ constexpr std::uint64_t kBytesPerByte = 96;  // more for each byte of the file; 
 std::vector<std::byte> fetch(Document& document, const file::Buffer& entry, std::string_view where) {
     const std::size_t limit = document.options.limits.max_file_bytes;
     if (is_data_uri(*entry.uri)) return take(decode_data_uri(*entry.uri, limit), where);
-    return take(document.folder.read(take(decode_file_uri(*entry.uri), where), limit), where);
+    return take(document.read_named(take(decode_file_uri(*entry.uri), where)), where);
 }
 
 void fetch_buffers(Document& document) {
@@ -143,7 +143,7 @@ void settle(Document& document, std::span<const int> drawn_nodes, std::span<cons
     const JsonScanLimits limits = scan_limits(document.options);
     for (Note& fault : document.notes.faults) {
         if (!drawn(fault.owner)) continue;
-        if (fault.owner.target != Target::animations || !document.options.lenient)
+        if (fault.owner.target != Target::animations || document.options.strict)
             refuse_at(document.text, limits, fault.offset, fault.what, ErrorCode::bad_input);
         fault.instead = "the animation is left out";
         std::erase_if(document.animations.used,

@@ -167,7 +167,7 @@ std::vector<std::uint32_t> PrimitiveReader::list_indices(const file::Primitive& 
         for (std::size_t i = 0; i < count; ++i) {
             accessor->read_unsigned(i, &run[i]);
             if (run[i] < vertex_count && run[i] != restart) continue;
-            if (!document_.options.lenient)
+            if (document_.options.strict)
                 refuse(where + ".indices",
                        fmt::format("{}: entry {} is {}, {}", accessor->name(), i, run[i],
                                    run[i] < vertex_count ? "which glTF reserves" : fmt::format("but there are {} vertices", vertex_count)));
@@ -175,12 +175,12 @@ std::vector<std::uint32_t> PrimitiveReader::list_indices(const file::Primitive& 
         }
     }
     if (is_list && count % corners != 0) {
-        if (!document_.options.lenient && corners == 3) refuse(where, fmt::format("{} indices, expected a multiple of {}", count, corners));
+        if (document_.options.strict && corners == 3) refuse(where, fmt::format("{} indices, expected a multiple of {}", count, corners));
         document_.warn(fmt::format("{}: {} indices are not a multiple of {}, the last ones left out", where, count, corners));
         run.resize(count - count % corners);
     }
     std::vector<std::uint32_t> list = as_list(mode, std::move(run));
-    if (document_.options.lenient) {
+    if (!document_.options.strict) {
         std::size_t kept = 0;
         for (std::size_t i = 0; i < list.size(); i += corners) {
             bool good = true;

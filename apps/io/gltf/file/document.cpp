@@ -18,6 +18,16 @@ void Document::warn(std::string what) {
         ++warnings_left_out;
 }
 
+Result<std::vector<std::byte>> Document::read_named(std::string_view name) {
+    const std::size_t most = options.limits.max_file_bytes;
+    if (options.strict) return folder.read(name, most);
+    std::string found;
+    auto bytes = folder.read_like(name, most, found);
+    if (bytes && found != name)
+        warn(fmt::format("\"{}\": there is no such file, \"{}\" is read", printable(name, 120), printable(found, 120)));
+    return bytes;
+}
+
 std::vector<std::string> Document::take_warnings() {
     if (warnings_left_out > 0) warnings.push_back(fmt::format("and {} further warnings", warnings_left_out));
     return std::move(warnings);

@@ -43,6 +43,9 @@ struct Document {
     Document(const LoadOptions& load_options, const std::string& base_dir)
         : options(load_options), folder(base_dir, load_options.allow_external) {}
 
+    /// The file of a name that the model gives, at most max_file_bytes; unless strict, of one like it (ModelFolder::read_like), with a
+    /// warning.
+    [[nodiscard]] Result<std::vector<std::byte>> read_named(std::string_view name);
     /// Adds a warning; the first hundred different ones are kept.
     void warn(std::string what);
     /// The warnings, the last of which counts those that are left out.

@@ -60,9 +60,9 @@ struct LoadLimits {
     double time_limit_s = 0.0;      ///< wall clock, checked between the parts of the file; 0: no limit
 };
 
-/// How a file is read; the defaults are strict.
+/// How a file is read. By default what is damaged is drawn as far as it goes, with warnings; limits always hold.
 struct LoadOptions {
-    bool lenient = false;  ///< draw what can be drawn: magenta for broken textures, triangles with bad indices left out
+    bool strict = false;  ///< refuse a file of which something cannot be drawn: textures, animations, faces with bad indices
     /// Folders, besides the model's own, in which referenced files may lie: a name is looked up below them, and may lead into them by "..".
     /// One that cannot be opened is an error (usage).
     std::vector<std::string> allow_external;

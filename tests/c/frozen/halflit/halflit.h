@@ -43,7 +43,7 @@ typedef struct halflit_load_options {
     int32_t up;
     int32_t recentre;
     float crease_deg;
-    int32_t lenient;
+    int32_t strict;
     int32_t threads;
     const char* const* allow_external;
     size_t allow_external_count;
