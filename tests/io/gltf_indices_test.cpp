@@ -16,7 +16,7 @@ namespace {
 int count_indices(const nlohmann::json& scene, int value) {
     const std::string text = scene.dump();
     Notes notes;
-    file::File file = read_gltf_json(text, {64, 1'000'000}, Budget("test", 1 << 30), notes);
+    file::File file = read_gltf_json(text, {64, 1'000'000}, Budget("test", 1 << 30), notes, true);
     int count = 0;
     for_each_index(file, [&](Target, const int& index) { count += index == value ? 1 : 0; });
     return count;

@@ -46,7 +46,7 @@ TEST_CASE("models: textures do not depend on the number of threads that decode t
     }
 }
 
-TEST_CASE("models: each sample loads, or is refused where it has to be", "[io][assets]") {
+TEST_CASE("models: each sample loads, or is refused by the strict rules where it has to be", "[io][assets]") {
     const auto assets = asset_dir();
     if (!assets) HALFLIT_SKIP("no sample models (HALFLIT_ASSETS)");
     std::set<std::string> refused = {"Compatibility_04.gltf", "Compatibility_05.gltf"};
@@ -84,7 +84,7 @@ TEST_CASE("models: each sample loads, or is refused where it has to be", "[io][a
     for (const std::string& name : refused) drawn.erase(name);
     std::size_t seen = 0, counted = 0;
     for (const fs::path& path : all_models(*assets / "models")) {
-        const auto loaded = load_gltf(path.string());
+        const auto loaded = load_gltf(path.string(), strictly());
         const std::string name = path.filename().string();
         INFO(path.string() << (loaded ? "" : ": " + loaded.error().message));
         ++seen;

@@ -100,6 +100,7 @@ LoadedScene io::detail::read_gltf(std::span<const std::byte> bytes, const std::s
         materials.push_back(std::move(copy));
     }
     loaded.scene.calibrated = loaded.scene.lights.empty();
+    if (loaded.scene.instances.empty() && document->first_failure) throw LoadFailure{*document->first_failure};  // nothing is left
     if (loaded.scene.instances.empty()) document->warn("the model has nothing to draw");
     loaded.warnings = document->take_warnings();
     loaded.info = std::move(document->info);

@@ -171,7 +171,7 @@ public:
 private:
     const Accessor& accessor(const std::string& where, int index) {
         if (index < 0) refuse(where, "is not there");
-        return element(accessors_, index, "accessors");
+        return usable(accessors_, index);
     }
 
     bool read_times(const std::string& where, int index, Track& track) {

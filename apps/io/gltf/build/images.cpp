@@ -87,8 +87,7 @@ ImageStore::Job ImageStore::prepare(int image, ColorSpace space, MipRule rule, i
     std::span<const std::byte> bytes;
     if (entry.buffer_view >= 0 && entry.uri) refuse(where, "has both a uri and a bufferView, which exclude each other");
     if (entry.buffer_view >= 0) {
-        const file::BufferView& view = document_.file.buffer_views[static_cast<std::size_t>(entry.buffer_view)];
-        bytes = {document_.view_data(entry.buffer_view), static_cast<std::size_t>(view.byte_length)};
+        bytes = document_.view_data(entry.buffer_view);
     } else if (entry.uri && is_data_uri(*entry.uri)) {
         owned = take(decode_data_uri(*entry.uri, limits.max_file_bytes), at_uri);
         bytes = owned;

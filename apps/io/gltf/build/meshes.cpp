@@ -67,7 +67,13 @@ private:
             place(index, primitives, std::nullopt);
             return;
         }
-        const InstancePlaces places = read_instance_places(document_, reader_, index);
+        InstancePlaces places;
+        try {
+            places = read_instance_places(document_, reader_, index);
+        } catch (const LoadFailure& failure) {
+            document_.go_on_without(failure, "drawn once");
+            places.count = 1;
+        }
         for (std::size_t i = 0; i < places.count; ++i) {
             if (i % 4096 == 0) check_time();
             const Affine in_node = places.at(i);
@@ -139,11 +145,14 @@ private:
         for (std::size_t p = 0; p < primitives.size(); ++p) {
             check_time();
             // All targets are read if any may be used at another time.
-            std::optional<ReadMesh> read = reader_.read(mesh, p, morphs ? std::vector<double>(primitives[p].targets.size(), 1.0) : weights);
+            std::optional<ReadMesh> read;
+            try {
+                read = reader_.read(mesh, p, morphs ? std::vector<double>(primitives[p].targets.size(), 1.0) : weights);
+            } catch (const LoadFailure& failure) {
+                document_.go_on_without(failure, "the primitive is left out");
+            }
             if (!read) continue;
-            const bool skinned = node.skin >= 0 && read_influences(document_, accessors_, reader_, node.skin, primitives[p], *read);
-            if (node.skin >= 0 && !skinned)
-                document_.warn(fmt::format("{}: has a skin, but no JOINTS_0 and WEIGHTS_0; drawn as a plain mesh", read->where));
+            const bool skinned = node.skin >= 0 && has_skin(node.skin, primitives[p], *read);
             complete(*read);
             const std::vector<Affine> joints = skinned ? joints_of(node.skin) : std::vector<Affine>();
             const bool kept = kept_ != nullptr && (skinned || morphs || hides);
@@ -165,6 +174,22 @@ private:
                                            .place = posed.place});
         }
         return made;
+    }
+
+    /// Reads the skin of a mesh. False: it is drawn as a plain mesh.
+    bool has_skin(int skin, const file::Primitive& primitive, ReadMesh& read) {
+        try {
+            if (read_influences(document_, accessors_, reader_, skin, primitive, read)) {
+                joints_of(skin);
+                return true;
+            }
+            document_.warn(fmt::format("{}: has a skin, but no JOINTS_0 and WEIGHTS_0; drawn as a plain mesh", read.where));
+        } catch (const LoadFailure& failure) {
+            document_.go_on_without(failure, "drawn as a plain mesh");
+        }
+        read.source.sets = 0;
+        read.source.influences.clear();
+        return false;
     }
 
     std::vector<Affine> joints_of(int index) {

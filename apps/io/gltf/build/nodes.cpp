@@ -17,25 +17,37 @@ std::span<const int> children_of(const file::File& file, std::size_t node) {
     return std::span(file.children).subspan(run.first, run.count);
 }
 
-std::vector<int> find_parents(const file::File& file) {
+/// A link to a child that breaks the tree: refused by the strict rules, otherwise not followed.
+void break_link(Document& document, std::size_t node, const std::string& what) {
+    const std::string where = fmt::format("nodes[{}].children", node);
+    if (document.options.strict) refuse(where, what);
+    document.warn(fmt::format("{}: {}; this link is left out", where, what));
+}
+
+std::vector<int> find_parents(Document& document) {
+    const file::File& file = document.file;
     std::vector<int> parent(file.nodes.size(), -1);
     TimeCheck check;
     for (std::size_t i = 0; i < file.nodes.size(); ++i) {
         check();
         for (const int child : children_of(file, i)) {
+            if (child < 0) continue;  // a fault already
             int& found = parent[static_cast<std::size_t>(child)];
-            if (static_cast<std::size_t>(child) == i) refuse(fmt::format("nodes[{}].children", i), "the node is its own child");
-            if (found >= 0)
-                refuse(fmt::format("nodes[{}].children", i), fmt::format("node {} is a child of node {} already", child, found));
-            found = static_cast<int>(i);
+            if (static_cast<std::size_t>(child) == i)
+                break_link(document, i, "the node is its own child");
+            else if (found >= 0)
+                break_link(document, i, fmt::format("node {} is a child of node {} already", child, found));
+            else
+                found = static_cast<int>(i);
         }
     }
     return parent;
 }
 
 /// Appends the trees of `roots`, parents first and children in their order. Leaves out nodes that are marked in `seen`, and marks the
-/// others.
-void append_trees(const file::File& file, const std::vector<int>& roots, std::vector<bool>& seen, std::vector<int>& out) {
+/// others. Follows no link but that from a node's parent.
+void append_trees(const file::File& file, const std::vector<int>& parent, const std::vector<int>& roots, std::vector<bool>& seen,
+                  std::vector<int>& out) {
     std::vector<int> open;
     for (auto root = roots.rbegin(); root != roots.rend(); ++root)
         if (static_cast<std::size_t>(*root) < seen.size()) open.push_back(*root);  // others are faults already
@@ -48,7 +60,8 @@ void append_trees(const file::File& file, const std::vector<int>& roots, std::ve
         seen[static_cast<std::size_t>(node)] = true;
         out.push_back(node);
         const std::span<const int> children = children_of(file, static_cast<std::size_t>(node));
-        open.insert(open.end(), children.rbegin(), children.rend());
+        for (auto child = children.rbegin(); child != children.rend(); ++child)
+            if (*child >= 0 && parent[static_cast<std::size_t>(*child)] == node) open.push_back(*child);
     }
 }
 
@@ -73,22 +86,26 @@ void check_roots(Document& document, std::size_t scene, const std::vector<int>& 
 NodeTree walk_nodes(Document& document) {
     const file::File& file = document.file;
     NodeTree tree;
-    tree.parent = find_parents(file);
-    const std::vector<int>& parent = tree.parent;
+    tree.parent = find_parents(document);
+    std::vector<int>& parent = tree.parent;
     std::vector<int> roots;
     for (std::size_t i = 0; i < parent.size(); ++i)
         if (parent[i] < 0) roots.push_back(static_cast<int>(i));
     std::vector<bool> seen(parent.size(), false);
-    append_trees(file, roots, seen, tree.order);
-    for (std::size_t i = 0; i < parent.size(); ++i)
-        if (!seen[i]) refuse(fmt::format("nodes[{}].children", i), "the node is its own ancestor");
+    append_trees(file, parent, roots, seen, tree.order);
+    for (std::size_t i = 0; i < parent.size(); ++i) {
+        if (seen[i]) continue;
+        break_link(document, static_cast<std::size_t>(parent[i]), "the node is its own ancestor");
+        parent[i] = -1;
+        append_trees(file, parent, {static_cast<int>(i)}, seen, tree.order);
+    }
     if (file.scenes.empty()) {
         tree.drawn = tree.order;
     } else {
         const std::size_t scene = static_cast<std::size_t>(std::max(file.scene, 0));
         check_roots(document, scene, parent);
         seen.assign(parent.size(), false);
-        append_trees(file, file.scenes[scene].nodes, seen, tree.drawn);
+        append_trees(file, parent, file.scenes[scene].nodes, seen, tree.drawn);
     }
     return tree;
 }

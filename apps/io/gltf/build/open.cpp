@@ -40,20 +40,28 @@ void fetch_buffers(Document& document) {
         const file::Buffer& entry = document.file.buffers[i];
         const std::string where = fmt::format("buffers[{}]", i);
         std::span<const std::byte> bytes;
-        if (entry.uri) {
-            bytes = document.owned_buffers.emplace_back(fetch(document, entry, where + ".uri"));
-        } else if (i == 0 && document.glb.has_bin) {
-            bytes = document.glb.bin;
-        } else {
-            refuse(where, "has no uri, and the file has no BIN chunk for it");
+        try {
+            if (entry.uri) {
+                bytes = document.owned_buffers.emplace_back(fetch(document, entry, where + ".uri"));
+            } else if (i == 0 && document.glb.has_bin) {
+                bytes = document.glb.bin;
+            } else {
+                refuse(where, "has no uri, and the file has no BIN chunk for it");
+            }
+        } catch (const LoadFailure& failure) {
+            document.go_on_without(failure, "what is in it is left out");
+            continue;
         }
-        if (bytes.size() < entry.byte_length)
-            refuse(where + ".byteLength", fmt::format("is {}, but only {} bytes are there", entry.byte_length, bytes.size()));
+        if (bytes.size() < entry.byte_length) {
+            const std::string what =
+                fmt::format("{}.byteLength: is {}, but only {} bytes are there", where, entry.byte_length, bytes.size());
+            document.go_on_without({{ErrorCode::bad_input, what}}, "these are read");
+        }
         total += bytes.size();
         if (total > document.options.limits.max_total_bytes)
             refuse(where, fmt::format("the buffers have more than {} bytes, which is the limit", document.options.limits.max_total_bytes),
                    ErrorCode::limit);
-        document.buffers[i] = bytes.first(static_cast<std::size_t>(entry.byte_length));
+        document.buffers[i] = document.options.strict ? bytes.first(static_cast<std::size_t>(entry.byte_length)) : bytes;
     }
 }
 
@@ -68,8 +76,8 @@ void check_buffer_views(Document& document) {
         if (end <= size || (!used && document.warnings_are_full())) continue;
         const std::string what = fmt::format("byteOffset {} and byteLength {} end at {}, but buffer {} has {} bytes", view.byte_offset,
                                              view.byte_length, end, view.buffer, size);
-        if (used) refuse(fmt::format("bufferViews[{}]", i), what);
-        document.warn(fmt::format("bufferViews[{}]: {}; {}", i, what, kNothingUsesIt));
+        if (used && document.options.strict) refuse(fmt::format("bufferViews[{}]", i), what);
+        document.warn(fmt::format("bufferViews[{}]: {}; {}", i, what, used ? "what is there is read" : kNothingUsesIt));
     }
 }
 
@@ -103,6 +111,48 @@ void fill_info(Document& document, std::span<const std::byte> bytes) {
     list(file.extensions_required, info.extensions_required);
 }
 
+/// Gives the document a JSON text of its own, without what breaks the rules of JSON alone. It is as long as the file's, so that places in
+/// it are places in the file.
+std::string& own_text(Document& document) {
+    if (document.mended.empty()) document.mended = document.text;
+    document.text = document.mended;
+    return document.mended;
+}
+
+std::string name_of_place(const Document& document, std::size_t offset) {
+    const TextPlace place = place_of(document.text, offset);
+    return fmt::format("line {}, column {}", place.line, place.column);
+}
+
+/// Bytes that are not UTF-8 become '?'.
+void mend_bytes(Document& document) {
+    std::size_t bad = find_invalid_utf8(document.text);
+    if (bad == std::string_view::npos) return;
+    document.warn(fmt::format("{}: the byte \"{}\" is not UTF-8; such bytes are read as '?'", name_of_place(document, bad),
+                              printable(document.text.substr(bad, 1))));
+    std::string& text = own_text(document);
+    TimeCheck check;
+    for (std::size_t at = bad; at < text.size();) {
+        check();
+        const int length = utf8_sequence(text, at);
+        if (length == 0) text[at] = '?';
+        at += static_cast<std::size_t>(std::max(1, length));
+    }
+}
+
+/// Blanks what is in front of a key that is there twice: the last one counts, as in JavaScript.
+void mend_twins(Document& document) {
+    const std::vector<Twin> twins = std::move(document.notes.twins);
+    for (const Twin& twin : twins)
+        if (!document.warnings_are_full())
+            document.warn(fmt::format("{}: the key {} is there twice, the last one is read", name_of_place(document, twin.again),
+                                      printable(document.text.substr(twin.again, document.text.substr(twin.again + 1, 60).find('"') + 2))));
+    std::string& text = own_text(document);
+    for (const Twin& twin : twins)
+        std::fill(text.begin() + static_cast<std::ptrdiff_t>(twin.first), text.begin() + static_cast<std::ptrdiff_t>(twin.next), ' ');
+    document.notes = {};
+}
+
 JsonScanLimits scan_limits(const LoadOptions& options) { return {options.limits.max_json_depth, options.limits.max_json_tokens}; }
 
 }  // namespace
@@ -122,13 +172,21 @@ std::unique_ptr<Document> open_document(std::span<const std::byte> bytes, const 
     take(document->folder.check(), "");
     document->file_bytes = bytes.size();
     document->glb.json = bytes;
-    if (is_glb(bytes)) document->glb = take(split_glb(bytes), "");
+    if (is_glb(bytes)) document->glb = take(split_glb(bytes, options.strict), "");
     for (std::string& warning : document->glb.warnings) document->warn(std::move(warning));
 
     const std::string_view text(reinterpret_cast<const char*>(document->glb.json.data()), document->glb.json.size());
     document->text = trimmed(text, document->warnings);
-    document->file = read_gltf_json(document->text, scan_limits(options), Budget("its objects", kFreeBytes + kBytesPerByte * text.size()),
-                                    document->notes);
+    if (!options.strict) mend_bytes(*document);
+    const auto read = [&] {
+        document->file = read_gltf_json(document->text, scan_limits(options),
+                                        Budget("its objects", kFreeBytes + kBytesPerByte * text.size()), document->notes, options.strict);
+    };
+    read();
+    if (!document->notes.twins.empty()) {
+        mend_twins(*document);
+        read();
+    }
     check_extensions(*document);
     choose_forms(document->file);
     fill_info(*document, bytes);
@@ -143,8 +201,13 @@ void settle(Document& document, std::span<const int> drawn_nodes, std::span<cons
     const JsonScanLimits limits = scan_limits(document.options);
     for (Note& fault : document.notes.faults) {
         if (!drawn(fault.owner)) continue;
-        if (fault.owner.target != Target::animations || document.options.strict)
-            refuse_at(document.text, limits, fault.offset, fault.what, ErrorCode::bad_input);
+        const LoadFailure failure = failure_at(document.text, limits, fault.offset, fault.what, ErrorCode::bad_input);
+        if (document.options.strict) throw failure;
+        fault.instead = "ignored";
+        if (fault.owner.target != Target::animations) {
+            if (!document.first_failure) document.first_failure = failure.error;
+            continue;
+        }
         fault.instead = "the animation is left out";
         std::erase_if(document.animations.used,
                       [&](const AnimationUse::Used& used) { return used.animation == static_cast<int>(fault.owner.element); });

@@ -99,23 +99,44 @@ PrimitiveReader::PrimitiveReader(Document& document, const std::vector<Accessor>
 
 const Accessor* PrimitiveReader::attribute(const std::string& list, const file::Attributes& attributes, const AttributeRule& rule,
                                            std::optional<std::size_t> count) {
+    try {
+        return checked_attribute(list, attributes, rule, count);
+    } catch (const LoadFailure& failure) {
+        if (!count) throw;
+        document_.go_on_without(failure, fmt::format("{} is left out", rule.name));
+        return nullptr;
+    }
+}
+
+const Accessor* PrimitiveReader::checked_attribute(const std::string& list, const file::Attributes& attributes, const AttributeRule& rule,
+                                                   std::optional<std::size_t> count) {
     const int found = file::find(attributes, rule.name);
     if (found < 0) return nullptr;
-    const Accessor& accessor = element(accessors_, found, "accessors");
+    const Accessor* read = &usable(accessors_, found);
+    const Accessor& accessor = *read;
     const std::string where = fmt::format("{}.{}", list, rule.name);
     if (accessor.components() < rule.min_components || accessor.components() > rule.max_components)
         refuse(where, fmt::format("{}: expected {} components, found {}", accessor.name(), rule.max_components, accessor.components()));
     const Component type = accessor.component();
     const bool base = contains(accessor.normalized() && type != f32 ? rule.normalized : rule.plain, type);
     const bool more = contains(accessor.normalized() ? rule.more_normalized : rule.more_plain, type);
-    if (!base && !(more && quantized_))
-        refuse(where, fmt::format("{}: found {}component type {}, which glTF does not allow here{}", accessor.name(),
-                                  accessor.normalized() ? "normalized " : "", static_cast<int>(type),
-                                  more ? " without KHR_mesh_quantization" : ""));
-    if (count && accessor.count() != *count)
-        refuse(where, fmt::format("{}: expected {} elements as in POSITION, found {}", accessor.name(), *count, accessor.count()));
+    if (!base && !(more && quantized_)) {
+        const std::string what =
+            fmt::format("{}: found {}component type {}, which glTF does not allow here{}", accessor.name(),
+                        accessor.normalized() ? "normalized " : "", static_cast<int>(type), more ? " without KHR_mesh_quantization" : "");
+        const bool scaled = !more && !accessor.normalized() && contains(rule.normalized, type);
+        if (document_.options.strict || !(more || scaled)) refuse(where, what);
+        document_.warn(fmt::format("{}: {}; read as {}", where, what, scaled ? "normalized" : "it is"));
+        if (scaled) read = &normalized_.emplace_back(accessor.as_normalized());
+    }
+    if (count && accessor.count() != *count) {
+        const std::string what =
+            fmt::format("{}: expected {} elements as in POSITION, found {}", accessor.name(), *count, accessor.count());
+        if (document_.options.strict || accessor.count() < *count) refuse(where, what);
+        document_.warn(fmt::format("{}: {}; the first ones are read", where, what));
+    }
     warn_of_layout(where, found);
-    return &accessor;
+    return read;
 }
 
 /// Vertex attributes lie at multiples of 4 bytes, and those that share a bufferView have a stride (glTF 2.0, 3.6.1.1 and 3.6.2.4).
@@ -138,7 +159,7 @@ void PrimitiveReader::warn_of_layout(const std::string& where, int index) {
 
 std::vector<std::uint32_t> PrimitiveReader::list_indices(const file::Primitive& primitive, const std::string& where,
                                                          std::size_t vertex_count) {
-    const Accessor* accessor = primitive.indices < 0 ? nullptr : &element(accessors_, primitive.indices, "accessors");
+    const Accessor* accessor = primitive.indices == -1 ? nullptr : &usable(accessors_, primitive.indices);
     const auto mode = static_cast<file::Mode>(primitive.mode);
     std::size_t count = vertex_count;
     if (accessor != nullptr) {

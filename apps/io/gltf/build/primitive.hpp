@@ -5,6 +5,7 @@
 #include "apps/io/gltf/file/accessor.hpp"
 #include "halflit/mesh.hpp"
 
+#include <deque>
 #include <optional>
 #include <span>
 #include <string>
@@ -35,12 +36,14 @@ public:
     /// weight 0 are not read; it may be empty.
     std::optional<ReadMesh> read(std::size_t mesh, std::size_t primitive, std::span<const double> morph_weights);
 
-    /// The accessor of an attribute in `list` ("meshes[0].primitives[1].attributes"), or null if there is none. Throws if its type or its
-    /// count is wrong.
+    /// The accessor of an attribute in `list` ("meshes[0].primitives[1].attributes"), or null if there is none, or if its type or its
+    /// count is wrong. Throws for that by the strict rules, and where `count` is not known.
     [[nodiscard]] const Accessor* attribute(const std::string& list, const file::Attributes& attributes, const AttributeRule& rule,
                                             std::optional<std::size_t> count);
 
 private:
+    const Accessor* checked_attribute(const std::string& list, const file::Attributes& attributes, const AttributeRule& rule,
+                                      std::optional<std::size_t> count);
     void warn_of_layout(const std::string& where, int accessor);
     std::vector<std::uint32_t> list_indices(const file::Primitive& primitive, const std::string& where, std::size_t vertex_count);
     std::vector<std::uint32_t> gather_vertices(std::vector<std::uint32_t>& indices, std::size_t vertex_count);
@@ -49,6 +52,7 @@ private:
     Document& document_;
     const std::vector<Accessor>& accessors_;
     bool quantized_ = false;
+    std::deque<Accessor> normalized_;                         // of integers that should be
     std::unordered_map<std::size_t, int> attribute_of_view_;  // the first accessor of vertices in each bufferView
     std::vector<std::uint32_t> new_number_, stamp_of_;        // indexed by the file's vertex; a number is valid if its stamp is stamp_
     std::uint32_t stamp_ = 0;

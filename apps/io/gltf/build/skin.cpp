@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace halflit::io::detail {
 
 namespace {
@@ -14,8 +16,7 @@ constexpr Component kSmallUnsigned[] = {u8, u16}, kFloatOnly[] = {f32};
 Skin read_skin(Document& document, const std::vector<Accessor>& accessors, int index) {
     const file::Skin& skin = document.file.skins[static_cast<std::size_t>(index)];
     const std::string where = fmt::format("skins[{}].inverseBindMatrices", index);
-    const Accessor* inverse_bind =
-        skin.inverse_bind_matrices < 0 ? nullptr : &accessors[static_cast<std::size_t>(skin.inverse_bind_matrices)];
+    const Accessor* inverse_bind = skin.inverse_bind_matrices < 0 ? nullptr : &usable(accessors, skin.inverse_bind_matrices);
     if (inverse_bind != nullptr && (inverse_bind->components() != 16 || inverse_bind->component() != f32))
         refuse(where, fmt::format("{}: expected MAT4 of float", inverse_bind->name()));
     if (inverse_bind != nullptr && inverse_bind->count() < skin.joints.size())
@@ -26,6 +27,8 @@ Skin read_skin(Document& document, const std::vector<Accessor>& accessors, int i
         if (view >= 0 && document.file.buffer_views[static_cast<std::size_t>(view)].byte_stride != 0)
             document.warn(fmt::format("bufferViews[{}].byteStride: expected none for matrices, read with it", view));
     }
+    for (const int joint : skin.joints)
+        if (joint < 0) refuse(fmt::format("skins[{}].joints", index), "a joint is not there");
     document.geometry.take(skin.joints.size() * (sizeof(Affine) + sizeof(int)));
     Skin out;
     out.joints = skin.joints;
@@ -59,8 +62,9 @@ bool read_influences(Document& document, const std::vector<Accessor>& accessors,
             document.warn(fmt::format("{}: {} is there without {}, ignored", list, joint_accessor != nullptr ? joints : weights,
                                       joint_accessor != nullptr ? weights : joints));
         if (joint_accessor == nullptr || weight_accessor == nullptr) break;
-        const std::size_t count = accessors[static_cast<std::size_t>(file::find(primitive.attributes, "POSITION"))].count();
-        if (joint_accessor->count() != count || weight_accessor->count() != count)
+        const std::size_t count = usable(accessors, file::find(primitive.attributes, "POSITION")).count();
+        const std::size_t least = std::min(joint_accessor->count(), weight_accessor->count());
+        if (least < count || (document.options.strict && (joint_accessor->count() != count || weight_accessor->count() != count)))
             refuse(read.where, fmt::format("{} and {}: expected {} elements as in POSITION, found {} and {}", joints, weights, count,
                                            joint_accessor->count(), weight_accessor->count()));
         sets.push_back({joint_accessor, weight_accessor});
@@ -72,7 +76,7 @@ bool read_influences(Document& document, const std::vector<Accessor>& accessors,
     document.geometry.take(std::uint64_t{vertices} * (sets.size() * sizeof(Influence) + sizeof(Vec3d)));
     read.source.sets = sets.size();
     read.source.influences.reserve(vertices * sets.size());
-    std::size_t negative = 0, without = 0, other_sum = 0;
+    std::size_t negative = 0, without = 0, other_sum = 0, out_of_range = 0;
     for (std::size_t v = 0; v < vertices; ++v) {
         double sum = 0.0;
         for (const Set& set : sets) {
@@ -86,9 +90,15 @@ bool read_influences(Document& document, const std::vector<Accessor>& accessors,
                     influence.weight[k] = 0.0f;
                     continue;
                 }
-                if (influence.joint[k] >= joint_count)
-                    refuse(read.where, fmt::format("{}: a vertex names joint {}, but skin {} has {}", set.joints->name(),
-                                                   influence.joint[k], skin, joint_count));
+                if (influence.joint[k] >= joint_count) {
+                    const std::string what = fmt::format("{}: a vertex names joint {}, but skin {} has {}", set.joints->name(),
+                                                         influence.joint[k], skin, joint_count);
+                    if (document.options.strict) refuse(read.where, what);
+                    if (out_of_range++ == 0) document.warn(fmt::format("{}: {}; without such weights", read.where, what));
+                    influence.joint[k] = 0;
+                    influence.weight[k] = 0.0f;
+                    continue;
+                }
                 sum += double{weight};
             }
         }

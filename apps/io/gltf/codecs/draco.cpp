@@ -2,11 +2,13 @@
 
 #include "apps/io/gltf/codecs/draco_mesh.hpp"
 #include "apps/io/gltf/file/accessor.hpp"
+#include "apps/io/gltf/file/indices.hpp"
 #include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace halflit::io::detail {
@@ -23,9 +25,6 @@ Streams streams_of(const Document& document) {
         const auto& primitives = document.file.meshes[m].primitives;
         for (std::size_t p = 0; p < primitives.size(); ++p) {
             if (primitives[p].draco < 0) continue;
-            if (primitives[p].mode < static_cast<int>(file::Mode::triangles))
-                refuse(fmt::format("meshes[{}].primitives[{}].mode", m, p),
-                       fmt::format("expected triangles, which Draco compresses, found mode {}", primitives[p].mode));
             streams[document.file.draco[static_cast<std::size_t>(primitives[p].draco)].buffer_view].emplace_back(m, p);
         }
     }
@@ -40,6 +39,8 @@ public:
         file::File& file = document_.file;
         const file::Draco source = file.draco[static_cast<std::size_t>(primitive.draco)];
         const auto mode = static_cast<file::Mode>(primitive.mode);
+        if (primitive.mode < static_cast<int>(file::Mode::triangles))
+            refuse(where + ".mode", fmt::format("expected triangles, which Draco compresses, found mode {}", primitive.mode));
         if (primitive.indices >= 0 && mode == file::Mode::triangles)
             check_count(where + ".indices", primitive.indices, 3 * mesh_.triangles());
         const auto [indices, is_new] = made_.try_emplace({primitive.indices, -1}, -1);
@@ -63,16 +64,18 @@ private:
         check_time();
         constexpr std::uint64_t kTables = 8 << 10;  // bytes that stand for the time that the tables of a small stream take
         document_.geometry.take(kTables);
-        const std::uint64_t size = document_.file.buffer_views[static_cast<std::size_t>(view)].byte_length;
-        DracoMesh mesh =
-            take(DracoMesh::decode({document_.view_data(view), static_cast<std::size_t>(size)}, document_.geometry.left()), where_);
+        DracoMesh mesh = take(DracoMesh::decode(document_.view_data(view), document_.geometry.left()), where_);
         document_.geometry.take(kTables * mesh.attributes());
         return mesh;
     }
 
-    void check_count(const std::string& where, int accessor, std::size_t there) const {
+    /// Exporters round, and count triangles that Draco leaves out.
+    void check_count(const std::string& where, int accessor, std::size_t there) {
         const std::uint64_t count = document_.file.accessors[static_cast<std::size_t>(accessor)].count;
-        if (count != there) refuse(where, fmt::format("accessors[{}].count is {}, but the Draco stream has {}", accessor, count, there));
+        if (count == there) return;
+        const std::string what = fmt::format("accessors[{}].count is {}, but the Draco stream has {}", accessor, count, there);
+        if (document_.options.strict) refuse(where, what);
+        document_.warn(fmt::format("{}: {}, which are drawn", where, what));
     }
 
     /// Returns the new accessor.
@@ -103,7 +106,8 @@ private:
     }
 
     int add_values(int index, int id, const std::string& where) {
-        const file::Accessor& accessor = document_.file.accessors[static_cast<std::size_t>(index)];
+        file::Accessor accessor = document_.file.accessors[static_cast<std::size_t>(index)];
+        accessor.count = mesh_.vertices();
         DracoRequest request{static_cast<std::uint32_t>(id), accessor.component_type, accessor.components, 0};
         const auto size = size_of(static_cast<Component>(accessor.component_type)) * static_cast<std::size_t>(accessor.components);
         request.stride = (size + 3) / 4 * 4;  // vertices lie at multiples of 4
@@ -122,15 +126,23 @@ private:
 std::uint64_t draco_bytes(const Document& document) {
     std::uint64_t bytes = 0;
     for (const auto& [view, primitives] : streams_of(document))
-        bytes += document.file.buffer_views[static_cast<std::size_t>(view)].byte_length;
+        if (view >= 0) bytes += document.file.buffer_views[static_cast<std::size_t>(view)].byte_length;
     return bytes;
 }
 
 void decode_draco(Document& document) {
     for (const auto& [view, primitives] : streams_of(document)) {
-        StreamReader reader(document, view);
-        for (const auto& [mesh, primitive] : primitives)
-            reader.replace(document.file.meshes[mesh].primitives[primitive], fmt::format("meshes[{}].primitives[{}]", mesh, primitive));
+        std::optional<StreamReader> reader;
+        for (const auto& [mesh, number] : primitives) {
+            file::Primitive& primitive = document.file.meshes[mesh].primitives[number];
+            try {
+                if (!reader) reader.emplace(document, view);
+                reader->replace(primitive, fmt::format("meshes[{}].primitives[{}]", mesh, number));
+            } catch (const LoadFailure& failure) {
+                document.go_on_without(failure, "the primitive is left out");
+                primitive.indices = kBadIndex;
+            }
+        }
     }
 }
 

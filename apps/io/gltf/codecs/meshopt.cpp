@@ -3,6 +3,7 @@
 
 #include "apps/io/gltf/codecs/meshopt_filter.hpp"
 #include "apps/io/gltf/codecs/meshopt_vertices.hpp"
+#include "apps/io/gltf/file/indices.hpp"
 #include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
@@ -59,7 +60,7 @@ std::uint64_t check(const Document& document, const file::BufferView& parent, co
     if (size != parent.byte_length)
         refuse(where, fmt::format("{} elements of {} bytes are {} bytes, but the bufferView has {}", view.count, stride, size,
                                   parent.byte_length));
-    const std::uint64_t end = view.byte_offset + view.byte_length, there = document.buffers[static_cast<std::size_t>(view.buffer)].size();
+    const std::uint64_t end = view.byte_offset + view.byte_length, there = element(document.buffers, view.buffer, "buffers").size();
     if (end > there)
         refuse(where, fmt::format("byteOffset {} and byteLength {} end at {}, but buffer {} has {} bytes", view.byte_offset,
                                   view.byte_length, end, view.buffer, there));
@@ -118,7 +119,13 @@ void decode_views([[maybe_unused]] Document& document) {
 #if HALFLIT_HAS_MESHOPT
     for (std::size_t i = 0; i < document.file.buffer_views.size(); ++i) {
         if (!is_decoded(document, i)) continue;
-        document.decoded.push_back(decode_view(document, i));
+        try {
+            document.decoded.push_back(decode_view(document, i));
+        } catch (const LoadFailure& failure) {
+            document.go_on_without(failure, "what is in it is left out");
+            document.file.buffer_views[i].damaged = true;
+            continue;
+        }
         document.file.buffer_views[i].decoded = static_cast<int>(document.decoded.size() - 1);
     }
 #endif

@@ -1,10 +1,13 @@
 #include "apps/io/gltf/file/accessor.hpp"
 
+#include "apps/io/gltf/file/indices.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <utility>
 
 namespace halflit::io::detail {
 
@@ -136,13 +139,35 @@ void Accessor::check(const Document& document, const file::Accessor& source) {
     count_ = static_cast<std::size_t>(source.count);
     if (count_ != source.count) refuse(name_, fmt::format("{} elements are more than memory can hold", source.count), ErrorCode::limit);
     const std::uint64_t size = size_of(component_) * static_cast<std::uint64_t>(components_);
+    if (source.buffer_view == kBadIndex) refuse(name_, "its bufferView is not there");
     if (source.buffer_view < 0) return;  // all zeros, apart from sparse values
     const file::BufferView& view = document.file.buffer_views[static_cast<std::size_t>(source.buffer_view)];
     stride_ = static_cast<std::size_t>(view.byte_stride == 0 ? size : static_cast<std::uint64_t>(view.byte_stride));
     if (stride_ < size)
         refuse(name_, fmt::format("bufferViews[{}].byteStride is {}, expected at least the element's {} bytes", source.buffer_view, stride_,
                                   size));
-    check_range(name_, source.byte_offset, count_, stride_, size, view.byte_length);
+    if (document.options.strict || !document.used.has(Target::buffer_views, static_cast<std::size_t>(source.buffer_view)))
+        check_range(name_, source.byte_offset, count_, stride_, size, view.byte_length);
+}
+
+/// Takes the data, all of which must be there by the strict rules.
+void Accessor::read_source(Document& document, const file::Accessor& source) {
+    check(document, source);
+    warn_of_alignment(document, source);
+    if (source.buffer_view >= 0 && count_ > 0) {
+        const std::span<const std::byte> bytes = document.view_data(source.buffer_view);
+        const std::uint64_t size = size_of(component_) * static_cast<std::uint64_t>(components_);
+        const std::uint64_t most = source.byte_offset + size <= bytes.size() ? (bytes.size() - source.byte_offset - size) / stride_ + 1 : 0;
+        if (most < count_) {
+            const LoadFailure failure{
+                {ErrorCode::bad_input, fmt::format("{}: has {} elements, but the data hold {}", name_, count_, most)}};
+            if (most == 0) throw failure;
+            document.go_on_without(failure, "these are read");
+            count_ = static_cast<std::size_t>(most);
+        }
+        data_ = bytes.data() + source.byte_offset;
+    }
+    if (source.sparse >= 0) check_sparse(document, document.file.sparse[static_cast<std::size_t>(source.sparse)]);
 }
 
 void Accessor::warn_of_alignment(Document& document, const file::Accessor& source) const {
@@ -171,8 +196,8 @@ void Accessor::check_sparse(Document& document, const file::Sparse& source) {
         refuse(where + ".indices.componentType", fmt::format("expected 5121, 5123 or 5125, found {}", source.index_component_type));
 
     const auto& views = document.file.buffer_views;
-    const auto& index_view = views[static_cast<std::size_t>(source.index_view)];
-    const auto& value_view = views[static_cast<std::size_t>(source.value_view)];
+    detail::element(views, source.index_view, "bufferViews");
+    detail::element(views, source.value_view, "bufferViews");
     const std::uint64_t size = size_of(component_) * static_cast<std::uint64_t>(components_), index_size = size_of(index_type);
     const auto index_offset = static_cast<std::uint64_t>(source.index_offset),
                value_offset = static_cast<std::uint64_t>(source.value_offset);
@@ -186,12 +211,13 @@ void Accessor::check_sparse(Document& document, const file::Sparse& source) {
     for (const int view : {source.index_view, source.value_view})
         if (views[static_cast<std::size_t>(view)].byte_stride != 0)
             document.warn(fmt::format("bufferViews[{}].byteStride: {} is packed, the stride is ignored", view, where));
-    check_range(where + ".indices", index_offset, sparse_count, index_size, index_size, index_view.byte_length);
-    check_range(where + ".values", value_offset, sparse_count, size, size, value_view.byte_length);
+    const std::span<const std::byte> index_data = document.view_data(source.index_view), value_data = document.view_data(source.value_view);
+    check_range(where + ".indices", index_offset, sparse_count, index_size, index_size, index_data.size());
+    check_range(where + ".values", value_offset, sparse_count, size, size, value_data.size());
 
     document.geometry.take(sparse_count * sizeof(std::uint32_t));
     sparse_indices_.reserve(static_cast<std::size_t>(sparse_count));
-    const std::byte* indices = document.view_data(source.index_view) + index_offset;
+    const std::byte* indices = index_data.data() + index_offset;
     for (std::uint64_t i = 0; i < sparse_count; ++i) {
         const std::uint32_t index = to_unsigned(indices + i * index_size, index_type);
         if (index >= count_) refuse(where + ".indices", fmt::format("entry {} is {}, but the accessor has {} elements", i, index, count_));
@@ -199,7 +225,7 @@ void Accessor::check_sparse(Document& document, const file::Sparse& source) {
             refuse(where + ".indices", fmt::format("entry {} is {}, expected more than {} before it", i, index, sparse_indices_.back()));
         sparse_indices_.push_back(index);
     }
-    sparse_values_ = document.view_data(source.value_view) + value_offset;
+    sparse_values_ = value_data.data() + value_offset;
 }
 
 std::vector<Accessor> check_accessors(Document& document) {
@@ -226,12 +252,23 @@ std::vector<Accessor> check_accessors(Document& document) {
             const file::Sparse& sparse = document.file.sparse[static_cast<std::size_t>(source.sparse)];
             if (!is_read(sparse.index_view) || !is_read(sparse.value_view)) continue;
         }
-        accessor.check(document, source);
-        accessor.warn_of_alignment(document, source);
-        if (source.buffer_view >= 0 && accessor.count_ > 0) accessor.data_ = document.view_data(source.buffer_view) + source.byte_offset;
-        if (source.sparse >= 0) accessor.check_sparse(document, document.file.sparse[static_cast<std::size_t>(source.sparse)]);
+        try {
+            accessor.read_source(document, source);
+        } catch (const LoadFailure& failure) {
+            if (document.options.strict || failure.error.code != ErrorCode::bad_input) throw;
+            Accessor damaged;  // what uses it is left out, with a warning
+            damaged.name_ = accessor.name_;
+            damaged.failure_ = failure.error.message;
+            accessor = std::move(damaged);
+        }
     }
     return accessors;
+}
+
+const Accessor& usable(const std::vector<Accessor>& accessors, int index) {
+    const Accessor& accessor = element(accessors, index, "accessors");
+    if (!accessor.failure_.empty()) throw LoadFailure{{ErrorCode::bad_input, accessor.failure_}};
+    return accessor;
 }
 
 }  // namespace halflit::io::detail

@@ -33,14 +33,23 @@ std::vector<std::string> Document::take_warnings() {
     return std::move(warnings);
 }
 
-const std::byte* Document::view_data(int buffer_view) const {
+void Document::go_on_without(const LoadFailure& failure, std::string_view instead) {
+    if (options.strict || failure.error.code != ErrorCode::bad_input) throw failure;
+    if (!first_failure) first_failure = failure.error;
+    warn(fmt::format("{}; {}", failure.error.message, instead));
+}
+
+std::span<const std::byte> Document::view_data(int buffer_view) const {
     const file::BufferView& view = element(file.buffer_views, buffer_view, "bufferViews");
-    if (view.decoded >= 0) return element(decoded, view.decoded, "decoded bufferViews").data();
+    const auto fault = [&](std::string_view what) { refuse(fmt::format("bufferViews[{}]", buffer_view), what); };
+    if (view.damaged) fault("its compressed data are damaged");
+    if (view.decoded >= 0) return element(decoded, view.decoded, "decoded bufferViews");
     const std::span<const std::byte> buffer = element(buffers, view.buffer, "buffers");
-    if (view.byte_offset + view.byte_length > buffer.size())  // the buffer of a view that is not used is not there
-        refuse(fmt::format("bufferViews[{}]", buffer_view), fmt::format("ends at {} of buffer {}, of which {} bytes are there",
-                                                                        view.byte_offset + view.byte_length, view.buffer, buffer.size()));
-    return buffer.data() + view.byte_offset;
+    const std::uint64_t end = view.byte_offset + view.byte_length;
+    if (view.byte_offset > buffer.size() || (options.strict && end > buffer.size()))  // the buffer of a view that is not used is not there
+        fault(fmt::format("ends at {} of buffer {}, of which {} bytes are there", end, view.buffer, buffer.size()));
+    return buffer.subspan(static_cast<std::size_t>(view.byte_offset))
+        .first(static_cast<std::size_t>(std::min<std::uint64_t>(view.byte_length, buffer.size() - view.byte_offset)));
 }
 
 }  // namespace halflit::io::detail

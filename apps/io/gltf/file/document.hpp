@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,13 +24,14 @@ namespace halflit::io::detail {
 struct Document {
     const LoadOptions& options;
     ModelFolder folder;
+    std::string mended;     ///< the JSON text, where it is not the file's
     std::string_view text;  ///< the JSON text
     Notes notes;            ///< what read_gltf_json found
     GlbParts glb;
     file::File file;
     AnimationUse animations;                          ///< set by find_animations()
     Used used;                                        ///< what the drawn nodes use; empty until settle() has run
-    std::vector<std::span<const std::byte>> buffers;  ///< byteLength bytes each; those that nothing drawn uses are empty
+    std::vector<std::span<const std::byte>> buffers;  ///< their bytes; those that nothing drawn uses are empty
     std::vector<std::vector<std::byte>> owned_buffers;
     std::vector<std::vector<std::byte>> decoded;  ///< bytes of the bufferViews that were compressed
     std::vector<std::string> warnings;
@@ -39,6 +41,7 @@ struct Document {
     std::vector<int> unlit_copies;
     std::uint64_t file_bytes = 0;  ///< of the model's own file
     Budget geometry{"the geometry", 0}, encoded_images;
+    std::optional<Error> first_failure;  ///< of what is left out
 
     Document(const LoadOptions& load_options, const std::string& base_dir)
         : options(load_options), folder(base_dir, load_options.allow_external) {}
@@ -51,8 +54,11 @@ struct Document {
     /// The warnings, the last of which counts those that are left out.
     [[nodiscard]] std::vector<std::string> take_warnings();
     [[nodiscard]] bool warnings_are_full() const { return warnings_left_out > 0; }
-    /// The bytes of a view, all of which are there. Throws LoadFailure for a view whose buffer is not read.
-    [[nodiscard]] const std::byte* view_data(int buffer_view) const;
+    /// Goes on without an element: warns of its failure and of what is done instead. Throws the failure by the strict rules, and that of a
+    /// limit.
+    void go_on_without(const LoadFailure& failure, std::string_view instead);
+    /// The bytes of a view that are there: by the strict rules, all. Throws LoadFailure for a view whose buffer is not read.
+    [[nodiscard]] std::span<const std::byte> view_data(int buffer_view) const;
 };
 
 /// Words of a warning of a fault that does not touch the picture.

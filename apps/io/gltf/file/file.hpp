@@ -30,8 +30,9 @@ struct BufferView {
     int buffer = -1;
     int byte_stride = 0;  ///< 0: packed
     std::uint64_t byte_offset = 0, byte_length = 0;
-    int compressed = -1;  ///< into File::compressed_views; -1: the view's own bytes are read
-    int decoded = -1;     ///< into Document::decoded, once it is there
+    int compressed = -1;   ///< into File::compressed_views; -1: the view's own bytes are read
+    int decoded = -1;      ///< into Document::decoded, once it is there
+    bool damaged = false;  ///< its compressed data cannot be decoded
 };
 
 enum class CompressionMode : std::uint8_t { attributes, triangles, indices };

@@ -10,7 +10,10 @@
 
 namespace halflit::io::detail {
 
-/// visit(Target, int&) for the index of each member that a row of the schema fills. -1: not there.
+/// In place of an index that is wrong or out of range. Other negative values: the file gives none.
+inline constexpr int kBadIndex = -2;
+
+/// visit(Target, int&) for the index of each member that a row of the schema fills. Negative: not there.
 template <class Visit>
 void for_each_index(file::File& file, const Visit& visit) {
     const auto attributes = [&](file::Attributes& list) {

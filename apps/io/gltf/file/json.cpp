@@ -38,7 +38,8 @@ const char* expected_by(Rule rule) {
 
 class GltfVisitor final : public JsonVisitor {
 public:
-    GltfVisitor(file::File& file, Notes& notes, Budget& memory) : file_(file), filler_(file, notes, memory) {}
+    GltfVisitor(file::File& file, Notes& notes, Budget& memory, bool strict)
+        : file_(file), filler_(file, notes, memory), memory_(memory), strict_(strict) {}
 
     void on_key(const JsonValue& key) override {
         Level& top = levels_.back();
@@ -75,6 +76,12 @@ public:
         if (levels_.size() == owner_depth_) filler_.owner = {};
     }
 
+    void on_twin(std::string_view key, std::size_t first, std::size_t next, std::size_t again) override {
+        if (strict_) JsonVisitor::on_twin(key, first, next, again);
+        memory_.take(2 * sizeof(Twin));
+        filler_.notes.twins.push_back({first, next, again});
+    }
+
     /// Called after the scan, when the lengths of all arrays are known. Afterwards no member of the file has an index that is out of range,
     /// whether its fault was refused, noted or ignored.
     void check_indices() {
@@ -87,14 +94,18 @@ public:
                 filler_.warn(index.offset, std::move(what), "ignored");
                 continue;
             }
-            if (index.owner.target == Target::none || (index.owner.target == Target::nodes && index.target == Target::nodes))
+            if (!strict_ && index.owner.target == Target::none) {
+                filler_.warn(index.offset, std::move(what), "ignored");
+                continue;
+            }
+            if (strict_ && (index.owner.target == Target::none || (index.owner.target == Target::nodes && index.target == Target::nodes)))
                 throw JsonFault{ErrorCode::bad_input, index.offset, std::move(what)};  // the graph of the nodes is walked as a whole
             filler_.fault(index.offset, std::move(what));
         }
         TimeCheck check;
         for_each_index(file_, [&](Target target, int& index) {
             check();
-            if (index >= 0 && static_cast<std::size_t>(index) >= count_of(target, file_)) index = -1;
+            if (index >= 0 && static_cast<std::size_t>(index) >= count_of(target, file_)) index = kBadIndex;
         });
     }
 
@@ -144,6 +155,11 @@ private:
         const bool good = check(*node, value, node->mild || (node->reads != nullptr && !node->reads(filler_.key)));
         // An element that is no object counts as one, so that those after it keep their numbers.
         if ((good || element) && node->put != nullptr) put(*node, value);
+        if (!good && node->rule == Rule::index && node->put != nullptr && value.type != JsonType::null) {
+            JsonValue bad = value;
+            bad.number = kBadIndex;
+            call(node->put, bad);
+        }
         return good ? node : nullptr;
     }
 
@@ -173,8 +189,8 @@ private:
         try {
             action(filler_, value);
         } catch (const JsonFault& found) {
-            if (filler_.owner.target == Target::none || found.code != ErrorCode::bad_input) throw;
-            filler_.fault(found.offset, found.what);
+            if (found.code != ErrorCode::bad_input) throw;
+            fault(false, found.offset, found.what);
         }
     }
 
@@ -201,9 +217,9 @@ private:
         if (extensions_.size() < kMost) extensions_.emplace_back(filler_.keep(key), key.offset);
     }
 
-    /// Faults of the file itself end the reading; those of an element are noted.
+    /// Faults of the file itself end the reading by the strict rules; those of an element are noted.
     void fault(bool mild, std::size_t offset, std::string what) {
-        if (mild) return filler_.warn(offset, std::move(what), "ignored");
+        if (mild || (!strict_ && filler_.owner.target == Target::none)) return filler_.warn(offset, std::move(what), "ignored");
         if (filler_.owner.target == Target::none) throw JsonFault{ErrorCode::bad_input, offset, std::move(what)};
         filler_.fault(offset, std::move(what));
     }
@@ -211,6 +227,10 @@ private:
     /// Notes a fault and returns false if a value is not of the schema's type.
     bool check(const SchemaNode& node, const JsonValue& value, bool mild) {
         const bool numeric = value.type == JsonType::integer || value.type == JsonType::number;
+        if (!strict_ && value.type == JsonType::null && node.rule != Rule::any && node.rule != Rule::open) {
+            filler_.warn(value.offset, fmt::format("expected {}, found null", expected_by(node.rule)), "read as if it were not there");
+            return false;
+        }
         double limit = 9007199254740992.0;  // 2^53
         bool good = true;
         switch (node.rule) {
@@ -255,6 +275,8 @@ private:
 
     file::File& file_;
     GltfFiller filler_;
+    Budget& memory_;
+    bool strict_;
     std::vector<Level> levels_;
     std::vector<Index> indices_;
     std::vector<std::pair<std::string_view, std::size_t>> extensions_;  // names that are used, with the offset of the first use
@@ -263,9 +285,10 @@ private:
 
 }  // namespace
 
-void refuse_at(std::string_view text, const JsonScanLimits& limits, std::size_t offset, std::string_view what, ErrorCode code) {
+LoadFailure failure_at(std::string_view text, const JsonScanLimits& limits, std::size_t offset, std::string_view what, ErrorCode code) {
     const TextPlace place = place_of(text, offset);
-    refuse(printable(json_path_at(text, offset, limits), 120), fmt::format("line {}, column {}: {}", place.line, place.column, what), code);
+    const std::string path = printable(json_path_at(text, offset, limits), 120);
+    return {{code, fmt::format("{}{}line {}, column {}: {}", path, path.empty() ? "" : ": ", place.line, place.column, what)}};
 }
 
 std::string_view trimmed(std::string_view text, std::vector<std::string>& warnings) {
@@ -277,16 +300,17 @@ std::string_view trimmed(std::string_view text, std::vector<std::string>& warnin
     return text;
 }
 
-file::File read_gltf_json(std::string_view text, const JsonScanLimits& limits, Budget memory, Notes& notes) {
+file::File read_gltf_json(std::string_view text, const JsonScanLimits& limits, Budget memory, Notes& notes, bool strict) {
     file::File file;
     try {
-        GltfVisitor visitor(file, notes, memory);
+        GltfVisitor visitor(file, notes, memory, strict);
         scan_json(text, limits, visitor);
-        check_versions(file);
+        if (!notes.twins.empty()) return file;
+        check_versions(file, strict);
         visitor.check_indices();
         visitor.check_extensions();
     } catch (const JsonFault& found) {
-        refuse_at(text, limits, found.offset, found.what, found.code);
+        throw failure_at(text, limits, found.offset, found.what, found.code);
     }
     return file;
 }

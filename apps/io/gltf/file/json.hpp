@@ -12,15 +12,17 @@
 
 namespace halflit::io::detail {
 
-/// `text` must outlive the result, whose names point into it, and begins after its byte order mark. Faults of elements go to `notes`;
-/// the values that they concern have their defaults. No index is out of range.
-/// Throws LoadFailure for other faults, with path, line and column. Takes the memory of all objects from `memory`.
-file::File read_gltf_json(std::string_view text, const JsonScanLimits& limits, Budget memory, Notes& notes);
+/// `text` must outlive the result, whose names point into it, and begins after its byte order mark. Faults of elements go to `notes`, and
+/// so do keys that are there twice unless `strict`: the rest is not checked then, as the text is to be read again without them; the values
+/// that they concern have their defaults. No index is out of range. Throws LoadFailure for other faults, with path, line and column. Takes
+/// the memory of all objects from `memory`.
+file::File read_gltf_json(std::string_view text, const JsonScanLimits& limits, Budget memory, Notes& notes, bool strict);
 
 /// The JSON text without what glTF forbids before and after it: a byte order mark, which is warned of, and zeros.
 std::string_view trimmed(std::string_view text, std::vector<std::string>& warnings);
 
-/// Throws LoadFailure with path, line and column of `offset`.
-[[noreturn]] void refuse_at(std::string_view text, const JsonScanLimits& limits, std::size_t offset, std::string_view what, ErrorCode code);
+/// A failure with path, line and column of `offset`.
+[[nodiscard]] LoadFailure failure_at(std::string_view text, const JsonScanLimits& limits, std::size_t offset, std::string_view what,
+                                     ErrorCode code);
 
 }  // namespace halflit::io::detail

@@ -26,12 +26,18 @@ struct Note {
     std::string instead;     ///< what is done about it; empty for a fault
 };
 
+/// A member whose key comes again in its object: the offsets of its key, of the next member, and of the same key.
+struct Twin {
+    std::size_t first = 0, next = 0, again = 0;
+};
+
 struct Notes {
     static constexpr std::size_t kMostWarnings = 100;
 
     std::vector<Note> faults;    ///< refused if the owner is drawn. Of each owner the first alone
     std::vector<Note> warnings;  ///< the first ones
     std::size_t warnings_left_out = 0;
+    std::vector<Twin> twins;
 
     /// Takes the note's memory from `memory`, as a file may hold millions of faults.
     void add_fault(Budget& memory, Note note);

@@ -302,8 +302,10 @@ inline void end_node(F f, V) {
         if (list->size() != 3) list->clear();
     const bool parts = !(f.translation.empty() && f.rotation.empty() && f.scale.empty());
     if (f.matrix.empty() && !parts) return;
-    if (!f.matrix.empty() && parts)
+    if (!f.matrix.empty() && parts) {
         f.fault(f.matrix_offset, "there are a translation, a rotation or a scale beside it, and they exclude each other");
+        f.matrix.clear();
+    }
     check_transform(f);
     file::Transform& made = f.append(f.file.transforms);
     if (!f.matrix.empty()) {  // the last row of an affine transform is 0 0 0 1

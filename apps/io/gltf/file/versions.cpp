@@ -33,11 +33,12 @@ constexpr std::string_view kSupportedExtensions[] = {"KHR_lights_punctual",
                                                      "KHR_materials_variants",
                                                      "EXT_mesh_gpu_instancing"};
 
-/// "2.0" as {2, 0}.
-std::optional<std::pair<int, int>> parse_version(std::string_view text) {
+/// "2.0" as {2, 0}; unless strict, "2" too.
+std::optional<std::pair<int, int>> parse_version(std::string_view text, bool strict) {
     std::pair<int, int> v;
     const char* end = text.data() + text.size();
     const auto major = std::from_chars(text.data(), end, v.first);
+    if (major.ec == std::errc{} && major.ptr == end && !strict) return v;
     if (major.ec != std::errc{} || major.ptr == end || *major.ptr != '.') return std::nullopt;
     const auto minor = std::from_chars(major.ptr + 1, end, v.second);
     if (minor.ec != std::errc{} || minor.ptr != end || v.first < 0 || v.second < 0) return std::nullopt;
@@ -106,11 +107,12 @@ bool is_supported(std::string_view extension) {
            (!extension.empty() && std::any_of(std::begin(shading::kMaterialNumbers), std::end(shading::kMaterialNumbers), has));
 }
 
-void check_versions(const file::File& file) {
-    const auto version = parse_version(file.version);
+void check_versions(const file::File& file, bool strict) {
+    if (file.version.empty() && !strict) return;  // warned of
+    const auto version = parse_version(file.version, strict);
     if (!version) refuse("asset.version", fmt::format("expected \"2.0\", found \"{}\"", printable(file.version, 20)));
     if (!file.min_version.empty()) {
-        const auto min_version = parse_version(file.min_version);
+        const auto min_version = parse_version(file.min_version, strict);
         if (!min_version) refuse("asset.minVersion", fmt::format("expected \"2.0\", found \"{}\"", printable(file.min_version, 20)));
         if (*min_version > std::pair(2, 0))
             refuse("asset.minVersion", fmt::format("the file needs glTF {}, expected at most 2.0", printable(file.min_version, 20)));
@@ -121,8 +123,9 @@ void check_versions(const file::File& file) {
         check();
         if (is_supported(name)) continue;
         std::string hint;
-        if (const Decoder* decoder = decoder_of(name))
-            hint = fmt::format(": it needs the library {}, which this build lacks", decoder->library);
+        const Decoder* decoder = decoder_of(name);
+        if (!strict && decoder == nullptr) continue;  // what it adds to the picture is left out, with a warning
+        if (decoder != nullptr) hint = fmt::format(": it needs the library {}, which this build lacks", decoder->library);
         if (name == "KHR_texture_basisu") hint = " (KTX2 pictures; save the model with PNG, JPEG or WebP)";
         refuse("extensionsRequired", fmt::format("\"{}\" is not supported{}", printable(name, 80), hint));
     }
@@ -145,9 +148,10 @@ void check_extensions(Document& document) {
                                                   : fmt::format("extensionsUsed: {} is not known, ignored", printable(name, 80)));
     }
     for (std::size_t i = 0; i < file.extensions_required.size(); ++i)
-        if (check(); !used.contains(file.extensions_required[i]))
-            document.warn(fmt::format("extensionsRequired[{}]: {} is not in extensionsUsed, read as if it were", i,
-                                      printable(file.extensions_required[i], 80)));
+        if (const std::string_view name = file.extensions_required[i]; check(), !is_supported(name))
+            document.warn(fmt::format("extensionsRequired[{}]: {} is not supported, drawn without it", i, printable(name, 80)));
+        else if (!used.contains(name))
+            document.warn(fmt::format("extensionsRequired[{}]: {} is not in extensionsUsed, read as if it were", i, printable(name, 80)));
 }
 
 }  // namespace halflit::io::detail

@@ -10,9 +10,10 @@ namespace halflit::io::detail {
 /// True for an extension that this build draws.
 [[nodiscard]] bool is_supported(std::string_view extension);
 
-/// Throws LoadFailure for another major version, a minimum above 2.0, or a required extension that is not supported.
+/// Throws LoadFailure for another major version, a minimum above 2.0, or a required extension that is not supported; unless `strict`, of
+/// these only for one without whose library the data cannot be read, and not for a version that is not there.
 /// A later minor version without a minimum loads: by the specification a 2.0 reader can draw it.
-void check_versions(const file::File& file);
+void check_versions(const file::File& file, bool strict);
 
 /// Warns of what a file loses: extensions that it uses and that are not drawn, and animations. Warns of required extensions that the file
 /// does not list as used.

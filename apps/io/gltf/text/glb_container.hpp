@@ -19,7 +19,8 @@ struct GlbParts {
 
 [[nodiscard]] bool is_glb(std::span<const std::byte> file);
 
-/// Checks every length before use. Chunks of unknown types are skipped. The message has no file prefix.
-Result<GlbParts> split_glb(std::span<const std::byte> file);
+/// Checks every length before use. Chunks of unknown types are skipped. Unless `strict`, wrong lengths and a wrong order are warned of, and
+/// what is there is read. The message has no file prefix.
+Result<GlbParts> split_glb(std::span<const std::byte> file, bool strict = true);
 
 }  // namespace halflit::io::detail

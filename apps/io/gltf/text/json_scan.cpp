@@ -98,13 +98,26 @@ private:
             const auto first = keys_.begin() + static_cast<std::ptrdiff_t>(top.first_key);
             std::sort(first, keys_.end(),
                       timed_less([](const Key& a, const Key& b) { return a.text != b.text ? a.text < b.text : a.offset < b.offset; }));
-            const auto twin = std::adjacent_find(first, keys_.end(), [](const Key& a, const Key& b) { return a.text == b.text; });
-            if (twin != keys_.end()) refuse((twin + 1)->offset, fmt::format("the key \"{}\" is there twice", printable(twin->text, 60)));
+            const auto is_twin = [](const Key& a, const Key& b) { return a.text == b.text; };
+            if (std::adjacent_find(first, keys_.end(), is_twin) != keys_.end()) report_twins(top.first_key);
             keys_.resize(top.first_key);
             if (keys_.empty()) decoded_.clear();
         }
         ++at_;
         visitor_.on_end(at_);
+    }
+
+    /// `keys_` from `first` on are sorted by text.
+    void report_twins(std::size_t first) {
+        std::vector<std::size_t> offsets;
+        for (std::size_t i = first; i < keys_.size(); ++i) offsets.push_back(keys_[i].offset);
+        std::sort(offsets.begin(), offsets.end());
+        for (std::size_t i = first; i + 1 < keys_.size(); ++i) {
+            check_();
+            if (keys_[i].text != keys_[i + 1].text) continue;
+            const std::size_t next = *std::upper_bound(offsets.begin(), offsets.end(), keys_[i].offset);
+            visitor_.on_twin(keys_[i].text, keys_[i].offset, next, keys_[i + 1].offset);
+        }
     }
 
     void value() {
@@ -284,6 +297,10 @@ const char* name_of(JsonType type) {
             break;
     }
     return "null";
+}
+
+void JsonVisitor::on_twin(std::string_view key, std::size_t /*first*/, std::size_t /*next*/, std::size_t again) {
+    throw JsonFault{ErrorCode::bad_input, again, fmt::format("the key \"{}\" is there twice", printable(key, 60))};
 }
 
 void scan_json(std::string_view text, const JsonScanLimits& limits, JsonVisitor& visitor) { Scanner(text, limits, visitor).run(); }

@@ -40,6 +40,9 @@ public:
     virtual void on_begin(JsonType object_or_array, std::size_t offset) = 0;
     virtual void on_end(std::size_t end_offset) = 0;  ///< one past the closing bracket
     virtual void on_value(const JsonValue& value, std::size_t end_offset) = 0;
+    /// A member whose key comes again in its object: `first` is the key's offset, `next` that of the member behind it. Called where the
+    /// object ends. A fault, unless it is overridden.
+    virtual void on_twin(std::string_view key, std::size_t first, std::size_t next, std::size_t again);
 };
 
 struct JsonScanLimits {

@@ -1,0 +1,148 @@
+// Files that break a rule of glTF and leave no doubt of what they mean: viewers draw them, and so does the loader, with a warning that
+// names the place. The strict rules refuse them.
+#include "tests/io/gltf_builder.hpp"
+
+#include "tests/support/catch.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+
+using namespace halflit;
+using namespace halflit::test;
+
+namespace {
+
+struct Case {
+    const char* name;
+    Bytes file;
+    const char* warning;  // a part of one
+    std::function<void(const LoadedScene&)> check;
+};
+
+std::string triangle_with(std::string_view from, std::string_view to) { return replaced(TriangleFile().json(), from, to); }
+
+Bytes triangle_file(std::string_view from, std::string_view to) { return glb(triangle_with(from, to), TriangleFile().bin); }
+
+/// The file with the number at a byte changed.
+Bytes with_number(Bytes file, std::size_t at, std::uint32_t add) {
+    put<std::uint32_t>(file, at, u32_of(file, at) + add);
+    return file;
+}
+
+Bytes unpadded() {
+    std::string json = TriangleFile().json();
+    while (json.size() % 4 != 2) json += ' ';
+    Bytes file = glb(json, TriangleFile().bin);
+    file.erase(file.begin() + static_cast<std::ptrdiff_t>(20 + json.size()), file.begin() + static_cast<std::ptrdiff_t>(22 + json.size()));
+    put<std::uint32_t>(file, 8, static_cast<std::uint32_t>(file.size()));
+    put<std::uint32_t>(file, 12, static_cast<std::uint32_t>(json.size()));
+    return file;
+}
+
+Bytes with_attribute(const char* name, const Bytes& data, const std::string& accessor) {
+    TriangleFile file;
+    const int index = file.add(data, accessor);
+    file.attributes += fmt::format(",\"{}\":{}", name, index);
+    return file.file();
+}
+
+Bytes with_nodes(const std::string& nodes, const std::string& roots) {
+    return glb(
+        replaced(triangle_with("\"nodes\":[{\"mesh\":0}]", "\"nodes\":[" + nodes + "]"), "\"nodes\":[0]", "\"nodes\":[" + roots + "]"),
+        TriangleFile().bin);
+}
+
+Bytes truncated(std::size_t bytes) {
+    Bytes file = TriangleFile().file();
+    file.resize(file.size() - bytes);
+    return file;
+}
+
+}  // namespace
+
+TEST_CASE("tolerance: what viewers draw is drawn with a warning, and refused by the strict rules", "[io]") {
+    Bytes two_normals, colors;
+    append<float>(two_normals, {0, 0, 1, 0, 0, 1});
+    append<std::uint8_t>(colors, {255, 0, 0, 0, 0, 255, 0, 0, 51, 0, 255, 0});
+    const auto none = [](const LoadedScene&) {};
+    const auto at_x = [](float x) {
+        return [x](const LoadedScene& loaded) { CHECK(loaded.scene.instances.at(0).world_from_object.c[3].x == x); };
+    };
+    const Case cases[] = {
+        {"length of the header", with_number(TriangleFile().file(), 8, 40), "GLB: header: length is", none},
+        {"chunks behind the length", with_number(TriangleFile().file(), 8, -8u), "8 bytes after the length that the header gives, read",
+         none},
+        {"length of a chunk", with_number(TriangleFile().file(), 20 + u32_of(TriangleFile().file(), 12), 12), "chunk 1: length is", none},
+        {"chunk that is not padded", unpadded(), "chunk 0: length must be a multiple of 4", none},
+        {"byte that is not UTF-8", triangle_file("{\"mesh\":0}", "{\"mesh\":0,\"name\":\"T\xfcr\"}"), "the byte \"\\xfc\" is not UTF-8",
+         [](const LoadedScene& loaded) { CHECK(loaded.nodes.at(0).name == "T?r"); }},
+        {"key twice", triangle_file("{\"mesh\":0}", R"({"translation":[1,0,0],"mesh":0,"translation":[2,0,0]})"),
+         "the key \"translation\" is there twice, the last one is read", at_x(2)},
+        {"list twice", triangle_file("\"meshes\":", R"("meshes":[{"primitives":[]},{"primitives":[]}],"meshes":)"),
+         "the key \"meshes\" is there twice", [](const LoadedScene& loaded) { CHECK(loaded.info.meshes == 1); }},
+        {"null", triangle_file("{\"mesh\":0}", R"({"mesh":0,"skin":null,"translation":null,"name":null})"),
+         "expected an integer, found null, read as if it were not there", none},
+        {"version", triangle_file("\"2.0\"", "\"2\""), nullptr, none},
+        {"no asset", triangle_file("\"asset\":{\"version\":\"2.0\"},", ""), "expected the key \"asset\"", none},
+        {"buffer longer than its data", triangle_file("\"byteLength\":36}],\"bufferViews\"", "\"byteLength\":39}],\"bufferViews\""),
+         nullptr, none},
+        {"fewer normals", with_attribute("NORMAL", two_normals, R"("componentType":5126,"count":2,"type":"VEC3")"), "NORMAL is left out",
+         [](const LoadedScene& loaded) { CHECK(loaded.scene.meshes.at(0).positions.size() == 3); }},
+        {"bytes of colours that are not normalized", with_attribute("COLOR_0", colors, R"("componentType":5121,"count":3,"type":"VEC4")"),
+         "read as normalized", [](const LoadedScene& loaded) { CHECK(loaded.scene.meshes.at(0).colors.at(2).x == 51 / 255.0f); }},
+        {"matrix beside a translation",
+         triangle_file("{\"mesh\":0}", R"({"mesh":0,"translation":[3,0,0],"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,7,0,0,1]})"),
+         "they exclude each other, ignored", at_x(3)},
+        {"two parents", with_nodes(R"({"mesh":0},{"children":[0],"translation":[5,0,0]},{"children":[0],"translation":[9,0,0]})", "2,1"),
+         "nodes[2].children: node 0 is a child of node 1 already; this link is left out", at_x(5)},
+        {"its own ancestor", with_nodes(R"({"mesh":0,"children":[1]},{"children":[0]})", "0"), "the node is its own ancestor", none},
+        {"child out of range", with_nodes(R"({"mesh":0,"children":[7]})", "0"), "index 7, but the file has 1 nodes, ignored", none},
+        {"required extension",
+         triangle_file("\"asset\"", R"("extensionsUsed":["KHR_xmp_json_ld"],"extensionsRequired":["KHR_xmp_json_ld"],"asset")"),
+         "KHR_xmp_json_ld is not supported, drawn without it", none},
+        {"skin that is not there", triangle_file("{\"mesh\":0}", R"({"mesh":0,"skin":3})"), "index 3, but the file has 0 skins, ignored",
+         none},
+        {"material that is not there", triangle_file("}}]", R"(},"material":4}])"), "index 4, but the file has 0 materials, ignored", none},
+    };
+    for (const Case& c : cases) {
+        INFO(c.name);
+        const LoadedScene loaded = load_ok(c.file);
+        CHECK(loaded.info.triangles_drawn == 1);
+        if (c.warning != nullptr) {
+            CHECK_FALSE(load(c.file));
+            std::string all;
+            for (const std::string& warning : loaded.warnings) all += warning + "\n";
+            INFO(all);
+            CHECK(all.find(c.warning) != std::string::npos);
+        }
+        c.check(loaded);
+    }
+}
+
+TEST_CASE("tolerance: a primitive that cannot be read is left out, and a file of which nothing is left is refused", "[io]") {
+    const std::string one = R"({"attributes":{"POSITION":0}})";
+    const auto with_primitives = [&](const std::string& list) { return triangle_file(one, list); };
+    for (const char* bad : {R"({"attributes":{"POSITION":9}})", R"({"attributes":{"POSITION":0},"indices":9})",
+                            R"({"attributes":{"POSITION":0},"indices":"a"})", R"({"attributes":{"POSITION":0},"indices":0})"}) {
+        INFO(bad);
+        const LoadedScene loaded = load_ok(with_primitives(one + "," + bad));
+        CHECK(loaded.info.triangles_drawn == 1);
+        CHECK_FALSE(loaded.warnings.empty());
+        CHECK_FALSE(load(with_primitives(one + "," + bad)));
+        const auto alone = load(with_primitives(bad), {});
+        REQUIRE_FALSE(alone);
+        CHECK(alone.error().code == ErrorCode::bad_input);
+        CHECK(alone.error().message.find("meshes[0].primitives[0]") != std::string::npos);
+    }
+    // Of a file that was cut off, what is there is drawn.
+    CHECK_FALSE(load(truncated(12), {}));  // one triangle alone, of which a vertex is gone
+    TriangleFile file;
+    file.accessors = R"({"bufferView":0,"componentType":5126,"count":6,"type":"VEC3"})";
+    file.views = R"({"buffer":0,"byteLength":72})";
+    append<float>(file.bin, {0, 0, 1, 1, 0, 1, 0, 1, 1});
+    Bytes cut = file.file();
+    cut.resize(cut.size() - 20);
+    CHECK(load_ok(cut).info.triangles_drawn == 1);
+    CHECK_FALSE(load(cut));
+}
