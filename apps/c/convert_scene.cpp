@@ -66,6 +66,7 @@ halflit_load_options to_c(const LoadOptions& from) {
     options.time_limit_s = from.limits.time_limit_s;
     options.crease_deg = from.crease_deg;
     options.recentre = from.recentre;
+    options.plate = from.plate;
     return options;
 }
 
@@ -93,6 +94,7 @@ Result<LoadOptions> load_options(const halflit_load_options* given) {
     options.limits.time_limit_s = read->time_limit_s;
     options.crease_deg = read->crease_deg;
     options.recentre = read->recentre != 0;
+    options.plate = read->plate;
     options.limits.max_file_bytes = read->max_file_bytes;
     options.limits.max_total_bytes = read->max_total_bytes;
     options.limits.max_json_tokens = read->max_json_tokens;

@@ -146,6 +146,9 @@ FlagGroup pose_flags(RenderOptions& o) {
               o.load.scene = text;
               return {};
           }},
+         {"--plate", "N", "Plate of a slicer's project (3MF), from 1 (default 1); 0: all of them",
+          parsed(o.load.plate,
+                 [](const std::string& text) { return parse_int(text, 0, 255).map([](std::int64_t n) { return static_cast<int>(n); }); })},
          {"--variant", "NAME", "Variant of the file's materials (default: the materials without a variant)",
           [&o](const std::string& text) -> Result<void> {
               if (text.empty()) return fail(ErrorCode::usage, "expected a name, found ''");

@@ -92,6 +92,7 @@ LoadedScene io::detail::read_gltf(std::span<const std::byte> bytes, const std::s
     }
     images.finish(loaded.scene.materials);
     convert_specular_glossiness(*document, loaded.scene);
+    if (!motion) make_visible(*document, loaded.scene);
     for (const int original : document->unlit_copies) {
         std::vector<Material>& materials = loaded.scene.materials;
         Material copy = original < 0 ? Material{} : materials[static_cast<std::size_t>(original)];

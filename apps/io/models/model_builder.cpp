@@ -1,10 +1,12 @@
 #include "apps/io/models/model_builder.hpp"
-#include "apps/io/gltf/build/open.hpp"
 
 #include "apps/io/files/text.hpp"
 #include "apps/io/files/uri.hpp"
 #include "apps/io/gltf/build/choices.hpp"
+#include "apps/io/gltf/build/materials.hpp"
 #include "apps/io/gltf/build/nodes.hpp"
+#include "apps/io/gltf/build/open.hpp"
+#include "apps/io/gltf/build/placed.hpp"
 #include "apps/io/gltf/build/world.hpp"
 #include "apps/io/models/model_text.hpp"
 #include "shading/material_properties.hpp"
@@ -188,6 +190,18 @@ void ModelBuilder::place(std::span<const int> meshes, const std::string& name, c
     local_.push_back(root_from_node);
 }
 
+void ModelBuilder::add_camera(Camera camera, const Affine& root_from_camera) {
+    document_->geometry.take(sizeof(Node) + sizeof(Affine) + sizeof(Camera) + camera.name.size());
+    Node node;
+    node.name = camera.name;
+    node.parent = 0;
+    node.parent_from_node = to_node_transform(root_from_camera);
+    node.camera = static_cast<int>(loaded_.scene.cameras.size());
+    loaded_.scene.cameras.push_back(std::move(camera));
+    loaded_.nodes.push_back(std::move(node));
+    local_.push_back(root_from_camera);
+}
+
 LoadedScene ModelBuilder::finish(const ModelFrame& frame) {
     images_->start();
     const double s = frame.metres;
@@ -206,7 +220,15 @@ LoadedScene ModelBuilder::finish(const ModelFrame& frame) {
         tree.world_from_node.push_back(world);
     }
     place_scene(*document_, document_->options.up.value_or(frame.up), tree, loaded_);
+    for (std::size_t n = 0; n < loaded_.nodes.size(); ++n) {
+        if (loaded_.nodes[n].camera < 0) continue;
+        Camera& camera = loaded_.scene.cameras[static_cast<std::size_t>(loaded_.nodes[n].camera)];
+        camera.world_from_camera = rigid_part(tree.world_from_node[n]);
+        const auto scale = static_cast<float>(s * loaded_.placement.scale);
+        for (float* length : {&camera.half_height, &camera.half_width, &camera.near_z, &camera.far_z}) *length *= scale;
+    }
     images_->finish(loaded_.scene.materials);
+    make_visible(*document_, loaded_.scene);
     if (left_out_ > 0) document_->warn(fmt::format("{} triangles with coordinates that are not finite are left out", left_out_));
     if (loaded_.scene.instances.empty()) document_->warn("the model has nothing to draw");
     SceneInfo& info = document_->info;

@@ -70,6 +70,8 @@ public:
     void place_alone(Soup&& soup, std::span<const int> material_of);
     /// Places meshes by a node under the root.
     void place(std::span<const int> meshes, const std::string& name, const Affine& root_from_node = {});
+    /// A camera in the file's space; the projection's lengths are the file's too.
+    void add_camera(Camera camera, const Affine& root_from_camera);
     /// Everything placed, completed and counted. Ends the builder.
     LoadedScene finish(const ModelFrame& frame);
 

@@ -276,6 +276,9 @@ private:
     void finish_cloud() {
         Mesh mesh;
         mesh.topology = Topology::points;
+        // Of a file that was cut off before its faces.
+        if (soup_.normals.size() != soup_.positions.size()) soup_.normals.clear();
+        if (soup_.colors.size() != soup_.positions.size()) soup_.colors.clear();
         drop_zero_normals();
         builder_.take_entries<std::uint32_t>(soup_.positions.size());
         std::size_t kept = 0;

@@ -23,6 +23,8 @@ constexpr std::string_view kMaterial = "http://schemas.microsoft.com/3dmanufactu
 constexpr std::string_view kProduction = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06";
 /// Named groups of triangles; they say nothing about the picture.
 constexpr std::string_view kTriangleSets = "http://schemas.microsoft.com/3dmanufacturing/trianglesets/2021/07";
+constexpr const char* kPaintBambu = "paint_color";
+constexpr const char* kPaintPrusa = "http://schemas.slic3r.org/3mf/2017/06 mmu_segmentation";
 constexpr std::string_view kProductionPath = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06 path";
 
 double metres_of(std::string_view unit) {
@@ -119,7 +121,8 @@ private:
         if (name == "base") return add_color(color(attributes, "displaycolor"));
         if (name == "component" || name == "item") {
             builder_.document().geometry.take(sizeof(Component));
-            Component component{std::string(attributes.get(kProductionPath)), needed(attributes, "objectid"), transform(attributes)};
+            Component component{std::string(attributes.get(kProductionPath)), needed(attributes, "objectid"), transform(attributes),
+                                Words(attributes.get("printable")).rest() != "0"};
             if (name == "item")
                 model_.items.push_back(std::move(component));
             else if (object_ != nullptr)
@@ -148,7 +151,74 @@ private:
             properties_->uvs.push_back({real<float>(attributes, "u"), 1.0f - real<float>(attributes, "v")});
             return;
         }
-        if (name != "composite" && name != "multi") builder_.document().warn(fmt::format("{}: {} are not drawn", part_, name));
+        if (name == "multiproperties" || name == "compositematerials") {
+            begin_properties(attributes, false);
+            Words layers(attributes.get(name == "multiproperties" ? "pids" : "matid"));
+            properties_->layers = list(layers);
+            Words indices(attributes.get("matindices"));
+            properties_->indices = list(indices);
+            properties_->multiplies = attributes.get("blendmethods").find("multiply") != std::string_view::npos;
+            return;
+        }
+        if (name == "multi") return add_layers(attributes);
+        if (name == "composite") return add_mixture(attributes);
+        builder_.document().warn(fmt::format("{}: {} are not drawn", part_, name));
+    }
+    /// Whole numbers up to the end.
+    std::vector<std::uint32_t> list(Words& words) const {
+        std::vector<std::uint32_t> out;
+        for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+            builder_.document().geometry.take(8);
+            out.push_back(parse_whole<std::uint32_t>(word).value_or(kNone));
+        }
+        return out;
+    }
+    /// An entry of several layers becomes one colour, or an entry of the texture among them.
+    void add_layers(const XmlAttributes& attributes) {
+        if (properties_ == nullptr || properties_->layers.empty()) fault("a multi is outside of multiproperties");
+        Words words(attributes.get("pindices"));
+        const std::vector<std::uint32_t> indices = list(words);
+        Vec4f color{1, 1, 1, 1};
+        for (std::size_t i = 0; i < properties_->layers.size(); ++i) {
+            const std::uint32_t at = i < indices.size() ? indices[i] : 0;  // those left out are 0
+            const auto found = model_.properties.find(properties_->layers[i]);
+            if (found == model_.properties.end() || &found->second == properties_) continue;
+            const Properties& layer = found->second;
+            if (layer.is_texture && at < layer.uvs.size()) {
+                properties_->is_texture = true;
+                properties_->texture = layer.texture;
+                builder_.document().geometry.take(2 * sizeof(Vec2f));
+                properties_->uvs.push_back(layer.uvs[at]);
+                return;
+            }
+            if (at >= layer.colors.size()) continue;
+            const Vec4f& over = layer.colors[at];
+            const auto mix = [&](float below, float above) {
+                return properties_->multiplies ? below * above : above * over.w + below * (1.0f - over.w);
+            };
+            color = i == 0 ? over
+                           : Vec4f{mix(color.x, over.x), mix(color.y, over.y), mix(color.z, over.z),
+                                   properties_->multiplies ? color.w * over.w : over.w + color.w * (1.0f - over.w)};
+        }
+        if (!properties_->is_texture) add_color(color);
+    }
+    /// A mixture of base materials becomes the mean of their colours.
+    void add_mixture(const XmlAttributes& attributes) {
+        if (properties_ == nullptr || properties_->layers.empty()) fault("a composite is outside of compositematerials");
+        const auto base = model_.properties.find(properties_->layers[0]);
+        Words words(attributes.get("values"));
+        Vec4f sum{0, 0, 0, 0};
+        float weights = 0.0f;
+        for (const std::uint32_t index : properties_->indices) {
+            const float weight = std::max(0.0f, parse_real<float>(words.next()).value_or(0.0f));
+            if (base == model_.properties.end() || index >= base->second.colors.size()) continue;
+            const Vec4f& color = base->second.colors[index];
+            sum = {sum.x + weight * color.x, sum.y + weight * color.y, sum.z + weight * color.z, sum.w + weight * color.w};
+            weights += weight;
+        }
+        const Vec4f grey{linear_color(0.7), linear_color(0.7), linear_color(0.7), 1.0f};
+        const bool is_mean = weights > 0.0f && weights < 1e30f;
+        add_color(is_mean ? Vec4f{sum.x / weights, sum.y / weights, sum.z / weights, sum.w / weights} : grey);
     }
     /// Elements of extensions that are not read; once for each.
     void warn_of_others(std::string_view name_space) {
@@ -184,6 +254,8 @@ private:
         if (!is_new) fault(fmt::format("there are two objects with the id {}", id));
         object_ = &entry->second;
         object_->name = attributes.get("name");
+        const std::string_view type = attributes.get("type");
+        object_->is_support = type == "support" || type == "solidsupport";
         object_group_ = whole(attributes, "pid").value_or(kNone);
         object_property_ = whole(attributes, "pindex").value_or(0);
     }
@@ -213,6 +285,12 @@ private:
         triangle.group = own.value_or(object_group_);
         const std::uint32_t first = p1.value_or(object_property_);
         triangle.property = {first, whole(attributes, "p2").value_or(first), whole(attributes, "p3").value_or(first)};
+        const char* paint = attributes.find(kPaintBambu);
+        if (paint == nullptr) paint = attributes.find(kPaintPrusa);
+        if (paint != nullptr && *paint != '\0') {
+            builder_.document().geometry.take(sizeof(object_->paints[0]) + std::string_view(paint).size());
+            object_->paints.emplace_back(static_cast<std::uint32_t>(object_->triangles.size()), paint);
+        }
         object_->triangles.push_back(triangle);
     }
 

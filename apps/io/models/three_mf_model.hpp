@@ -17,10 +17,13 @@ namespace halflit::io::detail::three_mf {
 
 /// A resource that triangles take colours or a texture from.
 struct Properties {
-    bool is_texture = false;    ///< a texture2dgroup
-    std::vector<Vec4f> colors;  ///< linear
-    std::vector<Vec2f> uvs;     ///< v points down
-    std::uint32_t texture = 0;  ///< id of a texture2d
+    bool is_texture = false;             ///< a texture2dgroup
+    std::vector<Vec4f> colors;           ///< linear
+    std::vector<Vec2f> uvs;              ///< v points down
+    std::uint32_t texture = 0;           ///< id of a texture2d
+    std::vector<std::uint32_t> layers;   ///< of multiproperties: the groups, the lowest first; of composites: the base materials
+    std::vector<std::uint32_t> indices;  ///< of composites: entries of the base materials
+    bool multiplies = false;             ///< of multiproperties: layers are multiplied instead of laid above each other
 };
 
 struct Texture2d {
@@ -33,14 +36,20 @@ struct Triangle {
     std::uint32_t group = kNone;  ///< id of properties
 };
 
+/// Ids of groups that the file does not number: colours of a slicer's filaments.
+inline constexpr std::uint32_t kFilaments = kNone - 1;
+
 struct Component {
     std::string path;  ///< of the part; empty: this one
     std::uint32_t object = 0;
     Affine transform;
+    bool is_printable = true;
 };
 
 struct Object {
     std::string name;
+    bool is_support = false;                                    ///< helps to build others, and is none of the model
+    std::vector<std::pair<std::uint32_t, std::string>> paints;  ///< triangles that a slicer's user painted, and how
     std::vector<Vec3d> vertices;
     std::vector<Triangle> triangles;
     std::vector<Component> components;

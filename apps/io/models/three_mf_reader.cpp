@@ -1,5 +1,5 @@
 // 3MF: a ZIP file with models as XML. Read are meshes, components and build items with their transforms, the unit, base materials, groups
-// of colours and of texture coordinates, and the parts of the production extension.
+// of colours and of texture coordinates with their layers and mixtures, the parts of the production extension, and slicers' projects.
 #include "apps/io/gltf/build/open.hpp"
 #include "apps/io/models/model_builder.hpp"
 #include "apps/io/models/model_readers.hpp"
@@ -7,15 +7,19 @@
 #if HALFLIT_HAS_3MF
 #include "apps/io/files/text.hpp"
 #include "apps/io/models/model_text.hpp"
+#include "apps/io/models/slicer_project.hpp"
 #include "apps/io/models/three_mf_model.hpp"
 #include "apps/io/models/three_mf_package.hpp"
 #include "apps/io/models/xml_reader.hpp"
+#include "apps/io/pictures/image_reader.hpp"
 #include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <span>
 #include <utility>
 #endif
 
@@ -37,15 +41,17 @@ constexpr const char* kUsualModel = "3D/3dmodel.model";
 constexpr int kMostDepth = 64;
 constexpr std::uint64_t kMostPacked = 32;  ///< bytes of a mesh's text for each byte in the package, at most
 
-/// Finds the model's name among the package's relations.
+/// Finds the names of the model and of its picture among the package's relations.
 class RelationReader : public XmlSink {
 public:
     void begin(std::string_view name, const XmlAttributes& attributes, std::size_t) override {
-        if (name.ends_with(" Relationship") && attributes.get("Type") == "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel")
-            target = attributes.get("Target");
+        if (!name.ends_with(" Relationship")) return;
+        const std::string_view type = attributes.get("Type");
+        if (type == "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel") target = attributes.get("Target");
+        if (type.ends_with("/metadata/thumbnail")) picture = attributes.get("Target");
     }
     void end(std::string_view) override {}
-    std::string target;
+    std::string target, picture;
 };
 
 class ThreeMfReader {
@@ -55,11 +61,21 @@ public:
 
     double read() {
         Part& root = part(root_name());
-        for (const Component& item : root.model.items) {
-            const std::string& path = item.path.empty() ? root.name : item.path;
-            place(path, item, {}, root.model.metres, 0);
+        project_ = read_slicer_project(package_, builder_.document());
+        std::size_t left_out = 0;
+        for (const Component* item : items_of_plate(root)) {
+            const std::string& path = item->path.empty() ? root.name : item->path;
+            if (item->is_printable)
+                place(path, *item, {}, root.model.metres, 0);
+            else
+                ++left_out;
         }
-        if (root.model.items.empty()) builder_.document().warn("the build has no items: nothing is drawn");
+        if (left_out > 0) builder_.document().warn(fmt::format("{} items that are not to be printed are left out", left_out));
+        if (helpers_ > 0)
+            builder_.document().warn(
+                fmt::format("{} modifiers, negative volumes and supports are left out: they are not printed as bodies", helpers_));
+        if (builder_.loaded().scene.instances.empty() && !place_picture())
+            builder_.document().warn("the build has no items: nothing is drawn");
         return root.model.metres;
     }
 
@@ -69,6 +85,7 @@ private:
         bool is_made = false;
         bool has_something = false;  ///< it or a component of it has meshes
         bool is_open = false;        ///< while its components are looked at
+        bool is_helper = false;      ///< not drawn
     };
     struct Part {
         std::string name;
@@ -82,7 +99,134 @@ private:
         if (!relations) return kUsualModel;
         RelationReader reader;
         read_xml(*relations, "_rels/.rels", reader);
+        picture_ = reader.picture;
         return reader.target.empty() ? kUsualModel : reader.target;
+    }
+
+    // ---- plates --------------------------------------------------------------------------------------------------------
+    /// The build's items on the plate that is asked for.
+    std::vector<const Component*> items_of_plate(Part& root) {
+        const int wanted = builder_.options().plate;
+        if (wanted < 0) refuse("", fmt::format("plate is {}, expected at least 0", wanted), ErrorCode::usage);
+        std::vector<const Component*> items;
+        for (const Component& item : root.model.items) items.push_back(&item);
+        if (wanted == 0 || items.empty()) return items;
+        std::vector<int> plate_of(items.size(), 1);
+        int plates = 1;
+        if (!project_.plates.empty()) {
+            std::map<std::uint32_t, std::uint32_t> instances;
+            for (std::size_t i = 0; i < items.size(); ++i) {
+                const std::uint32_t instance = instances[items[i]->object]++;
+                plate_of[i] = 0;
+                for (const auto& [plate, list] : project_.plates)
+                    for (const SlicerProject::Placed& placed : list)
+                        if (placed.object == items[i]->object && placed.instance == instance) plate_of[i] = plate;
+                check_time();
+            }
+            plates = project_.plates.rbegin()->first;
+        } else {
+            plates = plates_by_place(root, items, plate_of);
+        }
+        if (plates > 1 && wanted > plates)
+            refuse("", fmt::format("plate: the file has {}, expected one of them, found {}", plates, wanted), ErrorCode::usage);
+        if (plates <= 1) return items;
+        std::vector<const Component*> chosen;
+        for (std::size_t i = 0; i < items.size(); ++i)
+            if (plate_of[i] == wanted) chosen.push_back(items[i]);
+        builder_.document().warn(fmt::format("plate {} of {} is drawn; plate 0 draws all", wanted, plates));
+        return chosen;
+    }
+
+    struct Box {
+        Vec3d low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+    };
+
+    /// Grows a box by what an item is made of.
+    void add_bounds(const std::string& path, const Component& what, const Affine& parent, int depth, Box& box) {
+        check_time();
+        Part& in = part(path);
+        const auto object = in.model.objects.find(what.object);
+        if (object == in.model.objects.end() || depth > 4) return;
+        const Affine world = parent * what.transform;
+        for (const Vec3d& vertex : object->second.vertices) {
+            const Vec3d at = world.c[0] * vertex.x + world.c[1] * vertex.y + world.c[2] * vertex.z + world.c[3];
+            box.low = {std::min(box.low.x, at.x), std::min(box.low.y, at.y), std::min(box.low.z, at.z)};
+            box.high = {std::max(box.high.x, at.x), std::max(box.high.y, at.y), std::max(box.high.z, at.z)};
+        }
+        for (const Component& component : object->second.components)
+            add_bounds(component.path.empty() ? path : component.path, component, world, depth + 1, box);
+    }
+
+    /// Slicers lay plates side by side, a fifth of their width between them. Where a project does not name its plates, items belong to
+    /// several if each stands in a cell of such a grid, of the largest usual printer that this holds for.
+    int plates_by_place(const Part& root, const std::vector<const Component*>& items, std::vector<int>& plate_of) {
+        constexpr double kWidths[] = {400, 350, 325, 300, 256, 250, 235, 220, 180};  // millimetres
+        constexpr std::size_t kMostItems = 256;
+        if (items.size() < 2 || items.size() > kMostItems || root.model.metres != 0.001) return 1;
+        std::vector<Box> boxes(items.size());
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            add_bounds(items[i]->path.empty() ? root.name : items[i]->path, *items[i], {}, 0, boxes[i]);
+            if (!(boxes[i].low.x >= 0 && boxes[i].high.x < 1e5)) return 1;
+        }
+        for (const double width : kWidths) {
+            const double step = 1.2 * width;
+            std::map<std::pair<int, int>, int> number;  // of a cell: rows from the top, columns from the left
+            std::vector<std::pair<int, int>> cells;
+            for (const Box& box : boxes) {
+                const double column = std::floor(box.low.x / step), row = std::floor(box.low.y / step);
+                if (box.high.x - column * step > width || box.high.y - row * step > width || row > 0 || row < -100) break;
+                cells.emplace_back(static_cast<int>(-row), static_cast<int>(column));
+                number[cells.back()] = 0;
+            }
+            if (cells.size() < boxes.size()) continue;
+            int count = 0;
+            for (auto& [where, plate] : number) plate = ++count;
+            for (std::size_t i = 0; i < items.size(); ++i) plate_of[i] = number[cells[i]];
+            return count;
+        }
+        return 1;
+    }
+
+    /// A file of machine code alone holds a picture of the plate: it becomes a card before an orthographic camera. False: it has none.
+    bool place_picture() {
+        const std::string plate = fmt::format("Metadata/plate_{}.png", std::max(1, builder_.options().plate));
+        for (const std::string& name : {plate, picture_, std::string("Metadata/thumbnail.png")}) {
+            auto picture = name.empty() ? std::nullopt : package_.read(name);
+            if (!picture) continue;
+            const LoadLimits& limits = builder_.options().limits;
+            const auto header = read_image_header(*picture, {limits.max_texture_side, limits.max_texture_pixels, limits.max_jpeg_scans});
+            if (!header) continue;
+            Material card;
+            card.unlit = true;
+            card.double_sided = true;
+            card.alpha_mode = AlphaMode::blend;
+            card.metallic = 0.0f;
+            card.textures[TextureSlot::base_color].texture = builder_.texture(*std::move(picture), printable(name, 120), ColorSpace::srgb);
+            card.textures[TextureSlot::base_color].sampler.wrap_u = TextureWrap::clamp;
+            card.textures[TextureSlot::base_color].sampler.wrap_v = TextureWrap::clamp;
+            const double aspect = static_cast<double>(header->width) / static_cast<double>(header->height);
+            Mesh mesh;
+            mesh.name = name;
+            mesh.material = builder_.add_material(card);
+            const auto w = static_cast<float>(aspect);
+            mesh.positions = {{-w, 0, -1}, {w, 0, -1}, {w, 0, 1}, {-w, 0, 1}};  // z is up
+            mesh.normals.assign(4, {0, -1, 0});
+            mesh.uv0 = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+            mesh.indices = {0, 1, 2, 0, 2, 3};
+            const int index = builder_.add_mesh(std::move(mesh), {});
+            builder_.place(std::span(&index, 1), name);
+            Camera camera;
+            camera.name = name;
+            camera.orthographic = true;
+            camera.half_height = 1.0f;
+            camera.half_width = w;
+            camera.near_z = 0.1f;
+            camera.far_z = 10.0f;
+            builder_.add_camera(camera, {{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}, {0, -2, 0}}});
+            builder_.document().warn(fmt::format("the file has no mesh; its picture \"{}\" is drawn", printable(name, 120)));
+            return true;
+        }
+        return false;
     }
 
     Part& part(const std::string& given) {
@@ -111,6 +255,15 @@ private:
         if (depth > kMostDepth)
             refuse(printable(part.name, 120), fmt::format("more than {} components inside each other", kMostDepth), ErrorCode::limit);
         made.is_open = true;
+        if (depth == 0) root_ = id;
+        made.is_helper = object->second.is_support || !project_.volume_of(root_, id).is_drawn;
+        if (made.is_helper) {
+            ++helpers_;
+            made.is_open = false;
+            made.is_made = true;
+            return made;
+        }
+        apply_project(part, object->second, id);
         make_meshes_of(part, object->second, made);
         made.has_something = !made.meshes.empty();
         for (const Component& component : object->second.components) {
@@ -144,6 +297,55 @@ private:
         }
     }
 
+    /// Takes what the slicer's project says into the object's triangles: those of volumes that are not printed go, painted ones are
+    /// divided, and those without colours of their own get their filament's.
+    void apply_project(Part& part, Object& object, std::uint32_t id) {
+        const auto runs = project_.runs.find(id);
+        if (project_.filaments.empty() && object.paints.empty() && runs == project_.runs.end()) return;
+        const bool has_colors = !project_.filaments.empty() || !object.paints.empty();
+        std::vector<Triangle> kept;
+        std::vector<PaintedTriangle> parts;
+        auto paint = object.paints.begin();
+        for (std::uint32_t i = 0; i < object.triangles.size(); ++i) {
+            if (i % 4096 == 0) check_time();
+            const bool is_painted = paint != object.paints.end() && paint->first == i;
+            const std::string code = is_painted ? std::move((paint++)->second) : "";
+            SlicerProject::Volume volume = project_.volume_of(root_, id);
+            if (runs != project_.runs.end())
+                for (const SlicerProject::Run& run : runs->second)
+                    if (i >= run.first && i <= run.last) volume = run.volume;
+            if (!volume.is_drawn) continue;
+            Triangle& triangle = object.triangles[i];
+            parts.clear();
+            const bool is_whole =
+                std::all_of(triangle.vertex.begin(), triangle.vertex.end(), [&](std::uint32_t v) { return v < object.vertices.size(); });
+            if (is_painted && is_whole) {
+                divide_painted(triangle.vertex, code, object.vertices, parts);
+                builder_.take_triangles(parts.size());
+                builder_.take_entries<Vec3d>(2 * parts.size());
+            } else {
+                parts.push_back({triangle.vertex, 0});
+            }
+            for (const PaintedTriangle& one : parts) {
+                builder_.document().geometry.take(sizeof(Triangle));
+                Triangle made = triangle;
+                made.vertex = one.vertex;
+                if (has_colors && (triangle.group == kNone || one.filament > 0)) {
+                    const int filament = one.filament > 0 ? one.filament : project_.filament_of(root_, volume);
+                    made.group = kFilaments;
+                    made.property.fill(static_cast<std::uint32_t>(filament - 1));
+                }
+                kept.push_back(made);
+            }
+        }
+        if (kept.size() < object.triangles.size()) ++helpers_;
+        object.triangles = std::move(kept);
+        if (!has_colors) return;
+        std::vector<Vec4f>& colors = part.model.properties[kFilaments].colors;
+        if (colors.empty())
+            for (int filament = 1; filament <= 256; ++filament) colors.push_back(project_.color_of(filament));
+    }
+
     /// The material of a triangle, and whether it has colours.
     int material_of(Part& part, const Triangle& triangle, const Properties* properties) {
         if (properties == nullptr) return builder_.grey_material();
@@ -165,11 +367,16 @@ private:
         const auto texture = part.model.textures.find(id);
         const std::string where = fmt::format("{}: texture2d {}", printable(part.name, 120), id);
         if (texture == part.model.textures.end()) refuse(where, "is not there");
-        auto picture = package_.read(texture->second.path);
-        if (!picture) refuse(where, fmt::format("\"{}\" is not in the ZIP file", printable(texture->second.path, 120)));
         Material material = builder_.loaded().scene.materials[static_cast<std::size_t>(builder_.colored_material())];
-        material.textures[TextureSlot::base_color].texture =
-            builder_.texture(*std::move(picture), fmt::format("{} \"{}\"", where, printable(texture->second.path, 120)), ColorSpace::srgb);
+        try {
+            auto picture = package_.read(texture->second.path);
+            if (!picture) refuse(where, fmt::format("\"{}\" is not in the ZIP file", printable(texture->second.path, 120)));
+            material.textures[TextureSlot::base_color].texture = builder_.texture(
+                *std::move(picture), fmt::format("{} \"{}\"", where, printable(texture->second.path, 120)), ColorSpace::srgb);
+        } catch (const LoadFailure& failure) {
+            builder_.document().go_on_without(failure, "drawn in grey");
+            return entry->second = builder_.grey_material();
+        }
         const auto wrap = [](std::string_view style) {
             return style == "mirror" ? TextureWrap::mirror : style == "clamp" || style == "none" ? TextureWrap::clamp : TextureWrap::repeat;
         };
@@ -238,6 +445,10 @@ private:
     ThreeMfPackage package_;
     std::uint64_t packed_, unpacked_ = 0;  ///< bytes
     std::map<std::string, Part> parts_;
+    SlicerProject project_;
+    std::string picture_;      ///< name of the package's own, or empty
+    std::uint32_t root_ = 0;   ///< object of the build's item that is being placed
+    std::size_t helpers_ = 0;  ///< objects and volumes that are left out
     int clear_ = -1;
 };
 

@@ -251,4 +251,24 @@ bool set_thickness(const file::File& file, Scene& scene, std::span<const Mat4> w
     return changed;
 }
 
+void make_visible(Document& document, Scene& scene) {
+    const auto is_clear = [](const Mesh& mesh, const Material& material) {
+        if (material.alpha_mode == AlphaMode::opaque) return false;
+        return material.base_color.w == 0.0f ||
+               (!mesh.colors.empty() && std::all_of(mesh.colors.begin(), mesh.colors.end(), [](const Vec4f& c) { return c.w == 0.0f; }));
+    };
+    if (document.options.strict || scene.instances.empty()) return;
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        if (mesh.material < 0 || !is_clear(mesh, scene.materials[static_cast<std::size_t>(mesh.material)])) return;
+    }
+    for (Mesh& mesh : scene.meshes)
+        for (Vec4f& color : mesh.colors) color.w = 1.0f;
+    for (Material& material : scene.materials) {
+        material.base_color.w = 1.0f;
+        material.alpha_mode = AlphaMode::opaque;
+    }
+    document.warn("alpha is 0 everywhere, which would draw nothing; drawn opaque");
+}
+
 }  // namespace halflit::io::detail

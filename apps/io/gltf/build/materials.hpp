@@ -22,4 +22,8 @@ bool set_material(const file::File& file, std::size_t index, Material& material)
 /// world_from_object: of the scene's first instances. Returns true if any changes.
 bool set_thickness(const file::File& file, Scene& scene, std::span<const Mat4> world_from_object);
 
+/// Where alpha would make all of the scene invisible, as some writers do that take 0 for opaque, its materials become opaque, with a
+/// warning.
+void make_visible(Document& document, Scene& scene);
+
 }  // namespace halflit::io::detail

@@ -96,6 +96,8 @@ struct LoadOptions {
     /// Other formats than glTF: where the file has no normals, the surface is smooth across edges whose triangles' normals differ by at
     /// most this, degrees in [0, 180].
     float crease_deg = 30.0f;
+    /// Plate of a slicer's project (3MF), from 1; 0: all of them. A file without plates is drawn whole.
+    int plate = 1;
 };
 
 /// An animation of a file.

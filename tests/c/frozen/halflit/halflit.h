@@ -58,7 +58,7 @@ typedef struct halflit_load_options {
     int32_t max_json_depth;
     int32_t max_texture_side;
     int32_t max_jpeg_scans;
-    int32_t reserved;
+    int32_t plate;
 } halflit_load_options;
 HALFLIT_C_API int32_t halflit_load_options_init(halflit_load_options* options, size_t size);
 typedef struct halflit_counts {
