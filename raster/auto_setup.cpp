@@ -188,6 +188,9 @@ AutoSetup auto_setup(const Scene& scene, const Bounds& bounds, int width, int he
     setup.light = options.light ? *options.light : static_cast<const Lighting&>(scene);
     const float exposure = complete(setup.light, bounds, setup.camera, options);
     setup.settings.exposure = options.exposure.value_or(exposure);
+    // A file whose lights are thousands of lux has an exposure for these, which would hide what glows. Viewers of the field show emission as
+    // it would be at the exposure 1; so it is at least as bright as there.
+    if (!options.exposure && exposure < 1.0f) setup.settings.shading.emission_scale = 1.0f / exposure;
     return setup;
 }
 

@@ -109,6 +109,7 @@ void PictureTile::shade_layers() {
     LayerScratch& layers = *scratch_.layers;
     layers.light.resize(layers.fragments.size());
     layers.keep.resize(transmits_ ? layers.fragments.size() : 0);
+    layers.is_shown.clear();
     FragmentQueue& queue = scratch_.queue;
     queue.begin(pass_.view.materials.size());
     for (std::size_t i = 0; i < layers.fragments.size(); ++i) {
@@ -123,9 +124,15 @@ void PictureTile::shade_layers() {
 
 void PictureTile::shade_layers(FragmentList& list) {
     shade(list);
+    const bool shown = toned_ && is_shown(list.material);
+    if (shown) {
+        begin_shown();
+        scratch_.layers->is_shown.resize(scratch_.layers->fragments.size());
+    }
     for (int l = 0; l < list.count; ++l) {
-        const Vec4f light = light_of(scratch_.block, l);
+        const Vec4f light = light_of(list.material, scratch_.block, l);
         const auto fragment = static_cast<std::size_t>(list.samples[l]);
+        if (shown) scratch_.layers->is_shown[fragment] = 1;
         scratch_.layers->light[fragment] = light;
         if (transmits_) scratch_.layers->keep[fragment] = keep_of(list.material, l, light);
     }
@@ -152,10 +159,11 @@ void PictureTile::blend_fragment(std::size_t fragment, int at, int sample) {
     if (!transmits_) {
         blend(under, light);
         cover_backing(at, 1u << sample, light.w);
-        return;
+    } else {
+        blend(under, light, layers.keep[fragment]);
+        cover_backing(at, 1u << sample, light.w, layers.keep[fragment]);
     }
-    blend(under, light, layers.keep[fragment]);
-    cover_backing(at, 1u << sample, light.w, layers.keep[fragment]);
+    if (layers.shows(fragment)) add_shown(at, 1u << sample, light);
 }
 
 void PictureTile::blend_pixels(const TileRect& part) {
@@ -211,6 +219,7 @@ void PictureTile::blend_pixel(std::size_t at, std::span<const std::uint32_t> fra
                 const Vec4f keep = layers.keep[fragment];
                 for (unsigned left = samples; left != 0; left &= left - 1) blend(color[std::countr_zero(left)], light, keep);
                 cover_backing(static_cast<int>(at), samples, light.w, keep);
+                if (layers.shows(fragment)) add_shown(static_cast<int>(at), samples, light);
                 continue;
             }
             if (samples == all)
@@ -218,6 +227,7 @@ void PictureTile::blend_pixel(std::size_t at, std::span<const std::uint32_t> fra
             else
                 for (unsigned left = samples; left != 0; left &= left - 1) blend(color[std::countr_zero(left)], light);
             cover_backing(static_cast<int>(at), samples, light.w);
+            if (layers.shows(fragment)) add_shown(static_cast<int>(at), samples, light);
         }
         for (int s = 0; s < samples_; ++s) std::memcpy(sample_color(s) + 4 * at, color[s], sizeof color[s]);
         return;

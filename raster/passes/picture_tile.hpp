@@ -60,11 +60,11 @@ private:
     void shade_layers();
     void shade_layers(FragmentList& list);  ///< whose `samples` are indices into the layers' fragments
     void blend_pixels(const TileRect& part);
-    void blend_pixel(std::size_t at, std::span<const std::uint32_t> fragments);         ///< at: of the pixel in the tile's buffers
-    void blend_sample(int at, int sample);                                              ///< of a pixel with too many fragments
-    [[nodiscard]] Vec4f light_of(const shading::FragmentBlock& block, int lane) const;  ///< light times alpha, and alpha
-    [[nodiscard]] Vec4f keep_of(int material, int lane, Vec4f light) const;             ///< LayerScratch::keep, of the scratch's block
-    void blend_fragment(std::size_t fragment, int at, int sample);                      ///< lays a fragment of the layers over a sample
+    void blend_pixel(std::size_t at, std::span<const std::uint32_t> fragments);  ///< at: of the pixel in the tile's buffers
+    void blend_sample(int at, int sample);                                       ///< of a pixel with too many fragments
+    [[nodiscard]] Vec4f light_of(int material, const shading::FragmentBlock& block, int lane) const;  ///< light times alpha, and alpha
+    [[nodiscard]] Vec4f keep_of(int material, int lane, Vec4f light) const;  ///< LayerScratch::keep, of the scratch's block
+    void blend_fragment(std::size_t fragment, int at, int sample);           ///< lays a fragment of the layers over a sample
     // resolve.cpp
     [[nodiscard]] Vec4f background_sample() const;                              ///< of the background colour: times alpha, and alpha
     void clear();                                                               ///< fills a tile that has triangles with the background
@@ -82,6 +82,13 @@ private:
     void fill_backing(float share);                             ///< sets the share of the background colour in every sample
     void cover_backing(int at, unsigned samples, float alpha);  ///< lays a fragment over it; at: of the pixel in the tile's buffers
     void cover_backing(int at, unsigned samples, float alpha, Vec4f keep);  ///< of a layer, in frames where light passes through some
+    /// True for a material without light: its colour is one of the display, like the background's, so that neither exposure nor a tone
+    /// curve changes it.
+    [[nodiscard]] bool is_shown(int material) const {
+        return (plan_.shading.materials[static_cast<std::size_t>(material)].stages & kStageUnlit) != 0;
+    }
+    void begin_shown();                                     ///< before the first colour of the display in the tile
+    void add_shown(int at, unsigned samples, Vec4f color);  ///< color: times alpha, and alpha. After cover_backing
     /// Adds what `count` pixels from `at` on show of sample s: display light times alpha, and alpha.
     void add_toned_samples(int at, int count, float* const sums[4]);
     void add_toned_sample(int s, int at, int count, float* const sums[4]);
@@ -95,9 +102,10 @@ private:
     TileScratch& scratch_;
     TileRect written_;  ///< the part of the rect that is the caller's; the rest completes cells
     TileCounts counts_;
-    bool toned_;          ///< codes are written, through a tone curve
-    bool transmits_;      ///< light passes through some drawn material
-    bool direct_ = true;  ///< one opaque sample per pixel: shaded colours go straight to the caller's memory
+    bool toned_;              ///< codes are written, through a tone curve
+    bool transmits_;          ///< light passes through some drawn material
+    bool has_shown_ = false;  ///< some fragment of the tile has a colour of the display, and there is a tone curve
+    bool direct_ = true;      ///< one opaque sample per pixel: shaded colours go straight to the caller's memory
 };
 
 }  // namespace halflit::raster

@@ -45,10 +45,11 @@ void PictureTile::write(const FragmentList& list, const shading::FragmentBlock& 
         return;
     }
     const Output& output = pass_.output;
-    const float exposure = plan_.exposure;
+    const bool is_display = is_shown(list.material);
+    const float exposure = is_display ? 1.0f : plan_.exposure;
     if (output.codes) {
         alignas(64) std::uint32_t code[shading::kBlockSize];
-        if (toned_) {
+        if (toned_ && !is_display) {
             alignas(64) float shown[3][shading::kBlockSize];
             const float* const light[3] = {block.red, block.green, block.blue};
             float* const display[3] = {shown[0], shown[1], shown[2]};
@@ -76,19 +77,22 @@ void PictureTile::write(const FragmentList& list, const shading::FragmentBlock& 
         }
 }
 
-Vec4f PictureTile::light_of(const shading::FragmentBlock& block, int lane) const {
-    const float exposure = plan_.exposure, a = number_or_zero(block.alpha[lane]);
+Vec4f PictureTile::light_of(int material, const shading::FragmentBlock& block, int lane) const {
+    const float exposure = is_shown(material) ? 1.0f : plan_.exposure, a = number_or_zero(block.alpha[lane]);
     return {number_or_zero(block.red[lane] * exposure) * a, number_or_zero(block.green[lane] * exposure) * a,
             number_or_zero(block.blue[lane] * exposure) * a, a};
 }
 
 void PictureTile::write_samples(const FragmentList& list, const shading::FragmentBlock& block) {
+    const bool shown = toned_ && is_shown(list.material);
+    if (shown) begin_shown();
     for (int l = 0; l < list.count; ++l) {
-        const Vec4f light = light_of(block, l);
+        const Vec4f light = light_of(list.material, block, l);
         const int at = (list.y_px[l] - rect_.y) * kTileStride + (list.x_px[l] - rect_.x);
         for (auto samples = static_cast<unsigned>(list.samples[l]); samples != 0; samples &= samples - 1)
             std::memcpy(sample_color(__builtin_ctz(samples)) + 4 * at, &light, sizeof light);
         cover_backing(at, static_cast<unsigned>(list.samples[l]), 1.0f);
+        if (shown) add_shown(at, static_cast<unsigned>(list.samples[l]), light);
     }
 }
 

@@ -61,9 +61,12 @@ struct LayerScratch {
     /// Of fragments: share of red, green and blue light from behind that passes, and alpha as it is seen in the picture. Empty unless a
     /// drawn material transmits; otherwise these are 1 - alpha, and alpha.
     std::vector<Vec4f> keep;
+    std::vector<std::uint8_t> is_shown;                ///< of fragments: 1 if its colour is one of the display. Only in frames with such
     std::vector<std::uint32_t> by_pixel;               ///< fragments, those of a pixel together
     std::array<std::uint32_t, kTilePixels + 1> first;  ///< of a pixel in by_pixel
     std::vector<std::uint64_t> order;                  ///< of a pixel's or sample's fragments: layer_key
+
+    [[nodiscard]] bool shows(std::size_t fragment) const { return !is_shown.empty() && is_shown[fragment] != 0; }
 };
 
 /// The working memory of one task.
@@ -86,6 +89,7 @@ struct TileScratch {
     RawBuffer<float> color;
     RawBuffer<float> backing;              ///< share of the background colour in every sample; used only with a tone curve
     RawBuffer<float> tint;                 ///< the same in red, green and blue; used only with a tone curve and materials that transmit
+    RawBuffer<float> shown;                ///< what shows in every sample of colours of the display: times alpha, and alpha
     std::vector<std::uint32_t> tile_list;  ///< ViewGeometry::tile_list's
 };
 

@@ -1,10 +1,12 @@
 // The tone curve, between linear light and codes. It is applied to the light of each sample, and the mean is taken of what a display would
 // show: a highlight of fifty times white then covers as much of an edge as its samples do. The background colour is a colour of the
-// display already. It is kept apart from the light in front of it, which is mapped as it is without alpha and laid over the colour again.
+// display already, and so is that of a material without light. Both are kept apart from the light beside them, which is mapped as it is
+// without alpha and laid over them again.
 #include "shading/reference/tone.hpp"
 #include "raster/passes/picture_tile.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace halflit::raster {
 namespace {
@@ -35,6 +37,23 @@ void PictureTile::fill_backing(float share) {
     if (transmits_) std::fill_n(scratch_.tint.reserve(3 * count), 3 * count, share);
 }
 
+void PictureTile::begin_shown() {
+    if (has_shown_) return;
+    has_shown_ = true;
+    const std::size_t count = static_cast<std::size_t>(samples_) * 4 * kTilePixels;
+    std::fill_n(scratch_.shown.reserve(count), count, 0.0f);
+}
+
+void PictureTile::add_shown(int at, unsigned samples, Vec4f color) {
+    for (; samples != 0; samples &= samples - 1) {
+        float* const to = scratch_.shown.data() + 4 * (std::countr_zero(samples) * kTilePixels + at);
+        to[0] += color.x;
+        to[1] += color.y;
+        to[2] += color.z;
+        to[3] += color.w;
+    }
+}
+
 void PictureTile::cover_backing(int at, unsigned samples, float alpha) {
     if (!toned_) return;
     if (transmits_) {
@@ -42,6 +61,11 @@ void PictureTile::cover_backing(int at, unsigned samples, float alpha) {
         return cover_backing(at, samples, alpha, {keep, keep, keep, alpha});
     }
     float* const of_pixel = scratch_.backing.data() + at;
+    if (has_shown_)
+        for (unsigned left = samples; left != 0; left &= left - 1) {
+            float* const shown = scratch_.shown.data() + 4 * (std::countr_zero(left) * kTilePixels + at);
+            for (int i = 0; i < 4; ++i) shown[i] *= 1.0f - alpha;
+        }
     for (; samples != 0; samples &= samples - 1) of_pixel[__builtin_ctz(samples) * kTilePixels] *= 1.0f - alpha;
 }
 
@@ -54,12 +78,18 @@ void PictureTile::cover_backing(int at, unsigned samples, float alpha, Vec4f kee
         tint[0] *= keep.x;
         tint[kTilePixels] *= keep.y;
         tint[2 * kTilePixels] *= keep.z;
+        if (!has_shown_) continue;
+        float* const shown = scratch_.shown.data() + 4 * (sample * kTilePixels + at);
+        shown[0] *= keep.x;
+        shown[1] *= keep.y;
+        shown[2] *= keep.z;
+        shown[3] *= 1.0f - alpha;
     }
 }
 
 /// Opaque and empty samples by a kernel; a vector of pixels among which there is anything else, one sample after the other.
 void PictureTile::add_toned_samples(int at, int count, float* const sums[4]) {
-    const bool by_kernel = !transmits_ && pass_.reference == nullptr;
+    const bool by_kernel = !transmits_ && !has_shown_ && pass_.reference == nullptr;
     const Vec4f back = background_sample();
     for (int x = 0; x < count;) {
         float* const rest[4] = {sums[0] + x, sums[1] + x, sums[2] + x, sums[3] + x};
@@ -91,6 +121,9 @@ void PictureTile::add_toned_sample(int s, int at, int count, float* const sums[4
     for (int x = 0; x < count; ++x) plain &= backing[x] == 0.0f && color[4 * x + 3] == 1.0f;
     if (transmits_)
         for (int x = 0; x < count; ++x) plain &= share_of[0][x] == 0.0f && share_of[1][x] == 0.0f && share_of[2][x] == 0.0f;
+    const float* const shown = has_shown_ ? scratch_.shown.data() + 4 * (s * kTilePixels + at) : nullptr;
+    if (shown != nullptr)
+        for (int x = 0; x < count; ++x) plain &= shown[4 * x + 3] == 0.0f;
     if (plain) {
         for (int x = 0; x < count; ++x)
             for (int i = 0; i < 3; ++i) light[i][x] = color[4 * x + i];
@@ -105,6 +138,11 @@ void PictureTile::add_toned_sample(int s, int at, int count, float* const sums[4
             }
             // Where light passes through, alpha is not the share of the surfaces, by which their light is multiplied.
             if (transmits_) left[3] = 1.0f - backing[x];
+            if (shown != nullptr && shown[4 * x + 3] > 0.0f) {
+                for (int i = 0; i < 4; ++i) left[i] -= shown[4 * x + i];
+                // What rounding leaves of nothing would count as a very bright surface.
+                if (left[3] < 1e-4f) left[0] = left[1] = left[2] = left[3] = 0.0f;
+            }
             front[x] = left[3] > 0.0f ? left[3] : 0.0f;
             for (int i = 0; i < 3; ++i) light[i][x] = front[x] > 0.0f ? left[i] / front[x] : 0.0f;
         }
@@ -125,6 +163,8 @@ void PictureTile::add_toned_sample(int s, int at, int count, float* const sums[4
         sums[1][x] += light[1][x] * front[x] + (green > 0.0f ? back.y * green : 0.0f);
         sums[2][x] += light[2][x] * front[x] + (blue > 0.0f ? back.z * blue : 0.0f);
         sums[3][x] += color[4 * x + 3];
+        if (shown != nullptr)
+            for (int i = 0; i < 3; ++i) sums[i][x] += shown[4 * x + i];
     }
 }
 

@@ -109,7 +109,8 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
     plan.roughness = clamp_or_low(material.roughness, 0.0f, 1.0f);
     plan.dielectric = clamp_or_low(material.dielectric_reflectance, 0.0f, 1.0f);
     plan.refracted = 1.0f - plan.dielectric;
-    plan.emissive[0] = material.emissive.x, plan.emissive[1] = material.emissive.y, plan.emissive[2] = material.emissive.z;
+    const Vec3f emissive = material.emissive * options.emission_scale;
+    plan.emissive[0] = emissive.x, plan.emissive[1] = emissive.y, plan.emissive[2] = emissive.z;
     plan.normal_scale = material.normal_scale * options.normal_scale;
     plan.occlusion_strength = clamp_or_low(material.occlusion_strength, 0.0f, 1.0f);
     plan.alpha_mode = material.alpha_mode;
@@ -117,7 +118,7 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
     plan.lobe = plan_lobe(lobe_of(material, options), plan.specular_tier);
 
     const bool coated = material.is_coated() && kinds.specular;
-    const bool lit = (!material.unlit && (kinds.lights || kinds.ambient)) || material.transmits() || (coated && !zero(material.emissive));
+    const bool lit = (!material.unlit && (kinds.lights || kinds.ambient)) || material.transmits() || (coated && !zero(emissive));
     plan.double_sided = material.double_sided && lit;
     if (material.unlit) plan.stages |= kStageUnlit;
     if (lit && kinds.lights) plan.stages |= kStageLights;
@@ -141,7 +142,7 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
     use_texture(lit && kinds.specular, TextureSlot::metallic_roughness);
     use_texture(lit && maps_normals, TextureSlot::normal);
     use_texture(lit && kinds.ambient && plan.occlusion_strength > 0.0f, TextureSlot::occlusion);
-    use_texture(!material.unlit && !zero(material.emissive), TextureSlot::emissive);
+    use_texture(!material.unlit && !zero(emissive), TextureSlot::emissive);
     const bool film = lit && kinds.specular && material.is_iridescent();
     if (lit && kinds.specular && (material.has_specular_color() || film)) {
         plan.stages |= kStageSpecularColor;

@@ -734,7 +734,7 @@ Rgba shade(const FrameInputs& frame, const Material& material, SlotMask availabl
         const Fibres sheen = sheen_of(frame, material, available, block, lane, surface, around);
         color = scale(color, sheen.left) + sheen.light;
     }
-    color = color + to_double(material.emissive) * Vec3d{glow.r, glow.g, glow.b};
+    color = color + to_double(material.emissive * frame.options.emission_scale) * Vec3d{glow.r, glow.g, glow.b};
     if (has_coat(frame, material)) {
         const Coat coat = coat_of(frame, material, available, block, lane, surface);
         color =

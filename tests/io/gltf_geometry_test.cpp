@@ -164,7 +164,7 @@ TEST_CASE("gltf: sparse values replace elements, of a view or of zeros", "[io]")
         R"("values":{"bufferView":1,"byteOffset":4}})";
     file.accessors = R"({"bufferView":0,)" + members + "},{" + members + "}";
     file.attributes = R"("POSITION":0,"NORMAL":1)";
-    const Mesh mesh = load_ok(file.file()).scene.meshes.at(0);
+    const Mesh mesh = load_ok(file.file(), strictly()).scene.meshes.at(0);
     CHECK(mesh.positions == std::vector<Vec3f>{{7, 8, 9}, {1, 0, 0}, {-1, -2, -3}});
     CHECK(mesh.normals == std::vector<Vec3f>{{7, 8, 9}, {0, 0, 0}, {-1, -2, -3}});
 }

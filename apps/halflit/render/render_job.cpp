@@ -113,6 +113,7 @@ Result<void> choose(RenderJob& job, const RenderOptions& options, PictureRequest
     job.camera = choice->camera;
     job.film.file_camera = choice->scene_camera;
     job.settings.exposure = choice->settings.exposure;
+    job.settings.shading.emission_scale = choice->settings.shading.emission_scale;
     const auto& chosen = options.given_settings;
     if (std::find(chosen.begin(), chosen.end(), "shadow_size") == chosen.end()) job.settings.shadow_size = choice->settings.shadow_size;
     job.settings.region = options.settings.region.width > 0 ? options.settings.region : Region{0, 0, job.width, job.height};

@@ -92,7 +92,6 @@ LoadedScene io::detail::read_gltf(std::span<const std::byte> bytes, const std::s
     }
     images.finish(loaded.scene.materials);
     convert_specular_glossiness(*document, loaded.scene);
-    if (!motion) make_visible(*document, loaded.scene);
     for (const int original : document->unlit_copies) {
         std::vector<Material>& materials = loaded.scene.materials;
         Material copy = original < 0 ? Material{} : materials[static_cast<std::size_t>(original)];
@@ -100,6 +99,7 @@ LoadedScene io::detail::read_gltf(std::span<const std::byte> bytes, const std::s
         if (motion && original >= 0) motion->add_copy(original, static_cast<int>(materials.size()));
         materials.push_back(std::move(copy));
     }
+    if (!motion) make_visible(*document, loaded.scene);
     loaded.scene.calibrated = loaded.scene.lights.empty();
     if (loaded.scene.instances.empty() && document->first_failure) throw LoadFailure{*document->first_failure};  // nothing is left
     if (loaded.scene.instances.empty()) document->warn("the model has nothing to draw");

@@ -68,7 +68,7 @@ STRUCTS = {
         exposure; int32_t tone_curve; float point_size; float line_width; int32_t accuracy; int32_t texture_detail; int32_t
         anisotropy; int32_t specular; int32_t normalize_specular; float normal_scale; int32_t shading_rate; int32_t
         environment_bands; int32_t shadows; int32_t shadow_size; int32_t soft_shadow_maps; float shadow_fade; int32_t sky_shadows;
-        int32_t shadow_terminator_offset; int32_t reserved[2];
+        int32_t shadow_terminator_offset; float emission_scale; int32_t reserved[1];
 """,
     "halflit_picture_request": """
         size_t size; const halflit_camera* camera; const char* scene_camera; double studio_turn_rad; int32_t width, height;

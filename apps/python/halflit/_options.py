@@ -52,6 +52,7 @@ SETTINGS: Dict[str, Tuple[str, str]] = {
     "shadow_fade": ("shadow_fade", "float"),
     "sky_shadows": ("sky_shadows", "int"),
     "shadow_terminator_offset": ("shadow_terminator_offset", "bool"),
+    "emission_scale": ("emission_scale", "float"),
 }
 KNOWN = frozenset((*VIEW, *PIXELS, *EXECUTION, *SETTINGS, "background", "lobe"))
 

@@ -84,6 +84,7 @@ class PictureOptions(ViewOptions, total=False):
         sky_shadows: number of directions in which ambient light and the environment cast shadows, by shadow maps of 256 texels: 16
             to 1024; 0, or without shadows: they cast none (0)
         shadow_terminator_offset: look-ups on the smooth surface given by the vertex normals, for coarse meshes (False)
+        emission_scale: factor on the light that all surfaces emit (not on colours of unlit materials) (1)
 
     How it is computed: nothing of this changes a pixel:
         threads: 0: one for each core (0)
@@ -125,6 +126,7 @@ class PictureOptions(ViewOptions, total=False):
     shadow_fade: float
     sky_shadows: int
     shadow_terminator_offset: bool
+    emission_scale: float
     # How it is computed.
     threads: int
     isa: str

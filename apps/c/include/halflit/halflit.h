@@ -573,7 +573,9 @@ typedef struct halflit_settings {
     int32_t sky_shadows;
     /// look-ups on the smooth surface given by the vertex normals, for coarse meshes (0)
     int32_t shadow_terminator_offset;
-    int32_t reserved[2];  ///< 0
+    /// factor on the light that all surfaces emit (not on colours of unlit materials) (1)
+    float emission_scale;
+    int32_t reserved[1];  ///< 0
 } halflit_settings;
 HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t size);
 

@@ -13,6 +13,7 @@
 #include <optional>
 #include <span>
 #include <tuple>
+#include <utility>
 
 namespace halflit::io::detail {
 
@@ -153,6 +154,7 @@ private:
             }
             if (!read) continue;
             const bool skinned = node.skin >= 0 && has_skin(node.skin, primitives[p], *read);
+            if (skinned) turn_if_mirrored(node_index, read->source.mesh);
             complete(*read);
             const std::vector<Affine> joints = skinned ? joints_of(node.skin) : std::vector<Affine>();
             const bool kept = kept_ != nullptr && (skinned || morphs || hides);
@@ -174,6 +176,14 @@ private:
                                            .place = posed.place});
         }
         return made;
+    }
+
+    /// A skinned mesh is placed without its node's transform, whose sign yet says which sides of its triangles are front sides (glTF 2.0,
+    /// 3.7.4).
+    void turn_if_mirrored(std::size_t node, Mesh& mesh) const {
+        const Affine& world = tree_.world_from_node[node];
+        if (mesh.topology != Topology::triangles || !(dot(cross(world.c[0], world.c[1]), world.c[2]) < 0.0)) return;
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
     }
 
     /// Reads the skin of a mesh. False: it is drawn as a plain mesh.

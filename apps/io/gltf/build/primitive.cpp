@@ -315,6 +315,7 @@ std::optional<ReadMesh> PrimitiveReader::read(std::size_t mesh_index, std::size_
     if (uv1 != nullptr) mesh.uv1 = read_vec2(*uv1, vertices);
     if (color != nullptr) mesh.colors = read_vec4(*color, vertices, 1.0f);
     warn_of_values(document_, list, mesh);
+    mend_zero_directions(document_, list, mesh);
     read_targets(primitive, count, morph_weights, out);
     for (Vec4f& t : mesh.tangents) t.w = t.w < 0.0f ? -1.0f : 1.0f;
     return out;
