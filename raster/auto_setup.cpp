@@ -173,7 +173,8 @@ const Camera* choose_camera(const Scene& scene, const Bounds& bounds) {
     const Camera& first = scene.cameras.front();
     if (bounds.empty) return &first;
     const PictureRectangle filled = rectangle_in_picture(first, bounds);
-    return filled.share() >= kLeastShare || filled.reach() >= kLeastReach ? &first : nullptr;
+    const bool is_near = filled.share() >= kLeastShare || filled.reach() >= kLeastReach;
+    return is_near && shows_surface(scene, first, 1.0f) ? &first : nullptr;
 }
 
 AutoSetup auto_setup(const Scene& scene, const Bounds& bounds, int width, int height, const AutoOptions& options) {
@@ -182,14 +183,14 @@ AutoSetup auto_setup(const Scene& scene, const Bounds& bounds, int width, int he
     const Camera* chosen = options.camera ? &*options.camera : options.frame ? nullptr : choose_camera(scene, bounds);
     setup.framed = chosen == nullptr;
     const float aspect = static_cast<float>(width) / static_cast<float>(height);
-    setup.camera = chosen != nullptr ? *chosen : frame_scene(scene, bounds, aspect, options.view);
+    setup.camera = chosen != nullptr ? *chosen : frame_scene(scene, bounds, aspect, visible_side(scene, bounds, aspect, options.view));
     setup.settings = usual_settings();
     setup.settings.shadow_size = shadow_size_for(width, height);
     setup.light = options.light ? *options.light : static_cast<const Lighting&>(scene);
     const float exposure = complete(setup.light, bounds, setup.camera, options);
     setup.settings.exposure = options.exposure.value_or(exposure);
-    // A file whose lights are thousands of lux has an exposure for these, which would hide what glows. Viewers of the field show emission as
-    // it would be at the exposure 1; so it is at least as bright as there.
+    // A file whose lights are thousands of lux has an exposure for these, which would hide what glows. Viewers of the field show emission
+    // as it would be at the exposure 1; so it is at least as bright as there.
     if (!options.exposure && exposure < 1.0f) setup.settings.shading.emission_scale = 1.0f / exposure;
     return setup;
 }

@@ -19,7 +19,10 @@ namespace {
 constexpr double kLeastShare = 1.0 / 16.0;  ///< of the whole's radius, below which the rest is looked at closely
 constexpr std::size_t kStrayShare = 1000;   ///< one in so many vertices may be left out
 constexpr std::size_t kManyVertices = 24;   ///< from which on a triangle, three vertices, may be
-constexpr double kFlat = 0.01;              ///< height of a ground over its width
+/// Clouds of scanners have noise: of points, one in so many may be left out, and the rest need not be as small.
+constexpr std::size_t kStrayPoints = 50;
+constexpr double kLeastCloud = 1.0 / 4.0;
+constexpr double kFlat = 0.01;  ///< height of a ground over its width
 constexpr int kBins = 256, kMostRounds = 8;
 
 /// A box in double; empty while low > high.
@@ -56,10 +59,10 @@ struct WideBox {
 WideBox box_at(Vec3f p) { return {{p.x, p.y, p.z}, {p.x, p.y, p.z}}; }
 
 /// Finds a box that holds all but a little of the weight, in which the items lie closely together. each(visit) calls visit(box, weight) for
-/// each item. Returns nothing if there is none below kLeastShare of the whole's radius. Outliers at very different distances need rounds: a
+/// each item. Returns nothing if there is none below least_share of the whole's radius. Outliers at very different distances need rounds: a
 /// bin of the farthest one's may hold all others.
 template <class Each>
-std::optional<WideBox> closest_box(const Each& each, std::uint64_t allowed) {
+std::optional<WideBox> closest_box(const Each& each, std::uint64_t allowed, double least_share = kLeastShare) {
     WideBox kept;
     each([&](const WideBox& box, std::uint64_t) { kept.add(box); });
     const double whole = kept.radius();
@@ -108,18 +111,18 @@ std::optional<WideBox> closest_box(const Each& each, std::uint64_t allowed) {
             return box;
         };
         WideBox inside = around_items_in(trimmed);
-        if (inside.empty() || !(inside.radius() < kLeastShare * kept.radius())) break;
+        if (inside.empty() || !(inside.radius() < least_share * kept.radius())) break;
         // Trimming cuts off what is outermost, stray or not. What lies near the box belongs to it.
         for (int k = 0; k < kMostRounds; ++k) {
             const WideBox grown = around_items_in(inside.widened(inside.radius()));
             if (inside.holds(grown)) break;
             inside = grown;
         }
-        if (left_out > allowed || !(inside.radius() < kLeastShare * kept.radius())) break;
+        if (left_out > allowed || !(inside.radius() < least_share * kept.radius())) break;
         kept = inside;
         found = true;
     }
-    return found && kept.radius() < kLeastShare * whole ? std::optional(kept) : std::nullopt;
+    return found && kept.radius() < least_share * whole ? std::optional(kept) : std::nullopt;
 }
 
 FramedVertices framed_vertices(const Mesh& mesh, bool& whole) {
@@ -141,9 +144,11 @@ FramedVertices framed_vertices(const Mesh& mesh, bool& whole) {
         }
     };
     // A position may be that of several vertices, one for each triangle at a corner.
-    const std::uint64_t positions = std::max<std::uint64_t>(finite_count < kManyVertices ? 1 : 3, finite_count / kStrayShare),
+    const bool is_cloud = mesh.topology == Topology::points;
+    const std::uint64_t positions = std::max<std::uint64_t>(finite_count < kManyVertices ? 1 : 3,
+                                                            finite_count / (is_cloud ? kStrayPoints : kStrayShare)),
                         most = std::max<std::uint64_t>(finite_count / 3, 1);
-    const auto box = closest_box(each, std::min(most, 64 * positions));
+    const auto box = closest_box(each, std::min(most, 64 * positions), is_cloud ? kLeastCloud : kLeastShare);
     if (!box) return out;
     std::set<std::tuple<float, float, float>> strays;
     FramedVertices kept;

@@ -314,7 +314,7 @@ double rounding_codes(const CodeCosts& costs, const MaterialPlan& material, cons
     double codes = costs.relative(kProductError + 1.5e-7 * (has(kStageLights) ? n + light.count : 0.0));
     double diffuse_light = 0.0, shiny = 0.0;       // all light that the albedo reflects; that F0 reflects
     double mirrored_most = 0.0, highlights = 0.0;  // that is mirrored at most, of the surroundings and of lights
-    if (has(kStageUnlit)) diffuse_light = exposure;
+    if (has(kStageUnlit)) diffuse_light = 1.0;
     if (has(kStageAmbient)) {
         Ambience diffuse, mirrored;
         const double mirror_error = 2.0 * s.normal_error + kMirrorError;

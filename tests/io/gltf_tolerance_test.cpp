@@ -146,3 +146,52 @@ TEST_CASE("tolerance: a primitive that cannot be read is left out, and a file of
     CHECK(load_ok(cut).info.triangles_drawn == 1);
     CHECK_FALSE(load(cut));
 }
+
+TEST_CASE("tolerance: directions of length 0 are made anew, and those among others become their triangles'", "[io]") {
+    Bytes zeros, one_zero, tangents;
+    append<float>(zeros, {0, 0, 0, 0, 0, 0, 0, 0, 0});
+    append<float>(one_zero, {1, 0, 0, 0, 0, 0, 1, 0, 0});
+    append<float>(tangents, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1});
+    const std::string vec3 = R"("componentType":5126,"count":3,"type":"VEC3")";
+    const Mesh flat = load_ok(with_attribute("NORMAL", zeros, vec3)).scene.meshes.at(0);
+    CHECK(flat.normals.at(0) == Vec3f{0, 0, 1});
+    const Mesh mended = load_ok(with_attribute("NORMAL", one_zero, vec3)).scene.meshes.at(0);
+    CHECK(mended.normals == std::vector<Vec3f>{{1, 0, 0}, {0, 0, 1}, {1, 0, 0}});
+    TriangleFile file;
+    const int normal = file.add(one_zero, vec3), tangent = file.add(tangents, R"("componentType":5126,"count":3,"type":"VEC4")");
+    file.attributes += fmt::format(",\"NORMAL\":{},\"TANGENT\":{}", normal, tangent);
+    CHECK(load_ok(file.file()).scene.meshes.at(0).tangents.empty());
+}
+
+TEST_CASE("tolerance: the sides of a skinned mesh are by the sign of its node's transform", "[io]") {
+    Bytes joints, weights;
+    append<std::uint8_t>(joints, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+    append<float>(weights, {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
+    for (const float sign : {1.0f, -1.0f}) {
+        TriangleFile file;
+        const int joint = file.add(joints, R"("componentType":5121,"count":3,"type":"VEC4")");
+        const int weight = file.add(weights, R"("componentType":5126,"count":3,"type":"VEC4")");
+        file.attributes += fmt::format(",\"JOINTS_0\":{},\"WEIGHTS_0\":{}", joint, weight);
+        file.rest = R"(,"skins":[{"joints":[1]}])";
+        const std::string nodes = fmt::format("{{\"mesh\":0,\"skin\":0,\"scale\":[{},1,1]}},{{\"scale\":[{},1,1]}}", sign, sign);
+        const Mesh mesh = load_ok(glb(replaced(replaced(file.json(), "{\"mesh\":0}", nodes), "\"nodes\":[0]", "\"nodes\":[0,1]"), file.bin))
+                              .scene.meshes.at(0);
+        // Seen from +z in both, as the mirrored triangle turns.
+        const auto at = [&](std::size_t i) { return mesh.positions.at(mesh.indices.at(i)); };
+        CHECK(cross(at(1) - at(0), at(2) - at(0)).z > 0);
+    }
+}
+
+TEST_CASE("tolerance: an animation that begins without size is drawn at another time", "[io]") {
+    TriangleFile file;
+    Bytes times, scales;
+    append<float>(times, {0, 2});
+    append<float>(scales, {0, 0, 0, 4, 4, 4});
+    const int input = file.add(times, R"("componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[2])");
+    const int output = file.add(scales, R"("componentType":5126,"count":2,"type":"VEC3")");
+    file.rest = fmt::format(
+        R"(,"animations":[{{"channels":[{{"sampler":0,"target":{{"node":0,"path":"scale"}}}}],"samplers":[{{"input":{},"output":{}}}]}}])",
+        input, output);
+    CHECK(load_ok(file.file()).scene.instances.at(0).world_from_object.c[0].x == 2.0f);
+    CHECK(load_ok(file.file(), strictly()).scene.instances.at(0).world_from_object.c[0].x == 0.0f);
+}

@@ -110,7 +110,7 @@ TEST_CASE("models: what is no model is refused by name", "[io]") {
     CHECK(refusal_of(to_bytes("hello, world\n")).find("is no model: expected glTF, GLB, STL, PLY, OBJ, 3MF") != std::string::npos);
     std::string picture = "\x89PNG\r\n";
     for (int i = 0; i < 400; ++i) picture += static_cast<char>(i * 37 % 251);
-    CHECK(refusal_of(to_bytes(picture)).find("is no model") != std::string::npos);
+    CHECK(refusal_of(to_bytes(picture)).find("it holds no shape") != std::string::npos);
     CHECK(refusal_of({}).find("no bytes at all") != std::string::npos);
 }
 

@@ -121,7 +121,7 @@ Result<void> choose(RenderJob& job, const RenderOptions& options, PictureRequest
 }
 
 /// The view that the flags ask for. usual: the size without --size.
-PictureRequest request_of(const RenderJob& job, const RenderOptions& options, PictureSize usual) {
+PictureRequest request_of(RenderJob& job, const RenderOptions& options, PictureSize usual) {
     PictureRequest request;
     request.size = options.size;
     request.usual_size = usual;
@@ -135,8 +135,12 @@ PictureRequest request_of(const RenderJob& job, const RenderOptions& options, Pi
     request.frame = options.own_view() || (options.film.turntable > 0 && !options.camera);  // a turntable goes around the scene
     if (request.frame || (!options.camera && choose_camera(job.scene(), bounds) == nullptr)) {
         const PictureSize size = options.size.value_or(usual);
-        request.camera =
-            film_camera(job.scene(), bounds, options.film, static_cast<float>(size.width) / static_cast<float>(size.height), options.view);
+        const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
+        const ViewSettings view = options.own_view() ? options.view : visible_side(job.scene(), bounds, aspect, options.view);
+        if (view.azimuth_deg != options.view.azimuth_deg || view.elevation_deg != options.view.elevation_deg)
+            job.warnings.push_back(fmt::format("from the usual side only backs are seen, which are not drawn; seen from {:g},{:g}",
+                                               view.azimuth_deg, view.elevation_deg));
+        request.camera = film_camera(job.scene(), bounds, options.film, aspect, view);
     }
     return request;
 }

@@ -18,9 +18,11 @@
 #include "apps/io/gltf/file/document.hpp"
 #include "apps/io/gltf/loader.hpp"
 #include "sh/time_limit.hpp"
+#include "sh/vec3d.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <set>
 
@@ -50,7 +52,44 @@ std::vector<std::string> files_of(const Document& document) {
 
 }  // namespace
 
+namespace {
+
+/// True if the scene has instances, and none of them has a volume or an area: an animation may begin with the scale 0.
+bool has_no_size(const Scene& scene) {
+    const auto is_flat = [](const Instance& instance) {
+        const auto axis = [&](std::size_t c) {
+            const Vec4f& v = instance.world_from_object.c[c];
+            return Vec3d{v.x, v.y, v.z};
+        };
+        const Vec3d xy = cross(axis(0), axis(1)), yz = cross(axis(1), axis(2)), zx = cross(axis(2), axis(0));
+        return (dot(xy, xy) + dot(yz, yz)) + dot(zx, zx) == 0.0;
+    };
+    return !scene.instances.empty() && std::all_of(scene.instances.begin(), scene.instances.end(), is_flat);
+}
+
+LoadedScene read_at(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options);
+
+}  // namespace
+
 LoadedScene io::detail::read_gltf(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
+    LoadedScene loaded = read_at(bytes, base_dir, options);
+    if (options.strict || options.time_s != 0.0 || options.keep_animations || loaded.animation < 0 || !has_no_size(loaded.scene))
+        return loaded;
+    const double end_s = loaded.animations.at(static_cast<std::size_t>(loaded.animation)).end_s;
+    for (const double share : {0.5, 1.0, 0.25}) {
+        LoadOptions later = options;
+        later.time_s = share * end_s;
+        LoadedScene other = read_at(bytes, base_dir, later);
+        if (has_no_size(other.scene)) continue;
+        other.warnings.push_back(fmt::format("at the time 0 nothing has a size; drawn at {:g} s", later.time_s));
+        return other;
+    }
+    return loaded;
+}
+
+namespace {
+
+LoadedScene read_at(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
     check_threads(options);
     const std::unique_ptr<Document> document = open_document(bytes, base_dir, options);
     check_time();
@@ -108,6 +147,8 @@ LoadedScene io::detail::read_gltf(std::span<const std::byte> bytes, const std::s
     loaded.info.files = files_of(*document);
     return loaded;
 }
+
+}  // namespace
 
 std::vector<std::string> io::detail::files_of_gltf(std::span<const std::byte> bytes, const std::string& base_dir,
                                                    const LoadOptions& options) {

@@ -85,7 +85,64 @@ constexpr bool each_format_has_a_row() {
 }
 static_assert(each_format_has_a_row());
 
+constexpr std::string_view kByBlender = "convert it by Blender to GLB",
+                           kByCad = "export it from a CAD program (FreeCAD, CadQuery) as STL or 3MF",
+                           kByCloud = "convert it by CloudCompare or PDAL to PLY";
+constexpr ForeignFormat kForeign[] = {
+    {"FBX", "Kaydara FBX Binary", 0, kByBlender},
+    {"FBX (text)", "; FBX ", 0, kByBlender},
+    {"Blender", "BLENDER", 0, "export it from Blender as GLB"},
+    {"a compressed Blender file", "\x28\xB5\x2F\xFD", 0, "decompress it; export Blender files as GLB"},
+    {"USD", "PXR-USDC", 0, kByBlender},
+    {"USD (text)", "#usda", 0, kByBlender},
+    {"STEP or IFC", "ISO-10303-21", 0, kByCad},
+    {"IGES", "S      1", 72, kByCad},
+    {"DWG", "AC10", 0, kByCad},
+    {"JT", "Version ", 0, kByCad},
+    {"OpenCASCADE BREP", "DBRep_DrawableShape", 0, kByCad},
+    {"OpenCASCADE BREP", "CASCADE Topology", 0, kByCad},
+    {"LAS or LAZ", "LASF", 0, kByCloud},
+    {"E57", "ASTM-E57", 0, kByCloud},
+    {"PCD", "# .PCD", 0, kByCloud},
+    {"VTK", "# vtk DataFile", 0, "export it from ParaView as GLB or PLY"},
+    {"VRML", "#VRML", 0, kByBlender},
+    {"Alembic", "Ogawa", 0, kByBlender},
+    {"3DS", "MM", 0, kByBlender},
+    {"LightWave", "FORM", 0, kByBlender},
+    {"a RAR file", "Rar!", 0, "unpack it"},
+    {"a 7z file", "7z\xBC\xAF", 0, "unpack it"},
+    {"a gzip file", "\x1F\x8B", 0, "unpack it"},
+    {"a PNG picture", "\x89PNG", 0, "it holds no shape"},
+    {"a JPEG picture", "\xFF\xD8\xFF", 0, "it holds no shape"},
+    {"a PDF document", "%PDF", 0, "it holds no shape that is read"},
+};
+/// Formats whose first element or first packed file tells.
+constexpr ForeignFormat kForeignXml[] = {
+    {"COLLADA", "<COLLADA", 0, kByBlender}, {"AMF", "<amf", 0, "convert it by a slicer to 3MF"}, {"X3D", "<X3D", 0, kByBlender}};
+constexpr ForeignFormat kUsdz{"USDZ", "", 0, kByBlender};
+
 }  // namespace
+
+const ForeignFormat* find_foreign_format(std::span<const std::byte> bytes) {
+    const std::string_view text = as_text(bytes.first(std::min<std::size_t>(bytes.size(), 1024)));
+    for (const ForeignFormat& row : kForeign)
+        if (text.size() > row.offset && text.substr(row.offset).starts_with(row.begins)) {
+            if (row.name == "3DS" && (text.size() < 6 || u32_at(bytes, 2) != bytes.size())) continue;
+            if (row.name == "JT" && text.substr(0, 80).find("DM ") == std::string_view::npos) continue;
+            return &row;
+        }
+    if (text.starts_with('<'))
+        for (const ForeignFormat& row : kForeignXml)
+            if (text.find(row.begins) != std::string_view::npos) return &row;
+    // Of a ZIP file: the name of its first entry.
+    constexpr std::size_t kNameSize = 26, kName = 30;
+    if (is_zip(text) && text.size() > kName) {
+        const std::size_t size = u32_at(bytes, kNameSize) & 0xFFFFu;
+        const std::string_view name = text.substr(kName, size);
+        if (name.ends_with(".usdc") || name.ends_with(".usda") || name.ends_with(".usd")) return &kUsdz;
+    }
+    return nullptr;
+}
 
 std::span<const FormatRow> formats() { return kFormats; }
 

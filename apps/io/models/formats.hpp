@@ -38,4 +38,14 @@ struct FormatRow {
 /// "A, B or C" of all formats' names or extensions, in the order of ModelFormat.
 [[nodiscard]] std::string list_of_formats(std::string_view FormatRow::*column);
 
+/// A format that is known and not read.
+struct ForeignFormat {
+    std::string_view name, begins;  ///< begins: the file's first bytes, or those at `offset`
+    std::size_t offset = 0;
+    std::string_view advice;  ///< how to come to a format that is read
+};
+
+/// The format of a file that begins as one of a known format that is not read; null: none.
+[[nodiscard]] const ForeignFormat* find_foreign_format(std::span<const std::byte> bytes);
+
 }  // namespace halflit::io::detail

@@ -241,6 +241,10 @@ public:
         builder_.place_alone(std::move(soup_), materials);
     }
 
+    /// PLY has y up by custom. Surveys of the ground have z: clouds in double that are much flatter along
+    /// z than along x and y.
+    [[nodiscard]] UpAxis up() const { return lies_flat_ ? UpAxis::z : UpAxis::y; }
+
 private:
     using Row = std::array<double, kSlots + 1>;
 
@@ -272,6 +276,26 @@ private:
         if (zeros > soup_.normals.size() / 10) soup_.normals.clear();
     }
 
+    /// Strays do not count: of each axis, the middle nine tenths.
+    void note_flatness() {
+        constexpr double kFlat = 0.35;
+        constexpr std::size_t kSampled = 4096;
+        std::array<double, 3> extents{};
+        const std::size_t step = std::max<std::size_t>(1, soup_.positions.size() / kSampled);
+        std::vector<double> at;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            at.clear();
+            for (std::size_t i = 0; i < soup_.positions.size(); i += step) {
+                const Vec3d& p = soup_.positions[i];
+                at.push_back(axis == 0 ? p.x : axis == 1 ? p.y : p.z);
+            }
+            std::sort(at.begin(), at.end());
+            extents[axis] = at[at.size() - 1 - at.size() / 20] - at[at.size() / 20];
+        }
+        lies_flat_ = is_survey_ && extents[2] < kFlat * std::min(extents[0], extents[1]);
+        if (lies_flat_ && !builder_.options().up) builder_.document().warn("a cloud that is flat along z is drawn lying, with z up");
+    }
+
     /// Vertices without faces are points. Those without normals are not lit.
     void finish_cloud() {
         Mesh mesh;
@@ -295,6 +319,7 @@ private:
         if (!soup_.normals.empty()) soup_.normals.resize(kept);
         if (!soup_.colors.empty()) soup_.colors.resize(kept);
         if (kept == 0) return;
+        note_flatness();
         soup_.position_of.resize(kept);
         std::iota(soup_.position_of.begin(), soup_.position_of.end(), 0u);
         const Vec3d origin = move_near(soup_, builder_.options().recentre);
@@ -351,6 +376,7 @@ private:
         builder_.take_entries<Vec3d>(count);
         builder_.take_entries<Vec3f>(count * ((has_normal ? 1 : 0) + (vertex_has_uv_ ? 1 : 0) + (has_color ? 2 : 0) + (by_scalar ? 1 : 0)));
         vertex_has_normal_ = has_normal;
+        is_survey_ = layout.type[px] == PlyType::f64;
         vertex_has_color_ = has_color;
         is_splat_ = is_cloud_ && layout.is_splat() && !layout.has_channels() && !layout.has[packed];
         Row row{};
@@ -491,6 +517,8 @@ private:
     std::size_t bad_indices_ = 0, short_polygons_ = 0, bad_texcoords_ = 0;
     std::vector<float> scalars_;  ///< of points without colours
     std::uint64_t rows_ = 0;      ///< of the element that is being read
+    bool is_survey_ = false;      ///< coordinates in double, as surveys have them
+    bool lies_flat_ = false;
     bool is_cloud_ = false, is_splat_ = false, cut_off_ = false;
 };
 
@@ -501,7 +529,7 @@ LoadedScene read_ply(std::span<const std::byte> bytes, const std::string& base_d
     PlyReader reader(bytes, builder);
     reader.read();
     reader.finish();
-    return builder.finish({});
+    return builder.finish({.up = reader.up()});
 }
 
 std::vector<std::string> files_of_ply(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {

@@ -27,7 +27,7 @@ enum class StudioUse : std::uint8_t {
 struct AutoOptions {
     std::optional<Camera> camera{};          ///< the view; empty: choose_camera()'s, or else a view of the whole scene
     bool frame = false;                      ///< a view of the whole scene, whatever cameras the scene has
-    ViewSettings view{};                     ///< of a view of the whole scene
+    ViewSettings view{};                     ///< of a view of the whole scene, as far as that shows anything (visible_side)
     std::optional<Lighting> light{};         ///< the light to begin with; empty: the scene's own
     std::optional<Vec3f> ambient_linear{};   ///< ambient light from all directions; empty: chosen
     std::optional<float> exposure{};         ///< factor on all light; empty: chosen
@@ -80,7 +80,8 @@ struct PictureChoice : AutoSetup {
 
 /// The scene's first camera, or null if it has none, or if that camera shows it small or not at all: the box around the scene, between the
 /// camera's near and far plane, fills less than a sixth of its picture, unless it lies in it as a whole and spans two thirds of its width
-/// or height. Where nothing has bounds, the first camera.
+/// or height; or because it lies inside of a body or behind a surface, so that it shows no side that is drawn. Where nothing has bounds,
+/// the first camera.
 [[nodiscard]] HALFLIT_API const Camera* choose_camera(const Scene& scene, const Bounds& bounds);
 
 }  // namespace halflit

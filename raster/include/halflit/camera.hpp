@@ -78,4 +78,11 @@ struct ViewSettings {
 /// The same. bounds: scene_bounds(scene).
 [[nodiscard]] HALFLIT_API Camera frame_scene(const Scene& scene, const Bounds& bounds, float aspect, const ViewSettings& view);
 
+/// False if the camera shows nothing of the scene: all triangles, lines and points lie outside of its view, or turn a side to it that is
+/// not drawn. Ends at the first one that it shows, so it is quick in all but odd scenes.
+[[nodiscard]] HALFLIT_API bool shows_surface(const Scene& scene, const Camera& camera, float aspect);
+/// `view`, or where frame_scene() would show nothing by it, the same from behind, from below, or from behind and below, whichever is the
+/// first that shows something. bounds: scene_bounds(scene).
+[[nodiscard]] HALFLIT_API ViewSettings visible_side(const Scene& scene, const Bounds& bounds, float aspect, const ViewSettings& view);
+
 }  // namespace halflit

@@ -71,8 +71,8 @@ struct ShadingSettings {
     /// sharper highlights are brighter, for the same light in all; off: a peak of 1 for every exponent; ggx always is
     bool normalize_specular = true;
     float emission_scale = 1.0f;  ///< factor on the light that all surfaces emit (not on colours of unlit materials)
-    float normal_scale = 1.0f;  ///< factor on x and y of all normal maps, a coat's too; 0: surfaces have the normals of their meshes
-    int environment_bands = 0;  ///< of spherical harmonics, 1 to 10; 0: the fewest whose error is within environment_tolerance
+    float normal_scale = 1.0f;    ///< factor on x and y of all normal maps, a coat's too; 0: surfaces have the normals of their meshes
+    int environment_bands = 0;    ///< of spherical harmonics, 1 to 10; 0: the fewest whose error is within environment_tolerance
     double environment_tolerance = 1.0 / 510.0;  ///< of bands that are left out, relative to white, in linear light; half an 8-bit code
     Accuracy accuracy = Accuracy::exact;         ///< arithmetic; exact if there is an error budget
     /// error budget in 8-bit codes: the cheapest way whose proven bound is below it, for light once a pixel, full texture filters and

@@ -1,0 +1,123 @@
+// Files of other formats than glTF as programs write them: what can be read is drawn, with a warning.
+#include "tests/io/model_maker.hpp"
+
+#include "tests/support/catch.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+using namespace halflit;
+using namespace halflit::test;
+
+namespace {
+
+LoadedScene read(const std::string& text) { return load_any_ok(to_bytes(text)); }
+
+bool is_warned(const LoadedScene& loaded, const char* part) {
+    for (const std::string& warning : loaded.warnings)
+        if (warning.find(part) != std::string::npos) return true;
+    return false;
+}
+
+/// A PLY text of three points with these properties and values behind the coordinates.
+LoadedScene points(const std::string& properties, const std::array<const char*, 3>& values) {
+    std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n" + properties + "end_header\n";
+    for (int i = 0; i < 3; ++i) text += fmt::format("{} {} {} {}\n", i, i * i, 2 * i, values[static_cast<std::size_t>(i)]);
+    return read(text);
+}
+
+int code(float linear) {
+    const double x = static_cast<double>(linear);
+    return static_cast<int>(std::lround(255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055)));
+}
+
+std::array<int, 3> color(const LoadedScene& loaded, std::size_t i) {
+    const Vec4f c = loaded.scene.meshes.at(0).colors.at(i);
+    return {code(c.x), code(c.y), code(c.z)};
+}
+
+const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+}  // namespace
+
+TEST_CASE("tolerance: colours of PLY are by the range of their values", "[io][ply]") {
+    const std::string rgb = "red\nproperty TYPE green\nproperty TYPE blue\n";
+    const auto of = [&](std::string type, const std::array<const char*, 3>& values) {
+        std::string text = "property TYPE " + rgb;
+        for (std::size_t at = text.find("TYPE"); at != std::string::npos; at = text.find("TYPE")) text.replace(at, 4, type);
+        return points(text, values);
+    };
+    CHECK(color(of("float", {"255 40 0", "0 0 0", "9 9 9"}), 0) == std::array<int, 3>{255, 40, 0});
+    CHECK(color(of("float", {"1 0.2 0", "0 0 0", "0 0 0"}), 0) == std::array<int, 3>{255, 51, 0});
+    CHECK(color(of("ushort", {"255 40 0", "0 0 0", "9 9 9"}), 0) == std::array<int, 3>{255, 40, 0});
+    CHECK(color(of("ushort", {"65535 10280 0", "0 0 0", "9 9 9"}), 0) == std::array<int, 3>{255, 40, 0});
+    CHECK(color(of("uchar", {"1 1 1", "0 0 0", "1 1 1"}), 0) == std::array<int, 3>{1, 1, 1});
+    CHECK(color(points("property uint rgb\n", {"16711935", "0", "255"}), 0) == std::array<int, 3>{255, 0, 255});
+}
+
+TEST_CASE("tolerance: clouds with a scalar, with normals of 0, and 3D Gaussians are coloured", "[io][ply]") {
+    const LoadedScene scalar = points("property float intensity\n", {"10", "20", "30"});
+    CHECK(is_warned(scalar, "intensity, from 10 (dark blue) to 30 (yellow)"));
+    CHECK(color(scalar, 0) == std::array<int, 3>{68, 1, 84});
+    CHECK(color(scalar, 2)[0] > 240);
+    const LoadedScene normals = points("property float nx\nproperty float ny\nproperty float nz\n", {"0 0 0", "0 0 0", "0 0 0"});
+    CHECK(normals.scene.meshes.at(0).normals.empty());
+    const LoadedScene splats = points(
+        "property float f_dc_0\nproperty float f_dc_1\nproperty float f_dc_2\nproperty float opacity\n"
+        "property float scale_0\nproperty float rot_0\n",
+        {"1 0 -1 0 0 1", "0 0 0 9 0 1", "0 0 0 0 0 1"});
+    CHECK(is_warned(splats, "3D Gaussians"));
+    CHECK(color(splats, 0)[1] == 128);
+    CHECK(std::fabs(splats.scene.meshes.at(0).colors.at(0).w - 0.5f) < 1e-3f);
+    const LoadedScene survey = read(
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\nend_header\n"
+        "0 0 0\n9 0 1\n0 9 1\n9 9 0\n");
+    CHECK(is_warned(survey, "with z up"));
+}
+
+TEST_CASE("tolerance: PLY that is cut off, has longer rows or unknown header lines is read as far as it goes", "[io][ply]") {
+    const std::string header =
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
+    const std::string vertices = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+    const LoadedScene cut = read(header + vertices + "3 0 1 2\n3 0 ");
+    CHECK(cut.info.triangles_drawn == 1);
+    CHECK(is_warned(cut, "it was cut off: 1 of 2 elements \"face\" are there"));
+    const LoadedScene cloud = read(header + "0 0 0\n1 0 0\n1 1");
+    CHECK(cloud.scene.meshes.at(0).topology == Topology::points);
+    CHECK(cloud.scene.meshes.at(0).positions.size() == 2);
+    const LoadedScene longer = read(header + "0 0 0 7\n1 0 0 7\n1 1 0 7\n0 1 0 7\n3 0 1 2\n3 0 2 3\n");
+    CHECK(longer.info.triangles_drawn == 2);
+    CHECK(is_warned(longer, "4 lines have more values"));
+    CHECK(read(replaced(header, "element vertex", "created by a program\nelement vertex") + vertices + "3 0 1 2\n3 0 2 3\n")
+              .info.triangles_drawn == 2);
+    CHECK_FALSE(load_any(to_bytes(header + vertices + "3 0 1 2\n3 0 ")));
+}
+
+TEST_CASE("tolerance: OBJ with odd numbers, faces and orders is drawn", "[io][obj]") {
+    CHECK(read("v 0,0 0 0\nv 1,0 0 0\nv 0 1,5 0\nf 1 2 3\n").scene.meshes.at(0).positions.at(2).y == 1.5f);
+    CHECK(read(kTriangle + "vn nan(ind) 1.#QNAN 0\nf 1 2 3\n").info.triangles_drawn == 1);
+    CHECK(read(kTriangle + "f 1 2\nf 1 2 3\n").info.triangles_drawn == 1);
+    CHECK(read(kTriangle + "vt 0 0\nf 1/9 2/1 3/1\n").info.triangles_drawn == 1);
+    CHECK(read("f 1 2 3\n" + kTriangle).info.triangles_drawn == 1);
+    const LoadedScene cloud = read(kTriangle);
+    CHECK(cloud.scene.meshes.at(0).topology == Topology::points);
+    for (const char* bad : {"f 1 2\nf 1 2 3\n", "vt 0 0\nf 1/9 2/1 3/1\n"}) CHECK_FALSE(load_any(to_bytes(kTriangle + bad)));
+}
+
+TEST_CASE("tolerance: STL with a count of 0, a wrong one, and a text that was cut off", "[io][stl]") {
+    Bytes file(84, std::byte{0});
+    for (int t = 0; t < 2; ++t) {
+        append<float>(file, {0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, static_cast<float>(t)});
+        append<std::uint16_t>(file, {0});
+    }
+    CHECK(load_any_ok(file).info.triangles_drawn == 2);
+    put<std::uint32_t>(file, 80, 9);
+    const LoadedScene fewer = load_any_ok(file);
+    CHECK(fewer.info.triangles_drawn == 2);
+    CHECK_FALSE(fewer.warnings.empty());
+    const std::string facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+    CHECK(read("solid a\n" + facet + "facet normal 0 0 1\nouter loop\nvertex 0 0").info.triangles_drawn == 1);
+}
