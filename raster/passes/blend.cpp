@@ -129,8 +129,9 @@ void PictureTile::shade_layers(FragmentList& list) {
         begin_shown();
         scratch_.layers->is_shown.resize(scratch_.layers->fragments.size());
     }
+    const float exposure = exposure_of(list.material);
     for (int l = 0; l < list.count; ++l) {
-        const Vec4f light = light_of(list.material, scratch_.block, l);
+        const Vec4f light = light_of(scratch_.block, l, exposure);
         const auto fragment = static_cast<std::size_t>(list.samples[l]);
         if (shown) scratch_.layers->is_shown[fragment] = 1;
         scratch_.layers->light[fragment] = light;
@@ -163,7 +164,7 @@ void PictureTile::blend_fragment(std::size_t fragment, int at, int sample) {
         blend(under, light, layers.keep[fragment]);
         cover_backing(at, 1u << sample, light.w, layers.keep[fragment]);
     }
-    if (layers.shows(fragment)) add_shown(at, 1u << sample, light);
+    if (has_shown_ && layers.shows(fragment)) add_shown(at, 1u << sample, light);
 }
 
 void PictureTile::blend_pixels(const TileRect& part) {
@@ -219,7 +220,7 @@ void PictureTile::blend_pixel(std::size_t at, std::span<const std::uint32_t> fra
                 const Vec4f keep = layers.keep[fragment];
                 for (unsigned left = samples; left != 0; left &= left - 1) blend(color[std::countr_zero(left)], light, keep);
                 cover_backing(static_cast<int>(at), samples, light.w, keep);
-                if (layers.shows(fragment)) add_shown(static_cast<int>(at), samples, light);
+                if (has_shown_ && layers.shows(fragment)) add_shown(static_cast<int>(at), samples, light);
                 continue;
             }
             if (samples == all)
@@ -227,7 +228,7 @@ void PictureTile::blend_pixel(std::size_t at, std::span<const std::uint32_t> fra
             else
                 for (unsigned left = samples; left != 0; left &= left - 1) blend(color[std::countr_zero(left)], light);
             cover_backing(static_cast<int>(at), samples, light.w);
-            if (layers.shows(fragment)) add_shown(static_cast<int>(at), samples, light);
+            if (has_shown_ && layers.shows(fragment)) add_shown(static_cast<int>(at), samples, light);
         }
         for (int s = 0; s < samples_; ++s) std::memcpy(sample_color(s) + 4 * at, color[s], sizeof color[s]);
         return;

@@ -62,7 +62,7 @@ private:
     void blend_pixels(const TileRect& part);
     void blend_pixel(std::size_t at, std::span<const std::uint32_t> fragments);  ///< at: of the pixel in the tile's buffers
     void blend_sample(int at, int sample);                                       ///< of a pixel with too many fragments
-    [[nodiscard]] Vec4f light_of(int material, const shading::FragmentBlock& block, int lane) const;  ///< light times alpha, and alpha
+    [[nodiscard]] static Vec4f light_of(const shading::FragmentBlock& block, int lane, float exposure);  ///< light times alpha, and alpha
     [[nodiscard]] Vec4f keep_of(int material, int lane, Vec4f light) const;  ///< LayerScratch::keep, of the scratch's block
     void blend_fragment(std::size_t fragment, int at, int sample);           ///< lays a fragment of the layers over a sample
     // resolve.cpp
@@ -87,6 +87,7 @@ private:
     [[nodiscard]] bool is_shown(int material) const {
         return (plan_.shading.materials[static_cast<std::size_t>(material)].stages & kStageUnlit) != 0;
     }
+    [[nodiscard]] float exposure_of(int material) const { return is_shown(material) ? 1.0f : plan_.exposure; }
     void begin_shown();                                     ///< before the first colour of the display in the tile
     void add_shown(int at, unsigned samples, Vec4f color);  ///< color: times alpha, and alpha. After cover_backing
     /// Adds what `count` pixels from `at` on show of sample s: display light times alpha, and alpha.

@@ -77,8 +77,8 @@ void PictureTile::write(const FragmentList& list, const shading::FragmentBlock& 
         }
 }
 
-Vec4f PictureTile::light_of(int material, const shading::FragmentBlock& block, int lane) const {
-    const float exposure = is_shown(material) ? 1.0f : plan_.exposure, a = number_or_zero(block.alpha[lane]);
+Vec4f PictureTile::light_of(const shading::FragmentBlock& block, int lane, float exposure) {
+    const float a = number_or_zero(block.alpha[lane]);
     return {number_or_zero(block.red[lane] * exposure) * a, number_or_zero(block.green[lane] * exposure) * a,
             number_or_zero(block.blue[lane] * exposure) * a, a};
 }
@@ -86,8 +86,9 @@ Vec4f PictureTile::light_of(int material, const shading::FragmentBlock& block, i
 void PictureTile::write_samples(const FragmentList& list, const shading::FragmentBlock& block) {
     const bool shown = toned_ && is_shown(list.material);
     if (shown) begin_shown();
+    const float exposure = exposure_of(list.material);
     for (int l = 0; l < list.count; ++l) {
-        const Vec4f light = light_of(list.material, block, l);
+        const Vec4f light = light_of(block, l, exposure);
         const int at = (list.y_px[l] - rect_.y) * kTileStride + (list.x_px[l] - rect_.x);
         for (auto samples = static_cast<unsigned>(list.samples[l]); samples != 0; samples &= samples - 1)
             std::memcpy(sample_color(__builtin_ctz(samples)) + 4 * at, &light, sizeof light);

@@ -42,6 +42,7 @@ struct Line {
 std::string fault_of(const Line& line) {
     halflit::LoadOptions as_stored;  // the rules' extreme numbers are far away, which is another warning
     as_stored.recentre = false;
+    as_stored.strict = true;
     const auto loaded = halflit::load_gltf(line.file, as_stored);
     if (!loaded) {
         const std::string& message = loaded.error().message;

@@ -309,12 +309,27 @@ TEST_CASE("setup: what the caller decides is not chosen", "[raster][setup]") {
     CHECK(same(bare.ambient, Ambient{}));
 }
 
+namespace {
+
+/// The scene with surfaces that are drawn from both sides.
+Scene seen_from_within(Scene scene) {
+    Material walls;
+    walls.double_sided = true;
+    for (Mesh& mesh : scene.meshes) mesh.material = static_cast<int>(scene.materials.size());
+    scene.materials.push_back(walls);
+    return scene;
+}
+
+}  // namespace
+
 TEST_CASE("setup: a scene's first camera is taken, unless it shows almost nothing", "[raster][setup]") {
     CHECK(chosen(seen_from({0, 0, 5}, {0, 0, 0})));
-    CHECK(chosen(seen_from({0, 0, 0}, {1, 1, 1})));     // from within
-    CHECK(chosen(seen_from({0, 0, 0.9f}, {0, 0, 3})));  // out through the nearest wall
-    CHECK(!chosen(seen_from({0, 0, 5}, {0, 0, 10})));   // away from it
-    CHECK(!chosen(seen_from({0, 0, 5}, {9, 0, 5})));    // past it
+    const Scene room = seen_from_within(box_scene());
+    CHECK(chosen(seen_from({0, 0, 0}, {1, 1, 1}), room));     // from within
+    CHECK(chosen(seen_from({0, 0, 0.9f}, {0, 0, 3}), room));  // out through the nearest wall
+    CHECK(!chosen(seen_from({0, 0, 0}, {1, 1, 1})));          // backs alone, which are not drawn
+    CHECK(!chosen(seen_from({0, 0, 5}, {0, 0, 10})));         // away from it
+    CHECK(!chosen(seen_from({0, 0, 5}, {9, 0, 5})));          // past it
     CHECK(!chosen(seen_from({0, 2, 0}, {0, 3, 0})));
     CHECK(!chosen(seen_from({100, 100, 100}, {0, 0, 0})));
 
@@ -359,7 +374,7 @@ TEST_CASE("setup: a box that reaches behind the camera fills what lies before it
     Scene corridor;
     corridor.meshes.push_back(make_box({1, 1, 50}));
     corridor.instances.push_back({0, {}});
-    CHECK(chosen(seen_from({0, 0, 10}, {0, 0, 0}), corridor));
+    CHECK(chosen(seen_from({0, 0, 10}, {0, 0, 0}), seen_from_within(corridor)));
     CHECK(chosen(seen_from({3, 0, 10}, {0, 0, 5}), corridor));
     CHECK(!chosen(seen_from({3, 0, 10}, {9, 0, 10}), corridor));
     CHECK(!chosen(seen_from({3, 0, 0}, {9, 0, 6}), corridor));

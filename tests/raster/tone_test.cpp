@@ -25,6 +25,13 @@ namespace {
 constexpr int kWidth = 120, kHeight = 75;
 constexpr ToneCurve kCurves[] = {ToneCurve::reinhard, ToneCurve::aces, ToneCurve::neutral};
 
+/// Materials that all have light: colours without it are the display's.
+raster::test::NamedScene lit_materials() {
+    raster::test::NamedScene named = raster::test::materials_scene();
+    for (Material& material : named.scene.materials) material.unlit = false;
+    return named;
+}
+
 struct Drawn {
     std::vector<std::uint8_t> codes = std::vector<std::uint8_t>(4 * kWidth * kHeight, 0xa5);
     std::vector<float> linear = std::vector<float>(4 * kWidth * kHeight, -1.0f);
@@ -64,12 +71,13 @@ Vec3d light_at(const std::vector<float>& linear, std::size_t i) {
     return {static_cast<double>(linear[i]), static_cast<double>(linear[i + 1]), static_cast<double>(linear[i + 2])};
 }
 
-/// A square in the plane z, from (x0, -1) to (x1, 1), that glows in this colour; unlit.
+/// A square in the plane z, from (x0, -1) to (x1, 1), that glows in this colour.
 void add_square(Scene& scene, float x0, float x1, float z, Vec4f color) {
     Material material;
-    material.unlit = true;
     material.double_sided = true;
-    material.base_color = color;
+    material.base_color = {0, 0, 0, color.w};
+    material.dielectric_reflectance = 0;
+    material.emissive = {color.x, color.y, color.z};
     if (color.w < 1.0f) material.alpha_mode = AlphaMode::blend;
     Mesh mesh;
     mesh.positions = {{x0, -1, z}, {x1, -1, z}, {x1, 1, z}, {x0, 1, z}};
@@ -83,7 +91,7 @@ void add_square(Scene& scene, float x0, float x1, float z, Vec4f color) {
 }  // namespace
 
 TEST_CASE("tone: a pixel's codes are those of its light through the curve", "[raster][tone]") {
-    const raster::test::NamedScene s = raster::test::materials_scene();
+    const raster::test::NamedScene s = lit_materials();
     for (const ToneCurve curve : kCurves) {
         auto settings = setup_of(curve, 1);
         settings.background_linear = {0, 0, 0, 0};
@@ -245,7 +253,7 @@ TEST_CASE("tone: an environment behind the scene goes through the curve", "[rast
 }
 
 TEST_CASE("tone: accuracy reference goes through the same curve, in float64", "[raster][tone]") {
-    const raster::test::NamedScene s = raster::test::materials_scene();
+    const raster::test::NamedScene s = lit_materials();
     for (const ToneCurve curve : kCurves) {
         auto settings = setup_of(curve, 1);
         settings.shading.accuracy = Accuracy::reference;

@@ -25,9 +25,9 @@ enum class StudioUse : std::uint8_t {
 
 /// The caller's part of a choice; empty members are chosen.
 struct AutoOptions {
-    std::optional<Camera> camera{};          ///< the view; empty: choose_camera()'s, or else a view of the whole scene
-    bool frame = false;                      ///< a view of the whole scene, whatever cameras the scene has
-    ViewSettings view{};                     ///< of a view of the whole scene, as far as that shows anything (visible_side)
+    std::optional<Camera> camera{};  ///< the view; empty: choose_camera()'s, or else a view of the whole scene
+    bool frame = false;              ///< a view of the whole scene, whatever cameras the scene has
+    ViewSettings view{};  ///< of a view of the whole scene; with the usual angles, from a side that shows something (visible_side)
     std::optional<Lighting> light{};         ///< the light to begin with; empty: the scene's own
     std::optional<Vec3f> ambient_linear{};   ///< ambient light from all directions; empty: chosen
     std::optional<float> exposure{};         ///< factor on all light; empty: chosen

@@ -203,9 +203,9 @@ private:
     }
 
     std::vector<Affine> joints_of(int index) {
-        const auto [entry, is_new] = skins_.try_emplace(index);
-        if (is_new) {
-            entry->second = read_skin(document_, accessors_, index);
+        auto entry = skins_.find(index);
+        if (entry == skins_.end()) {
+            entry = skins_.emplace(index, read_skin(document_, accessors_, index)).first;  // one that cannot be read fails again
             if (kept_ != nullptr) kept_->skins.emplace(index, entry->second);
         }
         document_.geometry.take(entry->second.joints.size() * sizeof(Affine));

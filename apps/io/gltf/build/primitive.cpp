@@ -294,7 +294,7 @@ std::optional<ReadMesh> PrimitiveReader::read(std::size_t mesh_index, std::size_
 
     Mesh& mesh = out.source.mesh;
     mesh.name = document_.file.meshes[mesh_index].name;
-    mesh.material = primitive.material;
+    mesh.material = std::max(primitive.material, -1);
     mesh.topology = topology;
     mesh.indices = list_indices(primitive, out.where, count);
     if (mesh.indices.empty()) {
