@@ -146,6 +146,10 @@ constexpr void set_number(T& to, double value) {
              : value > kLow  ? static_cast<T>(value)
              : value <= kLow ? std::numeric_limits<T>::min()
                              : T{};
+    } else if constexpr (std::is_enum_v<T>) {
+        std::underlying_type_t<T> number{};
+        set_number(number, value);
+        to = static_cast<T>(number);
     } else {
         to = static_cast<T>(value);
     }
