@@ -140,8 +140,8 @@ struct Layout {
         if (has_channels()) return {of(red), of(green), of(blue), 1};
         if (has[packed]) {  // 0xRRGGBB, which the Point Cloud Library keeps as the bits of a float
             const bool is_float = type[packed] == PlyType::f32 || type[packed] == PlyType::f64;
-            const auto whole = static_cast<std::uint32_t>(
-                static_cast<std::int64_t>(is_float ? 0.0 : std::clamp(value[packed], -2147483648.0, 4294967295.0)));
+            const auto whole = static_cast<std::uint32_t>(static_cast<std::int64_t>(
+                !is_float && value[packed] >= -2147483648.0 && value[packed] <= 4294967295.0 ? value[packed] : 0.0));
             const std::uint32_t bits = is_float ? std::bit_cast<std::uint32_t>(of(packed)) : whole;
             return {static_cast<float>(bits >> 16 & 255u), static_cast<float>(bits >> 8 & 255u), static_cast<float>(bits & 255u), 1};
         }
@@ -154,8 +154,11 @@ struct Layout {
     void make_linear(std::span<Vec4f> colors) const {
         const bool is_whole = has_channels() ? type[red] != PlyType::f32 && type[red] != PlyType::f64 : has[packed];
         float most = 0;
-        for (const Vec4f& c : colors) most = std::max({most, c.x, c.y, c.z});
-        const double unit = has_channels() && type[red] == PlyType::u8 ? 255 : most <= 1 && !is_whole ? 1 : most <= 255 ? 255 : 65535;
+        for (const Vec4f& c : colors)
+            for (const float value : {c.x, c.y, c.z})
+                if (value > most && shading::finite(value)) most = value;
+        constexpr float kWhite = 2.0f;  // rounding, and light of high range, may exceed 1
+        const double unit = has_channels() && type[red] == PlyType::u8 ? 255 : most <= kWhite && !is_whole ? 1 : most <= 255 ? 255 : 65535;
         const auto linear = [&](float value) {
             if (unit == 255 && value >= 0 && value <= 255)
                 if (const auto code = static_cast<std::uint8_t>(value); static_cast<float>(code) == value) return linear_of_code(code);

@@ -166,10 +166,29 @@ struct Painter {
         return static_cast<std::uint32_t>(vertices.size() - 1);
     }
 
+    /// Goes past so many parts, with all that they are divided into.
+    void pass_over(std::uint64_t parts) {
+        TimeCheck check;
+        for (; parts > 0; --parts) {
+            check();
+            const std::optional<unsigned> code = next_digit(paint);
+            if (!code) return;
+            if ((*code & 3u) != 0)
+                parts += (*code & 3u) + 1;
+            else if (*code >> 2 == 3)
+                next_digit(paint);
+        }
+    }
+
     void divide(const std::array<std::uint32_t, 3>& facet, int depth) {
         constexpr int kMostDepth = 24;  // sides of 2^-24 of the facet's
-        const std::optional<unsigned> code = depth < kMostDepth ? next_digit(paint) : std::nullopt;
+        const std::optional<unsigned> code = next_digit(paint);
         const unsigned sides = code.value_or(0) & 3u;
+        if (sides > 0 && depth >= kMostDepth) {
+            pass_over(sides + 1);
+            out.push_back({facet, 0});
+            return;
+        }
         if (sides == 0) {
             unsigned filament = code.value_or(0) >> 2;
             if (filament == 3) filament += next_digit(paint).value_or(0);

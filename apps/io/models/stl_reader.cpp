@@ -34,8 +34,8 @@ public:
                 const std::size_t before = soup_.position_of.size();
                 try {
                     facet();
-                } catch (const LoadFailure&) {
-                    if (builder_.options().strict || !next().empty() || before == 0) throw;
+                } catch (const LoadFailure& failure) {
+                    if (builder_.options().strict || failure.error.code != ErrorCode::bad_input || !next().empty() || before == 0) throw;
                     builder_.document().warn("it was cut off: its last triangle is left out");
                     return std::move(soup_);
                 }

@@ -50,6 +50,8 @@ public:
     void declare(std::string_view prefix, std::string_view name_space) override {
         builder_.document().geometry.take(prefix.size() + name_space.size() + 128);
         name_space_of_[std::string(prefix)] = name_space;
+        for (const std::string_view slicer : {"slic3r", "bambulab", "prusa"})
+            if (name_space.find(slicer) != std::string_view::npos) model_.is_of_slicer = true;
     }
     void end(std::string_view name) override {
         if (name == std::string(kCore) + "object") object_ = nullptr;
@@ -200,7 +202,10 @@ private:
                            : Vec4f{mix(color.x, over.x), mix(color.y, over.y), mix(color.z, over.z),
                                    properties_->multiplies ? color.w * over.w : over.w + color.w * (1.0f - over.w)};
         }
-        if (!properties_->is_texture) add_color(color);
+        if (properties_->is_texture)
+            properties_->uvs.push_back({});  // an entry keeps its number
+        else
+            add_color(color);
     }
     /// A mixture of base materials becomes the mean of their colours.
     void add_mixture(const XmlAttributes& attributes) {

@@ -56,7 +56,8 @@ struct Object {
 };
 
 struct Model {
-    double metres = 0.001;  ///< length of the unit
+    double metres = 0.001;      ///< length of the unit
+    bool is_of_slicer = false;  ///< it declares names of a slicer
     std::map<std::uint32_t, Object> objects;
     std::map<std::uint32_t, Properties> properties;
     std::map<std::uint32_t, Texture2d> textures;

@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <span>
 #include <utility>
@@ -38,8 +39,9 @@ namespace {
 using namespace three_mf;
 
 constexpr const char* kUsualModel = "3D/3dmodel.model";
-constexpr int kMostDepth = 64;
-constexpr std::uint64_t kMostPacked = 32;  ///< bytes of a mesh's text for each byte in the package, at most
+constexpr int kMostDepth = 64, kMostPlateDepth = 4;
+constexpr std::size_t kMostBoundsWork = 100'000'000;  ///< vertices and components that are looked at to find plates
+constexpr std::uint64_t kMostPacked = 32;             ///< bytes of a mesh's text for each byte in the package, at most
 
 /// Finds the names of the model and of its picture among the package's relations.
 class RelationReader : public XmlSink {
@@ -74,7 +76,8 @@ public:
         if (helpers_ > 0)
             builder_.document().warn(
                 fmt::format("{} modifiers, negative volumes and supports are left out: they are not printed as bodies", helpers_));
-        if (builder_.loaded().scene.instances.empty() && !place_picture())
+        const bool has_mesh = helpers_ > 0 || left_out > 0 || !builder_.loaded().scene.meshes.empty();
+        if (builder_.loaded().scene.instances.empty() && (has_mesh || !place_picture()))
             builder_.document().warn("the build has no items: nothing is drawn");
         return root.model.metres;
     }
@@ -114,14 +117,14 @@ private:
         std::vector<int> plate_of(items.size(), 1);
         int plates = 1;
         if (!project_.plates.empty()) {
+            std::map<std::pair<std::uint32_t, std::uint32_t>, int> of_instance;
+            for (const auto& [plate, list] : project_.plates)
+                for (const SlicerProject::Placed& placed : list) of_instance[{placed.object, placed.instance}] = plate;
             std::map<std::uint32_t, std::uint32_t> instances;
             for (std::size_t i = 0; i < items.size(); ++i) {
-                const std::uint32_t instance = instances[items[i]->object]++;
-                plate_of[i] = 0;
-                for (const auto& [plate, list] : project_.plates)
-                    for (const SlicerProject::Placed& placed : list)
-                        if (placed.object == items[i]->object && placed.instance == instance) plate_of[i] = plate;
                 check_time();
+                const auto found = of_instance.find({items[i]->object, instances[items[i]->object]++});
+                plate_of[i] = found == of_instance.end() ? 0 : found->second;
             }
             plates = project_.plates.rbegin()->first;
         } else {
@@ -141,12 +144,13 @@ private:
         Vec3d low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
     };
 
-    /// Grows a box by what an item is made of.
+    /// Grows a box by what an item is made of, as long as that takes little work.
     void add_bounds(const std::string& path, const Component& what, const Affine& parent, int depth, Box& box) {
         check_time();
         Part& in = part(path);
         const auto object = in.model.objects.find(what.object);
-        if (object == in.model.objects.end() || depth > 4) return;
+        if (object == in.model.objects.end() || depth > kMostPlateDepth || bounds_work_ > kMostBoundsWork) return;
+        bounds_work_ += object->second.vertices.size() + 1;
         const Affine world = parent * what.transform;
         for (const Vec3d& vertex : object->second.vertices) {
             const Vec3d at = world.c[0] * vertex.x + world.c[1] * vertex.y + world.c[2] * vertex.z + world.c[3];
@@ -157,17 +161,18 @@ private:
             add_bounds(component.path.empty() ? path : component.path, component, world, depth + 1, box);
     }
 
-    /// Slicers lay plates side by side, a fifth of their width between them. Where a project does not name its plates, items belong to
-    /// several if each stands in a cell of such a grid, of the largest usual printer that this holds for.
+    /// Slicers lay plates side by side, a fifth of their width between them. Where a slicer's file does not name its plates, items belong
+    /// to several if each stands in a cell of such a grid, of the largest usual printer that this holds for.
     int plates_by_place(const Part& root, const std::vector<const Component*>& items, std::vector<int>& plate_of) {
         constexpr double kWidths[] = {400, 350, 325, 300, 256, 250, 235, 220, 180};  // millimetres
         constexpr std::size_t kMostItems = 256;
-        if (items.size() < 2 || items.size() > kMostItems || root.model.metres != 0.001) return 1;
+        if (!root.model.is_of_slicer || items.size() < 2 || items.size() > kMostItems || root.model.metres != 0.001) return 1;
         std::vector<Box> boxes(items.size());
         for (std::size_t i = 0; i < items.size(); ++i) {
             add_bounds(items[i]->path.empty() ? root.name : items[i]->path, *items[i], {}, 0, boxes[i]);
-            if (!(boxes[i].low.x >= 0 && boxes[i].high.x < 1e5)) return 1;
+            if (!(boxes[i].low.x >= 0 && boxes[i].low.x <= boxes[i].high.x && boxes[i].high.x < 1e5 && boxes[i].low.y > -1e5)) return 1;
         }
+        if (bounds_work_ > kMostBoundsWork) return 1;
         for (const double width : kWidths) {
             const double step = 1.2 * width;
             std::map<std::pair<int, int>, int> number;  // of a cell: rows from the top, columns from the left
@@ -300,9 +305,12 @@ private:
     /// Takes what the slicer's project says into the object's triangles: those of volumes that are not printed go, painted ones are
     /// divided, and those without colours of their own get their filament's.
     void apply_project(Part& part, Object& object, std::uint32_t id) {
-        const auto runs = project_.runs.find(id);
+        auto runs = project_.runs.find(id);
         if (project_.filaments.empty() && object.paints.empty() && runs == project_.runs.end()) return;
         const bool has_colors = !project_.filaments.empty() || !object.paints.empty();
+        using Run = SlicerProject::Run;
+        if (runs != project_.runs.end())
+            std::stable_sort(runs->second.begin(), runs->second.end(), [](const Run& a, const Run& b) { return a.first < b.first; });
         std::vector<Triangle> kept;
         std::vector<PaintedTriangle> parts;
         auto paint = object.paints.begin();
@@ -311,15 +319,18 @@ private:
             const bool is_painted = paint != object.paints.end() && paint->first == i;
             const std::string code = is_painted ? std::move((paint++)->second) : "";
             SlicerProject::Volume volume = project_.volume_of(root_, id);
-            if (runs != project_.runs.end())
-                for (const SlicerProject::Run& run : runs->second)
-                    if (i >= run.first && i <= run.last) volume = run.volume;
+            if (runs != project_.runs.end()) {
+                const auto behind = std::upper_bound(runs->second.begin(), runs->second.end(), i,
+                                                     [](std::uint32_t at, const Run& run) { return at < run.first; });
+                if (behind != runs->second.begin() && i <= std::prev(behind)->last) volume = std::prev(behind)->volume;
+            }
             if (!volume.is_drawn) continue;
             Triangle& triangle = object.triangles[i];
             parts.clear();
             const bool is_whole =
                 std::all_of(triangle.vertex.begin(), triangle.vertex.end(), [&](std::uint32_t v) { return v < object.vertices.size(); });
             if (is_painted && is_whole) {
+                builder_.document().geometry.take(code.size() * (4 * sizeof(PaintedTriangle) + 3 * sizeof(Vec3d)));
                 divide_painted(triangle.vertex, code, object.vertices, parts);
                 builder_.take_triangles(parts.size());
                 builder_.take_entries<Vec3d>(2 * parts.size());
@@ -446,8 +457,9 @@ private:
     std::uint64_t packed_, unpacked_ = 0;  ///< bytes
     std::map<std::string, Part> parts_;
     SlicerProject project_;
-    std::string picture_;      ///< name of the package's own, or empty
-    std::uint32_t root_ = 0;   ///< object of the build's item that is being placed
+    std::string picture_;     ///< name of the package's own, or empty
+    std::uint32_t root_ = 0;  ///< object of the build's item that is being placed
+    std::size_t bounds_work_ = 0;
     std::size_t helpers_ = 0;  ///< objects and volumes that are left out
     int clear_ = -1;
 };

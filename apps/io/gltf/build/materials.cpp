@@ -3,6 +3,7 @@
 #include "apps/io/files/lobe_name.hpp"
 #include "apps/io/files/text.hpp"
 #include "sh/power.hpp"
+#include "sh/time_limit.hpp"
 #include "sh/trig.hpp"
 #include "sh/vec3d.hpp"
 #include "shading/material_properties.hpp"
@@ -262,7 +263,11 @@ void make_visible(Document& document, Scene& scene) {
                (!mesh.colors.empty() && std::all_of(mesh.colors.begin(), mesh.colors.end(), [](const Vec4f& c) { return c.w == 0.0f; }));
     };
     if (document.options.strict || scene.instances.empty()) return;
+    std::vector<bool> judged(scene.meshes.size(), false);
     for (const Instance& instance : scene.instances) {
+        if (judged[static_cast<std::size_t>(instance.mesh)]) continue;
+        judged[static_cast<std::size_t>(instance.mesh)] = true;
+        check_time();
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
         if (mesh.material < 0 || !is_clear(mesh, scene.materials[static_cast<std::size_t>(mesh.material)])) return;
     }

@@ -43,8 +43,9 @@ private:
         int mesh;                       // index into the scene's meshes
         std::optional<Vec3d> at_world;  // skinned: where it is placed, without the node's transform
     };
-    /// Mesh, skin, morph weights, and the node if its own animation deforms or hides the mesh; otherwise -1.
-    using Key = std::tuple<int, int, std::vector<double>, int>;
+    /// Mesh, skin, morph weights, the node if its own animation deforms or hides the mesh, otherwise -1, and whether a skinned mesh is
+    /// mirrored.
+    using Key = std::tuple<int, int, std::vector<double>, int, bool>;
 
     void place(std::size_t index) {
         const file::Node& node = document_.file.nodes[index];
@@ -54,7 +55,8 @@ private:
         std::vector<double> weights(all.begin(), all.end());
         while (!weights.empty() && weights.back() == 0.0) weights.pop_back();
         check_weights(index);
-        const auto [entry, is_new] = made_.try_emplace(Key{node.mesh, node.skin, std::move(weights), own ? static_cast<int>(index) : -1});
+        const auto [entry, is_new] = made_.try_emplace(
+            Key{node.mesh, node.skin, std::move(weights), own ? static_cast<int>(index) : -1, node.skin >= 0 && is_mirrored(index)});
         if (is_new) entry->second = make(index, std::get<2>(entry->first));
 
         const std::vector<Made>& primitives = entry->second;
@@ -178,11 +180,15 @@ private:
         return made;
     }
 
+    [[nodiscard]] bool is_mirrored(std::size_t node) const {
+        const Affine& world = tree_.world_from_node[node];
+        return dot(cross(world.c[0], world.c[1]), world.c[2]) < 0.0;
+    }
+
     /// A skinned mesh is placed without its node's transform, whose sign yet says which sides of its triangles are front sides (glTF 2.0,
     /// 3.7.4).
     void turn_if_mirrored(std::size_t node, Mesh& mesh) const {
-        const Affine& world = tree_.world_from_node[node];
-        if (mesh.topology != Topology::triangles || !(dot(cross(world.c[0], world.c[1]), world.c[2]) < 0.0)) return;
+        if (mesh.topology != Topology::triangles || !is_mirrored(node)) return;
         for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
     }
 

@@ -93,11 +93,14 @@ NodeTree walk_nodes(Document& document) {
         if (parent[i] < 0) roots.push_back(static_cast<int>(i));
     std::vector<bool> seen(parent.size(), false);
     append_trees(file, parent, roots, seen, tree.order);
+    std::vector<bool> passed(parent.size(), false);
     for (std::size_t i = 0; i < parent.size(); ++i) {
         if (seen[i]) continue;
-        break_link(document, static_cast<std::size_t>(parent[i]), "the node is its own ancestor");
-        parent[i] = -1;
-        append_trees(file, parent, {static_cast<int>(i)}, seen, tree.order);
+        std::size_t at = i;  // above it is a circle, whose first node that comes again is cut from its parent
+        for (; !passed[at]; at = static_cast<std::size_t>(parent[at])) passed[at] = true;
+        break_link(document, static_cast<std::size_t>(parent[at]), "the node is its own ancestor");
+        parent[at] = -1;
+        append_trees(file, parent, {static_cast<int>(at)}, seen, tree.order);
     }
     if (file.scenes.empty()) {
         tree.drawn = tree.order;

@@ -127,7 +127,7 @@ const Accessor* PrimitiveReader::checked_attribute(const std::string& list, cons
         const bool scaled = !more && !accessor.normalized() && contains(rule.normalized, type);
         if (document_.options.strict || !(more || scaled)) refuse(where, what);
         document_.warn(fmt::format("{}: {}; read as {}", where, what, scaled ? "normalized" : "it is"));
-        if (scaled) read = &normalized_.emplace_back(accessor.as_normalized());
+        if (scaled) read = &normalized_.try_emplace(found, accessor.as_normalized()).first->second;
     }
     if (count && accessor.count() != *count) {
         const std::string what =

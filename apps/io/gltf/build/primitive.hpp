@@ -5,7 +5,7 @@
 #include "apps/io/gltf/file/accessor.hpp"
 #include "halflit/mesh.hpp"
 
-#include <deque>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -52,7 +52,7 @@ private:
     Document& document_;
     const std::vector<Accessor>& accessors_;
     bool quantized_ = false;
-    std::deque<Accessor> normalized_;                         // of integers that should be
+    std::map<int, Accessor> normalized_;                      // of integers that should be
     std::unordered_map<std::size_t, int> attribute_of_view_;  // the first accessor of vertices in each bufferView
     std::vector<std::uint32_t> new_number_, stamp_of_;        // indexed by the file's vertex; a number is valid if its stamp is stamp_
     std::uint32_t stamp_ = 0;

@@ -29,7 +29,12 @@ bool is_chunk(std::span<const std::byte> file, std::size_t at, std::size_t lengt
 /// True if the chunks reach beyond `length`, and the last one ends where the file ends.
 bool ends_with_chunk(std::span<const std::byte> file, std::size_t length) {
     std::size_t at = kHeaderBytes;
-    while (is_chunk(file, at, file.size())) at += kChunkHeaderBytes + std::size_t{read_u32(file, at)};
+    while (is_chunk(file, at, file.size())) {
+        const std::size_t size = read_u32(file, at);
+        at += kChunkHeaderBytes;
+        if (size > file.size() - at) return false;
+        at += size;
+    }
     return at > length && at == file.size();
 }
 
@@ -45,7 +50,10 @@ Result<GlbParts> split_glb(std::span<const std::byte> file, bool strict) {
         return refuse(fmt::format("header: expected container version 2, found {}", version));
     std::size_t length = read_u32(file, 8);
     GlbParts parts;
-    const auto warn = [&](std::string what) { parts.warnings.push_back(fmt::format("GLB: {}", what)); };
+    constexpr std::size_t kMostWarnings = 100;
+    const auto warn = [&](const std::string& what) {
+        if (parts.warnings.size() < kMostWarnings) parts.warnings.push_back(fmt::format("GLB: {}", what));
+    };
     if (length > file.size()) {
         std::string what = fmt::format("header: length is {}, but the file has {} bytes", length, file.size());
         if (strict) return refuse(std::move(what));
@@ -98,7 +106,7 @@ Result<GlbParts> split_glb(std::span<const std::byte> file, bool strict) {
             parts.bin = body;
             parts.has_bin = true;
         } else {
-            parts.warnings.push_back(fmt::format("GLB chunk {} of unknown type 0x{:08x} skipped", index, type));
+            warn(fmt::format("chunk {} of unknown type 0x{:08x} skipped", index, type));
         }
     }
     if (parts.json.empty()) return refuse("expected a JSON chunk, found none");
