@@ -183,10 +183,14 @@ AutoSetup auto_setup(const Scene& scene, const Bounds& bounds, int width, int he
     const Camera* chosen = options.camera ? &*options.camera : options.frame ? nullptr : choose_camera(scene, bounds);
     setup.framed = chosen == nullptr;
     const float aspect = static_cast<float>(width) / static_cast<float>(height);
+    setup.view = options.view;
+    setup.camera = chosen != nullptr ? *chosen : frame_scene(scene, bounds, aspect, setup.view);
     const ViewSettings usual;  // a view that was asked for stays
     const bool any_side = options.view.azimuth_deg == usual.azimuth_deg && options.view.elevation_deg == usual.elevation_deg;
-    const auto view = [&] { return any_side ? visible_side(scene, bounds, aspect, options.view) : options.view; };
-    setup.camera = chosen != nullptr ? *chosen : frame_scene(scene, bounds, aspect, view());
+    if (setup.framed && any_side && !shows_surface(scene, setup.camera, aspect)) {
+        setup.view = visible_side(scene, bounds, aspect, setup.view);
+        setup.camera = frame_scene(scene, bounds, aspect, setup.view);
+    }
     setup.settings = usual_settings();
     setup.settings.shadow_size = shadow_size_for(width, height);
     setup.light = options.light ? *options.light : static_cast<const Lighting&>(scene);

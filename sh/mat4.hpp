@@ -17,11 +17,11 @@ HALFLIT_INLINE Vec3f transform_vector(const Mat4& m, Vec3f v) {
     return {r.x, r.y, r.z};
 }
 
+/// The image of an axis, 0 to 2, or of the origin, 3.
+HALFLIT_INLINE Vec3d axis(const Mat4& m, int i) { return {m.c[i].x, m.c[i].y, m.c[i].z}; }
+
 /// Determinant of the upper left 3x3; negative for a mirroring transform.
-HALFLIT_INLINE double determinant3(const Mat4& m) {
-    const Vec3d a{m.c[0].x, m.c[0].y, m.c[0].z}, b{m.c[1].x, m.c[1].y, m.c[1].z}, c{m.c[2].x, m.c[2].y, m.c[2].z};
-    return dot(a, cross(b, c));
-}
+HALFLIT_INLINE double determinant3(const Mat4& m) { return dot(axis(m, 0), cross(axis(m, 1), axis(m, 2))); }
 
 /// Columns of the matrix that carries normals: the cofactors of the upper left 3x3, i.e. det * inverse transpose.
 /// Its result is not unit length, and for a mirroring transform it points inwards unless multiplied by the sign of det.
@@ -31,7 +31,7 @@ struct NormalMatrix {
 
 /// The cofactor matrix, times the sign of the determinant, scaled so that its largest entry is 1 (direction is kept).
 HALFLIT_INLINE NormalMatrix normal_matrix(const Mat4& m) {
-    const Vec3d a{m.c[0].x, m.c[0].y, m.c[0].z}, b{m.c[1].x, m.c[1].y, m.c[1].z}, c{m.c[2].x, m.c[2].y, m.c[2].z};
+    const Vec3d a = axis(m, 0), b = axis(m, 1), c = axis(m, 2);
     const Vec3d cof[3] = {cross(b, c), cross(c, a), cross(a, b)};
     double largest = 0;
     for (const Vec3d& v : cof)

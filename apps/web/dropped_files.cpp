@@ -86,7 +86,7 @@ Result<std::vector<std::byte>> ModelFolder::read_like(std::string_view name, std
     const auto last_part = [](std::string_view path) {
         path = path.substr(0, path.find_first_of("?#"));
         std::string last(path.substr(path.find_last_of("/\\") + 1));
-        std::transform(last.begin(), last.end(), last.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+        std::transform(last.begin(), last.end(), last.begin(), lower);
         return last;
     };
     const std::string wanted = last_part(name);

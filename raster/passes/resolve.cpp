@@ -46,7 +46,7 @@ void PictureTile::write(const FragmentList& list, const shading::FragmentBlock& 
     }
     const Output& output = pass_.output;
     const bool is_display = is_shown(list.material);
-    const float exposure = is_display ? 1.0f : plan_.exposure;
+    const float exposure = exposure_of(list.material);
     if (output.codes) {
         alignas(64) std::uint32_t code[shading::kBlockSize];
         if (toned_ && !is_display) {

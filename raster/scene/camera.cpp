@@ -3,12 +3,12 @@
 
 #include "raster/detail/view_math.hpp"
 #include "sh/fp_environment.hpp"
+#include "sh/mat4.hpp"
 #include "sh/vec3d.hpp"
 
 namespace halflit {
 namespace {
 
-Vec3d axis(const Mat4& m, int i) { return {m.c[i].x, m.c[i].y, m.c[i].z}; }
 double determinant(Vec3d a, Vec3d b, Vec3d c) { return dot(a, cross(b, c)); }
 
 constexpr const char* kMirrors = "expected a rotation, found a matrix that mirrors: it would show things inside out";
@@ -55,7 +55,7 @@ Result<Camera> Camera::from_intrinsics(const Intrinsics& lens, const std::array<
 Result<void> check_camera(const Camera& camera) {
     const FpEnvironment environment_of_host;
     const Mat4& m = camera.world_from_camera;
-    if (determinant(axis(m, 0), axis(m, 1), axis(m, 2)) < 0)
+    if (determinant3(m) < 0)
         return fail(ErrorCode::usage, std::string("camera: ") + kMirrors +
                                           " (cameras of computer vision look along +z with y down: from_intrinsics takes them)");
     constexpr double kRigid = 1e-2;  // of float32 matrices that were multiplied often

@@ -18,21 +18,13 @@ namespace {
 class SurfaceFinder {
 public:
     SurfaceFinder(const Camera& camera, float aspect) : clip_(raster::clip_from_world(camera, aspect)), is_parallel_(camera.orthographic) {
-        const auto column = [&](std::size_t c) {
-            const Vec4f& v = camera.world_from_camera.c[c];
-            return Vec3d{v.x, v.y, v.z};
-        };
-        eye_ = column(3);
-        back_ = column(2);
+        eye_ = axis(camera.world_from_camera, 3);
+        back_ = axis(camera.world_from_camera, 2);
     }
 
     [[nodiscard]] bool sees(const Mesh& mesh, const Mat4& world_from_object, bool both_sides) {
         const std::size_t corners = corners_of(mesh.topology);
-        const auto axis = [&](std::size_t c) {
-            const Vec4f& v = world_from_object.c[c];
-            return Vec3d{v.x, v.y, v.z};
-        };
-        const bool mirrored = dot(cross(axis(0), axis(1)), axis(2)) < 0.0;
+        const bool mirrored = determinant3(world_from_object) < 0.0;
         for (std::size_t i = 0; i + corners <= mesh.indices.size(); i += corners) {
             check_();
             Vec3d at[3];

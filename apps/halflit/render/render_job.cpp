@@ -95,6 +95,12 @@ Result<void> begin_light(RenderJob& job, const RenderOptions& options) {
     return {};
 }
 
+void warn_of_side(RenderJob& job, const ViewSettings& wanted, const ViewSettings& drawn) {
+    if (drawn.azimuth_deg != wanted.azimuth_deg || drawn.elevation_deg != wanted.elevation_deg)
+        job.warnings.push_back(fmt::format("from the usual side only backs are seen, which are not drawn; seen from {:g},{:g}",
+                                           drawn.azimuth_deg, drawn.elevation_deg));
+}
+
 /// Chooses size, camera, light and exposure: what the flags say, and choose_picture for the rest.
 Result<void> choose(RenderJob& job, const RenderOptions& options, PictureRequest request) {
     static_cast<AutoOptions&>(request) = [&] {
@@ -111,6 +117,7 @@ Result<void> choose(RenderJob& job, const RenderOptions& options, PictureRequest
     if (options.settings.background_environment && job.light.environment == nullptr)
         return fail(ErrorCode::usage, "--background: environment needs --env");
     job.camera = choice->camera;
+    if (choice->framed) warn_of_side(job, options.view, choice->view);
     job.film.file_camera = choice->scene_camera;
     job.settings.exposure = choice->settings.exposure;
     job.settings.shading.emission_scale = choice->settings.shading.emission_scale;
@@ -136,11 +143,12 @@ PictureRequest request_of(RenderJob& job, const RenderOptions& options, PictureS
     if (request.frame || (!options.camera && choose_camera(job.scene(), bounds) == nullptr)) {
         const PictureSize size = options.size.value_or(usual);
         const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
-        const ViewSettings view = options.own_view() ? options.view : visible_side(job.scene(), bounds, aspect, options.view);
-        if (view.azimuth_deg != options.view.azimuth_deg || view.elevation_deg != options.view.elevation_deg)
-            job.warnings.push_back(fmt::format("from the usual side only backs are seen, which are not drawn; seen from {:g},{:g}",
-                                               view.azimuth_deg, view.elevation_deg));
-        request.camera = film_camera(job.scene(), bounds, options.film, aspect, view);
+        request.camera = film_camera(job.scene(), bounds, options.film, aspect, options.view);
+        if (request.camera && !options.own_view() && !shows_surface(job.scene(), *request.camera, aspect)) {
+            const ViewSettings view = visible_side(job.scene(), bounds, aspect, options.view);
+            warn_of_side(job, options.view, view);
+            request.camera = film_camera(job.scene(), bounds, options.film, aspect, view);
+        }
     }
     return request;
 }

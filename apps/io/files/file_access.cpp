@@ -154,7 +154,6 @@ std::string name_below(const std::string& folder, const std::string& path) {
 std::string entry_like(int folder, const std::string& name) {
     constexpr int kMostEntries = 1 << 16;
     const auto same = [&](const char* entry) {
-        const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
         std::size_t i = 0;
         while (i < name.size() && entry[i] != '\0' && lower(entry[i]) == lower(name[i])) ++i;
         return i == name.size() && entry[i] == '\0';

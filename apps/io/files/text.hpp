@@ -7,6 +7,9 @@
 
 namespace halflit::io {
 
+/// A letter of ASCII as a small one.
+[[nodiscard]] constexpr char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
 /// Control characters, DEL, the C1 controls and bytes that are not UTF-8 become \xNN; at most `max_bytes` of the source are shown.
 [[nodiscard]] std::string printable(std::string_view text, std::size_t max_bytes = 200);
 

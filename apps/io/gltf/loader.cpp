@@ -17,6 +17,7 @@
 #include "apps/io/gltf/file/accessor.hpp"
 #include "apps/io/gltf/file/document.hpp"
 #include "apps/io/gltf/loader.hpp"
+#include "sh/mat4.hpp"
 #include "sh/time_limit.hpp"
 #include "sh/vec3d.hpp"
 
@@ -57,11 +58,8 @@ namespace {
 /// True if the scene has instances, and none of them has a volume or an area: an animation may begin with the scale 0.
 bool has_no_size(const Scene& scene) {
     const auto is_flat = [](const Instance& instance) {
-        const auto axis = [&](std::size_t c) {
-            const Vec4f& v = instance.world_from_object.c[c];
-            return Vec3d{v.x, v.y, v.z};
-        };
-        const Vec3d xy = cross(axis(0), axis(1)), yz = cross(axis(1), axis(2)), zx = cross(axis(2), axis(0));
+        const Mat4& m = instance.world_from_object;
+        const Vec3d xy = cross(axis(m, 0), axis(m, 1)), yz = cross(axis(m, 1), axis(m, 2)), zx = cross(axis(m, 2), axis(m, 0));
         return (dot(xy, xy) + dot(yz, yz)) + dot(zx, zx) == 0.0;
     };
     return !scene.instances.empty() && std::all_of(scene.instances.begin(), scene.instances.end(), is_flat);

@@ -85,62 +85,64 @@ constexpr bool each_format_has_a_row() {
 }
 static_assert(each_format_has_a_row());
 
+std::string_view begin_of(std::span<const std::byte> bytes) { return as_text(bytes.first(std::min<std::size_t>(bytes.size(), 1024))); }
+
+/// True for a ZIP file whose first entry is a scene of USD.
+bool begins_with_usd(std::span<const std::byte> bytes) {
+    constexpr std::size_t kNameSize = 26, kName = 30;
+    const std::string_view text = begin_of(bytes);
+    if (!is_zip(text) || text.size() <= kName) return false;
+    const std::string_view name = text.substr(kName, u32_at(bytes, kNameSize) & 0xFFFFu);
+    return name.ends_with(".usdc") || name.ends_with(".usda") || name.ends_with(".usd");
+}
+
 constexpr std::string_view kByBlender = "convert it by Blender to GLB",
                            kByCad = "export it from a CAD program (FreeCAD, CadQuery) as STL or 3MF",
                            kByCloud = "convert it by CloudCompare or PDAL to PLY";
 constexpr ForeignFormat kForeign[] = {
-    {"FBX", "Kaydara FBX Binary", 0, kByBlender},
-    {"FBX (text)", "; FBX ", 0, kByBlender},
-    {"Blender", "BLENDER", 0, "export it from Blender as GLB"},
-    {"a compressed Blender file", "\x28\xB5\x2F\xFD", 0, "decompress it; export Blender files as GLB"},
-    {"USD", "PXR-USDC", 0, kByBlender},
-    {"USD (text)", "#usda", 0, kByBlender},
-    {"STEP or IFC", "ISO-10303-21", 0, kByCad},
-    {"IGES", "S      1", 72, kByCad},
-    {"DWG", "AC10", 0, kByCad},
-    {"JT", "Version ", 0, kByCad},
-    {"OpenCASCADE BREP", "DBRep_DrawableShape", 0, kByCad},
-    {"OpenCASCADE BREP", "CASCADE Topology", 0, kByCad},
-    {"LAS or LAZ", "LASF", 0, kByCloud},
-    {"E57", "ASTM-E57", 0, kByCloud},
-    {"PCD", "# .PCD", 0, kByCloud},
-    {"VTK", "# vtk DataFile", 0, "export it from ParaView as GLB or PLY"},
-    {"VRML", "#VRML", 0, kByBlender},
-    {"Alembic", "Ogawa", 0, kByBlender},
-    {"3DS", "MM", 0, kByBlender},
-    {"LightWave", "FORM", 0, kByBlender},
-    {"a RAR file", "Rar!", 0, "unpack it"},
-    {"a 7z file", "7z\xBC\xAF", 0, "unpack it"},
-    {"a gzip file", "\x1F\x8B", 0, "unpack it"},
-    {"a PNG picture", "\x89PNG", 0, "it holds no shape"},
-    {"a JPEG picture", "\xFF\xD8\xFF", 0, "it holds no shape"},
-    {"a PDF document", "%PDF", 0, "it holds no shape that is read"},
+    {"FBX", "Kaydara FBX Binary", kByBlender},
+    {"FBX (text)", "; FBX ", kByBlender},
+    {"Blender", "BLENDER", "export it from Blender as GLB"},
+    {"a compressed Blender file", "\x28\xB5\x2F\xFD", "decompress it; export Blender files as GLB"},
+    {"USD", "PXR-USDC", kByBlender},
+    {"USD (text)", "#usda", kByBlender},
+    {"STEP or IFC", "ISO-10303-21", kByCad},
+    {"IGES", "S      1", kByCad, 72},
+    {"DWG", "AC10", kByCad},
+    {"JT", "Version ", kByCad, 0,
+     [](std::span<const std::byte> bytes) { return begin_of(bytes).substr(0, 80).find("DM ") != std::string_view::npos; }},
+    {"OpenCASCADE BREP", "DBRep_DrawableShape", kByCad},
+    {"OpenCASCADE BREP", "CASCADE Topology", kByCad},
+    {"LAS or LAZ", "LASF", kByCloud},
+    {"E57", "ASTM-E57", kByCloud},
+    {"PCD", "# .PCD", kByCloud},
+    {"VTK", "# vtk DataFile", "export it from ParaView as GLB or PLY"},
+    {"VRML", "#VRML", kByBlender},
+    {"Alembic", "Ogawa", kByBlender},
+    {"3DS", "MM", kByBlender, 0, [](std::span<const std::byte> bytes) { return bytes.size() >= 6 && u32_at(bytes, 2) == bytes.size(); }},
+    {"LightWave", "FORM", kByBlender},
+    {"a RAR file", "Rar!", "unpack it"},
+    {"a 7z file", "7z\xBC\xAF", "unpack it"},
+    {"a gzip file", "\x1F\x8B", "unpack it"},
+    {"a PNG picture", "\x89PNG", "it holds no shape"},
+    {"a JPEG picture", "\xFF\xD8\xFF", "it holds no shape"},
+    {"a PDF document", "%PDF", "it holds no shape that is read"},
+    {"COLLADA", "<", kByBlender, 0,
+     [](std::span<const std::byte> bytes) { return begin_of(bytes).find("<COLLADA") != std::string_view::npos; }},
+    {"AMF", "<", "convert it by a slicer to 3MF", 0,
+     [](std::span<const std::byte> bytes) { return begin_of(bytes).find("<amf") != std::string_view::npos; }},
+    {"X3D", "<", kByBlender, 0, [](std::span<const std::byte> bytes) { return begin_of(bytes).find("<X3D") != std::string_view::npos; }},
+    {"USDZ", "PK", kByBlender, 0, begins_with_usd},
 };
-/// Formats whose first element or first packed file tells.
-constexpr ForeignFormat kForeignXml[] = {
-    {"COLLADA", "<COLLADA", 0, kByBlender}, {"AMF", "<amf", 0, "convert it by a slicer to 3MF"}, {"X3D", "<X3D", 0, kByBlender}};
-constexpr ForeignFormat kUsdz{"USDZ", "", 0, kByBlender};
 
 }  // namespace
 
 const ForeignFormat* find_foreign_format(std::span<const std::byte> bytes) {
-    const std::string_view text = as_text(bytes.first(std::min<std::size_t>(bytes.size(), 1024)));
+    if (fits_binary_stl(bytes)) return nullptr;  // whose title is free
+    const std::string_view text = begin_of(bytes);
     for (const ForeignFormat& row : kForeign)
-        if (text.size() > row.offset && text.substr(row.offset).starts_with(row.begins)) {
-            if (row.name == "3DS" && (text.size() < 6 || u32_at(bytes, 2) != bytes.size())) continue;
-            if (row.name == "JT" && text.substr(0, 80).find("DM ") == std::string_view::npos) continue;
+        if (text.size() > row.offset && text.substr(row.offset).starts_with(row.begins) && (row.is_it == nullptr || row.is_it(bytes)))
             return &row;
-        }
-    if (text.starts_with('<'))
-        for (const ForeignFormat& row : kForeignXml)
-            if (text.find(row.begins) != std::string_view::npos) return &row;
-    // Of a ZIP file: the name of its first entry.
-    constexpr std::size_t kNameSize = 26, kName = 30;
-    if (is_zip(text) && text.size() > kName) {
-        const std::size_t size = u32_at(bytes, kNameSize) & 0xFFFFu;
-        const std::string_view name = text.substr(kName, size);
-        if (name.ends_with(".usdc") || name.ends_with(".usda") || name.ends_with(".usd")) return &kUsdz;
-    }
     return nullptr;
 }
 

@@ -41,8 +41,9 @@ struct FormatRow {
 /// A format that is known and not read.
 struct ForeignFormat {
     std::string_view name, begins;  ///< begins: the file's first bytes, or those at `offset`
+    std::string_view advice;        ///< how to come to a format that is read
     std::size_t offset = 0;
-    std::string_view advice;  ///< how to come to a format that is read
+    bool (*is_it)(std::span<const std::byte> bytes) = nullptr;  ///< what else holds of its files; null: nothing
 };
 
 /// The format of a file that begins as one of a known format that is not read; null: none.

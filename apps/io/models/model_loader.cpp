@@ -36,8 +36,7 @@ LoadedScene read_model(std::span<const std::byte> bytes, const std::string& base
         refuse("", fmt::format("has {} bytes, the limit is {}", bytes.size(), options.limits.max_file_bytes), ErrorCode::limit);
     const FormatRow* const row = find_format(bytes);
     // The glTF reader says what is wrong with a file that is nothing at all.
-    const ForeignFormat* const foreign = find_foreign_format(bytes);
-    if (foreign != nullptr && !fits_binary_stl(bytes))  // whose title is free
+    if (const ForeignFormat* const foreign = find_foreign_format(bytes))
         refuse("", fmt::format("is {}, which is not read; {}", foreign->name, foreign->advice));
     if (row == nullptr && !bytes.empty()) refuse("", "is no model: expected " + list_of_formats(&FormatRow::name));
     return row == nullptr ? read_gltf(bytes, base_dir, options) : row->read(bytes, base_dir, options);

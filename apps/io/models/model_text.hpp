@@ -2,6 +2,8 @@
 // everywhere.
 #pragma once
 
+#include "apps/io/files/text.hpp"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -23,7 +25,6 @@ namespace halflit::io::detail {
 
 [[nodiscard]] constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 [[nodiscard]] constexpr bool is_line_end(char c) { return c == '\n' || c == '\r'; }
-[[nodiscard]] constexpr char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 /// True if the words are equal but for the case of ASCII letters; `small` has small letters.
 [[nodiscard]] constexpr bool same_word(std::string_view word, std::string_view small) {

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -20,15 +21,11 @@ namespace {
 
 constexpr std::size_t kMostFilaments = 255;
 
-/// "#RRGGBB" or "#RRGGBBAA": filaments are drawn opaque.
+/// Filaments are drawn opaque.
 std::optional<Vec4f> color_of_text(std::string_view text) {
-    text = Words(text).rest();
-    std::uint32_t rgb = 0;
-    if ((text.size() != 7 && text.size() != 9) || text[0] != '#') return std::nullopt;
-    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + 7, rgb, 16);
-    if (error != std::errc() || end != text.data() + 7) return std::nullopt;
-    const auto channel = [&](int shift) { return linear_color((rgb >> shift & 0xFFu) / 255.0); };
-    return Vec4f{channel(16), channel(8), channel(0), 1.0f};
+    std::optional<Vec4f> color = three_mf::parse_color(text);
+    if (color) color->w = 1.0f;
+    return color;
 }
 
 std::uint32_t number(std::string_view text) { return parse_whole<std::uint32_t>(Words(text).rest()).value_or(kNone); }
@@ -255,6 +252,30 @@ SlicerProject read_slicer_project(ThreeMfPackage& package, Document& document) {
         read("Metadata/Slic3r_PE.config",
              [&](const std::vector<std::byte>& bytes) { read_prusa_colors(as_text(bytes), project.filaments); });
     return project;
+}
+
+std::vector<int> plates_by_place(std::span<const DoubleBox> bodies) {
+    constexpr double kWidths[] = {400, 350, 325, 300, 256, 250, 235, 220, 180};  // millimetres
+    std::vector<int> plates(bodies.size(), 1);
+    const auto is_in_reach = [](const DoubleBox& b) { return b.min.x >= 0 && b.min.x <= b.max.x && b.max.x < 1e5 && b.min.y > -1e5; };
+    if (bodies.size() < 2 || !std::all_of(bodies.begin(), bodies.end(), is_in_reach)) return plates;
+    for (const double width : kWidths) {
+        const double step = 1.2 * width;
+        std::map<std::pair<int, int>, int> number;  // of a cell
+        std::vector<std::pair<int, int>> cells;
+        for (const DoubleBox& body : bodies) {
+            const double column = std::floor(body.min.x / step), row = std::floor(body.min.y / step);
+            if (body.max.x - column * step > width || body.max.y - row * step > width || row > 0 || row < -100) break;
+            cells.emplace_back(static_cast<int>(-row), static_cast<int>(column));
+            number[cells.back()] = 0;
+        }
+        if (cells.size() < bodies.size()) continue;
+        int count = 0;
+        for (auto& [where, plate] : number) plate = ++count;
+        for (std::size_t i = 0; i < bodies.size(); ++i) plates[i] = number[cells[i]];
+        return plates;
+    }
+    return plates;
 }
 
 void divide_painted(const std::array<std::uint32_t, 3>& facet, std::string_view paint, std::vector<Vec3d>& vertices,

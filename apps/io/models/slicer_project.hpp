@@ -1,11 +1,13 @@
 // What slicers write into a 3MF file beside the model: filaments, volumes that are not printed, plates, and painted facets.
 #pragma once
 
+#include "apps/io/files/double_box.hpp"
 #include "apps/io/models/three_mf_model.hpp"
 #include "apps/io/models/three_mf_package.hpp"
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -41,6 +43,11 @@ struct SlicerProject {
 
 /// Reads the project of a package, if it holds one. Damaged files of it are left out, with a warning.
 [[nodiscard]] SlicerProject read_slicer_project(ThreeMfPackage& package, Document& document);
+
+/// Plates of bodies, by number from 1, where a project does not name them: slicers lay plates side by side, a fifth of their width between
+/// them. The bodies, in millimetres, belong to several if each stands in a cell of such a grid, of the largest usual printer that this
+/// holds for; rows count from the top, columns from the left. Otherwise all are on plate 1.
+[[nodiscard]] std::vector<int> plates_by_place(std::span<const DoubleBox> bodies);
 
 /// A triangle of a painted facet, and the filament that paints it; 0: none.
 struct PaintedTriangle {

@@ -104,13 +104,9 @@ private:
             builder_.document().warn(fmt::format("{}: {} is missing; drawn in grey", part_, name));
             return {linear_color(0.7), linear_color(0.7), linear_color(0.7), 1.0f};
         }
-        std::uint32_t value = 0;
-        const auto [end, error] = std::from_chars(text.data() + (text.empty() ? 0 : 1), text.data() + text.size(), value, 16);
-        if ((text.size() != 7 && text.size() != 9) || text[0] != '#' || error != std::errc() || end != text.data() + text.size())
-            fault(fmt::format("{}: expected #RRGGBB or #RRGGBBAA, found \"{}\"", name, printable(text, 40)));
-        if (text.size() == 7) value = value << 8 | 0xFFu;
-        const auto channel = [&](int shift) { return static_cast<double>(value >> shift & 0xFFu) / 255.0; };
-        return {linear_color(channel(24)), linear_color(channel(16)), linear_color(channel(8)), static_cast<float>(channel(0))};
+        const std::optional<Vec4f> color = parse_color(text);
+        if (!color) fault(fmt::format("{}: expected #RRGGBB or #RRGGBBAA, found \"{}\"", name, printable(text, 40)));
+        return *color;
     }
 
     // ---- elements ------------------------------------------------------------------------------------------------------
@@ -311,6 +307,17 @@ private:
 };
 
 }  // namespace
+
+std::optional<Vec4f> three_mf::parse_color(std::string_view text) {
+    text = Words(text).rest();
+    std::uint32_t value = 0;
+    if ((text.size() != 7 && text.size() != 9) || text[0] != '#') return std::nullopt;
+    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), value, 16);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    if (text.size() == 7) value = value << 8 | 0xFFu;
+    const auto channel = [&](int shift) { return static_cast<double>(value >> shift & 0xFFu) / 255.0; };
+    return Vec4f{linear_color(channel(24)), linear_color(channel(16)), linear_color(channel(8)), static_cast<float>(channel(0))};
+}
 
 Model read_three_mf_model(std::span<const std::byte> text, const std::string& where, ModelBuilder& builder) {
     ModelReader reader(where, builder);

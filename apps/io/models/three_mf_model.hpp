@@ -64,6 +64,9 @@ struct Model {
     std::vector<Component> items;  ///< of the build
 };
 
+/// "#RRGGBB" or "#RRGGBBAA" in sRGB, as linear light and alpha; blanks may be around it.
+[[nodiscard]] std::optional<Vec4f> parse_color(std::string_view text);
+
 }  // namespace halflit::io::detail::three_mf
 
 namespace halflit::io::detail {

@@ -17,7 +17,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <map>
 #include <span>
@@ -88,7 +87,6 @@ private:
         bool is_made = false;
         bool has_something = false;  ///< it or a component of it has meshes
         bool is_open = false;        ///< while its components are looked at
-        bool is_helper = false;      ///< not drawn
     };
     struct Part {
         std::string name;
@@ -114,22 +112,8 @@ private:
         std::vector<const Component*> items;
         for (const Component& item : root.model.items) items.push_back(&item);
         if (wanted == 0 || items.empty()) return items;
-        std::vector<int> plate_of(items.size(), 1);
-        int plates = 1;
-        if (!project_.plates.empty()) {
-            std::map<std::pair<std::uint32_t, std::uint32_t>, int> of_instance;
-            for (const auto& [plate, list] : project_.plates)
-                for (const SlicerProject::Placed& placed : list) of_instance[{placed.object, placed.instance}] = plate;
-            std::map<std::uint32_t, std::uint32_t> instances;
-            for (std::size_t i = 0; i < items.size(); ++i) {
-                check_time();
-                const auto found = of_instance.find({items[i]->object, instances[items[i]->object]++});
-                plate_of[i] = found == of_instance.end() ? 0 : found->second;
-            }
-            plates = project_.plates.rbegin()->first;
-        } else {
-            plates = plates_by_place(root, items, plate_of);
-        }
+        const std::vector<int> plate_of = project_.plates.empty() ? plates_of_bodies(root, items) : named_plates(items);
+        const int plates = project_.plates.empty() ? *std::max_element(plate_of.begin(), plate_of.end()) : project_.plates.rbegin()->first;
         if (plates > 1 && wanted > plates)
             refuse("", fmt::format("plate: the file has {}, expected one of them, found {}", plates, wanted), ErrorCode::usage);
         if (plates <= 1) return items;
@@ -140,56 +124,43 @@ private:
         return chosen;
     }
 
-    struct Box {
-        Vec3d low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-    };
+    /// 0: on none.
+    std::vector<int> named_plates(const std::vector<const Component*>& items) const {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, int> of_instance;
+        for (const auto& [plate, list] : project_.plates)
+            for (const SlicerProject::Placed& placed : list) of_instance[{placed.object, placed.instance}] = plate;
+        std::map<std::uint32_t, std::uint32_t> instances;
+        std::vector<int> plates;
+        for (const Component* item : items) {
+            check_time();
+            const auto found = of_instance.find({item->object, instances[item->object]++});
+            plates.push_back(found == of_instance.end() ? 0 : found->second);
+        }
+        return plates;
+    }
 
     /// Grows a box by what an item is made of, as long as that takes little work.
-    void add_bounds(const std::string& path, const Component& what, const Affine& parent, int depth, Box& box) {
+    void add_bounds(const std::string& path, const Component& what, const Affine& parent, int depth, DoubleBox& box) {
         check_time();
         Part& in = part(path);
         const auto object = in.model.objects.find(what.object);
         if (object == in.model.objects.end() || depth > kMostPlateDepth || bounds_work_ > kMostBoundsWork) return;
         bounds_work_ += object->second.vertices.size() + 1;
         const Affine world = parent * what.transform;
-        for (const Vec3d& vertex : object->second.vertices) {
-            const Vec3d at = world.c[0] * vertex.x + world.c[1] * vertex.y + world.c[2] * vertex.z + world.c[3];
-            box.low = {std::min(box.low.x, at.x), std::min(box.low.y, at.y), std::min(box.low.z, at.z)};
-            box.high = {std::max(box.high.x, at.x), std::max(box.high.y, at.y), std::max(box.high.z, at.z)};
-        }
+        for (const Vec3d& vertex : object->second.vertices) box.include(transform_direction(world, vertex) + world.c[3]);
         for (const Component& component : object->second.components)
             add_bounds(component.path.empty() ? path : component.path, component, world, depth + 1, box);
     }
 
-    /// Slicers lay plates side by side, a fifth of their width between them. Where a slicer's file does not name its plates, items belong
-    /// to several if each stands in a cell of such a grid, of the largest usual printer that this holds for.
-    int plates_by_place(const Part& root, const std::vector<const Component*>& items, std::vector<int>& plate_of) {
-        constexpr double kWidths[] = {400, 350, 325, 300, 256, 250, 235, 220, 180};  // millimetres
+    /// Plates of a slicer's file that does not name them.
+    std::vector<int> plates_of_bodies(const Part& root, const std::vector<const Component*>& items) {
         constexpr std::size_t kMostItems = 256;
-        if (!root.model.is_of_slicer || items.size() < 2 || items.size() > kMostItems || root.model.metres != 0.001) return 1;
-        std::vector<Box> boxes(items.size());
-        for (std::size_t i = 0; i < items.size(); ++i) {
-            add_bounds(items[i]->path.empty() ? root.name : items[i]->path, *items[i], {}, 0, boxes[i]);
-            if (!(boxes[i].low.x >= 0 && boxes[i].low.x <= boxes[i].high.x && boxes[i].high.x < 1e5 && boxes[i].low.y > -1e5)) return 1;
-        }
-        if (bounds_work_ > kMostBoundsWork) return 1;
-        for (const double width : kWidths) {
-            const double step = 1.2 * width;
-            std::map<std::pair<int, int>, int> number;  // of a cell: rows from the top, columns from the left
-            std::vector<std::pair<int, int>> cells;
-            for (const Box& box : boxes) {
-                const double column = std::floor(box.low.x / step), row = std::floor(box.low.y / step);
-                if (box.high.x - column * step > width || box.high.y - row * step > width || row > 0 || row < -100) break;
-                cells.emplace_back(static_cast<int>(-row), static_cast<int>(column));
-                number[cells.back()] = 0;
-            }
-            if (cells.size() < boxes.size()) continue;
-            int count = 0;
-            for (auto& [where, plate] : number) plate = ++count;
-            for (std::size_t i = 0; i < items.size(); ++i) plate_of[i] = number[cells[i]];
-            return count;
-        }
-        return 1;
+        const std::vector<int> one(items.size(), 1);
+        if (!root.model.is_of_slicer || items.size() > kMostItems || root.model.metres != 0.001) return one;
+        std::vector<DoubleBox> bodies(items.size());
+        for (std::size_t i = 0; i < items.size(); ++i)
+            add_bounds(items[i]->path.empty() ? root.name : items[i]->path, *items[i], {}, 0, bodies[i]);
+        return bounds_work_ > kMostBoundsWork ? one : plates_by_place(bodies);
     }
 
     /// A file of machine code alone holds a picture of the plate: it becomes a card before an orthographic camera. False: it has none.
@@ -261,8 +232,7 @@ private:
             refuse(printable(part.name, 120), fmt::format("more than {} components inside each other", kMostDepth), ErrorCode::limit);
         made.is_open = true;
         if (depth == 0) root_ = id;
-        made.is_helper = object->second.is_support || !project_.volume_of(root_, id).is_drawn;
-        if (made.is_helper) {
+        if (object->second.is_support || !project_.volume_of(root_, id).is_drawn) {
             ++helpers_;
             made.is_open = false;
             made.is_made = true;
@@ -311,6 +281,7 @@ private:
         using Run = SlicerProject::Run;
         if (runs != project_.runs.end())
             std::stable_sort(runs->second.begin(), runs->second.end(), [](const Run& a, const Run& b) { return a.first < b.first; });
+        const SlicerProject::Volume whole = project_.volume_of(root_, id);
         std::vector<Triangle> kept;
         std::vector<PaintedTriangle> parts;
         auto paint = object.paints.begin();
@@ -318,7 +289,7 @@ private:
             if (i % 4096 == 0) check_time();
             const bool is_painted = paint != object.paints.end() && paint->first == i;
             const std::string code = is_painted ? std::move((paint++)->second) : "";
-            SlicerProject::Volume volume = project_.volume_of(root_, id);
+            SlicerProject::Volume volume = whole;
             if (runs != project_.runs.end()) {
                 const auto behind = std::upper_bound(runs->second.begin(), runs->second.end(), i,
                                                      [](std::uint32_t at, const Run& run) { return at < run.first; });

@@ -42,6 +42,7 @@ struct AutoSetup {
     Lighting light;       ///< the scene's own, with what it lacks
     Settings settings;    ///< usual_settings(), the exposure, and shadow maps for the picture's size: twice its longer side, 256 to 2048
     bool framed = false;  ///< the camera is a view of the whole scene
+    ViewSettings view{};  ///< of a view of the whole scene: AutoOptions::view, or another side's
 };
 
 /// The caller's part of the choice of a picture, with its size.

@@ -119,16 +119,11 @@ std::string& own_text(Document& document) {
     return document.mended;
 }
 
-std::string name_of_place(const Document& document, std::size_t offset) {
-    const TextPlace place = place_of(document.text, offset);
-    return fmt::format("line {}, column {}", place.line, place.column);
-}
-
 /// Bytes that are not UTF-8 become '?'.
 void mend_bytes(Document& document) {
     std::size_t bad = find_invalid_utf8(document.text);
     if (bad == std::string_view::npos) return;
-    document.warn(fmt::format("{}: the byte \"{}\" is not UTF-8; such bytes are read as '?'", name_of_place(document, bad),
+    document.warn(fmt::format("{}: the byte \"{}\" is not UTF-8; such bytes are read as '?'", named_place(document.text, bad),
                               printable(document.text.substr(bad, 1))));
     std::string& text = own_text(document);
     TimeCheck check;
@@ -145,7 +140,7 @@ void mend_twins(Document& document) {
     const std::vector<Twin> twins = std::move(document.notes.twins);
     for (const Twin& twin : twins)
         if (!document.warnings_are_full())
-            document.warn(fmt::format("{}: the key {} is there twice, the last one is read", name_of_place(document, twin.again),
+            document.warn(fmt::format("{}: the key {} is there twice, the last one is read", named_place(document.text, twin.again),
                                       printable(document.text.substr(twin.again, document.text.substr(twin.again + 1, 60).find('"') + 2))));
     std::string& text = own_text(document);
     for (const Twin& twin : twins)

@@ -286,9 +286,8 @@ private:
 }  // namespace
 
 LoadFailure failure_at(std::string_view text, const JsonScanLimits& limits, std::size_t offset, std::string_view what, ErrorCode code) {
-    const TextPlace place = place_of(text, offset);
     const std::string path = printable(json_path_at(text, offset, limits), 120);
-    return {{code, fmt::format("{}{}line {}, column {}: {}", path, path.empty() ? "" : ": ", place.line, place.column, what)}};
+    return {{code, fmt::format("{}{}{}: {}", path, path.empty() ? "" : ": ", named_place(text, offset), what)}};
 }
 
 std::string_view trimmed(std::string_view text, std::vector<std::string>& warnings) {

@@ -12,10 +12,10 @@
 
 namespace halflit::io::detail {
 
-/// `text` must outlive the result, whose names point into it, and begins after its byte order mark. Faults of elements go to `notes`, and
-/// so do keys that are there twice unless `strict`: the rest is not checked then, as the text is to be read again without them; the values
-/// that they concern have their defaults. No index is out of range. Throws LoadFailure for other faults, with path, line and column. Takes
-/// the memory of all objects from `memory`.
+/// `text` must outlive the result, whose names point into it, and begins after its byte order mark. Faults of elements go to `notes`;
+/// the values that they concern have their defaults. No index is out of range. Unless `strict`, keys that are there twice go to
+/// `notes.twins`: the result is then not checked, and the text is to be read again without them.
+/// Throws LoadFailure for other faults, with path, line and column. Takes the memory of all objects from `memory`.
 file::File read_gltf_json(std::string_view text, const JsonScanLimits& limits, Budget memory, Notes& notes, bool strict);
 
 /// The JSON text without what glTF forbids before and after it: a byte order mark, which is warned of, and zeros.

@@ -84,6 +84,11 @@ std::vector<std::string> json_paths_at(std::string_view text, std::span<const st
     return finder.paths();
 }
 
+std::string named_place(std::string_view text, std::size_t offset) {
+    const TextPlace place = place_of(text, offset);
+    return fmt::format("line {}, column {}", place.line, place.column);
+}
+
 std::string json_path_at(std::string_view text, std::size_t offset, const JsonScanLimits& limits) {
     return json_paths_at(text, {&offset, 1}, limits).front();
 }

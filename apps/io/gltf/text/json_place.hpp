@@ -16,6 +16,8 @@ struct TextPlace {
     std::size_t line = 1, column = 1;
 };
 [[nodiscard]] TextPlace place_of(std::string_view text, std::size_t offset);
+/// "line 3, column 7".
+[[nodiscard]] std::string named_place(std::string_view text, std::size_t offset);
 
 /// "accessors[3].byteOffset" for the value (or key) at or before `offset`; empty for the root. Scans the text again, so it is for messages
 /// only.
