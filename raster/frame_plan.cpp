@@ -116,6 +116,14 @@ void add_normal_warning(const PreparedData& scene, const shading::ShadingPlan& p
     warnings.push_back(std::move(warning));
 }
 
+/// Adds a warning where several objects are looked through: one does not show the others.
+void add_glass_warning(const PreparedData& scene, const shading::ShadingPlan& plan, std::vector<std::string>& warnings) {
+    int objects = 0;
+    for (std::size_t i = 0; i < scene.scene().instances.size(); ++i)
+        objects += plan.materials[scene.material_of(i)].transmission.looked_through ? 1 : 0;
+    if (objects > 1) warnings.push_back(std::to_string(objects) + " objects are of rough or thick glass: one is not seen through another");
+}
+
 /// Material plans for the alpha test of the shadow pass; empty if no material has a mask.
 std::vector<MaterialPlan> plan_casters(const PreparedData& scene, ShadingSettings options) {
     options.anisotropy = 1;
@@ -237,7 +245,16 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Lighting& light,
         memory.shading);
     plan.written = plan.picture.region;
     plan.cells = uses_cells(plan.shading);
-    if (plan.cells) plan.picture = picture_view(camera, width, height, whole_cells(plan.written, width, height), tile_size, settings);
+    for (std::size_t i = 0; i < plan.shading.materials.size(); ++i) {
+        const MaterialPlan& material = plan.shading.materials[i];
+        if (!prepared.drawn_materials()[i] || (material.stages & kStageTransmission) == 0) continue;
+        plan.transmits = true;
+        plan.looks_through |= material.transmission.looked_through;
+    }
+    if (plan.looks_through)
+        plan.picture = picture_view(camera, width, height, {}, tile_size, settings);
+    else if (plan.cells)
+        plan.picture = picture_view(camera, width, height, whole_cells(plan.written, width, height), tile_size, settings);
     if (!plan.shadow_views.empty()) plan.casters = plan_casters(prepared, options);
     plan.light_culler = LightCuller(plan.shading.lights);
     if (settings.background_environment) {
@@ -250,12 +267,11 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Lighting& light,
     alpha = alpha > 0.0f ? std::min(alpha, 1.0f) : 0.0f;  // an infinite one would make light that is not a number
     plan.exposure = settings.exposure;
     plan.tone_curve = settings.tone_curve;
-    for (std::size_t i = 0; i < plan.shading.materials.size(); ++i)
-        plan.transmits |= prepared.drawn_materials()[i] && (plan.shading.materials[i].stages & kStageTransmission) != 0;
     plan.depth = depth_map(camera, static_cast<float>(width) / static_cast<float>(height));
     plan.environment_uses = environment_uses(prepared, plan.shading);
     add_lobe_warnings(prepared, plan.shading, options, plan.warnings);
     add_normal_warning(prepared, plan.shading, options, plan.warnings);
+    if (plan.looks_through) add_glass_warning(prepared, plan.shading, plan.warnings);
     if (!shadows->warning.empty()) plan.warnings.push_back(std::move(shadows->warning));
     return plan;
 }

@@ -23,8 +23,8 @@ namespace halflit::raster {
 
 struct FramePlan {
     View picture;
-    bool cells = false;                    ///< the light of some material is fitted in cells
-    Region written;                        ///< the pixels asked for; where light is fitted in cells, the picture's region completes cells
+    bool cells = false;  ///< the light of some material is fitted in cells
+    Region written;      ///< the pixels asked for; the picture's region may be larger, to complete cells or to see what is behind glass
     ShadingSettings options;               ///< options in effect: accuracy reference overrides some of those that were asked for
     shading::ShadingPlan shading;          ///< input of the kernels: materials, lights, environments, shadow maps, error bound
     std::vector<ShadowView> shadow_views;  ///< views that the shadow maps are drawn from
@@ -35,8 +35,9 @@ struct FramePlan {
     Vec4f background_linear{0, 0, 0, 0};
     float exposure = 1.0f;
     ToneCurve tone_curve = ToneCurve::none;
-    bool transmits = false;  ///< light passes through some drawn material
-    DepthMap depth;          ///< of the picture's depths
+    bool transmits = false;      ///< light passes through some drawn material
+    bool looks_through = false;  ///< some drawn material blurs or bends it: what is behind it is drawn first, of the whole picture
+    DepthMap depth;              ///< of the picture's depths
     std::vector<EnvironmentUse> environment_uses;
     std::vector<std::string> warnings;
 };

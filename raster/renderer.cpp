@@ -4,6 +4,7 @@
 #include "raster/detail/guarded.hpp"
 #include "raster/detail/stopwatch.hpp"
 #include "raster/frame_plan.hpp"
+#include "raster/passes/behind.hpp"
 #include "raster/passes/picture_tile.hpp"
 #include "raster/passes/shading_rate.hpp"
 #include "raster/passes/shadow_maps.hpp"
@@ -66,6 +67,7 @@ struct Renderer::Impl {
     VertexRecords surface;
     std::vector<shading::MaterialPlan> surface_materials;
     ReferenceShading reference;
+    Behind behind;
     Pool<TileScratch> scratch;
 
     Impl() { plan_memory.shadow_texels.emplace(); }
@@ -99,17 +101,30 @@ struct Renderer::Impl {
         surface.make(geometry, surface_materials, kernels, executor);
     }
 
+    /// Draws what is seen through glass that blurs or bends light.
+    WorkCounts draw_behind(const PicturePass& pass) {
+        const Target target = behind.target(plan.picture, executor.stop());
+        const Region written = std::exchange(plan.written, plan.picture.region);
+        PicturePass all = {pass.view, plan, Output(target, plan.written), pass.reference, nullptr};
+        all.view.behind = true;
+        const TileCounts tiles = draw_tiles(all, {});
+        plan.written = written;
+        plan.shading.behind = behind.make(plan.picture, plan.exposure, executor);
+        return tiles.work;
+    }
+
     TileCounts draw_tiles(const PicturePass& pass, const Execution& execution) {
         std::mutex counting;
         TileCounts sum;
         int done = 0;
         const int count = plan.picture.tile_count();
         executor.run(count, [&](int tile) {
-            Pool<TileScratch>::Loan loan(scratch);
-            const TileCounts counts = PictureTile(pass, tile, *loan).draw();
-            if (execution.on_tile) {
-                const TileRect rect = intersection(plan.picture.tile_rect(tile), plan.written);
-                if (rect.width > 0 && rect.height > 0) execution.on_tile({rect.x, rect.y, rect.width, rect.height});
+            const TileRect rect = intersection(plan.picture.tile_rect(tile), plan.written);
+            TileCounts counts;
+            if (rect.width > 0 && rect.height > 0) {
+                Pool<TileScratch>::Loan loan(scratch);
+                counts = PictureTile(pass, tile, *loan).draw();
+                if (execution.on_tile) execution.on_tile({rect.x, rect.y, rect.width, rect.height});
             }
             const std::lock_guard lock(counting);
             sum += counts;
@@ -156,6 +171,7 @@ struct Renderer::Impl {
                                output,
                                by_reference ? &reference : nullptr,
                                output.has_surface() ? &surface_pass : nullptr};
+        if (plan.looks_through) report.work += draw_behind(pass);
         const TileCounts tiles = draw_tiles(pass, execution);
         report.ms.tiles = watch.lap();
 

@@ -29,7 +29,9 @@ bool for_each_layer(const TilePass& pass, int tile, TileScratch& scratch, const 
     const auto chunks = pass.geometry.chunks();
     for (std::size_t c = 0; c < chunks.size(); ++c) {
         for (const std::uint32_t record : pass.geometry.tile_list(c, tile, scratch.tile_list)) {
-            if (pass.geometry.draw_of(chunks[c]->records[record]).alpha_mode != AlphaMode::blend) continue;
+            const Draw& draw = pass.geometry.draw_of(chunks[c]->records[record]);
+            if (draw.alpha_mode != AlphaMode::blend) continue;
+            if (pass.behind && pass.materials[static_cast<std::size_t>(draw.material)].transmission.looked_through) continue;
             if (++visited % kLayersBetweenChecks == 0) pass.stop.check();
             if (!visit(c, record)) return false;
         }

@@ -66,7 +66,8 @@ private:
     [[nodiscard]] Vec4f keep_of(int material, int lane, Vec4f light) const;  ///< LayerScratch::keep, of the scratch's block
     void blend_fragment(std::size_t fragment, int at, int sample);           ///< lays a fragment of the layers over a sample
     // resolve.cpp
-    [[nodiscard]] Vec4f background_sample() const;                              ///< of the background colour: times alpha, and alpha
+    [[nodiscard]] Vec4f background_sample() const;  ///< of the background colour: times alpha, and alpha
+    [[nodiscard]] bool has_background() const { return plan_.background && !pass_.view.behind; }  ///< an environment is seen
     void clear();                                                               ///< fills a tile that has triangles with the background
     void fill_background();                                                     ///< writes a tile that has no triangles
     void fill_samples();                                                        ///< sets every sample to the environment behind its pixel

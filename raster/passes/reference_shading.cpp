@@ -63,6 +63,7 @@ void ReferenceShading::shade(const shading::ShadeKernels& kernels, const shading
     around.diffuse = diffuse_[index].get();
     around.reflections = &plan.reflections;
     around.reflection_lobes = material_plan.reflection_lobes;
+    if (plan.behind.rgba != nullptr) around.behind = &plan.behind;
     // Rows of the block that the plan does not need hold what was there before.
     const shading::SlotMask filled = scene_->available_slots()[index] & material_plan.slots;
     for (int lane = 0; lane < count; ++lane) {

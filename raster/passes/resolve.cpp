@@ -23,6 +23,7 @@ Vec4f resolved(const float (&sum)[4], float weight) {
 }  // namespace
 
 Vec4f PictureTile::background_sample() const {
+    if (pass_.view.behind) return {0, 0, 0, 0};
     const Vec4f b = number_or_zero(plan_.background_linear);
     return {b.x * b.w, b.y * b.w, b.z * b.w, b.w};
 }
@@ -36,7 +37,7 @@ void PictureTile::clear() {
     const Vec4f back = background_sample();
     for (int i = 0; i < samples_ * kTilePixels; ++i) std::memcpy(color + 4 * i, &back, sizeof back);
     fill_backing(1.0f);
-    if (plan_.background) fill_samples();
+    if (has_background()) fill_samples();
 }
 
 void PictureTile::write(const FragmentList& list, const shading::FragmentBlock& block) {
@@ -107,7 +108,7 @@ void PictureTile::fill_samples() {
 }
 
 void PictureTile::fill_background() {
-    if (plan_.background) {
+    if (has_background()) {
         // Goes through samples, so that an empty tile rounds as an empty pixel beside a triangle does.
         scratch_.color.reserve(static_cast<std::size_t>(samples_) * 4 * kTilePixels);
         fill_samples();

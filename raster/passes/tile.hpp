@@ -21,6 +21,7 @@ struct TilePass {
     StopSignal& stop;            ///< checked while a tile is drawn
     bool shadow_offset = false;  ///< fill the kShadowX.. rows of fragments
     bool depth_only = false;     ///< visibility leaves out the triangles' ids
+    bool behind = false;         ///< without the background, and without materials that are looked through
 };
 
 /// Counts of a tile; summed over the view.

@@ -172,6 +172,7 @@ void spend_error_budget(ShadingPlan& plan, double budget_codes, const CodeCosts&
         rounding.push_back(rounding_codes(costs, material, plan, s, light, reflections ? &*reflections : nullptr, exposure));
         const LayerCosts layers = layer_costs(costs, plan, material, s, light, reflections ? &*reflections : nullptr, exposure, facts);
         rounding.back() = std::min(rounding.back() + layers.codes, 255.0);
+        if (material.transmission.looked_through) rounding.back() = 255.0;  // what lies behind is another picture, with errors of its own
         fixed.push_back(rounding.back() + environment_codes(costs, plan, material, s, exposure));
         if (!facts.drawn[rounding.size() - 1] || (material.stages & kStageShadowCatcher) != 0) continue;
         poorest = std::min(poorest, budget_codes - fixed.back());

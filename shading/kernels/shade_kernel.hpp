@@ -48,7 +48,7 @@ HALFLIT_INLINE void shade_block(const shading::ShadingPlan& frame, const shading
             count, [&](V3 normal) __attribute__((always_inline)) { return surroundings_at(frame, material, normal); });
     if (has(material, kStageTransmission)) {
         if (prelit) fetch_transmission(material, block, count, rows);
-        keep_light_behind(material, rows, block, count, !prelit);
+        keep_light_behind(frame, material, rows, block, count, !prelit);
     }
 }
 

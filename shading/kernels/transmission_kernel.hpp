@@ -1,6 +1,7 @@
 // Light from behind that passes through a surface. These stages run only for materials that transmit.
 #pragma once
 
+#include "shading/kernels/behind_kernel.hpp"
 #include "shading/kernels/pow.hpp"
 #include "shading/kernels/reflection_kernel.hpp"
 #include "shading/kernels/shade_rows.hpp"
@@ -60,9 +61,20 @@ HALFLIT_INLINE F mirrored_back(const shading::MaterialPlan& material, const Shad
     return mad(vmax((F(1.0f) - load(rows.roughness + lane)) * weight, f0) - f0, fifth_power(away), f0);
 }
 
-/// Sets the block's alpha and what it keeps of the light behind it: 1 - a + a t (1 - S) (1 - metallic) base passed.
-[[gnu::noinline]] static void keep_light_behind(const shading::MaterialPlan& material, const ShadeRows& rows, shading::FragmentBlock& block,
-                                                int count, bool seen) {
+/// Thickness of the body below the surface: none at a back face, where a ray leaves it.
+HALFLIT_INLINE F thickness_at(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane) {
+    TexelTaps taps;
+    F thickness(material.transmission.thickness);
+    if (material.textures[TextureSlot::thickness].data != nullptr)
+        thickness = thickness * sample_texture(material.textures[TextureSlot::thickness], block, lane, taps).g;
+    return material.double_sided ? sel(row(block, shading::kFacing, lane) > F(0.0f), thickness, F(0.0f)) : thickness;
+}
+
+/// Sets the block's alpha and what it keeps of the light behind it: 1 - a + a t (1 - S) (1 - metallic) base passed. Where the material
+/// blurs or bends that light, most of it is added to the block's colours instead.
+[[gnu::noinline]] static void keep_light_behind(const shading::ShadingPlan& frame, const shading::MaterialPlan& material,
+                                                const ShadeRows& rows, shading::FragmentBlock& block, int count, bool seen) {
+    const bool through = seen && material.transmission.looked_through && frame.behind.rgba != nullptr;
     const F none(0.0f), full(1.0f);
     for (int lane = 0; lane < count; lane += kWidth) {
         F alpha = full, share = load(rows.transmitted + lane);
@@ -74,7 +86,15 @@ HALFLIT_INLINE F mirrored_back(const shading::MaterialPlan& material, const Shad
             share = share * ((full - mirrored_back(material, rows, lane, seen)) * (full - metallic));
         }
         if (seen && (has(material, kStageClearcoat) || has(material, kStageSheen))) share = share * load(rows.passed_layers + lane);
-        const V3 keep = (load3(rows.base, lane) * load3(rows.passed, lane)) * (alpha * share);
+        V3 keep = (load3(rows.base, lane) * load3(rows.passed, lane)) * (alpha * share);
+        if (through) {
+            const LookedThrough behind = look_through(frame, material, rows, block, lane, thickness_at(material, block, lane));
+            const V3 light = (load3(rows.base, lane) * load3(rows.passed, lane)) * share * behind.light;
+            store(block.red + lane, load(block.red + lane) + light.x);
+            store(block.green + lane, load(block.green + lane) + light.y);
+            store(block.blue + lane, load(block.blue + lane) + light.z);
+            keep = keep * behind.clear;
+        }
         const F beside = full - alpha;
         store(block.keep[0] + lane, clamp(beside + keep.x, none, full));
         store(block.keep[1] + lane, clamp(beside + keep.y, none, full));

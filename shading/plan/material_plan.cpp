@@ -3,6 +3,7 @@
 #include "sh/power.hpp"
 #include "sh/trig.hpp"
 #include "shading/material_properties.hpp"
+#include "shading/model/constants.hpp"
 #include "shading/model/numbers.hpp"
 #include "shading/model/thin_film.hpp"
 
@@ -82,6 +83,18 @@ void plan_transmission(const Material& material, TransmissionPlan& plan) {
     }
 }
 
+/// Plans how light from behind is blurred, as the index of refraction makes the facets' slopes turn rays, and bent.
+void plan_look_through(const Material& material, bool rough, TransmissionPlan& plan) {
+    constexpr double kMostReflectance = 0.9;
+    const double root =
+        __builtin_sqrt(std::min(static_cast<double>(clamp_or_low(material.dielectric_reflectance, 0.0f, 1.0f)), kMostReflectance));
+    const double index = (1.0 + root) / (1.0 - root);
+    plan.ratio = static_cast<float>(1.0 / index);
+    plan.blur = static_cast<float>(std::min(1.0, 2.0 * (index - 1.0)));
+    plan.thickness = clamp_or_low(material.thickness, 0.0f, kMostNumber);
+    plan.looked_through = plan.blur > 0.0f && (rough || plan.thickness > 0.0f);
+}
+
 /// Lit by lights and surroundings through its lobe, at each fragment, and nothing else.
 MaterialPlan plan_shadow_catcher(const Material& material, const LightKinds& kinds, const ShadingSettings& options) {
     MaterialPlan plan;
@@ -154,8 +167,11 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
         plan.stages |= kStageTransmission;
         plan_transmission(material, plan.transmission);
         use_texture(true, TextureSlot::transmission);
+        const bool rough = plan.roughness > kMinRoughness;
+        if (kinds.specular && options.rate == ShadingRate::pixel) plan_look_through(material, rough, plan.transmission);
         const float(&absorbed)[3] = plan.transmission.absorbed;
-        use_texture(absorbed[0] + absorbed[1] + absorbed[2] > 0.0f, TextureSlot::thickness);
+        use_texture(absorbed[0] + absorbed[1] + absorbed[2] > 0.0f || (plan.transmission.looked_through && material.thickness > 0.0f),
+                    TextureSlot::thickness);
     }
     if (lit && coated) {
         plan.stages |= kStageClearcoat;

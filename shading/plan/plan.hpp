@@ -2,6 +2,7 @@
 // computed. planner.hpp makes it.
 #pragma once
 
+#include "shading/plan/behind_plan.hpp"
 #include "shading/plan/environment_plan.hpp"
 #include "shading/plan/light_plan.hpp"
 #include "shading/plan/material_plan.hpp"
@@ -26,6 +27,7 @@ struct ShadingPlan {
     float sky_focus = 0;                        ///< narrowest_sky_focus() of their number
     std::vector<EnvironmentPlan> environments;  ///< one for each lobe that the environment is convolved with
     ReflectionPlan reflections;
+    BehindPlan behind;  ///< set by the renderer when it is drawn, if some material is looked through
     ShadowMode shadow_mode = ShadowMode::off;
     bool shadow_offset = false;  ///< shadows are looked up at an offset from the position: raster fills the kShadowX.. rows
     SpecularModel specular = SpecularModel::blinn;

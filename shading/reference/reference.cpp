@@ -717,6 +717,101 @@ double hidden_light(const FrameInputs& frame, const Material& material, SlotMask
     return all > 0 ? std::clamp(1 - luminance(around) / all, 0.0, 1.0) : 0.0;
 }
 
+/// Shares of the light from behind that pass where the surface covers all, before it is blurred or bent.
+Vec3d passed_shares(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
+                    const Surface& surface, double thickness, const Surroundings& around) {
+    double mirrored = 0.0;
+    if (frame.options.specular != SpecularModel::none) {
+        const double n_dot_v = dot(surface.normal, surface.to_eye), f0 = surface.largest_dielectric();
+        if (around.diffuse != nullptr) {
+            const MirrorTable at(surface.roughness, n_dot_v);
+            const double a = at(&ReflectionShape::a), b = at(&ReflectionShape::b);
+            mirrored = (a * f0 + b * surface.weight) * (1.0 + f0 * (1.0 / (a + b) - 1.0));
+        } else {
+            mirrored = environment_share(f0, surface.weight, std::max(surface.roughness, kHeldRoughness), n_dot_v);
+        }
+    }
+    const bool front = !material.double_sided || block.lane[kFacing][lane] > 0.0f;
+    double share = transmitted(frame, material, available, block, lane) * (1 - mirrored) * (1 - surface.metallic);
+    if (has_sheen(frame, material)) share *= sheen_of(frame, material, available, block, lane, surface, around).left;
+    if (has_coat(frame, material)) {
+        const Coat coat = coat_of(frame, material, available, block, lane, surface);
+        share *= 1.0 - coat.share * coat_fresnel(coat);
+    }
+    const auto channel = [&](double base, float color) {
+        const double passed = front && material.attenuation_distance > 0.0f && material.thickness > 0.0f
+                                  ? std::pow(double{color}, thickness / double{material.attenuation_distance})
+                                  : 1.0;
+        return share * base * passed;
+    };
+    return {channel(surface.base.x, material.attenuation_color.x), channel(surface.base.y, material.attenuation_color.y),
+            channel(surface.base.z, material.attenuation_color.z)};
+}
+
+double thickness_of(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane) {
+    return double{material.thickness} *
+           material_texture(frame, material.textures[TextureSlot::thickness], available, block, lane, {1, 1, 1, 1}).g;
+}
+
+/// A level of what lies behind about a point in pixels, by quadratic B-splines: light times coverage, and coverage.
+Rgba behind_level(const BehindPlan& behind, int level, double x_px, double y_px) {
+    const double x = x_px * double{behind.scale[level]}, y = y_px * double{behind.scale[level]};
+    const double column = std::clamp(std::floor(x), 0.0, double{behind.columns[level]} - 1),
+                 row = std::clamp(std::floor(y), 0.0, double{behind.rows[level]} - 1);
+    const auto weights = [](double t) { return std::array<double, 3>{(1 - t) * (1 - t) / 2, 0.75 - (t - 0.5) * (t - 0.5), t * t / 2}; };
+    const std::array<double, 3> across = weights(x - column), down = weights(y - row);
+    double sum[4] = {};
+    for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i) {
+            const auto texel = static_cast<std::ptrdiff_t>(behind.first[level]) +
+                               (static_cast<std::ptrdiff_t>(row) + j) * behind.below[level] + static_cast<std::ptrdiff_t>(column) + i;
+            for (int c = 0; c < 4; ++c)
+                sum[c] += across[static_cast<std::size_t>(i)] * down[static_cast<std::size_t>(j)] * double{behind.rgba[4 * texel + c]};
+        }
+    return {sum[0], sum[1], sum[2], sum[3]};
+}
+
+/// What glass shows of the light behind it: its light, and the share that is kept as it is.
+struct Through {
+    Vec3d light{0, 0, 0};
+    double clear = 1;
+};
+Through look_through(const FrameInputs& frame, const Material& material, const FragmentBlock& block, int lane, const Surface& surface,
+                     double thickness, const Surroundings& around) {
+    const double root = std::sqrt(std::min(std::clamp(double{material.dielectric_reflectance}, 0.0, 1.0), 0.9));
+    const double index = (1 + root) / (1 - root), wide = std::min(1.0, 2 * (index - 1));
+    if (around.behind == nullptr || !material.transmits() || frame.options.specular == SpecularModel::none || !(wide > 0) ||
+        !(material.roughness > kMinRoughness || material.thickness > 0.0f))
+        return {};
+    const BehindPlan& behind = *around.behind;
+    const double roughness = std::max(surface.roughness, kHeldRoughness), blur = wide * (roughness - kHeldRoughness) / (1 - kHeldRoughness);
+    const bool thick = thickness > 0 && (!material.double_sided || block.lane[kFacing][lane] > 0.0f);
+    Vec3d bent = scale(surface.to_eye, -1);
+    if (thick) {
+        const double cosine = std::clamp(dot(surface.normal, surface.to_eye), 0.0, 1.0);
+        bent = scale(bent, 1 / index) + scale(surface.normal, cosine / index - std::sqrt(1 - (1 - cosine * cosine) / (index * index)));
+    }
+    const Vec3d out_of = surface.to_eye - scale(bent, 2 * dot(bent, surface.to_eye));
+    const Vec3d exit = row3(block, kPosX, lane) + scale(bent, thick ? thickness : 0.0);
+    const auto along = [&](const float(&row)[4]) {
+        return double{row[0]} * exit.x + double{row[1]} * exit.y + double{row[2]} * exit.z + double{row[3]};
+    };
+    const double w = std::max(along(behind.w), 1e-30), x = std::clamp(along(behind.x) / w, 0.0, double{behind.width}),
+                 y = std::clamp(along(behind.y) / w, 0.0, double{behind.height});
+    const double level = std::clamp(blur * double{behind.blurriest}, 0.0, behind.levels - 1.0);
+    const int low = std::clamp(static_cast<int>(level), 0, std::max(behind.levels - 2, 0));
+    const Rgba fine = behind_level(behind, low, x, y), coarse = behind_level(behind, std::min(low + 1, behind.levels - 1), x, y);
+    const auto between = [&](double a, double b) { return a + (level - low) * (b - a); };
+    const double open = 1 - std::clamp(between(fine.a, coarse.a), 0.0, 1.0),
+                 share = thick ? 1.0 : std::min(1.0, blur * double{kBehindFade});
+    const Vec3d surroundings =
+        around.diffuse != nullptr
+            ? blurred(*around.reflections, out_of, MirrorTable(std::max(roughness * wide, kHeldRoughness), 1.0)(&ReflectionShape::level0))
+            : hemisphere(frame.ambient, out_of.y);
+    const Vec3d surfaces{between(fine.r, coarse.r), between(fine.g, coarse.g), between(fine.b, coarse.b)};
+    return {surfaces + scale(surroundings, open * share), open * (1 - share)};
+}
+
 }  // namespace
 
 Rgba shade(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
@@ -740,6 +835,11 @@ Rgba shade(const FrameInputs& frame, const Material& material, SlotMask availabl
         color =
             scale(color, 1.0 - coat.share * coat_fresnel(coat)) + scale(coat_light(frame, material, coat, position, around), coat.share);
     }
+    if (around.behind != nullptr && material.transmits()) {
+        const double thickness = thickness_of(frame, material, available, block, lane);
+        color = color + passed_shares(frame, material, available, block, lane, surface, thickness, around) *
+                            look_through(frame, material, block, lane, surface, thickness, around).light;
+    }
     return {color.x, color.y, color.z, alpha};
 }
 
@@ -747,34 +847,11 @@ Vec3d kept(const FrameInputs& frame, const Material& material, SlotMask availabl
            const Surroundings& around) {
     const double alpha = alpha_of(material, base_color(frame, material, available, block, lane).a);
     const Surface surface = surface_of(frame, material, available, block, lane);
-    double mirrored = 0.0;
-    if (frame.options.specular != SpecularModel::none) {
-        const double n_dot_v = dot(surface.normal, surface.to_eye), f0 = surface.largest_dielectric();
-        if (around.diffuse != nullptr) {
-            const MirrorTable at(surface.roughness, n_dot_v);
-            const double a = at(&ReflectionShape::a), b = at(&ReflectionShape::b);
-            mirrored = (a * f0 + b * surface.weight) * (1.0 + f0 * (1.0 / (a + b) - 1.0));
-        } else {
-            mirrored = environment_share(f0, surface.weight, std::max(surface.roughness, kHeldRoughness), n_dot_v);
-        }
-    }
-    const double thickness = double{material.thickness} *
-                             material_texture(frame, material.textures[TextureSlot::thickness], available, block, lane, {1, 1, 1, 1}).g;
-    const bool front = !material.double_sided || block.lane[kFacing][lane] > 0.0f;
-    double share = transmitted(frame, material, available, block, lane) * (1 - mirrored) * (1 - surface.metallic);
-    if (has_sheen(frame, material)) share *= sheen_of(frame, material, available, block, lane, surface, around).left;
-    if (has_coat(frame, material)) {
-        const Coat coat = coat_of(frame, material, available, block, lane, surface);
-        share *= 1.0 - coat.share * coat_fresnel(coat);
-    }
-    const auto channel = [&](double base, float color) {
-        const double passed = front && material.attenuation_distance > 0.0f && material.thickness > 0.0f
-                                  ? std::pow(double{color}, thickness / double{material.attenuation_distance})
-                                  : 1.0;
-        return std::clamp(1 - alpha + alpha * share * base * passed, 0.0, 1.0);
-    };
-    return {channel(surface.base.x, material.attenuation_color.x), channel(surface.base.y, material.attenuation_color.y),
-            channel(surface.base.z, material.attenuation_color.z)};
+    const double thickness = thickness_of(frame, material, available, block, lane);
+    const Vec3d passed = passed_shares(frame, material, available, block, lane, surface, thickness, around);
+    const double clear = look_through(frame, material, block, lane, surface, thickness, around).clear;
+    const auto channel = [&](double share) { return std::clamp(1 - alpha + alpha * share * clear, 0.0, 1.0); };
+    return {channel(passed.x), channel(passed.y), channel(passed.z)};
 }
 
 double srgb_code(double linear) {

@@ -7,6 +7,7 @@
 #include "halflit/texture.hpp"
 #include "shading/environment.hpp"
 #include "shading/fragment_block.hpp"
+#include "shading/plan/behind_plan.hpp"
 #include "shading/plan/plan.hpp"
 #include "shading/plan/reflection_plan.hpp"
 #include "shading/reference/shadow.hpp"
@@ -54,6 +55,8 @@ struct Surroundings {
     std::span<const LightPlan> sky{};
     std::span<const Hidden> hidden_sky{};
     double sky_focus = 0;  ///< ShadingPlan::sky_focus
+    /// What is seen through glass that blurs or bends light; null: the light behind is kept as it is.
+    const BehindPlan* behind = nullptr;
 };
 
 /// f(x; w, n) with its scale, by std::pow.
@@ -69,7 +72,8 @@ struct Surroundings {
 [[nodiscard]] Rgba shade(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
                          const Surroundings& around = {});
 
-/// Shares of the light from behind that a lane keeps, in red, green and blue; of materials that transmit.
+/// Shares of the light from behind that a lane keeps, in red, green and blue; of materials that transmit. What comes from
+/// Surroundings::behind instead is in the colour.
 [[nodiscard]] Vec3d kept(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
                          const Surroundings& around = {});
 

@@ -33,14 +33,17 @@ TEST_CASE("kernels: shade agrees with the float64 reference for every kind of sc
         const ShadingPlan old = c.plan;
         c.plan = plan_shading({c.materials, c.textures, c.available, plan_lights(c.lights), c.ambient, c.options});
         c.plan.eye_ws = old.eye_ws, c.plan.view_direction_ws = old.view_direction_ws, c.plan.orthographic = old.orthographic;
+        c.plan.behind = old.behind;
         const reference::FrameInputs frame = reference_frame(c);
+        reference::Surroundings around;
+        if (c.plan.behind.rgba != nullptr) around.behind = &c.plan.behind;
         const double bound =
             c.options.specular == SpecularModel::phong ? 1e-4 : 5e-5;  // the mirrored light turns twice as fast as the normal
         FragmentBlock block{};
         fill_block(make, block, false);
         shade_kernels(Isa::scalar).shade(c.plan, c.plan.materials[0], all_lights(c.plan), block, kBlockSize);
         for (int lane = 0; lane < kBlockSize; ++lane) {
-            const reference::Rgba want = reference::shade(frame, material, c.available[0], block, lane);
+            const reference::Rgba want = reference::shade(frame, material, c.available[0], block, lane, around);
             const double got[4] = {block.red[lane], block.green[lane], block.blue[lane], block.alpha[lane]};
             const double expected[4] = {want.r, want.g, want.b, want.a};
             for (int channel = 0; channel < 4; ++channel) {
@@ -50,7 +53,7 @@ TEST_CASE("kernels: shade agrees with the float64 reference for every kind of sc
                 worst = std::max(worst, error), sum += error, ++compared;
             }
             if (!material.transmits()) continue;
-            const Vec3d keep = reference::kept(frame, material, c.available[0], block, lane);
+            const Vec3d keep = reference::kept(frame, material, c.available[0], block, lane, around);
             for (const auto& [kernel, truth] :
                  {std::pair{block.keep[0][lane], keep.x}, {block.keep[1][lane], keep.y}, {block.keep[2][lane], keep.z}}) {
                 INFO("round " << round << ", lane " << lane << ", stages " << c.plan.materials[0].stages);

@@ -158,8 +158,21 @@ struct Case {
     std::vector<shading::SlotMask> available;
     Ambient ambient;
     ShadingSettings options;
+    std::vector<float> behind;  ///< what plan.behind reads
     shading::ShadingPlan plan;
 };
+
+/// Random surfaces behind glass, seen by a camera at z 5 that looks down -z.
+inline void add_behind(FloatMaker& make, Case& c) {
+    shading::BehindPlan& plan = c.plan.behind;
+    plan = shading::BehindPlan(static_cast<int>(1 + make.below(40)), static_cast<int>(1 + make.below(40)));
+    c.behind.resize(4 * plan.texels());
+    for (float& value : c.behind) value = make.ordinary(0, 1);
+    plan.rgba = c.behind.data();
+    plan.x[0] = plan.width, plan.x[2] = -0.5f * plan.width, plan.x[3] = 2.5f * plan.width;
+    plan.y[1] = -plan.height, plan.y[2] = -0.5f * plan.height, plan.y[3] = 2.5f * plan.height;
+    plan.w[2] = -1, plan.w[3] = 5;
+}
 
 inline Case make_case(FloatMaker& make, bool smooth_textures) {
     using namespace shading;
@@ -180,6 +193,7 @@ inline Case make_case(FloatMaker& make, bool smooth_textures) {
     c.plan.eye_ws = {make.ordinary(-4, 4), make.ordinary(-4, 4), 5.0f};
     c.plan.view_direction_ws = {0.6f, 0.0f, -0.8f};
     c.plan.orthographic = make.below(3) == 0;
+    if (make.below(2) == 0) add_behind(make, c);
     return c;
 }
 

@@ -147,10 +147,6 @@ public:
         material.double_sided = source.double_sided;
         material.unlit = source.unlit;
         if (source.own_lobe) own_lobe(*source.own_lobe, material, used);
-        constexpr float kClear = 0.1f;  // roughness from which on a blur would be seen
-        if (used && material.transmits() && material.roughness > kClear)
-            document_.warn(fmt::format("{}.extensions.KHR_materials_transmission: drawn without the blur of its roughness {:.3g}", where_,
-                                       material.roughness));
         // An animation may make a layer visible later.
         const bool may_change = document_.options.keep_animations && !document_.file.animations.empty() && !material.unlit;
         for (const TextureSlot slot : shading::kAllTextureSlots)

@@ -1,0 +1,183 @@
+// Glass that blurs what lies behind it by its roughness, and bends it by its thickness and index of refraction.
+#include "tests/raster/panes.hpp"
+#include "tests/support/isas.hpp"
+#include "tests/support/random.hpp"
+
+#include <algorithm>
+
+using namespace halflit;
+using namespace halflit::test;
+
+namespace {
+
+Material rough_glass(float roughness, float thickness = 0) {
+    Material material = glass(1);
+    material.roughness = roughness, material.thickness = thickness;
+    return material;
+}
+
+/// Red of the middle row of a picture in which a pane lies before black and white halves that meet at `edge`.
+std::vector<double> row_before_edge(const Material& material, double tilt, float edge, int width = 256) {
+    Scene scene;
+    add_pane(scene, panel({0, 0, 0, 1}), -5, 0, -20, edge);
+    add_pane(scene, panel({1, 1, 1, 1}), -5, 0, edge, 20);
+    add_pane(scene, material, 0, tilt, -20, 20);
+    Settings settings;
+    settings.samples = 1;
+    const Picture picture = draw(scene, settings, width, 32);
+    std::vector<double> red;
+    for (int x = 0; x < width; ++x) red.push_back(double{picture.linear[static_cast<std::size_t>(4 * (16 * width + x))]});
+    return red;
+}
+
+/// Where a row first exceeds a share of its last value.
+int first_above(const std::vector<double>& row, double share) {
+    return static_cast<int>(std::find_if(row.begin(), row.end(), [&](double v) { return v > share * row.back(); }) - row.begin());
+}
+
+Scene balls_before_panels(Random& random) {
+    Scene scene;
+    scene.ambient = {{0.5f, 0.6f, 0.7f}, {0.3f, 0.2f, 0.1f}};
+    scene.lights.push_back({.color_linear = {0.4f, 0.5f, 0.6f}, .direction_ws = {-0.3f, -0.4f, -0.8f}});
+    for (int i = 0; i < 6; ++i) {
+        const float left = random.real32(-1.5, 0.5);
+        add_pane(scene, panel({random.real32(0, 1), random.real32(0, 1), random.real32(0, 1), 1}), -5, 0, left, left + 0.4f);
+    }
+    for (int i = 0; i < 5; ++i) {
+        const float left = random.real32(-1.5, 0.5);
+        add_pane(scene, rough_glass(random.real32(0, 0.8), random.index(2) == 0 ? 0.0f : 1.0f), random.real32(0, 4), random.real(0, 1),
+                 left, left + 0.6f);
+    }
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("look through: a blurred and bent plain surface is that surface", "[raster][blend]") {
+    Random random(91);
+    for (int round = 0; round < 20; ++round) {
+        Material material = rough_glass(random.real32(0.1, 1), random.index(2) == 0 ? 0.0f : random.real32(0, 2));
+        const double tilt = random.real(0, 1), value = random.real(0, 3);
+        const auto red = [&](float behind) {
+            Scene scene;
+            add_pane(scene, panel({behind, behind, behind, 1}), -5, 0, -3, 3);
+            add_pane(scene, material, 0, tilt);
+            const auto got = middle(draw(scene, {}, 33, 33), 33, 33);
+            CHECK(got[3] == 1.0);
+            return got[0];
+        };
+        const double rough = std::max(0.07, double{material.roughness}),
+                     mirrored = 0.04 + (std::max(1 - rough, 0.04) - 0.04) * std::pow(1 - std::cos(tilt), 5);
+        CHECK(red(static_cast<float>(value)) == Approx((1 - mirrored) * value).epsilon(2e-6).margin(1e-6));
+    }
+}
+
+TEST_CASE("look through: an edge is blurred evenly to both sides, the wider the rougher the glass is", "[raster][blend]") {
+    int before = 0;
+    for (const float roughness : {0.08f, 0.2f, 0.35f, 0.5f}) {
+        const std::vector<double> row = row_before_edge(rough_glass(roughness), 0, 0);
+        CHECK(std::is_sorted(row.begin(), row.end()));
+        for (int x = 96; x < 128; ++x) {
+            INFO("roughness " << roughness << ", x " << x);
+            CHECK(row[static_cast<std::size_t>(x)] + row[static_cast<std::size_t>(255 - x)] == Approx(row.back()).margin(1e-4));
+        }
+        const int width = first_above(row, 0.9) - first_above(row, 0.1);
+        CHECK(width > before);
+        before = width;
+    }
+    CHECK(before > 16);
+}
+
+TEST_CASE("look through: a body bends what is behind it by Snell's law and its thickness", "[raster][blend]") {
+    constexpr int kWidth = 512;  // of a picture 32 pixels high: 2 world units are 32 pixels
+    Random random(92);
+    for (int round = 0; round < 12; ++round) {
+        Material material = rough_glass(0, random.real32(0.2, 1.5));
+        const double index = random.real(1.2, 2.2), tilt = random.real(-1.2, 1.2);
+        material.dielectric_reflectance = static_cast<float>(std::pow((index - 1) / (index + 1), 2));
+        // The ray goes along -z; the normal is turned about y, and so is the ray within the body, towards the normal's other side.
+        const double inside = std::asin(std::sin(std::abs(tilt)) / index), turned = std::abs(tilt) - inside;
+        const double shift = (tilt > 0 ? -1 : 1) * double{material.thickness} * std::sin(turned);
+        const std::vector<double> row = row_before_edge(material, tilt, 0, kWidth);
+        INFO("tilt " << tilt << ", index " << index << ", thickness " << material.thickness);
+        // A pixel whose ray leaves at the edge shows it.
+        CHECK(std::abs(first_above(row, 0.5) - (kWidth / 2 - 16 * shift)) <= 1.0);
+    }
+}
+
+TEST_CASE("look through: where there is no surface, rough glass shows the surroundings and clear glass the background", "[raster][blend]") {
+    Scene scene;
+    scene.ambient = {{0.8f, 0.7f, 0.6f}, {0.2f, 0.2f, 0.2f}};
+    Settings settings;
+    settings.background_linear = {0.5f, 0, 0, 1};
+    const auto through = [&](const Material& material) {
+        Scene with = scene;
+        add_pane(with, material, 0, 0);
+        return middle(draw(with, settings, 17, 17), 17, 17);
+    };
+    const double around = 0.5 * (0.8 + 0.2), mirrored = 0.04 * around;
+    CHECK(through(rough_glass(0))[0] == Approx(0.96 * 0.5 + mirrored).epsilon(1e-5));
+    CHECK(through(rough_glass(0.6f))[0] == Approx(0.96 * around + mirrored).epsilon(1e-5));
+    CHECK(through(rough_glass(0, 1))[0] == Approx(0.96 * around + mirrored).epsilon(1e-5));
+    settings.background_linear = {0, 0, 0, 0};
+    CHECK(through(rough_glass(0.6f))[3] == 1.0);
+}
+
+TEST_CASE("look through: colours of the display stay under every exposure, up to the tone curve", "[raster][blend][tone]") {
+    for (const float exposure : {0.25f, 4.0f}) {
+        Scene scene;
+        Material material = rough_glass(0.4f);
+        material.dielectric_reflectance = 0.04f;
+        add_pane(scene, panel({0.5f, 0.5f, 0.5f, 1}), -5, 0, -3, 3);
+        add_pane(scene, material, 0, 0);
+        Settings settings;
+        settings.exposure = exposure;
+        CHECK(middle(draw(scene, settings, 17, 17), 17, 17)[0] == Approx(0.5 * 0.96).epsilon(1e-5));
+    }
+}
+
+TEST_CASE("look through: instruction sets, threads, tiles, samples and regions do not show", "[raster][blend]") {
+    Random random(93);
+    const Scene scene = balls_before_panels(random);
+    constexpr int kWidth = 150, kHeight = 110;
+    for (const int samples : {1, 4}) {
+        Settings settings;
+        settings.samples = samples;
+        settings.tone_curve = ToneCurve::neutral;
+        settings.background_linear = {0.1f, 0.3f, 0.6f, 0.7f};
+        const Picture first = draw(scene, settings, kWidth, kHeight);
+        for (const Isa isa : available_isas()) {
+            Execution execution;
+            execution.isa = isa;
+            INFO(isa_name(isa));
+            CHECK(draw(scene, settings, kWidth, kHeight, execution) == first);
+        }
+        for (const int tile : {16, 32, 64}) {
+            Execution execution;
+            execution.tile_size = tile, execution.threads = tile == 32 ? 3 : 1;
+            CHECK(draw(scene, settings, kWidth, kHeight, execution) == first);
+        }
+        for (const Region region : {Region{0, 0, 20, 30}, Region{70, 50, 1, 1}, Region{33, 7, 90, 64}}) {
+            settings.region = region;
+            const Picture part = draw(scene, settings, kWidth, kHeight);
+            bool same = true;
+            for (int y = region.y; y < region.y + region.height; ++y)
+                for (int i = 4 * (y * kWidth + region.x); i < 4 * (y * kWidth + region.x + region.width); ++i)
+                    same &= part.codes[static_cast<std::size_t>(i)] == first.codes[static_cast<std::size_t>(i)];
+            CHECK(same);
+            settings.region = {};
+        }
+    }
+}
+
+TEST_CASE("look through: an error budget promises nothing", "[raster][blend][budget]") {
+    Scene scene;
+    scene.ambient = {{0.8f, 0.7f, 0.6f}, {0.2f, 0.2f, 0.2f}};
+    add_pane(scene, rough_glass(0.5f), 0, 0);
+    Settings settings;
+    settings.shading.max_error_codes = 2;
+    std::vector<std::uint8_t> codes(4 * 9 * 9);
+    const auto report = render(scene, camera_flat(), settings, {9, 9, codes.data()});
+    REQUIRE(report);
+    CHECK_FALSE(report->error.within);
+}
