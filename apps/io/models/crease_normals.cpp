@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 
 namespace halflit::io::detail {
@@ -28,125 +27,113 @@ double angle_of(double sine, double cosine) {
 
 namespace {
 
-/// Sets of corners, as a forest. The root of a set is its lowest corner.
-class CornerSets {
-public:
-    explicit CornerSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-    std::uint32_t root(std::uint32_t corner) {
-        while (parent_[corner] != corner) corner = parent_[corner] = parent_[parent_[corner]];
-        return corner;
-    }
-    void join(std::uint32_t a, std::uint32_t b) {
-        const std::uint32_t x = root(a), y = root(b);
-        parent_[std::max(x, y)] = std::min(x, y);
-    }
-
-private:
-    std::vector<std::uint32_t> parent_;
-};
-
-struct HalfEdge {
-    std::uint32_t low, high;  ///< places at its ends
-    std::uint32_t corner;     ///< at its start
-    std::uint32_t is_upward;  ///< from low to high
-};
-
 /// Of normals that count as equal: the triangles of a flat polygon share a normal. An angle of 0.08 degrees.
 constexpr double kFlatCosine = 1.0 - 1e-6;
 
 constexpr std::uint32_t following(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 
+/// Makes the normals of one place after the other. All edges that matter to a place begin or end there.
 class NormalMaker {
 public:
-    NormalMaker(Soup& soup, const std::vector<std::uint32_t>& place_of, double crease_deg)
-        : soup_(soup), place_of_(place_of), least_cosine_(sin_cos(crease_deg * (kPi / 180)).cos), sets_(place_of.size()) {
-        TimeCheck check;
-        for (std::size_t t = 0; t < soup.triangles(); ++t) {
-            check();
-            const Vec3d a = at(3 * t);
-            const Vec3d normal = cross(at(3 * t + 1) - a, at(3 * t + 2) - a);
-            const double size = length(normal);
-            unit_.push_back(size > 0 ? normal * (1.0 / size) : Vec3d{});
-        }
-    }
+    NormalMaker(Soup& soup, double crease_deg) : soup_(soup), least_cosine_(sin_cos(crease_deg * (kPi / 180)).cos) {}
 
-    void join_smooth_edges() {
-        std::vector<HalfEdge> edges;
-        edges.reserve(place_of_.size());
-        for (std::uint32_t corner = 0; corner < place_of_.size(); ++corner) {
-            const std::uint32_t a = place_of_[corner], b = place_of_[following(corner)];
-            edges.push_back({std::min(a, b), std::max(a, b), corner, a < b ? 1u : 0u});
+    void add_normals(std::span<const std::uint32_t> corners) {
+        const auto has_normal = [&](std::uint32_t corner) { return soup_.normal_of[corner] != kNone; };
+        if (std::all_of(corners.begin(), corners.end(), has_normal)) return;
+        wedges_.clear();
+        edges_.clear();
+        for (const std::uint32_t corner : corners) {
+            const std::uint32_t next = following(corner), last = following(next), number = static_cast<std::uint32_t>(wedges_.size());
+            const Vec3d here = at(corner), to_next = at(next) - here, to_last = at(last) - here;
+            wedges_.push_back({normal_of(corner / 3), angle_of(length(cross(to_next, to_last)), dot(to_next, to_last)), {}, number, kNone});
+            edges_.push_back({soup_.position_of[next], number, true});
+            edges_.push_back({soup_.position_of[last], number, false});
         }
-        std::sort(edges.begin(), edges.end(), timed_less([](const HalfEdge& x, const HalfEdge& y) {
-                      return std::tie(x.low, x.high, x.corner) < std::tie(y.low, y.high, y.corner);
-                  }));
-        for (std::size_t i = 0; i < edges.size();) {
-            std::size_t end = i + 1;
-            while (end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high) ++end;
-            if (end - i == 2 && edges[i].is_upward != edges[i + 1].is_upward) join(edges[i].corner, edges[i + 1].corner);
-            i = end;
+        join_smooth_edges(corners);
+        for (std::uint32_t i = 0; i < wedges_.size(); ++i) {
+            Vec3d& of_set = wedges_[root(i)].sum;
+            of_set = of_set + wedges_[i].normal * wedges_[i].angle;
         }
-    }
-
-    void add_normals() {
-        std::vector<Vec3d> sum(place_of_.size());
-        TimeCheck check;
-        for (std::uint32_t corner = 0; corner < place_of_.size(); ++corner) {
-            check();
-            const Vec3d here = at(corner), next = at(following(corner)) - here, last = at(following(following(corner))) - here;
-            Vec3d& of_set = sum[sets_.root(corner)];
-            of_set = of_set + unit_[corner / 3] * angle_of(length(cross(next, last)), dot(next, last));
-        }
-        soup_.normal_of.resize(place_of_.size(), kNone);
-        std::vector<std::uint32_t> number(place_of_.size(), kNone);
-        for (std::uint32_t corner = 0; corner < place_of_.size(); ++corner) {
-            if (soup_.normal_of[corner] != kNone) continue;
-            const std::uint32_t root = sets_.root(corner);
-            if (number[root] == kNone) {
-                number[root] = static_cast<std::uint32_t>(soup_.normals.size());
-                const double size = length(sum[root]);
-                Vec3d normal = size > 1e-9 ? sum[root] * (1.0 / size) : unit_[root / 3];
+        for (std::uint32_t i = 0; i < wedges_.size(); ++i) {
+            if (has_normal(corners[i])) continue;
+            Wedge& set = wedges_[root(i)];
+            if (set.number == kNone) {
+                set.number = static_cast<std::uint32_t>(soup_.normals.size());
+                const double size = length(set.sum);
+                Vec3d normal = size > 1e-9 ? set.sum * (1.0 / size) : set.normal;
                 if (normal == Vec3d{}) normal = {0, 0, 1};
                 soup_.normals.push_back(to_float(normal));
             }
-            soup_.normal_of[corner] = number[root];
+            soup_.normal_of[corners[i]] = set.number;
         }
     }
 
 private:
+    /// The part of a triangle at the place. The wedges that share a normal are a set; its root is its first one.
+    struct Wedge {
+        Vec3d normal;  ///< of the triangle; zero: it has no area
+        double angle;
+        Vec3d sum;             ///< of a root: of its set
+        std::uint32_t parent;  ///< a wedge of the same set, nearer to its root; a root is its own
+        std::uint32_t number;  ///< of a root: of its set's normal, when it is known
+    };
+    struct Edge {
+        std::uint32_t to;     ///< place at its other end
+        std::uint32_t wedge;  ///< the triangle's
+        bool leaves;          ///< the triangle goes along it from here to there
+    };
+
     [[nodiscard]] Vec3d at(std::size_t corner) const { return to_double(soup_.points[soup_.position_of[corner]]); }
+    [[nodiscard]] Vec3d normal_of(std::size_t triangle) const {
+        const Vec3d a = at(3 * triangle), normal = cross(at(3 * triangle + 1) - a, at(3 * triangle + 2) - a);
+        const double size = length(normal);
+        return size > 0 ? normal * (1.0 / size) : Vec3d{};
+    }
     [[nodiscard]] std::uint32_t smoothing(std::size_t triangle) const {
         return triangle < soup_.smoothing_of.size() ? soup_.smoothing_of[triangle] : Soup::kByCrease;
     }
-    /// Two corners at which half-edges of the same edge start.
-    void join(std::uint32_t a, std::uint32_t b) {
-        const std::uint32_t group = smoothing(a / 3);
-        if (group != smoothing(b / 3)) return;
-        const Vec3d &x = unit_[a / 3], &y = unit_[b / 3];
-        const double least = group == 0 ? kFlatCosine : least_cosine_;
-        if ((group == 0 || group == Soup::kByCrease) && !(x != Vec3d{} && y != Vec3d{} && dot(x, y) >= least)) return;
-        sets_.join(a, following(b));
-        sets_.join(following(a), b);
+    std::uint32_t root(std::uint32_t wedge) {
+        while (wedges_[wedge].parent != wedge) wedge = wedges_[wedge].parent = wedges_[wedges_[wedge].parent].parent;
+        return wedge;
+    }
+    void join_smooth_edges(std::span<const std::uint32_t> corners) {
+        std::sort(edges_.begin(), edges_.end(),
+                  [](const Edge& a, const Edge& b) { return std::tie(a.to, a.wedge) < std::tie(b.to, b.wedge); });
+        for (std::size_t i = 0; i < edges_.size();) {
+            std::size_t end = i + 1;
+            while (end < edges_.size() && edges_[end].to == edges_[i].to) ++end;
+            const std::uint32_t a = edges_[i].wedge, b = edges_[end - 1].wedge;
+            if (end - i == 2 && edges_[i].leaves != edges_[i + 1].leaves && is_smooth(a, corners[a] / 3, b, corners[b] / 3)) {
+                const std::uint32_t x = root(a), y = root(b);
+                wedges_[std::max(x, y)].parent = std::min(x, y);
+            }
+            i = end;
+        }
+    }
+    [[nodiscard]] bool is_smooth(std::uint32_t a, std::size_t triangle_a, std::uint32_t b, std::size_t triangle_b) const {
+        const std::uint32_t group = smoothing(triangle_a);
+        if (group != smoothing(triangle_b)) return false;
+        if (group != 0 && group != Soup::kByCrease) return true;
+        const Vec3d &x = wedges_[a].normal, &y = wedges_[b].normal;
+        return x != Vec3d{} && y != Vec3d{} && dot(x, y) >= (group == 0 ? kFlatCosine : least_cosine_);
     }
 
     Soup& soup_;
-    const std::vector<std::uint32_t>& place_of_;
     double least_cosine_;
-    CornerSets sets_;
-    std::vector<Vec3d> unit_;  ///< normals of the triangles; zero: has no area
+    std::vector<Wedge> wedges_;
+    std::vector<Edge> edges_;
 };
 
 }  // namespace
 
-void add_crease_normals(Soup& soup, const std::vector<std::uint32_t>& place_of, double crease_deg) {
-    if (soup.normal_of.size() == soup.position_of.size() &&
-        std::find(soup.normal_of.begin(), soup.normal_of.end(), kNone) == soup.normal_of.end())
-        return;
-    check_time();
-    NormalMaker maker(soup, place_of, crease_deg);
-    maker.join_smooth_edges();
-    check_time();
-    maker.add_normals();
+void add_crease_normals(Soup& soup, const CornersOfPlaces& corners, double crease_deg) {
+    soup.normal_of.resize(soup.position_of.size(), kNone);
+    NormalMaker maker(soup, crease_deg);
+    TimeCheck check;
+    for (std::uint32_t place = 0; place < corners.places(); ++place) {
+        check();
+        maker.add_normals(corners.at(place));
+    }
 }
 
 }  // namespace halflit::io::detail

@@ -5,11 +5,11 @@
 
 namespace halflit::io::detail {
 
-/// Gives a normal to each corner of `soup` that has none. place_of: of each corner, the number of its place; corners of equal positions
-/// have equal numbers. Two triangles are smooth across an edge if they are its only ones, turn the same way, and their normals differ by at
-/// most `crease_deg`, or their smoothing groups say so. Around a place, triangles that hang together by such edges share a normal: the mean
-/// of theirs, weighted by their angles there.
-void add_crease_normals(Soup& soup, const std::vector<std::uint32_t>& place_of, double crease_deg);
+/// Gives a normal to each corner of `soup` that has none. position_of: equal positions have equal numbers; `corners`: those at each of
+/// them. Two triangles are smooth across an edge if they are its only ones, turn the same way, and their normals differ by at most
+/// `crease_deg`, or their smoothing groups say so. Around a place, triangles that hang together by such edges share a normal: the mean of
+/// theirs, weighted by their angles there.
+void add_crease_normals(Soup& soup, const CornersOfPlaces& corners, double crease_deg);
 
 /// The angle between two directions, in radians, from its sine and cosine times any positive number. sine >= 0. Made of + - * / and sqrt
 /// alone; error below 1e-12.

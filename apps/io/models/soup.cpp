@@ -1,6 +1,7 @@
 #include "apps/io/models/soup.hpp"
 
 #include "apps/io/models/crease_normals.hpp"
+#include "apps/io/models/place_table.hpp"
 #include "sh/time_limit.hpp"
 #include "shading/model/numbers.hpp"
 
@@ -9,27 +10,28 @@
 #include <bit>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 namespace halflit::io::detail {
 
 namespace {
 
-/// Numbers of the places of a list of positions: equal positions have equal ones.
-std::vector<std::uint32_t> find_places(const std::vector<Vec3f>& positions) {
-    struct Key {
-        std::uint32_t x, y, z, index;
-    };
-    const auto bits = [](float f) { return std::bit_cast<std::uint32_t>(f + 0.0f); };  // -0 becomes 0
-    std::vector<Key> keys;
-    keys.reserve(positions.size());
-    for (const Vec3f& p : positions) keys.push_back({bits(p.x), bits(p.y), bits(p.z), static_cast<std::uint32_t>(keys.size())});
-    std::sort(keys.begin(), keys.end(),
-              timed_less([](const Key& a, const Key& b) { return std::tie(a.x, a.y, a.z, a.index) < std::tie(b.x, b.y, b.z, b.index); }));
-    std::vector<std::uint32_t> place(positions.size());
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-        const bool same = i > 0 && keys[i].x == keys[i - 1].x && keys[i].y == keys[i - 1].y && keys[i].z == keys[i - 1].z;
-        place[keys[i].index] = same ? place[keys[i - 1].index] : keys[i].index;
+/// Numbers of the places of a soup's points: equal points have equal ones.
+std::vector<std::uint32_t> find_places(const Soup& soup) {
+    const std::vector<Vec3f>& positions = soup.points;
+    std::vector<std::uint32_t> place;
+    if (soup.distinct) {
+        place.resize(positions.size());
+        std::iota(place.begin(), place.end(), 0u);
+        return place;
+    }
+    PlaceTable<Vec3f> table;
+    place.reserve(positions.size());
+    TimeCheck check;
+    for (const Vec3f& p : positions) {
+        check();
+        place.push_back(table.find(p, static_cast<std::uint32_t>(place.size()), positions));
     }
     return place;
 }
@@ -59,67 +61,85 @@ std::size_t remove_bad(Soup& soup, const std::vector<std::uint32_t>& place) {
     return not_finite;
 }
 
-/// A vertex: what its corners have in common, and one of them.
-struct VertexKey {
-    std::uint32_t place, normal, uv, color, corner;
-    [[nodiscard]] auto values() const { return std::tie(place, normal, uv, color); }
-};
+/// Of each corner, the lowest one that is the same vertex: of the same place, part, normal, texture coordinates and colour.
+std::vector<std::uint32_t> find_vertices(const Soup& soup, const CornersOfPlaces& corners) {
+    struct Key {
+        std::uint32_t part, normal, uv, color, corner;
+        [[nodiscard]] auto values() const { return std::tie(part, normal, uv, color); }
+    };
+    const auto number_at = [](const std::vector<std::uint32_t>& list, std::size_t at) { return list.empty() ? kNone : list[at]; };
+    std::vector<std::uint32_t> vertex(soup.position_of.size());
+    std::vector<Key> keys;
+    TimeCheck check;
+    for (std::uint32_t place = 0; place < corners.places(); ++place) {
+        keys.clear();
+        for (const std::uint32_t corner : corners.at(place)) {
+            check();
+            keys.push_back({number_at(soup.part_of, corner / 3), soup.normal_of[corner], number_at(soup.uv_of, corner),
+                            number_at(soup.color_of, corner), corner});
+        }
+        std::sort(keys.begin(), keys.end(),
+                  [](const Key& a, const Key& b) { return a.values() == b.values() ? a.corner < b.corner : a.values() < b.values(); });
+        for (std::size_t i = 0; i < keys.size(); ++i) {
+            const bool same = i > 0 && keys[i].values() == keys[i - 1].values();
+            vertex[keys[i].corner] = same ? vertex[keys[i - 1].corner] : keys[i].corner;
+        }
+    }
+    return vertex;
+}
 
 class MeshMaker {
 public:
-    MeshMaker(const Soup& soup, const std::vector<std::uint32_t>& place_of) : soup_(soup), place_of_(place_of), made_as_(place_of.size()) {}
+    /// vertex_of: find_vertices().
+    MeshMaker(const Soup& soup, std::vector<std::uint32_t> vertex_of) : soup_(soup), vertex_of_(std::move(vertex_of)) {}
 
-    /// The mesh of some triangles.
-    Mesh make(const std::vector<std::uint32_t>& triangles) {
-        std::vector<VertexKey> keys;
-        keys.reserve(3 * triangles.size());
-        for (const std::uint32_t t : triangles)
-            for (std::uint32_t corner = 3 * t; corner < 3 * t + 3; ++corner)
-                keys.push_back({place_of_[corner], soup_.normal_of[corner], number_at(soup_.uv_of, corner),
-                                number_at(soup_.color_of, corner), corner});
-        std::sort(keys.begin(), keys.end(), timed_less([](const VertexKey& a, const VertexKey& b) {
-                      return a.values() == b.values() ? a.corner < b.corner : a.values() < b.values();
-                  }));
-        // made_as_: of each corner the lowest one of its vertex, and of that the vertex's number, when it is known.
-        bool has_uvs = false, has_colors = false;
-        for (std::size_t i = 0; i < keys.size(); ++i) {
-            const bool same = i > 0 && keys[i].values() == keys[i - 1].values();
-            made_as_[keys[i].corner] = same ? made_as_[keys[i - 1].corner] : keys[i].corner;
-            has_uvs = has_uvs || keys[i].uv != kNone;
-            has_colors = has_colors || keys[i].color != kNone;
-        }
-        Mesh mesh;
-        mesh.indices.reserve(keys.size());
-        keys.clear();
-        for (const std::uint32_t t : triangles)
-            for (std::uint32_t corner = 3 * t; corner < 3 * t + 3; ++corner) {
-                const std::uint32_t first = made_as_[corner];
-                if (first == corner) {
-                    made_as_[corner] = static_cast<std::uint32_t>(mesh.positions.size());
-                    mesh.indices.push_back(made_as_[corner]);
-                    add_vertex(mesh, corner, has_uvs, has_colors);
-                } else {
-                    mesh.indices.push_back(made_as_[first]);
-                }
+    /// The mesh of some triangles, given by an increasing list, or all of them.
+    Mesh make(const std::vector<std::uint32_t>* triangles) {
+        const std::size_t count = triangles != nullptr ? triangles->size() : soup_.triangles();
+        const auto for_each_corner = [&](const auto& visit) {
+            for (std::size_t i = 0; i < count; ++i) {
+                const std::uint32_t t = triangles != nullptr ? (*triangles)[i] : static_cast<std::uint32_t>(i);
+                for (std::uint32_t corner = 3 * t; corner < 3 * t + 3; ++corner) visit(corner);
             }
+        };
+        bool has_uvs = false, has_colors = false;
+        std::size_t vertices = 0;
+        for_each_corner([&](std::uint32_t corner) {
+            vertices += vertex_of_[corner] == corner ? 1 : 0;
+            has_uvs = has_uvs || (!soup_.uv_of.empty() && soup_.uv_of[corner] != kNone);
+            has_colors = has_colors || (!soup_.color_of.empty() && soup_.color_of[corner] != kNone);
+        });
+        Mesh mesh;
+        mesh.indices.reserve(3 * count);
+        mesh.positions.reserve(vertices);
+        mesh.normals.reserve(vertices);
+        if (has_uvs) mesh.uv0.reserve(vertices);
+        if (has_colors) mesh.colors.reserve(vertices);
+        // A corner's vertex is that of an earlier corner, whose number is known, or a new one.
+        for_each_corner([&](std::uint32_t corner) {
+            const std::uint32_t first = vertex_of_[corner];
+            if (first == corner) {
+                vertex_of_[corner] = static_cast<std::uint32_t>(mesh.positions.size());
+                add_vertex(mesh, corner, has_uvs, has_colors);
+                mesh.indices.push_back(vertex_of_[corner]);
+            } else {
+                mesh.indices.push_back(vertex_of_[first]);
+            }
+        });
         return mesh;
     }
 
 private:
-    static std::uint32_t number_at(const std::vector<std::uint32_t>& list, std::size_t corner) {
-        return corner < list.size() ? list[corner] : kNone;
-    }
     void add_vertex(Mesh& mesh, std::uint32_t corner, bool has_uvs, bool has_colors) const {
         mesh.positions.push_back(soup_.points[soup_.position_of[corner]]);
         mesh.normals.push_back(soup_.normals[soup_.normal_of[corner]]);
-        const std::uint32_t uv = number_at(soup_.uv_of, corner), color = number_at(soup_.color_of, corner);
+        const std::uint32_t uv = has_uvs ? soup_.uv_of[corner] : kNone, color = has_colors ? soup_.color_of[corner] : kNone;
         if (has_uvs) mesh.uv0.push_back(uv == kNone ? Vec2f{0, 0} : soup_.uvs[uv]);
         if (has_colors) mesh.colors.push_back(color == kNone ? Vec4f{1, 1, 1, 1} : soup_.colors[color]);
     }
 
     const Soup& soup_;
-    const std::vector<std::uint32_t>& place_of_;
-    std::vector<std::uint32_t> made_as_;
+    std::vector<std::uint32_t> vertex_of_;  ///< of corners that a mesh has, and that are the first of their vertex: its number in the mesh
 };
 
 /// A normal that the renderer can use; others are replaced by computed ones.
@@ -155,34 +175,53 @@ Vec3d move_near(Soup& soup, bool recentre) {
     soup.points.reserve(soup.positions.size());
     for (const Vec3d& p : soup.positions) soup.points.push_back(rounded_near(p, origin));
     soup.positions = {};
+    soup.distinct = soup.distinct && origin == Vec3d{};
     return origin;
+}
+
+CornersOfPlaces::CornersOfPlaces(const std::vector<std::uint32_t>& place_of, std::size_t places)
+    : first_(places + 1), corner_(place_of.size()) {
+    for (const std::uint32_t place : place_of) ++first_[place + 1];
+    for (std::size_t i = 1; i <= places; ++i) first_[i] += first_[i - 1];
+    // Each list is filled from its end: then its beginning is where it was counted to.
+    for (std::size_t corner = place_of.size(); corner-- > 0;) corner_[--first_[place_of[corner] + 1]] = static_cast<std::uint32_t>(corner);
+    first_.erase(first_.begin());
+    first_.push_back(static_cast<std::uint32_t>(place_of.size()));
 }
 
 std::vector<SoupMesh> make_meshes(Soup&& soup, double crease_deg, std::size_t& left_out) {
     check_time();
     std::vector<SoupMesh> meshes;
-    std::vector<std::uint32_t> place_of;  // of corners
+    for (auto* list : {&soup.normal_of, &soup.uv_of, &soup.color_of})
+        if (!list->empty()) list->resize(soup.position_of.size(), kNone);
+    if (!soup.part_of.empty()) soup.part_of.resize(soup.triangles(), 0);
+    if (!soup.smoothing_of.empty()) soup.smoothing_of.resize(soup.triangles(), Soup::kByCrease);
     {
-        const std::vector<std::uint32_t> place = find_places(soup.points);
-        for (auto* list : {&soup.normal_of, &soup.uv_of, &soup.color_of})
-            if (!list->empty()) list->resize(soup.position_of.size(), kNone);
-        if (!soup.part_of.empty()) soup.part_of.resize(soup.triangles(), 0);
-        if (!soup.smoothing_of.empty()) soup.smoothing_of.resize(soup.triangles(), Soup::kByCrease);
+        const std::vector<std::uint32_t> place = find_places(soup);
         left_out += remove_bad(soup, place);
-        place_of.reserve(soup.position_of.size());
-        for (const std::uint32_t position : soup.position_of) place_of.push_back(place[position]);
+        for (std::uint32_t& position : soup.position_of) position = place[position];
     }
     if (soup.position_of.empty()) return meshes;
     forget_bad_normals(soup);
-    add_crease_normals(soup, place_of, crease_deg);
+    std::vector<std::uint32_t> vertices;
+    {
+        const CornersOfPlaces corners(soup.position_of, soup.points.size());
+        check_time();
+        add_crease_normals(soup, corners, crease_deg);
+        vertices = find_vertices(soup, corners);
+    }
 
-    MeshMaker maker(soup, place_of);
+    MeshMaker maker(soup, std::move(vertices));
+    if (soup.part_of.empty()) {
+        meshes.push_back({0, maker.make(nullptr)});
+        return meshes;
+    }
     std::map<std::uint32_t, std::size_t> mesh_of_part;
     std::vector<std::vector<std::uint32_t>> triangles;
     for (std::uint32_t t = 0; t < soup.triangles(); ++t) {
-        const std::uint32_t part = soup.part_of.empty() ? 0 : soup.part_of[t];
+        const std::uint32_t part = soup.part_of[t];
         std::size_t mesh = 0;
-        if (t > 0 && (soup.part_of.empty() || soup.part_of[t - 1] == part)) {
+        if (t > 0 && soup.part_of[t - 1] == part) {
             mesh = mesh_of_part[part];
         } else {
             const auto [entry, is_new] = mesh_of_part.try_emplace(part, triangles.size());
@@ -196,7 +235,7 @@ std::vector<SoupMesh> make_meshes(Soup&& soup, double crease_deg, std::size_t& l
     }
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         check_time();
-        meshes[m].mesh = maker.make(triangles[m]);
+        meshes[m].mesh = maker.make(&triangles[m]);
         triangles[m] = {};
     }
     return meshes;

@@ -6,6 +6,7 @@
 #include "halflit/mesh.hpp"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace halflit::io::detail {
@@ -27,9 +28,24 @@ struct Soup {
     /// For each triangle, where corners have no normal: kByCrease: smooth across edges that are not sharp; 0: flat; another number: smooth
     /// with all neighbours of the same number. Shorter: filled up with kByCrease.
     std::vector<std::uint32_t> smoothing_of;
+    bool distinct = false;  ///< no two positions are equal, nor do they become so when they are rounded to float32 where they are
 
     static constexpr std::uint32_t kByCrease = kNone;
     [[nodiscard]] std::size_t triangles() const { return position_of.size() / 3; }
+};
+
+/// The corners at each place, in increasing order.
+class CornersOfPlaces {
+public:
+    /// place_of: the place of each corner, below `places`.
+    CornersOfPlaces(const std::vector<std::uint32_t>& place_of, std::size_t places);
+    [[nodiscard]] std::size_t places() const { return first_.size() - 1; }
+    [[nodiscard]] std::span<const std::uint32_t> at(std::uint32_t place) const {
+        return std::span(corner_).subspan(first_[place], first_[place + 1] - first_[place]);
+    }
+
+private:
+    std::vector<std::uint32_t> first_, corner_;
 };
 
 struct SoupMesh {
@@ -38,7 +54,7 @@ struct SoupMesh {
 };
 
 /// Memory that make_meshes takes for each triangle, with the mesh itself. Readers take it from the budget as triangles are added.
-inline constexpr std::uint64_t kTriangleBytes = 460;
+inline constexpr std::uint64_t kTriangleBytes = 260;
 
 /// Point near which positions are rounded to float32: their centre if they lie far from the origin for their size, else the origin. Those
 /// that are not finite do not count.

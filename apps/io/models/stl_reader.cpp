@@ -4,6 +4,7 @@
 #include "apps/io/models/model_builder.hpp"
 #include "apps/io/models/model_readers.hpp"
 #include "apps/io/models/model_text.hpp"
+#include "apps/io/models/place_table.hpp"
 #include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
@@ -83,24 +84,25 @@ private:
         point();
         expect("outer");
         expect("loop");
-        const auto first = static_cast<std::uint32_t>(soup_.positions.size());
         std::string_view word = next();
-        for (; same_word(word, "vertex"); word = next()) {
+        std::uint32_t place[3]{}, corners = 0;
+        for (; same_word(word, "vertex"); word = next(), ++corners) {
             builder_.take_entries<Vec3d>(1);
-            soup_.positions.push_back(point());
+            const std::uint32_t found = places_.add(point(), soup_.positions);
+            if (corners < 3) place[corners] = found;
         }
         if (!same_word(word, "endloop")) refuse_word(word, "vertex or endloop");
         expect("endfacet");
-        const auto corners = static_cast<std::uint32_t>(soup_.positions.size()) - first;
         if (corners != 3) refuse(fmt::format("line {}", lines_.number()), fmt::format("a facet has {} corners, expected 3", corners));
         builder_.take_triangles(1);
-        soup_.position_of.insert(soup_.position_of.end(), {first, first + 1, first + 2});
+        soup_.position_of.insert(soup_.position_of.end(), {place[0], place[1], place[2]});
     }
 
     Lines lines_;
     Words words_;
     ModelBuilder& builder_;
     Soup soup_;
+    PlaceTable<Vec3d> places_;
 };
 
 // ---- binary ------------------------------------------------------------------------------------------------------------
@@ -162,7 +164,9 @@ Soup read_binary(std::span<const std::byte> bytes, ModelBuilder& builder, bool& 
     for (std::size_t t = 0; t < count && !has_colors; ++t) has_colors = colors.number_of(attribute_of(t)) != kNone;
 
     Soup soup;
-    soup.positions.reserve(static_cast<std::size_t>(3 * count));
+    PlaceTable<Vec3d> places;
+    soup.positions.reserve(static_cast<std::size_t>(count / 2 + 2));  // as many as a closed body has
+    soup.distinct = true;
     soup.position_of.reserve(static_cast<std::size_t>(3 * count));
     std::vector<std::uint32_t> index_of;  // of a colour by its number
     constexpr std::uint32_t kWhole = 0x8000;
@@ -172,8 +176,7 @@ Soup read_binary(std::span<const std::byte> bytes, ModelBuilder& builder, bool& 
         const std::size_t at = kHeader + kRecord * t + 12;
         for (std::size_t c = 0; c < 3; ++c) {
             const auto coordinate = [&](std::size_t k) -> double { return std::bit_cast<float>(u32_at(bytes, at + 12 * c + 4 * k)); };
-            soup.position_of.push_back(static_cast<std::uint32_t>(soup.positions.size()));
-            soup.positions.push_back({coordinate(0), coordinate(1), coordinate(2)});
+            soup.position_of.push_back(places.add({coordinate(0), coordinate(1), coordinate(2)}, soup.positions));
         }
         if (!has_colors) continue;
         const std::uint32_t number = std::min(colors.number_of(attribute_of(t)), kWhole);

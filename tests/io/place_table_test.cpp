@@ -1,0 +1,51 @@
+// The table of equal positions.
+#include "apps/io/models/place_table.hpp"
+#include "halflit/math.hpp"
+#include "tests/support/random.hpp"
+
+#include "tests/support/catch.hpp"
+
+#include <limits>
+#include <map>
+#include <tuple>
+
+using namespace halflit;
+using halflit::io::detail::PlaceTable;
+
+TEST_CASE("place table: equal positions have the number of the first one, as a map has it", "[io]") {
+    test::Random random(5);
+    PlaceTable<Vec3f> table;
+    std::vector<Vec3f> list;
+    std::map<std::tuple<float, float, float>, std::uint32_t> known;
+    const auto coordinate = [&] { return static_cast<float>(random.index(40) - 20) * 0.25f; };
+    for (int i = 0; i < 200'000; ++i) {
+        const Vec3f p{coordinate(), coordinate(), coordinate()};
+        const auto entry = known.try_emplace({p.x, p.y, p.z}, static_cast<std::uint32_t>(list.size())).first;
+        if (table.add(p, list) != entry->second) FAIL("a number differs");
+    }
+    CHECK(list.size() == known.size());
+}
+
+TEST_CASE("place table: the zeros are one place, and so is a NaN", "[io]") {
+    PlaceTable<Vec3f> table;
+    std::vector<Vec3f> list;
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    CHECK(table.add({0, 1, 2}, list) == 0);
+    CHECK(table.add({-0.0f, 1, 2}, list) == 0);
+    CHECK(table.add({nan, 1, 2}, list) == 1);
+    CHECK(table.add({nan, 1, 2}, list) == 1);
+    CHECK(table.add({nan, 1, 3}, list) == 2);
+}
+
+TEST_CASE("place table: positions that are made to collide take no longer than others", "[io]") {
+    // The second coordinate undoes what the first one did to the hash, as long as nobody knows better: 300,000 positions, one slot.
+    PlaceTable<Vec3d> table;
+    std::vector<Vec3d> list;
+    for (std::uint64_t i = 1; i <= 300'000; ++i) {
+        std::uint64_t h = i * 0x9E3779B97F4A7C15u;
+        h ^= h >> 32;
+        const Vec3d p{std::bit_cast<double>(i), std::bit_cast<double>(h ^ 1u), 0};
+        if (table.add(p, list) != i - 1) FAIL("a number differs");
+    }
+    CHECK(table.add(list[1000], list) == 1000);
+}
